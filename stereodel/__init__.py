@@ -1,0 +1,1 @@
+"""Exact Delaunay triangulations and Voronoi diagrams of the plane and the sphere."""

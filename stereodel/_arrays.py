@@ -1,0 +1,129 @@
+"""Casting and checking of input: every error message about points, angles and indices lives here.
+
+Public functions call these once, at the door; behind it arrays are float64, C-contiguous, finite and of known
+shape. Nothing here modifies its argument; the result may share memory with it and is never written to.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int32]
+BoolArray = npt.NDArray[np.bool_]
+
+
+def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
+    """Cast to a finite float64 array of any shape, or say which entry of `name` cannot be.
+
+    Raises
+    ------
+    TypeError
+        For complex numbers, strings, booleans and objects that are not real numbers.
+    ValueError
+        For NaN, infinities, masked values and ragged nesting.
+    """
+    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
+        index = tuple(int(i) for i in np.argwhere(np.ma.getmaskarray(values))[0])
+        raise ValueError(f"{name}[{_show(index)}] is masked; drop masked entries first, e.g. with {name}.compressed()")
+    try:
+        array = np.asarray(values)
+    except ValueError as error:
+        raise ValueError(f"{name} is ragged: its rows must all have the same length") from error
+    if array.dtype == object or array.dtype.kind not in "iuf":
+        array = _from_objects(array, name)
+    result = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    finite = np.isfinite(result)
+    if not finite.all():
+        index = tuple(int(i) for i in np.argwhere(~finite)[0])
+        raise ValueError(f"{name}[{_show(index)}] is {result[index]}; every value must be a finite number")
+    return result
+
+
+def _from_objects(array: npt.NDArray[Any], name: str) -> FloatArray:
+    """Real numbers in an object array (Fraction, Decimal, huge int) as doubles; anything else is a TypeError."""
+    if array.size == 0 and array.dtype.kind == "O":
+        return np.zeros(array.shape)
+    if array.dtype.kind == "O":
+        try:
+            return array.astype(np.float64)
+        except (TypeError, ValueError, OverflowError) as error:
+            raise TypeError(f"{name} holds values that are not real numbers: {error}") from error
+    raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
+
+
+def as_vectors(values: npt.ArrayLike, dimension: int, name: str) -> FloatArray:
+    """Coordinates of any leading shape, (..., dimension)."""
+    array = as_floats(values, name)
+    if array.ndim == 0 or array.shape[-1] != dimension:
+        raise ValueError(f"{name} must have shape (..., {dimension}), got {array.shape}")
+    return array
+
+
+def as_points(values: npt.ArrayLike, dimension: int, name: str = "points") -> FloatArray:
+    """A list of points, (n, dimension); an empty list is (0, dimension)."""
+    array = as_floats(values, name)
+    if array.size == 0 and array.ndim <= 2 and (array.ndim < 2 or array.shape[1] in (0, dimension)):
+        return np.zeros((0, dimension))
+    if array.ndim != 2 or array.shape[1] != dimension:
+        raise ValueError(f"{name} must have shape (n, {dimension}), got {array.shape}")
+    return array
+
+
+def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False) -> FloatArray:
+    """Non-zero vectors of space, (..., 3), or (n, 3) when `points`; their lengths do not matter."""
+    array = as_points(values, 3, name) if points else as_vectors(values, 3, name)
+    zero = ~array.any(axis=-1)
+    if zero.any():
+        index = tuple(int(i) for i in np.argwhere(zero)[0])
+        where = f"{name}[{_show(index)}]" if index else name
+        raise ValueError(f"{where} is the zero vector, which has no direction")
+    return array
+
+
+def as_lonlat(values: npt.ArrayLike, name: str = "lonlat") -> FloatArray:
+    """(lon, lat) in degrees, (..., 2): any finite longitude, latitude in [-90, 90]."""
+    array = as_vectors(values, 2, name)
+    outside = np.abs(array[..., 1]) > 90.0
+    if outside.any():
+        index = tuple(int(i) for i in np.argwhere(outside)[0])
+        where = f"{name}[{_show((*index, 1))}]"
+        raise ValueError(
+            f"{where} is latitude {array[index][1]}, outside [-90, 90]; the order is (longitude, latitude)"
+        )
+    return array
+
+
+def as_scalar(value: Any, name: str, *, low: float = -np.inf, high: float = np.inf, open_low: bool = False) -> float:
+    """One finite number in [low, high], or (low, high] when `open_low`."""
+    array = as_floats(value, name)
+    if array.ndim != 0:
+        raise ValueError(f"{name} must be a single number, got shape {array.shape}")
+    number = float(array)
+    if number > high or number < low or (open_low and number == low):
+        bracket = "(" if open_low else "["
+        raise ValueError(f"{name} is {number}, outside {bracket}{low:g}, {high:g}]")
+    return number
+
+
+def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.NDArray[np.intp]:
+    """Point numbers in [0, size), one-dimensional; negative numbers are refused rather than counted from the end."""
+    array = np.atleast_1d(np.asarray(values))
+    if array.size == 0:
+        return np.zeros(0, dtype=np.intp)
+    if array.ndim != 1:
+        raise ValueError(f"{name} must be one-dimensional, got shape {array.shape}")
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    outside = (array < 0) | (array >= size)
+    if outside.any():
+        where = int(np.argmax(outside))
+        raise ValueError(f"{name}[{where}] is {array[where]}, but there are {size} points (0 to {size - 1})")
+    return array.astype(np.intp)
+
+
+def _show(index: tuple[int, ...]) -> str:
+    return ", ".join(map(str, index)) if index else "()"

@@ -1,0 +1,34 @@
+"""Every tolerance of the library, once: meaning, unit, reason.
+
+A number that decides something stands here and nowhere else. Error *bounds*, which are derived and not
+chosen, stand beside the arithmetic that they bound; they are multiples of `UNIT_ROUNDOFF`.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+UNIT_ROUNDOFF: Final = 2.0**-53
+"""Largest relative error of one rounded double operation (round to nearest)."""
+
+STORED_ERROR: Final = 4 * 2.0**-52
+"""What a stored unit vector may be off: length from 1, or a map's result from the exact one (chord, unit sphere).
+
+Rounding three components of a unit vector moves it by at most sqrt(3)/2 · 2⁻⁵² ; the rest is room for a
+caller who normalised in plain double arithmetic.
+"""
+
+UNDERFLOW_FLOOR: Final = 2.0**-1000
+"""Added to the error bound of filters whose factors are all at most 4: more than underflow can lose there (no unit)."""
+
+FILTER_RANGE: Final = 2.0**200
+"""Planar filters trust differences d with 1/FILTER_RANGE < |d| < FILTER_RANGE or d = 0 (units of the input).
+
+Products of up to four such factors neither overflow nor underflow; rows outside go to exact integers.
+"""
+
+MATRIX_ERROR: Final = 1e-9
+"""How far a matrix given to `MoebiusMap.from_matrix` may be from its group, relative to its largest entry squared."""
+
+MATRIX_MAGNIFICATION: Final = 1e6
+"""Largest S recovered from a matrix: a double Lorentz matrix of magnification S holds S⁻² ulps of its directions."""
