@@ -163,7 +163,7 @@ def cross(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
 def unit(vectors: FloatArray) -> DoubleDouble:
     """Directions of non-zero double vectors (..., 3), each component with an absolute error below 2⁻¹⁰².
 
-    The vectors are first scaled by a power of two (exact), so any length and any component down to the subnormals counts.
+    The vectors are first scaled by a power of two (exact): any length and any component down to the subnormals counts.
     """
     _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
     # Two half steps: 2**1074 alone is not a double.

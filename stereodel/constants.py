@@ -19,7 +19,7 @@ caller who normalised in plain double arithmetic.
 """
 
 UNDERFLOW_FLOOR: Final = 2.0**-1000
-"""Added to the error bound of filters whose factors are all at most 4: more than underflow can lose there (no unit)."""
+"""Added to the error bound of filters whose factors are all at most 4: more than underflow can lose there."""
 
 FILTER_RANGE: Final = 2.0**200
 """Planar filters trust differences d with 1/FILTER_RANGE < |d| < FILTER_RANGE or d = 0 (units of the input).
