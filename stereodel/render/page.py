@@ -1,8 +1,9 @@
 """What a picture shows, before any renderer sees it: paths, dots, balls and labels in painter's order.
 
-A `Page` is flat. Hidden parts have been removed analytically (`stereodel.render.scene`), curves are exact up to cubic Béziers, and every item
-carries its colour and its width in points. The vector backend writes it as SVG and PDF, the raster backend as triangles for OpenGL;
-the golden tests store `Page.arrays()`. Page coordinates: x right, y up, any unit; `width` says how many points the extent is wide.
+A `Page` is flat. Hidden parts have been removed analytically (`stereodel.render.scene`), curves are exact up to cubic
+Béziers, and every item carries its colour and its width in points. The vector backend writes it as SVG and PDF, the
+raster backend as triangles for OpenGL; the golden tests store `Page.arrays()`. Page coordinates: x right, y up, any
+unit; `width` says how many points the extent is wide.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ Color = tuple[float, float, float, float]
 """Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
 
 Beziers = FloatArray
-"""A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins. A straight piece has its controls at thirds."""
+"""A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins; straight: controls at thirds."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,8 +65,9 @@ class Dots:
 class Surface:
     """A lit surface: a mesh with normals for OpenGL, its outline for paper.
 
-    `vertices` (n, 3) and `normals` (n, 3) are in view axes (right, up, toward the viewer), vertices in page units; only faces
-    turned to the viewer are given. `outline` bounds its image. The raster backend lights it, the vector backend fills it flat.
+    `vertices` (n, 3) and `normals` (n, 3) are in view axes (right, up, toward the viewer), vertices in page units; only
+    faces turned to the viewer are given. `outline` bounds its image. The raster backend lights it, the vector backend
+    fills it flat.
     """
 
     vertices: FloatArray
