@@ -1,0 +1,57 @@
+# Everything a user or developer runs. `make` alone lists the targets.
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := help
+MAKEFLAGS += --no-builtin-rules --warn-undefined-variables --no-print-directory
+
+VENV := .venv
+OUT := out
+JOBS := auto
+PYTEST_ARGS :=
+BIN := $(VENV)/bin
+STAMP := $(VENV)/installed
+BUILD := $(BIN)/python -m stereodel.render.build --scripts figures --out $(OUT)
+
+.PHONY: help install system figures animations test check baselines readme-images docs test-pythons clean
+
+help: ## list the targets
+	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
+
+# The script does nothing when the two files hold what was installed last, so a touched file needs no network.
+$(STAMP): pyproject.toml constraints.txt tools/install.sh tools/find_python.sh
+	@tools/install.sh $(VENV)
+
+install: $(STAMP) ## create .venv with the pinned libraries
+
+system: ## get the offscreen OpenGL libraries, or say how
+	@tools/system_libraries.sh
+
+figures: $(STAMP) system ## draw every figure that is out of date into out/
+	@$(BUILD) fig
+
+animations: $(STAMP) system ## draw every animation that is out of date into out/
+	@$(BUILD) anim
+
+test: $(STAMP) system ## all tests, then the image tests once more on EGL
+	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
+	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests
+
+check: $(STAMP) docs ## format, lint, types, sizes, tracked text, documentation
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/python tools/code_sizes.py stereodel figures
+	$(BIN)/python tools/tracked_text.py
+
+docs: $(STAMP) system ## build the documentation into docs/_build/html; warnings are errors
+	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	@echo "Open docs/_build/html/index.html"
+
+test-pythons: system ## run the tests on the other Python versions found here
+	@tools/test_pythons.sh 3.12 3.13
+
+clean: ## remove what was built; the environments stay
+	rm -rf build dist docs/_build docs/gallery docs/api/generated docs/sg_execution_times.rst .pytest_cache .mypy_cache .ruff_cache
+	find $(OUT) -mindepth 1 ! -name .gitkeep -delete
+	find stereodel figures tests tools -name __pycache__ -prune -exec rm -rf {} +

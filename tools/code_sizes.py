@@ -1,0 +1,89 @@
+"""Check how long functions and modules are: half of the functions at most 10 lines, nine tenths at most 30, none over 60.
+
+Lines of code count: no docstrings, comments or blank lines. A function's inner functions count as part of it and on
+their own. Modules have fewer than 400 lines, everything counted.
+
+    python tools/code_sizes.py FOLDER…
+"""
+
+from __future__ import annotations
+
+import ast
+import io
+import statistics
+import sys
+import tokenize
+from collections.abc import Iterator
+from pathlib import Path
+
+MEDIAN, NINE_TENTHS, LONGEST, MODULE = 10, 30, 60, 400
+_LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
+_Function = ast.FunctionDef | ast.AsyncFunctionDef
+_Documented = _Function | ast.ClassDef | ast.Module
+
+
+def code_lines(source: str, tree: ast.Module) -> set[int]:
+    """Numbers of the lines that hold code."""
+    lines: set[int] = set()
+    for token in tokenize.generate_tokens(io.StringIO(source).readline):
+        if token.type not in _LAYOUT:
+            lines.update(range(token.start[0], token.end[0] + 1))
+    for node in ast.walk(tree):
+        if isinstance(node, _Documented) and ast.get_docstring(node, clean=False) is not None:
+            docstring = node.body[0]
+            lines.difference_update(range(docstring.lineno, (docstring.end_lineno or 0) + 1))
+    return lines
+
+
+def function_lengths(source: str) -> Iterator[tuple[str, int, int]]:
+    """(name, first line, lines of code) of every function and method."""
+    tree = ast.parse(source)
+    lines = code_lines(source, tree)
+    for node in ast.walk(tree):
+        if isinstance(node, _Function):
+            last = node.end_lineno or node.lineno
+            yield node.name, node.lineno, len(lines.intersection(range(node.lineno, last + 1)))
+
+
+def problems(sources: dict[str, str]) -> list[str]:
+    """What breaks the rules in the named sources."""
+    found = [
+        f"{name}: {text.count(chr(10))} lines, at most {MODULE - 1}"
+        for name, text in sources.items()
+        if text.count("\n") >= MODULE
+    ]
+    lengths = [
+        (length, f"{name}:{line} {function}")
+        for name, text in sources.items()
+        for function, line, length in function_lengths(text)
+    ]
+    found += [f"{place}: {length} lines of code, at most {LONGEST}" for length, place in lengths if length > LONGEST]
+    if lengths:
+        ordered = sorted(length for length, _ in lengths)
+        if (median := statistics.median(ordered)) > MEDIAN:
+            found.append(f"half of the functions are longer than {median:g} lines of code, the median may be {MEDIAN}")
+        if (long := sum(length > NINE_TENTHS for length in ordered)) > len(ordered) / 10:
+            found.append(
+                f"{long} of {len(ordered)} functions are over {NINE_TENTHS} lines of code, at most a tenth may be"
+            )
+    return found
+
+
+def main(folders: list[str]) -> int:
+    """Report and return the exit code."""
+    paths = sorted(path for folder in folders for path in Path(folder).rglob("*.py"))
+    sources = {str(path): path.read_text(encoding="utf-8") for path in paths}
+    found = problems(sources)
+    lengths = sorted(length for text in sources.values() for _, _, length in function_lengths(text))
+    if lengths:
+        nine_tenths = lengths[(9 * len(lengths)) // 10 - 1]
+        print(
+            f"{len(sources)} modules, {len(lengths)} functions: median {statistics.median(lengths):g} lines of code, "
+            f"nine tenths up to {nine_tenths}, longest {lengths[-1]}"
+        )
+    print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
