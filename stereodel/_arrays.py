@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from stereodel.constants import UNIT_ROUNDOFF
+
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
@@ -84,6 +86,34 @@ def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False) -> 
     return array
 
 
+def as_direction_or_lonlat(value: npt.ArrayLike, name: str) -> FloatArray:
+    """One point of the sphere: (lon, lat) in degrees, shape (2,), or a direction, shape (3,)."""
+    array = as_floats(value, name)
+    if array.shape == (2,):
+        return as_lonlat(array, name)
+    if array.shape == (3,):
+        return as_directions(array, name)
+    raise ValueError(f"{name} must be (lon, lat) in degrees or a direction (x, y, z), got shape {array.shape}")
+
+
+def as_quaternion(value: npt.ArrayLike, name: str) -> FloatArray:
+    """Four numbers (w, x, y, z), not all zero, shape (4,)."""
+    array = as_floats(value, name)
+    if array.shape != (4,):
+        raise ValueError(f"{name} must be four numbers (w, x, y, z), got shape {array.shape}")
+    if not array.any():
+        raise ValueError(f"{name} is the zero quaternion, which is no rotation")
+    return array
+
+
+def as_matrix(value: npt.ArrayLike, size: int, name: str) -> FloatArray:
+    """A square matrix, shape (size, size)."""
+    array = as_floats(value, name)
+    if array.shape != (size, size):
+        raise ValueError(f"{name} must have shape ({size}, {size}), got {array.shape}")
+    return array
+
+
 def as_lonlat(values: npt.ArrayLike, name: str = "lonlat") -> FloatArray:
     """(lon, lat) in degrees, (..., 2): any finite longitude, latitude in [-90, 90]."""
     array = as_vectors(values, 2, name)
@@ -97,16 +127,51 @@ def as_lonlat(values: npt.ArrayLike, name: str = "lonlat") -> FloatArray:
     return array
 
 
-def as_scalar(value: Any, name: str, *, low: float = -np.inf, high: float = np.inf, open_low: bool = False) -> float:
-    """One finite number in [low, high], or (low, high] when `open_low`."""
+def as_scalar(
+    value: Any,
+    name: str,
+    *,
+    low: float = -np.inf,
+    high: float = np.inf,
+    open_low: bool = False,
+    open_high: bool = False,
+) -> float:
+    """One finite number in [low, high]; without `low` when `open_low`, without `high` when `open_high`."""
     array = as_floats(value, name)
     if array.ndim != 0:
         raise ValueError(f"{name} must be a single number, got shape {array.shape}")
     number = float(array)
-    if number > high or number < low or (open_low and number == low):
-        bracket = "(" if open_low else "["
-        raise ValueError(f"{name} is {number}, outside {bracket}{low:g}, {high:g}]")
+    if number > high or number < low or (open_low and number == low) or (open_high and number == high):
+        left, right = "(" if open_low else "[", ")" if open_high else "]"
+        raise ValueError(f"{name} is {number}, outside {left}{low:g}, {high:g}{right}")
     return number
+
+
+def as_count(value: Any, name: str, *, low: int = 1) -> int:
+    """One whole number, at least `low`."""
+    array = np.asarray(value)
+    if array.ndim != 0 or array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be one integer, got {value!r}")
+    if array < low:
+        raise ValueError(f"{name} is {value}, but must be at least {low}")
+    return int(array)
+
+
+def as_steps(width: float, spacing: Any, name: str) -> int:
+    """How many steps of `spacing` make up `width` degrees, which must be a whole number."""
+    step = as_scalar(spacing, name, low=0.0, high=width, open_low=True)
+    count = round(width / step)
+    # Both are decimal fractions that were rounded once, so their quotient is off by two roundings at most.
+    if abs(width / step - count) > 3 * UNIT_ROUNDOFF * count:
+        raise ValueError(f"{name} is {step:g}, but {width:g} must be a whole multiple of it")
+    return count
+
+
+def read_only(array: FloatArray) -> FloatArray:
+    """A private copy that nobody can write to, for frozen value objects."""
+    copy = np.array(array)
+    copy.flags.writeable = False
+    return copy
 
 
 def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.NDArray[np.intp]:

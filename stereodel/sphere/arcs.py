@@ -1,0 +1,128 @@
+"""Arcs of circles on the sphere, stored so that they can be drawn and mapped without being sampled."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_count, as_scalar, read_only
+from stereodel._double_double import DoubleDouble, cross, dot, unit
+from stereodel.sphere.circles import SphereCircle, on_circle, stored_unit
+from stereodel.sphere.coordinates import as_direction
+from stereodel.sphere.quaternions import UNDECIDED
+
+_FULL_TURN = 2 * np.pi
+
+
+@dataclass(frozen=True, eq=False)
+class SphereArc:
+    """The arc of a circle from one point to another, counterclockwise as seen from the tip of `circle.normal`.
+
+    Parameters
+    ----------
+    circle : SphereCircle
+    start, end : array_like, shape (2,) or (3,)
+        (lon, lat) in degrees or directions, on the circle (they are drawn onto it); stored as unit vectors.
+    angle_rad : float, optional
+        Angle swept about the axis of the circle, in (0, 2π], where the caller knows it better than the rounded ends do.
+        By default computed from them; equal ends make the whole circle.
+
+    Examples
+    --------
+    >>> quarter = SphereArc.great((0.0, 0.0), (90.0, 0.0))
+    >>> print(quarter.points(3))
+    [[1.         0.         0.        ]
+     [0.70710678 0.70710678 0.        ]
+     [0.         1.         0.        ]]
+    """
+
+    circle: SphereCircle
+    start: FloatArray
+    end: FloatArray
+    angle_rad: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("start", "end"):
+            object.__setattr__(self, name, read_only(stored_unit(as_direction(getattr(self, name), name))))
+        angle = as_scalar(self.angle_rad, "angle_rad", low=0.0, high=_FULL_TURN)
+        angle = angle or swept_angle(unit(self.circle.normal), unit(self.start), unit(self.end))
+        object.__setattr__(self, "angle_rad", angle)
+
+    @classmethod
+    def great(cls, start: npt.ArrayLike, end: npt.ArrayLike) -> SphereArc:
+        """The shorter great-circle arc between two points, each (lon, lat) in degrees or a direction.
+
+        Raises
+        ------
+        ValueError
+            For equal or opposite points, which no single great circle joins.
+        """
+        a, b = unit(as_direction(start, "start")), unit(as_direction(end, "end"))
+        axis = cross(a, b)
+        sine = dot(axis, axis).sqrt()
+        if float(sine.hi) <= UNDECIDED:
+            raise ValueError("start and end are equal or opposite: no single great circle joins them")
+        circle = SphereCircle((axis / sine).round(), 0.0)
+        return cls(circle, a.round(), b.round(), float(np.arctan2(sine.hi, dot(a, b).hi)))
+
+    @classmethod
+    def whole(cls, circle: SphereCircle) -> SphereArc:
+        """The closed circle, beginning due south of its centre."""
+        first = circle.sample(1)[0]
+        return cls(circle, first, first, _FULL_TURN)
+
+    @property
+    def closed(self) -> bool:
+        """Whether the arc is the whole circle."""
+        return self.angle_rad == _FULL_TURN
+
+    @property
+    def length(self) -> float:
+        """Length on the unit sphere."""
+        return self.circle.radius * self.angle_rad
+
+    def frame(self) -> tuple[FloatArray, FloatArray, FloatArray, float]:
+        """What is needed to draw the arc: `center + cos t · u + sin t · v` for t from 0 to `sweep_rad`.
+
+        Returns
+        -------
+        center, u, v : ndarray, shape (3,)
+            Centre of the circle in space and two perpendicular radii of it, `u` towards `start`.
+        sweep_rad : float
+            The angle swept, in (0, 2π].
+        """
+        center, u, v = self._exact_frame()
+        return center.round() + 0.0, u.round() + 0.0, v.round() + 0.0, self.angle_rad
+
+    def _exact_frame(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+        normal, offset, _ = self.circle.exact_parts()
+        center = normal * offset
+        u = on_circle(self.circle, unit(self.start)) - center
+        return center, u, cross(normal, u)
+
+    def points(self, n: int) -> FloatArray:
+        """Points at n equal steps of angle from start to end, both included, (n, 3); n at least 2."""
+        center, u, v, sweep_rad = self.frame()
+        t = np.linspace(0.0, sweep_rad, as_count(n, "n", low=2))[:, None]
+        points = center + np.cos(t) * u + np.sin(t) * v
+        points[0], points[-1] = self.start, self.end
+        return points
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, SphereArc) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @property
+    def _key(self) -> tuple[object, ...]:
+        return (self.circle, *self.start.tolist(), *self.end.tolist(), self.angle_rad)
+
+
+def swept_angle(normal: DoubleDouble, start: DoubleDouble, end: DoubleDouble) -> float:
+    """Angle about `normal` from one point of a circle to another, counterclockwise, in (0, 2π]; 2π when they agree."""
+    a, b = (point - normal * dot(point, normal) for point in (start, end))
+    angle = float(np.arctan2(dot(normal, cross(a, b - a)).hi, dot(a, b).hi))
+    return angle if angle > 0 else angle + _FULL_TURN

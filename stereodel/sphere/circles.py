@@ -1,0 +1,189 @@
+"""Circles on the sphere and the two bubbles that each of them bounds (Figure 3 of the paper)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, as_count, as_directions, as_scalar, read_only
+from stereodel._double_double import DoubleDouble, cross, dot, unit
+from stereodel.constants import STORED_ERROR
+from stereodel.sphere.chunks import by_blocks
+from stereodel.sphere.coordinates import as_direction
+from stereodel.sphere.degrees import sin_cos_degrees
+from stereodel.sphere.frames import tangent_frame
+from stereodel.sphere.quaternions import UNDECIDED
+
+_NEAR_POINT = 0.9  # |cos| of the angular radius beyond which 1 − n·x is taken from the chord
+
+
+@dataclass(frozen=True, eq=False)
+class SphereCircle:
+    """The circle n·x = offset on the unit sphere, with the side n·x > offset as its interior.
+
+    Parameters
+    ----------
+    normal : array_like, shape (2,) or (3,)
+        Centre of the interior: (lon, lat) in degrees or a direction; stored as a unit vector.
+    offset : float
+        cos α in (−1, 1), α the angular radius of the interior.
+    radius : float, optional
+        sin α in (0, 1], the radius of the circle in space. Given together with `offset` it keeps tiny circles accurate:
+        the *direction* of (offset, radius) is α. By default √(1 − offset²).
+
+    Raises
+    ------
+    ValueError
+        For an offset outside (−1, 1) without a radius, a radius that is not positive or does not fit the offset.
+
+    Examples
+    --------
+    >>> tropic = SphereCircle.around((0.0, 90.0), 66.5)
+    >>> round(tropic.angular_radius, 9), bool(tropic.contains([0.0, 0.0, 1.0]))
+    (66.5, True)
+    >>> tropic.large_bubble == tropic.complement
+    True
+    """
+
+    normal: FloatArray
+    offset: float
+    radius: float = 0.0
+
+    def __post_init__(self) -> None:
+        offset = as_scalar(self.offset, "offset", low=-1.0, high=1.0)
+        radius = as_scalar(self.radius, "radius", low=0.0, high=1.0) or _complete(offset)
+        if radius == 0:
+            raise ValueError(f"offset is {offset}: the circle is a point; give its radius beside the offset")
+        if abs(offset * offset + radius * radius - 1) > STORED_ERROR:
+            raise ValueError(f"radius is {radius}, but offset {offset} belongs to radius {_complete(offset)}")
+        object.__setattr__(self, "normal", read_only(stored_unit(as_direction(self.normal, "normal"))))
+        object.__setattr__(self, "offset", offset)
+        object.__setattr__(self, "radius", radius)
+
+    @classmethod
+    def around(cls, center: npt.ArrayLike, angular_radius: float) -> SphereCircle:
+        """The circle at a distance in degrees, in (0, 180), from a point: (lon, lat) in degrees or a direction."""
+        angle = as_scalar(angular_radius, "angular_radius", low=0.0, high=180.0, open_low=True, open_high=True)
+        sine, cosine = sin_cos_degrees(np.asarray(angle))
+        return cls(as_direction(center, "center"), float(cosine.round()), float(sine.round()))
+
+    @classmethod
+    def through(cls, a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SphereCircle:
+        """The circle through three points, its interior on the side from which a, b, c appear counterclockwise.
+
+        Parameters
+        ----------
+        a, b, c : array_like, shape (2,) or (3,)
+            Different points, each (lon, lat) in degrees or a direction.
+        """
+        p, q, r = (unit(as_direction(point, name)) for point, name in ((a, "a"), (b, "b"), (c, "c")))
+        sides = [q - p, r - q, p - r]
+        lengths = [dot(side, side).sqrt() for side in sides]
+        if min(float(length.hi) for length in lengths) <= UNDECIDED:
+            raise ValueError("a, b, c do not define a circle: two of them are the same point up to 2**-100")
+        axis = cross(sides[0], -sides[2])
+        norm = dot(axis, axis).sqrt()
+        # Circumradius of the chordal triangle: product of the sides over four times its area.
+        radius = lengths[0] * lengths[1] * lengths[2] / (norm * 2.0)
+        return cls.rounded(axis / norm, dot(axis / norm, p), radius)
+
+    @classmethod
+    def rounded(cls, normal: DoubleDouble, offset: DoubleDouble, radius: DoubleDouble) -> SphereCircle:
+        """A circle from double-double parts with |normal|² = offset² + radius² (any common factor), rounded once."""
+        size = (offset * offset + radius * radius).sqrt()
+        length = dot(normal, normal).sqrt()
+        return cls((normal / length).round(), float((offset / size).round()), float((radius / size).round()))
+
+    @property
+    def center(self) -> FloatArray:
+        """Centre of the interior on the sphere: the unit vector `normal`."""
+        return self.normal
+
+    @property
+    def angular_radius(self) -> float:
+        """Degrees from the centre to the circle, in (0, 180)."""
+        return float(np.degrees(np.arctan2(self.radius, self.offset)))
+
+    def exact_parts(self) -> tuple[DoubleDouble, DoubleDouble, DoubleDouble]:
+        """The circle that the stored numbers define: unit normal (3,), cos α and sin α in double-double."""
+        pair = DoubleDouble(np.array([self.offset, self.radius]))
+        pair = pair / dot(pair, pair).sqrt()
+        return unit(self.normal), pair[0], pair[1]
+
+    @property
+    def complement(self) -> SphereCircle:
+        """The same circle with the other side as its interior."""
+        return SphereCircle(-self.normal + 0.0, -self.offset + 0.0, self.radius)
+
+    @property
+    def small_bubble(self) -> SphereCircle:
+        """The circle with the smaller side as its interior; itself when it is a great circle."""
+        return self if self.offset >= 0 else self.complement
+
+    @property
+    def large_bubble(self) -> SphereCircle:
+        """The circle with the larger side as its interior; the complement when it is a great circle."""
+        return self.small_bubble.complement
+
+    def contains(self, xyz: npt.ArrayLike) -> BoolArray:
+        """Whether directions (..., 3) lie inside or on the circle, n·x ≥ offset.
+
+        Evaluated in double-double for the stored circle: points within 2⁻¹⁰⁰ of it may count either way. The exact
+        test for a circle given by three points is `in_bubble`.
+        """
+        return by_blocks(self._depth, as_directions(xyz, "xyz")) >= 0
+
+    def _depth(self, rows: FloatArray) -> FloatArray:
+        """A number with the sign of n·x − offset; 1 − n·x = |x − n|²/2 keeps its digits in a tiny bubble."""
+        x = unit(rows)
+        normal, cosine, sine = self.exact_parts()
+        if abs(self.offset) < _NEAR_POINT:
+            return (dot(x, normal) - cosine).hi
+        side = float(np.sign(self.offset))
+        chord = x - normal * side
+        margin = sine * sine / (1.0 + cosine * side) - dot(chord, chord) * 0.5
+        return margin.hi * side
+
+    def sample(self, n: int) -> FloatArray:
+        """Points on the circle, (n, 3), evenly spaced and counterclockwise about `normal`.
+
+        The first lies due south of the centre; for a centre at the north pole at longitude 0, at the south pole at 180.
+        """
+        angles: FloatArray = np.arange(as_count(n, "n")) * 360.0 / n
+        sine, cosine = (part[:, None] for part in sin_cos_degrees(angles))
+        normal, offset, radius = self.exact_parts()
+        east, north = tangent_frame(self.normal)[0], tangent_frame(self.normal)[1]
+        return (normal * offset + (east * sine - north * cosine) * radius).round() + 0.0
+
+    def __eq__(self, other: object) -> bool:
+        return self._key == other._key if isinstance(other, SphereCircle) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    @property
+    def _key(self) -> tuple[float, ...]:
+        return (*self.normal.tolist(), self.offset, self.radius)
+
+
+def _complete(offset: float) -> float:
+    """√(1 − offset²), 1 − offset and 1 + offset being exact in double-double."""
+    one = np.float64(1.0)
+    product = DoubleDouble.difference(one, offset) * (1.0 + DoubleDouble(offset))
+    return float(product.sqrt().round())
+
+
+def stored_unit(direction: FloatArray) -> FloatArray:
+    """A vector (3,) of unit length as it stands, any other normalised and rounded: storing twice changes nothing."""
+    exact = DoubleDouble(direction)
+    excess = abs(float((dot(exact, exact) - 1.0).hi))
+    return direction if excess <= STORED_ERROR else unit(direction).round()
+
+
+def on_circle(circle: SphereCircle, point: DoubleDouble) -> DoubleDouble:
+    """The point of a circle next to a unit vector (3,), with |x| = 1 to double-double."""
+    normal, offset, radius = circle.exact_parts()
+    across = point - normal * dot(point, normal)
+    return normal * offset + across / dot(across, across).sqrt() * radius

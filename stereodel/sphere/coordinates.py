@@ -1,0 +1,126 @@
+"""Longitude and latitude to unit vectors and back.
+
+Axes: x towards (lon 0, lat 0), y towards (90, 0), z towards the north pole. Angles in degrees, in the order (lon, lat).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, IntArray, as_direction_or_lonlat, as_directions, as_lonlat
+from stereodel._double_double import DoubleDouble, stack
+from stereodel.sphere.chunks import by_blocks
+from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
+
+
+def lonlat_to_xyz(lonlat: npt.ArrayLike) -> FloatArray:
+    """Unit vectors of points given by longitude and latitude.
+
+    Parameters
+    ----------
+    lonlat : array_like, shape (..., 2)
+        (lon, lat) in degrees, any finite longitude, latitude in [−90, 90].
+
+    Returns
+    -------
+    ndarray, shape (..., 3)
+        Each component is cos φ cos λ, cos φ sin λ or sin φ rounded once: the same bits on every machine, mirrored
+        points get mirrored vectors, multiples of 90° give 0 and ±1 exactly, and there is no −0.
+
+    Raises
+    ------
+    ValueError
+        For a latitude outside [−90, 90], NaN, infinities or another shape.
+
+    Examples
+    --------
+    >>> print(lonlat_to_xyz([[0, 0], [-90, 0], [30, 90]]))
+    [[ 1.  0.  0.]
+     [ 0. -1.  0.]
+     [ 0.  0.  1.]]
+    """
+    return by_blocks(lambda rows: exact_xyz(rows).round() + 0.0, as_lonlat(lonlat))
+
+
+def exact_xyz(lonlat: FloatArray) -> DoubleDouble:
+    """Unit vectors of checked (lon, lat) before they are rounded, error below 2⁻⁹⁸."""
+    sin_lon, cos_lon = sin_cos_degrees(lonlat[..., 0])
+    sin_lat, cos_lat = sin_cos_degrees(lonlat[..., 1])
+    return stack([cos_lat * cos_lon, cos_lat * sin_lon, sin_lat])
+
+
+def xyz_to_lonlat(xyz: npt.ArrayLike) -> FloatArray:
+    """Longitude and latitude of directions.
+
+    Parameters
+    ----------
+    xyz : array_like, shape (..., 3)
+        Non-zero vectors; only their directions count.
+
+    Returns
+    -------
+    ndarray, shape (..., 2)
+        (lon, lat) in degrees, longitude in [−180, 180), latitude in [−90, 90], each within an ulp; longitude 0 at the
+        poles.
+
+    Raises
+    ------
+    ValueError
+        For a zero vector, NaN, infinities or another shape.
+
+    Examples
+    --------
+    >>> print(xyz_to_lonlat([[0, 2, 0], [-1, 0, 0], [0, 0, 1]]))
+    [[  90.    0.]
+     [-180.    0.]
+     [   0.   90.]]
+    """
+    return by_blocks(_lonlat, as_directions(xyz, "xyz"))
+
+
+def _lonlat(rows: FloatArray) -> FloatArray:
+    vectors, _ = scaled(rows)
+    # The horizontal part is scaled again, so that a longitude survives one subnormal step away from the pole.
+    horizontal, exponent = scaled(vectors[:, :2])
+    x, y = DoubleDouble(horizontal[:, 0]), DoubleDouble(horizontal[:, 1])
+    lon = angle_degrees(y, x)
+    root = (x * x + y * y).sqrt()
+    rho = DoubleDouble(np.ldexp(root.hi, exponent), np.ldexp(root.lo, exponent))
+    lat = angle_degrees(DoubleDouble(vectors[:, 2]), rho)
+    return np.stack([np.where(lon == 180.0, -180.0, lon), lat], axis=-1) + 0.0
+
+
+def scaled(vectors: FloatArray) -> tuple[FloatArray, IntArray]:
+    """Vectors (..., k) over a power of two, so that their largest component is in [½, 1), and its exponent (...)."""
+    _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
+    half = exponent // 2  # in two steps, since 2**1074 is no double
+    return np.ldexp(np.ldexp(vectors, -half), half - exponent), exponent[..., 0]
+
+
+def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
+    """One point of the sphere: (lon, lat) in degrees when of length 2, a direction when of length 3.
+
+    Parameters
+    ----------
+    point : array_like, shape (2,) or (3,)
+    name : str
+        What error messages call it.
+
+    Returns
+    -------
+    ndarray, shape (3,)
+        The unit vector of (lon, lat), or the direction over a power of two (which is exact).
+
+    Raises
+    ------
+    ValueError
+        For another shape, a zero vector, a latitude outside [−90, 90], NaN or infinities.
+
+    Examples
+    --------
+    >>> print(as_direction((90.0, 0.0), "focus"), as_direction((0.0, 0.0, 1.0)))
+    [0. 1. 0.] [0.  0.  0.5]
+    """
+    values = as_direction_or_lonlat(point, name)
+    return lonlat_to_xyz(values) if values.shape == (2,) else scaled(values)[0]

@@ -1,0 +1,149 @@
+"""Rotations of the sphere, each defined exactly by the direction of a quaternion of four doubles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_matrix, as_quaternion, as_scalar, as_vectors
+from stereodel._double_double import DoubleDouble, stack, unit
+from stereodel.constants import MATRIX_ERROR
+from stereodel.sphere import quaternions
+from stereodel.sphere.chunks import by_blocks
+from stereodel.sphere.coordinates import as_direction, scaled
+from stereodel.sphere.degrees import sin_cos_degrees
+
+
+@dataclass(frozen=True, eq=False)
+class Rotation:
+    """A rotation about the centre of the sphere.
+
+    Parameters
+    ----------
+    quaternion : array_like, shape (4,)
+        (w, x, y, z) = (cos θ/2, axis · sin θ/2) up to length and sign: counterclockwise by θ about the axis as seen
+        from its tip. Only its direction counts, and that defines the rotation exactly. Stored over a power of two.
+
+    Raises
+    ------
+    ValueError
+        For another shape, four zeros, NaN or infinities.
+
+    Examples
+    --------
+    >>> quarter = Rotation.about((0.0, 90.0), 90.0)
+    >>> print(quarter([1.0, 0.0, 0.0]))
+    [0. 1. 0.]
+    >>> quarter @ quarter.inverse() == Rotation.identity()
+    True
+    """
+
+    quaternion: FloatArray
+
+    def __post_init__(self) -> None:
+        values = scaled(as_quaternion(self.quaternion, "quaternion"))[0]
+        values.flags.writeable = False
+        object.__setattr__(self, "quaternion", values)
+
+    @classmethod
+    def identity(cls) -> Rotation:
+        """The rotation that moves nothing."""
+        return cls(np.array([1.0, 0.0, 0.0, 0.0]))
+
+    @classmethod
+    def rounded(cls, quaternion: DoubleDouble) -> Rotation:
+        """The rotation of a double-double quaternion (4,), rounded once: no point moves by more than 2⁻⁵²."""
+        return cls(quaternion.round())
+
+    @classmethod
+    def about(cls, axis: npt.ArrayLike, angle: float) -> Rotation:
+        """Counterclockwise about an axis, seen from its tip.
+
+        Parameters
+        ----------
+        axis : array_like, shape (2,) or (3,)
+            (lon, lat) in degrees or a direction.
+        angle : float
+            Degrees, any finite number.
+        """
+        sine, cosine = sin_cos_degrees(np.asarray(as_scalar(angle, "angle") / 2))
+        direction = unit(as_direction(axis, "axis")) * sine
+        return cls.rounded(stack([cosine, direction[0], direction[1], direction[2]]))
+
+    @classmethod
+    def between(cls, start: npt.ArrayLike, end: npt.ArrayLike) -> Rotation:
+        """The shortest rotation that takes one point to another, both (lon, lat) in degrees or directions.
+
+        For opposite points: half a turn about the normal to `start` and the coordinate axis farthest from it.
+        """
+        a, b = unit(as_direction(start, "start")), unit(as_direction(end, "end"))
+        return cls.rounded(quaternions.between(a, b))
+
+    @classmethod
+    def from_matrix(cls, matrix: npt.ArrayLike) -> Rotation:
+        """The rotation of a (3, 3) matrix, which must be orthogonal up to `MATRIX_ERROR` and of determinant +1.
+
+        Method of S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978): divide by the
+        largest of the four components.
+        """
+        m = as_matrix(matrix, 3, "matrix")
+        if np.abs(m @ m.T - np.eye(3)).max() > MATRIX_ERROR or np.linalg.det(m) < 0:
+            raise ValueError("matrix is not a rotation: its columns must be orthonormal with determinant +1")
+        symmetric = np.empty((4, 4))
+        symmetric[1:, 1:] = m + m.T + (1.0 - np.trace(m)) * np.eye(3)
+        symmetric[0, 1:] = symmetric[1:, 0] = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]
+        symmetric[0, 0] = 1.0 + np.trace(m)
+        # Row k is 4·qₖ times the quaternion.
+        return cls(symmetric[int(np.argmax(np.diag(symmetric)))])
+
+    def __call__(self, xyz: npt.ArrayLike) -> FloatArray:
+        """Rotated vectors, (..., 3) to (..., 3): the exact result for the exact quaternion, rounded once."""
+        return by_blocks(self._rotate, as_vectors(xyz, 3, "xyz"))
+
+    def _rotate(self, rows: FloatArray) -> FloatArray:
+        vectors, exponent = scaled(rows)
+        return np.ldexp(self.apply(DoubleDouble(vectors)).round(), exponent[..., None]) + 0.0
+
+    def apply(self, vectors: DoubleDouble) -> DoubleDouble:
+        """Double-double vectors (..., 3) of length about 1, rotated with an error below 2⁻⁹⁸."""
+        return quaternions.transform(self.exact_matrix, vectors)
+
+    @cached_property
+    def exact_matrix(self) -> DoubleDouble:
+        """The (3, 3) matrix in double-double."""
+        return quaternions.rotation_matrix(DoubleDouble(self.quaternion))
+
+    @property
+    def matrix(self) -> FloatArray:
+        """The (3, 3) matrix, rounded once: `matrix @ v` is the rotated v."""
+        return self.exact_matrix.round() + 0.0
+
+    def __matmul__(self, other: Rotation) -> Rotation:
+        """First `other`, then this one; the exact product rounded once."""
+        if not isinstance(other, Rotation):
+            return NotImplemented
+        return Rotation.rounded(quaternions.multiply(DoubleDouble(self.quaternion), DoubleDouble(other.quaternion)))
+
+    def inverse(self) -> Rotation:
+        """The exact inverse."""
+        return Rotation(quaternions.conjugate(DoubleDouble(self.quaternion)).hi)
+
+    def __eq__(self, other: object) -> bool:
+        """Exactly the same rotation: quaternions of one direction, up to sign."""
+        return self._ratios == other._ratios if isinstance(other, Rotation) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._ratios)
+
+    @property
+    def _ratios(self) -> tuple[Fraction, ...]:
+        """The quaternion over its largest component, exactly."""
+        largest = Fraction(float(self.quaternion[int(np.argmax(np.abs(self.quaternion)))]))
+        return tuple(Fraction(float(q)) / largest for q in self.quaternion)
+
+    def __repr__(self) -> str:
+        return f"Rotation({self.quaternion.tolist()})"
