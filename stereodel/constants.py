@@ -32,3 +32,16 @@ MATRIX_ERROR: Final = 1e-9
 
 MATRIX_MAGNIFICATION: Final = 1e6
 """Largest S recovered from a matrix: a double Lorentz matrix of magnification S holds S⁻² ulps of its directions."""
+
+LIMB_DEPTH: Final = 1e-12
+"""Depth behind the limb, relative to the radius, up to which a point of a sphere counts as seen.
+
+A hundred times the rounding of a turned unit vector, so that a curve on the limb itself is drawn whole; as seen from
+the viewer it lies within 1e-24 of the limb.
+"""
+
+ON_BALL: Final = 1e-9
+"""Distance from a sphere, relative to its radius, within which a drawn arc is taken to lie on it, and a plane to touch.
+
+Far below a pixel, far above the rounding of arcs that were computed through a conformal map.
+"""

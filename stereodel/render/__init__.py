@@ -1,0 +1,1 @@
+"""Pictures: views, scenes and their pages; vector files through matplotlib, pixels through OpenGL."""

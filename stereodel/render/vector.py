@@ -1,0 +1,270 @@
+"""Pages on paper: SVG and PDF, and pixels without OpenGL, by matplotlib.
+
+The files hold true curves, have the page's size to the last digit, and carry no date, no version and no random
+identifier: the same page always gives the same bytes. Text is outlines in SVG, so that it looks the same everywhere,
+and text in PDF, so that it can be searched.
+"""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure as Canvas
+from matplotlib.patches import PathPatch
+from matplotlib.path import Path as Outline
+from matplotlib.transforms import ScaledTranslation
+
+from stereodel._arrays import FloatArray
+from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Page, Stroke, Surface
+from stereodel.render.style import TYPE
+
+CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
+"""Reach of the controls of a circle drawn as eight cubics, in radii."""
+
+METADATA = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
+
+
+def save_vector(page: Page, path: str | os.PathLike[str]) -> Path:
+    """Write a page as SVG or PDF, as the ending of `path` says.
+
+    Parameters
+    ----------
+    page : Page
+    path : path-like
+        Written under a temporary name in the same folder first; an existing file is replaced.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    ValueError
+        For an ending other than .svg and .pdf.
+    OSError
+        Where the file cannot be written.
+    """
+    target = Path(path)
+    kind = target.suffix.lower().lstrip(".")
+    if kind not in METADATA:
+        raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
+    with _settings():
+        canvas = _drawn(page, dpi=72.0)
+        temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+        try:
+            canvas.savefig(temporary, format=kind, metadata=METADATA[kind], facecolor=page.background)
+            os.replace(temporary, target)
+        finally:
+            temporary.unlink(missing_ok=True)
+    return target
+
+
+def rasterize(page: Page, *, size: int, text: bool = True) -> npt.NDArray[np.uint8]:
+    """Pixels of a page through Agg, (height, width, 3), rows from the top.
+
+    Parameters
+    ----------
+    page : Page
+    size : int
+        Width in pixels.
+    text : bool
+        Whether labels are drawn.
+    """
+    shown = page if text else page.without_labels()
+    with _settings():
+        return _pixels(_drawn(shown, *_pixel_grid(page, size)), shown.background)[..., :3]
+
+
+def label_layer(page: Page, width_px: int) -> npt.NDArray[np.uint8]:
+    """The labels alone on a transparent ground, (height, width, 4), colours not premultiplied, rows from the top."""
+    labels = replace(page, items=page.labels)
+    with _settings():
+        return _pixels(_drawn(labels, *_pixel_grid(page, width_px)), (1.0, 1.0, 1.0, 0.0))
+
+
+def pixel_height(page: Page, width_px: int) -> int:
+    """Height of a picture of a page that is `width_px` pixels wide."""
+    return max(1, round(width_px * page.height / page.width))
+
+
+def draw_labels(page: Page, axes: Axes) -> None:
+    """Draw the labels of a page on axes in page coordinates."""
+    for label in page.labels:
+        _draw_label(axes, label)
+
+
+def _settings() -> AbstractContextManager[None]:
+    """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
+    # rc_context does not give the backend back, so it stays out.
+    settings: dict[Any, Any] = {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"}
+    settings.update(TYPE)
+    return mpl.rc_context(settings)
+
+
+def _pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
+    return 72.0 * width_px / page.width, (width_px, pixel_height(page, width_px))
+
+
+def _drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canvas:
+    """The page on a canvas of its own size, or of whole pixels."""
+    # A millionth of a pixel more, because Agg cuts a size such as 2007.9999999 to 2007.
+    width, height = (page.width, page.height) if pixels is None else ((side + 1e-6) * 72 / dpi for side in pixels)
+    canvas = Canvas(figsize=(width / 72, height / 72), dpi=dpi)
+    left, right, bottom, top = page.extent
+    axes = canvas.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(left, right), ylim=(bottom, top))
+    axes.set_axis_off()
+    names: Counter[str] = Counter()
+    for number, patch in enumerate(_patches(page)):
+        role = patch.get_gid() or "item"
+        names[role] += 1
+        patch.set(gid=role if names[role] == 1 else f"{role}-{names[role]}", zorder=1 + number, snap=False)
+        patch.set_clip_on(False)
+        axes.add_artist(patch)
+    draw_labels(page, axes)
+    return canvas
+
+
+def _pixels(canvas: Canvas, background: Color) -> npt.NDArray[np.uint8]:
+    canvas.set_facecolor(background)
+    agg: Any = FigureCanvasAgg(canvas)
+    agg.draw()
+    return np.array(agg.buffer_rgba(), dtype=np.uint8)
+
+
+def _patches(page: Page) -> Iterator[PathPatch]:
+    """Page items as patches; neighbours of one look share one, so that a role is a group and files stay small."""
+    for _, group in groupby(page.without_labels().items, key=_look):
+        items = list(group)
+        match items[0]:
+            case Stroke() as first:
+                yield _stroke_patch([item for item in items if isinstance(item, Stroke)], first)
+            case Fill():
+                yield from (_fill_patch(item.paths, item) for item in items if isinstance(item, Fill))
+            case Surface():
+                yield from (_fill_patch(item.outline, item) for item in items if isinstance(item, Surface))
+            case Dots():
+                scale = page.points_per_unit
+                yield from (patch for item in items if isinstance(item, Dots) for patch in _dot_patches(item, scale))
+
+
+def _look(item: Item) -> tuple[Any, ...]:
+    """What neighbours must have in common to be drawn as one; see-through strokes stay apart, as they darken."""
+    if isinstance(item, Stroke) and item.color[3] == 1:
+        return (Stroke, item.color, item.width, item.dash, item.cap, item.role)
+    return (id(item),)
+
+
+def _stroke_patch(strokes: list[Stroke], look: Stroke) -> PathPatch:
+    outline = _outline((stroke.path, stroke.closed) for stroke in strokes)
+    dash = (0.0, look.dash) if look.dash else "solid"
+    return PathPatch(
+        outline,
+        fill=False,
+        edgecolor=look.color,
+        linewidth=look.width,
+        linestyle=dash,
+        capstyle=look.cap,
+        joinstyle="round",
+        gid=look.role,
+    )
+
+
+def _fill_patch(paths: Iterable[Beziers], item: Fill | Surface) -> PathPatch:
+    outline = _outline((path, True) for path in _oriented(list(paths)))
+    return PathPatch(outline, facecolor=item.color, linewidth=0.0, edgecolor="none", gid=item.role)
+
+
+def _dot_patches(dots: Dots, points_per_unit: float) -> Iterator[PathPatch]:
+    """A dot is a disc, and a smaller one on top when it has a rim."""
+    discs = [(dots.radius, dots.rim if dots.rim_width else dots.color)]
+    if dots.rim_width:
+        discs.append((dots.radius - dots.rim_width, dots.color))
+    for radius, color in discs:
+        outline = _outline((_disc(center, radius / points_per_unit), True) for center in dots.centers)
+        yield PathPatch(outline, facecolor=color, linewidth=0.0, edgecolor="none", gid=dots.role)
+
+
+def _disc(center: FloatArray, radius: float) -> Beziers:
+    t = np.arange(9) * (np.pi / 4)
+    ends = np.stack([np.cos(t), np.sin(t)], axis=1)
+    ends[-1] = ends[0]
+    reach = CIRCLE_KAPPA * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
+    unit = np.stack([ends[:-1], ends[:-1] + reach[:-1], ends[1:] - reach[1:], ends[1:]], axis=1)
+    path: Beziers = center + radius * unit
+    return path
+
+
+def _oriented(paths: list[Beziers]) -> list[Beziers]:
+    """Runs turned so that the nonzero rule, which is all that matplotlib has, fills what the even-odd rule would.
+
+    Runs do not cross, so a run inside an even number of others must go counterclockwise and any other clockwise.
+    """
+    turned = []
+    for number, path in enumerate(paths):
+        others = paths[:number] + paths[number + 1 :]
+        depth = sum(_polygon_contains(_corners(other), path[0, 0]) for other in others)
+        corners = _corners(path)
+        x, y = (corners - corners[0]).T
+        counterclockwise = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) > 0
+        turned.append(path if counterclockwise == (depth % 2 == 0) else path[::-1, ::-1])
+    return turned
+
+
+def _corners(path: Beziers) -> FloatArray:
+    """Points along a run, close enough to tell its inside from its outside."""
+    s = np.linspace(0.0, 1.0, 8, endpoint=False)[None, :, None]
+    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return points.reshape(-1, 2)
+
+
+def _polygon_contains(corners: FloatArray, point: FloatArray) -> bool:
+    return bool(Outline(corners).contains_point((point[0], point[1])))
+
+
+def _outline(runs: Iterable[tuple[Beziers, bool]]) -> Outline:
+    """Runs of Béziers as one compound path; straight pieces become straight lines."""
+    vertices: list[FloatArray] = []
+    codes: list[np.uint8] = []
+    for path, closed in runs:
+        vertices.append(path[:1, 0])
+        codes.append(Outline.MOVETO)
+        for piece in path:
+            straight = np.allclose(piece[1:3], piece[0] + np.outer([1 / 3, 2 / 3], piece[3] - piece[0]), atol=0)
+            vertices.append(piece[3:] if straight else piece[1:])
+            codes += [Outline.LINETO] if straight else [Outline.CURVE4] * 3
+        if closed:
+            vertices.append(path[:1, 0])
+            codes.append(Outline.CLOSEPOLY)
+    return Outline(np.concatenate(vertices), codes)
+
+
+def _draw_label(axes: Axes, label: Label) -> None:
+    shift = ScaledTranslation(label.offset[0] / 72, label.offset[1] / 72, axes.figure.dpi_scale_trans)
+    axes.text(
+        *label.anchor,
+        label.text,
+        transform=axes.transData + shift,
+        fontsize=label.size,
+        color=label.color,
+        ha=label.align,
+        va=label.valign,
+        rotation=label.rotation,
+        rotation_mode="anchor",
+        zorder=1e6,
+        gid=label.role,
+        clip_on=False,
+    )
