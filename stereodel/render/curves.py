@@ -24,8 +24,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_vectors
-from stereodel.constants import LIMB_DEPTH
+from stereodel._arrays import FloatArray, as_directions, as_vectors
 from stereodel.render.page import Beziers
 from stereodel.render.view import turned
 from stereodel.sphere import SphereArc, SphereCircle
@@ -149,26 +148,27 @@ class CircleArc:
 
     @classmethod
     def great(cls, a: npt.ArrayLike, b: npt.ArrayLike) -> CircleArc:
-        """The shorter great-circle arc of the unit sphere from unit vector a to unit vector b.
+        """The shorter great-circle arc of the unit sphere between two directions (3,), in plain doubles.
 
         Raises
         ------
         ValueError
-            When b is a or its antipode, which no single arc joins.
+            When the directions are equal or opposite.
         """
-        start, end = as_vectors(a, 3, "a"), as_vectors(b, 3, "b")
+        start, end = (row / np.sqrt(np.sum(row**2)) for row in (as_directions(a, "a"), as_directions(b, "b")))
+        # a × b from difference and sum, which keeps its digits when the points are close or nearly opposite.
         axis = np.cross(start - end, start + end) / 2
         sine = float(np.sqrt(np.sum(axis**2)))
-        if sine <= LIMB_DEPTH:
-            raise ValueError(f"a and b must be neither equal nor antipodal to have one shorter arc, got {start}, {end}")
-        return cls(np.zeros(3), start, np.cross(axis / sine, start), 0.0, float(np.arctan2(sine, np.sum(start * end))))
+        if sine == 0:
+            raise ValueError(f"a and b are equal or opposite, so that no single arc joins them: {start} and {end}")
+        sweep_rad = float(np.arctan2(sine, np.sum(start * end)))
+        return cls(np.zeros(3), start, np.cross(axis / sine, start), 0.0, sweep_rad)
 
     @classmethod
     def of(cls, arc: SphereArc) -> CircleArc:
         """An arc of a circle of the unit sphere, counterclockwise about its normal."""
-        center = arc.circle.offset * arc.circle.normal
-        u = arc.start - center
-        return cls(center, u, np.cross(arc.circle.normal, u), 0.0, 2 * np.pi if arc.closed else arc.angle_rad)
+        center, u, v, sweep_rad = arc.frame()
+        return cls(center, u, v, 0.0, sweep_rad)
 
     @classmethod
     def circle(cls, circle: SphereCircle) -> CircleArc:

@@ -12,7 +12,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_indices, as_points, as_scalar, as_vectors
+from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
 from stereodel.render import style as styles
 from stereodel.render.curves import CircleArc, Curve, Segment
 from stereodel.render.page import Color, Item, Label
@@ -103,7 +103,7 @@ class Scene:
         style: LineStyle | None = None,
         layer: Layer | None = None,
     ) -> None:
-        """Draw the shorter great-circle arcs between pairs (m, 2) of unit vectors (n, 3)."""
+        """Draw the shorter great-circle arcs between pairs (m, 2) of directions (n, 3)."""
         vertices = as_points(points, 3, "points")
         index = as_indices(np.ravel(pairs), len(vertices), "pairs").reshape(-1, 2)
         arcs = [CircleArc.great(vertices[i], vertices[j]) for i, j in index]
@@ -142,8 +142,10 @@ class Scene:
         self._things += [LineThing(curve, look, role, layer) for curve in curves]
 
     def add_points(self, points: npt.ArrayLike, *, role: str = "sites", style: DotStyle | None = None) -> None:
-        """Draw dots at unit vectors (n, 3) of the ball."""
-        self.add_space_points(self.center + self.radius * as_points(points, 3), role=role, style=style)
+        """Draw dots at points of the ball, given as directions (n, 3)."""
+        directions = as_directions(points, "points", points=True)
+        unit = directions / np.sqrt(np.sum(directions**2, axis=1, keepdims=True))
+        self.add_space_points(self.center + self.radius * unit, role=role, style=style)
 
     def add_space_points(self, points: npt.ArrayLike, *, role: str = "points", style: DotStyle | None = None) -> None:
         """Draw dots at points (n, 3) of space."""
@@ -172,7 +174,7 @@ class Scene:
     def add_triangle_patch(
         self, a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, *, role: str = "triangle", tint: Color | None = None
     ) -> None:
-        """Tint the spherical triangle of three unit vectors, counterclockwise seen from outside."""
+        """Tint the spherical triangle of three points, counterclockwise seen from outside."""
         self.add_region([CircleArc.great(*pair) for pair in ((a, b), (b, c), (c, a))], role=role, tint=tint)
 
     def add_flat_polygon(self, corners: npt.ArrayLike, *, role: str = "plane", tint: Color | None = None) -> None:
@@ -222,8 +224,3 @@ class Scene:
         layout = Layout(view.matrix, self.center, self.radius, self.look, at, size, sheets)
         laid = [item for thing in self._things for item in thing.lay(layout)]
         return tuple(item for _, item in sorted(laid, key=lambda pair: pair[0]))
-
-
-def half_great_circle(start: FloatArray, normal: FloatArray) -> CircleArc:
-    """The half of a great circle of the unit sphere from `start` counterclockwise about the unit `normal` ⟂ start."""
-    return CircleArc(np.zeros(3), start, np.cross(normal, start), 0.0, np.pi)
