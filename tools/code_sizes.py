@@ -1,4 +1,6 @@
-"""Check how long functions and modules are: half of the functions at most 10 lines, nine tenths at most 30, none over 60.
+"""Check how long functions and modules are.
+
+Half of the functions have at most 10 lines of code, nine tenths at most 30, none more than 60.
 
 Lines of code count: no docstrings, comments or blank lines. A function's inner functions count as part of it and on
 their own. Modules have fewer than 400 lines, everything counted.

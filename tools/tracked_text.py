@@ -1,4 +1,4 @@
-"""Check the text of every tracked file: no absolute path of one machine, no package index's address, no unfinished work.
+"""Check the text of every tracked file: no absolute path, no address of a package index, no unfinished work.
 
 python tools/tracked_text.py
 """
