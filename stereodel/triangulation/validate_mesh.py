@@ -1,0 +1,179 @@
+"""Combinatorial checks for `check_delaunay`: integers only, no coordinates, no code of the engines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+Indices = npt.NDArray[np.int64]
+
+
+class InvalidTriangulation(ValueError):  # noqa: N818 - the name says what is wrong, like SciPy's LinAlgError family
+    """What `check_delaunay` found wrong; the message names the simplex, edge or point."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """A manifold of counterclockwise triangles.
+
+    Half-edge 3t + k is the directed edge of triangle t opposite its corner k.
+
+    Attributes
+    ----------
+    simplices : (m, 3) array of int64
+    origin, target, apex : (3m,) arrays of int64
+        Ends of each half-edge and the corner of its triangle opposite to it.
+    twin : (3m,) array of int64
+        The same edge in the other direction, -1 on the boundary.
+    """
+
+    simplices: Indices
+    origin: Indices
+    target: Indices
+    apex: Indices
+    twin: Indices
+
+    @property
+    def inner(self) -> Indices:
+        """One half-edge of every edge between two triangles."""
+        half_edges = np.arange(len(self.twin))
+        return half_edges[self.twin > half_edges]
+
+    @property
+    def boundary(self) -> Indices:
+        """Half-edges without a twin."""
+        return np.flatnonzero(self.twin < 0)
+
+    def edge(self, half_edge: int) -> str:
+        """The edge as a message shows it."""
+        return f"({self.origin[half_edge]}, {self.target[half_edge]})"
+
+
+def as_simplices(simplices: npt.ArrayLike, size: int) -> Indices:
+    """Check that `simplices` is an (m, 3) array of three different point numbers each."""
+    array = np.asarray(simplices)
+    if array.size == 0:
+        return np.zeros((0, 3), dtype=np.int64)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidTriangulation(f"simplices must have shape (m, 3), got {array.shape}")
+    if array.dtype.kind not in "iu":
+        raise InvalidTriangulation(f"simplices must hold integers, not {array.dtype}")
+    array = array.astype(np.int64)
+    outside = ((array < 0) | (array >= size)).any(axis=1)
+    _refuse(outside, lambda t: f"simplex {t} = {array[t].tolist()} names a point outside 0 to {size - 1}")
+    repeated = (array == np.roll(array, 1, axis=1)).any(axis=1)
+    _refuse(repeated, lambda t: f"simplex {t} = {array[t].tolist()} names a point twice")
+    return array
+
+
+def build_mesh(simplices: Indices, size: int) -> Mesh:
+    """Join the half-edges in pairs of opposite direction, or say which edge cannot be joined."""
+    origin, target = np.roll(simplices, -1, axis=1).ravel(), np.roll(simplices, -2, axis=1).ravel()
+    key = np.minimum(origin, target) * size + np.maximum(origin, target)
+    order = np.argsort(key, kind="stable")
+    same = key[order[1:]] == key[order[:-1]]
+    first, second = order[:-1][same], order[1:][same]
+    twin = np.full(len(key), -1)
+    twin[first], twin[second] = second, first
+    mesh = Mesh(simplices, origin, target, simplices.ravel(), twin)
+    crowded = same[1:] & same[:-1]
+    _refuse(crowded, lambda i: f"edge {mesh.edge(order[i])} belongs to more than two simplices")
+    parallel = origin[first] == origin[second]
+    _refuse(
+        parallel,
+        lambda i: (
+            f"edge {mesh.edge(first[i])} has the same direction in simplices {first[i] // 3} and {second[i] // 3}: "
+            "they are turned opposite ways"
+        ),
+    )
+    return mesh
+
+
+def check_manifold(mesh: Mesh, kept: Indices, euler: int) -> None:
+    """One connected surface around single vertex fans, using exactly the points `kept`, V - E + F = `euler`."""
+    _check_used(mesh, kept)
+    _check_fans(mesh)
+    triangles = np.arange(len(mesh.twin)) // 3
+    inner = mesh.inner
+    if _components(len(mesh.simplices), triangles[inner], triangles[mesh.twin[inner]]) != 1:
+        raise InvalidTriangulation("the simplices do not hang together: they form several surfaces")
+    edges = len(inner) + len(mesh.boundary)
+    found = len(kept) - edges + len(mesh.simplices)
+    if found != euler:
+        raise InvalidTriangulation(f"V - E + F is {found} for the simplices, not {euler}: the surface has handles")
+
+
+def check_neighbors(mesh: Mesh, neighbors: npt.ArrayLike) -> None:
+    """`neighbors[t, k]` is the simplex across the edge opposite corner k, -1 for none."""
+    array = np.asarray(neighbors)
+    expected = np.where(mesh.twin < 0, -1, mesh.twin // 3).reshape(-1, 3)
+    if array.shape != expected.shape:
+        raise InvalidTriangulation(f"neighbors must have shape {expected.shape}, got {array.shape}")
+    wrong = (array != expected).any(axis=1)
+    _refuse(wrong, lambda t: f"neighbors[{t}] is {array[t].tolist()}, but the edges say {expected[t].tolist()}")
+
+
+def link_of(mesh: Mesh, vertex: int) -> Indices:
+    """Directed edges (k, 2) opposite `vertex` in its triangles, in cyclic order."""
+    around = np.flatnonzero(mesh.apex == vertex)
+    following = dict(zip(mesh.origin[around].tolist(), mesh.target[around].tolist(), strict=True))
+    edges, here = [], int(mesh.origin[around[0]])
+    for _ in range(len(around)):
+        edges.append((here, following[here]))
+        here = following[here]
+    return np.array(edges)
+
+
+def _check_used(mesh: Mesh, kept: Indices) -> None:
+    used = np.unique(mesh.simplices)
+    missing = np.setdiff1d(kept, used, assume_unique=True)
+    if len(missing):
+        raise InvalidTriangulation(f"point {missing[0]} is used by no simplex ({len(missing)} such points)")
+    extra = np.setdiff1d(used, kept, assume_unique=True)
+    if len(extra):
+        raise InvalidTriangulation(f"point {extra[0]} is used by a simplex although it repeats an earlier point")
+
+
+def _check_fans(mesh: Mesh) -> None:
+    """The triangles around each vertex form one cycle or, on the boundary, one path.
+
+    Corners are joined across edges: the corner at the origin of a half-edge with the corner at the target of its twin.
+    """
+    inner = np.flatnonzero(mesh.twin >= 0)
+    corner, other = _corner_after(inner), _corner_before(mesh.twin[inner])
+    labels = _labels(len(mesh.twin), corner, other)
+    _, representative = np.unique(labels, return_index=True)
+    vertices, fans = np.unique(mesh.apex[representative], return_counts=True)
+    _refuse(fans > 1, lambda i: f"the simplices around point {vertices[i]} form {fans[i]} separate fans")
+
+
+def _corner_after(half_edge: Indices) -> Indices:
+    """Corner number at the origin of a half-edge (corner k + 1 of the triangle)."""
+    return half_edge - half_edge % 3 + (half_edge + 1) % 3
+
+
+def _corner_before(half_edge: Indices) -> Indices:
+    """Corner number at the target of a half-edge (corner k + 2 of the triangle)."""
+    return half_edge - half_edge % 3 + (half_edge + 2) % 3
+
+
+def _components(size: int, a: Indices, b: Indices) -> int:
+    return int(_labels(size, a, b).max()) + 1
+
+
+def _labels(size: int, a: Indices, b: Indices) -> npt.NDArray[np.int32]:
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(size, size))
+    labels: npt.NDArray[np.int32] = connected_components(graph, directed=False)[1]
+    return labels
+
+
+def _refuse(wrong: npt.NDArray[np.bool_], message: object) -> None:
+    """Raise with the message for the first wrong row, if there is one."""
+    if wrong.any():
+        assert callable(message)
+        raise InvalidTriangulation(message(int(np.argmax(wrong))))

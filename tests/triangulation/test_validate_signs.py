@@ -1,0 +1,131 @@
+"""The validator's own predicates against fractions and 800-digit roots, nearly and exactly degenerate."""
+
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, ray_integers
+
+ULP = 2.0**-52
+
+
+def determinant(rows):
+    if len(rows) == 1:
+        return rows[0][0]
+    minors = ([r[:k] + r[k + 1 :] for r in rows[1:]] for k in range(len(rows)))
+    return sum((-1) ** k * rows[0][k] * determinant(m) for k, m in enumerate(minors))
+
+
+def sign(x):
+    return int(x > 0) - int(x < 0)
+
+
+def bubble_oracle(quadruple):
+    """−det of the rows (p, |p|); four roots of integers of 2000 bits that differ at all differ within 800 digits."""
+    with mpmath.workdps(800):
+        rows = []
+        for p in quadruple:
+            p = [mpmath.mpf(float(c)) for c in p]
+            length = mpmath.sqrt(sum(c * c for c in p))
+            rows.append([c / length for c in p] + [mpmath.mpf(1)])
+        value = -determinant(rows)
+        return 0 if abs(value) < mpmath.mpf(10) ** -600 else sign(value)
+
+
+def bubble(quadruple):
+    return int(SphereSigns(np.asarray(quadruple, dtype=float)).bubble(np.array([[0, 1, 2, 3]]))[0])
+
+
+def test_conventions():
+    assert PlaneSigns(np.array([[0.0, 0], [1, 0], [0, 1]])).turn(np.array([[0, 1, 2]])) == 1
+    assert PlaneSigns(np.array([[0.0, 0], [1, 0], [0, 1], [0.5, 0.5]])).circle(np.array([[0, 1, 2, 3]])) == 1
+    assert bubble([[1, 0, 0], [0, 1, 0], [0, 0, 1], [1, 1, 1]]) == 1
+    assert bubble([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]) == -1
+
+
+@settings(deadline=None)
+@given(st.lists(st.integers(-2, 2), min_size=8, max_size=8), st.sampled_from([0.5, 3.0, 1e6]), st.integers(-900, 900))
+def test_plane_near_a_square(noise, offset, exponent):
+    square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float) + offset
+    points = np.ldexp(square + np.reshape(noise, (4, 2)) * ULP * offset, exponent)
+    exact = [[Fraction(c) for c in p] for p in points]
+    a, b, c, d = exact
+    turn = determinant([[b[0] - a[0], b[1] - a[1]], [d[0] - a[0], d[1] - a[1]]])
+    circle = determinant([[p[0] - d[0], p[1] - d[1], (p[0] - d[0]) ** 2 + (p[1] - d[1]) ** 2] for p in (a, b, c)])
+    signs = PlaneSigns(points)
+    assert signs.turn(np.array([[0, 1, 3]]))[0] == sign(turn)
+    assert signs.circle(np.array([[0, 1, 2, 3]]))[0] == sign(circle)
+
+
+@settings(deadline=None)
+@given(st.integers(-3, 3), st.integers(-3, 3), st.sampled_from([1e-3, 1.0, 1e308, 5e-324]))
+def test_plane_nearly_collinear(i, j, scale):
+    points = np.array([[0.5, 0.5], [12.0, 12.0], [24.0 + i * 8 * ULP, 24.0 + j * 8 * ULP]]) / 32 * scale
+    a, b, c = [[Fraction(x) for x in p] for p in points]
+    expected = sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    assert PlaneSigns(points).turn(np.array([[0, 1, 2]]))[0] == expected
+
+
+@pytest.mark.parametrize("size", [1.0, 1e-3, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15])
+@pytest.mark.parametrize("unit", [True, False])
+def test_bubble_in_clusters(size, unit):
+    rng = np.random.default_rng(0)
+    for _ in range(25):
+        points = rng.normal(size=3) + size * rng.normal(size=(4, 3))
+        points /= np.linalg.norm(points, axis=1)[:, None]
+        if not unit:
+            points *= np.exp(rng.normal(size=(4, 1)) * 3)
+        assert bubble(points) == bubble_oracle(points)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.integers(-1, 1), min_size=12, max_size=12), st.integers(0, 3))
+def test_bubble_near_a_face_of_the_cube(noise, lengths):
+    face = np.array([[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1]], dtype=float)
+    scales = np.array([[1.0], [3.0], [2.0**-1000], [5e300]]) if lengths == 3 else 1.0
+    points = (face + np.reshape(noise, (4, 3)) * ULP) * scales
+    assert bubble(points) == bubble_oracle(points)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=4, max_size=4))
+def test_bubble_of_small_integers(quadruple):
+    """Half of these sets hold equal, antipodal or cocircular directions."""
+    assert bubble(quadruple) == bubble_oracle(quadruple)
+
+
+def test_filter_settles_general_position_without_integers():
+    rng = np.random.default_rng(1)
+    for size in (1.0, 1e-4, 1e-8, 1e-11):
+        points = np.array([0.36, 0.48, 0.8]) + size * rng.normal(size=(400, 3))
+        points /= np.linalg.norm(points, axis=1)[:, None]
+        signs = SphereSigns(points)
+        signs.bubble(np.arange(400).reshape(-1, 4))
+        assert signs.exact_tests <= 2
+
+
+def test_progress_is_the_order_along_the_projection():
+    """Projected from the south pole the rays (2x, 2y, 1 − x² − y²) are (x, y): lines x = const have the tangent y."""
+    xy = np.array([[0.0, 3], [1, -1], [1, 4], [-2, 2]])
+    points = np.vstack([np.column_stack([2 * xy, 1 - (xy**2).sum(axis=1)]), [[0, 0, -1]]])
+    steps = SphereSigns(points).progress(np.array([[0, 1], [1, 2], [2, 3]]), 4, np.array([0, 1, 0], dtype=object))
+    assert abs(steps[0]) == 1
+    assert steps.tolist() == [steps[0], 0, -steps[0]]
+
+
+def test_facing_is_the_normal_of_a_great_circle_triangle():
+    points = np.array([[3.0, 4, 0], [-4, 3, 0], [4, 3, 0], [-3, -4, 0], [-1, 0, 0], [1, 0, 0]])
+    rows = np.array([[2, 0, 1], [0, 2, 1], [0, 1, 3], [5, 2, 4], [5, 2, 3]])
+    assert SphereSigns(points).facing(rows).tolist() == [[0, 0, 1], [0, 0, -1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]
+
+
+def test_ray_integers_keep_directions_down_to_the_subnormals():
+    points = np.array([[5e-324, 0, 1e-323], [1e308, -5e307, 0], [0.75, 0.5, -0.25]])
+    assert ray_integers(points)[[0, 2]].tolist() == [[1, 0, 2], [3, 2, -1]]
+    x, y, z = ray_integers(points)[1]
+    assert Fraction(x, y) == Fraction(1e308) / Fraction(-5e307)
+    assert z == 0
