@@ -1,0 +1,18 @@
+"""Arcs of the sphere as rows of numbers, so that a figure's geometry is arrays alone."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from stereodel.render import CircleArc
+from stereodel.sphere import SphereArc
+
+
+def to_rows(arcs: Iterable[SphereArc]) -> np.ndarray:
+    """Centre, two radii and swept angle of each arc, (n, 10)."""
+    return np.array([np.hstack(arc.frame()) for arc in arcs])
+
+
+def from_rows(rows: np.ndarray) -> list[CircleArc]:
+    """The arcs back, ready to be drawn."""
+    return [CircleArc(row[0:3], row[3:6], row[6:9], 0.0, float(row[9])) for row in rows]

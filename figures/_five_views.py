@@ -1,0 +1,52 @@
+"""Figures 10 to 12: five orthographic views of a globe under the fisheye, which differ in four numbers."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from _arcs import from_rows, to_rows
+
+from stereodel import fisheye
+from stereodel.render import Page, Scene, View
+from stereodel.sphere import graticule, graticule_patch
+
+FOCUS = (0.0, 40.0)  # degrees
+VIEWS = (View(0, 0), View(0, 90), View(0, -90), View(0, 40), View(180, -40))
+PITCH, MARGIN = 2.14, 0.03  # globe radii
+
+
+@dataclass(frozen=True)
+class FiveViews:
+    """The four numbers: magnification S, and in degrees the graticule, the fine grid and its half-width."""
+
+    magnification: float
+    coarse: float
+    fine: float
+    half_width: float
+
+    def geometry(self) -> dict:
+        """The images of both grids under the fisheye: circle arcs again."""
+        bend = fisheye(FOCUS, magnification=self.magnification)
+        patch = graticule_patch(FOCUS, self.half_width, self.fine)
+        return {
+            "coarse": to_rows(bend.image_of(arc) for arc in graticule(self.coarse)),
+            "fine": to_rows(bend.image_of(arc) for arc in patch),
+        }
+
+    def draw(self, g: dict) -> Page:
+        """Five globes in a row."""
+        items = tuple(
+            item
+            for number, view in enumerate(VIEWS)
+            for item in globe(g).layout(view, at=(PITCH * number, 0.0))
+        )
+        reach = 1 + MARGIN
+        extent = (-reach, PITCH * (len(VIEWS) - 1) + reach, -reach, reach)
+        return Page(extent, items, views=tuple(view.matrix for view in VIEWS))
+
+
+def globe(g: dict) -> Scene:
+    """One globe with both grids, coarse gray, fine black."""
+    scene = Scene()
+    scene.add_arcs(from_rows(g["coarse"]), role="graticule")
+    scene.add_arcs(from_rows(g["fine"]), role="fine")
+    return scene

@@ -1,0 +1,42 @@
+"""
+Figure 3: Every circle on a sphere bounds two bubbles
+=====================================================
+
+Any circle is where a plane slices through the sphere. It bounds a smaller bubble (orange) and a larger one (blue). The
+Delaunay condition on the sphere is that one of them is empty: the one on the outer side of the facet.
+
+Chosen by us: a circle of angular radius 42° about (30° E, 32° N).
+"""
+
+import numpy as np
+
+from stereodel import SphereCircle, lonlat_to_xyz
+from stereodel.render import Figure, Page, Scene, View
+
+CENTER, RADIUS = (30.0, 32.0), 42.0  # degrees
+VIEW = View(12, 14)
+BELOW = (2.0, -38.0)  # where the large bubble is labelled
+
+
+def geometry() -> dict:
+    """The circle: normal and offset."""
+    circle = SphereCircle.around(CENTER, RADIUS)
+    return {"normal": circle.normal, "offset": np.array(circle.offset), "below": lonlat_to_xyz(BELOW)}
+
+
+def draw(g: dict) -> Page:
+    """The two tints, the circle between them, their names."""
+    circle = SphereCircle(g["normal"], float(g["offset"]))
+    scene = Scene()
+    scene.add_cap(circle, side="outside", role="large_bubble")
+    scene.add_cap(circle, side="inside", role="small_bubble")
+    scene.add_circles([circle], role="circle")
+    scene.add_label("small bubble", circle.center, size=12.0)
+    scene.add_label("large bubble", g["below"], size=12.0)
+    return Page((-1.03, 1.03, -1.03, 1.03), scene.layout(VIEW), width=260.0, views=(VIEW.matrix,))
+
+
+FIGURE = Figure("fig03_bubbles", geometry, draw)
+
+if __name__ == "__main__":
+    FIGURE.main()

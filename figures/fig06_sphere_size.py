@@ -1,0 +1,64 @@
+"""
+Figure 6: Inverse stereographic projections in cross-section
+============================================================
+
+One segment of the plane, lifted to three tangent spheres. The smaller the sphere, the larger the arc that the segment
+covers: the radius sets how much curvature the lift adds.
+
+Chosen by us: a segment of length 3.2 and the radii 2, 1 and 1/2.
+"""
+
+import numpy as np
+
+from stereodel import Stereographic
+from stereodel.render import Figure, Page, Sketch
+from stereodel.sphere import angular_distance
+
+HALF_LENGTH = 1.6
+RADII = (2.0, 1.0, 0.5)
+EXTENT = (-3.4, 3.4, -0.55, 4.35)
+LABEL_DIRECTIONS = (28.0, 28.0, 28.0)  # degrees above the horizontal, seen from the circle's centre
+
+
+def geometry() -> dict:
+    """Where the ends of the segment land on each circle, in the page, and how wide the covered arcs are."""
+    ends = np.array([[-HALF_LENGTH, 0.0], [HALF_LENGTH, 0.0]])
+    lifted = np.array([Stereographic((0, -90), radius=radius).inverse(ends) for radius in RADII])
+    # The plane's x axis points along y in space, up is z; the page's plane is the line y = 0.
+    section = np.array(RADII)[:, None, None] * (lifted[..., 1:] + [0.0, 1.0])
+    south = np.array([0.0, 0.0, -1.0])
+    extents = angular_distance(lifted, south).sum(axis=1)
+    return {"ends": ends, "lifted": section, "extents": extents}
+
+
+def draw(g: dict) -> Page:
+    """Circles, projection lines from each top point, covered arcs thick, extents written."""
+    sketch = Sketch()
+    sketch.add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.2, 0), role="axis")
+    for number, radius in enumerate(RADII):
+        add_sphere(sketch, number, radius, g)
+    sketch.add_segment(*g["ends"], role="outline").add_points(g["ends"], role="pole")
+    sketch.add_label("plane", (EXTENT[1] - 0.2, 0), (0, -8), align="right")
+    return sketch.page(EXTENT)
+
+
+def add_sphere(sketch: Sketch, number: int, radius: float, g: dict) -> None:
+    """One tangent sphere in cross-section with the lift of the segment."""
+    center, top = (0.0, radius), (0.0, 2 * radius)
+    role = f"accent{number + 1}"
+    half = g["extents"][number] / 2
+    sketch.add_circle(center, radius, role="frame")
+    for end in g["ends"]:
+        sketch.add_segment(top, end, role="construction")
+    sketch.add_arc(center, radius, -90 - half, -90 + half, role=f"covered{number + 1}")
+    sketch.add_points(g["lifted"][number], role=role).add_points(top, role="pole")
+    up = np.radians(LABEL_DIRECTIONS[number])
+    place = np.array(center) + radius * np.array([np.cos(up), np.sin(up)])
+    text = rf"$R = {radius:g}$: ${g['extents'][number]:.1f}°$"
+    sketch.add_label(text, place, (5, 3), align="left", valign="bottom")
+
+
+FIGURE = Figure("fig06_sphere_size", geometry, draw, renderer="agg")
+
+if __name__ == "__main__":
+    FIGURE.main()

@@ -1,0 +1,62 @@
+"""
+Figure 8: Inverse stereographic projection to hemisphere (as seen through a transparent plane)
+==============================================================================================
+
+The sites of Figure 7 lifted to the tangent sphere whose diameter is half the diagonal of the rectangle. Only vertices are
+lifted: Delaunay edges are rebuilt as great-circle arcs, Voronoi edges as perpendicular bisectors of them. The sides of the
+rectangle become arcs of circles (red) whose corners lie on the equator.
+
+Chosen by us: the view from below, tilted so that the plane is seen as a sheet.
+"""
+
+import numpy as np
+from _arcs import from_rows, to_rows
+from _rectangle import CORNERS, lift, sites
+
+from stereodel import PlanarDelaunay, SphericalVoronoi
+from stereodel.render import Figure, Page, Scene, View
+from stereodel.sphere import SphereArc, SphereCircle
+
+VIEW = View(90, -72)
+
+
+def geometry() -> dict:
+    """Lifted sites and sides, edges of the planar triangulation, Voronoi diagram of the sphere, the plane's corners."""
+    raised = lift()
+    points = sites()
+    lifted = raised.forward(points)
+    voronoi = SphericalVoronoi(lifted)
+    return {
+        "radius": np.array(raised.sphere.radius),
+        "lifted": lifted,
+        "edges": PlanarDelaunay(points).edges,
+        "vertices": voronoi.vertices,
+        "ridges": np.array(voronoi.ridge_vertices),
+        "sides": to_rows(lifted_side(a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, axis=0), strict=True)),
+        "plane": raised.sphere.in_space(CORNERS),
+    }
+
+
+def lifted_side(a: np.ndarray, b: np.ndarray) -> SphereArc:
+    """The image of a side: the arc of the circle through its lifted ends and middle."""
+    start, middle, end = lift().forward(np.array([a, (a + b) / 2, b]))
+    return SphereArc(SphereCircle.through(start, middle, end), start, end)
+
+
+def draw(g: dict) -> Page:
+    """The ball behind the plane."""
+    radius = float(g["radius"])
+    scene = Scene(radius=radius)
+    scene.add_edges(g["lifted"], g["edges"], role="delaunay")
+    scene.add_edges(g["vertices"], g["ridges"], role="voronoi")
+    scene.add_arcs(from_rows(g["sides"]), role="chord")
+    scene.add_points(g["lifted"], role="sites")
+    scene.add_flat_polygon(g["plane"], role="plane")
+    scene.add_outline(g["plane"], role="outline")
+    return Page((-1.6, 1.6, -1.2, 1.2), scene.layout(VIEW), views=(VIEW.matrix,))
+
+
+FIGURE = Figure("fig08_hemisphere", geometry, draw)
+
+if __name__ == "__main__":
+    FIGURE.main()

@@ -1,0 +1,99 @@
+r"""
+Figure 9: Scale factor as a function of φ
+=========================================
+
+Left, the tangent sphere in cross-section: the triangles from the north pole to p and to its projection are similar, with
+heights R + R sin φ and 2R, so the lift shrinks lengths by s = (R + R sin φ)/2R, φ being the latitude south of the equator.
+Right, s and its rate of change along a meridian, ∂s/∂φ = cos φ / 2; along a parallel s is constant.
+
+Chosen by us: φ = 25° on the left.
+"""
+
+import numpy as np
+
+from stereodel import RectangleLift, lonlat_to_xyz
+from stereodel.render import Figure, Page, Sketch
+
+RADIUS = 1.0
+PHI = 25.0  # degrees south of the equator
+KNOTS = np.linspace(0.0, 90.0, 19)
+EXTENT = (-1.35, 4.75, -0.42, 2.2)
+ORIGIN, WIDTH, HEIGHT = np.array([2.55, 0.1]), 1.95, 1.75  # the graph's box on the page
+
+
+def geometry() -> dict:
+    """The lifted point and its projection, and the scale of the lift at the knots of the graph."""
+    lift = RectangleLift(4 * RADIUS, 0.0)  # only its sphere matters: diagonal 4R
+    meridian = lonlat_to_xyz(np.stack([np.full_like(KNOTS, 90.0), -KNOTS], axis=-1))
+    point = lonlat_to_xyz((90.0, -PHI))
+    return {
+        "point": RADIUS * (point[1:] + [0.0, 1.0]),
+        "projected": np.array([lift.inverse(point)[0], 0.0]),
+        "scale": lift.scale_factor(lift.inverse(meridian)),
+        "rate": np.cos(np.radians(KNOTS)) / 2,
+    }
+
+
+def draw(g: dict) -> Page:
+    """The cross-section beside the graph."""
+    sketch = Sketch()
+    add_section(sketch, g)
+    add_graph(sketch, g)
+    return sketch.page(EXTENT)
+
+
+def add_section(sketch: Sketch, g: dict) -> None:
+    """Sphere, plane and the two similar triangles."""
+    north, center, south = (0.0, 2 * RADIUS), (0.0, RADIUS), (0.0, 0.0)
+    foot = (0.0, float(g["point"][1]))
+    sketch.add_polygon([north, south, g["projected"]], role="accent1").add_polygon(
+        [north, foot, g["point"]], role="accent2"
+    )
+    sketch.add_segment((-1.2, 0), (2.1, 0), role="axis").add_circle(center, RADIUS, role="circle")
+    sketch.add_segment((-RADIUS, RADIUS), (RADIUS, RADIUS), role="construction")
+    sketch.add_segment(north, south, role="axis").add_segment(north, g["projected"], role="ray")
+    sketch.add_segment(foot, g["point"], role="accent2").add_segment(center, g["point"], role="axis")
+    sketch.add_angle(center, g["point"], (RADIUS, RADIUS), 0.34, r"$\varphi$", role="axis")
+    sketch.add_points([north, center, south], role="pole").add_points([g["point"], g["projected"]], role="points")
+    sketch.add_label("$N$", north, (0, 5), valign="bottom").add_label("$S$", south, (0, -5), valign="top")
+    sketch.add_label("$p$", g["point"], (6, 2), align="left").add_label(
+        r"$\pi(p)$", g["projected"], (0, -5), valign="top"
+    )
+    add_dimension(sketch, -1.12, 0.0, 2 * RADIUS, "$2R$")
+    add_dimension(sketch, -0.16, foot[1], 2 * RADIUS, r"$R + R\,\sin\varphi$", rotation=90.0)
+
+
+def add_dimension(sketch: Sketch, x: float, low: float, high: float, text: str, *, rotation: float = 0.0) -> None:
+    """A vertical measure with ticks and its name on the left."""
+    tick = 0.035
+    sketch.add_segment((x, low), (x, high), role="frame")
+    for y in (low, high):
+        sketch.add_segment((x - tick, y), (x + tick, y), role="frame")
+    sketch.add_label(text, (x, (low + high) / 2), (-7, 0), align="center" if rotation else "right", rotation=rotation)
+
+
+def add_graph(sketch: Sketch, g: dict) -> None:
+    """The two curves over φ from 0° to 90°."""
+    x = ORIGIN[0] + WIDTH * KNOTS / 90.0
+    rise = HEIGHT * np.radians(90.0) / WIDTH  # page slope of a derivative by φ in radians
+    sine, cosine = np.sin(np.radians(KNOTS)), np.cos(np.radians(KNOTS))
+    for y in (0.5, 1.0):
+        sketch.add_segment(ORIGIN + [0, HEIGHT * y], ORIGIN + [WIDTH, HEIGHT * y], role="grid")
+    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["scale"], rise * cosine / 2, role="accent1")
+    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["rate"], -rise * sine / 2, role="accent2")
+    sketch.add_segment(ORIGIN, ORIGIN + [WIDTH, 0], role="axis").add_segment(ORIGIN, ORIGIN + [0, HEIGHT], role="axis")
+    for phi in (0, 30, 60, 90):
+        sketch.add_segment(ORIGIN + [WIDTH * phi / 90, 0], ORIGIN + [WIDTH * phi / 90, -0.035], role="axis")
+        sketch.add_label(f"${phi}°$", ORIGIN + [WIDTH * phi / 90, -0.035], (0, -3), valign="top")
+    for value, text in ((0.0, "$0$"), (0.5, "$1/2$"), (1.0, "$1$")):
+        sketch.add_segment(ORIGIN + [-0.035, HEIGHT * value], ORIGIN + [0, HEIGHT * value], role="axis")
+        sketch.add_label(text, ORIGIN + [-0.035, HEIGHT * value], (-3, 0), align="right")
+    sketch.add_label(r"$\varphi$", ORIGIN + [WIDTH, 0], (10, 0), align="left")
+    sketch.add_label(r"$s = (1 + \sin\varphi)/2$", ORIGIN + [0.34 * WIDTH, 0.86 * HEIGHT], align="right")
+    sketch.add_label(r"$\partial s/\partial\varphi = \cos\varphi/2$", ORIGIN + [0.62 * WIDTH, 0.36 * HEIGHT], align="left")
+
+
+FIGURE = Figure("fig09_scale", geometry, draw, renderer="agg")
+
+if __name__ == "__main__":
+    FIGURE.main()

@@ -1,0 +1,20 @@
+"""
+Figure 12: Five views of a fisheye global-gram, magnification 20
+================================================================
+
+The graticule at 5° (gray) and a fine grid at 1/2° (black) under the conformal map that magnifies the surroundings of 40° N twenty
+times, seen as in Figure 10. A region of 3° fills most of a hemisphere; the rest of the world is gathered about the antipode.
+
+Chosen by us: the fine grid reaches 1.5° from its centre; up to 1.966° it cannot be seen from the south pole.
+"""
+
+from _five_views import FiveViews
+
+from stereodel.render import Figure
+
+PANELS = FiveViews(magnification=20, coarse=5, fine=0.5, half_width=1.5)  # degrees
+
+FIGURE = Figure("fig12_fisheye20", PANELS.geometry, PANELS.draw)
+
+if __name__ == "__main__":
+    FIGURE.main()
