@@ -1,0 +1,138 @@
+"""Imports go down only: the order of the packages, no cycles, one door to OpenGL, no graphics in `import stereodel`."""
+
+import ast
+import subprocess
+import sys
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "stereodel"
+
+BASE = {"constants", "_arrays", "_double_double"}
+MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
+MAY_IMPORT = {
+    "constants": set(),
+    "_arrays": BASE,
+    "_double_double": BASE,
+    "sphere": BASE,
+    "projections": BASE | {"sphere"},
+    "conformal": BASE | {"sphere", "projections"},
+    "predicates": BASE,
+    "triangulation": BASE | {"sphere", "projections", "predicates"},
+    "__init__": MATHEMATICS,
+    "render": MATHEMATICS | {"__init__"},
+    "cli": MATHEMATICS | {"__init__", "render"},
+}
+GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
+NOT_IN_CORE = GRAPHICS | {"scipy", "pandas", "xarray", "shapely", "typer", "rich", "mpmath", "pyproj"}
+
+
+def module_names():
+    """Path of every module of the package by dotted name; a package stands for its `__init__`."""
+    names = {}
+    for path in PACKAGE.rglob("*.py"):
+        parts = path.relative_to(ROOT).with_suffix("").parts
+        names[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return names
+
+
+MODULES = module_names()
+
+
+def imported(path, tree=None):
+    """Dotted names in every import statement, wherever it stands; `from a import b` is a.b where that is a module."""
+    for node in ast.walk(tree or ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}:{node.lineno} imports relatively; write the whole name"
+            for alias in node.names:
+                inner = f"{node.module}.{alias.name}"
+                yield inner if inner in MODULES else node.module
+
+
+def own_imports(name):
+    return sorted({target for target in imported(MODULES[name]) if target in MODULES})
+
+
+def part(name):
+    """The part of the library that a module belongs to, a key of MAY_IMPORT."""
+    parts = name.split(".")
+    return parts[1] if len(parts) > 1 else "__init__"
+
+
+def wrong_arrows(edges):
+    """Imports against the order of the packages."""
+    return [
+        f"{source} imports {target}"
+        for source, targets in edges.items()
+        for target in targets
+        if part(target) != part(source) and part(target) not in MAY_IMPORT[part(source)]
+    ]
+
+
+EDGES = {name: own_imports(name) for name in MODULES}
+
+
+def test_arrows_go_down():
+    assert wrong_arrows(EDGES) == []
+
+
+def test_every_part_is_in_the_order():
+    assert {part(name) for name in MODULES} <= set(MAY_IMPORT)
+
+
+def test_a_wrong_arrow_is_seen():
+    assert wrong_arrows({"stereodel.sphere.arcs": ["stereodel.projections.gnomonic"]})
+    assert wrong_arrows({"stereodel.predicates": ["stereodel"]})
+    assert not wrong_arrows({"stereodel.projections.gnomonic": ["stereodel.sphere.arcs"]})
+
+
+def test_no_cycles():
+    try:
+        TopologicalSorter(EDGES).prepare()
+    except CycleError as error:
+        pytest.fail("imports in a circle: " + " → ".join(error.args[1]))
+
+
+def test_only_render_and_cli_use_more_than_numpy_and_scipy():
+    """SciPy is imported inside the functions that need it: `test_import_loads_no_graphics` sees it elsewhere."""
+    foreign = {
+        f"{name} imports {target}"
+        for name, path in MODULES.items()
+        if part(name) not in {"render", "cli"}
+        for target in imported(path)
+        if target.split(".")[0] not in {"stereodel", "numpy", "scipy", *sys.stdlib_module_names}
+    }
+    assert foreign == set()
+
+
+def test_opengl_has_one_door():
+    doors = {
+        name for name, path in MODULES.items() if {t.split(".")[0] for t in imported(path)} & {"OpenGL", "pyrender"}
+    }
+    assert doors <= {"stereodel.render.gl"}
+
+
+def test_figures_draw_through_the_library():
+    for path in (ROOT / "figures").glob("*.py"):
+        roots = {target.split(".")[0] for target in imported(path)}
+        assert not roots & (GRAPHICS | {"scipy"}), f"{path.name} imports {roots & NOT_IN_CORE}"
+
+
+def loaded_by(statement):
+    code = f"{statement}; import sys; print(*sorted({{name.split('.')[0] for name in sys.modules}}))"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    return set(ran.stdout.split())
+
+
+def test_import_loads_no_graphics():
+    assert not loaded_by("import stereodel; dir(stereodel)") & NOT_IN_CORE
+
+
+def test_import_adds_few_modules_to_numpy():
+    """A cheap stand-in for the import time, which benchmarks/import_time.py measures."""
+    assert len(loaded_by("import stereodel") - loaded_by("import numpy")) < 60
