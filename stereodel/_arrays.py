@@ -167,6 +167,22 @@ def as_steps(width: float, spacing: Any, name: str) -> int:
     return count
 
 
+def as_choice(value: Any, choices: tuple[str, ...], name: str) -> str:
+    """One of a few words."""
+    if value not in choices:
+        raise ValueError(f"{name} is {value!r}, but must be one of {', '.join(map(repr, choices))}")
+    return str(value)
+
+
+def as_lengths(values: npt.ArrayLike, name: str) -> FloatArray:
+    """Finite numbers that are not negative, of any shape."""
+    array = as_floats(values, name)
+    if (array < 0).any():
+        index = tuple(int(i) for i in np.argwhere(array < 0)[0])
+        raise ValueError(f"{name}[{_show(index)}] is {array[index]}; a length cannot be negative")
+    return array
+
+
 def read_only(array: FloatArray) -> FloatArray:
     """A private copy that nobody can write to, for frozen value objects."""
     copy = np.array(array)
