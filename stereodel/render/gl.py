@@ -1,0 +1,343 @@
+"""The only door to OpenGL: triangles in, pixels out.
+
+Everything goes through pyrender (the distribution pyrender2) on a software renderer, without a window: OSMesa first,
+EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
+when it is first imported, so this module chooses before that, once per process.
+
+All triangles of a picture go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
+OpenGL draws the triangles of a mesh in their order, so see-through items blend back to front; and since a fragment at
+the depth of what is already there is refused, an item whose triangles overlap blends once, as the union of them.
+"""
+
+from __future__ import annotations
+
+import atexit
+import ctypes
+import os
+import sys
+import types
+from dataclasses import dataclass
+from typing import Any, Final, cast
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, IntArray
+from stereodel.render.page import Color
+
+Pixels = npt.NDArray[np.uint8]
+
+VARIABLE: Final = "STEREODEL_GL"
+"""Environment variable that chooses the platform."""
+
+PLATFORMS: Final = ("osmesa", "egl")
+"""In the order in which they are tried."""
+
+LIBRARIES: Final = {"osmesa": ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"), "egl": ("libEGL.so.1", "libEGL.so")}
+"""Shared libraries, any one of which a platform needs."""
+
+PACKAGES: Final = {"osmesa": "libosmesa6", "egl": "libegl1 libgl1-mesa-dri"}
+"""Debian packages that hold them."""
+
+SLOTS: Final = 2**18
+"""Items that a picture may have: neighbours are 64 steps of a 24-bit depth buffer apart, and 16 of float32."""
+
+BAND: Final = 1024
+"""Rows drawn at once: the multisampled buffers of a band take 32 bytes a pixel."""
+
+MAX_WIDTH: Final = 16384
+"""Pixels across; llvmpipe has no larger buffers."""
+
+EGL_EXTENSIONS: Final = 0x3055
+"""Name of the extension string in EGL's C header."""
+
+
+class OpenGLError(RuntimeError):
+    """There is no usable OpenGL, or it was set up before in another way; the message says what to do."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Coloured triangles in painter's order.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+        Pixels from the lower left corner, x right, y up.
+    colors : (n, 4) array
+        sRGB and opacity in [0, 1].
+    slots : (n,) int array
+        Number of the item that a vertex belongs to; must not decrease along `faces`.
+    faces : (m, 3) int array
+        Either orientation.
+    """
+
+    points: FloatArray
+    colors: FloatArray
+    slots: IntArray
+    faces: IntArray
+
+
+@dataclass(frozen=True)
+class Description:
+    """What would draw, for `stereodel doctor`; `problem` is empty when it works."""
+
+    platform: str
+    chosen_by: str
+    version: str = ""
+    renderer: str = ""
+    problem: str = ""
+
+    @property
+    def mesa(self) -> str:
+        """Version of Mesa, e.g. 22.3.6; empty if it is not Mesa."""
+        _, found, rest = self.version.partition("Mesa ")
+        return rest.split()[0] if found else ""
+
+
+def choose(platform: str | None = None) -> tuple[str, str]:
+    """The platform to use and what decided it.
+
+    Parameters
+    ----------
+    platform : {"osmesa", "egl"}, optional
+        Overrides the environment.
+
+    Returns
+    -------
+    tuple of str
+        "osmesa" or "egl"; "argument", the environment variable, or "found".
+
+    Raises
+    ------
+    ValueError
+        For another `platform`.
+    OpenGLError
+        If the environment asks for something else, or nothing can be opened.
+    """
+    if platform is not None:
+        if platform not in PLATFORMS:
+            raise ValueError(f'platform must be "osmesa" or "egl", got {platform!r}')
+        return platform, "argument"
+    for variable in (VARIABLE, "PYOPENGL_PLATFORM"):
+        value = os.environ.get(variable, "")
+        if value in PLATFORMS:
+            return value, variable
+        if value:
+            raise OpenGLError(f'{variable} is {value!r}; set {VARIABLE} to "osmesa" or "egl", or unset {variable}')
+    for candidate in PLATFORMS:
+        if can_open(candidate):
+            return candidate, "found"
+    raise OpenGLError(_missing("neither OSMesa nor EGL can be opened", *PLATFORMS))
+
+
+def can_open(platform: str) -> bool:
+    """Whether a shared library of the platform can be loaded."""
+    return any(_loads(name) for name in LIBRARIES[platform])
+
+
+def draw(
+    triangles: Triangles,
+    width: int,
+    height: int,
+    *,
+    background: Color = (1.0, 1.0, 1.0, 1.0),
+    platform: str | None = None,
+) -> Pixels:
+    """Draw triangles with 4 samples a pixel.
+
+    Colours are drawn as given, without light; those of a triangle's corners are mixed linearly. What is farther back
+    in the order is covered or shows through.
+
+    Parameters
+    ----------
+    triangles : Triangles
+    width, height : int
+        In pixels.
+    background : Color
+        Opaque; its opacity is ignored.
+    platform : {"osmesa", "egl"}, optional
+
+    Returns
+    -------
+    (height, width, 3) uint8 array
+        sRGB, rows from the top.
+
+    Raises
+    ------
+    OpenGLError
+        If there is no usable OpenGL; if this process draws on another platform already.
+    ValueError
+        For a picture that is too wide or too large for the depth buffer.
+    """
+    if not 1 <= width <= MAX_WIDTH:
+        raise ValueError(f"width must be 1 to {MAX_WIDTH} pixels, got {width}")
+    if triangles.slots.size and int(triangles.slots.max()) >= SLOTS:
+        raise ValueError(f"a picture has at most {SLOTS} items, got {int(triangles.slots.max()) + 1}")
+    renderer = _renderer(platform)
+    scene, camera = _scene(renderer.pyrender, triangles, width, background)
+    picture = np.empty((height, width, 3), dtype=np.uint8)
+    for top in range(0, height, BAND):
+        rows = min(BAND, height - top)
+        picture[top : top + rows] = renderer.band(scene, camera, width, rows, height - top - rows)
+    return picture
+
+
+def describe(platform: str | None = None) -> Description:
+    """What would draw and with which versions; a failure becomes the `problem`, never an exception.
+
+    Examples
+    --------
+    >>> describe("osmesa").platform
+    'osmesa'
+    """
+    name, reason = "", ""
+    try:
+        name, reason = _choose_once(platform)
+        version, renderer = _renderer(name).strings()
+    except (OpenGLError, ValueError) as error:
+        return Description(name, reason, problem=str(error))
+    return Description(name, reason, version, renderer)
+
+
+def close() -> None:
+    """Give the OpenGL context back; the next picture makes a new one."""
+    global _open
+    if _open is not None:
+        _open.offscreen.delete()
+        _open = None
+
+
+class _Renderer:
+    """A pyrender renderer and its context, kept for all pictures of the process."""
+
+    def __init__(self, platform: str) -> None:
+        self.platform = platform
+        self.pyrender = _import_pyrender(platform)
+        try:
+            if platform == "egl":
+                os.environ["EGL_DEVICE_ID"] = str(_software_device())
+            self.offscreen = self.pyrender.OffscreenRenderer(16, 16)
+        except OpenGLError:
+            raise
+        except Exception as error:
+            # pyrender and PyOpenGL raise anything from AssertionError to AttributeError where a context fails.
+            raise OpenGLError(
+                _missing(f"{platform} gives no OpenGL context ({type(error).__name__}: {error})", platform)
+            ) from error
+
+    def band(self, scene: Any, camera: Any, width: int, rows: int, bottom: int) -> Pixels:
+        """Rows `bottom` to `bottom + rows` (from below) of the scene."""
+        camera.camera.ymag = rows / 2
+        pose = np.eye(4)
+        pose[:2, 3] = width / 2, bottom + rows / 2
+        scene.set_pose(camera, pose)
+        self.offscreen.viewport_width, self.offscreen.viewport_height = width, rows
+        flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
+        color, _ = self.offscreen.render(scene, flags=flags)
+        return cast(Pixels, color)
+
+    def strings(self) -> tuple[str, str]:
+        """GL_VERSION and GL_RENDERER."""
+        from OpenGL import GL
+
+        self.offscreen._platform.make_current()
+        return GL.glGetString(GL.GL_VERSION).decode(), GL.glGetString(GL.GL_RENDERER).decode()
+
+
+_open: _Renderer | None = None
+_chosen: tuple[str, str] | None = None
+
+
+def _choose_once(platform: str | None) -> tuple[str, str]:
+    """As `choose`, but keeping to what this process began with, whose trace in the environment decides nothing."""
+    return _chosen if platform is None and _chosen is not None else choose(platform)
+
+
+def _renderer(platform: str | None) -> _Renderer:
+    global _chosen, _open
+    name, reason = _choose_once(platform)
+    if _open is None:
+        _open = _Renderer(name)
+        _chosen = name, reason
+        atexit.register(close)
+    if _open.platform != name:
+        raise OpenGLError(f"this process draws on {_open.platform} already; use {name} in a new process")
+    return _open
+
+
+def _scene(pyrender: Any, triangles: Triangles, width: int, background: Color) -> tuple[Any, Any]:
+    """All triangles as one mesh before an orthographic camera, a unit of the scene being a pixel."""
+    scene = pyrender.Scene(bg_color=[*map(float, background[:3]), 1.0])
+    # The camera sees depths from -1 to -3 and the last item is nearest.
+    camera = scene.add(pyrender.OrthographicCamera(xmag=width / 2, ymag=1.0, znear=1.0, zfar=3.0))
+    if len(triangles.faces):
+        depth = -3 + 2 * (triangles.slots + 0.5) / SLOTS
+        material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
+        primitive = pyrender.Primitive(
+            np.column_stack([triangles.points, depth]),
+            # Levels of 1/255, so that rounding inside OpenGL has nothing to decide.
+            color_0=np.floor(255 * triangles.colors + 0.5) / 255,
+            indices=triangles.faces,
+            material=material,
+        )
+        scene.add(pyrender.Mesh([primitive]))
+    return scene, camera
+
+
+def _import_pyrender(platform: str) -> Any:
+    """Import pyrender on a platform, without its windows."""
+    _require_platform(platform)
+    os.environ["PYOPENGL_PLATFORM"] = platform
+    # Mesa must not take a graphics card: its pixels differ.
+    os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
+    if "pyrender" not in sys.modules:
+        # The viewer loads a windowing library, which fails on machines without a display.
+        viewer = types.ModuleType("pyrender.viewer")
+        viewer.Viewer = type("Viewer", (), {})  # type: ignore[attr-defined]
+        sys.modules["pyrender.viewer"] = viewer
+    try:
+        import pyrender
+        from pyrender.platforms.osmesa import OSMesaPlatform
+    except (ImportError, OSError, AttributeError) as error:
+        raise OpenGLError(_missing(f"pyrender cannot be imported for {platform}: {error}", platform)) from error
+    # OSMesa has framebuffer objects; pyrender denies it, and would draw without multisampling.
+    OSMesaPlatform.supports_framebuffers = lambda self: True
+    return pyrender
+
+
+def _require_platform(platform: str) -> None:
+    """Refuse if PyOpenGL was imported for another platform."""
+    module = sys.modules.get("OpenGL.platform")
+    loaded = type(getattr(module, "PLATFORM", None)).__name__
+    if module is not None and loaded.removesuffix("Platform").lower() != platform:
+        raise OpenGLError(
+            f"this process has imported OpenGL with {loaded} and cannot change to {platform}; "
+            f'draw before anything else imports it, or set PYOPENGL_PLATFORM="{platform}" before the program starts'
+        )
+
+
+def _software_device() -> int:
+    """Number of the EGL device that is Mesa's software renderer."""
+    from OpenGL import EGL
+    from pyrender.platforms import egl
+
+    query = egl._eglQueryDeviceStringEXT
+    for number, device in enumerate(egl.query_devices()):
+        extensions = query(device._display, EGL.EGLint(EGL_EXTENSIONS)) or b""
+        if b"EGL_MESA_device_software" in extensions:
+            return number
+    raise OpenGLError(_missing("EGL has no software device", "egl"))
+
+
+def _loads(library: str) -> bool:
+    try:
+        ctypes.CDLL(library)
+    except OSError:
+        return False
+    return True
+
+
+def _missing(what: str, *platforms: str) -> str:
+    packages = " or ".join(f"apt-get install {PACKAGES[name]}" for name in platforms)
+    return f"{what}; install it, on Debian: {packages}"

@@ -1,0 +1,219 @@
+"""Strokes, dots and fills as triangles: ribbons of constant width on the page, discs, and regions cut into slabs.
+
+Everything is in pixels of the picture that is drawn. The triangles of one item may overlap (a ribbon is rectangles,
+with a wedge at each bend and end); `stereodel.render.gl` draws an item as the union of its triangles. A region is cut
+at the height of every corner and crossing into slabs, in which the even-odd rule pairs the edges off; the horizontal
+cuts are exact, so nothing shows between the slabs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray
+from stereodel.render.page import Beziers
+
+Corners = FloatArray
+"""Triangles by their corners, (n, 3, 2)."""
+
+FLATNESS = 0.05
+"""How far a chord may stray from its curve, pixels: a fifth of the distance between samples."""
+
+
+def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
+    """Points along a run of cubics so close that their chords stay within `tolerance`.
+
+    A cubic cut into n equal parts of its parameter is off by at most (3/4) M/n², M = max |Pᵢ − 2Pᵢ₊₁ + Pᵢ₊₂|
+    (Wang's formula).
+
+    Parameters
+    ----------
+    path : (k, 4, 2) array
+    tolerance : float
+        In the units of `path`.
+
+    Returns
+    -------
+    (m, 2) array
+        First to last point, m ≥ 2; neighbours may coincide.
+
+    Examples
+    --------
+    >>> line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
+    >>> flatten(line).tolist()
+    [[0.0, 0.0], [3.0, 0.0]]
+    """
+    bend = np.linalg.norm(path[:, :-2] - 2 * path[:, 1:-1] + path[:, 2:], axis=-1).max(axis=-1)
+    parts = np.maximum(1, np.ceil(np.sqrt(0.75 * bend / tolerance))).astype(np.intp)
+    piece = np.repeat(np.arange(len(path)), parts)
+    s = (_count_up(parts) / parts[piece])[:, None]
+    p0, p1, p2, p3 = (path[piece, i] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return np.concatenate([points, path[-1:, 3]])
+
+
+def ribbon(
+    points: FloatArray,
+    width: float,
+    *,
+    closed: bool = False,
+    round_caps: bool = True,
+    dash: tuple[float, float] | None = None,
+) -> Corners:
+    """A polyline of constant width with round joins.
+
+    Parameters
+    ----------
+    points : (m, 2) array
+    width : float
+        In pixels, as `dash`.
+    closed : bool
+        Whether the end is joined to the beginning.
+    round_caps : bool
+        Half discs at the ends, also of dashes; otherwise the ends are cut straight.
+    dash : (float, float), optional
+        Length of dash and gap; the first dash begins at the first point.
+
+    Returns
+    -------
+    (n, 3, 2) array
+        Triangles, which overlap; a point alone is a disc when caps are round, and nothing otherwise.
+    """
+    if closed:
+        points = np.concatenate([points, points[:1]])
+    points = _without_repeats(points)
+    if len(points) < 2:
+        return discs(points, width / 2) if round_caps else np.zeros((0, 3, 2))
+    drawn = np.ones(len(points) - 1, dtype=bool)
+    if dash is not None:
+        points, drawn = _dashed(points, *dash)
+    return np.concatenate([_rectangles(points, drawn, width / 2), _bends(points, drawn, width / 2, closed, round_caps)])
+
+
+def discs(centers: FloatArray, radius: float) -> Corners:
+    """A disc at each of (n, 2) centres."""
+    turn = np.full(len(centers), 2 * np.pi)
+    return _wedges(centers, np.zeros(len(centers)), turn, radius)
+
+
+def region(runs: Sequence[FloatArray]) -> Corners:
+    """The region inside closed polygons, (m, 2) each, by the even-odd rule; they may cross."""
+    starts = np.concatenate(runs)
+    ends = np.concatenate([np.roll(run, -1, axis=0) for run in runs])
+    sloping = starts[:, 1] != ends[:, 1]
+    down = (starts[:, 1] > ends[:, 1])[:, None]
+    low, high = np.where(down, ends, starts)[sloping], np.where(down, starts, ends)[sloping]
+    levels = np.unique(np.concatenate([low[:, 1], high[:, 1], _crossing_heights(low, high)]))
+    first = np.searchsorted(levels, low[:, 1])
+    spans = np.searchsorted(levels, high[:, 1]) - first
+    edge = np.repeat(np.arange(len(low)), spans)
+    slab = np.repeat(first, spans) + _count_up(spans)
+    bottom, top = levels[slab], levels[slab + 1]
+    left_to_right = np.lexsort((_abscissa(low, high, edge, (bottom + top) / 2), slab))
+    edge, bottom, top = edge[left_to_right], bottom[left_to_right], top[left_to_right]
+    feet = np.stack([_abscissa(low, high, edge, bottom), bottom], axis=1)
+    heads = np.stack([_abscissa(low, high, edge, top), top], axis=1)
+    quads = np.stack([feet[0::2], feet[1::2], heads[1::2], heads[0::2]], axis=1)
+    return _halved(quads)
+
+
+def _count_up(counts: npt.NDArray[np.intp]) -> npt.NDArray[np.intp]:
+    """The numbers 0 to counts[0] − 1, then 0 to counts[1] − 1, and so on."""
+    ends = np.cumsum(counts)
+    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
+
+
+def _without_repeats(points: FloatArray) -> FloatArray:
+    keep = np.ones(len(points), dtype=bool)
+    keep[1:] = np.any(points[1:] != points[:-1], axis=1)
+    return points[keep]
+
+
+def _halved(quads: FloatArray) -> Corners:
+    """Quadrilaterals (n, 4, 2) as two triangles each."""
+    return quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 2)
+
+
+def _dashed(points: FloatArray, dash: float, gap: float) -> tuple[FloatArray, BoolArray]:
+    """The polyline with points added where dashes begin and end, and which of its segments are drawn."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    begins = np.arange(0.0, along[-1], dash + gap)
+    cuts = np.concatenate([begins, begins + dash])
+    at = np.unique(np.concatenate([along, cuts[cuts < along[-1]]]))
+    cut = np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1)
+    drawn = (at[:-1] + at[1:]) / 2 % (dash + gap) < dash
+    # Cuts closer than the spacing of doubles give the same point twice.
+    apart = np.any(cut[1:] != cut[:-1], axis=1)
+    return cut[np.concatenate([[True], apart])], drawn[apart]
+
+
+def _rectangles(points: FloatArray, drawn: BoolArray, radius: float) -> Corners:
+    start, end = points[:-1][drawn], points[1:][drawn]
+    along = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
+    side = radius * np.stack([-along[:, 1], along[:, 0]], axis=1)
+    return _halved(np.stack([start - side, end - side, end + side, start + side], axis=1))
+
+
+def _bends(points: FloatArray, drawn: BoolArray, radius: float, closed: bool, round_caps: bool) -> Corners:
+    """The outer side of each bend, and half a disc at each end."""
+    steps = np.diff(points, axis=0)
+    angle = np.arctan2(steps[:, 1], steps[:, 0])
+    before = np.concatenate([[drawn[-1] and closed], drawn])
+    after = np.concatenate([drawn, [drawn[0] and closed]])
+    angle_in, angle_out = np.concatenate([angle[-1:], angle]), np.concatenate([angle, angle[:1]])
+    turn = (angle_out - angle_in + np.pi) % (2 * np.pi) - np.pi
+    joins = before & after
+    # Turning left (turn > 0) opens the right side, a quarter turn clockwise from the direction of travel.
+    wedges = [_wedges(points[joins], (angle_in - np.copysign(np.pi / 2, turn))[joins], turn[joins], radius)]
+    if round_caps:
+        for ends, way in ((after & ~before, angle_out + np.pi / 2), (before & ~after, angle_in - np.pi / 2)):
+            wedges.append(_wedges(points[ends], way[ends], np.full(int(ends.sum()), np.pi), radius))
+    return np.concatenate(wedges)
+
+
+def _wedges(centers: FloatArray, start_rad: FloatArray, turn_rad: FloatArray, radius: float) -> Corners:
+    """Sectors of discs from the direction `start_rad` through `turn_rad`, in triangles flat to `FLATNESS`."""
+    # A chord of angle a is off by r(1 − cos(a/2)).
+    step = 2 * np.arccos(max(1 - FLATNESS / radius, 0.5)) if radius > 0 else np.pi
+    parts = np.ceil(np.abs(turn_rad) / step).astype(np.intp)
+    wedge = np.repeat(np.arange(len(parts)), parts)
+    size = turn_rad[wedge] / parts[wedge]
+    begin = start_rad[wedge] + _count_up(parts) * size
+    rim = [radius * np.stack([np.cos(a), np.sin(a)], axis=1) for a in (begin, begin + size)]
+    center = centers[wedge]
+    return np.stack([center, center + rim[0], center + rim[1]], axis=1)
+
+
+def _abscissa(low: FloatArray, high: FloatArray, edge: npt.NDArray[np.intp], y: FloatArray) -> FloatArray:
+    """Where edges meet horizontal lines; exactly their ends at the heights of their ends."""
+    (x0, y0), (x1, y1) = low[edge].T, high[edge].T
+    share = (y - y0) / (y1 - y0)
+    x: FloatArray = x0 * (1 - share) + x1 * share
+    return x
+
+
+def _crossing_heights(low: FloatArray, high: FloatArray) -> FloatArray:
+    """Heights at which two edges cross inside both, found among pairs that overlap in height and width."""
+    heights = [np.zeros(0)]
+    left, right = np.minimum(low[:, 0], high[:, 0]), np.maximum(low[:, 0], high[:, 0])
+    for i in range(len(low) - 1):
+        j = (
+            i
+            + 1
+            + np.flatnonzero(
+                (low[i + 1 :, 1] < high[i, 1])
+                & (high[i + 1 :, 1] > low[i, 1])
+                & (left[i + 1 :] <= right[i])
+                & (right[i + 1 :] >= left[i])
+            )
+        )
+        bottom, top = np.maximum(low[i, 1], low[j, 1]), np.minimum(high[i, 1], high[j, 1])
+        mine = np.full(len(j), i)
+        gap0 = _abscissa(low, high, mine, bottom) - _abscissa(low, high, j, bottom)
+        gap1 = _abscissa(low, high, mine, top) - _abscissa(low, high, j, top)
+        swap = (gap0 < 0) != (gap1 < 0)
+        heights.append((bottom + (top - bottom) * gap0 / np.where(gap0 == gap1, 1.0, gap0 - gap1))[swap])
+    return np.concatenate(heights)
