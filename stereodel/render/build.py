@@ -237,6 +237,8 @@ def run_script(script: Path, out: Path) -> Outcome:
     except Exception as error:
         return Outcome(script, {}, _error_text(error))
     seconds = time.perf_counter() - begin
+    if record.get("renderer") == "gl":
+        record["opengl"] = _opengl()
     files = {path.name: _file_digest(path) for path in sorted(out.glob(f"{script.stem}.*"))}
     record = {
         **record,
@@ -266,9 +268,19 @@ def load_drawing(script: Path) -> Any:
     raise BuildError(f"{script} defines neither FIGURE nor ANIMATION")
 
 
+def _opengl() -> str:
+    """What this process drew with."""
+    from stereodel.render.gl import describe
+
+    found = describe()
+    return f"{found.platform}: OpenGL {found.version}, {found.renderer}"
+
+
 def _error_text(error: Exception) -> str:
-    """The message alone where the user can mend it (folder, graphics, script), else the whole traceback."""
-    if isinstance(error, BuildError):
+    """The message alone where the user can mend it (script, folder, no OpenGL), else the whole traceback."""
+    from stereodel.render.gl import OpenGLError
+
+    if isinstance(error, (BuildError, PermissionError, OpenGLError)):
         return str(error)
     return "".join(traceback.format_exception(error))
 
@@ -303,7 +315,7 @@ def _progress(total: int) -> Iterator[Callable[[Outcome], None]]:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Build from the command line; the exit code is 0 when everything was drawn, 1 when a script failed, 2 else."""
+    """Build from the command line; exit code 0: all is drawn, 1: a script failed, 2: a mistake in the call."""
     parser = argparse.ArgumentParser(
         prog="stereodel.render.build", description="Draw the figures that are out of date."
     )
@@ -313,16 +325,21 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=None, help="scripts that run at once; the cores by default")
     parser.add_argument("--force", action="store_true", help="draw also what is up to date")
     options = parser.parse_args(arguments)
+    return run(options.scripts, options.out, options.names, jobs=options.jobs, force=options.force)
+
+
+def run(scripts: Path, out: Path, names: Iterable[str] = (), *, jobs: int | None = None, force: bool = False) -> int:
+    """`build`, told in words: prints what happened and returns the exit code."""
     begin = time.perf_counter()
     try:
-        outcomes = build(options.scripts, options.out, options.names, jobs=options.jobs, force=options.force)
+        outcomes = build(scripts, out, names, jobs=jobs, force=force)
     except BuildError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept", file=sys.stderr)
         return 130
-    return summarise(outcomes, options.out, time.perf_counter() - begin)
+    return summarise(outcomes, out, time.perf_counter() - begin)
 
 
 def summarise(outcomes: list[Outcome], out: Path, seconds: float) -> int:

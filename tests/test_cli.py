@@ -1,0 +1,87 @@
+"""The command `stereodel`: what it prints and its exit codes, also where nothing can draw."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+import stereodel
+from stereodel.cli import app
+from stereodel.render import build, gl
+
+run = CliRunner().invoke
+
+
+def test_version():
+    ran = run(app, ["--version"])
+    assert ran.exit_code == 0
+    assert ran.stdout.strip() == f"stereodel {stereodel.__version__}"
+
+
+def doctor_here(**environment):
+    """In a process of its own: a process draws on one platform only."""
+    kept = {name: value for name, value in os.environ.items() if name not in {"STEREODEL_GL", "PYOPENGL_PLATFORM"}}
+    line = [sys.executable, "-c", "from stereodel.cli import app; app(['doctor'])"]
+    return subprocess.run(line, env={**kept, **environment}, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("platform", gl.PLATFORMS)
+def test_doctor_tells_what_draws(platform):
+    ran = doctor_here(STEREODEL_GL=platform)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert f"{platform} (STEREODEL_GL)" in ran.stdout
+    assert "Mesa" in ran.stdout
+    for name, version in build.library_versions().items():
+        assert any(line.split() == [name, version] for line in ran.stdout.splitlines())
+    assert ran.stdout.splitlines()[-1] == "Ready: globes can be drawn."
+
+
+def test_doctor_says_how_to_get_what_is_missing():
+    ran = doctor_here(STEREODEL_GL="metal")
+    assert ran.returncode == 1
+    assert "STEREODEL_GL is 'metal'" in ran.stdout
+    assert "Traceback" not in ran.stdout + ran.stderr
+
+
+def test_doctor_without_opengl_names_the_packages(monkeypatch):
+    monkeypatch.setattr(gl, "can_open", lambda platform: False)
+    monkeypatch.delenv("STEREODEL_GL", raising=False)
+    monkeypatch.delenv("PYOPENGL_PLATFORM", raising=False)
+    monkeypatch.setattr(gl, "_open", None)
+    ran = run(app, ["doctor"])
+    assert ran.exit_code == 1
+    assert "nothing" in ran.stdout
+    assert "apt-get install libosmesa6" in ran.stdout
+
+
+def test_doctor_names_missing_libraries(monkeypatch):
+    monkeypatch.setattr(build, "LIBRARIES", ("numpy", "no-such-library"))
+    monkeypatch.setattr(gl, "describe", lambda: gl.Description("osmesa", "found", "4.5 Mesa 22.3.6", "llvmpipe"))
+    ran = run(app, ["doctor"])
+    assert ran.exit_code == 1
+    assert "pip install no-such-library" in ran.stdout
+
+
+def test_figures_passes_on_what_is_wrong(tmp_path):
+    ran = run(app, ["figures", "--scripts", str(tmp_path)])
+    assert ran.exit_code == 2
+    assert "no figure scripts" in ran.stderr
+
+
+SCRIPT = """
+class FIGURE:
+    @staticmethod
+    def save(out):
+        (out / "fig01.txt").write_text("drawn")
+        return {}
+"""
+
+
+def test_figures_draws(tmp_path):
+    (tmp_path / "fig01.py").write_text(SCRIPT)
+    options = ["figures", "fig01", "--scripts", str(tmp_path), "--out", str(tmp_path / "out")]
+    assert run(app, options).exit_code == 0
+    assert (tmp_path / "out" / "fig01.txt").read_text() == "drawn"
+    assert "up to date" in run(app, options).stdout
