@@ -1,1 +1,12 @@
 """Pictures: views, scenes and their pages; vector files through matplotlib, pixels through OpenGL."""
+
+from stereodel.render.curves import CircleArc, Segment
+from stereodel.render.figure import Figure
+from stereodel.render.page import Page
+from stereodel.render.scene import Scene
+from stereodel.render.sketch import Sketch
+from stereodel.render.style import DotStyle, LineStyle
+from stereodel.render.things import Layer
+from stereodel.render.view import View
+
+__all__ = ["CircleArc", "DotStyle", "Figure", "Layer", "LineStyle", "Page", "Scene", "Segment", "Sketch", "View"]

@@ -131,7 +131,8 @@ class LineThing:
             if covered and layout.look == "solid":
                 continue
             for part, beyond in self._by_sheets(piece, layout):
-                layer = self.layer if self.layer is not None and not covered else beyond or _line_layer(place, on_ball)
+                layer = _line_layer(place, on_ball) if beyond is None else beyond
+                layer = layer if self.layer is None or covered else self.layer
                 look = self.look.hidden if place is Place.BEHIND else self.look
                 yield layer, _stroke(layout.path([part]), look, self.role, closed=part.closed)
 

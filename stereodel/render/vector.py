@@ -100,12 +100,6 @@ def pixel_height(page: Page, width_px: int) -> int:
     return max(1, round(width_px * page.height / page.width))
 
 
-def draw_labels(page: Page, axes: Axes) -> None:
-    """Draw the labels of a page on axes in page coordinates."""
-    for label in page.labels:
-        _draw_label(axes, label)
-
-
 def _settings() -> AbstractContextManager[None]:
     """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
     # rc_context does not give the backend back, so it stays out.
@@ -133,7 +127,10 @@ def _drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Can
         patch.set(gid=role if names[role] == 1 else f"{role}-{names[role]}", zorder=1 + number, snap=False)
         patch.set_clip_on(False)
         axes.add_artist(patch)
-    draw_labels(page, axes)
+    for label in page.labels:
+        # FreeType refuses type much smaller than a pixel, and nobody could read it.
+        if pixels is None or label.size * dpi / 72 >= 1:
+            _draw_label(axes, label)
     return canvas
 
 
