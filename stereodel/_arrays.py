@@ -183,6 +183,15 @@ def as_lengths(values: npt.ArrayLike, name: str) -> FloatArray:
     return array
 
 
+def as_complex_matrix(value: npt.ArrayLike, name: str) -> npt.NDArray[np.complex128]:
+    """A 2×2 matrix of finite complex numbers."""
+    array = np.asarray(value)
+    if array.dtype.kind != "c":
+        return as_matrix(value, 2, name).astype(np.complex128)
+    parts = as_matrix(array.real, 2, f"{name}.real"), as_matrix(array.imag, 2, f"{name}.imag")
+    return np.stack(parts, axis=-1).view(np.complex128)[..., 0]
+
+
 def read_only(array: FloatArray) -> FloatArray:
     """A private copy that nobody can write to, for frozen value objects."""
     copy = np.array(array)

@@ -45,3 +45,25 @@ ON_BALL: Final = 1e-9
 
 Far below a pixel, far above the rounding of arcs that were computed through a conformal map.
 """
+
+LARGEST_MAGNIFICATION: Final = 1e100
+"""Largest S (and largest 1/S) of a `MoebiusMap`: S·|t|² of any point stays in the range of double-double arithmetic."""
+
+FLATNESS: Final = 0.05
+"""How far a chord may stray from its curve in a picture made of triangles, pixels: a fifth of the distance of samples."""
+
+GOLDEN_ERROR: Final = 1e-12
+"""How far a drawn number may be from the stored one, relative to the largest of its array, or to 1 if that is larger.
+
+Mathematical libraries and processors round sines and fused sums in other ways; a change that a reader could see is
+1e-5 or more.
+"""
+
+PIXEL_LEVELS: Final = 8
+"""Levels of 255 by which a pixel may differ before it counts as visibly other."""
+
+PIXEL_SHARE_VISIBLE: Final = 1e-4
+"""Share of the pixels of a picture that may be visibly other: one missing hairline of a small picture is more."""
+
+PIXEL_SHARE_ANY: Final = 1e-2
+"""Share of the pixels of a picture that may differ at all; a processor without AVX moves 5e-5 of them, by one level."""

@@ -85,14 +85,19 @@ class Rotation:
 
     @classmethod
     def from_matrix(cls, matrix: npt.ArrayLike) -> Rotation:
-        """The rotation of a (3, 3) matrix, which must be orthogonal up to `MATRIX_ERROR` and of determinant +1.
+        """The rotation of a (3, 3) matrix, which must be orthogonal up to `MATRIX_ERROR` and of determinant +1."""
+        m = as_matrix(matrix, 3, "matrix")
+        if np.abs(m @ m.T - np.eye(3)).max() > MATRIX_ERROR or np.linalg.det(m) < 0:
+            raise ValueError("matrix is not a rotation: its columns must be orthonormal with determinant +1")
+        return cls.nearest(m)
+
+    @classmethod
+    def nearest(cls, m: FloatArray) -> Rotation:
+        """The rotation next to a (3, 3) matrix that is one up to rounding.
 
         Method of S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978): divide by the
         largest of the four components.
         """
-        m = as_matrix(matrix, 3, "matrix")
-        if np.abs(m @ m.T - np.eye(3)).max() > MATRIX_ERROR or np.linalg.det(m) < 0:
-            raise ValueError("matrix is not a rotation: its columns must be orthonormal with determinant +1")
         symmetric = np.empty((4, 4))
         symmetric[1:, 1:] = m + m.T + (1.0 - np.trace(m)) * np.eye(3)
         symmetric[0, 1:] = symmetric[1:, 0] = m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1]

@@ -1,0 +1,115 @@
+"""Conformal maps as 4×4 Lorentz matrices and as 2×2 complex matrices.
+
+The orientation-preserving conformal maps of the sphere are exactly the proper orthochronous Lorentz matrices (rows and
+columns x, y, z, t): a point x is the null vector (x, 1), a circle n·x = d the vector (n, d). R. Penrose, W. Rindler,
+"Spinors and Space-Time" 1 (1984), sections 1.2 and 1.3.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray
+from stereodel._double_double import DoubleDouble
+from stereodel.conformal.biquaternions import Biquaternion
+from stereodel.constants import MATRIX_ERROR, MATRIX_MAGNIFICATION
+from stereodel.sphere import Rotation
+
+_METRIC = np.diag([1.0, 1.0, 1.0, -1.0])
+_Z = np.array([0.0, 0.0, 1.0])
+
+Parts = tuple[Rotation, float, Rotation]
+"""Left rotation, magnification along z, right rotation."""
+
+
+def lorentz_matrix(left: Rotation, magnification: float, right: Rotation) -> FloatArray:
+    """The 4×4 matrix of rotation · boost · rotation, rounded once."""
+    size = DoubleDouble(magnification)
+    cosh, sinh = (size + 1.0 / size) * 0.5, (size - 1.0 / size) * 0.5
+    boost = np.eye(4, 4), np.zeros((4, 4))
+    for index, value in (((2, 2), cosh), ((3, 3), cosh), ((2, 3), -sinh), ((3, 2), -sinh)):
+        boost[0][index], boost[1][index] = float(value.hi), float(value.lo)
+    product = _multiply(_multiply(_block(left), DoubleDouble(*boost)), _block(right))
+    return product.round() + 0.0
+
+
+def _block(rotation: Rotation) -> DoubleDouble:
+    hi, lo = np.eye(4), np.zeros((4, 4))
+    hi[:3, :3], lo[:3, :3] = rotation.exact_matrix.hi, rotation.exact_matrix.lo
+    return DoubleDouble(hi, lo)
+
+
+def _multiply(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+    total = a[:, 0, None] * b[None, 0, :]
+    for k in range(1, 4):
+        total = total + a[:, k, None] * b[None, k, :]
+    return total
+
+
+def from_lorentz(matrix: FloatArray) -> Parts:
+    """The parts of a 4×4 matrix, checked to be proper, orthochronous and of magnification at most 1e6.
+
+    With γ = M₃₃, column b = M₀₋₂,₃ and row c = M₃,₀₋₂ the rest is A = U + b cᵀ/(1 + γ), U the rotation of the polar
+    decomposition. The rounding of A, ulp(S), is then in U; beyond sinh η = 1 the axes come from b and c instead, which
+    are exact to ulps of their own.
+    """
+    error = np.abs(matrix.T @ _METRIC @ matrix - _METRIC).max()
+    gamma, column, row = matrix[3, 3], matrix[:3, 3], matrix[3, :3]
+    if error > MATRIX_ERROR * np.abs(matrix).max() ** 2 or gamma <= 0:
+        raise ValueError(
+            "matrix is no orthochronous Lorentz matrix: Mᵀ diag(1, 1, 1, -1) M must equal it, and M[3, 3] > 0"
+        )
+    sinh = float(np.hypot(np.linalg.norm(column), np.linalg.norm(row)) / np.sqrt(2))
+    magnification = float(gamma) + sinh
+    _check_magnification(magnification)
+    polar = matrix[:3, :3] - np.outer(column, row) / (1 + gamma)
+    if np.linalg.det(polar) < 0:
+        raise ValueError("matrix mirrors the sphere: its determinant must be +1")
+    turn = Rotation.nearest(polar)
+    if sinh == 0:
+        return Rotation.identity(), 1.0, turn
+    left = Rotation.between(_Z, -column)
+    right = left.inverse() @ turn
+    if sinh > 1:
+        right = Rotation.between(right(-row), _Z) @ right
+    return left, max(magnification, 1.0), right
+
+
+def from_moebius(matrix: npt.NDArray[np.complex128]) -> Parts:
+    """The parts of ζ ↦ (aζ + b)/(cζ + d), ζ = (x + iy)/(1 − z).
+
+    A point with spinor (ξ₁, ξ₂), where 1 + z : x + iy : 1 − z = |ξ₁|² : ξ₁* ξ₂ : |ξ₂|², has ζ* = ξ₁/ξ₂: the conjugate
+    matrix acts on it. Its coefficients α₀ + α·σ over the Pauli matrices are the biquaternion α₀ + i α.
+    """
+    size = np.abs(matrix.view(np.float64)).max()
+    m = np.conj(matrix) * 2.0 ** -float(np.frexp(size)[1])
+    re, im = m.real, m.imag
+    a0, az = _half_sum(re[0, 0], re[1, 1]), _half_sum(re[0, 0], -re[1, 1])
+    b0, bz = _half_sum(im[0, 0], im[1, 1]), _half_sum(im[0, 0], -im[1, 1])
+    ax, bx = _half_sum(re[0, 1], re[1, 0]), _half_sum(im[0, 1], im[1, 0])
+    ay, by = _half_sum(-im[0, 1], im[1, 0]), _half_sum(re[0, 1], -re[1, 0])
+    element = Biquaternion(_vector(a0, -bx, -by, -bz), _vector(b0, ax, ay, az))
+    real, imag = element.determinant()
+    size_of_determinant = float(np.hypot(real.hi, imag.hi))
+    if size_of_determinant == 0:
+        raise ValueError("matrix is singular: its determinant ad − bc is 0")
+    _check_magnification(2 * float(element.norm().hi) / size_of_determinant)
+    return element.normalized().decomposed()
+
+
+def _check_magnification(magnification: float) -> None:
+    # 2 cosh η = S + 1/S stands for S too; the margin keeps S = 1e6 itself on the good side of rounding.
+    if magnification > MATRIX_MAGNIFICATION * (1 + MATRIX_ERROR):
+        raise ValueError(
+            f"matrix has magnification {magnification:g}, above {MATRIX_MAGNIFICATION:g}: its doubles do not hold "
+            "the map; build it from fisheye and rotation with @"
+        )
+
+
+def _half_sum(a: float, b: float) -> DoubleDouble:
+    return DoubleDouble.difference(np.float64(a), np.float64(-b)) * 0.5
+
+
+def _vector(*parts: DoubleDouble) -> DoubleDouble:
+    return DoubleDouble(np.array([float(p.hi) for p in parts]), np.array([float(p.lo) for p in parts]))

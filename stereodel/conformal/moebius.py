@@ -1,0 +1,195 @@
+"""The conformal maps of the sphere that keep orientation: Möbius transformations (claims P15 to P19 of the paper)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import overload
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_matrix, as_scalar
+from stereodel._double_double import DoubleDouble, dot, unit
+from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, boost, rotation
+from stereodel.conformal.boosts import Circle, boost_circle, boost_points, boost_scale
+from stereodel.conformal.lorentz import from_lorentz, from_moebius, lorentz_matrix
+from stereodel.conformal.pipelines import stereographic_pipeline
+from stereodel.constants import LARGEST_MAGNIFICATION, STORED_ERROR
+from stereodel.sphere import Rotation, SphereArc, SphereCircle
+from stereodel.sphere.arcs import swept_angle
+from stereodel.sphere.chunks import by_blocks
+from stereodel.sphere.circles import on_circle
+
+_FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
+"""Half a turn about x: it turns the fisheye of magnification 1/S along z into that of S, exactly."""
+
+
+@dataclass(frozen=True)
+class MoebiusMap:
+    """A conformal map of the sphere: rotation `right`, then the fisheye along +z, then rotation `left`.
+
+    The map is the one that these parameters define exactly. Use `identity`, `rotation`, `from_matrix`, `fisheye` or
+    `bubble_to_bubble` to make one, `@` and `inverse` to go on.
+
+    Parameters
+    ----------
+    left : Rotation
+    magnification : float
+        S > 0, the scale at the focus: tan(Ξ/2) = S tan(χ/2) takes the angular distance χ from the focus to Ξ.
+    right : Rotation
+
+    Notes
+    -----
+    Evaluated in double-double and rounded once: images are exact up to 4·2⁻⁵² for a point within 4·2⁻⁵² rad of the
+    given one, also next to the focus and its antipode. `@` rounds the parameters of the exact composition once, which
+    moves no image by more than the same amounts.
+
+    Examples
+    --------
+    >>> from stereodel.conformal import fisheye
+    >>> lens = fisheye((0.0, 40.0), magnification=4.0)
+    >>> both = lens @ MoebiusMap.rotation((0.0, 90.0), 30.0)
+    >>> (both @ both.inverse()).is_close(MoebiusMap.identity())
+    True
+    >>> round(float(lens.scale_factor(lens.focus)), 12)
+    4.0
+    """
+
+    left: Rotation
+    magnification: float
+    right: Rotation
+
+    def __post_init__(self) -> None:
+        size = as_scalar(self.magnification, "magnification", low=0.0, open_low=True)
+        if not 1 / LARGEST_MAGNIFICATION <= size <= LARGEST_MAGNIFICATION:
+            limits = f"{1 / LARGEST_MAGNIFICATION:g} to {LARGEST_MAGNIFICATION:g}"
+            raise ValueError(f"magnification is {size:g}, outside the range {limits} that can be evaluated")
+        object.__setattr__(self, "magnification", size)
+
+    @classmethod
+    def identity(cls) -> MoebiusMap:
+        """The map that moves nothing."""
+        return cls(Rotation.identity(), 1.0, Rotation.identity())
+
+    @classmethod
+    def rotation(cls, axis: npt.ArrayLike | Rotation, angle: float = 0.0) -> MoebiusMap:
+        """A `Rotation`, or the one by `angle` degrees counterclockwise about an axis: (lon, lat) or a direction."""
+        turn = axis if isinstance(axis, Rotation) else Rotation.about(axis, angle)
+        return cls(Rotation.identity(), 1.0, turn)
+
+    @classmethod
+    def from_matrix(cls, matrix: npt.ArrayLike) -> MoebiusMap:
+        """The map of a 2×2 complex or a 4×4 real matrix, of magnification at most 1e6.
+
+        Parameters
+        ----------
+        matrix : array_like, shape (2, 2) or (4, 4)
+            [[a, b], [c, d]] with ad − bc ≠ 0: ζ ↦ (aζ + b)/(cζ + d) on ζ = (x + iy)/(1 − z), the stereographic
+            projection from the north pole to the equatorial plane. Or a proper orthochronous Lorentz matrix M, rows and
+            columns (x, y, z, t): (x', 1) is M (x, 1) up to a factor.
+
+        Raises
+        ------
+        ValueError
+            For another shape, a singular matrix, one outside the group by more than `MATRIX_ERROR`, one that mirrors,
+            or a magnification above `MATRIX_MAGNIFICATION`.
+
+        Examples
+        --------
+        >>> quarter = MoebiusMap.from_matrix([[1j, 0], [0, 1]])
+        >>> print(quarter([1.0, 0.0, 0.0]).round(12))
+        [0. 1. 0.]
+        """
+        if np.shape(matrix) == (2, 2):
+            return cls(*from_moebius(as_complex_matrix(matrix, "matrix")))
+        return cls(*from_lorentz(as_matrix(matrix, 4, "matrix")))
+
+    @property
+    def focus(self) -> FloatArray:
+        """The point of scale S, a unit vector (3,); largest scale when S > 1."""
+        return self.right.inverse()(Z_AXIS.hi)
+
+    @property
+    def matrix(self) -> FloatArray:
+        """The 4×4 Lorentz matrix, rounded once; for large S the doubles of it no longer hold the map."""
+        return lorentz_matrix(self.left, self.magnification, self.right)
+
+    def __call__(self, xyz: npt.ArrayLike) -> FloatArray:
+        """Images of directions (..., 3) as unit vectors."""
+        return by_blocks(lambda rows: self._image(unit(rows)).round() + 0.0, as_directions(xyz, "xyz"))
+
+    def _image(self, points: DoubleDouble) -> DoubleDouble:
+        return self.left.apply(boost_points(self.right.apply(points), self._size))
+
+    @property
+    def _size(self) -> DoubleDouble:
+        return DoubleDouble(self.magnification)
+
+    def scale_factor(self, xyz: npt.ArrayLike) -> FloatArray:
+        """Local scale at directions (..., 3), the same in all directions: S / (cos²(χ/2) + S² sin²(χ/2))."""
+        return by_blocks(
+            lambda rows: boost_scale(self.right.apply(unit(rows)), self._size).round(), as_directions(xyz, "xyz")
+        )
+
+    @overload
+    def image_of(self, curve: SphereCircle) -> SphereCircle: ...
+    @overload
+    def image_of(self, curve: SphereArc) -> SphereArc: ...
+    def image_of(self, curve: SphereCircle | SphereArc) -> SphereCircle | SphereArc:
+        """The image of a circle, interior to interior, or of an arc, start to start: exact, nothing is sampled."""
+        if isinstance(curve, SphereCircle):
+            return SphereCircle.rounded(*self._circle_image(curve))
+        normal, offset, radius = self._circle_image(curve.circle)
+        circle = SphereCircle.rounded(normal, offset, radius)
+        # The ends are drawn onto the circle first: what they are off would be magnified, too.
+        start, end = (self._image(on_circle(curve.circle, unit(point))) for point in (curve.start, curve.end))
+        angle = curve.angle_rad if curve.closed else swept_angle(normal / dot(normal, normal).sqrt(), start, end)
+        return SphereArc(circle, start.round() + 0.0, end.round() + 0.0, angle)
+
+    def _circle_image(self, circle: SphereCircle) -> Circle:
+        normal, cosine, sine = circle.exact_parts()
+        normal, cosine, sine = boost_circle((self.right.apply(normal), cosine, sine), self._size)
+        return self.left.apply(normal), cosine, sine
+
+    def __matmul__(self, other: MoebiusMap) -> MoebiusMap:
+        """First `other`, then this one: the exact composition with its parameters rounded once."""
+        if not isinstance(other, MoebiusMap):
+            return NotImplemented
+        return MoebiusMap(*(self.biquaternion @ other.biquaternion).decomposed())
+
+    def inverse(self) -> MoebiusMap:
+        """The exact inverse; its focus is where this map is smallest."""
+        return MoebiusMap(self.right.inverse() @ _FLIP, self.magnification, _FLIP @ self.left.inverse())
+
+    @property
+    def biquaternion(self) -> Biquaternion:
+        """The map as an element of SL(2, C) in double-double."""
+        left, right = (rotation(DoubleDouble(part.quaternion)) for part in (self.left, self.right))
+        return left @ boost(Z_AXIS, self._size) @ right
+
+    def is_close(self, other: MoebiusMap, *, tolerance: float = 4 * STORED_ERROR) -> bool:
+        """Whether two maps agree: up to `tolerance` rad in the points, in the images, and relatively in S."""
+        a, b = self.biquaternion, other.biquaternion
+        gaps = [
+            Biquaternion(a.real - b.real, a.imag - b.imag).norm(),
+            Biquaternion(a.real + b.real, a.imag + b.imag).norm(),
+        ]
+        return min(float(gap.hi) for gap in gaps) <= tolerance**2 * float(a.norm().hi)
+
+    def to_proj(self) -> str:
+        """The PROJ pipeline `stere` with k_0 = S at the focus, then inverse `stere` at the image of the focus.
+
+        Degrees in and out, (lon, lat), on a sphere (claim P18).
+
+        Raises
+        ------
+        ValueError
+            When the map is none: it turns the directions at the focus against north, as a rotation mostly does.
+
+        Examples
+        --------
+        >>> from stereodel.conformal import fisheye
+        >>> "+proj=stere +lat_0=40 +lon_0=0 +k_0=4 +R=1" in fisheye((0.0, 40.0), magnification=4.0).to_proj()
+        True
+        """
+        return stereographic_pipeline(self.left, self.magnification, self.right)
