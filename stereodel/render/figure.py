@@ -77,7 +77,11 @@ class Figure:
         text : bool
             Whether labels are drawn.
         """
-        return self._pixels(self.page(), size, text)
+        from stereodel.render.vector import with_labels
+
+        page = self.page()
+        bare = self._bare(page, size)
+        return with_labels(bare, page) if text else bare
 
     def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
         """Write NAME.png, NAME.svg and NAME.pdf into a folder.
@@ -100,14 +104,14 @@ class Figure:
             When the folder cannot be made or written to.
         """
         from stereodel.render.image import pixel_hash
-        from stereodel.render.vector import save_vector
+        from stereodel.render.vector import save_vector, with_labels
 
         begun = time.perf_counter()
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
         page = self.page()
-        bare = self._pixels(page, size, text=False)
-        picture = self._pixels(page, size, text=True) if text and page.labels else bare
+        bare = self._bare(page, size)
+        picture = with_labels(bare, page) if text else bare
         shown = page if text else page.without_labels()
         files = [save_png(picture, folder / f"{self.name}.png", page_width=page.width)]
         files += [save_vector(shown, folder / f"{self.name}.{kind}") for kind in ("svg", "pdf")]
@@ -130,15 +134,16 @@ class Figure:
             raise SystemExit(f"{self.name}: {error}") from None
         print(f"{self.name}: {', '.join(record['files'])} in {options.out} ({record['seconds']:.1f} s)")
 
-    def _pixels(self, page: Page, size: int | None, text: bool) -> Pixels:
+    def _bare(self, page: Page, size: int | None) -> Pixels:
+        """The picture without text, which is what its hash is taken of; labels are laid over it."""
         width = round(page.width / 72 * PRINT_DPI) if size is None else size
         if self.renderer == "agg":
             from stereodel.render.vector import rasterize
 
-            return rasterize(page, size=width, text=text)
+            return rasterize(page, size=width, text=False)
         from stereodel.render.raster import render
 
-        return render(page, size=width, text=text)
+        return render(page, size=width, text=False)
 
     def _parser(self) -> argparse.ArgumentParser:
         parser = argparse.ArgumentParser(description=f"Draw {self.title or self.name} as PNG, SVG and PDF.")

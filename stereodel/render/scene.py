@@ -7,6 +7,7 @@ globes on a page, or the frames of an animation.
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -220,7 +221,8 @@ class Scene:
         """
         size = as_scalar(scale, "scale", low=0.0, open_low=True)
         layout = Layout(view.matrix, self.center, self.radius, self.look, at, size)
-        sheets = tuple(thing.plane(layout) for thing in self._things if isinstance(thing, SheetThing))
-        layout = Layout(view.matrix, self.center, self.radius, self.look, at, size, sheets)
+        planes = [thing.plane(layout) for thing in self._things if isinstance(thing, SheetThing)]
+        sheets = tuple(plane for plane in planes if plane[2] is not Layer.INSIDE_SHEET)
+        layout = replace(layout, sheets=sheets)
         laid = [item for thing in self._things for item in thing.lay(layout)]
         return tuple(item for _, item in sorted(laid, key=lambda pair: pair[0]))

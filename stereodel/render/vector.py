@@ -95,6 +95,18 @@ def label_layer(page: Page, width_px: int) -> npt.NDArray[np.uint8]:
         return _pixels(_drawn(labels, *_pixel_grid(page, width_px)), (1.0, 1.0, 1.0, 0.0))
 
 
+def with_labels(picture: npt.NDArray[np.uint8], page: Page) -> npt.NDArray[np.uint8]:
+    """The labels of a page over a picture of it without text, (height, width, 3); rounded half up."""
+    if not page.labels:
+        return picture
+    layer = label_layer(page, picture.shape[1])
+    opacity = layer[..., 3:].astype(np.uint16)
+    # At most 255² + 127, which fits into 16 bits.
+    mixed = layer[..., :3] * opacity + picture * (255 - opacity)
+    composed: npt.NDArray[np.uint8] = ((mixed + 127) // 255).astype(np.uint8)
+    return composed
+
+
 def pixel_height(page: Page, width_px: int) -> int:
     """Height of a picture of a page that is `width_px` pixels wide."""
     return max(1, round(width_px * page.height / page.width))

@@ -1,0 +1,107 @@
+"""Figures: three files, whole or not at all; scripts that explain themselves."""
+
+import os
+import re
+from functools import partial
+from pathlib import Path
+
+import imageio.v3 as iio
+import numpy as np
+import pytest
+
+from stereodel.render import figure as module
+from stereodel.render.figure import Figure
+from stereodel.render.image import pixel_hash
+from stereodel.render.page import Dots, Label, Page
+from stereodel.render.style import BLACK
+
+
+def geometry():
+    return {"centers": np.array([[1.0, 1.0]])}
+
+
+def draw(g, label="P"):
+    items = (Dots(g["centers"], 8.0, BLACK), Label(label, (1.0, 1.5)))
+    return Page((0.0, 2.0, 0.0, 2.0), items, width=144.0)
+
+
+@pytest.fixture
+def figure():
+    return Figure("small", geometry, draw, renderer="agg", title="a dot")
+
+
+def test_save_writes_three_files_and_a_record(figure, tmp_path):
+    record = figure.save(tmp_path / "new" / "folder", size=100)
+    folder = tmp_path / "new" / "folder"
+    assert sorted(path.name for path in folder.iterdir()) == ["small.pdf", "small.png", "small.svg"]
+    assert record["files"] == ["small.png", "small.svg", "small.pdf"]
+    assert (record["figure"], record["renderer"], record["size"]) == ("small", "agg", 100)
+    assert record["seconds"] >= 0
+    assert record["pixel_hash"] == pixel_hash(figure.pixels(size=100, text=False))
+    assert module.WRITTEN[-1] == folder / "small.png"
+
+
+def test_the_hash_does_not_depend_on_text(figure, tmp_path):
+    other = Figure("small", geometry, partial(draw, label="quite another text"), renderer="agg")
+    hashes = {each.save(tmp_path, size=80, text=text)["pixel_hash"] for each in (figure, other) for text in (0, 1)}
+    assert len(hashes) == 1
+
+
+def test_the_picture_has_its_size_and_resolution(figure, tmp_path):
+    figure.save(tmp_path)
+    assert iio.imread(tmp_path / "small.png").shape == (600, 600, 3)
+    assert iio.immeta(tmp_path / "small.png")["dpi"] == pytest.approx((300, 300), abs=0.1)
+
+
+def test_text_can_be_left_out_of_all_files(figure, tmp_path):
+    figure.main(["--out", str(tmp_path), "--size", "100", "--no-text"])
+    assert np.array_equal(iio.imread(tmp_path / "small.png"), figure.pixels(size=100, text=False))
+    assert b'id="label"' not in (tmp_path / "small.svg").read_bytes()
+    figure.main(["--out", str(tmp_path), "--size", "100", "--text"])
+    assert b'id="label"' in (tmp_path / "small.svg").read_bytes()
+
+
+def test_files_are_the_same_twice(figure, tmp_path):
+    figure.save(tmp_path / "a", size=60)
+    figure.save(tmp_path / "b", size=60)
+    for kind in ("png", "svg", "pdf"):
+        assert (tmp_path / "a" / f"small.{kind}").read_bytes() == (tmp_path / "b" / f"small.{kind}").read_bytes()
+
+
+def test_default_folder_is_beside_that_of_the_script(figure, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    expected = Path(__file__).resolve().parent.parent / "out"
+    for each in (figure, Figure("small", geometry, partial(draw, label="Q"), renderer="agg")):
+        assert each._default_out() == expected
+
+
+@pytest.mark.parametrize("size", ["0", "-5", "many", "1e3", "100000"])
+def test_bad_sizes_are_explained(figure, tmp_path, capsys, size):
+    with pytest.raises(SystemExit) as stopped:
+        figure.main(["--out", str(tmp_path), "--size", size])
+    assert stopped.value.code == 2
+    assert "pixels" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_made_is_a_message(figure, tmp_path):
+    (tmp_path / "file").write_text("in the way")
+    with pytest.raises(SystemExit) as stopped:
+        figure.main(["--out", str(tmp_path / "file" / "folder"), "--size", "50"])
+    assert re.match(r"small: .*file", stopped.value.code)
+
+
+def test_a_failure_on_the_way_leaves_no_half_written_file(figure, tmp_path, monkeypatch):
+    def refuse(source, target):
+        raise PermissionError(13, "Permission denied", str(target))
+
+    monkeypatch.setattr(os, "replace", refuse)
+    with pytest.raises(SystemExit) as stopped:
+        figure.main(["--out", str(tmp_path), "--size", "50"])
+    assert "Permission denied" in stopped.value.code
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unknown_renderer_is_refused():
+    with pytest.raises(ValueError, match='"gl" or "agg"'):
+        Figure("small", geometry, draw, renderer="svg")
