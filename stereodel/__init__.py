@@ -1,5 +1,7 @@
 """Exact Delaunay triangulations and Voronoi diagrams of the plane and the sphere, conformal maps of the sphere."""
 
+from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
+from stereodel.predicates import in_bubble, incircle, orient2d, orient3d
 from stereodel.projections import (
     Conic,
     Gnomonic,
@@ -25,6 +27,7 @@ __version__ = "0.1.0"
 __all__ = [
     "Conic",
     "Gnomonic",
+    "MoebiusMap",
     "Orthographic",
     "PlaneCircle",
     "PlaneLine",
@@ -34,8 +37,14 @@ __all__ = [
     "SphereCircle",
     "Stereographic",
     "angular_distance",
+    "bubble_to_bubble",
+    "fisheye",
     "great_circle_points",
+    "in_bubble",
+    "incircle",
     "lonlat_to_xyz",
+    "orient2d",
+    "orient3d",
     "solid_angle",
     "xyz_to_lonlat",
 ]
