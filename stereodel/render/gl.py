@@ -276,8 +276,7 @@ def _scene(pyrender: Any, triangles: Triangles, width: int, background: Color) -
         material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
         primitive = pyrender.Primitive(
             np.column_stack([triangles.points, depth]),
-            # Levels of 1/255, so that rounding inside OpenGL has nothing to decide.
-            color_0=np.floor(255 * triangles.colors + 0.5) / 255,
+            color_0=triangles.colors,
             indices=triangles.faces,
             material=material,
         )

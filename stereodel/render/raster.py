@@ -26,8 +26,8 @@ SUPERSAMPLING: Final = 2
 LIGHT: Final = np.array([-0.35, 0.45, 0.82]) / np.linalg.norm([-0.35, 0.45, 0.82])
 """Direction toward the light in view axes: from the upper left, in front."""
 
-SHADE: Final = 0.22
-"""How much darker a surface is that the light does not reach."""
+SHADE: Final = 0.36
+"""How much darker a surface is that is turned away from the light."""
 
 
 def render(page: Page, *, size: int | None = None, text: bool = True, platform: str | None = None) -> Pixels:
@@ -133,18 +133,21 @@ class _Canvas:
         return pieces
 
     def _lit(self, surface: Surface) -> _Piece:
-        brightness = 1 - SHADE * (1 - np.clip(surface.normals @ LIGHT, 0.0, 1.0)) ** 2
+        # Smooth from the lit point to the opposite one: Lambert's law would show its terminator as an edge.
+        brightness = 1 - SHADE * ((1 - surface.normals @ LIGHT) / 2) ** 2
         colors = np.repeat([surface.color], len(surface.vertices), axis=0)
         colors[:, :3] *= brightness[:, None]
         return _Piece(self._place(surface.vertices[:, :2])[surface.faces], colors[surface.faces])
 
 
 def _flat(corners: Corners, color: Color) -> _Piece:
-    return _Piece(corners, np.broadcast_to(np.array(color), (len(corners), 3, 4)))
+    # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
+    levels = np.floor(255 * np.array(color) + 0.5) / 255
+    return _Piece(corners, np.broadcast_to(levels, (len(corners), 3, 4)))
 
 
 def _over_white(color: Color) -> Color:
-    red, green, blue = (1 - color[3] * (1 - value) for value in color[:3])
+    red, green, blue = (np.floor(255 * (1 - color[3] * (1 - value)) + 0.5) / 255 for value in color[:3])
     return (red, green, blue, 1.0)
 
 
@@ -159,7 +162,7 @@ def _averaged(large: Pixels) -> Pixels:
 
 def _composed(picture: Pixels, layer: Pixels) -> Pixels:
     """A layer with opacity over an opaque picture, rounded half up."""
-    opacity = layer[..., 3:].astype(np.uint32)
+    opacity = layer[..., 3:].astype(np.uint16)  # 255² + 127 fits
     mixed = layer[..., :3] * opacity + picture * (255 - opacity)
     composed: Pixels = ((mixed + 127) // 255).astype(np.uint8)
     return composed

@@ -14,13 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray
+from stereodel.constants import FLATNESS
 from stereodel.render.page import Beziers
 
 Corners = FloatArray
 """Triangles by their corners, (n, 3, 2)."""
-
-FLATNESS = 0.05
-"""How far a chord may stray from its curve, pixels: a fifth of the distance between samples."""
 
 
 def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:

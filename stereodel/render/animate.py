@@ -1,0 +1,201 @@
+"""Animations: pages one after another as a looping GIF."""
+
+from __future__ import annotations
+
+import argparse
+import inspect
+import os
+import sys
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, Final
+
+import imageio.v3 as iio
+import numpy as np
+import numpy.typing as npt
+from PIL import Image
+
+from stereodel.render.figure import WRITTEN, Pixels
+from stereodel.render.image import pixel_hash
+from stereodel.render.page import Page
+
+SIZE: Final = 480
+"""Width of an animation in pixels."""
+
+LARGEST_FILE: Final = 3_000_000
+"""Bytes that a file may have."""
+
+COLORS: Final = (128, 64, 32)
+"""Sizes of the palette that all frames share, of which the first is taken that makes the file small enough."""
+
+EXACT_COLORS: Final = 16
+"""The most frequent colours, ground and fills among them, which the palette holds as they are."""
+
+SAMPLED: Final = 12
+"""Frames of which the palette is made."""
+
+
+@dataclass(frozen=True)
+class Animation:
+    """A moving picture.
+
+    Parameters
+    ----------
+    name : str
+        Stem of the file.
+    frames : callable
+        () → pages, all of one extent and width.
+    seconds : float or sequence of float
+        How long a frame is shown, or each frame; a GIF keeps hundredths.
+    size : int
+        Width in pixels.
+    title : str, optional
+    platform : {"osmesa", "egl"}, optional
+        See `stereodel.render.gl`.
+
+    Examples
+    --------
+    >>> animation = Animation("nothing", lambda: [Page((0.0, 2.0, 0.0, 1.0))] * 3, seconds=0.1, size=40)
+    >>> [picture.shape for picture in animation.pictures()]
+    [(20, 40, 3), (20, 40, 3), (20, 40, 3)]
+    """
+
+    name: str
+    frames: Callable[[], Iterable[Page]]
+    seconds: float | Sequence[float] = 0.08
+    size: int = SIZE
+    title: str = ""
+    platform: str | None = None
+
+    def pictures(self, *, size: int | None = None, text: bool = True) -> list[Pixels]:
+        """All frames as pixels, (h, w, 3) each; a ValueError if there is none or they differ in size."""
+        from stereodel.render.raster import render
+
+        width = self.size if size is None else size
+        drawn = [render(page, size=width, text=text, platform=self.platform) for page in self.frames()]
+        if not drawn:
+            raise ValueError(f"frames of {self.name!r} gave no page")
+        if len({picture.shape for picture in drawn}) > 1:
+            raise ValueError(f"frames of {self.name!r} differ in shape; give all pages one extent")
+        return drawn
+
+    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
+        """Write NAME.gif into a folder.
+
+        Parameters
+        ----------
+        out : path-like
+            The folder; made when it is missing.
+        size : int, optional
+            Width in pixels.
+        text : bool
+            Whether labels are drawn.
+
+        Returns
+        -------
+        dict
+            figure, files, renderer, size, frames, pixel_hash (of all frames as drawn) and seconds.
+
+        Raises
+        ------
+        OSError
+            When the folder cannot be made or written to.
+        """
+        begun = time.perf_counter()
+        folder = Path(out)
+        folder.mkdir(parents=True, exist_ok=True)
+        pictures = self.pictures(size=size, text=text)
+        file = save_gif(pictures, folder / f"{self.name}.gif", self._durations(len(pictures)))
+        WRITTEN.append(file)
+        return {
+            "figure": self.name,
+            "files": [file.name],
+            "renderer": "gl",
+            "size": pictures[0].shape[1],
+            "frames": len(pictures),
+            "pixel_hash": pixel_hash(np.stack(pictures)),
+            "seconds": round(time.perf_counter() - begun, 3),
+        }
+
+    def main(self, argv: Sequence[str] | None = None) -> None:
+        """Run as a script: write the file, say where; what goes wrong becomes a message and exit code 1."""
+        from stereodel.render.figure import _pixel_count
+
+        parser = argparse.ArgumentParser(description=f"Draw {self.title or self.name} as a looping GIF.")
+        script = self.frames.func if isinstance(self.frames, partial) else self.frames
+        default = Path(inspect.getfile(script)).resolve().parent.parent / "out"
+        parser.add_argument("--out", type=Path, default=default, help="folder to write to (%(default)s)")
+        parser.add_argument("--size", type=_pixel_count, default=self.size, help="width in pixels (%(default)s)")
+        parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
+        options = parser.parse_args(sys.argv[1:] if argv is None else argv)
+        try:
+            record = self.save(options.out, size=options.size, text=options.text)
+        except (OSError, RuntimeError, ValueError) as error:
+            raise SystemExit(f"{self.name}: {error}") from None
+        print(
+            f"{self.name}: {record['files'][0]} in {options.out}, {record['frames']} frames ({record['seconds']:.1f} s)"
+        )
+
+    def _durations(self, count: int) -> list[float]:
+        seconds = [self.seconds] * count if isinstance(self.seconds, (int, float)) else list(self.seconds)
+        if len(seconds) != count:
+            raise ValueError(f"seconds of {self.name!r} has {len(seconds)} entries for {count} frames")
+        return seconds
+
+
+def save_gif(pictures: Sequence[Pixels], path: str | os.PathLike[str], seconds: Sequence[float]) -> Path:
+    """Write pictures of one size as a GIF that loops for ever; never half a file.
+
+    All frames share one palette and none is dithered: still parts stay still, and only what changed is stored.
+
+    Raises
+    ------
+    ValueError
+        If the file would be larger than `LARGEST_FILE` with the smallest palette.
+    """
+    target = Path(path)
+    milliseconds = [round(1000 * second) for second in seconds]
+    for colors in COLORS:
+        frames = _reduced(pictures, _palette(pictures, colors))
+        data = iio.imwrite("<bytes>", frames, extension=".gif", plugin="pillow", duration=milliseconds, loop=0)
+        if len(data) <= LARGEST_FILE:
+            break
+    else:
+        raise ValueError(f"{target.name} would have {len(data)} bytes; give fewer frames or a smaller size")
+    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    try:
+        temporary.write_bytes(data)
+        os.replace(temporary, target)
+    finally:
+        temporary.unlink(missing_ok=True)
+    return target
+
+
+def _palette(pictures: Sequence[Pixels], colors: int) -> Image.Image:
+    """The colours that serve frames spread over the whole animation."""
+    chosen = np.linspace(0, len(pictures) - 1, min(len(pictures), SAMPLED)).round().astype(int)
+    sheet = np.concatenate([pictures[i] for i in chosen])
+    found = Image.fromarray(sheet).quantize(colors, method=Image.Quantize.MAXCOVERAGE)
+    entries = np.array(found.getpalette(), dtype=np.int64).reshape(-1, 3)
+    for color in _most_frequent(sheet, min(EXACT_COLORS, len(entries))):
+        entries[np.argmin(np.sum((entries - color) ** 2, axis=1))] = color
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(entries.astype(np.uint8).tobytes())
+    return palette
+
+
+def _most_frequent(sheet: Pixels, count: int) -> npt.NDArray[np.int64]:
+    """Colours (count, 3), the most frequent last."""
+    codes = sheet.astype(np.int64) @ np.array([1 << 16, 1 << 8, 1])
+    values, times = np.unique(codes, return_counts=True)
+    codes = values[np.argsort(times, kind="stable")[-count:]]
+    return np.stack([codes >> 16, codes >> 8 & 255, codes & 255], axis=1)
+
+
+def _reduced(pictures: Sequence[Pixels], palette: Image.Image) -> Pixels:
+    """Frames in the colours of a palette, (n, h, w, 3)."""
+    images = (Image.fromarray(p).quantize(palette=palette, dither=Image.Dither.NONE) for p in pictures)
+    return np.stack([np.asarray(image.convert("RGB")) for image in images])

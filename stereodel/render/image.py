@@ -1,0 +1,226 @@
+"""Comparing pictures and the numbers behind them: what the golden tests use.
+
+Three nets, from fine to coarse. T0 compares the arrays that are drawn: integers and text equal, floats within
+`GOLDEN_ERROR`. T1 compares the SHA-256 of the pixels of the picture without text. T2 compares the pixels themselves
+with a stored picture and lets a few of them differ, because another processor may round another way.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+import imageio.v3 as iio
+import numpy as np
+import numpy.typing as npt
+
+from stereodel.constants import GOLDEN_ERROR, PIXEL_LEVELS, PIXEL_SHARE_ANY, PIXEL_SHARE_VISIBLE
+
+Pixels = npt.NDArray[np.uint8]
+Arrays = Mapping[str, npt.NDArray[Any]]
+
+MISSING: Final = "missing"
+"""The difference of a name that only one side has."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """How two pictures differ.
+
+    Parameters
+    ----------
+    visible : float
+        Share of pixels of which a channel differs by more than `PIXEL_LEVELS`.
+    any : float
+        Share of pixels that differ at all.
+    """
+
+    visible: float
+    any: float
+
+    @property
+    def passes(self) -> bool:
+        """Whether the difference is no more than rounding."""
+        return self.visible <= PIXEL_SHARE_VISIBLE and self.any <= PIXEL_SHARE_ANY
+
+    def __str__(self) -> str:
+        return f"{self.visible:.4%} of the pixels differ by more than {PIXEL_LEVELS} levels, {self.any:.4%} at all"
+
+
+def pixel_hash(picture: npt.NDArray[Any]) -> str:
+    """SHA-256 of the decoded pixels: of shape, type and values in row order.
+
+    Examples
+    --------
+    >>> pixel_hash(np.zeros((2, 3, 3), dtype=np.uint8))[:16]
+    '541ff73e8d70c4c6'
+    """
+    pixels = np.ascontiguousarray(picture)
+    digest = hashlib.sha256(f"{pixels.shape} {pixels.dtype.str}\n".encode())
+    digest.update(pixels.tobytes())
+    return digest.hexdigest()
+
+
+def compare(expected: Pixels, actual: Pixels) -> Comparison:
+    """How a picture differs from the expected one; another shape differs everywhere.
+
+    Parameters
+    ----------
+    expected, actual : (h, w, c) uint8 arrays
+
+    Examples
+    --------
+    >>> white = np.full((10, 10, 3), 255, dtype=np.uint8)
+    >>> dotted = white.copy()
+    >>> dotted[0, 0] = 0
+    >>> print(compare(white, dotted))
+    1.0000% of the pixels differ by more than 8 levels, 1.0000% at all
+    """
+    if expected.shape != actual.shape:
+        return Comparison(1.0, 1.0)
+    levels = _levels_apart(expected, actual)
+    return Comparison(float(np.mean(levels > PIXEL_LEVELS)), float(np.mean(levels > 0)))
+
+
+def difference_picture(expected: Pixels, actual: Pixels) -> Pixels:
+    """Where two pictures differ: red beyond `PIXEL_LEVELS`, orange below, over the expected one in pale gray.
+
+    Pictures of different shapes are compared in their common upper left corner.
+    """
+    height, width = np.minimum(expected.shape[:2], actual.shape[:2])
+    expected, actual = expected[:height, :width, :3], actual[:height, :width, :3]
+    levels = _levels_apart(expected, actual)
+    gray = (191 + expected.mean(axis=-1) / 4).astype(np.uint8)
+    picture = np.stack([gray, gray, gray], axis=-1)
+    picture[levels > 0] = (240, 160, 0)
+    picture[levels > PIXEL_LEVELS] = (220, 0, 0)
+    return picture
+
+
+def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GOLDEN_ERROR) -> dict[str, str]:
+    """What differs between two sets of named arrays.
+
+    Parameters
+    ----------
+    expected, actual : mapping of str to array
+    tolerance : float
+        Largest difference of floats, relative to the largest number of the expected array, or to 1 if that is larger.
+
+    Returns
+    -------
+    dict
+        Name → what is wrong with it in a few words; empty when nothing is.
+
+    Examples
+    --------
+    >>> array_differences({"n": np.arange(3)}, {"n": np.array([0, 1, 3]), "x": np.ones(2)})
+    {'n': '1 of 3 entries differ, first at (2,): 2 expected, 3 found', 'x': 'not expected'}
+    """
+    found = {}
+    for name in sorted({*expected, *actual}):
+        if name not in actual:
+            found[name] = MISSING
+        elif name not in expected:
+            found[name] = "not expected"
+        elif wrong := _array_difference(expected[name], actual[name], tolerance):
+            found[name] = wrong
+    return found
+
+
+def save_arrays(arrays: Arrays, path: str | os.PathLike[str]) -> Path:
+    """Store named arrays of numbers and text in a compressed .npz file; the same arrays always give the same bytes.
+
+    All floats lie in one member and all integers in another, each array once however often it occurs.
+    """
+    target = Path(path)
+    store = _Store()
+    index = {name: store.put(np.asarray(array)) for name, array in arrays.items()}
+    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+    try:
+        with open(temporary, "wb") as file:
+            members: dict[str, Any] = {"index": np.array(json.dumps(index)), **store.members()}
+            np.savez_compressed(file, **members)
+        os.replace(temporary, target)
+    finally:
+        temporary.unlink(missing_ok=True)
+    return target
+
+
+def load_arrays(path: str | os.PathLike[str]) -> dict[str, npt.NDArray[Any]]:
+    """The arrays that `save_arrays` stored."""
+    with np.load(path, allow_pickle=False) as members:
+        index = json.loads(members["index"].item())
+        return {name: _Store.get(members, *entry) for name, entry in index.items()}
+
+
+def read_picture(path: str | os.PathLike[str]) -> Pixels:
+    """The pixels of a picture file, (h, w, 3)."""
+    picture: Pixels = np.asarray(iio.imread(Path(path)))[..., :3]
+    return picture
+
+
+class _Store:
+    """Arrays laid end to end by kind: "f" floats, "i" integers and truth values; text ("U") stays in the index."""
+
+    def __init__(self) -> None:
+        self.parts: dict[str, list[npt.NDArray[Any]]] = {"f": [], "i": []}
+        self.sizes = {"f": 0, "i": 0}
+        self.known: dict[bytes, list[Any]] = {}
+
+    def put(self, array: npt.NDArray[Any]) -> list[Any]:
+        """Where an array lies: [type, shape, first place or the text itself]."""
+        entry: list[Any] = [array.dtype.str, list(array.shape)]
+        if array.dtype.kind == "U":
+            return [*entry, array.tolist()]
+        if array.dtype.kind not in "fiub":
+            raise TypeError(f"arrays hold numbers or text, got {array.dtype}")
+        key = hashlib.sha256(json.dumps(entry).encode() + array.tobytes()).digest()
+        if key not in self.known:
+            kind = "f" if array.dtype.kind == "f" else "i"
+            self.known[key] = [*entry, self.sizes[kind]]
+            self.parts[kind].append(array.ravel().astype(np.float64 if kind == "f" else np.int64))
+            self.sizes[kind] += array.size
+        return self.known[key]
+
+    def members(self) -> dict[str, npt.NDArray[Any]]:
+        return {
+            kind: np.concatenate([np.zeros(0, "f8" if kind == "f" else "i8"), *a]) for kind, a in self.parts.items()
+        }
+
+    @staticmethod
+    def get(members: Mapping[str, Any], dtype: str, shape: list[int], place: Any) -> npt.NDArray[Any]:
+        kind = np.dtype(dtype).kind
+        if kind == "U":
+            return np.array(place, dtype=dtype).reshape(shape)
+        values = members["f" if kind == "f" else "i"][place : place + math.prod(shape)]
+        return np.asarray(values).astype(dtype).reshape(shape)
+
+
+def _levels_apart(expected: Pixels, actual: Pixels) -> npt.NDArray[np.int16]:
+    """Largest difference of any channel, (h, w)."""
+    apart: npt.NDArray[np.int16] = np.abs(expected.astype(np.int16) - actual.astype(np.int16)).max(axis=-1)
+    return apart
+
+
+def _array_difference(expected: npt.NDArray[Any], actual: npt.NDArray[Any], tolerance: float) -> str:
+    """What is wrong with an array; empty when nothing is."""
+    if expected.shape != actual.shape:
+        return f"shape {expected.shape} expected, {actual.shape} found"
+    if expected.dtype.kind != actual.dtype.kind:
+        return f"type {expected.dtype} expected, {actual.dtype} found"
+    if expected.dtype.kind == "f":
+        scale = max(1.0, float(np.max(np.abs(expected), initial=0.0, where=np.isfinite(expected))))
+        wrong = ~np.isclose(actual, expected, rtol=0.0, atol=tolerance * scale, equal_nan=True)
+    else:
+        wrong = expected != actual
+    if not wrong.any():
+        return ""
+    first = tuple(int(i) for i in np.argwhere(wrong)[0])
+    count = f"{int(wrong.sum())} of {wrong.size} entries differ"
+    return f"{count}, first at {first}: {expected[first]} expected, {actual[first]} found"
