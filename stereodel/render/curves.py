@@ -25,6 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_directions, as_vectors
+from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.render.page import Beziers
 from stereodel.render.view import turned
 from stereodel.sphere import SphereArc, SphereCircle
@@ -178,7 +179,8 @@ class CircleArc:
     @property
     def closed(self) -> bool:
         """Whether it is the whole circle."""
-        return self.stop - self.start == 2 * np.pi
+        # start + 2π was rounded once and the difference is once more, each time by at most UNIT_ROUNDOFF·(|start| + 2π).
+        return abs(self.stop - self.start - 2 * np.pi) <= 2 * UNIT_ROUNDOFF * (abs(self.start) + 2 * np.pi)
 
     def points(self, t: npt.ArrayLike) -> FloatArray:
         """Points (..., 3) at parameters (...)."""

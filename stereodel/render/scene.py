@@ -49,6 +49,8 @@ class Scene:
         Of the ball.
     look : {"solid", "glass", "none"}
         An opaque ball; a transparent one, through which the far side shows fainter; or no ball at all.
+    weight : float
+        Factor on the widths of all lines and the radii of all dots, for globes that are small on the page.
 
     Examples
     --------
@@ -58,16 +60,24 @@ class Scene:
     ['Surface', 'Stroke', 'Stroke', 'Stroke']
     """
 
-    def __init__(self, *, radius: float = 1.0, center: npt.ArrayLike = (0.0, 0.0, 0.0), look: Look = "solid") -> None:
+    def __init__(
+        self,
+        *,
+        radius: float = 1.0,
+        center: npt.ArrayLike = (0.0, 0.0, 0.0),
+        look: Look = "solid",
+        weight: float = 1.0,
+    ) -> None:
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
         self.center = as_vectors(center, 3, "center")
         if look not in ("solid", "glass", "none"):
             raise ValueError(f'look must be "solid", "glass" or "none", got {look!r}')
         self.look: Look = look
+        self.weight = as_scalar(weight, "weight", low=0.0, open_low=True)
         self._things: list[Thing] = []
         if look != "none":
             tint = styles.fill("ball" if look == "solid" else "glass")
-            self._things.append(BallThing(tint, styles.line("limb")))
+            self._things.append(BallThing(tint, styles.line("limb").scaled(self.weight)))
 
     def add_arcs(
         self,
@@ -139,7 +149,7 @@ class Scene:
         self, curves: Iterable[Curve], *, role: str, style: LineStyle | None = None, layer: Layer | None = None
     ) -> None:
         """Draw curves of space, not necessarily on the ball."""
-        look = styles.line(role) if style is None else style
+        look = (styles.line(role) if style is None else style).scaled(self.weight)
         self._things += [LineThing(curve, look, role, layer) for curve in curves]
 
     def add_points(self, points: npt.ArrayLike, *, role: str = "sites", style: DotStyle | None = None) -> None:
@@ -150,7 +160,7 @@ class Scene:
 
     def add_space_points(self, points: npt.ArrayLike, *, role: str = "points", style: DotStyle | None = None) -> None:
         """Draw dots at points (n, 3) of space."""
-        look = styles.dot(role) if style is None else style
+        look = (styles.dot(role) if style is None else style).scaled(self.weight)
         self._things.append(DotsThing(as_points(points, 3), look, role))
 
     def add_region(self, boundary: Iterable[SphereArc | CircleArc], *, role: str, tint: Color | None = None) -> None:

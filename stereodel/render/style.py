@@ -65,6 +65,10 @@ class LineStyle:
     width: float
     dash: tuple[float, float] | None = None
 
+    def scaled(self, weight: float) -> LineStyle:
+        """The same line for a smaller or larger picture."""
+        return replace(self, width=weight * self.width)
+
     @property
     def hidden(self) -> LineStyle:
         """The same line on the far side of a transparent ball: fainter and a little thinner."""
@@ -80,6 +84,10 @@ class DotStyle:
     rim: Color = WHITE
     rim_width: float = 0.0
 
+    def scaled(self, weight: float) -> DotStyle:
+        """The same dot for a smaller or larger picture."""
+        return replace(self, radius=weight * self.radius, rim_width=weight * self.rim_width)
+
     @property
     def hidden(self) -> DotStyle:
         """The same dot on the far side of a transparent ball."""
@@ -89,8 +97,8 @@ class DotStyle:
 LINES: Final[Mapping[str, LineStyle]] = {
     "delaunay": LineStyle(GRAY, 0.8),
     "voronoi": LineStyle(BLACK, 0.9),
-    "graticule": LineStyle(LIGHT_GRAY, 0.4),
-    "fine": LineStyle(BLACK, 0.3),
+    "graticule": LineStyle(LIGHT_GRAY, 0.45),
+    "fine": LineStyle(BLACK, 0.45),
     "limb": LineStyle(DARK_GRAY, 1.0),
     "circle": LineStyle(BLACK, 1.1),
     "arc": LineStyle(BLUE, 1.3),

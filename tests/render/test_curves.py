@@ -67,6 +67,13 @@ def test_a_whole_circle_is_twelve_pieces_and_closes_exactly():
     assert np.array_equal(path[0, 0], path[-1, 3])
 
 
+@given(angles)
+def test_a_whole_turn_is_closed_from_any_start(start):
+    e = np.eye(3)
+    assert CircleArc(np.zeros(3), e[0], e[1], start, start + 2 * np.pi).closed
+    assert not CircleArc(np.zeros(3), e[0], e[1], start, start + 2 * np.pi - 1e-9).closed
+
+
 @given(arcs(), st.builds(View, angles, st.floats(-90, 90)), vectors)
 def test_moving_a_curve_moves_its_points(arc, view, origin):
     t = np.linspace(arc.start, arc.stop, 7)

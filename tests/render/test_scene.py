@@ -5,7 +5,7 @@ import pytest
 
 from stereodel.render.page import Dots, Fill, Label, Page, Stroke, Surface
 from stereodel.render.scene import Scene
-from stereodel.render.style import LINES, LineStyle
+from stereodel.render.style import DOTS, LINES, LineStyle
 from stereodel.render.things import Layer
 from stereodel.render.view import View
 from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
@@ -152,6 +152,15 @@ def test_style_and_layer_can_be_given():
     items = scene.layout(FRONT)
     assert roles(items) == ["ball", "limb", "mine"]
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
+
+
+def test_weight_scales_lines_and_dots():
+    scene = Scene(weight=0.5)
+    scene.add_circles([SphereCircle.around((0, 90), 30)])
+    scene.add_points([[0, 0, 1]])
+    _, circle, limb, dots = scene.layout(FRONT)
+    assert (circle.width, limb.width) == (LINES["circle"].width / 2, LINES["limb"].width / 2)
+    assert (dots.radius, dots.rim_width) == (DOTS["sites"].radius / 2, DOTS["sites"].rim_width / 2)
 
 
 def test_layout_is_repeatable_and_leaves_no_trace():
