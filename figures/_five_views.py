@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass
 
-import numpy as np
 from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
@@ -35,9 +34,7 @@ class FiveViews:
     def draw(self, g: dict) -> Page:
         """Five globes in a row."""
         items = tuple(
-            item
-            for number, view in enumerate(VIEWS)
-            for item in globe(g).layout(view, at=(PITCH * number, 0.0))
+            item for number, view in enumerate(VIEWS) for item in globe(g).layout(view, at=(PITCH * number, 0.0))
         )
         reach = 1 + MARGIN
         extent = (-reach, PITCH * (len(VIEWS) - 1) + reach, -reach, reach)

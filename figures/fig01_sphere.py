@@ -2,8 +2,9 @@
 Figure 1: Delaunay triangulation and its dual Voronoi diagram on a sphere
 =========================================================================
 
-The Delaunay triangulation (gray) of 80 sites, whose edges are arcs of great circles, and the Voronoi diagram (black). Each
-Voronoi edge lies on the perpendicular bisector of a Delaunay edge; each Voronoi vertex is the centre of an empty bubble.
+The Delaunay triangulation (gray) of 80 sites, whose edges are arcs of great circles, and the Voronoi diagram (black).
+Each Voronoi edge lies on the perpendicular bisector of a Delaunay edge; each Voronoi vertex is the centre of an empty
+bubble.
 
 Chosen by us: the number of sites, their seed and the view.
 """

@@ -2,8 +2,8 @@
 Figure 3: Every circle on a sphere bounds two bubbles
 =====================================================
 
-Any circle is where a plane slices through the sphere. It bounds a smaller bubble (orange) and a larger one (blue). The
-Delaunay condition on the sphere is that one of them is empty: the one on the outer side of the facet.
+Any circle is where a plane slices through the sphere. It bounds a smaller bubble (orange) and a larger one (blue).
+The Delaunay condition on the sphere is that one of them is empty: the one on the outer side of the facet.
 
 Chosen by us: a circle of angular radius 42° about (30° E, 32° N).
 """

@@ -2,9 +2,9 @@
 Figure 4: A spherical triangle and its chordal plane triangle
 =============================================================
 
-The sides of a spherical triangle are arcs of great circles (blue). The plane triangle below it has the same vertices and
-chords for sides (red, dashed): a facet of the convex hull. The Delaunay triangulation of points on the sphere is the
-convex hull of the points.
+The sides of a spherical triangle are arcs of great circles (blue). The plane triangle below it has the same vertices
+and chords for sides (red, dashed): a facet of the convex hull. The Delaunay triangulation of points on the sphere is
+the convex hull of the points.
 
 Chosen by us: the three vertices and the view.
 """

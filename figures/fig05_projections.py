@@ -2,55 +2,60 @@
 Figure 5: Normal (left) and oblique stereographic projection
 ============================================================
 
-Left, the plane touches the sphere at the south pole and rays from the north pole carry points of the sphere to it. Right,
-the plane touches at another point and the rays start at its antipode. Circles go to circles in both.
+Left, the plane touches the sphere at the south pole and rays from the north pole carry points of the sphere to it.
+Right, the plane touches at another point and the rays start at its antipode. The circle through the three points (blue) goes to a circle in both.
 
-Chosen by us: the points, the tangent point 25° N of the oblique plane, the view.
+Chosen by us: the points, the tangent point of the oblique plane, the view.
 """
 
 import numpy as np
 
-from stereodel import Stereographic, lonlat_to_xyz
-from stereodel.render import Figure, Page, Scene, View
+from stereodel import SphereCircle, Stereographic, lonlat_to_xyz
+from stereodel.render import CircleArc, Figure, Page, Scene, View
 
-NORMAL = ((0.0, -90.0), ((20.0, -10.0), (95.0, -35.0), (-75.0, -30.0)))  # tangent point, points: (lon, lat) in degrees
-OBLIQUE = ((35.0, -35.0), ((70.0, 20.0), (85.0, -45.0), (-8.0, -22.0)))
-VIEW = View(0, 16)
-HALF_SIDE = 2.1
-PITCH = 4.7
+PANELS = {  # tangent point; centre and angular radius of the circle; directions of its points, all in degrees
+    "normal": ((0.0, -90.0), (10.0, -66.0), 52.0, (118.0, 168.0, 235.0)),
+    "oblique": ((100.0, -42.0), (92.0, -32.0), 48.0, (215.0, 285.0, 325.0)),
+}
+NAMES = {"normal": ("$N$", "$S$"), "oblique": ("$-t$", "$t$")}
+VIEW = View(0, 18)
+HALF_SIDE = {"normal": 1.75, "oblique": 1.5}  # of the square of the plane that is drawn
+PITCH = 3.55
 
 
 def geometry() -> dict:
-    """For each panel: tangent point, centre of projection, points, their images and the corners of the plane, in space."""
-    return {f"{name}_{key}": value for name, case in panels().items() for key, value in lay_out(*case).items()}
-
-
-def panels() -> dict:
-    """The two cases by name."""
-    return {"normal": NORMAL, "oblique": OBLIQUE}
-
-
-def lay_out(tangent_point: tuple, points: tuple) -> dict:
-    """One panel; a point (x, y) of the plane lies at t + x·east + y·north in space."""
-    projection = Stereographic(tangent_point)
-    tangent, on_ball = lonlat_to_xyz(tangent_point), lonlat_to_xyz(np.array(points))
-    square = HALF_SIDE * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    """For each panel: tangent point, points, their images, the corners of the plane and the two circles, in space."""
     return {
-        "tangent": tangent,
+        f"{name}_{key}": value
+        for name, case in PANELS.items()
+        for key, value in lay_out(*case, HALF_SIDE[name]).items()
+    }
+
+
+def lay_out(tangent_point: tuple, center: tuple, radius: float, directions: tuple, half_side: float) -> dict:
+    """One panel."""
+    projection = Stereographic(tangent_point)
+    circle = SphereCircle.around(center, radius)
+    on_ball = circle.sample(360)[np.array(directions, dtype=int)]
+    image = projection.image_of(circle)
+    square = half_side * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    rim = projection.in_space(image.center + image.radius * np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]))
+    return {
+        "tangent": lonlat_to_xyz(tangent_point),
         "points": on_ball,
         "images": projection.in_space(projection.forward(on_ball)),
         "plane": projection.in_space(square),
+        "circle": np.append(circle.normal, circle.offset),
+        "image_circle": np.array([rim[0], rim[1] - rim[0], rim[2] - rim[0]]),  # centre and two radii
     }
 
 
 def draw(g: dict) -> Page:
     """Two panels side by side."""
     items = [
-        item
-        for number, name in enumerate(panels())
-        for item in panel(g, name).layout(VIEW, at=(PITCH * number, 0.0))
+        item for number, name in enumerate(PANELS) for item in panel(g, name).layout(VIEW, at=(PITCH * number, 0.0))
     ]
-    return Page((-2.3, PITCH + 2.3, -1.9, 1.4), tuple(items), views=(VIEW.matrix,))
+    return Page((-1.82, PITCH + 2.02, -1.86, 1.3), tuple(items), views=(VIEW.matrix,))
 
 
 def panel(g: dict, name: str) -> Scene:
@@ -59,10 +64,16 @@ def panel(g: dict, name: str) -> Scene:
     scene = Scene(look="glass")
     scene.add_flat_polygon(g[f"{name}_plane"], role="plane")
     scene.add_outline(g[f"{name}_plane"], role="plane")
+    scene.add_circles([SphereCircle(g[f"{name}_circle"][:3], float(g[f"{name}_circle"][3]))], role="arc")
+    scene.add_curves([CircleArc(*g[f"{name}_image_circle"])], role="arc")
     scene.add_segments(-tangent, images, role="ray")
     scene.add_points(points, role="sites")
     scene.add_points(np.array([-tangent, tangent]), role="pole")
     scene.add_space_points(images, role="points")
+    for text, point, offset in zip(NAMES[name], (-tangent, tangent), ((-7, 6), (6, -8)), strict=True):
+        scene.add_label(text, point, offset=offset, always=True)
+    scene.add_label("$p$", points[1], offset=(-7, 3), always=True)
+    scene.add_label(r"$\pi(p)$", images[1], offset=(0, -9))
     return scene
 
 

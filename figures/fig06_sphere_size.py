@@ -16,8 +16,8 @@ from stereodel.sphere import angular_distance
 
 HALF_LENGTH = 1.6
 RADII = (2.0, 1.0, 0.5)
-EXTENT = (-3.4, 3.4, -0.55, 4.35)
-LABEL_DIRECTIONS = (28.0, 28.0, 28.0)  # degrees above the horizontal, seen from the circle's centre
+EXTENT = (-3.3, 3.3, -0.4, 4.2)
+KEY, ROW = (-3.15, 3.95), 0.3  # where the list of extents begins, and its line height
 
 
 def geometry() -> dict:
@@ -52,10 +52,10 @@ def add_sphere(sketch: Sketch, number: int, radius: float, g: dict) -> None:
         sketch.add_segment(top, end, role="construction")
     sketch.add_arc(center, radius, -90 - half, -90 + half, role=f"covered{number + 1}")
     sketch.add_points(g["lifted"][number], role=role).add_points(top, role="pole")
-    up = np.radians(LABEL_DIRECTIONS[number])
-    place = np.array(center) + radius * np.array([np.cos(up), np.sin(up)])
-    text = rf"$R = {radius:g}$: ${g['extents'][number]:.1f}°$"
-    sketch.add_label(text, place, (5, 3), align="left", valign="bottom")
+    row = np.array(KEY) - [0.0, ROW * number]
+    sketch.add_segment(row, row + [0.3, 0.0], role=f"covered{number + 1}")
+    text = rf"$R = {radius:g}$, extent ${g['extents'][number]:.1f}°$"
+    sketch.add_label(text, row + [0.3, 0.0], (6, 0), align="left")
 
 
 FIGURE = Figure("fig06_sphere_size", geometry, draw, renderer="agg")

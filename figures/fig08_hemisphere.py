@@ -2,9 +2,9 @@
 Figure 8: Inverse stereographic projection to hemisphere (as seen through a transparent plane)
 ==============================================================================================
 
-The sites of Figure 7 lifted to the tangent sphere whose diameter is half the diagonal of the rectangle. Only vertices are
-lifted: Delaunay edges are rebuilt as great-circle arcs, Voronoi edges as perpendicular bisectors of them. The sides of the
-rectangle become arcs of circles (red) whose corners lie on the equator.
+The sites of Figure 7 lifted to the tangent sphere whose diameter is half the diagonal of the rectangle. Only vertices
+are lifted: Delaunay edges are rebuilt as great-circle arcs, Voronoi edges as perpendicular bisectors of them. The
+sides of the rectangle become arcs of circles (red) whose corners lie on the equator.
 
 Chosen by us: the view from below, tilted so that the plane is seen as a sheet.
 """

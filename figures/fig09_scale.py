@@ -2,9 +2,9 @@ r"""
 Figure 9: Scale factor as a function of φ
 =========================================
 
-Left, the tangent sphere in cross-section: the triangles from the north pole to p and to its projection are similar, with
-heights R + R sin φ and 2R, so the lift shrinks lengths by s = (R + R sin φ)/2R, φ being the latitude south of the equator.
-Right, s and its rate of change along a meridian, ∂s/∂φ = cos φ / 2; along a parallel s is constant.
+Left, the tangent sphere in cross-section: the triangles from the north pole to p and to its projection are similar,
+with heights R + R sin φ and 2R, so the lift shrinks lengths by s = (R + R sin φ)/2R, φ being the latitude south of
+the equator. Right, s and its rate of change along a meridian, ∂s/∂φ = cos φ / 2; along a parallel s is constant.
 
 Chosen by us: φ = 25° on the left.
 """
@@ -17,7 +17,7 @@ from stereodel.render import Figure, Page, Sketch
 RADIUS = 1.0
 PHI = 25.0  # degrees south of the equator
 KNOTS = np.linspace(0.0, 90.0, 19)
-EXTENT = (-1.35, 4.75, -0.42, 2.2)
+EXTENT = (-1.4, 4.75, -0.24, 2.2)
 ORIGIN, WIDTH, HEIGHT = np.array([2.55, 0.1]), 1.95, 1.75  # the graph's box on the page
 
 
@@ -46,13 +46,12 @@ def add_section(sketch: Sketch, g: dict) -> None:
     """Sphere, plane and the two similar triangles."""
     north, center, south = (0.0, 2 * RADIUS), (0.0, RADIUS), (0.0, 0.0)
     foot = (0.0, float(g["point"][1]))
-    sketch.add_polygon([north, south, g["projected"]], role="accent1").add_polygon(
-        [north, foot, g["point"]], role="accent2"
-    )
+    sketch.add_polygon([foot, south, g["projected"], g["point"]], role="accent1")
+    sketch.add_polygon([north, foot, g["point"]], role="accent2")
     sketch.add_segment((-1.2, 0), (2.1, 0), role="axis").add_circle(center, RADIUS, role="circle")
     sketch.add_segment((-RADIUS, RADIUS), (RADIUS, RADIUS), role="construction")
     sketch.add_segment(north, south, role="axis").add_segment(north, g["projected"], role="ray")
-    sketch.add_segment(foot, g["point"], role="accent2").add_segment(center, g["point"], role="axis")
+    sketch.add_segment(foot, g["point"], role="chord").add_segment(center, g["point"], role="axis")
     sketch.add_angle(center, g["point"], (RADIUS, RADIUS), 0.34, r"$\varphi$", role="axis")
     sketch.add_points([north, center, south], role="pole").add_points([g["point"], g["projected"]], role="points")
     sketch.add_label("$N$", north, (0, 5), valign="bottom").add_label("$S$", south, (0, -5), valign="top")
@@ -89,8 +88,10 @@ def add_graph(sketch: Sketch, g: dict) -> None:
         sketch.add_segment(ORIGIN + [-0.035, HEIGHT * value], ORIGIN + [0, HEIGHT * value], role="axis")
         sketch.add_label(text, ORIGIN + [-0.035, HEIGHT * value], (-3, 0), align="right")
     sketch.add_label(r"$\varphi$", ORIGIN + [WIDTH, 0], (10, 0), align="left")
-    sketch.add_label(r"$s = (1 + \sin\varphi)/2$", ORIGIN + [0.34 * WIDTH, 0.86 * HEIGHT], align="right")
-    sketch.add_label(r"$\partial s/\partial\varphi = \cos\varphi/2$", ORIGIN + [0.62 * WIDTH, 0.36 * HEIGHT], align="left")
+    sketch.add_label(r"$s = (1 + \sin\varphi)/2$", ORIGIN + [0.4 * WIDTH, 0.7 * HEIGHT], align="left")
+    sketch.add_label(
+        r"$\partial s/\partial\varphi = \cos\varphi/2$", ORIGIN + [0.58 * WIDTH, 0.4 * HEIGHT], align="left"
+    )
 
 
 FIGURE = Figure("fig09_scale", geometry, draw, renderer="agg")

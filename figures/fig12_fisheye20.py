@@ -2,8 +2,9 @@
 Figure 12: Five views of a fisheye global-gram, magnification 20
 ================================================================
 
-The graticule at 5° (gray) and a fine grid at 1/2° (black) under the conformal map that magnifies the surroundings of 40° N twenty
-times, seen as in Figure 10. A region of 3° fills most of a hemisphere; the rest of the world is gathered about the antipode.
+The graticule at 5° (gray) and a fine grid at 1/2° (black) under the conformal map that magnifies the surroundings of
+40° N twenty times, seen as in Figure 10. A region of 3° fills most of a hemisphere; the rest of the world is gathered
+about the antipode.
 
 Chosen by us: the fine grid reaches 1.5° from its centre; up to 1.966° it cannot be seen from the south pole.
 """

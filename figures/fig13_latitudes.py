@@ -2,11 +2,12 @@ r"""
 Figure 13: Relationship of parallels of latitude
 ================================================
 
-Two spheres in cross-section, of radius R and r = R/S, touch the plane at one point. A point at distance d in the plane
-comes from latitude φ on the large sphere and goes to latitude Φ on the small one. Inscribed angles are half the arcs
-that they see, hence tan((90° + φ)/2) = d/2R and tan((90° + Φ)/2) = d/2r, and so S tan((90° + φ)/2) = tan((90° + Φ)/2).
+Two spheres in cross-section, of radius R and r = R/S, touch the plane at one point. A point at distance d in the
+plane comes from latitude φ on the large sphere and goes to latitude Φ on the small one. Inscribed angles are half the
+arcs that they see, hence tan((90° + φ)/2) = d/2R and tan((90° + Φ)/2) = d/2r, and so S tan((90° + φ)/2) = tan((90° +
+Φ)/2).
 
-Chosen by us: S = 2 and d = 1.6 R.
+Chosen by us: S = 2.5 and d = 1.6 R.
 """
 
 import numpy as np
@@ -15,9 +16,10 @@ from stereodel import Stereographic
 from stereodel.render import Figure, Page, Sketch
 from stereodel.sphere import angular_distance
 
-RADIUS, S = 2.0, 2.0
+RADIUS, S = 2.0, 2.5
 DISTANCE = 1.6 * RADIUS
-EXTENT = (-2.75, 4.25, -0.75, 4.4)
+EXTENT = (-2.4, 4.1, -0.75, 4.4)
+NAMES = ((r"$(90°\!+\!\varphi)/2$", r"$\varphi$", "$R$"), (r"$(90°\!+\!\Phi)/2$", r"$\Phi$", "$r$"))
 
 
 def geometry() -> dict:
@@ -35,12 +37,10 @@ def draw(g: dict) -> Page:
     """Both circles, both rays, the arcs that the inscribed angles see."""
     sketch = Sketch().add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.15, 0), role="axis")
     target = (DISTANCE, 0.0)
-    names = ((r"$(90°\!+\!\varphi)/2$", r"$\varphi$", "$R$"), (r"$(90°\!+\!\Phi)/2$", r"$\Phi$", "$r = R/S$"))
     sketch.add_segment((0, 0), (0, 2 * RADIUS), role="axis")
     for number, (radius, point, arc) in enumerate(zip(g["radii"], g["points"], g["arcs"], strict=True)):
-        add_sphere(sketch, float(radius), point, float(arc), f"accent{number + 1}", names[number])
+        add_sphere(sketch, float(radius), point, float(arc), f"accent{number + 1}", NAMES[number])
     sketch.add_points([target], role="points").add_points([(0, 0)], role="pole")
-    sketch.add_label("$S$", (0, 0), (0, -5), valign="top")
     add_distance(sketch)
     return sketch.page(EXTENT)
 
@@ -50,10 +50,15 @@ def add_sphere(sketch: Sketch, radius: float, point: np.ndarray, arc: float, rol
     inscribed, latitude, size = names
     center, top = (0.0, radius), (0.0, 2 * radius)
     sketch.add_circle(center, radius, role="frame")
-    sketch.add_segment(center, (radius, radius), role="construction").add_segment(center, point, role="construction")
+    equator = (radius, radius)
+    sketch.add_segment(center, equator, role="construction").add_segment(center, point, role="construction")
     sketch.add_segment(top, (DISTANCE, 0.0), role=role)
-    sketch.add_arc(center, radius, -90, -90 + arc, role=role)
-    sketch.add_angle(top, (0, 0), (DISTANCE, 0), 0.42, inscribed, role=role, gap=16.0)
+    sketch.add_arc(center, radius, -90, -90 + arc, role=f"covered{role[-1]}")
+    sketch.add_angle(top, (0, 0), (DISTANCE, 0), 0.5 * radius, "", role=role)
+    sketch.add_label(inscribed, (0, 1.5 * radius), (-4, 0), align="right")
+    first, second = (point, equator) if arc < 90 else (equator, point)
+    sketch.add_angle(center, first, second, 0.55 * radius, latitude, role="frame", gap=7.0)
+    sketch.add_label(size, (0.25 * radius, radius), (0, -7 if arc > 90 else 7))
     sketch.add_points([top, center], role="pole").add_points([point], role=role)
 
 

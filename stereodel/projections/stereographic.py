@@ -80,6 +80,21 @@ class Stereographic(TangentPlane):
         """Unit vectors (..., 3) of plane points (..., 2)."""
         return by_blocks(lambda rows: self.lift(DoubleDouble(rows)), as_vectors(xy, 2, "xy"))
 
+    def in_space(self, xy: npt.ArrayLike) -> FloatArray:
+        """Where plane points (..., 2) lie in space, (..., 3), the sphere being that of `radius` about the origin.
+
+        The sphere's point, its image and the antipode of the centre are on one line: that is the projection.
+
+        Examples
+        --------
+        >>> print(Stereographic((0.0, -90.0)).in_space([2.0, 0.0]))
+        [ 0.  2. -1.]
+        """
+        east, north, up = self.frame.round()
+        points = as_vectors(xy, 2, "xy")
+        height = self.radius if self.plane == "tangent" else 0.0
+        return np.asarray(points[..., :1] * east + points[..., 1:] * north + height * up)
+
     def lift(self, plane: DoubleDouble) -> FloatArray:
         """Unit vectors of plane points (m, 2) in double-double."""
         d = self.unit_distance

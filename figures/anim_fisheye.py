@@ -1,0 +1,49 @@
+"""
+Animation: the fisheye grows from 1 to 20
+=========================================
+
+A globe with the graticule at 10° (gray) and a fine grid at 1/2° about 40° N (black) while the magnification S of the
+fisheye runs from 1 to 20 and back, in equal ratios. The focus stays where it is; every line stays a circle.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from _arcs import from_rows, to_rows
+
+from stereodel import fisheye
+from stereodel.render import Animation, Label, Page, Scene, View
+from stereodel.sphere import graticule, graticule_patch
+
+FOCUS = (0.0, 40.0)  # degrees
+COARSE, FINE, HALF_WIDTH = 10.0, 0.5, 1.5  # degrees
+LARGEST, STEPS = 20.0, 28
+VIEW = View(0, 22)
+
+
+def magnifications() -> np.ndarray:
+    """Up to the largest and back; sin² eases both turns."""
+    phase = np.arange(2 * STEPS) / (2 * STEPS)
+    return LARGEST ** (np.sin(np.pi * phase) ** 2)
+
+
+def frame(magnification: float) -> Page:
+    """The globe at one magnification."""
+    bend = fisheye(FOCUS, magnification=magnification)
+    scene = Scene()
+    scene.add_arcs(from_rows(to_rows(bend.image_of(arc) for arc in graticule(COARSE))), role="graticule")
+    patch = graticule_patch(FOCUS, HALF_WIDTH, FINE)
+    scene.add_arcs(from_rows(to_rows(bend.image_of(arc) for arc in patch)), role="fine")
+    caption = Label(f"$S = {magnification:.1f}$", (-1.0, 0.99), align="left", valign="top")
+    return Page((-1.04, 1.04, -1.04, 1.04), (*scene.layout(VIEW), caption), width=150.0, views=(VIEW.matrix,))
+
+
+def frames() -> Iterator[Page]:
+    """One page for each magnification."""
+    return (frame(float(value)) for value in magnifications())
+
+
+ANIMATION = Animation("anim_fisheye", frames, seconds=0.08)
+
+if __name__ == "__main__":
+    ANIMATION.main()

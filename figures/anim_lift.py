@@ -1,0 +1,64 @@
+"""
+Animation: the rectangle of Figure 7 rises onto the hemisphere of Figure 8
+==========================================================================
+
+The rectangle is lifted to tangent spheres that shrink from an infinite one, the plane itself, to the sphere whose
+diameter is half the diagonal. On the way every lift is an inverse stereographic projection, so the triangulation
+never changes.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+from _rectangle import CORNERS, lift, sites
+
+from stereodel import PlanarDelaunay, Stereographic
+from stereodel.render import Animation, CircleArc, Page, Scene, View
+from stereodel.sphere import SphereArc, SphereCircle
+
+VIEW = View(90, -28)
+STEPS, HOLD = 30, 10
+FLATTEST = 0.02  # curvature of the first sphere, that of the last being 1
+EXTENT = (-1.75, 1.75, -0.95, 1.75)
+
+
+def curvatures() -> np.ndarray:
+    """Curvature of the tangent sphere in units of the last one's: up, rest, down."""
+    ramp = np.sin(np.linspace(0, np.pi / 2, STEPS)) ** 2
+    up = FLATTEST + (1 - FLATTEST) * ramp
+    return np.concatenate([up, np.ones(HOLD), up[::-1]])
+
+
+def frame(curvature: float) -> Page:
+    """The lift to one sphere, which touches the plane z = 0 at the origin."""
+    radius = lift().sphere.radius / curvature
+    sphere = Stereographic((0.0, -90.0), radius=radius)
+    points = sites()
+    lifted = sphere.inverse(points)
+    scene = Scene(radius=radius, center=(0.0, 0.0, radius), look="none")
+    plane = sphere.in_space(CORNERS) + [0.0, 0.0, radius]
+    scene.add_flat_polygon(plane, role="plane")
+    scene.add_outline(plane, role="frame")
+    scene.add_edges(lifted, PlanarDelaunay(points).edges, role="delaunay")
+    scene.add_arcs(
+        [lifted_side(sphere, a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, 0), strict=True)], role="chord"
+    )
+    scene.add_points(lifted, role="sites")
+    return Page(EXTENT, scene.layout(VIEW), width=200.0, views=(VIEW.matrix,))
+
+
+def lifted_side(sphere: Stereographic, a: np.ndarray, b: np.ndarray) -> CircleArc:
+    """The image of a side: the arc of the circle through its lifted ends and middle."""
+    start, middle, end = sphere.inverse(np.array([a, (a + b) / 2, b]))
+    return CircleArc.of(SphereArc(SphereCircle.through(start, middle, end), start, end))
+
+
+def frames() -> Iterator[Page]:
+    """One page for each sphere."""
+    return (frame(float(value)) for value in curvatures())
+
+
+ANIMATION = Animation("anim_lift", frames, seconds=0.07)
+
+if __name__ == "__main__":
+    ANIMATION.main()
