@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
+
+from stereodel._arrays import BoolArray
 
 Indices = npt.NDArray[np.int64]
 
@@ -61,9 +64,9 @@ def as_simplices(simplices: npt.ArrayLike, size: int) -> Indices:
     if array.dtype.kind not in "iu":
         raise InvalidTriangulation(f"simplices must hold integers, not {array.dtype}")
     array = array.astype(np.int64)
-    outside = ((array < 0) | (array >= size)).any(axis=1)
+    outside: BoolArray = ((array < 0) | (array >= size)).any(axis=1)
     _refuse(outside, lambda t: f"simplex {t} = {array[t].tolist()} names a point outside 0 to {size - 1}")
-    repeated = (array == np.roll(array, 1, axis=1)).any(axis=1)
+    repeated: BoolArray = (array == np.roll(array, 1, axis=1)).any(axis=1)
     _refuse(repeated, lambda t: f"simplex {t} = {array[t].tolist()} names a point twice")
     return array
 
@@ -79,13 +82,13 @@ def build_mesh(simplices: Indices, size: int) -> Mesh:
     twin[first], twin[second] = second, first
     mesh = Mesh(simplices, origin, target, simplices.ravel(), twin)
     crowded = same[1:] & same[:-1]
-    _refuse(crowded, lambda i: f"edge {mesh.edge(order[i])} belongs to more than two simplices")
+    _refuse(crowded, lambda i: f"edge {mesh.edge(int(order[i]))} belongs to more than two simplices")
     parallel = origin[first] == origin[second]
     _refuse(
         parallel,
         lambda i: (
-            f"edge {mesh.edge(first[i])} has the same direction in simplices {first[i] // 3} and {second[i] // 3}: "
-            "they are turned opposite ways"
+            f"edge {mesh.edge(int(first[i]))} has the same direction in simplices "
+            f"{first[i] // 3} and {second[i] // 3}: they are turned opposite ways"
         ),
     )
     return mesh
@@ -172,8 +175,7 @@ def _labels(size: int, a: Indices, b: Indices) -> npt.NDArray[np.int32]:
     return labels
 
 
-def _refuse(wrong: npt.NDArray[np.bool_], message: object) -> None:
+def _refuse(wrong: BoolArray, message: Callable[[int], str]) -> None:
     """Raise with the message for the first wrong row, if there is one."""
     if wrong.any():
-        assert callable(message)
         raise InvalidTriangulation(message(int(np.argmax(wrong))))
