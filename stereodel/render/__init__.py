@@ -1,5 +1,6 @@
 """Pictures: views, scenes and their pages; vector files through matplotlib, pixels through OpenGL."""
 
+from stereodel.render.animate import Animation
 from stereodel.render.curves import CircleArc, Segment
 from stereodel.render.figure import Figure
 from stereodel.render.page import Page
@@ -9,4 +10,16 @@ from stereodel.render.style import DotStyle, LineStyle
 from stereodel.render.things import Layer
 from stereodel.render.view import View
 
-__all__ = ["CircleArc", "DotStyle", "Figure", "Layer", "LineStyle", "Page", "Scene", "Segment", "Sketch", "View"]
+__all__ = [
+    "Animation",
+    "CircleArc",
+    "DotStyle",
+    "Figure",
+    "Layer",
+    "LineStyle",
+    "Page",
+    "Scene",
+    "Segment",
+    "Sketch",
+    "View",
+]

@@ -174,28 +174,31 @@ def save_gif(pictures: Sequence[Pixels], path: str | os.PathLike[str], seconds: 
     return target
 
 
-def _palette(pictures: Sequence[Pixels], colors: int) -> Image.Image:
-    """The colours that serve frames spread over the whole animation."""
+def _palette(pictures: Sequence[Pixels], size: int) -> npt.NDArray[np.int64]:
+    """At most `size` colours that serve frames spread over the whole animation, (n, 3)."""
     chosen = np.linspace(0, len(pictures) - 1, min(len(pictures), SAMPLED)).round().astype(int)
     sheet = np.concatenate([pictures[i] for i in chosen])
-    found = Image.fromarray(sheet).quantize(colors, method=Image.Quantize.MAXCOVERAGE)
-    entries = np.array(found.getpalette(), dtype=np.int64).reshape(-1, 3)
-    for color in _most_frequent(sheet, min(EXACT_COLORS, len(entries))):
-        entries[np.argmin(np.sum((entries - color) ** 2, axis=1))] = color
-    palette = Image.new("P", (1, 1))
-    palette.putpalette(entries.astype(np.uint8).tobytes())
-    return palette
+    found = Image.fromarray(sheet).quantize(size, method=Image.Quantize.MAXCOVERAGE)
+    colors: npt.NDArray[np.int64] = np.array(found.getpalette(), dtype=np.int64).reshape(-1, 3)
+    values, _, times = _distinct(sheet)
+    for exact in values[np.argsort(times, kind="stable")[-EXACT_COLORS:]]:
+        colors[np.argmin(np.sum((colors - exact) ** 2, axis=1))] = exact
+    return colors
 
 
-def _most_frequent(sheet: Pixels, count: int) -> npt.NDArray[np.int64]:
-    """Colours (count, 3), the most frequent last."""
-    codes = sheet.astype(np.int64) @ np.array([1 << 16, 1 << 8, 1])
-    values, times = np.unique(codes, return_counts=True)
-    codes = values[np.argsort(times, kind="stable")[-count:]]
-    return np.stack([codes >> 16, codes >> 8 & 255, codes & 255], axis=1)
+def _reduced(pictures: Sequence[Pixels], colors: npt.NDArray[np.int64]) -> Pixels:
+    """Frames in the nearest of some colours, (n, h, w, 3)."""
+    # Pillow's own mapping to a palette rounds to coarse cells first and turns white into gray.
+    frames = np.empty((len(pictures), *pictures[0].shape), dtype=np.uint8)
+    for number, picture in enumerate(pictures):
+        values, where, _ = _distinct(picture)
+        nearest = np.argmin(np.sum((values[:, None] - colors) ** 2, axis=-1), axis=1)
+        frames[number] = colors[nearest][where].reshape(picture.shape)
+    return frames
 
 
-def _reduced(pictures: Sequence[Pixels], palette: Image.Image) -> Pixels:
-    """Frames in the colours of a palette, (n, h, w, 3)."""
-    images = (Image.fromarray(p).quantize(palette=palette, dither=Image.Dither.NONE) for p in pictures)
-    return np.stack([np.asarray(image.convert("RGB")) for image in images])
+def _distinct(picture: Pixels) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.intp], npt.NDArray[np.intp]]:
+    """The colours of a picture (n, 3), which of them each pixel has, and how often each occurs."""
+    codes = picture.reshape(-1, 3).astype(np.int64) @ np.array([1 << 16, 1 << 8, 1])
+    values, where, times = np.unique(codes, return_inverse=True, return_counts=True)
+    return np.stack([values >> 16, values >> 8 & 255, values & 255], axis=1), where, times
