@@ -1,15 +1,11 @@
 """Sphinx configuration. The gallery runs the figure scripts through the library's own rendering; nothing is fetched."""
 
-import os
-import shutil
 import sys
 from pathlib import Path
 
 import stereodel
-from stereodel.render import figure as rendering
 
-HERE = Path(__file__).resolve().parent
-BUILD = HERE / "_build"
+sys.path.insert(0, str(Path(__file__).resolve().parent))  # for figure_gallery
 
 project = "stereodel"
 author = "The stereodel developers"
@@ -59,49 +55,15 @@ html_theme_options = {
 }
 html_sidebars = {"index": [], "paper": [], "changelog": []}
 
-GALLERY_WIDTH = 1200
-"""Pixels across; print size would only make pages heavy."""
-
-
-def script_arguments(_conf, script_vars):
-    """What a figure script is told when the gallery runs it."""
-    arguments = ["--out", str(BUILD / "gallery-figures")]
-    if Path(script_vars["src_file"]).name.startswith("fig"):
-        arguments += ["--size", str(GALLERY_WIDTH)]
-    return arguments
-
-
-class WrittenPictures:
-    """Gallery scraper: the pictures that `Figure.save` and `Animation.save` wrote since the last block of code."""
-
-    def __init__(self):
-        self.shown = 0
-
-    def __repr__(self):
-        return "WrittenPictures()"  # part of the gallery's stored configuration: must not change between builds
-
-    def __call__(self, block, block_vars, gallery_conf):
-        """Copy the new pictures to where the gallery wants them and return the markup that shows them."""
-        from sphinx_gallery.scrapers import figure_rst
-
-        new, self.shown = rendering.WRITTEN[self.shown :], len(rendering.WRITTEN)
-        targets = []
-        for source, target in zip(new, block_vars["image_path_iterator"], strict=False):
-            path = Path(target).with_suffix(source.suffix)
-            shutil.copyfile(source, path)
-            targets.append(str(path))
-        return figure_rst(targets, gallery_conf["src_dir"])
-
-
 sphinx_gallery_conf = {
     "examples_dirs": "../figures",
     "gallery_dirs": "gallery",
     "filename_pattern": r"/(fig\d\d|anim)_",
-    "ignore_pattern": r"/_",
+    "ignore_pattern": r"^_",
     "within_subsection_order": "FileNameSortKey",
-    "reset_argv": script_arguments,
+    "reset_argv": "figure_gallery.script_arguments",
     "reset_modules": (),
-    "image_scrapers": (WrittenPictures(),),
+    "image_scrapers": ("figure_gallery.written_pictures",),
     "capture_repr": (),
     "abort_on_example_error": True,
     "min_reported_time": 10_000,
@@ -112,6 +74,14 @@ sphinx_gallery_conf = {
     "write_computation_times": False,
 }
 
-# The scripts import their shared modules from their own folder.
-sys.path.insert(0, str(HERE.parent / "figures"))
-os.environ.setdefault("SOURCE_DATE_EPOCH", "0")
+
+def escape_bars(_app, _what, _name, _obj, _options, lines):
+    """Docstrings write |x| for an absolute value, which reStructuredText would take for a substitution."""
+    for number, line in enumerate(lines):
+        if "``" not in line and not line.lstrip().startswith(">>>"):
+            lines[number] = line.replace("|", r"\|")
+
+
+def setup(app):
+    """After numpydoc, which listens at the default priority."""
+    app.connect("autodoc-process-docstring", escape_bars, priority=900)

@@ -1,0 +1,32 @@
+"""How sphinx-gallery runs the figure scripts and finds the pictures that they write."""
+
+import shutil
+from pathlib import Path
+
+from sphinx_gallery.scrapers import figure_rst
+
+from stereodel.render.figure import WRITTEN
+
+WRITE_TO = Path(__file__).resolve().parent / "_build" / "gallery-figures"
+
+WIDTH = 1200
+"""Pixels across a figure; print size would only make pages heavy."""
+
+
+def script_arguments(gallery_conf, script_vars):
+    """What a script is told on its command line."""
+    arguments = ["--out", str(WRITE_TO)]
+    if Path(script_vars["src_file"]).name.startswith("fig"):
+        arguments += ["--size", str(WIDTH)]
+    return arguments
+
+
+def written_pictures(block, block_vars, gallery_conf):
+    """Take the pictures that `save` wrote during a block of code and return the markup that shows them."""
+    targets = []
+    for source in WRITTEN:
+        target = Path(next(block_vars["image_path_iterator"])).with_suffix(source.suffix)
+        shutil.copyfile(source, target)
+        targets.append(str(target))
+    WRITTEN.clear()
+    return figure_rst(targets, gallery_conf["src_dir"])

@@ -1,0 +1,93 @@
+"""The public names: that they are listed, documented and described alike, and keep the rules of the interface."""
+
+import dataclasses
+import inspect
+import re
+from pathlib import Path
+
+import pytest
+
+import stereodel
+import stereodel.render
+import stereodel.sphere
+
+DOCS = Path(__file__).resolve().parent.parent / "docs"
+PUBLIC = {name: getattr(stereodel, name) for name in stereodel.__all__}
+CLASSES = {name: value for name, value in PUBLIC.items() if inspect.isclass(value)}
+VALUES = {
+    "Conic",
+    "Gnomonic",
+    "MoebiusMap",
+    "Orthographic",
+    "PlaneCircle",
+    "PlaneLine",
+    "RectangleLift",
+    "Rotation",
+    "SphereArc",
+    "SphereCircle",
+    "Stereographic",
+}
+
+
+def test_names_are_listed_once_and_in_order():
+    assert stereodel.__all__ == sorted(set(stereodel.__all__))
+    assert set(stereodel.__all__) <= set(dir(stereodel))
+
+
+def test_version_is_a_release_number():
+    assert re.fullmatch(r"\d+\.\d+\.\d+", stereodel.__version__)
+
+
+def test_every_name_is_in_the_contract():
+    text = (DOCS / "names.md").read_text(encoding="utf-8")
+    assert [name for name in PUBLIC if f"`{name}" not in text] == []
+
+
+def reference(module):
+    """Names that the API reference lists under a module."""
+    text = (DOCS / "api" / "index.rst").read_text(encoding="utf-8")
+    parts = re.split(r"^\.\. currentmodule:: (\S+)$", text, flags=re.MULTILINE)
+    sections = zip(parts[1::2], parts[2::2], strict=True)
+    return {
+        name for title, body in sections if title == module for name in re.findall(r"^   (\w+)$", body, re.MULTILINE)
+    }
+
+
+def test_reference_lists_exactly_the_public_names():
+    assert reference("stereodel") == set(PUBLIC)
+    assert reference("stereodel.render") == set(stereodel.render.__all__)
+    assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}
+
+
+@pytest.mark.parametrize("name", PUBLIC)
+def test_docstring_has_an_example(name):
+    text = inspect.getdoc(PUBLIC[name])
+    assert text
+    assert ">>> " in text, f"{name} shows no example"
+
+
+def signatures():
+    for name, value in PUBLIC.items():
+        yield name, value
+        if inspect.isclass(value):
+            for method, function in inspect.getmembers(value, inspect.isroutine):
+                if not method.startswith("_") and getattr(function, "__module__", "").startswith("stereodel"):
+                    yield f"{name}.{method}", function
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), list(signatures()), ids=lambda value: value if isinstance(value, str) else ""
+)
+def test_options_are_keyword_only(name, value):
+    """After the first parameter, what has a default is given by name."""
+    parameters = [p for p in inspect.signature(value).parameters.values() if p.name != "self"]
+    positional = [p.name for p in parameters[1:] if p.kind is p.POSITIONAL_OR_KEYWORD and p.default is not p.empty]
+    assert positional == []
+
+
+@pytest.mark.parametrize("name", sorted(VALUES))
+def test_value_objects_are_frozen(name):
+    value = CLASSES[name]
+    assert dataclasses.is_dataclass(value)
+    assert value.__dataclass_params__.frozen
+    assert value.__eq__ is not object.__eq__

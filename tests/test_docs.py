@@ -1,0 +1,75 @@
+"""What the documentation names exists: the ledger's functions, tests and figures, and the README's example runs."""
+
+import ast
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+LEDGER = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+ROWS = dict(re.findall(r"^\| (P\d+) \|(.*)$", LEDGER, re.MULTILINE))
+NAMES = sorted(set(re.findall(r"\{py:\w+\}`([\w.]+)`", LEDGER)))
+TESTS = sorted(set(re.findall(r"`(tests/[\w/.]+\.py)(?:::(\w+))?`", LEDGER)))
+FIGURES = sorted(set(re.findall(r"gallery/(\w+)", LEDGER)))
+
+
+def test_ledger_has_every_row():
+    assert list(ROWS) == [f"P{number}" for number in range(1, 23)]
+
+
+@pytest.mark.parametrize("row", ROWS)
+def test_row_names_function_test_and_figure_or_says_why_not(row):
+    claim, holds, functions, tests, figures = (cell.strip() for cell in ROWS[row].rstrip("| ").split("|"))
+    assert claim
+    assert holds
+    assert "{py:" in functions or "later" in functions or "stereodel " in functions
+    assert "tests/" in tests or "later" in functions
+    assert figures
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_named_object_exists(name):
+    parts = name.split(".")
+    for split in range(len(parts), 0, -1):
+        try:
+            found = importlib.import_module(".".join(parts[:split]))
+        except ModuleNotFoundError:
+            continue
+        break
+    for part in parts[split:]:
+        found = getattr(found, part)
+
+
+@pytest.mark.parametrize(("path", "name"), TESTS)
+def test_named_test_exists(path, name):
+    tree = ast.parse((ROOT / path).read_text(encoding="utf-8"))
+    defined = {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+    assert not name or name in defined
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_named_figure_exists(name):
+    assert (ROOT / "figures" / f"{name}.py").is_file()
+
+
+def test_every_figure_is_in_the_ledger():
+    assert {path.stem for path in (ROOT / "figures").glob("[fa][in]*_*.py")} == set(FIGURES)
+
+
+def test_readme_example_prints_what_it_says(capsys):
+    code, printed = re.search(r"```python\n(.*?)```\s+```text\n(.*?)```", README, re.DOTALL).groups()
+    exec(compile(code, "README.md", "exec"), {})
+    assert capsys.readouterr().out.split() == printed.split()
+    assert len([line for line in code.splitlines() if line.strip()]) <= 12
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
+def test_pictures_are_there(page):
+    path = ROOT / page
+    text = path.read_text(encoding="utf-8")
+    shown = re.findall(r'(?:!\[[^]]*\]\(|\{image\} |src=")([^)\s"]+)', text)
+    assert shown
+    assert [name for name in shown if not (path.parent / name).is_file()] == []

@@ -1,0 +1,32 @@
+"""Draw the small pictures of the README and the start page into docs/images.
+
+python tools/readme_images.py
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from stereodel.render.build import load_drawing
+from stereodel.render.figure import save_png
+
+ROOT = Path(__file__).resolve().parent.parent
+WIDTHS = {"fig11_fisheye4": 1200, "fig01_sphere": 480, "fig08_hemisphere": 480, "fig02_plane": 480}
+"""Pixels across by figure."""
+
+
+def main() -> None:
+    """Draw them all."""
+    folder = ROOT / "docs" / "images"
+    folder.mkdir(exist_ok=True)
+    for name, width in WIDTHS.items():
+        figure = load_drawing(ROOT / "figures" / f"{name}.py")
+        print(
+            save_png(figure.pixels(size=width), folder / f"{name}.png", page_width=figure.page().width).relative_to(
+                ROOT
+            )
+        )
+
+
+if __name__ == "__main__":
+    main()
