@@ -11,6 +11,7 @@ from stereodel.sphere import graticule, graticule_patch
 FOCUS = (0.0, 40.0)  # degrees
 VIEWS = (View(0, 0), View(0, 90), View(0, -90), View(0, 40), View(180, -40))
 PITCH, MARGIN = 2.14, 0.03  # globe radii
+WEIGHT = 0.65  # of the lines: the globes are small
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,7 @@ class FiveViews:
 
 def globe(g: dict) -> Scene:
     """One globe with both grids, coarse gray, fine black."""
-    scene = Scene()
+    scene = Scene(weight=WEIGHT)
     scene.add_arcs(from_rows(g["coarse"]), role="graticule")
     scene.add_arcs(from_rows(g["fine"]), role="fine")
     return scene

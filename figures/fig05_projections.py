@@ -3,7 +3,8 @@ Figure 5: Normal (left) and oblique stereographic projection
 ============================================================
 
 Left, the plane touches the sphere at the south pole and rays from the north pole carry points of the sphere to it.
-Right, the plane touches at another point and the rays start at its antipode. The circle through the three points (blue) goes to a circle in both.
+Right, the plane touches at another point and the rays start at its antipode. The circle through the three points
+(blue) goes to a circle in both.
 
 Chosen by us: the points, the tangent point of the oblique plane, the view.
 """
@@ -55,7 +56,7 @@ def draw(g: dict) -> Page:
     items = [
         item for number, name in enumerate(PANELS) for item in panel(g, name).layout(VIEW, at=(PITCH * number, 0.0))
     ]
-    return Page((-1.82, PITCH + 2.02, -1.86, 1.3), tuple(items), views=(VIEW.matrix,))
+    return Page((-1.82, PITCH + 2.02, -2.16, 1.2), tuple(items), views=(VIEW.matrix,))
 
 
 def panel(g: dict, name: str) -> Scene:
