@@ -64,9 +64,9 @@ def as_simplices(simplices: npt.ArrayLike, size: int) -> Indices:
     if array.dtype.kind not in "iu":
         raise InvalidTriangulation(f"simplices must hold integers, not {array.dtype}")
     array = array.astype(np.int64)
-    outside: BoolArray = ((array < 0) | (array >= size)).any(axis=1)
+    outside = np.asarray(((array < 0) | (array >= size)).any(axis=1))
     _refuse(outside, lambda t: f"simplex {t} = {array[t].tolist()} names a point outside 0 to {size - 1}")
-    repeated: BoolArray = (array == np.roll(array, 1, axis=1)).any(axis=1)
+    repeated = np.asarray((array == np.roll(array, 1, axis=1)).any(axis=1))
     _refuse(repeated, lambda t: f"simplex {t} = {array[t].tolist()} names a point twice")
     return array
 
