@@ -179,7 +179,7 @@ class CircleArc:
     @property
     def closed(self) -> bool:
         """Whether it is the whole circle."""
-        # start + 2π was rounded once and the difference is once more, each time by at most UNIT_ROUNDOFF·(|start| + 2π).
+        # start + 2π was rounded once and so is the difference, each time by at most UNIT_ROUNDOFF·(|start| + 2π).
         return abs(self.stop - self.start - 2 * np.pi) <= 2 * UNIT_ROUNDOFF * (abs(self.start) + 2 * np.pi)
 
     def points(self, t: npt.ArrayLike) -> FloatArray:

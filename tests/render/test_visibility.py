@@ -130,6 +130,8 @@ def test_places_of_points():
         ((0.8, 0, -0.6), Place.BEHIND),
         ((0, 0, 0.5), Place.INSIDE),
         ((2, 0, -5), Place.OUTSIDE),
+        ((1.001, 0, -3), Place.OUTSIDE),
+        ((0.999, 0, -3), Place.BEHIND),
         ((0.5, 0, 3), Place.FRONT),
         ((0.5, 0, -3), Place.BEHIND),
     ]
