@@ -23,6 +23,7 @@ $(STAMP): pyproject.toml constraints.txt tools/install.sh tools/find_python.sh
 	@tools/install.sh $(VENV)
 
 install: $(STAMP) ## create .venv with the pinned libraries
+	@:
 
 system: ## get the offscreen OpenGL libraries, or say how
 	@tools/system_libraries.sh

@@ -13,7 +13,7 @@ fi
 python=${2:-$(tools/find_python.sh)}
 echo "Installing into $venv ($("$python" --version))" >&2
 [[ -x $venv/bin/python ]] || "$python" -m venv "$venv"
-pip=("$venv/bin/python" -m pip --disable-pip-version-check --quiet)
+pip=("$venv/bin/python" -m pip --disable-pip-version-check -qq)
 # The build backend is pinned as well: installed first, then used without an isolated build environment.
 "${pip[@]}" install --constraint constraints.txt hatchling editables
 "${pip[@]}" install --constraint constraints.txt --no-build-isolation --editable '.[test,docs,dev]'
