@@ -2,7 +2,7 @@
 Animation: the fisheye grows from 1 to 20
 =========================================
 
-A globe with the graticule at 10° (gray) and a fine grid at 1/2° about 40° N (black) while the magnification S of the
+A globe with the graticule at 5° (gray) and a fine grid at 1/2° about 40° N (black) while the magnification S of the
 fisheye runs from 1 to 20 and back, in equal ratios. The focus stays where it is; every line stays a circle.
 """
 
@@ -16,7 +16,7 @@ from stereodel.render import Animation, Label, Page, Scene, View
 from stereodel.sphere import graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees
-COARSE, FINE, HALF_WIDTH = 10.0, 0.5, 1.5  # degrees
+COARSE, FINE, HALF_WIDTH = 5.0, 0.5, 1.5  # degrees
 LARGEST, STEPS = 20.0, 28
 VIEW = View(0, 22)
 

@@ -3,7 +3,7 @@
 from stereodel.render.animate import Animation
 from stereodel.render.curves import CircleArc, Segment
 from stereodel.render.figure import Figure
-from stereodel.render.page import Page
+from stereodel.render.page import Label, Page
 from stereodel.render.scene import Scene
 from stereodel.render.sketch import Sketch
 from stereodel.render.style import DotStyle, LineStyle
@@ -15,6 +15,7 @@ __all__ = [
     "CircleArc",
     "DotStyle",
     "Figure",
+    "Label",
     "Layer",
     "LineStyle",
     "Page",
