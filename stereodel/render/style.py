@@ -99,9 +99,9 @@ LINES: Final[Mapping[str, LineStyle]] = {
     "voronoi": LineStyle(BLACK, 0.9),
     "graticule": LineStyle(LIGHT_GRAY, 0.45),
     "fine": LineStyle(BLACK, 0.45),
-    "limb": LineStyle(DARK_GRAY, 1.0),
+    "limb": LineStyle(DARK_GRAY, 1.2),
     "circle": LineStyle(BLACK, 1.1),
-    "arc": LineStyle(BLUE, 1.3),
+    "arc": LineStyle(BLUE, 1.2),
     "chord": LineStyle(VERMILION, 1.1),
     "ray": LineStyle(VERMILION, 0.7),
     "plane": LineStyle(DARK_GRAY, 0.6),
@@ -118,7 +118,7 @@ LINES: Final[Mapping[str, LineStyle]] = {
     "covered2": LineStyle(VERMILION, 2.6),
     "covered3": LineStyle(GREEN, 2.6),
 }
-"""What a line stands for → how it looks."""
+"""What a line stands for → how it looks. On a ball no line is wider than the limb, which covers their ends."""
 
 DOTS: Final[Mapping[str, DotStyle]] = {
     "sites": DotStyle(BLACK, 2.0, rim_width=0.5),
