@@ -177,9 +177,8 @@ def _complete(offset: float) -> float:
 
 def stored_unit(direction: FloatArray) -> FloatArray:
     """A vector (3,) of unit length as it stands, any other normalised and rounded: storing twice changes nothing."""
-    exact = DoubleDouble(direction)
-    excess = abs(float((dot(exact, exact) - 1.0).hi))
-    return direction if excess <= STORED_ERROR else unit(direction).round()
+    nearest = unit(direction).round()
+    return direction if np.abs(direction - nearest).max() <= STORED_ERROR else nearest
 
 
 def on_circle(circle: SphereCircle, point: DoubleDouble) -> DoubleDouble:

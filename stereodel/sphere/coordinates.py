@@ -80,9 +80,10 @@ def xyz_to_lonlat(xyz: npt.ArrayLike) -> FloatArray:
 
 
 def _lonlat(rows: FloatArray) -> FloatArray:
-    vectors, _ = scaled(rows)
-    # The horizontal part is scaled again, so that a longitude survives one subnormal step away from the pole.
-    horizontal, exponent = scaled(vectors[:, :2])
+    vectors, whole = scaled(rows)
+    # The horizontal part is scaled on its own, so that a longitude survives one subnormal step away from the pole.
+    horizontal, own = scaled(rows[:, :2])
+    exponent = own - whole
     x, y = DoubleDouble(horizontal[:, 0]), DoubleDouble(horizontal[:, 1])
     lon = angle_degrees(y, x)
     root = (x * x + y * y).sqrt()
@@ -110,7 +111,7 @@ def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
     Returns
     -------
     ndarray, shape (3,)
-        The unit vector of (lon, lat), or the direction over a power of two (which is exact).
+        The unit vector of (lon, lat), or the direction as it was given.
 
     Raises
     ------
@@ -120,7 +121,7 @@ def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
     Examples
     --------
     >>> print(as_direction((90.0, 0.0), "focus"), as_direction((0.0, 0.0, 1.0)))
-    [0. 1. 0.] [0.  0.  0.5]
+    [0. 1. 0.] [0. 0. 1.]
     """
     values = as_direction_or_lonlat(point, name)
-    return lonlat_to_xyz(values) if values.shape == (2,) else scaled(values)[0]
+    return lonlat_to_xyz(values) if values.shape == (2,) else values

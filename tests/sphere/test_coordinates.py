@@ -1,0 +1,118 @@
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel.sphere import as_direction, lonlat_to_xyz, xyz_to_lonlat
+
+mpmath.mp.dps = 60
+
+LON = st.floats(-540, 540)
+LAT = st.floats(-90, 90)
+
+
+@given(LON, LAT)
+@settings(deadline=None)
+def test_components_are_correctly_rounded(lon, lat):
+    # Correct rounding is what makes the bits the same on every machine.
+    x = lonlat_to_xyz([lon, lat])
+    a, b = (mpmath.mpf(value) * mpmath.pi / 180 for value in (lon, lat))
+    truth = [mpmath.cos(b) * mpmath.cos(a), mpmath.cos(b) * mpmath.sin(a), mpmath.sin(b)]
+    for got, want in zip(x, truth, strict=True):
+        if abs(want) > 1e-50:  # 60 digits have no exact zero at multiples of 90°
+            assert abs(got - want) <= mpmath.mpf(np.spacing(abs(got))) / 2 * (1 + mpmath.mpf(2) ** -40)
+
+
+def test_same_bits_for_ever():
+    x = lonlat_to_xyz([[12.3, 45.6], [-123.4, -56.7], [1e-9, 89.999999]])
+    assert [[v.hex() for v in row] for row in x.tolist()] == GOLDEN
+
+
+GOLDEN = [
+    ["0x1.5e01356300f8cp-1", "0x1.3140e43001417p-3", "0x1.6dcf5cf1d116ap-1"],
+    ["-0x1.357adc399befcp-2", "-0x1.d559d7257dd81p-2", "-0x1.abeef145aa617p-1"],
+    ["0x1.2bd8645f687c5p-26", "0x1.67a0f73aa6a88p-62", "0x1.fffffffffffffp-1"],
+]
+
+
+def test_multiples_of_90_are_exact_and_never_minus_zero():
+    grid = [[lon, lat] for lon in range(-720, 721, 90) for lat in (-90, 0, 90)]
+    x = lonlat_to_xyz(grid)
+    assert set(np.unique(x)) == {-1.0, 0.0, 1.0}
+    assert not np.signbit(x[x == 0]).any()
+    assert (np.abs(x).sum(axis=1) == 1).all()
+
+
+@given(st.integers(-180 * 32, 180 * 32), st.integers(-90 * 32, 90 * 32))
+def test_mirror_symmetry_is_exact(lon, lat):
+    lon, lat = lon / 32, lat / 32
+    x, y, z = lonlat_to_xyz([lon, lat])
+    assert lonlat_to_xyz([-lon, lat]).tolist() == [x, -y, z]
+    assert lonlat_to_xyz([lon, -lat]).tolist() == [x, y, -z]
+    assert lonlat_to_xyz([180 - lon, lat]).tolist() == [-x, y, z]
+    assert lonlat_to_xyz([90 - lon, lat]).tolist() == [y, x, z]
+
+
+@given(st.floats(-180, 180, exclude_max=True), st.floats(-89, 89))
+def test_round_trip(lon, lat):
+    back = xyz_to_lonlat(lonlat_to_xyz([lon, lat]))
+    # Half an ulp of a component near 1 is 1.1e-16 rad; the horizontal part shrinks by cos 89°.
+    assert abs((back[0] - lon + 180) % 360 - 180) <= 1e-12
+    assert abs(back[1] - lat) <= 1e-12
+    assert -180 <= back[0] < 180
+
+
+@given(st.tuples(*[st.floats(-1, 1)] * 3).filter(any), st.integers(-900, 900))
+def test_length_does_not_matter(vector, exponent):
+    v = np.array(vector)
+    if 0 < np.abs(v[v != 0]).min() < 1e-30:
+        return
+    assert (xyz_to_lonlat(v * 2.0**exponent) == xyz_to_lonlat(v)).all()
+
+
+@pytest.mark.parametrize(
+    ("vector", "lonlat"),
+    [
+        ([0, 0, 5], (0, 90)),
+        ([-0.0, -0.0, -5], (0, -90)),
+        ([-1, 0, 0], (-180, 0)),
+        ([-1, -0.0, 0], (-180, 0)),
+        ([0, -1e300, 0], (-90, 0)),
+        ([5e-324, 5e-324, 0], (45, 0)),
+        ([3e-324, 0, 1], (0, 90)),
+        ([0, 5e-324, -1], (90, -90)),
+    ],
+)
+def test_special_directions(vector, lonlat):
+    assert tuple(xyz_to_lonlat(vector)) == lonlat
+
+
+def test_shapes_and_inputs():
+    assert lonlat_to_xyz(np.zeros((4, 5, 2))).shape == (4, 5, 3)
+    assert lonlat_to_xyz(np.zeros((0, 2))).shape == (0, 3)
+    assert xyz_to_lonlat(np.ones((3, 3), dtype=np.float32)).shape == (3, 2)
+    given_points = np.asfortranarray(np.array([[1.0, 2.0, 3.0]] * 5000))
+    given_points.flags.writeable = False
+    assert (xyz_to_lonlat(given_points) == xyz_to_lonlat([1, 2, 3])).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: lonlat_to_xyz([0, 91]), r"lonlat\[1\] is latitude 91"),
+        (lambda: lonlat_to_xyz([np.nan, 0]), r"lonlat\[0\] is nan"),
+        (lambda: lonlat_to_xyz([0, 0, 0]), r"shape \(..., 2\)"),
+        (lambda: xyz_to_lonlat([[1, 0, 0], [0, 0, 0]]), r"xyz\[1\] is the zero vector"),
+        (lambda: as_direction([1, 2, 3, 4], "focus"), r"focus must be \(lon, lat\)"),
+        (lambda: as_direction([0, 0, 0], "focus"), "focus is the zero vector"),
+    ],
+)
+def test_bad_input_is_named(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_as_direction_takes_both_forms():
+    assert (as_direction((0, 90)) == [0, 0, 1]).all()
+    assert as_direction((0, -3e-320, 0)).tolist() == [0, -3e-320, 0]

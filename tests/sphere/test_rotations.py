@@ -1,0 +1,131 @@
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation as Oracle
+
+from stereodel.sphere import Rotation, angular_distance
+
+mpmath.mp.dps = 60
+
+COMPONENT = st.floats(-1, 1).filter(lambda v: v == 0 or abs(v) > 1e-30)
+VECTORS = st.tuples(*[COMPONENT] * 3).filter(any)
+QUATERNIONS = st.tuples(*[COMPONENT] * 4).filter(any)
+
+
+def exact_rotation(quaternion, vector):
+    """Q v q* / |q|² in 60 digits."""
+    w, *axis = (mpmath.mpf(float(value)) for value in quaternion)
+    v = [mpmath.mpf(float(value)) for value in vector]
+
+    def cross(a, b):
+        return [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]
+
+    first = [a + w * b for a, b in zip(cross(axis, v), v, strict=True)]
+    size = w * w + sum(a * a for a in axis)
+    return [a + 2 * b / size for a, b in zip(v, cross(axis, first), strict=True)]
+
+
+@given(QUATERNIONS, VECTORS)
+@settings(deadline=None)
+def test_exact_up_to_one_rounding(quaternion, vector):
+    length = float(np.linalg.norm(vector))
+    got = Rotation(quaternion)(vector)
+    for a, b in zip(got, exact_rotation(quaternion, vector), strict=True):
+        assert abs(mpmath.mpf(float(a)) - b) <= 2.0**-53 * abs(b) + 2.0**-98 * length
+
+
+@given(QUATERNIONS)
+def test_agrees_with_scipy(quaternion):
+    w, x, y, z = quaternion
+    assert np.abs(Rotation(quaternion).matrix - Oracle.from_quat([x, y, z, w]).as_matrix()).max() < 1e-14
+
+
+@given(QUATERNIONS, QUATERNIONS, VECTORS)
+def test_composition(p, q, vector):
+    a, b = Rotation(p), Rotation(q)
+    assert np.abs((a @ b)(vector) - a(b(vector))).max() < 4e-15
+
+
+@given(QUATERNIONS)
+def test_inverse_is_exact(quaternion):
+    turn = Rotation(quaternion)
+    assert turn.inverse().inverse() == turn
+    assert (turn.inverse().matrix == turn.matrix.T).all()
+    assert Rotation.identity() @ turn == turn
+
+
+@given(QUATERNIONS, st.integers(-300, 300))
+def test_only_the_direction_of_the_quaternion_counts(quaternion, exponent):
+    turn, other = Rotation(quaternion), Rotation(-np.array(quaternion) * 2.0**exponent)
+    assert turn == other
+    assert hash(turn) == hash(other)
+    assert turn != Rotation(np.array(quaternion) + np.array([0, 0, 1.5, 3.25]))
+
+
+@given(VECTORS, VECTORS)
+def test_between_takes_one_to_the_other(a, b):
+    turn = Rotation.between(a, b)
+    assert angular_distance(turn(a), b) < 1e-13
+    # The axis is normal to both: the rotation is the shortest.
+    assert abs(np.dot(turn.quaternion[1:], a)) / np.linalg.norm(a) < 1e-15
+    assert turn.quaternion[0] >= 0
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-300, 1e-20, 1e-12, 1e-8])
+def test_between_nearly_equal_and_nearly_opposite(gap):
+    for b in ([1.0, gap, 0.0], [-1.0, gap, 0.0]):
+        assert np.abs(Rotation.between([1.0, 0.0, 0.0], b)([1.0, 0.0, 0.0]) - b).max() <= 2.0**-52
+
+
+def test_quarter_turns_are_exact():
+    assert Rotation.about((0, 90), 90)([[1, 0, 0], [0, 1, 0]]).tolist() == [[0, 1, 0], [-1, 0, 0]]
+    assert Rotation.about((0, 0, 1), 180)([1, 2, 3]).tolist() == [-1, -2, 3]
+    assert Rotation.about((90, 0), -90)([0, 0, 1]).tolist() == [-1, 0, 0]
+
+
+@given(VECTORS, st.floats(-720, 720))
+def test_about_agrees_with_scipy(axis, angle):
+    axis = np.array(axis) / np.linalg.norm(axis)
+    oracle = Oracle.from_rotvec(np.radians(angle) * axis).as_matrix()
+    assert np.abs(Rotation.about(axis, angle).matrix - oracle).max() < 1e-14
+
+
+@given(QUATERNIONS)
+def test_matrix_round_trip(quaternion):
+    turn = Rotation(quaternion)
+    assert np.abs(Rotation.from_matrix(turn.matrix).matrix - turn.matrix).max() < 1e-15
+
+
+def test_vectors_of_any_length_and_many_of_them():
+    turn = Rotation.about((0, 90), 90)
+    assert turn([1e300, 0, 0]).tolist() == [0, 1e300, 0]
+    assert turn([0, 5e-324, 0]).tolist() == [-5e-324, 0, 0]
+    assert turn(np.zeros((2, 0, 3))).shape == (2, 0, 3)
+    points = np.random.default_rng(3).normal(size=(5000, 3))
+    assert (turn(points) == np.array([turn(p) for p in points[:10]] + list(turn(points[10:])))).all()
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda: Rotation((0, 0, 0, 0)), "zero quaternion"),
+        (lambda: Rotation((1, 0, 0)), "four numbers"),
+        (lambda: Rotation.from_matrix(np.diag([1, 1, -1])), "not a rotation"),
+        (lambda: Rotation.from_matrix(np.diag([1, 1, 2])), "not a rotation"),
+        (lambda: Rotation.from_matrix(np.eye(4)), r"shape \(3, 3\)"),
+        (lambda: Rotation.about((0, 0, 0), 3), "axis is the zero vector"),
+        (lambda: Rotation.about((0, 0), np.inf), "angle"),
+    ],
+)
+def test_bad_input(call, message):
+    with pytest.raises(ValueError, match=message):
+        call()
+
+
+def test_frozen():
+    with pytest.raises(ValueError, match="read-only"):
+        Rotation.identity().quaternion[0] = 2.0
+    with pytest.raises(TypeError):
+        Rotation.identity() @ 3.0
