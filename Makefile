@@ -47,6 +47,7 @@ check: $(STAMP) docs ## format, lint, types, sizes, tracked text, documentation
 
 docs: $(STAMP) system ## build the documentation into docs/_build/html; warnings are errors
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	$(BIN)/python tools/offline_pages.py docs/_build/html
 	@echo "Open docs/_build/html/index.html"
 
 test-pythons: system ## run the tests on the other Python versions found here
