@@ -45,7 +45,9 @@ check: $(STAMP) docs ## format, lint, types, sizes, tracked text, documentation
 	$(BIN)/python tools/code_sizes.py stereodel figures
 	$(BIN)/python tools/tracked_text.py
 
+# Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
 docs: $(STAMP) system ## build the documentation into docs/_build/html; warnings are errors
+	@rm -rf docs/_build docs/gallery docs/api/generated
 	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html
 	@echo "Open docs/_build/html/index.html"
