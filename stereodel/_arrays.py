@@ -6,7 +6,7 @@ shape. Nothing here modifies its argument; the result may share memory with it a
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +16,7 @@ from stereodel.constants import UNIT_ROUNDOFF
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
+_Scalar = TypeVar("_Scalar", bound=np.generic)
 
 
 def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
@@ -192,7 +193,7 @@ def as_complex_matrix(value: npt.ArrayLike, name: str) -> npt.NDArray[np.complex
     return np.stack(parts, axis=-1).view(np.complex128)[..., 0]
 
 
-def read_only(array: FloatArray) -> FloatArray:
+def read_only(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
     """A private copy that nobody can write to, for frozen value objects."""
     copy = np.array(array)
     copy.flags.writeable = False
@@ -217,3 +218,13 @@ def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.N
 
 def _show(index: tuple[int, ...]) -> str:
     return ", ".join(map(str, index)) if index else "()"
+
+
+def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArray:
+    """Points of the plane, (n, 2), or non-zero directions of space, (n, 3), told apart by their shape."""
+    array = as_floats(values, name)
+    if array.ndim == 2 and array.shape[1] == 3:
+        return as_directions(array, name, points=True)
+    if array.size and (array.ndim != 2 or array.shape[1] != 2):
+        raise ValueError(f"{name} must have shape (n, 2) or (n, 3), got {array.shape}")
+    return as_points(array, 2, name)

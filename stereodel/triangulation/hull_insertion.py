@@ -1,0 +1,245 @@
+"""The paper's pseudo-code: points one at a time, visible facets replaced by a fan over their horizon."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, IntArray, as_directions, as_plane_or_sphere, as_points, read_only
+from stereodel.triangulation.points import insertion_order, spanning_points
+from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites, Sites
+from stereodel.triangulation.topology import Edge, Facet, Surface, as_rows
+
+
+@dataclass(frozen=True, eq=False)
+class InsertionStep:
+    """One point's insertion.
+
+    Attributes
+    ----------
+    inserted : int
+        Index of the point.
+    visible : (k, 3) array of int32
+        Facets that the point sees from outside, counterclockwise; they are gone now.
+    horizon : (h, 2) array of int32
+        Border of what it sees, as one counterclockwise cycle of directed edges; h = k + 2.
+    new : (h, 3) array of int32
+        Facets that join the horizon to the point.
+
+    Notes
+    -----
+    In the plane -1 stands for the ghost vertex at infinity.
+    """
+
+    inserted: int
+    visible: IntArray
+    horizon: IntArray
+    new: IntArray
+
+
+class HullInsertion:
+    """Incremental hull of directions, or Delaunay triangulation of the plane, one point at a time.
+
+    Iterating inserts: each step finds the facets that the next point sees, removes them and joins their horizon to the
+    point. The first three points that span start the surface; duplicates are passed over.
+
+    Parameters
+    ----------
+    points : (n, 2) or (n, 3) array_like
+        Points of the plane, where the projection pole is a ghost vertex, index -1; or directions of any length.
+    spatial : bool, optional
+        Insert in an order of short ways instead of the order given. The facets in the end are the same.
+
+    Attributes
+    ----------
+    points : (n, 2) or (n, 3) array
+    facets : (m, 3) array of int32
+        The present surface: counterclockwise seen from outside, smallest index first, rows in lexicographic order. In
+        the plane facets with -1 lie beyond the edges of the convex hull.
+    start : tuple of int
+        The points of the first surface; fewer than three if all lie on one line (one great circle).
+    dimension : int
+        -1 without points, 0 for one, 1 on one line (one great circle), 2 otherwise.
+    duplicates : (k, 2) array of int32
+        Pairs [dropped, kept] of equal points (directions); the lowest index is kept.
+    inconclusive : dict
+        "filter": tests that floating point left open; "exact": exact ties.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For values that are not finite real numbers, zero vectors, or other shapes.
+
+    Notes
+    -----
+    The paper (row P14) takes the sphere's centre for a point inside and compares signs with it; the first hulls hardly
+    ever hold the centre. Facets are oriented counterclockwise seen from outside the hull instead: p sees a b c if and
+    only if det(b−a, c−a, p−a) > 0 on the exact unit vectors. Ties are displaced (`stereodel.predicates.ties`): no point
+    is ever hidden, what a point sees is a tree of facets, and the result depends on the set of points alone.
+
+    The first visible facet is found by a visibility walk in the triangulation as the pole sees it, which ends
+    because the triangulation is a regular one (H. Edelsbrunner, "An acyclicity theorem for cell complexes in d
+    dimensions", 1990).
+
+    Examples
+    --------
+    >>> hull = HullInsertion([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+    >>> [step] = hull
+    >>> step.inserted, step.visible.tolist(), len(step.horizon)
+    (3, [[0, 2, 1]], 3)
+    >>> hull.facets.tolist()
+    [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]
+    """
+
+    def __init__(self, points: npt.ArrayLike, *, spatial: bool = False) -> None:
+        array = as_plane_or_sphere(points)
+        self._sites: Sites = RaySites() if array.shape[1] == 3 else PlaneSites()
+        self._spatial = spatial
+        self._surface = Surface()
+        self._first: dict[object, int] = {}
+        self._duplicates: list[Edge] = []
+        self._waiting: list[int] = []
+        self._near: Facet | None = None
+        self.points: FloatArray = array[:0]
+        self.start: tuple[int, ...] = ()
+        self._append(array)
+
+    def extend(self, points: npt.ArrayLike) -> None:
+        """Append points; iterate (or `run`) to insert them."""
+        check = as_points if self.points.shape[1] == 2 else _as_direction_list
+        self._append(check(points, self.points.shape[1]))
+
+    def run(self) -> None:
+        """Insert all that waits, without a record of the steps."""
+        for point in self._take():
+            self._insert(point)
+
+    def __iter__(self) -> Iterator[InsertionStep]:
+        for point in self._take():
+            visible, horizon = self._insert(point)
+            new = [(u, v, point) for u, v in horizon]
+            yield InsertionStep(point, *(read_only(as_rows(r, w)) for r, w in ((visible, 3), (horizon, 2), (new, 3))))
+
+    @property
+    def facets(self) -> IntArray:
+        """The present surface, (m, 3)."""
+        return self._surface.facets()
+
+    @property
+    def simplices(self) -> IntArray:
+        """The facets without a ghost, (m, 3)."""
+        facets = self.facets
+        simplices: IntArray = facets[facets[:, 0] != GHOST]
+        return simplices
+
+    @property
+    def duplicates(self) -> IntArray:
+        """Pairs [dropped, kept], (k, 2)."""
+        return as_rows(self._duplicates, 2)
+
+    @property
+    def dimension(self) -> int:
+        """Dimension of the point set."""
+        return len(self.start) - 1
+
+    @property
+    def inconclusive(self) -> dict[str, int]:
+        """How many tests each stage left open."""
+        return dict(self._sites.inconclusive)
+
+    def _append(self, array: FloatArray) -> None:
+        size = len(self.points)
+        self.points = read_only(np.concatenate([self.points, array]))
+        self._sites.extend(array)
+        fresh = [p for p in range(size, len(self.points)) if self._is_first(p)]
+        if self._spatial:
+            fresh = [fresh[k] for k in insertion_order(self.points[fresh]).tolist()]
+        self._waiting += fresh
+        if len(self.start) < 3:
+            self._begin()
+
+    def _is_first(self, point: int) -> bool:
+        kept = self._first.setdefault(self._sites.keys[point], point)
+        if kept != point:
+            self._duplicates.append((point, kept))
+        return kept == point
+
+    def _begin(self) -> None:
+        """Start the surface once three points span; until then all wait."""
+        self.start = tuple(spanning_points(self._sites, self._waiting))
+        if len(self.start) < 3:
+            return
+        for facet in self._sites.begin(*self.start):
+            self._surface.add(*facet)
+            self._near = self._near or facet
+        self._waiting = [p for p in self._waiting if p not in self.start]
+
+    def _take(self) -> Iterator[int]:
+        """Points to insert; one that was handed out no longer waits, so that iterating may stop and go on."""
+        self._waiting.reverse()
+        try:
+            while self._near and self._waiting:
+                yield self._waiting.pop()
+        finally:
+            self._waiting.reverse()
+
+    def _insert(self, point: int) -> tuple[list[Facet], list[Edge]]:
+        visible, horizon = self._conflict(point)
+        for facet in visible:
+            self._surface.remove(*facet)
+        for u, v in horizon:
+            self._surface.add(u, v, point)
+        self._near = (*horizon[-1], point)
+        return visible, horizon
+
+    def _conflict(self, p: int) -> tuple[list[Facet], list[Edge]]:
+        """Facets that p sees and the cycle of edges around them, by depth-first search from one of them.
+
+        No facet is reached twice: a second way to one would close a ring around a vertex and hide it.
+        """
+        sees, apex = self._sites.sees, self._surface.apex
+        a, b, c = self._locate(p)
+        visible, horizon = [(a, b, c)], []
+        border = [(c, a), (b, c), (a, b)]
+        while border:
+            u, v = border.pop()
+            w = apex[v, u]
+            if sees(v, u, w, p):
+                visible.append((v, u, w))
+                border += [(w, v), (u, w)]
+            else:
+                horizon.append((u, v))
+        return visible, horizon
+
+    def _locate(self, p: int) -> Facet:
+        """A facet that p sees: the one in which it lies as seen from the pole, or one at the pole."""
+        assert self._near is not None
+        beyond, apex, pole = self._sites.beyond, self._surface.apex, self._sites.pole
+        a, b, c = self._near
+        while True:
+            if pole in (a, b, c):
+                a, b, c = _end_with(pole, a, b, c)
+                if self._sites.sees(a, b, c, p):
+                    return a, b, c
+                a, b, c = b, a, apex[b, a]
+                continue
+            for u, v in ((b, c), (c, a), (a, b)):  # the edge just crossed comes last
+                if beyond(u, v, p):
+                    a, b, c = v, u, apex[v, u]
+                    break
+            else:
+                return a, b, c
+
+
+def _end_with(last: int, a: int, b: int, c: int) -> Facet:
+    """The same facet, `last` as its third vertex."""
+    if c == last:
+        return a, b, c
+    return (b, c, a) if a == last else (c, a, b)
+
+
+def _as_direction_list(points: npt.ArrayLike, dimension: int) -> FloatArray:
+    return as_directions(points, "points", points=True)

@@ -1,0 +1,92 @@
+"""Triangulated surfaces as integers alone: nothing here knows a coordinate."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, IntArray
+
+Facet = tuple[int, int, int]
+Edge = tuple[int, int]
+Indices = npt.NDArray[np.integer]
+
+
+class Surface:
+    """A closed oriented surface of triangles that can be taken apart and put together.
+
+    Each directed edge u → v belongs to one facet, u v w counterclockwise; `apex` maps it to w. The facet across the
+    edge is the one of v → u.
+    """
+
+    __slots__ = ("apex",)
+
+    def __init__(self) -> None:
+        self.apex: dict[Edge, int] = {}
+
+    def add(self, u: int, v: int, w: int) -> None:
+        """Put in the facet u v w; its directed edges must be free."""
+        self.apex[u, v] = w
+        self.apex[v, w] = u
+        self.apex[w, u] = v
+
+    def remove(self, u: int, v: int, w: int) -> None:
+        """Take out the facet u v w."""
+        del self.apex[u, v], self.apex[v, w], self.apex[w, u]
+
+    def facets(self) -> IntArray:
+        """All facets in canonical order, (m, 3); a ghost vertex, -1, comes first in its rows."""
+        rows = [(u, v, w) for (u, v), w in self.apex.items() if u < v and u < w]
+        return as_rows(sorted(rows), 3)
+
+    def __len__(self) -> int:
+        return len(self.apex) // 3
+
+
+def as_rows(rows: list[Facet] | list[Edge], width: int) -> IntArray:
+    """Tuples of indices as an int32 array (k, width), also for none."""
+    return np.array(rows, dtype=np.int32).reshape(-1, width)
+
+
+def canonical(simplices: Indices) -> IntArray:
+    """The same triangles and orientations, (m, 3), smallest index first in each row, rows in lexicographic order."""
+    turns = (np.argmin(simplices, axis=1)[:, None] + np.arange(3)) % 3
+    rows = np.take_along_axis(np.asarray(simplices, dtype=np.int32), turns, axis=1)
+    return np.ascontiguousarray(rows[np.lexsort(rows.T[::-1])])
+
+
+def neighbors_of(simplices: Indices) -> IntArray:
+    """Triangle opposite each corner, (m, 3), -1 where there is none."""
+    ends = np.sort(_directed_edges(simplices), axis=1)
+    order = np.lexsort(ends.T)
+    shared = (ends[order[1:]] == ends[order[:-1]]).all(axis=1)
+    one, other = order[:-1][shared], order[1:][shared]
+    result = np.full(3 * len(simplices), -1, dtype=np.int32)
+    result[one], result[other] = other // 3, one // 3
+    return result.reshape(-1, 3)
+
+
+def edges_of(simplices: Indices) -> IntArray:
+    """Edges (e, 2) with i < j, in lexicographic order."""
+    ends = np.sort(_directed_edges(simplices), axis=1)
+    return np.unique(ends, axis=0).astype(np.int32).reshape(-1, 2)
+
+
+def boundary_of(simplices: Indices, neighbors: Indices, inside: BoolArray) -> IntArray:
+    """Directed edges (h, 2) of the triangles `inside` that border others or nothing, in lexicographic order."""
+    bordering = inside[:, None] & ((neighbors < 0) | ~inside[neighbors])
+    edges = _directed_edges(simplices)[bordering.ravel()]
+    return np.ascontiguousarray(edges[np.lexsort(edges.T[::-1])], dtype=np.int32)
+
+
+def lowest_incident(simplices: Indices, inside: BoolArray, size: int) -> IntArray:
+    """Lowest triangle `inside` at each of `size` vertices, -1 where there is none."""
+    lowest = np.full(size, -1, dtype=np.int32)
+    rows = np.flatnonzero(inside)[::-1]
+    lowest[simplices[rows].ravel()] = np.repeat(rows, 3)  # the last assignment stays: the lowest row
+    return lowest
+
+
+def _directed_edges(simplices: Indices) -> Indices:
+    """Edge opposite each corner, (3m, 2), in counterclockwise direction."""
+    return np.stack([np.roll(simplices, -1, axis=1), np.roll(simplices, -2, axis=1)], axis=-1).reshape(-1, 2)
