@@ -48,12 +48,14 @@ html_theme_options = {
     "navigation_with_keys": False,
     "show_prev_next": False,
     "navbar_align": "left",
-    "header_links_before_dropdown": 7,
+    "header_links_before_dropdown": 8,
     "footer_start": ["copyright"],
     "footer_end": [],
-    "secondary_sidebar_items": ["page-toc"],
+    "secondary_sidebar_items": {"**": ["page-toc"], "paper": [], "index": []},
 }
-html_sidebars = {"index": [], "paper": [], "changelog": []}
+html_sidebars = {
+    page: [] for page in ("index", "names", "conventions", "exactness", "degenerate", "paper", "changelog")
+}
 
 sphinx_gallery_conf = {
     "examples_dirs": "../figures",

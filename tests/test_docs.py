@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LEDGER = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 ROWS = dict(re.findall(r"^\| (P\d+) \|(.*)$", LEDGER, re.MULTILINE))
-NAMES = sorted(set(re.findall(r"\{py:\w+\}`([\w.]+)`", LEDGER)))
+NAMES = sorted(set(re.findall(r"\{py:\w+\}`~([\w.]+)`", LEDGER)))
 TESTS = sorted(set(re.findall(r"`(tests/[\w/.]+\.py)(?:::(\w+))?`", LEDGER)))
 FIGURES = sorted(set(re.findall(r"gallery/(\w+)", LEDGER)))
 
