@@ -15,21 +15,21 @@ from __future__ import annotations
 from functools import cmp_to_key
 
 from stereodel.predicates.integers import sign_of_roots
-from stereodel.predicates.plane import IntPoint, orient2d_integer
+from stereodel.predicates.plane import orient2d_integer
 from stereodel.predicates.rays import Ray, compare_directions, turn_ray
 
-_BY_DIRECTION = cmp_to_key(compare_directions)
+Point = tuple[int, int]
 
 
-def incircle_tie(a: IntPoint, b: IntPoint, c: IntPoint, d: IntPoint) -> int:
+def incircle_tie(a: Point, b: Point, c: Point, d: Point) -> int:
     """Sign of incircle(a, b, c, d) for four different cocircular points after displacement, never zero.
 
     The height of row i has the cofactor (−1)^i times the orientation of the others; three points of a circle are not
     collinear, so the first point always decides.
     """
     points = (a, b, c, d)
-    first = min(range(4), key=points.__getitem__)
-    return (-1) ** first * orient2d_integer(*points[:first], *points[first + 1 :])
+    first = points.index(min(points))
+    return _parity(first) * orient2d_integer(*points[:first], *points[first + 1 :])
 
 
 def bubble_tie(a: Ray, b: Ray, c: Ray, p: Ray) -> int:
@@ -39,9 +39,9 @@ def bubble_tie(a: Ray, b: Ray, c: Ray, p: Ray) -> int:
     row, moving the 1 to 1 − ε. Three points of a small circle are independent, so the first point decides there.
     """
     rays = (a, b, c, p)
-    first = min(range(4), key=lambda i: _BY_DIRECTION(rays[i]))
+    first = rays.index(min(rays, key=cmp_to_key(compare_directions)))
     others = rays[:first] + rays[first + 1 :]
-    parity = (-1) ** first
+    parity = _parity(first)
     return -parity * turn_ray(*others) or _great_circle_tie(parity, *others)
 
 
@@ -54,8 +54,13 @@ def _great_circle_tie(parity: int, a: Ray, b: Ray, c: Ray) -> int:
     for axis in range(3):
         cofactor = _shadow(a, b, c, axis)
         if cofactor:
-            return -parity * (-1) ** axis * cofactor
+            return -parity * _parity(axis) * cofactor
     raise ArithmeticError("three of the four directions are the same")
+
+
+def _parity(row: int) -> int:
+    """(−1)^row."""
+    return 1 - 2 * (row % 2)
 
 
 def _shadow(a: Ray, b: Ray, c: Ray, axis: int) -> int:

@@ -89,7 +89,7 @@ class HullInsertion:
     >>> hull = HullInsertion([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
     >>> [step] = hull
     >>> step.inserted, step.visible.tolist(), len(step.horizon)
-    (3, [[0, 2, 1]], 3)
+    (3, [[2, 1, 0]], 3)
     >>> hull.facets.tolist()
     [[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]]
     """

@@ -13,7 +13,6 @@ from collections.abc import Hashable
 from stereodel._arrays import FloatArray
 from stereodel.predicates.integers import to_integers
 from stereodel.predicates.plane import (
-    IntPoint,
     filter_coordinates,
     incircle_filter,
     incircle_integer,
@@ -21,7 +20,7 @@ from stereodel.predicates.plane import (
     orient2d_integer,
 )
 from stereodel.predicates.rays import Ray, bubble_filter, bubble_ray, ray, turn_ray, units
-from stereodel.predicates.ties import bubble_tie, incircle_tie
+from stereodel.predicates.ties import Point, bubble_tie, incircle_tie
 from stereodel.triangulation.topology import Facet
 
 GHOST = -1
@@ -82,7 +81,7 @@ class PlaneSites(Sites):
         super().__init__()
         self._floats: list[tuple[float, ...]] = []
         self._coordinates: list[float] = []
-        self._integers: list[IntPoint] = []
+        self._integers: list[Point] = []
 
     def extend(self, points: FloatArray) -> None:
         """Append points (k, 2)."""
@@ -149,7 +148,7 @@ class PlaneSites(Sites):
         """Two different points always span a line."""
         return True
 
-    def _exact(self) -> list[IntPoint]:
+    def _exact(self) -> list[Point]:
         """All points as integers of one scale, made when first needed."""
         if 2 * len(self._integers) != len(self._coordinates):
             flat = to_integers(self._coordinates)

@@ -1,0 +1,16 @@
+"""Delaunay triangulations of plane and sphere, their Voronoi diagrams, and the proof of both."""
+
+from stereodel.triangulation.hull_insertion import HullInsertion, InsertionStep
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.validate import DelaunayCertificate, InvalidTriangulation, check_delaunay
+
+__all__ = [
+    "DelaunayCertificate",
+    "HullInsertion",
+    "InsertionStep",
+    "InvalidTriangulation",
+    "PlanarDelaunay",
+    "SphericalDelaunay",
+    "check_delaunay",
+]

@@ -1,0 +1,160 @@
+"""Delaunay triangulation of the sphere: the convex hull of directions, exact on rays (row P2 of the ledger)."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_choice, as_directions, as_lonlat, as_points, read_only
+from stereodel.predicates.rays import turn_signs, units
+from stereodel.sphere.coordinates import lonlat_to_xyz
+from stereodel.sphere.latitudes import authalic_latitude, geocentric_latitude
+from stereodel.triangulation.circumcenters import spherical_circumcenters
+from stereodel.triangulation.delaunay import Delaunay
+from stereodel.triangulation.location import Side, nearest_on_sphere, ray_side
+
+
+class SphericalDelaunay(Delaunay):
+    """Delaunay triangulation of directions: each triangle's bubble on the outer side of its plane is empty.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like
+        Directions: non-zero vectors of any length. Copied.
+    workers : int, optional
+        Threads, at least 1. Never changes the result; this engine uses one.
+    neighbors : bool, optional
+        Whether to compute `neighbors` at once; otherwise when first asked for.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        As given, not normalised.
+    simplices : (m, 3) array of int32
+        Facets of the hull, m = 2n − 4 for n different points; counterclockwise seen from outside the hull, smallest
+        index first, rows in lexicographic order.
+    closing : (m,) array of bool
+        Facets with det[a, b, c] ≤ 0: their empty bubble is a hemisphere or more, and they are no spherical triangles.
+        There are some exactly if all points lie in a closed hemisphere.
+    neighbors : (m, 3) array of int32
+        `neighbors[i, k]` is the facet opposite corner k of facet i.
+    convex_hull : (h, 2) array of int32
+        Directed edges between facets that are not closing, on the left, and closing ones, in lexicographic order.
+    edges : (e, 2) array of int32
+        Edges with i < j, in lexicographic order.
+    circumcenters : (m, 3) array
+        Unit vectors to the centres of the empty bubbles.
+    duplicates : (k, 2) array of int32
+        Pairs [dropped, kept] of points with exactly the same direction; the lowest index is kept, and is the one in
+        `simplices`.
+    dimension : int
+        -1 without points, 0 for one, 1 if all lie on one great circle, 2 otherwise. Below 2 there are no simplices.
+    inconclusive : dict
+        "filter": tests whose sign floating point left open and integers decided; "exact": those that were exactly zero
+        and decided by the tie rule.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For values that are not finite real numbers, zero vectors, or other shapes; naming the entry.
+
+    Notes
+    -----
+    The answer is that of exact arithmetic on the rays through the given doubles, the square roots included. The paper's
+    "smaller bubble is empty" holds unless all points lie in a hemisphere: then the closing facets have empty bubbles
+    larger than a hemisphere. Points of one circle are triangulated as if the first of them in the order of their
+    directions (x̂, then ŷ, then ẑ) were moved a little outward: a rule on points, so that no order of input changes the
+    triangles. `find_simplex` finds triangles that are not closing. Arrays are read-only; `insert` and `remove` replace
+    them.
+
+    Source: the paper's duality of hull and triangulation, and its pseudo-code (rows P2, P14).
+
+    Examples
+    --------
+    >>> octahedron = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
+    >>> triangulation = SphericalDelaunay(octahedron)
+    >>> triangulation.simplices[:2].tolist()
+    [[0, 1, 4], [0, 3, 5]]
+    >>> triangulation.find_simplex([[1, 1, 1], [1, 0, 0]]).tolist()
+    [0, 0]
+    >>> SphericalDelaunay(octahedron[:2] + octahedron[4:5]).closing.tolist()
+    [False, True]
+    """
+
+    @classmethod
+    def from_lonlat(
+        cls,
+        lonlat: npt.ArrayLike,
+        *,
+        latitude: Literal["spherical", "geodetic", "authalic"] = "spherical",
+        workers: int | None = None,
+        neighbors: bool = True,
+    ) -> SphericalDelaunay:
+        """Triangulate points given by longitude and latitude.
+
+        Parameters
+        ----------
+        lonlat : (n, 2) array_like
+            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
+        latitude : {"spherical", "geodetic", "authalic"}, optional
+            "spherical" takes latitudes as they stand. The others take them as geodetic latitudes on WGS84 and use the
+            direction from the Earth's centre ("geodetic"), or that on the sphere of equal area ("authalic").
+        workers, neighbors
+            As for the constructor.
+
+        Returns
+        -------
+        SphericalDelaunay
+            Of the unit vectors that `lonlat_to_xyz` gives, which are exact from then on.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
+
+        Examples
+        --------
+        >>> print(SphericalDelaunay.from_lonlat([[0, 0], [90, 0], [7, 90], [180, 0], [-180, 0]]).duplicates)
+        [[4 3]]
+        """
+        kind = as_choice(latitude, ("spherical", "geodetic", "authalic"), "latitude")
+        degrees = np.array(as_lonlat(as_points(lonlat, 2, "lonlat")))
+        if kind != "spherical":
+            degrees[:, 1] = (geocentric_latitude if kind == "geodetic" else authalic_latitude)(degrees[:, 1])
+        return cls(lonlat_to_xyz(degrees), workers=workers, neighbors=neighbors)
+
+    @cached_property
+    def closing(self) -> BoolArray:
+        """Facets whose empty bubble is a hemisphere or more, (m,)."""
+        corners = self.points[self.simplices]
+        return read_only(turn_signs(corners[:, 0], corners[:, 1], corners[:, 2]) <= 0)
+
+    @cached_property
+    def _open(self) -> BoolArray:
+        return read_only(~self.closing)
+
+    @staticmethod
+    def _as_points(points: npt.ArrayLike) -> FloatArray:
+        return as_directions(points, "points", points=True)
+
+    @staticmethod
+    def _check_queries(queries: npt.ArrayLike) -> FloatArray:
+        return as_directions(queries, "xyz")
+
+    @staticmethod
+    def _places(points: FloatArray) -> FloatArray:
+        return units(points)[:, :3]
+
+    @staticmethod
+    def _circumcenters(triangles: FloatArray) -> FloatArray:
+        return spherical_circumcenters(triangles)
+
+    @staticmethod
+    def _nearest(points: FloatArray, queries: FloatArray) -> IntArray:
+        return nearest_on_sphere(points, queries)
+
+    def _side(self, queries: FloatArray) -> Side:
+        return ray_side(self.points, queries)
