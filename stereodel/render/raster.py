@@ -16,7 +16,7 @@ from stereodel.render import gl
 from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Page, Stroke, Surface
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon
 from stereodel.render.style import PRINT_DPI
-from stereodel.render.vector import label_layer, pixel_height
+from stereodel.render.vector import pixel_height, with_labels
 
 Pixels = gl.Pixels
 
@@ -64,9 +64,7 @@ def render(page: Page, *, size: int | None = None, text: bool = True, platform: 
         platform=platform,
     )
     picture = _averaged(large)
-    if text and page.labels:
-        picture = _composed(picture, label_layer(page, width))
-    return picture
+    return with_labels(picture, page) if text else picture
 
 
 def triangulate(page: Page, width: int, height: int) -> gl.Triangles:
@@ -158,11 +156,3 @@ def _averaged(large: Pixels) -> Pixels:
     total = large.reshape(height // n, n, width // n, n, 3).sum(axis=(1, 3), dtype=np.uint16)
     picture: Pixels = ((total + np.uint16(n * n // 2)) // np.uint16(n * n)).astype(np.uint8)
     return picture
-
-
-def _composed(picture: Pixels, layer: Pixels) -> Pixels:
-    """A layer with opacity over an opaque picture, rounded half up."""
-    opacity = layer[..., 3:].astype(np.uint16)  # 255² + 127 fits
-    mixed = layer[..., :3] * opacity + picture * (255 - opacity)
-    composed: Pixels = ((mixed + 127) // 255).astype(np.uint8)
-    return composed

@@ -1,19 +1,23 @@
-"""One HTML sheet for what the picture tests found: expected, actual and difference side by side, in a single file."""
+"""One HTML sheet for what the picture tests found: expected, actual and difference side by side, in a single file.
+
+Tests may run in several processes. Each failure is a file of its own in `parts`, and whoever adds or removes one puts
+the sheet together again; so the sheet shows what fails now, whoever ran it.
+"""
 
 from __future__ import annotations
 
 import base64
 import html
 import os
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 import imageio.v3 as iio
 
 from stereodel.render.image import Pixels, difference_picture
 
-STYLE = """
+STYLE: Final = """
 body { font: 15px/1.4 sans-serif; margin: 2em; }
 figure { display: inline-block; margin: 0 1em 1em 0; vertical-align: top; }
 img { border: 1px solid #ccc; max-width: 30vw; }
@@ -35,31 +39,61 @@ class Failure:
     """
 
     name: str
-    messages: tuple[str, ...] = field(default=())
+    messages: tuple[str, ...] = ()
     expected: Pixels | None = None
     actual: Pixels | None = None
 
 
-def write_report(failures: Iterable[Failure], path: str | os.PathLike[str]) -> Path:
-    """Write the sheet, pictures embedded; its folder is made, an older sheet replaced.
+def report_failure(failure: Failure, folder: str | os.PathLike[str]) -> Path:
+    """Put a failure into the sheet `index.html` of a folder, in place of an older one of that name.
 
     Returns
     -------
     Path
-        The file.
+        The sheet.
     """
-    target = Path(path)
-    target.parent.mkdir(parents=True, exist_ok=True)
-    body = "\n".join(_section(failure) for failure in failures)
+    parts = Path(folder) / "parts"
+    parts.mkdir(parents=True, exist_ok=True)
+    _write(parts / f"{failure.name}.html", _section(failure))
+    return _assemble(Path(folder))
+
+
+def withdraw_failure(name: str, folder: str | os.PathLike[str]) -> None:
+    """Take a failure out of the sheet, if it is there."""
+    part = Path(folder) / "parts" / f"{name}.html"
+    if part.exists():
+        part.unlink(missing_ok=True)
+        _assemble(Path(folder))
+
+
+def _assemble(folder: Path) -> Path:
+    """Write the sheet from its parts, again until no other process has changed them meanwhile."""
     head = f'<meta charset="utf-8"><title>Pictures that changed</title>\n<style>{STYLE}</style>'
-    page = f'<!doctype html>\n<html lang="en">{head}\n<h1>Pictures that changed</h1>\n{body}\n</html>\n'
+    sheet, seen = folder / "index.html", None
+    while seen != (found := _parts(folder)):
+        seen = found
+        body = "\n".join(found.values()) or "<p>None.</p>"
+        _write(sheet, f'<!doctype html>\n<html lang="en">{head}\n<h1>Pictures that changed</h1>\n{body}\n</html>\n')
+    return sheet
+
+
+def _parts(folder: Path) -> dict[str, str]:
+    found = {}
+    for part in sorted((folder / "parts").glob("*.html")):
+        try:
+            found[part.name] = part.read_text(encoding="utf-8")
+        except FileNotFoundError:  # withdrawn by another process since it was listed
+            continue
+    return found
+
+
+def _write(target: Path, text: str) -> None:
     temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        temporary.write_text(page, encoding="utf-8")
+        temporary.write_text(text, encoding="utf-8")
         os.replace(temporary, target)
     finally:
         temporary.unlink(missing_ok=True)
-    return target
 
 
 def _section(failure: Failure) -> str:

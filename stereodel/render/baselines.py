@@ -1,0 +1,197 @@
+"""The stored pictures that the image tests compare with, and the only program that writes them.
+
+    python -m stereodel.render.baselines --scripts figures --store tests/images/baselines [NAME…]
+
+A case is a figure, or one of three frames of an animation: first, middle, last. Of each the store holds NAME.npz, the
+arrays that are drawn and the geometry behind them (T0), its pixel hash in `pixels.json` (T1), and NAME.png, the picture
+without text at 640 pixels (T2); see `stereodel.render.image`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import sys
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Final, Literal
+
+import imageio.v3 as iio
+import numpy as np
+import numpy.typing as npt
+
+from stereodel.render.animate import Animation
+from stereodel.render.build import BuildError, find_scripts, load_drawing
+from stereodel.render.figure import Figure
+from stereodel.render.image import (
+    Arrays,
+    Pixels,
+    array_differences,
+    compare,
+    load_arrays,
+    pixel_hash,
+    read_picture,
+    save_arrays,
+)
+from stereodel.render.page import Page
+from stereodel.render.report import Failure
+
+SIZE: Final = 640
+"""Width of the stored pictures in pixels."""
+
+FRAMES: Final = ("first", "middle", "last")
+"""Frames of an animation that are kept."""
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """One picture to compare: a page, the geometry behind it, and what draws it."""
+
+    name: str
+    page: Page
+    geometry: Arrays
+    renderer: Literal["gl", "agg"] = "gl"
+
+    @cached_property
+    def arrays(self) -> dict[str, npt.NDArray[Any]]:
+        """What T0 compares: the arrays of the page, and the geometry under names that begin with "geometry"."""
+        return {**self.page.arrays(), **{f"geometry_{key}": np.asarray(a) for key, a in self.geometry.items()}}
+
+    @cached_property
+    def picture(self) -> Pixels:
+        """What T1 and T2 compare: the picture without text."""
+        if self.renderer == "agg":
+            from stereodel.render.vector import rasterize
+
+            return rasterize(self.page, size=SIZE, text=False)
+        from stereodel.render.raster import render
+
+        return render(self.page, size=SIZE, text=False)
+
+
+@dataclass(frozen=True)
+class Store:
+    """The folder of stored arrays, hashes and pictures."""
+
+    folder: Path
+
+    @cached_property
+    def hashes(self) -> dict[str, str]:
+        """Name → SHA-256 of the stored picture."""
+        path = self.folder / "pixels.json"
+        return dict(json.loads(path.read_text(encoding="utf-8"))) if path.is_file() else {}
+
+    def drawn_otherwise(self, case: Case) -> list[str]:
+        """T0: what differs in the arrays, a line each; empty when nothing does."""
+        path = self.folder / f"{case.name}.npz"
+        if not path.is_file():
+            return [f"T0: {path.name} is missing; look at the picture, then run `make baselines`"]
+        return [f"T0: {name}: {wrong}" for name, wrong in array_differences(load_arrays(path), case.arrays).items()]
+
+    def looks_otherwise(self, case: Case) -> list[str]:
+        """T1, and T2 where T1 differs: what is wrong with the pixels; empty when nothing is."""
+        path = self.folder / f"{case.name}.png"
+        if case.name not in self.hashes or not path.is_file():
+            return [f"T1: {path.name} or its hash is missing; look at the picture, then run `make baselines`"]
+        if pixel_hash(case.picture) == self.hashes[case.name]:
+            return []
+        found = compare(read_picture(path), case.picture)
+        return [] if found.passes else [f"T2: {found}"]
+
+    def failure(self, case: Case, messages: Iterable[str]) -> Failure:
+        """The messages with both pictures, for the report."""
+        path = self.folder / f"{case.name}.png"
+        return Failure(case.name, tuple(messages), read_picture(path) if path.is_file() else None, case.picture)
+
+    def write(self, case: Case) -> None:
+        """Store a case; its hash goes into `pixels.json` with `write_hashes`."""
+        save_arrays(case.arrays, self.folder / f"{case.name}.npz")
+        data = iio.imwrite("<bytes>", case.picture, extension=".png", plugin="pillow", optimize=True)
+        _replace(self.folder / f"{case.name}.png", data)
+        self.hashes[case.name] = pixel_hash(case.picture)
+
+    def write_hashes(self) -> None:
+        """Write `pixels.json`."""
+        text = json.dumps(dict(sorted(self.hashes.items())), indent=1) + "\n"
+        _replace(self.folder / "pixels.json", text.encode())
+
+    def forget_others(self, names: Iterable[str]) -> list[str]:
+        """Remove what belongs to none of `names`, and say what."""
+        kept = set(names)
+        stale = sorted({path.stem for path in self.folder.glob("*.np[zg]")} | set(self.hashes))
+        stale = [name for name in stale if name not in kept]
+        for name in stale:
+            self.hashes.pop(name, None)
+            for kind in ("npz", "png"):
+                (self.folder / f"{name}.{kind}").unlink(missing_ok=True)
+        return stale
+
+
+def cases_of(script: Path) -> list[Case]:
+    """The cases of one script: its figure, or three frames of its animation."""
+    drawing: Figure | Animation = load_drawing(script)
+    if isinstance(drawing, Figure):
+        geometry = drawing.geometry()
+        return [Case(drawing.name, drawing.draw(geometry), geometry, drawing.renderer)]
+    pages = list(drawing.frames())
+    chosen = (0, len(pages) // 2, len(pages) - 1)
+    return [Case(f"{drawing.name}_{which}", pages[at], {}) for which, at in zip(FRAMES, chosen, strict=True)]
+
+
+def case_names(script: Path) -> list[str]:
+    """The names of a script's cases, without loading it: those of its file."""
+    return [f"{script.stem}_{which}" for which in FRAMES] if script.stem.startswith("anim_") else [script.stem]
+
+
+def write_baselines(scripts: Path, folder: Path, names: Sequence[str] = ()) -> Iterator[str]:
+    """Draw and store the cases of all scripts, or of those whose name begins with one of `names`.
+
+    Yields
+    ------
+    str
+        What was done, a line for each case.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    store = Store(folder)
+    for script in find_scripts(scripts, names):
+        for case in cases_of(script):
+            known = case.name in store.hashes
+            changed = [*store.drawn_otherwise(case), *store.looks_otherwise(case)]
+            if changed:
+                store.write(case)
+            yield f"{case.name}: {('changed' if known else 'new') if changed else 'as it was'}"
+    for name in store.forget_others(n for script in find_scripts(scripts) for n in case_names(script)):
+        yield f"{name}: removed, no script draws it"
+    store.write_hashes()
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write baselines from the command line; exit code 0, or 2 when there is nothing to draw or nowhere to write."""
+    parser = argparse.ArgumentParser(prog="stereodel.render.baselines", description="Store the pictures of the tests.")
+    parser.add_argument("names", nargs="*", help="beginnings of script names, e.g. fig03; all by default")
+    parser.add_argument("--scripts", type=Path, default=Path("figures"), help="folder of the scripts (%(default)s)")
+    parser.add_argument("--store", type=Path, required=True, help="folder of the baselines")
+    options = parser.parse_args(arguments)
+    try:
+        for line in write_baselines(options.scripts, options.store, options.names):
+            print(line, flush=True)
+    except (BuildError, OSError) as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 2
+    return 0
+
+
+def _replace(path: Path, data: bytes) -> None:
+    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
+    try:
+        temporary.write_bytes(data)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
