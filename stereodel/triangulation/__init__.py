@@ -2,7 +2,10 @@
 
 from stereodel.triangulation.hull_insertion import HullInsertion, InsertionStep
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.planar_voronoi import PlanarVoronoi
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.spherical_voronoi import SphericalVoronoi
+from stereodel.triangulation.theorem import exact_lift, merged_polygons, planar_part, theorem_1_holds
 from stereodel.triangulation.validate import DelaunayCertificate, InvalidTriangulation, check_delaunay
 
 __all__ = [
@@ -11,6 +14,12 @@ __all__ = [
     "InsertionStep",
     "InvalidTriangulation",
     "PlanarDelaunay",
+    "PlanarVoronoi",
     "SphericalDelaunay",
+    "SphericalVoronoi",
     "check_delaunay",
+    "exact_lift",
+    "merged_polygons",
+    "planar_part",
+    "theorem_1_holds",
 ]

@@ -1,0 +1,224 @@
+"""Voronoi diagram of the plane, the dual of the Delaunay triangulation (row P3 of the ledger)."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_floats
+from stereodel.predicates import incircle
+from stereodel.triangulation.cells import (
+    Diagram,
+    Indices,
+    canonical_names,
+    from_ridges,
+    half_ridges,
+    polygons,
+    spread_triples,
+    twins,
+)
+from stereodel.triangulation.circumcenters import planar_circumcenters
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.polygon_diagonals import triangulate_polygons
+
+
+class PlanarVoronoi(Diagram):
+    """Voronoi diagram of points of the plane.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like or PlanarDelaunay
+        Sites, or their triangulation, which is then not computed again.
+
+    Attributes
+    ----------
+    points : (n, 2) array
+    vertices : (v, 2) array
+        Circumcentres of the Delaunay triangles; exactly cocircular triangles share one. Their numbers depend on the
+        sites alone: in the order of the three lowest sites of each circle.
+    regions : list of lists of int
+        Vertices of each point's cell, counterclockwise; unbounded cells begin with -1, duplicates have [].
+    region_indices, region_offsets : arrays of int
+        The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+    ridge_points : (r, 2) array of int32
+        Sites i < j on both sides of each ridge, in lexicographic order.
+    ridge_vertices : (r, 2) array of int32
+        Start and end of each ridge, such that site i is on its left; -1 at infinity.
+    point_region : (n,) array of int32
+        Region of each point; a duplicate's is the kept point's.
+    simplex_vertex : (m,) array of int32
+        Voronoi vertex of each Delaunay triangle.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points that are not finite real numbers of shape (n, 2).
+
+    Notes
+    -----
+    Which triangles share a vertex is decided by the exact incircle predicate, so no ridge has length zero and the
+    diagram does not depend on the tie rule. Points on one line have no vertices: parallel ridges [-1, -1] between
+    strips. Source: the paper's duality (row P3); F. Aurenhammer, "Voronoi diagrams", ACM Computing Surveys 23 (1991).
+
+    Examples
+    --------
+    >>> diagram = PlanarVoronoi([[0, 0], [2, 0], [2, 2], [0, 2]])
+    >>> print(diagram.vertices)
+    [[1. 1.]]
+    >>> diagram.regions
+    [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]
+    """
+
+    def __init__(self, points: npt.ArrayLike | PlanarDelaunay) -> None:
+        triangulation = points if isinstance(points, PlanarDelaunay) else PlanarDelaunay(points)
+        self.points = triangulation.points
+        self._set_point_region(triangulation.duplicates)
+        if triangulation.dimension == 2:
+            self._set_diagram(triangulation)
+        else:
+            self._set_strips()
+        self._freeze()
+
+    def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
+        simplices = triangulation.simplices
+        twin = twins(simplices)
+        half, labels = half_ridges(simplices, twin, planar_ties(self.points, simplices, twin))
+        names = canonical_names(polygons(half))
+        half = half.relabelled(names)
+        self.simplex_vertex = names[labels].astype(np.int32)
+        self.vertices = planar_circumcenters(self.points[spread_triples(polygons(half))])
+        self._set_cells(half)
+
+    def _set_strips(self) -> None:
+        """Points on one line, in lexicographic order along it."""
+        kept = self.point_region == np.arange(len(self.points))
+        order = np.lexsort(self.points.T[::-1])
+        order = order[kept[order]]
+        pairs = np.sort(np.column_stack([order[:-1], order[1:]]), axis=1)
+        self.vertices, self.simplex_vertex = np.zeros((0, 2)), np.zeros(0, dtype=np.int32)
+        self.ridge_points = pairs[np.lexsort(pairs.T[::-1])].astype(np.int32)
+        self.ridge_vertices = np.full_like(self.ridge_points, -1)
+        self.region_indices = np.full(len(order), -1, dtype=np.int32)
+        self.region_offsets = np.concatenate([[0], np.cumsum(kept)])
+
+    def areas(self, *, radius: float = 1.0) -> FloatArray:
+        """Area of each point's cell, (n,): 0 for duplicates, infinite for unbounded cells.
+
+        Parameters
+        ----------
+        radius : float
+            Length of the unit of the coordinates: areas are multiplied by its square.
+        """
+        scale = float(as_floats(radius, "radius"))
+        site = np.repeat(np.arange(len(self.points)), np.diff(self.region_offsets))
+        corners = self.vertices[self.region_indices] if len(self.vertices) else np.zeros((len(site), 2))
+        with np.errstate(over="ignore", invalid="ignore"):
+            here = corners - self.points[site]
+            there = here[self._next_in_region()]
+            pieces = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
+        doubled = np.bincount(site, pieces, minlength=len(self.points)).astype(np.float64)
+        unbounded = (self.region_indices < 0) | ~np.isfinite(pieces)
+        doubled[site[unbounded]] = np.inf
+        return doubled * (scale * scale / 2)
+
+    def segments(self, extent: npt.ArrayLike) -> tuple[FloatArray, Indices]:
+        """The ridges as far as they lie in a rectangle, for drawing.
+
+        Parameters
+        ----------
+        extent : (4,) array_like
+            (xmin, xmax, ymin, ymax), as in matplotlib.
+
+        Returns
+        -------
+        segments : (k, 2, 2) array
+            Start and end of each visible piece, in the ridge's direction.
+        ridge : (k,) array of int
+            Its row in `ridge_points`. Ridges outside are left out.
+
+        Raises
+        ------
+        ValueError
+            Unless xmin < xmax and ymin < ymax.
+
+        Notes
+        -----
+        Each ridge is a stretch t₀ ≤ t ≤ t₁ of the line m + t·d through the midpoint m of its sites, d their difference
+        turned by 90°; the rectangle cuts another stretch out of it. A vertex that is very far away costs no accuracy.
+
+        Examples
+        --------
+        >>> segments, ridge = PlanarVoronoi([[0, 0], [2, 0]]).segments((-1, 3, -1, 1))
+        >>> print(segments, ridge)
+        [[[ 1. -1.]
+          [ 1.  1.]]] [0]
+        """
+        low, high = _corners(extent)
+        p, q = self.points[self.ridge_points[:, 0]], self.points[self.ridge_points[:, 1]]
+        middle = p + (q - p) / 2
+        along = np.column_stack([p[:, 1] - q[:, 1], q[:, 0] - p[:, 0]])
+        along = np.ldexp(along, -np.frexp(np.abs(along).max(axis=1, keepdims=True))[1])
+        start, end = self._stretch(middle, along)
+        enter, leave = _inside(low, high, middle, along)
+        first, last = np.maximum(start, enter), np.minimum(end, leave)
+        seen = np.flatnonzero(first < last)
+        ends = middle[seen, None] + np.column_stack([first, last])[seen, :, None] * along[seen, None]
+        whole = np.column_stack([first == start, last == end])[seen]
+        ends[whole] = self.vertices[self.ridge_vertices[seen][whole]]
+        return ends, seen
+
+    def delaunay(self) -> PlanarDelaunay:
+        """The triangulation, from the topology of the diagram alone, in O(n).
+
+        The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws (the height
+        x² + y² + ε lifts the first point most, so it is cut off as an ear): equal to the direct triangulation.
+        """
+        if len(self.vertices) == 0:
+            return PlanarDelaunay(self.points)
+        rank = np.empty(len(self.points), dtype=np.intp)
+        rank[np.lexsort((self.points + 0.0).T[::-1])] = np.arange(len(self.points))
+        cycles = polygons(from_ridges(self.ridge_points, self.ridge_vertices))
+        simplices = triangulate_polygons(cycles, rank, np.zeros(len(cycles.offsets) - 1, dtype=np.bool_))
+        return PlanarDelaunay._from_simplices(self.points, simplices)
+
+    def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Parameters of both ends of each ridge on its line."""
+        ends = []
+        for k, infinity in ((0, -np.inf), (1, np.inf)):
+            bounded = self.ridge_vertices[:, k] >= 0
+            t = np.full(len(middle), infinity)
+            offset = self.vertices[self.ridge_vertices[bounded, k]] - middle[bounded]
+            t[bounded] = (offset * along[bounded]).sum(axis=1) / (along[bounded] ** 2).sum(axis=1)
+            ends.append(t)
+        return ends[0], ends[1]
+
+
+def planar_ties(points: FloatArray, simplices: IntArray, twin: Indices) -> BoolArray:
+    """Half-edges whose opposite corner lies on the circle of their triangle."""
+    tied = np.zeros(len(twin), dtype=np.bool_)
+    inner = np.flatnonzero(twin > np.arange(len(twin)))
+    corners = points[simplices[inner // 3]]
+    opposite = points[simplices.ravel()[twin[inner]]]
+    tied[inner] = np.asarray(incircle(corners[:, 0], corners[:, 1], corners[:, 2], opposite)) == 0
+    tied[twin[inner]] = tied[inner]
+    return tied
+
+
+def _corners(extent: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    values = as_floats(extent, "extent")
+    if values.shape != (4,) or not (values[0] < values[1] and values[2] < values[3]):
+        raise ValueError(
+            f"extent must be (xmin, xmax, ymin, ymax) with xmin < xmax and ymin < ymax, got {values.tolist()}"
+        )
+    return values[[0, 2]], values[[1, 3]]
+
+
+def _inside(low: FloatArray, high: FloatArray, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Parameters where lines enter and leave a rectangle (Liang and Barsky, 1984); enter > leave if they miss it."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at_low, at_high = (low - middle) / along, (high - middle) / along
+    between = (low <= middle) & (middle <= high)
+    parallel = along == 0
+    enter = np.where(parallel, np.where(between, -np.inf, np.inf), np.minimum(at_low, at_high))
+    leave = np.where(parallel, np.where(between, np.inf, -np.inf), np.maximum(at_low, at_high))
+    return enter.max(axis=1), leave.min(axis=1)

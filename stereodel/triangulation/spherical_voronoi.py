@@ -1,0 +1,216 @@
+"""Voronoi diagram of the sphere, the dual of the Delaunay triangulation (row P3 of the ledger)."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_floats
+from stereodel._double_double import dot, unit
+from stereodel.predicates import in_bubble
+from stereodel.predicates.rays import turn_signs
+from stereodel.sphere import SphereArc, SphereCircle, solid_angle
+from stereodel.triangulation.cells import (
+    Diagram,
+    HalfRidges,
+    Indices,
+    canonical_names,
+    circle_half_ridges,
+    from_ridges,
+    half_ridges,
+    polygons,
+    spread_triples,
+    twins,
+)
+from stereodel.triangulation.circle_order import circle_axis, circle_order
+from stereodel.triangulation.circumcenters import spherical_circumcenters
+from stereodel.triangulation.direction_ties import direction_ranks, displaced_outward
+from stereodel.triangulation.polygon_diagonals import triangulate_polygons
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+
+
+class SphericalVoronoi(Diagram):
+    """Voronoi diagram of directions, on the unit sphere.
+
+    Parameters
+    ----------
+    points : (n, 3) array_like or SphericalDelaunay
+        Sites (directions; lengths do not matter), or their triangulation, which is then not computed again.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        As given.
+    vertices : (v, 3) array
+        Unit outward normals of the hull facets, which are the circumcentres of their empty bubbles; exactly cocircular
+        facets share one. Their numbers depend on the sites alone: in the order of the three lowest sites of a circle.
+    regions : list of lists of int
+        Vertices of each point's cell, counterclockwise seen from outside; [] for duplicates and for a single point.
+    region_indices, region_offsets : arrays of int
+        The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+    ridge_points : (r, 2) array of int32
+        Sites i < j on both sides of each ridge, in lexicographic order.
+    ridge_vertices : (r, 2) array of int32
+        Start and end of each ridge, such that site i is on its left.
+    point_region : (n,) array of int32
+        Region of each point; a duplicate's is the kept point's.
+    simplex_vertex : (m,) array of int32
+        Voronoi vertex of each Delaunay triangle.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points that are not finite real numbers of shape (n, 3), and for zero vectors.
+
+    Notes
+    -----
+    A ridge is the arc of the great circle normal to p̂ᵢ − p̂ⱼ from its start to its end, counterclockwise about that
+    normal; this says which arc it is even between antipodal vertices (`ridge_arcs`). Points all on one circle, great or
+    small, have two antipodal vertices, the ends of the circle's axis; vertex 0 is the end around which the three lowest
+    sites are counterclockwise. Two points: vertex 0 is the direction of p₀ × p₁. Two antipodal points: of p₀ × e, e the
+    coordinate axis (the first one, if several) along which p₀ is shortest.
+
+    Which facets share a vertex is decided by the exact predicate `in_bubble`, so no ridge has length zero and the
+    diagram does not depend on the tie rule. Source: the paper's duality (row P3); R. Renka, "Algorithm 772: STRIPACK",
+    ACM TOMS 23 (1997).
+
+    Examples
+    --------
+    >>> diagram = SphericalVoronoi([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1]])
+    >>> len(diagram.vertices), diagram.regions[0]
+    (8, [0, 2, 3, 1])
+    >>> print(diagram.areas() / np.pi)
+    [0.66666667 0.66666667 0.66666667 0.66666667 0.66666667 0.66666667]
+    """
+
+    def __init__(self, points: npt.ArrayLike | SphericalDelaunay) -> None:
+        triangulation = points if isinstance(points, SphericalDelaunay) else SphericalDelaunay(points)
+        self.points = triangulation.points
+        self._dimension = triangulation.dimension
+        self._set_point_region(triangulation.duplicates)
+        self.simplex_vertex = np.zeros(0, dtype=np.int32)
+        if triangulation.dimension == 2:
+            self._set_diagram(triangulation)
+        else:
+            self._set_circle()
+        self._freeze()
+
+    def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
+        simplices = triangulation.simplices
+        twin = twins(simplices)
+        half, labels = half_ridges(simplices, twin, spherical_ties(self.points, simplices, twin))
+        names = self._set_vertices(half)
+        self.simplex_vertex = names[labels].astype(np.int32)
+
+    def _set_circle(self) -> None:
+        """No triangles: two points or more on one great circle, or fewer than two."""
+        kept = np.flatnonzero(self.point_region == np.arange(len(self.points)))
+        if len(kept) > 1:
+            self._set_vertices(circle_half_ridges(kept[circle_order(self.points[kept])]))
+            return
+        self.vertices = np.zeros((0, 3))
+        self._set_cells(circle_half_ridges(np.zeros(0, dtype=np.intp)))
+
+    def _set_vertices(self, half: HalfRidges) -> Indices:
+        """Cells with vertices in canonical order, and their names in terms of the given numbers."""
+        names = canonical_names(polygons(half))
+        half = half.relabelled(names)
+        self._set_cells(half)
+        around = polygons(half)
+        sites = spread_triples(around)
+        if self._dimension < 2:
+            self.vertices = circle_axis(self.points[around.members[:2] if around.offsets[1] == 2 else sites[0]])
+        else:
+            self.vertices = spherical_circumcenters(self.points[sites])
+        if len(self.vertices) == 2:
+            self.vertices[1] = 0.0 - self.vertices[0]
+        return names
+
+    def areas(self, *, radius: float = 1.0) -> FloatArray:
+        """Area of each point's cell, (n,): 0 for duplicates; together 4π radius².
+
+        Parameters
+        ----------
+        radius : float
+            Radius of the sphere. With the default the areas are steradians.
+
+        Notes
+        -----
+        Signed triangles of the site and half a ridge each: a half is shorter than a quarter of a great circle, so that
+        no triangle has antipodal corners, whatever the ridge.
+        """
+        scale = float(as_floats(radius, "radius"))
+        areas = np.zeros(len(self.points))
+        if len(self.ridge_points) == 0:
+            areas[self.point_region] = 4 * np.pi
+            return areas * scale**2
+        start, end = self.vertices[self.ridge_vertices[:, 0]], self.vertices[self.ridge_vertices[:, 1]]
+        middle = _middles(start, end, self.ridge_normals())
+        for site, a, b in ((0, start, end), (1, end, start)):
+            p = self.points[self.ridge_points[:, site]]
+            pieces = solid_angle(p, a, middle) + solid_angle(p, middle, b)
+            areas += np.bincount(self.ridge_points[:, site], pieces, minlength=len(areas))
+        return areas * scale**2
+
+    def ridge_normals(self) -> FloatArray:
+        """Directions of p̂ᵢ − p̂ⱼ, (r, 3): the unit normal of each ridge's plane, on the side of site i."""
+        p, q = (unit(self.points[self.ridge_points[:, k]]) for k in (0, 1))
+        difference = p - q
+        return (difference / dot(difference, difference).sqrt()[:, None]).round()
+
+    def ridge_arcs(self) -> list[SphereArc]:
+        """The ridges as arcs of great circles, in the order of `ridge_points`, from start to end, site i on the left.
+
+        Examples
+        --------
+        >>> [arc.angle_rad / np.pi for arc in SphericalVoronoi([[0, 0, 1], [0, 0, -1]]).ridge_arcs()]
+        [1.0, 1.0]
+        """
+        starts, ends = self.vertices[self.ridge_vertices[:, 0]], self.vertices[self.ridge_vertices[:, 1]]
+        # Ends that are different but equal as doubles would stand for the whole circle: give the arc a length.
+        angles = np.maximum(_angles(starts, ends), np.finfo(np.float64).tiny)
+        rows = zip(self.ridge_normals(), starts, ends, angles.tolist(), strict=True)
+        return [SphereArc(SphereCircle(n, 0.0), a, b, angle) for n, a, b, angle in rows]
+
+    def delaunay(self) -> SphericalDelaunay:
+        """The triangulation, from the topology of the diagram alone, in O(n).
+
+        The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws: equal to the direct
+        triangulation.
+        """
+        if self._dimension < 2:
+            return SphericalDelaunay(self.points)
+        cycles = polygons(from_ridges(self.ridge_points, self.ridge_vertices))
+        rank = direction_ranks(self.points, cycles)
+        simplices = triangulate_polygons(cycles, rank, displaced_outward(self.points, cycles))
+        return SphericalDelaunay._from_simplices(self.points, simplices)
+
+
+def spherical_ties(points: FloatArray, simplices: IntArray, twin: Indices) -> BoolArray:
+    """Half-edges whose opposite corner lies on the circle of their triangle, both triangles facing the same way.
+
+    Points all on one small circle form a flat, two-sided polygon: across its rim the corners are cocircular as well.
+    """
+    tied = np.zeros(len(twin), dtype=np.bool_)
+    inner = np.flatnonzero(twin > np.arange(len(twin)))
+    corners = points[simplices[inner // 3]]
+    opposite = points[simplices.ravel()[twin[inner]]]
+    on_circle = np.asarray(in_bubble(corners[:, 0], corners[:, 1], corners[:, 2], opposite)) == 0
+    corners = points[simplices]
+    facing = np.repeat(turn_signs(corners[:, 0], corners[:, 1], corners[:, 2]), 3)
+    tied[inner] = on_circle & (facing[inner] == facing[twin[inner]])
+    tied[twin[inner]] = tied[inner]
+    return tied
+
+
+def _middles(start: FloatArray, end: FloatArray, normal: FloatArray) -> FloatArray:
+    """Midpoints of ridges of any length up to a half circle, unnormalised.
+
+    For an arc of angle θ the first sum has the length 2 cos(θ/2) and the second 2 sin(θ/2), in the same direction.
+    """
+    return (start + end) + np.cross(normal, start - end)
+
+
+def _angles(start: FloatArray, end: FloatArray) -> FloatArray:
+    angles: FloatArray = 2 * np.arctan2(np.linalg.norm(start - end, axis=1), np.linalg.norm(start + end, axis=1))
+    return angles

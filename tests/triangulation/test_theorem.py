@@ -1,0 +1,107 @@
+"""Theorem 1 of the paper, exactly, with the correction for bubbles that contain the projection pole."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.theorem import (
+    PROJECTION_POLE,
+    exact_lift,
+    merged_polygons,
+    planar_part,
+    theorem_1_holds,
+)
+
+GRID = np.array([[x, y] for x in range(-3, 4) for y in range(-2, 3)], dtype=float)
+DYADIC = st.tuples(st.integers(-(2**12), 2**12), st.integers(-(2**12), 2**12))
+SMALL = st.tuples(st.integers(-3, 3), st.integers(-3, 3))
+
+
+def random_points(n, seed=0):
+    return np.round(np.random.default_rng(seed).normal(size=(n, 2)) * 2**20) / 2**20
+
+
+def test_lift_is_the_inverse_stereographic_projection():
+    xy = random_points(50)
+    rays = exact_lift(xy)
+    length = np.linalg.norm(rays, axis=1)
+    assert length == pytest.approx(1 + (xy**2).sum(axis=1))
+    assert rays[:, :2] / (length + rays[:, 2])[:, None] == pytest.approx(xy)
+
+
+@pytest.mark.parametrize("point", [(0.1, 0.0), (2.0**30, 0.0), (2.0**-30, 1.0), (1e-300, 0.0)])
+def test_lift_refuses_to_round(point):
+    with pytest.raises(ValueError, match=r"points\[1\] .* has no exact lift"):
+        exact_lift([[1, 1], point])
+
+
+@pytest.mark.parametrize("points", [random_points(150), GRID, GRID + 0.5, GRID * 2.0**-6, GRID * 32 + [1024, 0]])
+def test_theorem_1(points):
+    assert theorem_1_holds(points)
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(DYADIC, max_size=20), st.integers(-4, 12))
+def test_theorem_1_in_general(points, exponent):
+    assert theorem_1_holds(np.ldexp(np.reshape(points, (-1, 2)), -exponent))
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.lists(SMALL, max_size=14))
+def test_theorem_1_with_ties_and_duplicates(points):
+    assert theorem_1_holds(np.reshape(points, (-1, 2)))
+
+
+def test_without_the_correction_it_fails():
+    """The hull is closed: some of its facets are no triangles of the plane."""
+    points = random_points(40)
+    sphere = SphericalDelaunay(exact_lift(points))
+    assert len(planar_part(sphere, PROJECTION_POLE)) < len(sphere.simplices) == 2 * 40 - 4
+    assert merged_polygons(sphere) != merged_polygons(PlanarDelaunay(points))
+
+
+def test_the_open_bubble_is_not_enough():
+    """Points on a line lie on a circle through the pole, whose facets are degenerate in the plane."""
+    points = np.array([[0, 0], [1, 0], [2, 0], [1, 3]], dtype=float)
+    sphere = SphericalDelaunay(exact_lift(points))
+    kept = planar_part(sphere, PROJECTION_POLE)
+    assert sorted(map(sorted, kept.tolist())) == [[0, 1, 3], [1, 2, 3]]
+    on_line = [s for s in sphere.simplices.tolist() if set(s) == {0, 1, 2}]
+    assert len(on_line) == 1
+
+
+def test_pole_as_a_point_and_minus_its_star():
+    """The same with the pole triangulated along: the planar part is what is left without its star."""
+    points = random_points(60, seed=4)
+    with_pole = SphericalDelaunay(np.vstack([exact_lift(points), PROJECTION_POLE]))
+    rest = planar_part(with_pole, PROJECTION_POLE)
+    assert not (rest == 60).any()
+    assert (with_pole.simplices == 60).any(axis=1).sum() + len(rest) == len(with_pole.simplices)
+    assert merged_polygons(with_pole, rest) == merged_polygons(PlanarDelaunay(points))
+
+
+def test_any_pole():
+    """Seen from any point of the sphere the planar part has the points it sees as its convex hull: V - E + F = 1."""
+    points = np.random.default_rng(0).normal(size=(50, 3))
+    sphere = SphericalDelaunay(points)
+    for pole in np.random.default_rng(1).normal(size=(5, 3)):
+        part = planar_part(sphere, pole)
+        edges = {frozenset(e) for s in part.tolist() for e in ((s[0], s[1]), (s[1], s[2]), (s[2], s[0]))}
+        assert 50 - len(edges) + len(part) == 1
+
+
+def test_merged_polygons_do_not_depend_on_the_tie_rule():
+    """Mirroring turns the order of the points round and with it the diagonals."""
+    triangulation, mirrored = PlanarDelaunay(GRID), PlanarDelaunay(GRID * [-1, 1])
+    assert {frozenset(s) for s in triangulation.simplices.tolist()} != {
+        frozenset(s) for s in mirrored.simplices.tolist()
+    }
+    assert {frozenset(p) for p in merged_polygons(triangulation)} == {frozenset(p) for p in merged_polygons(mirrored)}
+    assert all(len(p) == 4 for p in merged_polygons(triangulation))
+
+
+def test_merged_polygons_of_nothing():
+    assert merged_polygons(PlanarDelaunay([[0, 0], [1, 1]])) == frozenset()
