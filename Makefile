@@ -45,6 +45,12 @@ check: $(STAMP) docs ## format, lint, types, sizes, tracked text, documentation
 	$(BIN)/python tools/code_sizes.py stereodel figures
 	$(BIN)/python tools/tracked_text.py
 
+baselines: $(STAMP) system ## draw the stored pictures of the image tests anew: look at what git shows before you commit
+	$(BIN)/python -m stereodel.render.baselines --scripts figures --store tests/images/baselines
+
+readme-images: $(STAMP) system ## draw the small pictures of the README anew
+	$(BIN)/python tools/readme_images.py
+
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
 docs: $(STAMP) system ## build the documentation into docs/_build/html; warnings are errors
 	@rm -rf docs/_build docs/gallery docs/api/generated

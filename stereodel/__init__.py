@@ -21,23 +21,37 @@ from stereodel.sphere import (
     solid_angle,
     xyz_to_lonlat,
 )
+from stereodel.triangulation import (
+    HullInsertion,
+    PlanarDelaunay,
+    PlanarVoronoi,
+    SphericalDelaunay,
+    SphericalVoronoi,
+    check_delaunay,
+)
 
 __version__ = "0.1.0"
 
 __all__ = [
     "Conic",
     "Gnomonic",
+    "HullInsertion",
     "MoebiusMap",
     "Orthographic",
+    "PlanarDelaunay",
+    "PlanarVoronoi",
     "PlaneCircle",
     "PlaneLine",
     "RectangleLift",
     "Rotation",
     "SphereArc",
     "SphereCircle",
+    "SphericalDelaunay",
+    "SphericalVoronoi",
     "Stereographic",
     "angular_distance",
     "bubble_to_bubble",
+    "check_delaunay",
     "fisheye",
     "great_circle_points",
     "in_bubble",

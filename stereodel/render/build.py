@@ -32,7 +32,7 @@ from typing import Any
 LIBRARIES = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
 
-NOT_DRAWN_WITH = ("cli.py", "render/build.py")
+NOT_DRAWN_WITH = ("cli.py", "render/build.py", "render/baselines.py", "render/report.py")
 """Modules of the library that no picture depends on."""
 
 Record = dict[str, Any]
