@@ -21,6 +21,14 @@ class PlaneCircle:
     radius : float
     outside : bool
         Whether the interior of the bubble that it came from lies outside (the bubble contains the projection pole).
+
+    Examples
+    --------
+    >>> from stereodel import SphereCircle, Stereographic
+    >>> tropic = SphereCircle.around((0.0, 90.0), 66.5)
+    >>> circle = Stereographic((0.0, -90.0)).image_of(tropic)
+    >>> round(circle.radius, 12), circle.outside
+    (3.050506958038, True)
     """
 
     center: FloatArray
@@ -55,6 +63,14 @@ class PlaneLine:
     normal : array, shape (2,)
         Unit vector.
     offset : float
+
+    Examples
+    --------
+    >>> from stereodel import SphereCircle, Stereographic
+    >>> meridian = SphereCircle((90.0, 0.0), 0.0)
+    >>> line = Stereographic((0.0, -90.0)).image_of(meridian)
+    >>> abs(line.offset), np.abs(line.direction).round(12).tolist()
+    (0.0, [0.0, 1.0])
     """
 
     normal: FloatArray
@@ -103,6 +119,14 @@ class Conic:
     matrix : array, shape (3, 3)
         Symmetric Q with (x, y, 1) Q (x, y, 1)ᵀ = 0 on the curve; of a hyperbola this includes the other branch, of a
         line and a segment it is the line twice.
+
+    Examples
+    --------
+    >>> from stereodel import Orthographic, SphereCircle
+    >>> tropic = SphereCircle.around((0.0, 90.0), 66.5)
+    >>> ellipse = Orthographic((0.0, 30.0)).image_of(tropic)
+    >>> ellipse.kind, np.linalg.norm(ellipse.axes, axis=1).round(6).tolist()
+    ('ellipse', [0.45853, 0.91706])
     """
 
     kind: ConicKind
