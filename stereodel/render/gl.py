@@ -45,6 +45,9 @@ SLOTS: Final = 2**18
 BAND: Final = 1024
 """Rows drawn at once: the multisampled buffers of a band take 32 bytes a pixel."""
 
+SUBPIXELS: Final = 256
+"""Parts of a pixel to which llvmpipe rounds corners."""
+
 MAX_WIDTH: Final = 16384
 """Pixels across; llvmpipe has no larger buffers."""
 
@@ -194,7 +197,7 @@ def describe(platform: str | None = None) -> Description:
     name, reason = "", ""
     try:
         name, reason = _choose_once(platform)
-        version, renderer = _renderer(name).strings()
+        version, renderer = _renderer(platform).strings()
     except (OpenGLError, ValueError) as error:
         return Description(name, reason, problem=str(error))
     return Description(name, reason, version, renderer)
@@ -274,8 +277,10 @@ def _scene(pyrender: Any, triangles: Triangles, width: int, background: Color) -
     if len(triangles.faces):
         depth = -3 + 2 * (triangles.slots + 0.5) / SLOTS
         material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
+        # Rounded here as llvmpipe would, so that the rounding of its transformations has nothing to decide.
+        points = np.round(SUBPIXELS * triangles.points) / SUBPIXELS
         primitive = pyrender.Primitive(
-            np.column_stack([triangles.points, depth]),
+            np.column_stack([points, depth]),
             color_0=triangles.colors,
             indices=triangles.faces,
             material=material,

@@ -164,6 +164,7 @@ def _bends(points: FloatArray, drawn: BoolArray, radius: float, closed: bool, ro
     angle_in, angle_out = np.concatenate([angle[-1:], angle]), np.concatenate([angle, angle[:1]])
     turn = (angle_out - angle_in + np.pi) % (2 * np.pi) - np.pi
     joins = before & after
+    joins[-1] = False  # where a closed line ends it begins, and has its bend there
     # Turning left (turn > 0) opens the right side, a quarter turn clockwise from the direction of travel.
     wedges = [_wedges(points[joins], (angle_in - np.copysign(np.pi / 2, turn))[joins], turn[joins], radius)]
     if round_caps:

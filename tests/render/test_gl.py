@@ -1,0 +1,205 @@
+"""The door to OpenGL: which platform, what it says when there is none, and that both draw the same pixels."""
+
+import os
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from stereodel.render import gl
+from stereodel.render.gl import OpenGLError, Triangles, choose, describe, draw
+
+VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
+
+
+@pytest.fixture
+def bare_environment(monkeypatch):
+    for variable in VARIABLES:
+        monkeypatch.delenv(variable, raising=False)
+    return monkeypatch
+
+
+def triangles(corners, colors, slots):
+    corners = np.asarray(corners, dtype=float)
+    count = len(corners)
+    vertex_colors = np.repeat(np.asarray(colors, dtype=float), 3, axis=0)
+    faces = np.arange(3 * count, dtype=np.int32).reshape(-1, 3)
+    return Triangles(corners.reshape(-1, 2), vertex_colors, np.repeat(np.int32(slots), 3), faces)
+
+
+def in_new_process(code, **environment):
+    kept = {key: value for key, value in os.environ.items() if key not in VARIABLES}
+    return subprocess.run(
+        [sys.executable, "-c", code], env={**kept, **environment}, capture_output=True, text=True, check=False
+    )
+
+
+def test_an_argument_overrides_the_environment(bare_environment):
+    bare_environment.setenv("STEREODEL_GL", "osmesa")
+    assert choose("egl") == ("egl", "argument")
+
+
+def test_our_variable_overrides_that_of_pyopengl(bare_environment):
+    bare_environment.setenv("PYOPENGL_PLATFORM", "osmesa")
+    assert choose() == ("osmesa", "PYOPENGL_PLATFORM")
+    bare_environment.setenv("STEREODEL_GL", "egl")
+    assert choose() == ("egl", "STEREODEL_GL")
+
+
+@pytest.mark.parametrize(("usable", "expected"), [({"osmesa", "egl"}, "osmesa"), ({"egl"}, "egl")])
+def test_osmesa_is_tried_first(bare_environment, usable, expected):
+    bare_environment.setattr(gl, "can_open", lambda platform: platform in usable)
+    assert choose() == (expected, "found")
+
+
+def test_without_any_library_the_message_names_the_packages(bare_environment):
+    bare_environment.setattr(gl, "LIBRARIES", {"osmesa": ("libNothing.so",), "egl": ("libNothing.so",)})
+    with pytest.raises(OpenGLError, match=r"libosmesa6 or apt-get install libegl1 libgl1-mesa-dri"):
+        choose()
+    bare_environment.setattr(gl, "_chosen", None)
+    assert "libosmesa6" in describe().problem
+
+
+@pytest.mark.parametrize("variable", VARIABLES)
+def test_a_platform_with_windows_is_refused(bare_environment, variable):
+    bare_environment.setenv(variable, "glx")
+    with pytest.raises(OpenGLError, match=f"{variable} is 'glx'"):
+        choose()
+
+
+def test_an_unknown_argument_is_named():
+    with pytest.raises(ValueError, match=r'platform must be "osmesa" or "egl", got \'metal\''):
+        choose("metal")
+
+
+def test_colours_come_out_as_given():
+    levels = np.arange(256) / 255
+    left = np.arange(256)[:, None, None] * [1, 0] + [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]
+    right = np.arange(256)[:, None, None] * [1, 0] + [[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+    colors = np.stack([levels, levels[::-1], levels, np.ones(256)], axis=1)
+    picture = draw(triangles(np.concatenate([left, right]), np.tile(colors, (2, 1)), np.zeros(512)), 256, 1)
+    assert np.array_equal(picture[0, :, 0], np.arange(256))
+    assert np.array_equal(picture[0, :, 1], np.arange(256)[::-1])
+
+
+def test_the_ground_is_exact_and_rows_come_from_the_top():
+    shape = triangles([[[0, 3], [9, 3], [0, 9]]], [[1, 0, 0, 1]], [0])
+    picture = draw(shape, 4, 4, background=(1.0, 0.2, 0.0, 1.0))
+    assert np.array_equal(picture[0], [[255, 0, 0]] * 4)
+    assert np.array_equal(picture[1:], [[[255, 51, 0]] * 4] * 3)
+
+
+def test_later_items_cover_earlier_ones_and_blend_over_them():
+    square = [[-9, -9], [30, -9], [-9, 30]]
+    black, red = [0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]
+    half = [1.0, 1.0, 1.0, 0.5]
+    assert draw(triangles([square, square], [black, red], [0, 1]), 4, 4)[2, 2].tolist() == [255, 0, 0]
+    assert draw(triangles([square, square], [red, black], [0, 1]), 4, 4)[2, 2].tolist() == [0, 0, 0]
+    assert draw(triangles([square, square], [black, half], [0, 1]), 4, 4)[2, 2] == pytest.approx([128] * 3, abs=1)
+
+
+def test_an_item_whose_triangles_overlap_blends_once():
+    square = [[-9, -9], [30, -9], [-9, 30]]
+    once = draw(triangles([square], [[0, 0, 0, 0.5]], [3]), 4, 4)
+    assert np.array_equal(once, draw(triangles([square] * 5, [[0, 0, 0, 0.5]] * 5, [3] * 5), 4, 4))
+
+
+def test_the_last_slots_are_told_apart():
+    square = [[-9, -9], [30, -9], [-9, 30]]
+    for slot in (0, gl.SLOTS // 2, gl.SLOTS - 2):
+        both = triangles([square, square], [[0, 0, 0, 1], [1, 1, 1, 1]], [slot, slot + 1])
+        assert (draw(both, 2, 2) == 255).all()
+
+
+def test_four_samples_a_pixel():
+    edge = triangles([[[0, 0], [64, 0], [64, 5]]], [[0, 0, 0, 1]], [0])
+    assert np.unique(draw(edge, 64, 8)).tolist() == [0, 64, 128, 191, 255]
+
+
+def test_bands_meet_without_a_seam(monkeypatch):
+    rng = np.random.default_rng(3)
+    colors = rng.integers(0, 256, (80, 4)) / 255
+    shapes = triangles(rng.uniform(0, 64, (80, 3, 2)), colors, np.arange(80))
+    ground = triangles([[[-99, -99], [400, -99], [-99, 400]]], [[0, 0, 1, 0.5]], [0])
+    whole, even = draw(shapes, 64, 60), draw(ground, 64, 60)
+    monkeypatch.setattr(gl, "BAND", 16)
+    assert np.array_equal(draw(ground, 64, 60), even)
+    # OpenGL cuts triangles at the edge of a band and rounds the new corners: one sample here and there.
+    assert np.any(draw(shapes, 64, 60) != whole, axis=-1).mean() < 0.005
+
+
+def test_pixels_do_not_depend_on_the_size_of_the_picture():
+    rng = np.random.default_rng(4)
+    shapes = triangles(rng.uniform(1, 39, (60, 3, 2)), rng.integers(0, 256, (60, 4)) / 255, np.arange(60))
+    assert np.array_equal(draw(shapes, 333, 200)[-40:, :40], draw(shapes, 40, 40))
+
+
+def test_no_triangles_give_the_ground():
+    nothing = triangles(np.zeros((0, 3, 2)), np.zeros((0, 4)), np.zeros(0, dtype=np.int32))
+    assert (draw(nothing, 5, 3) == 255).all()
+
+
+@pytest.mark.parametrize("width", [0, gl.MAX_WIDTH + 1])
+def test_impossible_widths_are_refused(width):
+    with pytest.raises(ValueError, match="width must be 1 to 16384"):
+        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [0]), width, 4)
+
+
+def test_too_many_items_are_refused():
+    with pytest.raises(ValueError, match="at most"):
+        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [gl.SLOTS]), 4, 4)
+
+
+def test_describe_names_platform_and_versions():
+    found = describe()
+    assert found.problem == ""
+    assert found.platform in gl.PLATFORMS
+    assert "llvmpipe" in found.renderer
+    assert found.mesa
+    assert found.mesa in found.version
+
+
+def test_a_process_keeps_to_one_platform():
+    used = describe().platform
+    other = "egl" if used == "osmesa" else "osmesa"
+    assert f"draws on {used} already" in describe(other).problem
+
+
+def test_closing_makes_room_for_a_new_context():
+    shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
+    before = draw(shape, 4, 4)
+    gl.close()
+    assert np.array_equal(draw(shape, 4, 4), before)
+
+
+SCRIPT = """
+import numpy as np
+from stereodel.render.gl import Triangles, describe, draw
+from stereodel.render.image import pixel_hash
+rng = np.random.default_rng(1)
+colors = np.repeat(rng.uniform(0, 1, (300, 4)), 3, axis=0)
+slots = np.repeat(np.arange(300, dtype=np.int32), 3)
+shapes = Triangles(rng.uniform(0, 300, (900, 2)), colors, slots, np.arange(900, dtype=np.int32).reshape(-1, 3))
+print(describe().platform, describe().chosen_by, pixel_hash(draw(shapes, 300, 300)))
+"""
+
+
+def test_both_platforms_give_the_same_pixels():
+    runs = [in_new_process(SCRIPT, STEREODEL_GL=platform) for platform in gl.PLATFORMS]
+    assert [run.returncode for run in runs] == [0, 0], runs[0].stderr + runs[1].stderr
+    osmesa, egl = (run.stdout.split() for run in runs)
+    assert osmesa[:2] == ["osmesa", "STEREODEL_GL"]
+    assert egl[:2] == ["egl", "STEREODEL_GL"]
+    assert osmesa[2] == egl[2]
+
+
+def test_an_earlier_import_of_opengl_is_named():
+    code = "import OpenGL.GL; from stereodel.render.gl import describe; print(describe('egl').problem)"
+    run = in_new_process(code, PYOPENGL_PLATFORM="osmesa")
+    assert "imported OpenGL with OSMesaPlatform and cannot change to egl" in run.stdout, run.stderr
+
+
+def test_the_windowing_library_stays_out():
+    code = "from stereodel.render.gl import describe; describe('osmesa'); import sys; print('pyglet' in sys.modules)"
+    assert in_new_process(code).stdout.strip() == "False"

@@ -1,0 +1,140 @@
+"""Pages through OpenGL: exact colours, order, widths, and agreement with the same page through Agg."""
+
+import numpy as np
+import pytest
+
+from stereodel.render.image import compare
+from stereodel.render.page import Dots, Fill, Label, Page, Stroke, Surface
+from stereodel.render.raster import LIGHT, SHADE, SUPERSAMPLING, render, triangulate
+from stereodel.render.vector import rasterize
+
+BLACK = (0.0, 0.0, 0.0, 1.0)
+GRAY = (0.5, 0.5, 0.5, 1.0)
+EXTENT = (0.0, 4.0, 0.0, 2.0)
+
+
+def lines(*points):
+    ends = np.array(points, dtype=float)
+    a, b = ends[:-1], ends[1:]
+    return np.stack([a, a + (b - a) / 3, a + 2 * (b - a) / 3, b], axis=1)
+
+
+def circle(center, radius):
+    t = np.arange(9) * np.pi / 4
+    ends = np.stack([np.cos(t), np.sin(t)], axis=1)
+    reach = 4 / 3 * np.tan(np.pi / 16) * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
+    return center + radius * np.stack([ends[:-1], ends[:-1] + reach[:-1], ends[1:] - reach[1:], ends[1:]], axis=1)
+
+
+def box(left, right, bottom, top):
+    return lines((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
+
+
+def mixed_page():
+    """Something of everything, as a figure has it."""
+    items = (
+        Fill((circle((1.0, 1.0), 0.9), circle((1.0, 1.0), 0.4)), (0.2, 0.5, 0.8, 1.0)),
+        Fill((box(2.2, 3.8, 0.3, 1.7),), (0.9, 0.6, 0.1, 0.4)),
+        Stroke(lines((0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (1.9, 1.6)), (0.0, 0.0, 0.0, 0.5), 5.0),
+        Stroke(circle((3.0, 1.0), 0.9), (0.0, 0.5, 0.0, 1.0), 1.0, dash=(6.0, 3.0), cap="butt"),
+        Stroke(circle((3.0, 1.0), 0.5), BLACK, 0.6, closed=True),
+        Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, (0.8, 0.0, 0.0, 1.0), rim_width=1.0),
+    )
+    return Page(EXTENT, items)
+
+
+def test_the_default_is_print_at_300_dpi():
+    assert render(Page(EXTENT)).shape == (1004, 2008, 3)
+
+
+def test_flat_colours_are_exact():
+    page = Page(EXTENT, (Fill((box(0, 2, 0, 2),), GRAY), Dots(np.array([[3.0, 1.0]]), 30.0, (1.0, 0.2, 0.0, 1.0))))
+    picture = render(page, size=200)
+    assert (picture[10:90, 5:95] == 128).all()
+    assert picture[50, 150].tolist() == [255, 51, 0]
+    assert picture[2, 198].tolist() == [255, 255, 255]
+
+
+def test_a_ground_that_is_seen_through_is_laid_over_white():
+    assert (render(Page(EXTENT, background=(0.0, 0.0, 0.0, 0.5)), size=10) == 128).all()
+
+
+@pytest.mark.parametrize("width", [0.3, 1.0, 4.0])
+@pytest.mark.parametrize("end", [(3.9, 0.1), (3.9, 1.9), (0.1, 1.9)])
+def test_ink_is_width_times_length_whatever_the_direction(width, end):
+    page = Page(EXTENT, (Stroke(lines((0.1, 0.1), end), BLACK, width, cap="butt"),), width=400.0)
+    picture = render(page, size=800)
+    length = np.hypot(end[0] - 0.1, end[1] - 0.1) * 200
+    ink = (255 - picture[..., 0].astype(float)).sum() / 255
+    # Eight rows of samples in a pixel: a level line has its width to an eighth, a sloping one far better.
+    assert ink / length == pytest.approx(2 * width, abs=0.03 * width if end == (3.9, 1.9) else 0.125)
+
+
+def test_opengl_and_agg_draw_the_same():
+    page = mixed_page()
+    ours, agg = (draw(page, size=800, text=False).astype(float) for draw in (render, rasterize))
+    # They agree inside shapes exactly, and along edges up to antialiasing.
+    different = np.abs(ours - agg).max(axis=-1)
+    assert (different > 96).mean() < 2e-4
+    assert (different > 1).mean() < 0.08
+    assert np.abs(ours.mean(axis=(0, 1)) - agg.mean(axis=(0, 1))).max() < 0.3
+
+
+def test_labels_come_last_and_can_be_left_out():
+    covered = Page(EXTENT, (Label("text", (2.0, 1.0), size=40.0), Fill((box(0, 4, 0, 2),), GRAY)))
+    bare = render(covered, size=300, text=False)
+    assert (bare == 128).all()
+    assert (render(covered, size=300)[60:90, 130:170] < 5).any()
+    assert np.array_equal(bare, render(covered.without_labels(), size=300))
+
+
+def test_rim_and_disc_part_a_dot_between_them():
+    dot = Dots(np.array([[2.0, 1.0]]), 20.0, (1.0, 0.0, 0.0, 0.5), rim=BLACK, rim_width=5.0)
+    picture = render(Page(EXTENT, (dot,), width=200.0), size=200)
+    assert picture[50, 100] == pytest.approx([255, 127, 127], abs=1)
+    assert picture[50, 100 + 17].tolist() == [0, 0, 0]
+    assert picture[50, 100 + 22].tolist() == [255, 255, 255]
+
+
+def hemisphere(color=GRAY):
+    rings, around = 30, 120
+    depth, turn = np.meshgrid(np.linspace(0, np.pi / 2, rings), np.linspace(0, 2 * np.pi, around), indexing="ij")
+    normals = np.stack([np.sin(depth) * np.cos(turn), np.sin(depth) * np.sin(turn), np.cos(depth)], axis=-1)
+    corner = np.arange(rings * around).reshape(rings, around)
+    a, b, c, d = (part.ravel() for part in (corner[:-1, :-1], corner[1:, :-1], corner[1:, 1:], corner[:-1, 1:]))
+    faces = np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)]).astype(np.int32)
+    vertices = normals.reshape(-1, 3) * 0.9 + [2.0, 1.0, 0.0]
+    return Surface(vertices, normals.reshape(-1, 3), faces, (circle((2.0, 1.0), 0.9),), color)
+
+
+def test_a_surface_is_brightest_toward_the_light():
+    picture = render(Page(EXTENT, (hemisphere((1.0, 1.0, 1.0, 1.0)),)), size=400).astype(float)
+    lit = picture[round(100 - 90 * LIGHT[1]), round(200 + 90 * LIGHT[0])]
+    assert lit.tolist() == [255, 255, 255]
+    for normal in ([0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.0, -0.9, np.sqrt(0.19)]):
+        there = picture[round(100 - 90 * normal[1]), round(200 + 90 * normal[0]), 0]
+        assert there == pytest.approx(255 * (1 - SHADE * ((1 - np.dot(normal, LIGHT)) / 2) ** 2), abs=2)
+
+
+def test_depth_of_a_surface_does_not_matter():
+    ball = hemisphere()
+    line = Stroke(lines((1.0, 1.0), (3.0, 1.0)), BLACK, 12.0)
+    over, under = (render(Page(EXTENT, items), size=200) for items in ((ball, line), (line, ball)))
+    assert over[50, 100].tolist() == [0, 0, 0]
+    assert (under[50, 60:140] > 90).all()
+
+
+def test_every_item_has_its_own_slot_in_painters_order():
+    page = mixed_page()
+    shapes = triangulate(page, SUPERSAMPLING * 400, SUPERSAMPLING * 200)
+    assert np.unique(shapes.slots).tolist() == list(range(len(page.items)))
+    assert (np.diff(shapes.slots[shapes.faces].ravel()) >= 0).all()
+
+
+def test_an_empty_page_is_its_ground():
+    assert (render(Page(EXTENT, background=(0.0, 0.0, 1.0, 1.0)), size=20) == [0, 0, 255]).all()
+
+
+def test_drawing_twice_gives_the_same_pixels():
+    page = mixed_page()
+    assert compare(render(page, size=300), render(page, size=300)).any == 0

@@ -1,0 +1,162 @@
+"""Triangles of strokes, dots and fills: areas, coverage, and the union that they make."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+
+from stereodel.render.ribbons import FLATNESS, discs, flatten, region, ribbon
+
+POINTS = arrays(np.float64, st.tuples(st.integers(3, 12), st.just(2)), elements=st.floats(0, 100, width=32))
+
+
+def covered(triangles, points):
+    """How many triangles (n, 3, 2) contain each of (m, 2) points, none of which lies on an edge."""
+    a, b, c = (triangles[:, None, i] for i in range(3))
+    turn = [np.sign(cross(q - p, points - p)) for p, q in ((a, b), (b, c), (c, a))]
+    return (np.abs(np.sum(turn, axis=0)) == 3).sum(axis=0)
+
+
+def cross(u, v):
+    return u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0]
+
+
+def areas(triangles):
+    return np.abs(cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])) / 2
+
+
+def winding_parity(runs, points):
+    """Even-odd rule by counting the edges to the right of each point."""
+    inside = np.zeros(len(points), dtype=int)
+    for run in runs:
+        p, q = run[:, None], np.roll(run, -1, axis=0)[:, None]
+        spans = (p[..., 1] > points[:, 1]) != (q[..., 1] > points[:, 1])
+        rise = np.where(spans, q[..., 1] - p[..., 1], 1.0)
+        x = p[..., 0] + (points[:, 1] - p[..., 1]) / rise * (q[..., 0] - p[..., 0])
+        inside += (spans & (x > points[:, 0])).sum(axis=0)
+    return inside % 2
+
+
+def clear_of(runs, points, distance):
+    """Which points are farther than `distance` from every edge of the closed polygons."""
+    nearest = np.full(len(points), np.inf)
+    for run in runs:
+        nearest = np.minimum(nearest, distances(np.concatenate([run, run[:1]]), points))
+    return nearest > distance
+
+
+def distances(line, points):
+    """Distance of (m, 2) points from a polyline."""
+    p, q = line[:-1, None], line[1:, None]
+    along = np.sum((q - p) ** 2, axis=-1)
+    share = np.clip(np.sum((points - p) * (q - p), axis=-1) / np.where(along, along, 1.0), 0, 1)
+    return np.linalg.norm(points - p - share[..., None] * (q - p), axis=-1).min(axis=0)
+
+
+def quarter_circle(radius):
+    k = 4 / 3 * np.tan(np.pi / 8)
+    return radius * np.array([[[1.0, 0.0], [1.0, k], [k, 1.0], [0.0, 1.0]]])
+
+
+@pytest.mark.parametrize("radius", [1.0, 50.0, 3000.0])
+def test_chords_stay_near_their_curve(radius):
+    points = flatten(quarter_circle(radius))
+    middle = (points[:-1] + points[1:]) / 2
+    # The cubic itself is off the circle by 2.8e-4 of the radius.
+    assert np.abs(np.linalg.norm(middle, axis=1) - radius).max() < FLATNESS + 2.8e-4 * radius
+    s = np.linspace(0, 1, 5001)[:, None]
+    p = quarter_circle(radius)[0]
+    curve = (1 - s) ** 3 * p[0] + 3 * s * (1 - s) ** 2 * p[1] + 3 * s**2 * (1 - s) * p[2] + s**3 * p[3]
+    assert distances(points, curve).max() < FLATNESS
+
+
+def test_runs_keep_their_ends_and_corners():
+    path = np.array([[[0, 0], [1, 0], [2, 0], [3, 0]], [[3, 0], [3, 1], [3, 2], [3, 3]]], dtype=float)
+    assert flatten(path).tolist() == [[0, 0], [3, 0], [3, 3]]
+
+
+@pytest.mark.parametrize("round_caps", [False, True])
+def test_a_straight_ribbon_has_its_area(round_caps):
+    shape = ribbon(np.array([[0.0, 0.0], [30.0, 40.0]]), 8.0, round_caps=round_caps)
+    assert areas(shape).sum() == pytest.approx(50 * 8 + round_caps * np.pi * 16, rel=5e-3)
+
+
+@settings(max_examples=60, deadline=None)
+@given(POINTS, st.floats(1, 20), st.booleans())
+def test_a_ribbon_covers_what_is_near_its_line_and_nothing_else(line, width, closed):
+    grid = np.random.default_rng(0).uniform(-20, 120, (400, 2))
+    inside = covered(ribbon(line, width, closed=closed), grid) > 0
+    away = distances(np.concatenate([line, line[:1]]) if closed else line, grid)
+    assert inside[away < width / 2 - 2 * FLATNESS].all()
+    assert not inside[away > width / 2 + 1e-6].any()
+
+
+def test_a_closed_ribbon_has_no_caps_and_no_gap():
+    square = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
+    butt = {"round_caps": False}
+    assert len(ribbon(square, 2.0, closed=True)) == len(ribbon(square, 2.0, closed=True, **butt))
+    just_outside = np.array([[-0.5, -0.5]])
+    assert covered(ribbon(square, 2.0, closed=True, **butt), just_outside) == 1
+    assert covered(ribbon(square, 2.0, closed=False, **butt), just_outside) == 0
+
+
+def test_dashes_begin_at_the_first_point_and_go_round_corners():
+    bent = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0]])
+    shape = ribbon(bent, 1.0, dash=(4.0, 3.0), round_caps=False)
+    probes = np.array(
+        [[0.5, 0.1], [3.9, 0.1], [4.1, 0.1], [6.9, 0.1], [7.1, 0.1], [9.9, 0.1], [10.1, 0.9], [10.1, 1.1]]
+    )
+    assert (covered(shape, probes) > 0).tolist() == [True, True, False, False, True, True, True, False]
+
+
+@settings(max_examples=60, deadline=None)
+@given(POINTS, st.floats(0.5, 20), st.floats(0.5, 20))
+def test_dashes_have_their_share_of_the_length(line, dash, gap):
+    shape = ribbon(line, 0.02, dash=(dash, gap), round_caps=False)
+    length = np.linalg.norm(np.diff(line, axis=0), axis=1).sum()
+    whole, rest = divmod(length, dash + gap)
+    quads = shape.reshape(-1, 2, 3, 2) if len(shape) % 2 == 0 else None
+    drawn = whole * dash + min(rest, dash)
+    # Wedges at the bends add less than their radius squared each.
+    assert areas(shape).sum() == pytest.approx(0.02 * drawn, abs=len(line) * 4e-4 + 1e-6 * length)
+    assert quads is None or np.isfinite(quads).all()
+
+
+def test_a_point_alone_is_a_disc_or_nothing():
+    point = np.array([[3.0, 3.0], [3.0, 3.0]])
+    assert areas(ribbon(point, 10.0)).sum() == pytest.approx(np.pi * 25, rel=2e-2)
+    assert len(ribbon(point, 10.0, round_caps=False)) == 0
+
+
+def test_turning_back_is_rounded():
+    there_and_back = np.array([[0.0, 0.0], [10.0, 0.0], [0.0, 0.0]])
+    assert covered(ribbon(there_and_back, 4.0, round_caps=False), np.array([[11.5, 0.1]])) == 1
+
+
+@pytest.mark.parametrize("radius", [0.3, 4.0, 200.0])
+def test_discs_are_round_to_the_flatness(radius):
+    shape = discs(np.array([[0.0, 0.0], [1000.0, 0.0]]), radius)
+    middles = (shape[:, 1] + shape[:, 2]) / 2 - shape[:, 0]
+    # A disc is at least a triangle, however small.
+    assert np.linalg.norm(middles, axis=1).min() >= min(radius - FLATNESS, radius / 2) - 1e-9
+    assert len(discs(np.zeros((0, 2)), radius)) == 0
+
+
+@settings(max_examples=100, deadline=None)
+@given(st.lists(POINTS, min_size=1, max_size=3))
+def test_a_region_is_what_the_even_odd_rule_says(runs):
+    points = np.random.default_rng(1).uniform(-5, 105, (300, 2))
+    points = points[clear_of(runs, points, 1e-6)]
+    assert np.array_equal(covered(region(runs), points), winding_parity(runs, points))
+
+
+def test_a_hole_is_left_out():
+    outer = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
+    hole = np.array([[4.0, 4.0], [4.0, 6.0], [6.0, 6.0], [6.0, 4.0]])
+    assert areas(region([outer, hole])).sum() == pytest.approx(96)
+
+
+@pytest.mark.parametrize("flat", [[[0.0, 0.0], [5.0, 0.0], [9.0, 0.0]], [[1.0, 1.0]] * 3, [[0.0, 0.0], [3.0, 4.0]]])
+def test_a_region_without_area_is_empty(flat):
+    assert areas(region([np.array(flat)])).sum() == 0
