@@ -1,0 +1,151 @@
+"""The accuracy contract of conformal maps, against 80-digit arithmetic.
+
+A result is right when it is, up to 4·2⁻⁵², the exact image of a point within 4·2⁻⁵² rad of the given one. The maps are
+conformal and their scale is nearly constant over such a disc, so this asks for |result − exact| ≤ (1 + scale)·4·2⁻⁵².
+Evaluating a map as it is stored must do better: one rounding, wherever the point lies.
+"""
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
+from stereodel.sphere import Rotation, SphereCircle, lonlat_to_xyz
+
+mpmath.mp.dps = 80
+ACCURACY = 4 * mpmath.mpf(2) ** -52
+ONE_ROUNDING = mpmath.mpf(2) ** -53  # √3 · 2⁻⁵⁴: components below 1 round within 2⁻⁵⁴
+
+LONLAT = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
+QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 1e-3).map(Rotation)
+MAGNIFICATIONS = st.one_of(st.floats(-9, 9).map(lambda k: 10.0**k), st.sampled_from([1e-9, 1.0, 4.0, 20.0, 1e9]))
+MAPS = st.builds(MoebiusMap, QUATERNIONS, MAGNIFICATIONS, QUATERNIONS)
+OFFSETS = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.linalg.norm(v) > 1e-3)
+NEARNESS = st.sampled_from([1.0, 1e-3, 1e-8, 1e-9, 1e-12, 1e-15, 0.0])
+
+
+def mp(values):
+    return [mpmath.mpf(float(v)) for v in values]
+
+
+def normalized(v):
+    length = mpmath.sqrt(sum(x * x for x in v))
+    return [x / length for x in v]
+
+
+def cross(a, b):
+    return [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]
+
+
+def rotate(rotation, v):
+    w, *axis = mp(rotation.quaternion)
+    size = w * w + sum(a * a for a in axis)
+    inner = [a + w * b for a, b in zip(cross(axis, v), v, strict=True)]
+    return [a + 2 * b / size for a, b in zip(v, cross(axis, inner), strict=True)]
+
+
+def exact_fisheye(focus, magnification, v):
+    """The closed formula Ξ = 2 arctan(S tan(χ/2)), v and the focus being unit vectors."""
+    s, c = mpmath.mpf(float(magnification)), sum(a * b for a, b in zip(v, focus, strict=True))
+    total = (1 + c) + s * s * (1 - c)
+    along = ((1 + c) - s * s * (1 - c)) / total
+    return [2 * s / total * (x - c * f) + along * f for x, f in zip(v, focus, strict=True)]
+
+
+def exact_map(conformal, v):
+    inner = rotate(conformal.right, v)
+    return rotate(conformal.left, exact_fisheye(mp([0, 0, 1]), conformal.magnification, inner))
+
+
+def error(got, truth):
+    return mpmath.sqrt(sum((a - b) ** 2 for a, b in zip(mp(got), truth, strict=True)))
+
+
+def near_point(point, side, nearness, offset):
+    vector = side * point + nearness * np.array(offset)
+    return vector if np.linalg.norm(vector) > 1e-6 else point
+
+
+@given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
+@settings(deadline=None, max_examples=300)
+def test_the_stored_map_is_rounded_once(conformal, side, nearness, offset):
+    vector = near_point(conformal.focus, side, nearness, offset)
+    truth = exact_map(conformal, normalized(mp(vector)))
+    assert error(conformal(vector), truth) <= ONE_ROUNDING
+
+
+@given(LONLAT, MAGNIFICATIONS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
+@settings(deadline=None, max_examples=300)
+def test_fisheye_at_the_focus_that_was_given(focus, magnification, side, nearness, offset):
+    direction = lonlat_to_xyz(focus)
+    lens = fisheye(focus, magnification=magnification)
+    vector = near_point(direction, side, nearness, offset)
+    truth = exact_fisheye(normalized(mp(direction)), magnification, normalized(mp(vector)))
+    assert error(lens(vector), truth) <= ACCURACY * (1 + mpmath.mpf(float(lens.scale_factor(vector))))
+
+
+@given(MAPS, MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
+@settings(deadline=None, max_examples=300)
+def test_composition(first, second, side, nearness, offset):
+    both = second @ first
+    for focus in (first.focus, both.focus):
+        vector = near_point(focus, side, nearness, offset)
+        truth = exact_map(second, exact_map(first, normalized(mp(vector))))
+        assert error(both(vector), truth) <= ACCURACY * (1 + mpmath.mpf(float(both.scale_factor(vector))))
+
+
+@given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
+@settings(deadline=None, max_examples=200)
+def test_inverse_is_exact(conformal, side, nearness, offset):
+    inverse = conformal.inverse()
+    vector = near_point(inverse.focus, side, nearness, offset)
+    v = normalized(mp(vector))
+    with mpmath.workdps(120):
+        assert error_mp(exact_map(conformal, exact_map(inverse, v)), v) < mpmath.mpf(10) ** -55
+
+
+def error_mp(a, b):
+    return mpmath.sqrt(sum((x - y) ** 2 for x, y in zip(a, b, strict=True)))
+
+
+@given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
+@settings(deadline=None)
+def test_scale_factor(conformal, side, nearness, offset):
+    vector = near_point(conformal.focus, side, nearness, offset)
+    c = rotate(conformal.right, normalized(mp(vector)))[2]
+    s = mpmath.mpf(conformal.magnification)
+    truth = 2 * s / ((1 + c) + s * s * (1 - c))
+    # The scale of a point within 2⁻⁹⁰ rad: next to the focus it changes by S² times that.
+    assert abs(mpmath.mpf(float(conformal.scale_factor(vector))) / truth - 1) < mpmath.mpf(2) ** -51
+
+
+@pytest.mark.parametrize("magnification", [1e-9, 1e-3, 20.0, 1e9])
+def test_next_to_focus_and_antipode_with_relative_accuracy(magnification):
+    # About the pole the rotations are exact, so the small parts must be right to their own last digits.
+    lens = fisheye((0.0, 90.0), magnification=magnification)
+    for size in (1e-12, 1e-30, 1e-200):
+        for z in (1.0, -1.0):
+            got = lens([size, 0.0, z])
+            half = magnification if z > 0 else 1 / magnification
+            assert got[0] == pytest.approx(float(2 * half * size / (2 + 0.5 * (half * size) ** 2)), rel=1e-9)
+            assert np.sign(got[2]) == z
+
+
+def test_composition_of_extremes_keeps_its_digits():
+    lens = fisheye((10.0, 20.0), magnification=1e9)
+    assert (lens @ lens.inverse()).is_close(MoebiusMap.identity())
+    assert (lens.inverse() @ lens).magnification == 1
+    assert lens.is_close(fisheye(-lens.focus, magnification=1e-9))
+    assert (lens @ lens).magnification == pytest.approx(1e18, rel=1e-12)
+
+
+def test_a_tiny_bubble_onto_a_hemisphere():
+    tiny = SphereCircle.around((25.0, 35.0), 1e-7)
+    down = bubble_to_bubble(tiny, SphereCircle((0, -90), 0.0))
+    assert down.magnification == pytest.approx(1 / np.tan(np.radians(1e-7) / 2), rel=1e-9)
+    image = down.image_of(tiny)
+    # The focus is stored to an ulp, which is magnified.
+    assert abs(image.offset) < 4e-16 * down.magnification
+    assert np.abs(image.normal - [0, 0, -1]).max() < 4e-16 * down.magnification

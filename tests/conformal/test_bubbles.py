@@ -1,0 +1,100 @@
+"""Claim P16: any bubble onto any other, point to point, uniquely up to a turn."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
+from stereodel.sphere import Rotation, SphereCircle, angular_distance, xyz_to_lonlat
+
+LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
+BUBBLES = st.builds(SphereCircle.around, LONLAT, st.floats(0.5, 179.5))
+PLACES = st.tuples(st.floats(0, 0.95), st.floats(0, 360))
+
+
+def inside(bubble, place):
+    """The point of a bubble at a fraction of its radius from the centre."""
+    fraction, bearing = place
+    start = bubble.sample(1)[0]
+    edge = Rotation.about(bubble.center, bearing)(start)
+    return Rotation.about(np.cross(bubble.center, edge), fraction * bubble.angular_radius)(bubble.center)
+
+
+def same(a, b):
+    return angular_distance(a.center, b.center) < 1e-9 and abs(a.angular_radius - b.angular_radius) < 1e-9
+
+
+@given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(-360, 360))
+@settings(deadline=None, max_examples=40)
+def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, turn):
+    p, q = inside(source, start), inside(target, end)
+    conformal = bubble_to_bubble(source, target, p, q, turn)
+    assert same(conformal.image_of(source), target)
+    assert angular_distance(conformal(p), q) < 1e-9
+    assert same(conformal.inverse().image_of(target), source)
+
+
+@given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(1, 359))
+@settings(deadline=None, max_examples=40)
+def test_p16_the_turn_is_the_angle_at_the_target_point(source, target, start, end, turn):
+    p, q = inside(source, start), inside(target, end)
+    plain, turned = bubble_to_bubble(source, target, p, q), bubble_to_bubble(source, target, p, q, turn)
+    step = 1e-6 / float(plain.scale_factor(p))
+    ahead = p + step * np.linalg.svd(p[None])[2][1]
+    a, b = plain(ahead) - q, turned(ahead) - q
+    angle = np.degrees(np.arctan2(np.dot(q, np.cross(a, b)), np.dot(a, b)))
+    assert abs((angle - turn + 180) % 360 - 180) < 0.1
+
+
+@given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(-180, 180))
+@settings(deadline=None, max_examples=40)
+def test_p16_unique_up_to_the_turn(source, target, start, end, turn):
+    # Another way to a map with the same properties differs by a turn about the point: a map of the target
+    # bubble onto itself that fixes a point and turns by nothing is the identity.
+    p, q = inside(source, start), inside(target, end)
+    there = bubble_to_bubble(source, target, p, q, turn)
+    back = bubble_to_bubble(target, source, q, p, -turn)
+    loop = there @ back
+    assert same(loop.image_of(target), target)
+    step = 1e-6
+    ahead = q + step * np.linalg.svd(q[None])[2][1]
+    angle = np.degrees(turned_by(loop, q, ahead))
+    assert (bubble_to_bubble(target, target, q, q, -angle) @ loop).is_close(MoebiusMap.identity(), tolerance=1e-4)
+
+
+def turned_by(conformal, fixed, ahead):
+    a, b = ahead - fixed, conformal(ahead) - conformal(fixed)
+    return float(np.arctan2(np.dot(fixed, np.cross(a, b)), np.dot(a, b)))
+
+
+@given(BUBBLES, PLACES)
+@settings(deadline=None, max_examples=40)
+def test_no_turn_onto_itself_is_the_identity(bubble, place):
+    p = inside(bubble, place)
+    assert bubble_to_bubble(bubble, bubble, p, p).is_close(MoebiusMap.identity(), tolerance=1e-12)
+
+
+@given(LONLAT, st.floats(1, 179), st.floats(1, 179))
+@settings(deadline=None, max_examples=40)
+def test_centres_by_default_give_the_fisheye(center, first, second):
+    a, b = SphereCircle.around(center, first), SphereCircle.around(center, second)
+    size = np.tan(np.radians(second) / 2) / np.tan(np.radians(first) / 2)
+    assert bubble_to_bubble(a, b).is_close(fisheye(center, magnification=size), tolerance=1e-12)
+
+
+def test_onto_the_southern_hemisphere():
+    cap = SphereCircle.around((20.0, 50.0), 10.0)
+    down = bubble_to_bubble(cap, SphereCircle((0, -90), 0.0), source_point=(22.0, 51.0))
+    assert np.abs(down(cap.sample(9))[:, 2]).max() < 1e-14
+    assert xyz_to_lonlat(down(cap.center))[1] < 0
+    # A bubble larger than a hemisphere works as well.
+    assert same(down.inverse().image_of(SphereCircle((0, 90), 0.0)), cap.complement)
+
+
+@pytest.mark.parametrize("point", [(20.0, 60.1), (200.0, -50.0), (20.0, 75.0)])
+@pytest.mark.parametrize("name", ["source_point", "target_point"])
+def test_points_must_lie_inside(point, name):
+    cap = SphereCircle.around((20.0, 50.0), 10.0)
+    with pytest.raises(ValueError, match=f"{name} must lie strictly inside the bubble"):
+        bubble_to_bubble(cap, cap, **{name: point})

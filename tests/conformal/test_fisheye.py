@@ -1,0 +1,200 @@
+"""Claims P17 to P19: what a fisheye does to distances, scales and graticules."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel.conformal import MoebiusMap, fisheye
+from stereodel.projections import Stereographic
+from stereodel.sphere import SphereArc, SphereCircle, angular_distance, graticule, lonlat_to_xyz, meridian, parallel
+
+LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
+MAGNIFICATIONS = st.floats(-3, 3).map(lambda k: 10.0**k)
+POINTS = np.random.default_rng(12).normal(size=(30, 3))
+
+
+@given(LONLAT, MAGNIFICATIONS)
+def test_p18_stretch_of_the_colatitude(focus, s):
+    lens, center = fisheye(focus, magnification=s), lonlat_to_xyz(focus)
+    chi = np.radians(angular_distance(POINTS, center))
+    xi = np.radians(angular_distance(lens(POINTS), center))
+    assert xi == pytest.approx(2 * np.arctan(s * np.tan(chi / 2)), rel=1e-11)
+    # S tan((90° + φ)/2) = tan((90° + Φ)/2) with φ, Φ the latitudes towards the antipode.
+    phi, capital_phi = chi - np.pi / 2, xi - np.pi / 2
+    assert s * np.tan((np.pi / 2 + phi) / 2) == pytest.approx(np.tan((np.pi / 2 + capital_phi) / 2), rel=1e-10)
+
+
+@given(LONLAT, MAGNIFICATIONS)
+def test_p18_similarity_between_stereographic_projections(focus, s):
+    gamma = Stereographic(focus)
+    expected = gamma.inverse(s * gamma.forward(POINTS))
+    assert np.abs(fisheye(focus, magnification=s)(POINTS) - expected).max() < 2e-15
+    # The bearing from the focus stays (Figure 13: one ray, spheres of radius R and R/S).
+    smaller = Stereographic(focus, radius=1 / s)
+    assert np.abs(smaller.inverse(gamma.forward(POINTS)) - expected).max() < 2e-15
+
+
+@given(LONLAT, MAGNIFICATIONS)
+def test_p18_scale(focus, s):
+    lens, center = fisheye(focus, magnification=s), lonlat_to_xyz(focus)
+    chi = np.radians(angular_distance(POINTS, center))
+    expected = s / (np.cos(chi / 2) ** 2 + s**2 * np.sin(chi / 2) ** 2)
+    assert lens.scale_factor(POINTS) == pytest.approx(expected, rel=1e-11)
+    assert lens.scale_factor(center) == pytest.approx(s, rel=1e-12)
+    assert lens.scale_factor(-center) == pytest.approx(1 / s, rel=1e-12)
+
+
+@given(LONLAT, st.floats(-1.5, 1.5).map(lambda k: 10.0**k), LONLAT, st.floats(0, 6.3), st.floats(0.2, 3))
+@settings(deadline=None)
+def test_p19_angles_are_kept(focus, s, point, turn, angle):
+    lens, p = fisheye(focus, magnification=s), lonlat_to_xyz(point)
+    u, v = np.linalg.svd(p[None])[2][1:]
+    circles = []
+    for t in (turn, turn + angle):
+        # A great circle through p and a small one with the same tangent there.
+        direction = np.cos(t) * u + np.sin(t) * v
+        circles.append(SphereCircle(np.cross(p, direction), 0.0))
+    bent = SphereCircle.through(p, *(tilted(p, u, v, turn, k) for k in (0.3, -0.4)))
+    images = [lens.image_of(circle) for circle in (*circles, bent)]
+    q = lens(p)
+    before = [np.cross(circle.normal, p) for circle in (*circles, bent)]
+    after = [np.cross(image.normal, q) for image in images]
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        assert signed_angle(after[i], after[j], q) == pytest.approx(signed_angle(before[i], before[j], p), abs=1e-9)
+
+
+def tilted(p, u, v, turn, k):
+    return p + k * (np.cos(turn) * u + np.sin(turn) * v) + 0.2 * k * k * (np.cos(turn) * v - np.sin(turn) * u)
+
+
+def signed_angle(a, b, axis):
+    """Angle from a to b about the axis, in [0, π) up to a half turn: a tangent has two directions."""
+    angle = np.arctan2(np.dot(axis, np.cross(a, b)), np.dot(a, b)) % np.pi
+    return angle if angle < np.pi - 1e-7 else angle - np.pi
+
+
+@pytest.mark.parametrize("s", [1.0, 4.0, 20.0])
+def test_p19_graticule_stays_orthogonal(s):
+    lens = fisheye((0.0, 40.0), magnification=s)
+    for lon in range(-180, 180, 30):
+        for lat in range(-75, 90, 15):
+            point = lens(lonlat_to_xyz((lon, lat)))
+            along = [np.cross(lens.image_of(line).circle.normal, point) for line in (meridian(lon), parallel(lat))]
+            assert abs(np.dot(*along)) < 2e-13 * np.linalg.norm(along[0]) * np.linalg.norm(along[1])
+
+
+@given(LONLAT, st.floats(1.01, 1000))
+def test_p19_scale_falls_away_from_the_focus(focus, s):
+    arc = SphereArc.great(focus, -lonlat_to_xyz(focus) + [0.0, 0.1, 0.1])
+    scale = fisheye(focus, magnification=s).scale_factor(arc.points(20))
+    assert (np.diff(scale) < 0).all()
+
+
+@given(LONLAT, LONLAT, st.floats(1.5, 50))
+def test_p19_geodesics_become_circles(focus, normal, s):
+    lens, great = fisheye(focus, magnification=s), SphereCircle(normal, 0.0)
+    image = lens.image_of(great)
+    assert np.abs(lens(great.sample(9)) @ image.normal - image.offset).max() < 1e-13
+    inclination = great.normal @ lonlat_to_xyz(focus)
+    # Great through the focus stays great; any other does not.
+    through = lens.image_of(SphereCircle(np.cross(lonlat_to_xyz(focus), [0.3, -0.5, 0.7]), 0.0))
+    assert abs(through.offset) < 1e-13
+    if abs(inclination) > 1e-6:
+        assert abs(image.offset) > abs(inclination) * 1e-3
+        assert np.sign(image.offset) == -np.sign(inclination)
+
+
+@given(st.floats(1, 90), st.floats(1, 90))
+def test_p17_scales_differ_by_at_most_1_to_2(chi0, xi0):
+    # Bubbles of radii χ₀ and Ξ₀, centre to centre: S = tan(Ξ₀/2) / tan(χ₀/2).
+    a, b = np.radians([chi0, xi0]) / 2
+    lens = fisheye((0, 90), magnification=np.tan(b) / np.tan(a))
+    colatitudes = np.linspace(0, chi0, 50)
+    scale = lens.scale_factor(lonlat_to_xyz(np.stack([np.zeros(50), 90 - colatitudes], axis=1)))
+    ratio = np.cos(a) ** 2 / np.cos(b) ** 2
+    assert scale[0] / scale[-1] == pytest.approx(ratio, rel=1e-12)
+    assert scale.max() / scale.min() == pytest.approx(max(ratio, 1 / ratio), rel=1e-9)
+    assert scale.max() / scale.min() <= 2 * (1 + 1e-12)
+
+
+@given(LONLAT, st.floats(0.01, 179.9), LONLAT, st.floats(-9, 9).map(lambda k: 10.0**k))
+@settings(deadline=None)
+def test_circles_to_circles_with_their_interiors(focus, radius, middle, s):
+    lens, circle = fisheye(focus, magnification=s), SphereCircle.around(middle, radius)
+    image = lens.image_of(circle)
+    points = lens(circle.sample(8))
+    # Stored points are an ulp off the circle, and that is magnified.
+    slack = 1e-15 * (1 + lens.scale_factor(circle.sample(8)).max())
+    assert np.abs(points @ image.normal - image.offset).max() < slack
+    assert image.contains(lens(circle.center)) or np.abs(lens(circle.center) @ image.normal - image.offset) < 1e-12
+    back = lens.inverse().image_of(image)
+    shift = 1e-13 * (1 + 1 / lens.scale_factor(circle.sample(8)).min())
+    assert angular_distance(back.center, circle.center) < 60 * shift
+    assert back.angular_radius == pytest.approx(radius, abs=60 * shift)
+    other = lens.image_of(circle.complement).complement
+    assert np.abs(other.normal - image.normal).max() < 4e-16
+    assert (other.offset, other.radius) == pytest.approx((image.offset, image.radius), rel=1e-15, abs=1e-300)
+
+
+@pytest.mark.parametrize("s", [1e-9, 1.0, 20.0, 1e3, 1e9])
+@pytest.mark.parametrize("radius", [1e-12, 1e-9, 1e-3, 40.0])
+def test_tiny_circles_next_to_the_focus(s, radius):
+    lens = fisheye((0.0, 40.0), magnification=s)
+    image = lens.image_of(SphereCircle.around((0.0, 40.0), radius))
+    expected = 2 * np.degrees(np.arctan(s * np.tan(np.radians(radius) / 2)))
+    # The centre is the focus up to an ulp: the image's radius may notice S times that.
+    assert image.angular_radius == pytest.approx(expected, rel=1e-12, abs=1e-13)
+    assert np.abs(image.center - lens.focus).max() < 1e-15 * (1 + s) or expected > 179
+
+
+@given(LONLAT, st.floats(0, 9).map(lambda k: 10.0**k), LONLAT, LONLAT)
+@settings(deadline=None)
+def test_arcs_to_arcs(focus, s, start, end):
+    a, b = lonlat_to_xyz(start), lonlat_to_xyz(end)
+    if not 1e-3 < angular_distance(a, b) < 179.9:
+        return
+    lens, arc = fisheye(focus, magnification=s), SphereArc.great(start, end)
+    image = lens.image_of(arc)
+    assert_arc_of(image, lens, arc)
+    assert_arc_of(lens.inverse().image_of(arc), lens.inverse(), arc)
+
+
+def assert_arc_of(image, conformal, arc):
+    """The image has the images of the ends as its ends, and the images of points between them between them."""
+    inner = arc.points(7)
+    slack = 1e-14 * (1 + conformal.scale_factor(inner))
+    points = conformal(inner)
+    center, u, v, sweep_rad = image.frame()
+    assert (np.abs(points @ image.circle.normal - image.circle.offset) < slack).all()
+    assert np.abs(center + u - points[0]).max() < slack[0]
+    assert np.abs(center + np.cos(sweep_rad) * u + np.sin(sweep_rad) * v - points[-1]).max() < slack[-1] + slack[0]
+    r = image.circle.radius
+    angles = np.arctan2(points @ v, points @ u)[1:-1] % (2 * np.pi)
+    clear = slack[1:-1] * 10 < r * np.minimum(angles, 2 * np.pi - angles)
+    assert (angles[clear] <= sweep_rad + (slack[1:-1] / r)[clear]).all()
+
+
+@pytest.mark.parametrize("s", [20.0, 1e4, 1e9])
+def test_whole_graticule_under_large_magnification(s):
+    lens = fisheye((0.0, 40.0), magnification=s)
+    for arc in graticule(30.0):
+        image = lens.image_of(arc)
+        assert image.closed == arc.closed
+        assert_arc_of(image, lens, arc)
+
+
+def test_prime_meridian_stays_in_its_plane():
+    image = fisheye((0.0, 40.0), magnification=20.0).image_of(meridian(0.0))
+    assert image.circle.normal.tolist() == [0, -1, 0]
+    assert image.circle.offset == 0
+    assert image.start[1] == image.end[1] == 0
+
+
+def test_many_points_at_once():
+    lens = MoebiusMap.rotation((1, 2), 3) @ fisheye((0, 40), magnification=4)
+    points = np.random.default_rng(1).normal(size=(2, 2600, 3))
+    assert lens(points).shape == points.shape
+    assert lens.scale_factor(points).shape == (2, 2600)
+    assert (lens(points)[1, -1] == lens(points[1, -1])).all()
+    assert lens(np.zeros((0, 3))).shape == (0, 3)
