@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -101,7 +102,7 @@ class HullInsertion:
         self._surface = Surface()
         self._first: dict[object, int] = {}
         self._duplicates: list[Edge] = []
-        self._waiting: list[int] = []
+        self._waiting: deque[int] = deque()
         self._near: Facet | None = None
         self.points: FloatArray = array[:0]
         self.start: tuple[int, ...] = ()
@@ -169,22 +170,18 @@ class HullInsertion:
 
     def _begin(self) -> None:
         """Start the surface once three points span; until then all wait."""
-        self.start = tuple(spanning_points(self._sites, self._waiting))
+        self.start = tuple(spanning_points(self._sites, list(self._waiting)))
         if len(self.start) < 3:
             return
         for facet in self._sites.begin(*self.start):
             self._surface.add(*facet)
             self._near = self._near or facet
-        self._waiting = [p for p in self._waiting if p not in self.start]
+        self._waiting = deque(p for p in self._waiting if p not in self.start)
 
     def _take(self) -> Iterator[int]:
         """Points to insert; one that was handed out no longer waits, so that iterating may stop and go on."""
-        self._waiting.reverse()
-        try:
-            while self._near and self._waiting:
-                yield self._waiting.pop()
-        finally:
-            self._waiting.reverse()
+        while self._near and self._waiting:
+            yield self._waiting.popleft()
 
     def _insert(self, point: int) -> tuple[list[Facet], list[Edge]]:
         visible, horizon = self._conflict(point)

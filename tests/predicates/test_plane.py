@@ -1,0 +1,125 @@
+"""orient2d, incircle and orient3d against rational arithmetic."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel.predicates import incircle, orient2d, orient3d
+from stereodel.predicates.integers import sign
+from stereodel.predicates.plane import filter_coordinates, incircle_filter, orient2d_filter
+from stereodel.predicates.staged import columns
+
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+POINT = st.tuples(FINITE, FINITE)
+SCALES = [1.0, 1e150, 1e-150, 2.0**-1074, 2.0**-1040, 1e-300]
+
+
+def determinant(rows):
+    if len(rows) == 1:
+        return rows[0][0]
+    minors = ([row[:k] + row[k + 1 :] for row in rows[1:]] for k in range(len(rows)))
+    return sum((-1) ** k * rows[0][k] * determinant(m) for k, m in enumerate(minors))
+
+
+def orient2d_oracle(*points):
+    return determinant([[*map(Fraction, p), Fraction(1)] for p in points])
+
+
+def incircle_oracle(*points):
+    rows = [list(map(Fraction, p)) for p in points]
+    return determinant([[x, y, x * x + y * y, Fraction(1)] for x, y in rows])
+
+
+def orient3d_oracle(*points):
+    return -determinant([[*map(Fraction, p), Fraction(1)] for p in points])
+
+
+@given(POINT, POINT, POINT)
+def test_orientation_of_any_doubles(a, b, c):
+    assert orient2d(a, b, c) == sign(orient2d_oracle(a, b, c))
+
+
+@given(POINT, POINT, POINT, POINT)
+def test_incircle_of_any_doubles(a, b, c, d):
+    assert incircle(a, b, c, d) == sign(incircle_oracle(a, b, c, d))
+
+
+@given(*[st.tuples(FINITE, FINITE, FINITE)] * 4)
+def test_orient3d_of_any_doubles(a, b, c, d):
+    assert orient3d(a, b, c, d) == sign(orient3d_oracle(a, b, c, d))
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_orientation_on_the_grid_where_doubles_fail(scale):
+    """Points one ulp apart about 0.5, seen from a line through 12 and 24 (Kettner and others, 2008)."""
+    steps = np.arange(-8, 8) * 2.0**-53
+    a = np.stack(np.meshgrid(0.5 + steps, 0.5 + steps), axis=-1).reshape(-1, 2) * scale
+    b, c = np.array([12.0, 12.0]) * scale, np.array([24.0, 24.0]) * scale
+    expected = [sign(orient2d_oracle(p, b, c)) for p in a.tolist()]
+    assert orient2d(a, b, c).tolist() == expected
+    assert orient2d(b, c, a).tolist() == expected
+    assert orient2d(c, b, a).tolist() == [-s for s in expected]
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0**498, 2.0**-498])
+def test_incircle_near_a_circle_and_on_it(scale):
+    on_circle = np.array([[3, 4], [5, 0], [-4, 3], [0, -5], [-3, -4], [4, -3], [-5, 0]], dtype=float) * scale
+    a, b, c, *others = on_circle
+    for d in others:
+        nudges = np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]]) * np.spacing(4 * scale)
+        expected = [sign(incircle_oracle(a, b, c, p)) for p in (d + nudges).tolist()]
+        assert incircle(a, b, c, d + nudges).tolist() == expected
+        assert expected[0] == 0
+        assert incircle(b, a, c, d + nudges).tolist() == [-s for s in expected]
+
+
+def test_orient3d_near_a_plane():
+    rng = np.random.default_rng(1)
+    a, b, c = rng.integers(-50, 50, size=(3, 200, 3)) * 0.1
+    d = a + (b - a) * 0.3 + (c - a) * 0.4
+    assert orient3d(a, b, c, d).tolist() == [sign(orient3d_oracle(*q)) for q in zip(a, b, c, d, strict=True)]
+
+
+@pytest.mark.parametrize("spread", [1.0, 1e-4, 1e-8, 1e-12, 1e-15])
+def test_the_filters_keep_their_bounds(spread):
+    """The bound itself, not only the sign: errors that luck hides show here."""
+    rng = np.random.default_rng(2)
+    points = rng.normal(size=2) + spread * rng.normal(size=(4, 200, 2))
+    points[2] = points[0] + (points[1] - points[0]) * rng.random((200, 1))
+    for formula, oracle, count in ((orient2d_filter, orient2d_oracle, 3), (incircle_filter, incircle_oracle, 4)):
+        value, bound = formula(*(columns(p) for p in points[:count]))
+        for k in range(200):
+            assert abs(Fraction(value[k]) - oracle(*points[:count, k].tolist())) <= Fraction(bound[k])
+
+
+def test_the_filters_decide_what_is_clear():
+    rng = np.random.default_rng(3)
+    a, b, c, d = (columns(p) for p in rng.random((4, 5000, 2)))
+    for value, bound in (orient2d_filter(a, b, c), incircle_filter(a, b, c, d)):
+        assert (np.abs(value) <= bound).mean() < 1e-3
+
+
+def test_coordinates_out_of_range_go_to_integers():
+    inside = np.array([0.0, 1.0, -(2.0**-147), 2.0**199])
+    assert np.array_equal(filter_coordinates(inside), inside)
+    assert np.isnan(filter_coordinates(np.array([2.0**-148, -(2.0**200), 5e-324]))).all()
+
+
+def test_shapes():
+    a, b, c = np.zeros((4, 1, 2)), np.array([1.0, 0.0]), np.ones((5, 2))
+    assert orient2d(a, b, c).shape == (4, 5)
+    assert orient2d(a, b, c).dtype == np.int8
+    assert type(orient2d([0, 0], [1, 0], [0, 1])) is int
+    assert orient2d(np.zeros((0, 2)), b, [0, 1]).shape == (0,)
+    assert type(orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1])) is int
+
+
+@pytest.mark.parametrize("bad", [[np.nan, 0], [0, np.inf], [1, 2, 3], "ab", [1j, 0]])
+def test_bad_points_are_named(bad):
+    with pytest.raises((ValueError, TypeError), match=r"^c"):
+        orient2d([0, 0], [1, 0], bad)
+    with pytest.raises((ValueError, TypeError), match=r"^d"):
+        incircle([0, 0], [1, 0], [0, 1], bad)

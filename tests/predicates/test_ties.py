@@ -1,0 +1,77 @@
+"""The tie rules against displacements actually made, small but not infinitesimal."""
+
+import itertools
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf, workdps
+
+from stereodel.predicates.integers import sign
+from stereodel.predicates.rays import bubble_ray, ray
+from stereodel.predicates.ties import bubble_tie, incircle_tie
+
+CIRCLE = [(3, 4), (5, 0), (-4, 3), (0, -5), (-3, -4)]
+TURN = np.array([[1, 2, 2], [2, 1, -2], [2, -2, 1]])
+
+
+def lifted_incircle(*points):
+    """The incircle determinant with heights x² + y² + ε, the first point in order lifted most."""
+    rank = {p: k for k, p in enumerate(sorted(points))}
+    rows = [[x, y, x * x + y * y + Fraction(1, 10 ** (20 * rank[x, y] + 20))] for x, y in points]
+    (ax, ay, az), (bx, by, bz), (cx, cy, cz) = ([p - q for p, q in zip(r, rows[3], strict=True)] for r in rows[:3])
+    return sign(az * (bx * cy - by * cx) + bz * (cx * ay - cy * ax) + cz * (ax * by - ay * bx))
+
+
+def test_the_plane():
+    for four in itertools.permutations(CIRCLE, 4):
+        assert incircle_tie(*four) == lifted_incircle(*four)
+
+
+def displaced_bubble(*vectors):
+    """in_bubble after p̂(1 + ε) and the much smaller shifts along x, y, z; for the sizes see the comment below."""
+    units = []
+    for v in vectors:
+        length = mp.sqrt(mpf(int(sum(x * x for x in v))))
+        units.append([mpf(int(x)) / length for x in v])
+    rank = {k: order for order, k in enumerate(sorted(range(4), key=units.__getitem__))}
+    # Outward steps 1e-200 … 1e-230, shifts 1e-400 … 1e-510: every first-order shift exceeds any product with an outward
+    # step (1e-600), so the order of all first-order terms is the order of the rule.
+    moved = [
+        [
+            x * (1 + mpf(10) ** (-200 - 10 * rank[k])) + mpf(10) ** (-400 - 10 * rank[k] - 40 * i)
+            for i, x in enumerate(u)
+        ]
+        for k, u in enumerate(units)
+    ]
+    value = mp.det(mp.matrix([[x - y for x, y in zip(u, moved[0], strict=True)] for u in moved[1:]]))
+    assert abs(value) > mpf(10) ** -560
+    return int(mp.sign(value))
+
+
+CIRCLES = {
+    "small": [(x, y, 12) for x, y in CIRCLE],
+    "small, tilted": np.array([(x, y, 12) for x, y in CIRCLE]) @ TURN,
+    "equator": [(x, y, 0) for x, y in [*CIRCLE, (3, -4)]],
+    "meridian": [(0, x, y) for x, y in CIRCLE],
+    "other meridian": [(x, 0, y) for x, y in CIRCLE],
+    "great, tilted": np.array([(x, y, 0) for x, y in CIRCLE]) @ TURN,
+    "great, roots": [(1, 1, 0), (1, 2, 0), (-1, 3, 0), (1, -1, 0), (-1, -1, 0)],
+    "great, through the x axis": [(1, 1, 1), (1, 2, 2), (-1, 3, 3), (1, -1, -1), (-1, -1, -1)],
+}
+
+
+@pytest.mark.parametrize("name", CIRCLES)
+def test_the_sphere(name):
+    points = [tuple(map(int, v)) for v in CIRCLES[name]]
+    with workdps(700):
+        for four in itertools.permutations(points, 4):
+            rays = [ray(tuple(map(float, v))) for v in four]
+            assert bubble_ray(*rays) == 0
+            assert bubble_tie(*rays) == displaced_bubble(*four)
+
+
+def test_repeated_points_have_no_rule():
+    a, b, c = (ray(v) for v in ((3.0, 4.0, 0.0), (5.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+    with pytest.raises(ArithmeticError, match="same"):
+        bubble_tie(a, b, b, c) and bubble_tie(b, b, b, c)
