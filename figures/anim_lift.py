@@ -16,10 +16,10 @@ from stereodel import PlanarDelaunay, Stereographic
 from stereodel.render import Animation, CircleArc, Page, Scene, View
 from stereodel.sphere import SphereArc, SphereCircle
 
-VIEW = View(90, -28)
+VIEW = View(0, -52)
 STEPS, HOLD = 30, 10
-FLATTEST = 0.02  # curvature of the first sphere, that of the last being 1
-EXTENT = (-1.75, 1.75, -0.95, 1.75)
+FLATTEST = 0.04  # curvature of the first sphere, that of the last being 1
+EXTENT = (-1.6, 1.6, -0.95, 1.45)
 
 
 def curvatures() -> np.ndarray:
@@ -35,7 +35,7 @@ def frame(curvature: float) -> Page:
     sphere = Stereographic((0.0, -90.0), radius=radius)
     points = sites()
     lifted = sphere.inverse(points)
-    scene = Scene(radius=radius, center=(0.0, 0.0, radius), look="none")
+    scene = Scene(radius=radius, center=(0.0, 0.0, radius))
     plane = sphere.in_space(CORNERS) + [0.0, 0.0, radius]
     scene.add_flat_polygon(plane, role="plane")
     scene.add_outline(plane, role="frame")

@@ -2,7 +2,7 @@
 Figure 7: Rectangular region prior to inverse stereographic projection to hemisphere
 ====================================================================================
 
-A rectangular map with its sites, Delaunay triangulation (gray) and Voronoi diagram (black). The dashed circle is the
+A rectangular map with its sites, Delaunay triangulation (gray) and Voronoi diagram (black). The blue circle is the
 footprint of the sphere that will be attached at the centre: its diameter is half the diagonal of the rectangle.
 
 Chosen by us: sides 3 : 2, the number of sites and their seed.

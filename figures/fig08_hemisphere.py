@@ -17,7 +17,7 @@ from stereodel import PlanarDelaunay, SphericalVoronoi
 from stereodel.render import Figure, Page, Scene, View
 from stereodel.sphere import SphereArc, SphereCircle
 
-VIEW = View(90, -72)
+VIEW = View(0, -78)
 
 
 def geometry() -> dict:
@@ -53,7 +53,7 @@ def draw(g: dict) -> Page:
     scene.add_points(g["lifted"], role="sites")
     scene.add_flat_polygon(g["plane"], role="plane")
     scene.add_outline(g["plane"], role="outline")
-    return Page((-1.6, 1.6, -1.2, 1.2), scene.layout(VIEW), views=(VIEW.matrix,))
+    return Page((-1.56, 1.56, -1.22, 0.95), scene.layout(VIEW), views=(VIEW.matrix,))
 
 
 FIGURE = Figure("fig08_hemisphere", geometry, draw)
