@@ -69,7 +69,7 @@ def near_point(point, side, nearness, offset):
 
 
 @given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=120)
 def test_the_stored_map_is_rounded_once(conformal, side, nearness, offset):
     vector = near_point(conformal.focus, side, nearness, offset)
     truth = exact_map(conformal, normalized(mp(vector)))
@@ -77,7 +77,7 @@ def test_the_stored_map_is_rounded_once(conformal, side, nearness, offset):
 
 
 @given(LONLAT, MAGNIFICATIONS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=120)
 def test_fisheye_at_the_focus_that_was_given(focus, magnification, side, nearness, offset):
     direction = lonlat_to_xyz(focus)
     lens = fisheye(focus, magnification=magnification)
@@ -87,7 +87,7 @@ def test_fisheye_at_the_focus_that_was_given(focus, magnification, side, nearnes
 
 
 @given(MAPS, MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=120)
 def test_composition(first, second, side, nearness, offset):
     both = second @ first
     for focus in (first.focus, both.focus):
@@ -97,7 +97,7 @@ def test_composition(first, second, side, nearness, offset):
 
 
 @given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=80)
 def test_inverse_is_exact(conformal, side, nearness, offset):
     inverse = conformal.inverse()
     vector = near_point(inverse.focus, side, nearness, offset)

@@ -26,7 +26,7 @@ def same(a, b):
 
 
 @given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(-360, 360))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, turn):
     p, q = inside(source, start), inside(target, end)
     conformal = bubble_to_bubble(source, target, p, q, turn)
@@ -36,7 +36,7 @@ def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, tur
 
 
 @given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(1, 359))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_p16_the_turn_is_the_angle_at_the_target_point(source, target, start, end, turn):
     p, q = inside(source, start), inside(target, end)
     plain, turned = bubble_to_bubble(source, target, p, q), bubble_to_bubble(source, target, p, q, turn)
@@ -48,7 +48,7 @@ def test_p16_the_turn_is_the_angle_at_the_target_point(source, target, start, en
 
 
 @given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(-180, 180))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_p16_unique_up_to_the_turn(source, target, start, end, turn):
     # Another way to a map with the same properties differs by a turn about the point: a map of the target
     # bubble onto itself that fixes a point and turns by nothing is the identity.
@@ -69,14 +69,14 @@ def turned_by(conformal, fixed, ahead):
 
 
 @given(BUBBLES, PLACES)
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_no_turn_onto_itself_is_the_identity(bubble, place):
     p = inside(bubble, place)
     assert bubble_to_bubble(bubble, bubble, p, p).is_close(MoebiusMap.identity(), tolerance=1e-12)
 
 
 @given(LONLAT, st.floats(1, 179), st.floats(1, 179))
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_centres_by_default_give_the_fisheye(center, first, second):
     a, b = SphereCircle.around(center, first), SphereCircle.around(center, second)
     size = np.tan(np.radians(second) / 2) / np.tan(np.radians(first) / 2)

@@ -19,7 +19,7 @@ METRIC = np.diag([1.0, 1.0, 1.0, -1.0])
 
 
 @given(MAPS, MAPS, MAPS)
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_group_laws(a, b, c):
     assert ((a @ b) @ c).is_close(a @ (b @ c))
     assert (a @ a.inverse()).is_close(IDENTITY)
@@ -32,7 +32,7 @@ def test_group_laws(a, b, c):
 
 
 @given(MAPS, MAPS)
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=25)
 def test_composition_is_composition(a, b):
     scale = float(np.max((a @ b).scale_factor(POINTS)) + np.max(a.scale_factor(b(POINTS))) + 1)
     assert np.abs((a @ b)(POINTS) - a(b(POINTS))).max() < 1e-14 * scale
@@ -42,7 +42,7 @@ def test_composition_is_composition(a, b):
 
 
 @given(MAPS)
-@settings(deadline=None)
+@settings(deadline=None, max_examples=50)
 def test_inverse_undoes(conformal):
     image = conformal(POINTS)
     back = conformal.inverse()(image)
@@ -60,7 +60,7 @@ def test_magnification_and_focus(focus, magnification):
 
 
 @given(MAPS)
-@settings(deadline=None)
+@settings(deadline=None, max_examples=50)
 def test_lorentz_matrix(conformal):
     m = conformal.matrix
     size = np.abs(m).max()
@@ -74,7 +74,7 @@ def test_lorentz_matrix(conformal):
 
 
 @given(LONLAT, st.floats(-0.999, 0.999), MAPS)
-@settings(deadline=None)
+@settings(deadline=None, max_examples=50)
 def test_circles_are_vectors_of_minkowski_space(normal, offset, conformal):
     circle = SphereCircle(normal, offset)
     vector = conformal.matrix @ [*circle.normal, circle.offset]
@@ -110,7 +110,7 @@ COMPLEX = st.builds(complex, st.floats(-3, 3), st.floats(-3, 3))
 
 
 @given(COMPLEX, COMPLEX, COMPLEX, COMPLEX)
-@settings(deadline=None)
+@settings(deadline=None, max_examples=50)
 def test_complex_matrix(a, b, c, d):
     determinant = abs(a * d - b * c)
     size = abs(a) ** 2 + abs(b) ** 2 + abs(c) ** 2 + abs(d) ** 2

@@ -58,7 +58,7 @@ def near(center, side, offset, exponent):
 
 
 @given(CENTERS, PLANES, st.sampled_from([1, -1]), DIRECTIONS, EXPONENTS, st.floats(1e-3, 1e3))
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=120)
 def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radius):
     projection = Stereographic(center, radius=radius, plane=plane)
     vector = near(center, side, offset, exponent)
@@ -75,7 +75,7 @@ def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radiu
 
 
 @given(CENTERS, PLANES, st.floats(-300, 300), st.floats(0, 6.3), st.floats(1e-3, 1e3))
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=120)
 def test_inverse_is_the_exact_image(center, plane, power, angle, radius):
     projection = Stereographic(center, radius=radius, plane=plane)
     xy = 10.0**power * np.array([np.cos(angle), np.sin(angle)])
