@@ -3,7 +3,7 @@ Animation: the convex hull grows point by point
 ===============================================
 
 The paper's pseudo-code at work on 28 points of the sphere. Each step finds the facets that see the new point (red),
-takes them away, and joins the point to the horizon edges by a fan of new facets (green).
+takes them away, and joins the point to the horizon edges by a fan of new facets (blue).
 """
 
 from collections.abc import Iterator
