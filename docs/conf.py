@@ -62,7 +62,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "gallery",
     "filename_pattern": r"/(fig\d\d|anim)_",
     "ignore_pattern": r"^_",
-    "within_subsection_order": "FileNameSortKey",
+    "within_subsection_order": "figure_gallery.FiguresFirst",
     "reset_argv": "figure_gallery.script_arguments",
     "reset_modules": (),
     "image_scrapers": ("figure_gallery.written_pictures",),

@@ -1,5 +1,6 @@
 """How sphinx-gallery runs the figure scripts and finds the pictures that they write."""
 
+import os
 import shutil
 from pathlib import Path
 
@@ -15,8 +16,9 @@ WIDTH = 1200
 
 def script_arguments(gallery_conf, script_vars):
     """What a script is told on its command line."""
-    arguments = ["--out", str(WRITE_TO)]
-    if Path(script_vars["src_file"]).name.startswith("fig"):
+    script = Path(script_vars["src_file"])
+    arguments = ["--out", os.path.relpath(WRITE_TO, script.parent)]  # scripts run in their own folder
+    if script.name.startswith("fig"):
         arguments += ["--size", str(WIDTH)]
     return arguments
 
@@ -30,3 +32,14 @@ def written_pictures(block, block_vars, gallery_conf):
         targets.append(str(target))
     WRITTEN.clear()
     return figure_rst(targets, gallery_conf["src_dir"])
+
+
+class FiguresFirst:
+    """Order of the gallery: the figures by number, then the animations."""
+
+    def __init__(self, src_dir):
+        self.src_dir = src_dir
+
+    def __call__(self, filename):
+        """Sort key of a script."""
+        return not filename.startswith("fig"), filename
