@@ -4,7 +4,8 @@ The paper: a map that sends circles to circles and interiors to interiors keeps 
 Stereographic projection sends interiors to interiors except for the bubbles that contain the projection pole, whose
 images are the outsides of circles. So the triangulation of the plane is the hull of the lifted points *without* the
 facets whose bubble contains the pole. The bubble counts as closed: points on a circle with the pole are collinear in
-the plane.
+the plane. Equivalently: the hull of the lifted points and the pole, without the star of the pole. The two differ where
+the lifted points lie on one great circle: their own hull has no facets, with the pole it has.
 Both sides agree up to the diagonals of cocircular polygons; the polygons are compared.
 
 The lift (x, y) → (2x, 2y, 1 − x² − y²)/(1 + x² + y²) would round. On rays its denominator does not matter, so that the
@@ -138,7 +139,8 @@ def theorem_1_holds(points: npt.ArrayLike) -> bool:
     Returns
     -------
     bool
-        True, says the theorem; both triangulations are computed and their polygons compared.
+        True, says the theorem. The merged polygons of the plane are compared with those of the planar part of two
+        hulls: of the lift and the pole, and of the lift alone unless it lies on one great circle.
 
     Raises
     ------
@@ -150,5 +152,8 @@ def theorem_1_holds(points: npt.ArrayLike) -> bool:
     >>> theorem_1_holds([[0, 0], [3, 0], [2, 1], [0, 4], [-1, -2], [0.5, 0.25]])
     True
     """
-    plane, sphere = PlanarDelaunay(points), SphericalDelaunay(exact_lift(points))
-    return merged_polygons(plane) == merged_polygons(sphere, planar_part(sphere, PROJECTION_POLE))
+    lift = exact_lift(points)
+    expected = merged_polygons(PlanarDelaunay(points))
+    alone, with_pole = SphericalDelaunay(lift), SphericalDelaunay(np.vstack([lift, PROJECTION_POLE]))
+    hulls = [alone, with_pole] if alone.dimension == 2 else [with_pole]
+    return all(merged_polygons(hull, planar_part(hull, PROJECTION_POLE)) == expected for hull in hulls)

@@ -55,6 +55,14 @@ def test_theorem_1_with_ties_and_duplicates(points):
     assert theorem_1_holds(np.reshape(points, (-1, 2)))
 
 
+def test_points_whose_lift_is_one_great_circle():
+    """Their own hull has no facets; with the pole it has the triangle of the plane."""
+    points = [[1, 0], [-2, 1], [2, 1]]
+    assert SphericalDelaunay(exact_lift(points)).dimension == 1
+    assert len(PlanarDelaunay(points).simplices) == 1
+    assert theorem_1_holds(points)
+
+
 def test_without_the_correction_it_fails():
     """The hull is closed: some of its facets are no triangles of the plane."""
     points = random_points(40)
