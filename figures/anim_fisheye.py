@@ -6,7 +6,8 @@ A globe with the graticule at 5° (gray) and a fine grid at 1/2° about 40° N (
 fisheye runs from 1 to 20 and back, in equal ratios. The focus stays where it is; every line stays a circle.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from _arcs import from_rows, to_rows
@@ -38,9 +39,9 @@ def frame(magnification: float) -> Page:
     return Page((-1.04, 1.04, -1.04, 1.04), (*scene.layout(VIEW), caption), width=150.0, views=(VIEW.matrix,))
 
 
-def frames() -> Iterator[Page]:
+def frames() -> Iterator[Callable[[], Page]]:
     """One page for each magnification."""
-    return (frame(float(value)) for value in magnifications())
+    return (partial(frame, float(value)) for value in magnifications())
 
 
 ANIMATION = Animation("anim_fisheye", frames, seconds=0.08)

@@ -6,7 +6,8 @@ The paper's pseudo-code at work on 28 points of the sphere. Each step finds the 
 takes them away, and joins the point to the horizon edges by a fan of new facets (blue).
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from _sites import on_sphere
@@ -65,10 +66,10 @@ def shaded(tint: str, normal: np.ndarray) -> tuple:
     return fainter(fill(tint), 0.75 * float(light))
 
 
-def frames() -> Iterator[Page]:
+def frames() -> Iterator[Callable[[], Page]]:
     """Two pages for each insertion, the finished hull at the end."""
     sites = on_sphere(SITES, SEED)
-    return (frame(sites, *state) for state in facets_over_time())
+    return (partial(frame, sites, *state) for state in facets_over_time())
 
 
 ANIMATION = Animation("anim_hull", frames, seconds=0.35)

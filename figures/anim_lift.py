@@ -7,7 +7,8 @@ diameter is half the diagonal. On the way every lift is an inverse stereographic
 never changes.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from _rectangle import CORNERS, lift, sites
@@ -53,9 +54,9 @@ def lifted_side(sphere: Stereographic, a: np.ndarray, b: np.ndarray) -> CircleAr
     return CircleArc.of(SphereArc(SphereCircle.through(start, middle, end), start, end))
 
 
-def frames() -> Iterator[Page]:
+def frames() -> Iterator[Callable[[], Page]]:
     """One page for each sphere."""
-    return (frame(float(value)) for value in curvatures())
+    return (partial(frame, float(value)) for value in curvatures())
 
 
 ANIMATION = Animation("anim_lift", frames, seconds=0.07)

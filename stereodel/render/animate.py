@@ -47,7 +47,7 @@ class Animation:
     name : str
         Stem of the file.
     frames : callable
-        () → pages, all of one extent and width.
+        () → pages, or functions () → page that draw them when they are wanted; all of one extent and width.
     seconds : float or sequence of float
         How long a frame is shown, or each frame; a GIF keeps hundredths.
     size : int
@@ -64,7 +64,7 @@ class Animation:
     """
 
     name: str
-    frames: Callable[[], Iterable[Page]]
+    frames: Callable[[], Iterable[Page | Callable[[], Page]]]
     seconds: float | Sequence[float] = 0.08
     size: int = SIZE
     title: str = ""
@@ -75,7 +75,7 @@ class Animation:
         from stereodel.render.raster import render
 
         width = self.size if size is None else size
-        drawn = [render(page, size=width, text=text, platform=self.platform) for page in self.frames()]
+        drawn = [render(drawn_page(f), size=width, text=text, platform=self.platform) for f in self.frames()]
         if not drawn:
             raise ValueError(f"frames of {self.name!r} gave no page")
         if len({picture.shape for picture in drawn}) > 1:
@@ -144,6 +144,11 @@ class Animation:
         if len(seconds) != count:
             raise ValueError(f"seconds of {self.name!r} has {len(seconds)} entries for {count} frames")
         return seconds
+
+
+def drawn_page(frame: Page | Callable[[], Page]) -> Page:
+    """The page of a frame, drawn now if it was left for later."""
+    return frame if isinstance(frame, Page) else frame()
 
 
 def save_gif(pictures: Sequence[Pixels], path: str | os.PathLike[str], seconds: Sequence[float]) -> Path:

@@ -23,7 +23,7 @@ import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
-from stereodel.render.animate import Animation
+from stereodel.render.animate import Animation, drawn_page
 from stereodel.render.build import BuildError, find_scripts, load_drawing
 from stereodel.render.figure import Figure
 from stereodel.render.image import (
@@ -136,9 +136,11 @@ def cases_of(script: Path) -> list[Case]:
     if isinstance(drawing, Figure):
         geometry = drawing.geometry()
         return [Case(drawing.name, drawing.draw(geometry), geometry, drawing.renderer)]
-    pages = list(drawing.frames())
-    chosen = (0, len(pages) // 2, len(pages) - 1)
-    return [Case(f"{drawing.name}_{which}", pages[at], {}) for which, at in zip(FRAMES, chosen, strict=True)]
+    frames = list(drawing.frames())
+    chosen = (0, len(frames) // 2, len(frames) - 1)
+    return [
+        Case(f"{drawing.name}_{which}", drawn_page(frames[at]), {}) for which, at in zip(FRAMES, chosen, strict=True)
+    ]
 
 
 def case_names(script: Path) -> list[str]:
