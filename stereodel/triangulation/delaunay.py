@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from abc import ABC, abstractmethod
 from functools import cached_property
 from typing import Self
@@ -209,6 +210,10 @@ class Delaunay(ABC):
     def _as_queries(self, queries: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         array = self._check_queries(queries)
         return array, array.reshape(-1, array.shape[-1])
+
+    def __copy__(self) -> Self:
+        """A deep copy: the copies' engines must not share points."""
+        return copy.deepcopy(self)
 
     def __len__(self) -> int:
         return len(self.simplices)
