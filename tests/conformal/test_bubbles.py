@@ -1,4 +1,4 @@
-"""Claim P16: any bubble onto any other, point to point, uniquely up to a turn."""
+"""Claims P16 and P17: any bubble onto any other, point to point, uniquely up to a turn; how much the scale varies."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
-from stereodel.sphere import Rotation, SphereCircle, angular_distance, xyz_to_lonlat
+from stereodel.sphere import Rotation, SphereArc, SphereCircle, angular_distance, xyz_to_lonlat
 
 LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
 BUBBLES = st.builds(SphereCircle.around, LONLAT, st.floats(0.5, 179.5))
@@ -81,6 +81,19 @@ def test_centres_by_default_give_the_fisheye(center, first, second):
     a, b = SphereCircle.around(center, first), SphereCircle.around(center, second)
     size = np.tan(np.radians(second) / 2) / np.tan(np.radians(first) / 2)
     assert bubble_to_bubble(a, b).is_close(fisheye(center, magnification=size), tolerance=1e-12)
+
+
+@given(LONLAT, st.floats(1, 90), LONLAT, st.floats(1, 90))
+@settings(deadline=None, max_examples=25)
+def test_p17_scales_differ_by_at_most_1_to_2(source, chi0, target, xi0):
+    bubble = SphereCircle.around(source, chi0)
+    conformal = bubble_to_bubble(bubble, SphereCircle.around(target, xi0))
+    radius = SphereArc.great(bubble.center, bubble.sample(1)[0]).points(50)
+    scale = conformal.scale_factor(radius)
+    ratio = np.cos(np.radians(chi0) / 2) ** 2 / np.cos(np.radians(xi0) / 2) ** 2
+    assert scale[0] / scale[-1] == pytest.approx(ratio, rel=1e-11)
+    assert scale.max() / scale.min() == pytest.approx(max(ratio, 1 / ratio), rel=1e-9)
+    assert scale.max() / scale.min() <= 2 * (1 + 1e-11)
 
 
 def test_onto_the_southern_hemisphere():

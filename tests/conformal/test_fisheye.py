@@ -1,4 +1,4 @@
-"""Claims P17 to P19: what a fisheye does to distances, scales and graticules."""
+"""Claims P18 and P19: what a fisheye does to distances, scales and graticules."""
 
 import numpy as np
 import pytest
@@ -30,11 +30,12 @@ def test_p18_stretch_of_the_colatitude(focus, s):
 @settings(deadline=None, max_examples=50)
 def test_p18_similarity_between_stereographic_projections(focus, s):
     gamma = Stereographic(focus)
-    expected = gamma.inverse(s * gamma.forward(POINTS))
-    assert np.abs(fisheye(focus, magnification=s)(POINTS) - expected).max() < 2e-15
+    expected, lens = gamma.inverse(s * gamma.forward(POINTS)), fisheye(focus, magnification=s)
+    slack = 2e-15 * (1 + lens.scale_factor(POINTS))[:, None]
+    assert (np.abs(lens(POINTS) - expected) < slack).all()
     # The bearing from the focus stays (Figure 13: one ray, spheres of radius R and R/S).
     smaller = Stereographic(focus, radius=1 / s)
-    assert np.abs(smaller.inverse(gamma.forward(POINTS)) - expected).max() < 2e-15
+    assert (np.abs(smaller.inverse(gamma.forward(POINTS)) - expected) < slack).all()
 
 
 @given(LONLAT, MAGNIFICATIONS)
@@ -111,20 +112,6 @@ def test_p19_geodesics_become_circles(focus, normal, s):
     if abs(inclination) > 1e-6:
         assert abs(image.offset) > abs(inclination) * 1e-3
         assert np.sign(image.offset) == -np.sign(inclination)
-
-
-@given(st.floats(1, 90), st.floats(1, 90))
-@settings(deadline=None, max_examples=50)
-def test_p17_scales_differ_by_at_most_1_to_2(chi0, xi0):
-    # Bubbles of radii χ₀ and Ξ₀, centre to centre: S = tan(Ξ₀/2) / tan(χ₀/2).
-    a, b = np.radians([chi0, xi0]) / 2
-    lens = fisheye((0, 90), magnification=np.tan(b) / np.tan(a))
-    colatitudes = np.linspace(0, chi0, 50)
-    scale = lens.scale_factor(lonlat_to_xyz(np.stack([np.zeros(50), 90 - colatitudes], axis=1)))
-    ratio = np.cos(a) ** 2 / np.cos(b) ** 2
-    assert scale[0] / scale[-1] == pytest.approx(ratio, rel=1e-12)
-    assert scale.max() / scale.min() == pytest.approx(max(ratio, 1 / ratio), rel=1e-9)
-    assert scale.max() / scale.min() <= 2 * (1 + 1e-12)
 
 
 @given(LONLAT, st.floats(0.01, 179.9), LONLAT, st.floats(-9, 9).map(lambda k: 10.0**k))

@@ -120,7 +120,8 @@ def test_p8_equatorial_plane_differs_by_a_factor_2(center, vector, radius):
     tangent = Stereographic(center, radius=radius)
     equatorial = Stereographic(center, radius=radius, plane="equatorial")
     if angular_distance(vector, -lonlat_to_xyz(center)) > 1e-6:
-        assert (tangent.forward(vector) == 2 * equatorial.forward(vector)).all()
+        # Exactly, but for the rounding of subnormal results.
+        assert np.abs(tangent.forward(vector) - 2 * equatorial.forward(vector)).max() < 1e-300
         assert tangent.scale_factor(vector) == 2 * equatorial.scale_factor(vector)
 
 
