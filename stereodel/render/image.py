@@ -159,9 +159,10 @@ def save_arrays(arrays: Arrays, path: str | os.PathLike[str]) -> Path:
 
 def load_arrays(path: str | os.PathLike[str]) -> dict[str, npt.NDArray[Any]]:
     """The arrays that `save_arrays` stored."""
-    with np.load(path, allow_pickle=False) as members:
-        index = json.loads(members["index"].item())
-        return {name: _Store.get(members, *entry) for name, entry in index.items()}
+    with np.load(path, allow_pickle=False) as archive:
+        members = dict(archive)  # the archive itself would unpack a member each time that it is asked for
+    index = json.loads(members["index"].item())
+    return {name: _Store.get(members, *entry) for name, entry in index.items()}
 
 
 def read_picture(path: str | os.PathLike[str]) -> Pixels:

@@ -1,0 +1,130 @@
+"""The program that stores baselines: what it writes, what it leaves alone, and what a missing one means."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stereodel.render.baselines import Case, Store, cases_of, main, write_baselines
+from stereodel.render.page import Dots, Page
+
+FIGURE = """
+import numpy as np
+from stereodel.render import Figure, Page
+from stereodel.render.page import Dots
+def geometry():
+    return {"centers": np.array([[1.0, 0.5]])}
+def draw(g):
+    return Page((0.0, 2.0, 0.0, 1.0), (Dots(g["centers"], RADIUS, (0.0, 0.0, 0.0, 1.0)),))
+FIGURE = Figure("NAME", geometry, draw, renderer="agg")
+"""
+
+ANIMATION = """
+import numpy as np
+from stereodel.render import Animation, Page
+from stereodel.render.page import Dots
+def frames():
+    return [Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[x, 0.5]]), 9.0, (0.0, 0.0, 1.0, 1.0)),)) for x in range(5)]
+ANIMATION = Animation("anim_dot", frames)
+"""
+
+
+@pytest.fixture
+def project(tmp_path):
+    """Two scripts and an empty store."""
+    scripts = tmp_path / "figures"
+    scripts.mkdir()
+    write_figure(scripts, "fig90_dot", 9.0)
+    (scripts / "anim_dot.py").write_text(ANIMATION)
+    return scripts, tmp_path / "store"
+
+
+def write_figure(scripts, name, radius):
+    (scripts / f"{name}.py").write_text(FIGURE.replace("RADIUS", str(radius)).replace("NAME", name))
+
+
+def check(scripts: Path, folder: Path, name: str):
+    store = Store(folder)
+    (case,) = (c for c in cases_of(scripts / f"{name}.py") if c.name.startswith(name))
+    return [*store.drawn_otherwise(case), *store.looks_otherwise(case)]
+
+
+def test_what_was_written_passes(project):
+    scripts, folder = project
+    assert list(write_baselines(scripts, folder)) == [
+        *(f"anim_dot_{frame}: new" for frame in ("first", "middle", "last")),
+        "fig90_dot: new",
+    ]
+    assert check(scripts, folder, "fig90_dot") == []
+    assert len(list(folder.iterdir())) == 4 * 2 + 1
+
+
+def test_a_missing_baseline_fails_and_names_the_command(project):
+    scripts, folder = project
+    t0, t1 = check(scripts, folder, "fig90_dot")
+    assert t0.startswith("T0: fig90_dot.npz is missing")
+    assert t1.startswith("T1: fig90_dot.png or its hash is missing")
+    assert "make baselines" in t0
+    assert not folder.exists()
+
+
+def test_a_change_fails_until_it_is_stored(project):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    write_figure(scripts, "fig90_dot", 10.0)
+    messages = check(scripts, folder, "fig90_dot")
+    assert [message[:2] for message in messages] == ["T0", "T2"]
+    assert list(write_baselines(scripts, folder, ["fig90"])) == ["fig90_dot: changed"]
+    assert check(scripts, folder, "fig90_dot") == []
+
+
+def test_what_passes_is_left_as_it_was(project):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    before = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.np*")}
+    assert list(write_baselines(scripts, folder))[-1] == "fig90_dot: as it was"
+    assert {path.name: path.stat().st_mtime_ns for path in folder.glob("*.np*")} == before
+
+
+def test_what_no_script_draws_any_more_is_removed(project):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    (scripts / "anim_dot.py").unlink()
+    assert "anim_dot_last: removed, no script draws it" in list(write_baselines(scripts, folder))
+    assert sorted(path.name for path in folder.iterdir()) == ["fig90_dot.npz", "fig90_dot.png", "pixels.json"]
+
+
+def test_the_hash_decides_before_the_picture(project, monkeypatch):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    monkeypatch.setattr("stereodel.render.baselines.read_picture", lambda path: pytest.fail("T2 was not needed"))
+    assert check(scripts, folder, "fig90_dot") == []
+
+
+def test_a_few_pixels_of_rounding_pass_the_third_net(project):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    (case,) = cases_of(scripts / "fig90_dot.py")
+    case.picture[:2, :2] -= 3
+    assert Store(folder).looks_otherwise(case) == []
+    case.picture[:40] = 0
+    (message,) = Store(folder).looks_otherwise(case)
+    assert message.startswith("T2: 12.5")
+
+
+def test_a_failure_carries_both_pictures(project):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    page = Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[1.0, 0.5]]), 9.0, (1.0, 0.0, 0.0, 1.0)),))
+    failure = Store(folder).failure(Case("fig90_dot", page, {}, "agg"), ["T2: red"])
+    assert failure.expected is not None
+    assert failure.expected.shape == failure.actual.shape
+    assert Store(folder / "none").failure(Case("fig90_dot", page, {}, "agg"), []).expected is None
+
+
+def test_the_command_reports_and_its_exit_code_tells(project, capsys):
+    scripts, folder = project
+    assert main(["--scripts", str(scripts), "--store", str(folder), "fig90"]) == 0
+    assert capsys.readouterr().out == "fig90_dot: new\n"
+    assert main(["--scripts", str(scripts / "none"), "--store", str(folder)]) == 2
+    assert "no figure scripts" in capsys.readouterr().err
