@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/installed
 BUILD := $(BIN)/python -m stereodel.render.build --scripts figures --out $(OUT)
 
-.PHONY: help install system figures animations test check baselines readme-images docs test-pythons clean
+.PHONY: help install system figures animations test check lint baselines readme-images docs test-pythons clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -38,7 +38,9 @@ test: $(STAMP) system ## all tests, then the image tests once more on EGL
 	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests
 
-check: $(STAMP) docs ## format, lint, types, sizes, tracked text, documentation
+check: lint docs ## format, lint, types, sizes, tracked text, then the documentation
+
+lint: $(STAMP) ## what check does, without the documentation
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
