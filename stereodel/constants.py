@@ -50,7 +50,7 @@ LARGEST_MAGNIFICATION: Final = 1e100
 """Largest S (and largest 1/S) of a `MoebiusMap`: S·|t|² of any point stays in the range of double-double arithmetic."""
 
 FLATNESS: Final = 0.05
-"""How far a chord may stray from its curve in a picture made of triangles, pixels: a fifth of the distance of samples."""
+"""How far a chord may stray from its curve in a picture made of triangles, pixels: a fifth of a sample's distance."""
 
 GOLDEN_ERROR: Final = 1e-12
 """How far a drawn number may be from the stored one, relative to the largest of its array, or to 1 if that is larger.

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Voronoi, cKDTree
-from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 from stereodel.triangulation.circumcenters import planar_circumcenters
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
 
 GRID = np.array([[x, y] for x in range(5) for y in range(4)], dtype=float)

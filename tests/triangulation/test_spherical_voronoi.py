@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy import spatial
-from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.triangulation.circumcenters import spherical_circumcenters
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 from stereodel.triangulation.spherical_voronoi import SphericalVoronoi
 
 GOLDEN = (1 + np.sqrt(5)) / 2
