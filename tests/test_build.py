@@ -4,7 +4,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -147,13 +146,14 @@ def test_mistakes_are_one_line(scripts, tmp_path):
 def test_nothing_to_do_is_quick_and_loads_no_graphics(scripts, tmp_path):
     command("--scripts", scripts, "--out", "out", cwd=tmp_path)
     code = (
-        "import sys; from stereodel.render import build; build.main(['--out', 'out']); "
+        "import sys, time; from stereodel.render import build; build.main(['--out', 'out']); "
+        "print(time.process_time()); "
         "print(*{'matplotlib', 'scipy', 'OpenGL', 'rich', 'trimesh'} & set(sys.modules))"
     )
     environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[2])}
-    begin = time.perf_counter()
     line = [sys.executable, "-c", code]
     ran = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
-    assert time.perf_counter() - begin < 2.0
-    assert "up to date" in ran.stdout.splitlines()[0]
-    assert ran.stdout.splitlines()[1] == ""
+    said, seconds, loaded = ran.stdout.split("\n")[:3]
+    assert "up to date" in said
+    assert float(seconds) < 2.0  # of the processor: the machine may be busy
+    assert loaded == ""

@@ -20,10 +20,10 @@ def test_version():
     assert ran.stdout.strip() == f"stereodel {stereodel.__version__}"
 
 
-def doctor_here(**environment):
+def doctor_here(before="", **environment):
     """In a process of its own: a process draws on one platform only."""
     kept = {name: value for name, value in os.environ.items() if name not in {"STEREODEL_GL", "PYOPENGL_PLATFORM"}}
-    line = [sys.executable, "-c", "from stereodel.cli import app; app(['doctor'])"]
+    line = [sys.executable, "-c", f"{before}\nfrom stereodel.cli import app; app(['doctor'])"]
     return subprocess.run(line, env={**kept, **environment}, capture_output=True, text=True, check=False)
 
 
@@ -45,13 +45,10 @@ def test_doctor_says_how_to_get_what_is_missing():
     assert "Traceback" not in ran.stdout + ran.stderr
 
 
-def test_doctor_without_opengl_names_the_packages(monkeypatch):
-    monkeypatch.setattr(gl, "can_open", lambda platform: False)
-    monkeypatch.delenv("STEREODEL_GL", raising=False)
-    monkeypatch.delenv("PYOPENGL_PLATFORM", raising=False)
-    monkeypatch.setattr(gl, "_open", None)
-    ran = run(app, ["doctor"])
-    assert ran.exit_code == 1
+def test_doctor_without_opengl_names_the_packages():
+    code = "from stereodel.render import gl; gl.can_open = lambda platform: False"
+    ran = doctor_here(code)
+    assert ran.returncode == 1
     assert "nothing" in ran.stdout
     assert "apt-get install libosmesa6" in ran.stdout
 
