@@ -265,7 +265,8 @@ def _check_sphere(mesh: Mesh, signs: SphereSigns, kept: Indices) -> int:
         _check_two_sided(mesh, signs)
     else:
         _check_folds(mesh, signs, inner[inside == 0])
-        _check_single_cover(mesh, signs)
+        degree = np.bincount(mesh.apex)
+        _check_single_cover(mesh, signs, int(np.argmin(np.where(degree > 0, degree, len(mesh.apex)))))
     return ties
 
 
@@ -280,10 +281,8 @@ def _check_folds(mesh: Mesh, signs: SphereSigns, tied: Indices) -> None:
         raise InvalidTriangulation(f"edge {mesh.edge(h)}: its simplices lie in one plane, one folded onto the other")
 
 
-def _check_single_cover(mesh: Mesh, signs: SphereSigns) -> None:
-    """In the projection from one vertex (here of lowest degree) the others tile a convex polygon once."""
-    degree = np.bincount(mesh.apex)
-    vertex = int(np.argmin(np.where(degree > 0, degree, len(mesh.apex))))
+def _check_single_cover(mesh: Mesh, signs: SphereSigns, vertex: int) -> None:
+    """In the projection from one vertex, whichever, the triangles without it tile a convex polygon once."""
     away = np.flatnonzero((mesh.simplices != vertex).all(axis=1))
     rows = np.column_stack([mesh.simplices[away], np.full(len(away), vertex)])
     sees = signs.bubble(rows) > 0

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._double_double import two_prod
-from stereodel.constants import FILTER_RANGE, STORED_ERROR, UNIT_ROUNDOFF
+from stereodel.constants import FILTER_RANGE, UNDERFLOW_FLOOR, UNIT_ROUNDOFF
 
 Signs = npt.NDArray[np.int8]
 Indices = npt.NDArray[np.int64]
@@ -23,8 +23,7 @@ _BLOCK = 1 << 16  # rows at a time: the temporaries of one block stay in the cac
 _TURN_BOUND = 4 * UNIT_ROUNDOFF
 _CIRCLE_BOUND = 12 * UNIT_ROUNDOFF
 _BUBBLE_BOUND = 32 * UNIT_ROUNDOFF
-_RADIAL_BOUND = 1.01 * (2 * STORED_ERROR) ** 2
-_SHORTEST_CHORD = 4 * STORED_ERROR  # 2⁻⁴⁸: shorter differences go to the integers
+_RADIAL_BOUND = 300 * UNIT_ROUNDOFF**2
 
 
 class PlaneSigns:
@@ -166,13 +165,14 @@ class SphereSigns:
         # the other rows and det[u v w] = Σ ± (u·a) det[a v w] give, up to a positive factor,
         #   det[b̂−â, ĉ−â, p̂−â] = −W(b) det[a, c−a, p−a] + W(c) det[a, b−a, p−a] − W(p) det[a, b−a, c−a].
         # No term cancels from flatness. Errors, l = |x−a|, relative to the products l·l' or l² they bound:
-        # * x−a: exact in `high` when nearby (Sterbenz) and else good to u, with `low` and the sum 2.2u in all; the
-        #   absolute 2u² from `low` is below 0.1u·l because shorter chords than 2⁻⁴⁸ are sent on.
+        # * x−a: exact in `high` when nearby (Sterbenz) and else good to u, with `low` and the sum 2.2u in all, besides
+        #   an absolute 2u² from `low` in each component.
         # * det[a, d, e]: a vector product's component is at most |d||e| in absolute terms (Cauchy), so its error is at
         #   most (2·2.3 + 2)u√3·l·l'; with a (u), product (u) and two sums it is below 10.7u√3·l·l' < 19u·l·l'.
         # * |x−a|²: below 8u·l²; products and sums of the three terms: 3u. In all 30u, and 32u with second order,
         #   times l(b)l(c)l(p)(l(b) + l(c) + l(p)).
-        # * leaving out (|x|−|a|)² ≤ (2·8u)²: that times l·l' of the other two.
+        # * leaving out (|x|−|a|)² ≤ (2·8u)²: 256u² times l·l' of the other two. The absolute 2√3u² in each x−a moves
+        #   the three terms by less than 12 times that, times the products l·l' (l ≤ 2): 300u² in all.
         a = self._high[rows[:, 0]]
         d = self._high[rows[:, 1:]] - a[:, None]
         if self._low is not None:
@@ -183,8 +183,7 @@ class SphereSigns:
         value = wc * _triple(a, b, p) - wb * _triple(a, c, p) - wp * _triple(a, b, c)
         lb, lc, lp = np.sqrt(w).T
         bound = _BUBBLE_BOUND * (lb * lc * lp) * (lb + lc + lp) + _RADIAL_BOUND * (lb * lc + lc * lp + lp * lb)
-        shortest = np.minimum(np.minimum(lb, lc), lp)
-        return value, np.where(shortest > _SHORTEST_CHORD, bound, np.inf)
+        return value, bound + UNDERFLOW_FLOOR
 
     def _bubble_integers(self, rows: Indices) -> Signs:
         """The 4×4 determinant expanded along its column of lengths, a sum of four square roots."""
@@ -199,7 +198,7 @@ def _nearly_unit(points: FloatArray) -> tuple[FloatArray, FloatArray | None]:
 
     A row times a positive number keeps every sign, so t need not be the exact 1/|x|: with t = fl(1/fl|x|) the length
     of t·x is off by at most 1.5u + u + u (three squares under a root, root, quotient) and the product is error-free
-    down to components of 2⁻⁹⁶⁰, below which its error is far under the 0.1u·2⁻⁴⁸ that the filter has to spare.
+    down to components of 2⁻⁹⁶⁰, below which its error is far under the u² that the filter has to spare.
     A vector whose computed |x|² is within 12u of 1 has a length within 8u of 1 and is taken as it stands.
     """
     squared = np.einsum("ij,ij->i", points, points, optimize=False)

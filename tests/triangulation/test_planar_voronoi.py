@@ -96,6 +96,16 @@ def test_segments_are_the_places_with_two_nearest_sites(points):
     assert (along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0] > 0).all()
 
 
+def test_ridges_inside_the_rectangle_end_in_vertices_exactly():
+    diagram = PlanarVoronoi(random_points(100))
+    segments, ridge = diagram.segments((-1, 2, -1, 2))
+    bounded = (diagram.ridge_vertices[ridge] >= 0).all(axis=1)
+    ends = diagram.vertices[diagram.ridge_vertices[ridge[bounded]]]
+    inside = ((ends > -1) & (ends < 2)).all(axis=(1, 2))
+    assert inside.sum() > 200
+    assert (segments[bounded][inside] == ends[inside]).all()
+
+
 def test_every_visible_ridge_is_there():
     points = random_points(120, seed=8)
     diagram = PlanarVoronoi(points)
@@ -198,6 +208,15 @@ def test_circumcentres_of_any_shape(shape, exponent):
         dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
         exact = [a[0] + (e[1] * dd - d[1] * ee) / area, a[1] + (d[0] * ee - e[0] * dd) / area]
         assert planar_circumcenters(triangle[None])[0] == pytest.approx([float(x) for x in exact], rel=2.0**-52, abs=0)
+
+
+def test_circumcentre_where_double_double_cancels():
+    triangle = np.array([[1e-20, 3e-20], [1 / 3, 1 / 3], [2 / 3, 2 / 3]])
+    (ax, ay), b, c = [Fraction(x) for x in triangle[0]], Fraction(1 / 3), Fraction(2 / 3)
+    d, e = (b - ax, b - ay), (c - ax, c - ay)
+    dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
+    exact = [float(ax + (e[1] * dd - d[1] * ee) / area), float(ay + (d[0] * ee - e[0] * dd) / area)]
+    assert planar_circumcenters(triangle[None])[0].tolist() == exact
 
 
 def test_a_circumcentre_beyond_the_range_of_doubles_is_infinite():

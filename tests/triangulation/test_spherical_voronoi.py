@@ -28,6 +28,9 @@ CIRCLES = {
     "great": np.array([[3, 4, 0], [-4, 3, 0], [-3, -4, 0], [4, -3, 0], [12, 5, 0]], dtype=float),
     "tilted great": np.array([[1, -1, 0], [0, 3, -3], [-2, 0, 2], [5, -4, -1]], dtype=float),
     "small": np.array([[3, 4, 1], [-4, 3, 1], [-3, -4, 1], [4, -3, 1], [5, 0, 1]], dtype=float),
+    "tilted small": np.array([[3, 4, 1], [-4, 3, 1], [-3, -4, 1], [4, -3, 1]])
+    @ [[2, 1, 2], [-2, 2, 1], [1, 2, -2]]
+    / 1.0,
     "half": np.array([[3, 4, 0], [4, 3, 0], [12, 5, 0]], dtype=float),
     "nearly antipodal": np.array([[1, 0, 0], [-1, 1e-9, 0], [0, 1, 0]]),
 }
@@ -38,7 +41,7 @@ SETS = {
     "cube": CUBE,
     "dodecahedron": DODECAHEDRON,
     "graticule": GRATICULE,
-    "bowl": BOWL,
+    **{f"bowl {k} {sign}": np.roll(BOWL * [1, 1, sign], k, axis=1) for k in range(3) for sign in (1, -1)},
     "three": np.eye(3),
     "pair": np.array([[1, 2, 2], [0, -1, 0.5]]),
     "antipodes": np.array([[1, 2, 2], [-2, -4, -4]], dtype=float),
@@ -150,6 +153,7 @@ def test_two_points_have_two_half_circles():
     diagram = SphericalVoronoi([[2, 0, 0], [0, 3, 0]])
     assert diagram.vertices.tolist() == [[0, 0, 1], [0, 0, -1]]
     assert diagram.ridge_points.tolist() == [[0, 1], [0, 1]]
+    assert diagram.ridge_vertices.tolist() == [[0, 1], [1, 0]]
     middles = {tuple(np.round(arc.points(3)[1], 12)) for arc in diagram.ridge_arcs()}
     assert middles == {(0.707106781187, 0.707106781187, 0), (-0.707106781187, -0.707106781187, 0)}
     assert diagram.areas() == pytest.approx(2 * np.pi, rel=1e-15)
@@ -191,6 +195,22 @@ def test_circumcentres_of_clusters(size):
             normal = mpmath.matrix([d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]])
             exact = [float(x) for x in normal / mpmath.norm(normal)]
         assert spherical_circumcenters(triangle[None])[0] == pytest.approx(exact, abs=1.2e-16)
+
+
+def test_circumcentre_of_a_sliver_of_a_few_units_in_the_last_place():
+    """Three directions of the great circle with the normal (1, −2, 1), 2⁻⁵² apart: double-double sees noise alone."""
+    step = np.array([1, 0, -1]) * 2.0**-52
+    triangle = np.array([1.0, 1, 1]) + np.arange(3)[:, None] * step
+    expected = -np.array([1, -2, 1]) / np.sqrt(6)
+    assert spherical_circumcenters(triangle[None])[0] == pytest.approx(expected, abs=1.2e-16)
+
+
+def test_a_ridge_shorter_than_the_doubles_resolve_is_an_arc_and_no_circle():
+    diagram = SphericalVoronoi([[1, 1e-25, 0], [0, 1, 0], [0, 0, 1], [2, 2, -1], [-1, -1, -1]])
+    lengths = np.linalg.norm(np.diff(diagram.vertices[diagram.ridge_vertices], axis=1)[:, 0], axis=1)
+    assert (lengths == 0).sum() == 1
+    assert all(arc.angle_rad <= np.pi for arc in diagram.ridge_arcs())
+    assert diagram.areas().sum() == pytest.approx(4 * np.pi, rel=1e-14)
 
 
 def test_duplicates_have_empty_regions():

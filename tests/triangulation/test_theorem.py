@@ -32,7 +32,7 @@ def test_lift_is_the_inverse_stereographic_projection():
     assert rays[:, :2] / (length + rays[:, 2])[:, None] == pytest.approx(xy)
 
 
-@pytest.mark.parametrize("point", [(0.1, 0.0), (2.0**30, 0.0), (2.0**-30, 1.0), (1e-300, 0.0)])
+@pytest.mark.parametrize("point", [(0.1, 0.0), (2.0**30, 0.0), (2.0**-30, 1.0), (1e-300, 0.0), (1 + 2.0**-52, 0.0)])
 def test_lift_refuses_to_round(point):
     with pytest.raises(ValueError, match=r"points\[1\] .* has no exact lift"):
         exact_lift([[1, 1], point])

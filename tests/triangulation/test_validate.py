@@ -6,7 +6,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull, Delaunay
 
-from stereodel.triangulation.validate import InvalidTriangulation, check_delaunay, first_occurrences
+from stereodel.triangulation.validate import (
+    InvalidTriangulation,
+    _check_folds,
+    _check_single_cover,
+    check_delaunay,
+    first_occurrences,
+)
+from stereodel.triangulation.validate_mesh import build_mesh, check_manifold
+from stereodel.triangulation.validate_signs import SphereSigns
 
 GOLDEN = (1 + np.sqrt(5)) / 2
 
@@ -174,9 +182,6 @@ def test_rejects_the_great_icosahedron():
 
 
 def test_great_icosahedron_passes_every_local_test():
-    from stereodel.triangulation.validate_mesh import build_mesh, check_manifold
-    from stereodel.triangulation.validate_signs import SphereSigns
-
     conjugate = np.where(np.abs(ICOSAHEDRON) == GOLDEN, ICOSAHEDRON / -(GOLDEN**2), ICOSAHEDRON)
     mesh = build_mesh(hull(ICOSAHEDRON), 12)
     check_manifold(mesh, np.arange(12), euler=2)
@@ -302,6 +307,41 @@ def test_rejects_a_star_that_turns_twice():
         check_delaunay(points, s)
     order = np.argsort(angle % (2 * np.pi))
     check_delaunay(points[[*order, 5, 6]], s)
+
+
+def test_the_link_of_a_vertex_must_turn_once():
+    """From the tip of that double pyramid every other triangle is counterclockwise, but they go round twice."""
+    angle = 2 * np.pi * 2 * np.arange(5) / 5
+    points = np.vstack([np.column_stack([np.cos(angle), np.sin(angle), np.zeros(5)]), [[0, 0, 1]], [[0, 0, -1]]])
+    s = np.array([[k, (k + 1) % 5, 5] for k in range(5)] + [[(k + 1) % 5, k, 6] for k in range(5)])
+    with pytest.raises(InvalidTriangulation, match="covered twice"):
+        _check_single_cover(build_mesh(s, 7), SphereSigns(points), 5)
+    order = np.argsort(angle % (2 * np.pi))
+    _check_single_cover(build_mesh(s, 7), SphereSigns(points[[*order, 5, 6]]), 5)
+
+
+@pytest.mark.parametrize("height", [0, 1, -1])
+def test_rejects_a_fold_within_a_plane(height):
+    square = np.array([[3, 4, height], [-4, 3, height], [-3, -4, height], [4, -3, height]], dtype=float)
+    mesh = build_mesh(np.array([[0, 1, 2], [0, 2, 3]]), 4)
+    _check_folds(mesh, SphereSigns(square), mesh.inner)
+    with pytest.raises(InvalidTriangulation, match="folded"):
+        _check_folds(mesh, SphereSigns(square[[0, 2, 1, 3]]), mesh.inner)
+
+
+def test_rejects_a_duplicate_used_beside_its_original(good):
+    points, s = good
+    around = np.flatnonzero((s == 7).any(axis=1))
+    x, y = (int(np.roll(s[t], -int(np.argmax(s[t] == 7)))[1]) for t in around[:2])
+    star = {int(r[1]): r for r in (np.roll(s[t], -int(np.argmax(s[t] == 7))) for t in around)}
+    wrong, here = s.copy(), x
+    while here != y:  # the triangles from x round to y go to the copy
+        t = next(t for t in around if (np.roll(s[t], -int(np.argmax(s[t] == 7))) == star[here]).all())
+        wrong[t] = np.where(s[t] == 7, 60, s[t])
+        here = int(star[here][2])
+    wrong = np.vstack([wrong, [[7, x, 60], [60, y, 7]]])
+    with pytest.raises(InvalidTriangulation, match="point 60 is used by a simplex although"):
+        check_delaunay(np.vstack([points, points[7]]), wrong)
 
 
 def test_rejects_an_unused_point(good):

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, ray_integers
+from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, _nearly_unit, ray_integers
 
 ULP = 2.0**-52
 
@@ -68,6 +68,48 @@ def test_plane_nearly_collinear(i, j, scale):
     a, b, c = [[Fraction(x) for x in p] for p in points]
     expected = sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
     assert PlaneSigns(points).turn(np.array([[0, 1, 2]]))[0] == expected
+
+
+@pytest.mark.parametrize("exponent", [-530, -266, 0, 250])
+def test_plane_within_the_last_digits(exponent):
+    """The third point of a line and the fourth of a circle, rounded: where the plain determinants guess."""
+    rng = np.random.default_rng(0)
+    turns, circles = np.empty((400, 3, 2)), np.empty((400, 4, 2))
+    turns[:, :2], t = rng.random((400, 2, 2)), rng.random((400, 1))
+    turns[:, 2] = turns[:, 0] + t * (turns[:, 1] - turns[:, 0])
+    angle = rng.random((400, 4)) * 2 * np.pi
+    circles[:] = 0.3 + 0.1 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    turns, circles = np.ldexp(turns, exponent), np.ldexp(circles, exponent)
+    for k, found in enumerate(PlaneSigns(turns.reshape(-1, 2)).turn(np.arange(1200).reshape(-1, 3))):
+        a, b, c = [[Fraction(x) for x in p] for p in turns[k]]
+        assert found == sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    for k, found in enumerate(PlaneSigns(circles.reshape(-1, 2)).circle(np.arange(1600).reshape(-1, 4))):
+        *abc, d = [[Fraction(x) for x in p] for p in circles[k]]
+        rows = [[p[0] - d[0], p[1] - d[1]] for p in abc]
+        assert found == sign(determinant([[x, y, x * x + y * y] for x, y in rows]))
+
+
+@pytest.mark.parametrize("size", [1e-9, 1e-12, 1e-13, 1e-14, 3e-15])
+@pytest.mark.parametrize("unit", [True, False])
+def test_filter_never_contradicts_the_integers(size, unit):
+    rng = np.random.default_rng(1)
+    points = np.array([0.36, 0.48, 0.8]) + size * rng.normal(size=(20000, 3))
+    points /= np.linalg.norm(points, axis=1)[:, None]
+    points *= rng.choice([1 - 2 * ULP, 1.0, 1 + 2 * ULP] if unit else [0.3, 7.0, 11.0], size=(20000, 1))
+    signs, rows = SphereSigns(points), np.arange(20000).reshape(-1, 4)
+    value, bound = signs._bubble_filter(rows)
+    settled = np.abs(value) > bound
+    assert settled.mean() > (0.9 if size > 1e-14 else 0.2)
+    assert (np.sign(value[settled]) == signs._bubble_integers(rows[settled])).all()
+
+
+def test_scaled_vectors_keep_their_direction_exactly():
+    points = np.random.default_rng(0).normal(size=(50, 3)) * [1, 1e-5, 1e5]
+    high, low = _nearly_unit(points)
+    assert np.linalg.norm(high, axis=1) == pytest.approx(1, abs=8 * ULP)
+    for p, h, r in zip(points, high, low, strict=True):
+        p, v = [Fraction(x) for x in p], [Fraction(x) + Fraction(y) for x, y in zip(h, r, strict=True)]
+        assert all(p[k] * v[k - 1] == p[k - 1] * v[k] for k in range(3))
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15])
