@@ -127,6 +127,14 @@ def test_nearest_in_parts():
     assert np.array_equal(PlanarDelaunay(points).nearest(queries), squares.argmin(axis=1))
 
 
+@pytest.mark.parametrize("length", range(3, 20))
+def test_nearest_below_the_error_of_the_unit_vectors(length):
+    """Directions 1e-40 rad apart: the unit vectors themselves are off by 1e-32 or so."""
+    points = [[1, 1, 1e-40], [length, length, length * 2e-40]]
+    queries = [[7, 7, 7 * 1.9e-40], [5, 5, 5 * 1.1e-40], [11, 11, 0]]
+    assert SphericalDelaunay(points).nearest(queries).tolist() == [1, 0, 0]
+
+
 def test_nearest_to_the_antipode():
     points = [[0, 0, 1], [1e-9, 0, 1], [0, 1e-9, 1]]
     assert SphericalDelaunay(points).nearest([-1e-9, -1e-10, -1.0]) == 2
