@@ -56,7 +56,7 @@ readme-images: $(STAMP) system ## draw the small pictures of the README anew
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
 docs: $(STAMP) system ## build the documentation into docs/_build/html; warnings are errors
 	@rm -rf docs/_build docs/gallery docs/api/generated
-	$(BIN)/python -m sphinx -W --keep-going -q -b html docs docs/_build/html
+	$(BIN)/python -m sphinx -W --keep-going -q -d docs/_build/doctrees -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html
 	@echo "Open docs/_build/html/index.html"
 

@@ -31,7 +31,7 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     """
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         index = tuple(int(i) for i in np.argwhere(np.ma.getmaskarray(values))[0])
-        raise ValueError(f"{name}[{_show(index)}] is masked; drop masked entries first, e.g. with {name}.compressed()")
+        raise ValueError(f"{_entry(name, index)} is masked; drop masked entries first, e.g. with {name}.compressed()")
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -42,7 +42,7 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     finite = np.isfinite(result)
     if not finite.all():
         index = tuple(int(i) for i in np.argwhere(~finite)[0])
-        raise ValueError(f"{name}[{_show(index)}] is {result[index]}; every value must be a finite number")
+        raise ValueError(f"{_entry(name, index)} is {result[index]}; every value must be a finite number")
     return result
 
 
@@ -82,8 +82,7 @@ def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False) -> 
     zero = ~array.any(axis=-1)
     if zero.any():
         index = tuple(int(i) for i in np.argwhere(zero)[0])
-        where = f"{name}[{_show(index)}]" if index else name
-        raise ValueError(f"{where} is the zero vector, which has no direction")
+        raise ValueError(f"{_entry(name, index)} is the zero vector, which has no direction")
     return array
 
 
@@ -121,7 +120,7 @@ def as_lonlat(values: npt.ArrayLike, name: str = "lonlat") -> FloatArray:
     outside = np.abs(array[..., 1]) > 90.0
     if outside.any():
         index = tuple(int(i) for i in np.argwhere(outside)[0])
-        where = f"{name}[{_show((*index, 1))}]"
+        where = _entry(name, (*index, 1))
         raise ValueError(
             f"{where} is latitude {array[index][1]}, outside [-90, 90]; the order is (longitude, latitude)"
         )
@@ -180,7 +179,7 @@ def as_lengths(values: npt.ArrayLike, name: str) -> FloatArray:
     array = as_floats(values, name)
     if (array < 0).any():
         index = tuple(int(i) for i in np.argwhere(array < 0)[0])
-        raise ValueError(f"{name}[{_show(index)}] is {array[index]}; a length cannot be negative")
+        raise ValueError(f"{_entry(name, index)} is {array[index]}; a length cannot be negative")
     return array
 
 
@@ -216,15 +215,6 @@ def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.N
     return array.astype(np.intp)
 
 
-def _show(index: tuple[int, ...]) -> str:
-    return ", ".join(map(str, index)) if index else "()"
-
-
-def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArray:
-    """Points of the plane, (n, 2), or non-zero directions of space, (n, 3), told apart by their shape."""
-    array = as_floats(values, name)
-    if array.ndim == 2 and array.shape[1] == 3:
-        return as_directions(array, name, points=True)
-    if array.size and (array.ndim != 2 or array.shape[1] != 2):
-        raise ValueError(f"{name} must have shape (n, 2) or (n, 3), got {array.shape}")
-    return as_points(array, 2, name)
+def _entry(name: str, index: tuple[int, ...]) -> str:
+    """How a message names one value of an argument: `points[3, 0]`, or `magnification` for a single number."""
+    return f"{name}[{', '.join(map(str, index))}]" if index else name
