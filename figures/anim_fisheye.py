@@ -14,7 +14,7 @@ from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
 from stereodel.render import Animation, Label, Page, Scene, View
-from stereodel.sphere import graticule, graticule_patch
+from stereodel.sphere import SphereArc, graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees
 COARSE, FINE, HALF_WIDTH = 5.0, 0.5, 1.5  # degrees
@@ -28,20 +28,20 @@ def magnifications() -> np.ndarray:
     return LARGEST ** (np.sin(np.pi * phase) ** 2)
 
 
-def frame(magnification: float) -> Page:
-    """The globe at one magnification."""
+def frame(magnification: float, coarse: list[SphereArc], fine: list[SphereArc]) -> Page:
+    """The globe with both grids at one magnification."""
     bend = fisheye(FOCUS, magnification=magnification)
     scene = Scene()
-    scene.add_arcs(from_rows(to_rows(bend.image_of(arc) for arc in graticule(COARSE))), role="graticule")
-    patch = graticule_patch(FOCUS, HALF_WIDTH, FINE)
-    scene.add_arcs(from_rows(to_rows(bend.image_of(arc) for arc in patch)), role="fine")
+    for arcs, role in ((coarse, "graticule"), (fine, "fine")):
+        scene.add_arcs(from_rows(to_rows(bend.image_of(arc) for arc in arcs)), role=role)
     caption = Label(f"$S = {magnification:.1f}$", (-1.0, 0.99), align="left", valign="top")
     return Page((-1.04, 1.04, -1.04, 1.04), (*scene.layout(VIEW), caption), width=150.0, views=(VIEW.matrix,))
 
 
 def frames() -> Iterator[Callable[[], Page]]:
     """One page for each magnification."""
-    return (partial(frame, float(value)) for value in magnifications())
+    coarse, fine = graticule(COARSE), graticule_patch(FOCUS, HALF_WIDTH, FINE)
+    return (partial(frame, float(value), coarse, fine) for value in magnifications())
 
 
 ANIMATION = Animation("anim_fisheye", frames, seconds=0.08)

@@ -20,7 +20,7 @@ from stereodel.sphere import SphereArc, SphereCircle
 VIEW = View(0, -52)
 STEPS, HOLD = 30, 10
 FLATTEST = 0.04  # curvature of the first sphere, that of the last being 1
-EXTENT = (-1.6, 1.6, -0.95, 1.45)
+EXTENT = (-1.7, 1.7, -0.95, 1.6)
 
 
 def curvatures() -> np.ndarray:
