@@ -3,7 +3,7 @@ Figure 4: A spherical triangle and its chordal plane triangle
 =============================================================
 
 The sides of a spherical triangle are arcs of great circles (blue). The plane triangle below it has the same vertices
-and chords for sides (red, dashed): a facet of the convex hull. The Delaunay triangulation of points on the sphere is
+and chords for sides (red): a facet of the convex hull. The Delaunay triangulation of points on the sphere is
 the convex hull of the points.
 
 Chosen by us: the three vertices and the view.
@@ -12,7 +12,7 @@ Chosen by us: the three vertices and the view.
 import numpy as np
 
 from stereodel import lonlat_to_xyz
-from stereodel.render import Figure, Page, Scene, View
+from stereodel.render import Figure, Layer, Page, Scene, View
 
 VERTICES = np.array([[-42.0, -18.0], [48.0, -12.0], [4.0, 58.0]])  # degrees
 VIEW = View(26, 12)
@@ -30,7 +30,7 @@ def draw(g: dict) -> Page:
     scene = Scene(look="glass")
     scene.add_flat_polygon(vertices, role="chordal")
     scene.add_triangle_patch(*vertices, role="triangle")
-    scene.add_segments(vertices, vertices[[1, 2, 0]], role="chord")
+    scene.add_segments(vertices, vertices[[1, 2, 0]], role="chord", layer=Layer.LINE)
     scene.add_edges(vertices, sides, role="arc")
     scene.add_points(vertices, role="sites")
     for (name, offset), vertex in zip(NAMES, vertices, strict=True):

@@ -68,7 +68,13 @@ def add_dimension(sketch: Sketch, x: float, low: float, high: float, text: str, 
     sketch.add_segment((x, low), (x, high), role="frame")
     for y in (low, high):
         sketch.add_segment((x - tick, y), (x + tick, y), role="frame")
-    sketch.add_label(text, (x, (low + high) / 2), (-7, 0), align="center" if rotation else "right", rotation=rotation)
+    sketch.add_label(
+        text,
+        (x, (low + high) / 2),
+        (-7, 9 if rotation else 0),
+        align="center" if rotation else "right",
+        rotation=rotation,
+    )
 
 
 def add_graph(sketch: Sketch, g: dict) -> None:

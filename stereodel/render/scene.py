@@ -98,7 +98,7 @@ class Scene:
         style : LineStyle, optional
             Another look than the role's.
         layer : Layer, optional
-            Another place in painter's order for the visible parts.
+            Another place in painter's order for all parts but those behind the ball.
         """
         curves = (arc if isinstance(arc, CircleArc) else CircleArc.of(arc) for arc in arcs)
         self.add_curves(

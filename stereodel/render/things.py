@@ -132,7 +132,7 @@ class LineThing:
                 continue
             for part, beyond in self._by_sheets(piece, layout):
                 layer = _line_layer(place, on_ball) if beyond is None else beyond
-                layer = layer if self.layer is None or covered else self.layer
+                layer = layer if self.layer is None or place is Place.BEHIND else self.layer
                 look = self.look.hidden if place is Place.BEHIND else self.look
                 yield layer, _stroke(layout.path([part]), look, self.role, closed=part.closed)
 

@@ -201,3 +201,11 @@ def test_input_is_not_modified():
 def test_bad_input_is_named(call, message):
     with pytest.raises(ValueError, match=message):
         call(Scene())
+
+
+def test_a_layer_of_ones_own_lifts_lines_inside_a_glass_ball_over_the_tints():
+    scene = Scene(look="glass")
+    scene.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1])
+    scene.add_segments([[1.0, 0, 0]], [[0, 1.0, 0]], role="chord", layer=Layer.LINE)
+    roles = [item.role for item in scene.layout(View(45, 35))]
+    assert roles.index("chord") > roles.index("triangle")
