@@ -210,6 +210,16 @@ def test_small_circle_through_the_antipode():
     )
 
 
+def test_tiny_circle_beside_the_antipode_is_no_line():
+    # n_z + d is 1.5e-16 here, which is nothing for a great circle and much for this one.
+    circle = SphereCircle((2e-8, 0.0, -1.0), 1.0, 1e-8)
+    image = Stereographic((0.0, 90.0)).image_of(circle)
+    assert isinstance(image, PlaneCircle)
+    # The points at 1e-8 and 3e-8 from the antipode lie at 4e8 and 4e8/3.
+    assert image.radius == pytest.approx(4e8 / 3, rel=1e-7)
+    assert not image.outside
+
+
 @pytest.mark.parametrize("radius", [1e-3, 1e-7, 1e-12])
 def test_tiny_circles_stay_round(radius):
     circle = SphereCircle.around((10.0, 20.0), radius)
