@@ -75,7 +75,7 @@ def test_plane_within_the_last_digits(exponent):
     """The third point of a line and the fourth of a circle, rounded: where the plain determinants guess."""
     rng = np.random.default_rng(0)
     turns, circles = np.empty((400, 3, 2)), np.empty((400, 4, 2))
-    turns[:, :2], t = rng.random((400, 2, 2)), rng.random((400, 1))
+    turns[:, :2], t = rng.random((400, 2, 2)) * [[1], [30]], rng.random((400, 1))
     turns[:, 2] = turns[:, 0] + t * (turns[:, 1] - turns[:, 0])
     angle = rng.random((400, 4)) * 2 * np.pi
     circles[:] = 0.3 + 0.1 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
