@@ -82,7 +82,9 @@ def signatures():
     for name, value in PUBLIC.items():
         yield name, value
         if inspect.isclass(value):
-            for method, function in inspect.getmembers(value, inspect.isroutine):
+            for method, function in inspect.getmembers(
+                value, lambda member: inspect.isfunction(member) or inspect.ismethod(member)
+            ):
                 if not method.startswith("_") and getattr(function, "__module__", "").startswith("stereodel"):
                     yield f"{name}.{method}", function
 
