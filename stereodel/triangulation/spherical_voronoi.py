@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, IntArray, as_floats
-from stereodel._double_double import dot, unit
+from stereodel._double_double import unit
 from stereodel.predicates import in_bubble
 from stereodel.predicates.rays import turn_signs
 from stereodel.sphere import SphereArc, SphereCircle, solid_angle
+from stereodel.triangulation.bisectors import bisector_normals
 from stereodel.triangulation.cells import (
     Diagram,
     HalfRidges,
@@ -136,27 +139,35 @@ class SphericalVoronoi(Diagram):
 
         Notes
         -----
-        Signed triangles of the site and half a ridge each: a half is shorter than a quarter of a great circle, so that
-        no triangle has antipodal corners, whatever the ridge.
+        Cells within 60° of their site: signed triangles of the site and each ridge, which keep the digits
+        of tiny cells. Wider ones: 2π minus the angles by which the boundary turns (Gauss and Bonnet), from the normals
+        of the ridges, which are good however close the sites are; the far vertices of a tight cluster's outer cells
+        are not.
         """
         scale = float(as_floats(radius, "radius"))
         areas = np.zeros(len(self.points))
         if len(self.ridge_points) == 0:
             areas[self.point_region] = 4 * np.pi
             return areas * scale**2
-        start, end = self.vertices[self.ridge_vertices[:, 0]], self.vertices[self.ridge_vertices[:, 1]]
-        middle = _middles(start, end, self.ridge_normals())
-        for site, a, b in ((0, start, end), (1, end, start)):
-            p = self.points[self.ridge_points[:, site]]
-            pieces = solid_angle(p, a, middle) + solid_angle(p, middle, b)
-            areas += np.bincount(self.ridge_points[:, site], pieces, minlength=len(areas))
-        return areas * scale**2
+        sides = self._sides()
+        p, start, end = unit(self.points[sides.cell]).hi, self.vertices[sides.start], self.vertices[sides.end]
+        far = np.sum(p * start, axis=1) < 0.5
+        wide = np.bincount(sides.cell, far, minlength=len(areas)) > 0
+        near = ~wide[sides.cell]
+        pieces = solid_angle(p[near], start[near], end[near])
+        areas = np.bincount(sides.cell[near], pieces, minlength=len(areas))
+        turned = np.bincount(sides.cell, sides.turns(), minlength=len(areas))
+        return np.where(wide, 2 * np.pi - turned, areas) * scale**2
+
+    def _sides(self) -> CellSides:
+        pairs, ends, normals = self.ridge_points, self.ridge_vertices, self.ridge_normals()
+        return CellSides(
+            pairs.T.ravel(), ends.T.ravel(), ends[:, ::-1].T.ravel(), np.concatenate([normals, 0.0 - normals])
+        )
 
     def ridge_normals(self) -> FloatArray:
         """Directions of p̂ᵢ − p̂ⱼ, (r, 3): the unit normal of each ridge's plane, on the side of site i."""
-        p, q = (unit(self.points[self.ridge_points[:, k]]) for k in (0, 1))
-        difference = p - q
-        return (difference / dot(difference, difference).sqrt()[:, None]).round()
+        return bisector_normals(*(self.points[self.ridge_points[:, k]] for k in (0, 1)))
 
     def ridge_arcs(self) -> list[SphereArc]:
         """The ridges as arcs of great circles, in the order of `ridge_points`, from start to end, site i on the left.
@@ -186,6 +197,24 @@ class SphericalVoronoi(Diagram):
         return SphericalDelaunay._from_simplices(self.points, simplices)
 
 
+class CellSides(NamedTuple):
+    """Every ridge from both of its cells, counterclockwise around the cell."""
+
+    cell: IntArray
+    start: IntArray
+    end: IntArray
+    normal: FloatArray
+    """Of the ridge's plane, on the side of the cell."""
+
+    def turns(self) -> FloatArray:
+        """Angle by which the boundary of the cell turns at the end of each side, radians in [0, π]."""
+        turns = np.empty(len(self.cell))
+        arriving, leaving = np.lexsort((self.end, self.cell)), np.lexsort((self.start, self.cell))
+        m, n = self.normal[arriving], self.normal[leaving]
+        turns[arriving] = np.arctan2(np.linalg.norm(np.cross(m, n), axis=1), np.sum(m * n, axis=1))
+        return turns
+
+
 def spherical_ties(points: FloatArray, simplices: IntArray, twin: Indices) -> BoolArray:
     """Half-edges whose opposite corner lies on the circle of their triangle, both triangles facing the same way.
 
@@ -201,14 +230,6 @@ def spherical_ties(points: FloatArray, simplices: IntArray, twin: Indices) -> Bo
     tied[inner] = on_circle & (facing[inner] == facing[twin[inner]])
     tied[twin[inner]] = tied[inner]
     return tied
-
-
-def _middles(start: FloatArray, end: FloatArray, normal: FloatArray) -> FloatArray:
-    """Midpoints of ridges of any length up to a half circle, unnormalised.
-
-    For an arc of angle θ the first sum has the length 2 cos(θ/2) and the second 2 sin(θ/2), in the same direction.
-    """
-    return (start + end) + np.cross(normal, start - end)
 
 
 def _angles(start: FloatArray, end: FloatArray) -> FloatArray:
