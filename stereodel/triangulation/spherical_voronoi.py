@@ -139,25 +139,21 @@ class SphericalVoronoi(Diagram):
 
         Notes
         -----
-        Cells within 60° of their site: signed triangles of the site and each ridge, which keep the digits
-        of tiny cells. Wider ones: 2π minus the angles by which the boundary turns (Gauss and Bonnet), from the normals
-        of the ridges, which are good however close the sites are; the far vertices of a tight cluster's outer cells
-        are not.
+        Cells within 60° of their site: signed triangles of the site and each ridge, which keep the digits of tiny
+        cells. Wider ones: 2π minus the angles by which the boundary turns (Gauss and Bonnet), from the normals of the
+        ridges, which are good however close the sites are; the far vertices of a tight cluster's outer cells are not.
         """
         scale = float(as_floats(radius, "radius"))
-        areas = np.zeros(len(self.points))
+        count = len(self.points)
         if len(self.ridge_points) == 0:
-            areas[self.point_region] = 4 * np.pi
-            return areas * scale**2
+            return np.where(self.point_region == np.arange(count), 4 * np.pi, 0.0) * scale**2
         sides = self._sides()
         p, start, end = unit(self.points[sides.cell]).hi, self.vertices[sides.start], self.vertices[sides.end]
-        far = np.sum(p * start, axis=1) < 0.5
-        wide = np.bincount(sides.cell, far, minlength=len(areas)) > 0
+        wide = np.bincount(sides.cell, np.sum(p * start, axis=1) < 0.5, minlength=count) > 0
         near = ~wide[sides.cell]
-        pieces = solid_angle(p[near], start[near], end[near])
-        areas = np.bincount(sides.cell[near], pieces, minlength=len(areas))
-        turned = np.bincount(sides.cell, sides.turns(), minlength=len(areas))
-        return np.where(wide, 2 * np.pi - turned, areas) * scale**2
+        small = np.bincount(sides.cell[near], solid_angle(p[near], start[near], end[near]), minlength=count)
+        turned = np.bincount(sides.cell, sides.turns(), minlength=count)
+        return np.where(wide, 2 * np.pi - turned, small) * scale**2
 
     def _sides(self) -> CellSides:
         pairs, ends, normals = self.ridge_points, self.ridge_vertices, self.ridge_normals()
