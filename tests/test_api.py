@@ -35,7 +35,7 @@ NO_OPTIONS = {
     "PlaneCircle": {"outside"},
     "SphereArc": {"angle_rad"},
     "SphereCircle": {"radius"},
-    "bubble_to_bubble": {"source_point", "target_point", "turn"},
+    "bubble_to_bubble": {"source_point", "target_point"},
     "check_delaunay": {"simplices"},
 }
 

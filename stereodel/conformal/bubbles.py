@@ -20,6 +20,7 @@ def bubble_to_bubble(
     target: SphereCircle,
     source_point: npt.ArrayLike | None = None,
     target_point: npt.ArrayLike | None = None,
+    *,
     turn: float = 0.0,
 ) -> MoebiusMap:
     """The conformal map that takes one bubble onto another and one point inside to another.

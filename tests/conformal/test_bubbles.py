@@ -29,7 +29,7 @@ def same(a, b):
 @settings(deadline=None, max_examples=25)
 def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, turn):
     p, q = inside(source, start), inside(target, end)
-    conformal = bubble_to_bubble(source, target, p, q, turn)
+    conformal = bubble_to_bubble(source, target, p, q, turn=turn)
     assert same(conformal.image_of(source), target)
     assert angular_distance(conformal(p), q) < 1e-9
     assert same(conformal.inverse().image_of(target), source)
@@ -39,7 +39,7 @@ def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, tur
 @settings(deadline=None, max_examples=25)
 def test_p16_the_turn_is_the_angle_at_the_target_point(source, target, start, end, turn):
     p, q = inside(source, start), inside(target, end)
-    plain, turned = bubble_to_bubble(source, target, p, q), bubble_to_bubble(source, target, p, q, turn)
+    plain, turned = bubble_to_bubble(source, target, p, q), bubble_to_bubble(source, target, p, q, turn=turn)
     step = 1e-6 / float(plain.scale_factor(p))
     ahead = p + step * np.linalg.svd(p[None])[2][1]
     a, b = plain(ahead) - q, turned(ahead) - q
@@ -53,14 +53,14 @@ def test_p16_unique_up_to_the_turn(source, target, start, end, turn):
     # Another way to a map with the same properties differs by a turn about the point: a map of the target
     # bubble onto itself that fixes a point and turns by nothing is the identity.
     p, q = inside(source, start), inside(target, end)
-    there = bubble_to_bubble(source, target, p, q, turn)
-    back = bubble_to_bubble(target, source, q, p, -turn)
+    there = bubble_to_bubble(source, target, p, q, turn=turn)
+    back = bubble_to_bubble(target, source, q, p, turn=-turn)
     loop = there @ back
     assert same(loop.image_of(target), target)
     step = 1e-6
     ahead = q + step * np.linalg.svd(q[None])[2][1]
     angle = np.degrees(turned_by(loop, q, ahead))
-    assert (bubble_to_bubble(target, target, q, q, -angle) @ loop).is_close(MoebiusMap.identity(), tolerance=1e-4)
+    assert (bubble_to_bubble(target, target, q, q, turn=-angle) @ loop).is_close(MoebiusMap.identity(), tolerance=1e-4)
 
 
 def turned_by(conformal, fixed, ahead):
