@@ -2,7 +2,7 @@
 Animation: the convex hull grows point by point
 ===============================================
 
-The paper's pseudo-code at work on 28 points of the sphere. Each step finds the facets that see the new point (red),
+The paper's pseudo-code at work on 28 points of the sphere. Each step finds the facets (orange) that see the new point,
 takes them away, and joins the point to the horizon edges by a fan of new facets (blue).
 """
 
