@@ -31,7 +31,9 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     """
     if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
         index = tuple(int(i) for i in np.argwhere(np.ma.getmaskarray(values))[0])
-        raise ValueError(f"{_entry(name, index)} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})")
+        raise ValueError(
+            f"{_entry(name, index)} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})"
+        )
     try:
         array = np.asarray(values)
     except ValueError as error:
