@@ -6,6 +6,7 @@ shape. Nothing here modifies its argument; the result may share memory with it a
 
 from __future__ import annotations
 
+import sys
 from typing import Any, TypeVar
 
 import numpy as np
@@ -29,11 +30,7 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     ValueError
         For NaN, infinities, masked values and ragged nesting.
     """
-    if isinstance(values, np.ma.MaskedArray) and np.ma.is_masked(values):
-        index = tuple(int(i) for i in np.argwhere(np.ma.getmaskarray(values))[0])
-        raise ValueError(
-            f"{_entry(name, index)} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})"
-        )
+    _refuse_masked(values, name)
     try:
         array = np.asarray(values)
     except ValueError as error:
@@ -46,6 +43,14 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
         index = tuple(int(i) for i in np.argwhere(~finite)[0])
         raise ValueError(f"{_entry(name, index)} is {result[index]}; every value must be a finite number")
     return result
+
+
+def _refuse_masked(values: npt.ArrayLike, name: str) -> None:
+    # Nobody has a masked array before numpy.ma is loaded, and loading it would be a tenth of our import time.
+    masked = sys.modules.get("numpy.ma")
+    if masked is not None and isinstance(values, masked.MaskedArray) and masked.is_masked(values):
+        entry = _entry(name, tuple(int(i) for i in np.argwhere(masked.getmaskarray(values))[0]))
+        raise ValueError(f"{entry} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})")
 
 
 def _from_objects(array: npt.NDArray[Any], name: str) -> FloatArray:
