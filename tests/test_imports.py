@@ -15,6 +15,7 @@ BASE = {"constants", "_arrays", "_double_double"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 MAY_IMPORT = {
     "constants": set(),
+    "_files": set(),
     "_arrays": BASE,
     "_double_double": BASE,
     "sphere": BASE,
@@ -23,7 +24,7 @@ MAY_IMPORT = {
     "predicates": BASE,
     "triangulation": BASE | {"sphere", "projections", "predicates"},
     "__init__": MATHEMATICS,
-    "render": MATHEMATICS | {"__init__"},
+    "render": MATHEMATICS | {"__init__", "_files"},
     "cli": MATHEMATICS | {"__init__", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
-import inspect
 import os
-import sys
 import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, Final
 
@@ -18,9 +14,11 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+from stereodel._files import replacing
 from stereodel.render.figure import WRITTEN, Pixels
 from stereodel.render.image import pixel_hash
 from stereodel.render.page import Page
+from stereodel.render.script import run_script
 
 SIZE: Final = 480
 """Width of an animation in pixels."""
@@ -122,22 +120,7 @@ class Animation:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the file, say where; what goes wrong becomes a message and exit code 1."""
-        from stereodel.render.figure import _pixel_count
-
-        parser = argparse.ArgumentParser(description=f"Draw {self.title or self.name} as a looping GIF.")
-        script = self.frames.func if isinstance(self.frames, partial) else self.frames
-        default = Path(inspect.getfile(script)).resolve().parent.parent / "out"
-        parser.add_argument("--out", type=Path, default=default, help="folder to write to (%(default)s)")
-        parser.add_argument("--size", type=_pixel_count, default=self.size, help="width in pixels (%(default)s)")
-        parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
-        options = parser.parse_args(sys.argv[1:] if argv is None else argv)
-        try:
-            record = self.save(options.out, size=options.size, text=options.text)
-        except (OSError, RuntimeError, ValueError) as error:
-            raise SystemExit(f"{self.name}: {error}") from None
-        print(
-            f"{self.name}: {record['files'][0]} in {options.out}, {record['frames']} frames ({record['seconds']:.1f} s)"
-        )
+        run_script(self, argv, source=self.frames, kind="a looping GIF", usual_size=f"{self.size}")
 
     def _durations(self, count: int) -> list[float]:
         seconds = [self.seconds] * count if isinstance(self.seconds, (int, float)) else list(self.seconds)
@@ -170,12 +153,8 @@ def save_gif(pictures: Sequence[Pixels], path: str | os.PathLike[str], seconds: 
             break
     else:
         raise ValueError(f"{target.name} would have {len(data)} bytes; give fewer frames or a smaller size")
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
+    with replacing(target) as temporary:
         temporary.write_bytes(data)
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
     return target
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import sys
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -23,6 +22,7 @@ import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._files import replacing
 from stereodel.render.animate import Animation, drawn_page
 from stereodel.render.build import BuildError, find_scripts, load_drawing
 from stereodel.render.figure import Figure
@@ -187,12 +187,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _replace(path: Path, data: bytes) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
+    with replacing(path) as temporary:
         temporary.write_bytes(data)
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 
 Each script `fig*.py` defines `FIGURE`, each `anim_*.py` defines `ANIMATION`; both have `save(out) -> dict`. Whether a
 script must run again is decided by the contents of everything that its picture depends on and of the files that it
-wrote, before any library is imported: when there is nothing to do, nothing is loaded.
+wrote, before a script is started: when there is nothing to do, that takes a fraction of a second.
 
     python -m stereodel.render.build --scripts figures --out out [NAME…]
 """
@@ -28,6 +28,8 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
+
+from stereodel._files import replacing
 
 LIBRARIES = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
@@ -178,11 +180,8 @@ def _of_existing(manifest: dict[str, Record], scripts: Path) -> dict[str, Record
 
 
 def _write_manifest(out: Path, manifest: dict[str, Record]) -> None:
-    handle, temporary = tempfile.mkstemp(prefix=".manifest-", dir=out)
-    with open(handle, "w", encoding="utf-8") as file:
-        json.dump(manifest, file, indent=1, ensure_ascii=False)
-        file.write("\n")
-    os.replace(temporary, out / "manifest.json")
+    with replacing(out / "manifest.json") as temporary:
+        temporary.write_text(json.dumps(manifest, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
 
 def _require_writable(out: Path) -> None:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import argparse
-import inspect
 import os
-import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -17,7 +13,9 @@ import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._files import replacing
 from stereodel.render.page import Page
+from stereodel.render.script import run_script
 from stereodel.render.style import PRINT_DPI
 
 Geometry = Mapping[str, Any]
@@ -25,9 +23,6 @@ Pixels = npt.NDArray[np.uint8]
 
 WRITTEN: list[Path] = []
 """PNG files that this process wrote, in order; the gallery shows them."""
-
-LARGEST_SIZE = 20_000
-"""Pixels across beyond which a picture is surely a mistake."""
 
 
 @dataclass(frozen=True)
@@ -127,12 +122,7 @@ class Figure:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files, say where; what goes wrong becomes a message and exit code 1."""
-        options = self._parser().parse_args(sys.argv[1:] if argv is None else argv)
-        try:
-            record = self.save(options.out, size=options.size, text=options.text)
-        except (OSError, RuntimeError, ValueError) as error:
-            raise SystemExit(f"{self.name}: {error}") from None
-        print(f"{self.name}: {', '.join(record['files'])} in {options.out} ({record['seconds']:.1f} s)")
+        run_script(self, argv, source=self.draw, kind="PNG, SVG and PDF", usual_size="17 cm at 300 dpi")
 
     def _bare(self, page: Page, size: int | None) -> Pixels:
         """The picture without text, which is what its hash is taken of; labels are laid over it."""
@@ -145,38 +135,11 @@ class Figure:
 
         return render(page, size=width, text=False)
 
-    def _parser(self) -> argparse.ArgumentParser:
-        parser = argparse.ArgumentParser(description=f"Draw {self.title or self.name} as PNG, SVG and PDF.")
-        parser.add_argument("--out", type=Path, default=self._default_out(), help="folder to write to (%(default)s)")
-        parser.add_argument("--size", type=_pixel_count, help="width of the PNG in pixels (17 cm at 300 dpi)")
-        parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
-        return parser
-
-    def _default_out(self) -> Path:
-        """`out` beside the folder of the script that defines `draw`, whatever the current folder."""
-        draw = self.draw.func if isinstance(self.draw, partial) else self.draw
-        return Path(inspect.getfile(draw)).resolve().parent.parent / "out"
-
 
 def save_png(picture: Pixels, path: str | os.PathLike[str], *, page_width: float) -> Path:
     """Write pixels (h, w, 3) as a PNG that knows its print width, `page_width` points; never half a file."""
     target = Path(path)
     dpi = picture.shape[1] / (page_width / 72)
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
+    with replacing(target) as temporary:
         iio.imwrite(temporary, picture, extension=".png", plugin="pillow", dpi=(dpi, dpi))
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
     return target
-
-
-def _pixel_count(text: str) -> int:
-    """A width in pixels from the command line."""
-    try:
-        size = int(text)
-    except ValueError:
-        raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of pixels") from None
-    if not 1 <= size <= LARGEST_SIZE:
-        raise argparse.ArgumentTypeError(f"{size} pixels is outside 1 to {LARGEST_SIZE}")
-    return size

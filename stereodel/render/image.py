@@ -21,6 +21,7 @@ import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._files import replacing
 from stereodel.constants import GOLDEN_ERROR, PIXEL_LEVELS, PIXEL_SHARE_ANY, PIXEL_SHARE_VISIBLE
 
 Pixels = npt.NDArray[np.uint8]
@@ -142,18 +143,13 @@ def save_arrays(arrays: Arrays, path: str | os.PathLike[str]) -> Path:
     target = Path(path)
     store = _Store()
     index = {name: store.put(np.asarray(array)) for name, array in arrays.items()}
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
-        # LZMA makes files half as large as NumPy's own savez_compressed; np.load reads both.
-        with zipfile.ZipFile(temporary, "w") as archive:
-            for name, values in {"index": np.array(json.dumps(index)), **store.members()}.items():
-                member = zipfile.ZipInfo(f"{name}.npy")
-                member.compress_type = zipfile.ZIP_LZMA
-                with archive.open(member, "w") as file:
-                    np.lib.format.write_array(file, values)
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
+    # LZMA makes files half as large as NumPy's own savez_compressed; np.load reads both.
+    with replacing(target) as temporary, zipfile.ZipFile(temporary, "w") as archive:
+        for name, values in {"index": np.array(json.dumps(index)), **store.members()}.items():
+            member = zipfile.ZipInfo(f"{name}.npy")
+            member.compress_type = zipfile.ZIP_LZMA
+            with archive.open(member, "w") as file:
+                np.lib.format.write_array(file, values)
     return target
 
 

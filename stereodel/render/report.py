@@ -15,6 +15,7 @@ from typing import Final
 
 import imageio.v3 as iio
 
+from stereodel._files import replacing
 from stereodel.render.image import Pixels, difference_picture
 
 STYLE: Final = """
@@ -88,12 +89,8 @@ def _parts(folder: Path) -> dict[str, str]:
 
 
 def _write(target: Path, text: str) -> None:
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-    try:
+    with replacing(target) as temporary:
         temporary.write_text(text, encoding="utf-8")
-        os.replace(temporary, target)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def _section(failure: Failure) -> str:

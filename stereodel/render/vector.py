@@ -27,6 +27,7 @@ from matplotlib.path import Path as Outline
 from matplotlib.transforms import ScaledTranslation
 
 from stereodel._arrays import FloatArray
+from stereodel._files import replacing
 from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Page, Stroke, Surface
 from stereodel.render.style import TYPE
 
@@ -63,12 +64,8 @@ def save_vector(page: Page, path: str | os.PathLike[str]) -> Path:
         raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
     with _settings():
         canvas = _drawn(page, dpi=72.0)
-        temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
-        try:
+        with replacing(target) as temporary:
             canvas.savefig(temporary, format=kind, metadata=METADATA[kind], facecolor=page.background)
-            os.replace(temporary, target)
-        finally:
-            temporary.unlink(missing_ok=True)
     return target
 
 

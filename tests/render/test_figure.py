@@ -13,6 +13,7 @@ from stereodel.render import figure as module
 from stereodel.render.figure import Figure
 from stereodel.render.image import pixel_hash
 from stereodel.render.page import Dots, Label, Page
+from stereodel.render.script import default_folder
 from stereodel.render.style import BLACK
 
 
@@ -72,7 +73,7 @@ def test_default_folder_is_beside_that_of_the_script(figure, tmp_path, monkeypat
     monkeypatch.chdir(tmp_path)
     expected = Path(__file__).resolve().parent.parent / "out"
     for each in (figure, Figure("small", geometry, partial(draw, label="Q"), renderer="agg")):
-        assert each._default_out() == expected
+        assert default_folder(each.draw) == expected
 
 
 @pytest.mark.parametrize("size", ["0", "-5", "many", "1e3", "100000"])
