@@ -136,6 +136,25 @@ def test_the_order_sees_what_doubles_cannot():
     assert compare_directions(ray([0.0, 2.0, -0.0]), ray([-0.0, 3.0, 0.0])) == 0
 
 
+def test_turns_below_the_error_of_the_unit_vectors():
+    """Three directions of the plane 3x = y, two of them closer than their unit vectors are known."""
+    k = np.arange(1.0, 41.0)[:, None]
+    for rise in (1e-34, 1e-40):
+        assert not turn_signs(k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]).any()
+
+
+def test_the_bounds_hold_where_squares_underflow():
+    """The squares of the differences are zero in doubles, the determinants are not."""
+    vectors = [[1.0, 0.0, 0.0], [1.0, 1e-170, 0.0], [1.0, 0.0, 1e-170], [1.0, 2e-170, 1e-170]]
+    units_of = [columns(units(np.array([v]))) for v in vectors]
+    with workdps(1500):
+        for (value, bound), truth in (
+            (bubble_filter(*units_of), 2 * bubble(*vectors)),
+            (turn_filter(*units_of[:3]), turn(*vectors[:3])),
+        ):
+            assert 0 < abs(truth) <= bound[0] - abs(value[0])
+
+
 def test_extreme_components():
     a, b, c = [1.0, 0.0, 0.0], [1.0, 5e-324, 0.0], [1.0, 0.0, 5e-324]
     assert in_bubble(a, b, c, [1.0, 5e-324, 5e-324]) == -in_bubble(a, c, b, [1.0, 5e-324, 5e-324])

@@ -120,6 +120,20 @@ def test_nearest_of_any_doubles(points, data):
     assert PlanarDelaunay(points).nearest(query) == exact_nearest_in_plane(points, query)
 
 
+def test_nearest_on_a_circle_of_rounded_points():
+    """Their squared distances differ by less than those are rounded."""
+    rng = np.random.default_rng(0)
+    for query in rng.random((20, 2)):
+        angle = rng.random(400) * 2 * np.pi
+        points = query + 3 * np.column_stack([np.cos(angle), np.sin(angle)])
+        assert PlanarDelaunay(points).nearest(query) == exact_nearest_in_plane(points.tolist(), query.tolist())
+
+
+def test_nearest_where_squares_underflow():
+    """As doubles the squared distances are 0 + 0 and 5e-324."""
+    assert PlanarDelaunay(np.array([[1.5, 1.5], [1.6, 0.0]]) * 1e-162).nearest([0, 0]) == 1
+
+
 def test_nearest_in_parts():
     rng = np.random.default_rng(3)
     points, queries = rng.random((3000, 2)), rng.random((1000, 2))

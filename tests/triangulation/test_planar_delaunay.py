@@ -254,6 +254,22 @@ def test_insert_equals_a_fresh_build(old, new):
     assert before.tolist() == kept
 
 
+def test_nothing_of_the_old_state_outlives_a_change():
+    triangulation = PlanarDelaunay(GRID[:20])
+    names = ("neighbors", "edges", "convex_hull", "circumcenters")
+    for change in (lambda: triangulation.insert(GRID[20:] + 0.25), lambda: triangulation.remove([0, 1, 7])):
+        _ = (
+            [getattr(triangulation, name) for name in names],
+            triangulation.nearest(GRID),
+            triangulation.find_simplex(GRID),
+        )
+        change()
+        fresh = checked(triangulation.points)
+        assert all(np.array_equal(getattr(triangulation, name), getattr(fresh, name)) for name in names)
+        assert np.array_equal(triangulation.nearest(GRID), fresh.nearest(GRID))
+        assert np.array_equal(triangulation.find_simplex(GRID), fresh.find_simplex(GRID))
+
+
 @given(st.lists(GRID_POINT, min_size=1, max_size=12), st.data())
 def test_remove_equals_a_fresh_build(points, data):
     indices = data.draw(st.lists(st.integers(0, len(points) - 1), max_size=6))

@@ -69,6 +69,17 @@ def test_a_grid_has_one_vertex_in_each_square():
     assert diagram.areas(radius=3)[inner].tolist() == [9.0] * 6
 
 
+def test_areas_far_from_the_origin():
+    inner = (GRID > 0).all(axis=1) & (GRID < [4, 3]).all(axis=1)
+    assert PlanarVoronoi(GRID + 2.0**40).areas()[inner].tolist() == [1.0] * 6
+
+
+def test_vertices_are_numbered_by_their_three_lowest_sites():
+    triangulation = PlanarDelaunay(random_points(60, seed=5))
+    order = np.lexsort(np.sort(triangulation.simplices, axis=1).T[::-1])
+    assert PlanarVoronoi(triangulation).simplex_vertex[order].tolist() == list(range(len(order)))
+
+
 def test_simplex_vertex_is_the_circumcentre():
     triangulation = PlanarDelaunay(np.vstack([GRID, random_points(50, seed=1) * 4]))
     diagram = PlanarVoronoi(triangulation)
@@ -146,6 +157,7 @@ def test_points_on_one_line_have_strips(points):
 def test_strips_join_neighbours_along_the_line():
     diagram = PlanarVoronoi([[5, 5], [1, 1], [3, 3], [-2, -2]])
     assert diagram.ridge_points.tolist() == [[0, 2], [1, 2], [1, 3]]
+    assert PlanarVoronoi([[4, 5], [4, 1], [4, 3]]).ridge_points.tolist() == [[0, 2], [1, 2]]
 
 
 def test_duplicates_have_empty_regions():
@@ -217,6 +229,22 @@ def test_circumcentre_where_double_double_cancels():
     dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
     exact = [float(ax + (e[1] * dd - d[1] * ee) / area), float(ay + (d[0] * ee - e[0] * dd) / area)]
     assert planar_circumcenters(triangle[None])[0].tolist() == exact
+
+
+def test_a_circumcentre_near_zero_is_rounded_once():
+    angle = np.random.default_rng(1).random((20, 3)) * 2 * np.pi
+    for triangle in np.stack([np.cos(angle) + 1e-6, np.sin(angle) - 2e-6], axis=-1):
+        a, b, c = [[Fraction(x) for x in p] for p in triangle.tolist()]
+        d, e = [b[k] - a[k] for k in (0, 1)], [c[k] - a[k] for k in (0, 1)]
+        dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
+        exact = [a[0] + (e[1] * dd - d[1] * ee) / area, a[1] + (d[0] * ee - e[0] * dd) / area]
+        assert planar_circumcenters(triangle[None])[0] == pytest.approx([float(x) for x in exact], rel=2.0**-52, abs=0)
+
+
+def test_a_cell_with_a_vertex_at_infinity_has_no_finite_area():
+    diagram = PlanarVoronoi([[-1e200, 0], [0, 5e-324], [1e200, 0], [0, 1e200]])
+    assert -1 not in diagram.regions[1]
+    assert diagram.areas().tolist() == [np.inf] * 4
 
 
 def test_a_circumcentre_beyond_the_range_of_doubles_is_infinite():

@@ -257,6 +257,17 @@ def test_insert_equals_a_fresh_build(old, new):
     assert triangulation.dimension == fresh.dimension
 
 
+def test_closing_facets_are_asked_anew_after_a_change():
+    triangulation = SphericalDelaunay(CUBE_GRID[CUBE_GRID[:, 2] >= 0])
+    assert triangulation.closing.any()
+    assert (triangulation.find_simplex(-OCTAHEDRON[4:5]) == -1).all()
+    triangulation.insert(OCTAHEDRON)
+    assert not triangulation.closing.any()
+    assert (
+        triangulation.find_simplex(OCTAHEDRON) == SphericalDelaunay(triangulation.points).find_simplex(OCTAHEDRON)
+    ).all()
+
+
 @given(st.lists(SMALL, min_size=1, max_size=10), st.data())
 def test_remove_equals_a_fresh_build(points, data):
     indices = data.draw(st.lists(st.integers(0, len(points) - 1), max_size=5))

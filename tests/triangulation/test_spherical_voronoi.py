@@ -31,6 +31,7 @@ CIRCLES = {
     "tilted small": np.array([[3, 4, 1], [-4, 3, 1], [-3, -4, 1], [4, -3, 1]])
     @ [[2, 1, 2], [-2, 2, 1], [1, 2, -2]]
     / 1.0,
+    "meridian": np.array([[0, 3, 4], [0, -3, -4], [0, 4, -3], [0, -4, 3], [0, 5, 0]], dtype=float),
     "half": np.array([[3, 4, 0], [4, 3, 0], [12, 5, 0]], dtype=float),
     "nearly antipodal": np.array([[1, 0, 0], [-1, 1e-9, 0], [0, 1, 0]]),
 }
@@ -42,6 +43,7 @@ SETS = {
     "dodecahedron": DODECAHEDRON,
     "graticule": GRATICULE,
     **{f"bowl {k} {sign}": np.roll(BOWL * [1, 1, sign], k, axis=1) for k in range(3) for sign in (1, -1)},
+    "tilted bowl": BOWL @ [[2, 1, 2], [-2, 2, 1], [1, 2, -2]],
     "three": np.eye(3),
     "pair": np.array([[1, 2, 2], [0, -1, 0.5]]),
     "antipodes": np.array([[1, 2, 2], [-2, -4, -4]], dtype=float),
