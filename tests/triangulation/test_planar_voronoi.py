@@ -242,7 +242,7 @@ def test_a_circumcentre_near_zero_is_rounded_once():
 
 
 def test_a_cell_with_a_vertex_at_infinity_has_no_finite_area():
-    diagram = PlanarVoronoi([[-1e200, 0], [0, 5e-324], [1e200, 0], [0, 1e200]])
+    diagram = PlanarVoronoi([[-1e200, -1e200], [0, 5e-324], [1e200, 1e200], [-1e200, 1e200]])
     assert -1 not in diagram.regions[1]
     assert diagram.areas().tolist() == [np.inf] * 4
 

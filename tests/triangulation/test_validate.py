@@ -164,6 +164,11 @@ def test_flat_sets_have_no_simplices(points):
     assert check_delaunay(points, np.zeros((0, 3), int)).simplices == 0
 
 
+def test_antipodes_do_not_hide_that_a_set_spans():
+    with pytest.raises(InvalidTriangulation, match="points 0, 2 and 3 span one"):
+        check_delaunay([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, 0, 1]], np.zeros((0, 3), int))
+
+
 def test_great_circle_must_have_no_simplices():
     equator = np.array([[1, 0, 0], [0, 1, 0], [-1, -1, 0]], dtype=float)
     with pytest.raises(InvalidTriangulation, match="great circle"):
@@ -329,6 +334,24 @@ def test_rejects_a_fold_within_a_plane(height):
         _check_folds(mesh, SphereSigns(square[[0, 2, 1, 3]]), mesh.inner)
 
 
+RING = np.array([[5, 0, 1], [4, 3, 1], [3, 4, 1], [0, 5, 1], [-3, 4, 1], [-4, -3, 1]], dtype=float)
+
+
+def test_rejects_a_fold_that_nothing_else_sees():
+    """Flat triangles around point 2, folded: all edges are ties or convex, and from point 0 they are seen edge-on."""
+    points = np.vstack([RING, [[0, 0, -1]]])
+    below = [[6, 3, 1], [6, 4, 3], [6, 5, 4], [1, 0, 6], [0, 5, 6]]
+    flat = [[0, 1, 5], [1, 3, 4], [1, 4, 2], [4, 5, 2], [5, 1, 2]]
+    with pytest.raises(InvalidTriangulation, match="folded"):
+        check_delaunay(points, below + flat)
+
+
+def test_rejects_two_sides_that_meet_twice_in_one_point():
+    """Both sides change twice around point 0, and every other edge between them goes forward."""
+    with pytest.raises(InvalidTriangulation, match="do not meet in one convex polygon"):
+        check_delaunay(RING[:5], [[0, 1, 4], [0, 4, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2], [1, 2, 4]])
+
+
 def test_rejects_a_duplicate_used_beside_its_original(good):
     points, s = good
     around = np.flatnonzero((s == 7).any(axis=1))
@@ -404,10 +427,16 @@ def test_rejects_a_clockwise_triangle():
         check_delaunay([[0, 0], [0, 1], [1, 0]], [[0, 1, 2]])
 
 
+def test_rejects_a_flat_triangle_on_the_boundary():
+    with pytest.raises(InvalidTriangulation, match=r"simplex 1 .* not counterclockwise"):
+        check_delaunay([[0, 0], [1, 0], [2, 0], [1, 1]], [[0, 2, 3], [0, 1, 2]])
+
+
 @pytest.mark.parametrize(
     ("simplices", "message"),
     [
         ([[0, 1, 3]], "outside 0 to 2"),
+        ([[0, 1, -1]], "outside 0 to 2"),
         ([[0, 1, 1]], "a point twice"),
         ([[0.0, 1.0, 2.0]], "must hold integers"),
         ([[0, 1]], "must have shape"),
@@ -439,3 +468,5 @@ def test_directions_closer_than_an_ulp_are_different():
     points[1] = [3.0, 9.0 + 2.0**-49, 15.0]
     points = np.vstack([points, [[1e300, 1e-20, 0], [1e300, 2e-20, 0], [-0.0, -1, 0], [0, -1, -0.0]]])
     assert first_occurrences(points).tolist() == [0, 1, 0, 3, 4, 5, 5]
+    underflown = [[1e300, 1e-30, 0], [1e300, 2e-30, 0], [1, 0, 0], [2e300, 2e-30, 0]]  # all quotients are (1, 0, 0)
+    assert first_occurrences(np.array(underflown)).tolist() == [0, 1, 2, 0]

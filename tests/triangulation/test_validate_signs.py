@@ -61,6 +61,20 @@ def test_plane_near_a_square(noise, offset, exponent):
     assert signs.circle(np.array([[0, 1, 2, 3]]))[0] == sign(circle)
 
 
+def test_plane_where_products_underflow():
+    """Products on both sides of 2⁻¹⁰⁷⁵, of differences that are rounded: 0 or the least double, by chance."""
+    rng = np.random.default_rng(0)
+    factor = 1 + rng.random((4000, 2))
+    a = rng.integers(-(2**10), 2**10, size=(4000, 2)) * 2.0**-600
+    b = factor * 2.0**-537.5 * (1 + rng.integers(-2, 3, size=(4000, 2)) * ULP)
+    c = (2.0**-537.5 / factor)[:, ::-1]
+    points = np.stack([a, b, c], axis=1)
+    signs = PlaneSigns(points.reshape(-1, 2)).turn(np.arange(12000).reshape(-1, 3))
+    for found, triple in zip(signs, points.tolist(), strict=True):
+        a, b, c = [[Fraction(x) for x in p] for p in triple]
+        assert found == sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
 @settings(deadline=None)
 @given(st.integers(-3, 3), st.integers(-3, 3), st.sampled_from([1e-3, 1.0, 1e308, 5e-324]))
 def test_plane_nearly_collinear(i, j, scale):
