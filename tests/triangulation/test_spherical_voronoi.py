@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from scipy import spatial
 
 from stereodel.sphere import lonlat_to_xyz
+from stereodel.triangulation.bisectors import bisector_normals
 from stereodel.triangulation.circumcenters import spherical_circumcenters
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
@@ -173,14 +174,31 @@ def test_antipodal_pair_has_the_documented_axis(p, axis):
 
 @pytest.mark.parametrize("size", [1e-6, 1e-10, 1e-12])
 def test_a_cluster_looks_like_the_plane(size):
-    """Cells inside a cluster are those of the plane, up to its curvature and the rounding of sites and vertices."""
+    """Cells inside a cluster are those of the plane, up to its curvature, to all digits however small they are."""
     xy = np.random.default_rng(0).random((80, 2)) - 0.5
     points = np.column_stack([xy * size, np.ones(80)])
     sphere, plane = SphericalVoronoi(points), PlanarVoronoi(points[:, :2])
     inner = np.isfinite(plane.areas()) & (plane.areas() < 0.05 * size**2)
     assert inner.sum() > 30
-    assert sphere.areas()[inner] == pytest.approx(plane.areas()[inner], rel=max(1e-9, size**2, 3e-15 / size))
+    assert sphere.areas()[inner] == pytest.approx(plane.areas()[inner], rel=1e-11, abs=0)
     assert sphere.areas().sum() == pytest.approx(4 * np.pi, rel=1e-14)
+
+
+def unit_of_many_digits(vector):
+    vector = mpmath.matrix(vector)
+    return vector / mpmath.norm(vector)
+
+
+@pytest.mark.parametrize("size", [1e-10, 1e-14, 1e-15, 1e-25, 1e-100])
+def test_normals_of_ridges_between_close_sites(size):
+    """Pairs of every length about one direction, against 400 digits; and the closest of 53 bits, 2⁻¹⁰⁴ apart."""
+    rng = np.random.default_rng(0)
+    p, q = rng.integers(1, 9, size=(2, 20, 1)) * [1.0, 3.0, 0.0] + rng.normal(size=(2, 20, 1)) * [0, 0, size]
+    p[0], q[0] = [2.0**52, 1, 0], [2.0**52 + 1, 1, 0]
+    with mpmath.workdps(400):
+        for a, b, normal in zip(p.tolist(), q.tolist(), bisector_normals(p, q), strict=True):
+            exact = unit_of_many_digits(unit_of_many_digits(a) - unit_of_many_digits(b))
+            assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-8, 1e-12, 1e-15, 1e-40])
