@@ -50,7 +50,6 @@ class Animation:
         How long a frame is shown, or each frame; a GIF keeps hundredths.
     size : int
         Width in pixels.
-    title : str, optional
     platform : {"osmesa", "egl"}, optional
         See `stereodel.render.gl`.
 
@@ -65,7 +64,6 @@ class Animation:
     frames: Callable[[], Iterable[Page | Callable[[], Page]]]
     seconds: float | Sequence[float] = 0.08
     size: int = SIZE
-    title: str = ""
     platform: str | None = None
 
     def pictures(self, *, size: int | None = None, text: bool = True) -> list[Pixels]:

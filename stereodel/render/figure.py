@@ -39,7 +39,6 @@ class Figure:
         (geometry) → `Page`.
     renderer : {"gl", "agg"}
         What makes the PNG: OpenGL for globes, matplotlib for the plane.
-    title : str, optional
 
     Examples
     --------
@@ -52,7 +51,6 @@ class Figure:
     geometry: Callable[[], Geometry]
     draw: Callable[[Any], Page]
     renderer: Literal["gl", "agg"] = "gl"
-    title: str = ""
 
     def __post_init__(self) -> None:
         if self.renderer not in ("gl", "agg"):

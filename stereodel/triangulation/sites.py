@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Hashable
+from collections.abc import Hashable, Iterator
 
 from stereodel._arrays import FloatArray
 from stereodel.predicates.integers import to_integers
@@ -71,6 +71,19 @@ class Sites(ABC):
     def independent(self, a: int, b: int) -> bool:
         """Whether two different points span a line (a great circle)."""
 
+    @abstractmethod
+    def _exact_signs(self, *four: int) -> Iterator[int]:
+        """The exact sign of the sidedness test of four points, then that after displacement, each made when asked."""
+
+    def _decide(self, *four: int) -> int:
+        self.inconclusive["filter"] += 1
+        signs = self._exact_signs(*four)
+        sign = next(signs)
+        if sign == 0:
+            self.inconclusive["exact"] += 1
+            sign = next(signs)
+        return sign
+
 
 class PlaneSites(Sites):
     """Points of the plane; the pole is the ghost, takes part in no displacement and wins every tie."""
@@ -111,14 +124,10 @@ class PlaneSites(Sites):
             return False
         return self._decide(a, b, c, p) > 0
 
-    def _decide(self, *four: int) -> int:
-        self.inconclusive["filter"] += 1
+    def _exact_signs(self, *four: int) -> Iterator[int]:
         points = [self._exact()[i] for i in four]
-        sign = incircle_integer(*points)
-        if sign == 0:
-            self.inconclusive["exact"] += 1
-            sign = incircle_tie(*points)
-        return sign
+        yield incircle_integer(*points)
+        yield incircle_tie(*points)
 
     def _sees_edge(self, u: int, v: int, p: int) -> bool:
         sign = self.turn(u, v, p)
@@ -188,14 +197,10 @@ class RaySites(Sites):
             return False
         return self._decide(a, b, c, p) > 0
 
-    def _decide(self, *four: int) -> int:
-        self.inconclusive["filter"] += 1
+    def _exact_signs(self, *four: int) -> Iterator[int]:
         rays = [self._rays[i] for i in four]
-        sign = bubble_ray(*rays)
-        if sign == 0:
-            self.inconclusive["exact"] += 1
-            sign = bubble_tie(*rays)
-        return sign
+        yield bubble_ray(*rays)
+        yield bubble_tie(*rays)
 
     def beyond(self, u: int, v: int, p: int) -> bool:
         """Whether p would see the facet that joins the edge, reversed, to the pole."""

@@ -24,7 +24,7 @@ def frames():
 
 @pytest.fixture
 def animation():
-    return Animation("moving", frames, seconds=0.1, size=120, title="a moving dot")
+    return Animation("moving", frames, seconds=0.1, size=120)
 
 
 def test_save_writes_a_looping_gif(animation, tmp_path):

@@ -28,7 +28,7 @@ def draw(g, label="P"):
 
 @pytest.fixture
 def figure():
-    return Figure("small", geometry, draw, renderer="agg", title="a dot")
+    return Figure("small", geometry, draw, renderer="agg")
 
 
 def test_save_writes_three_files_and_a_record(figure, tmp_path):
