@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
-from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
 from stereodel.render import Animation, Label, Page, Scene, View
@@ -33,7 +32,7 @@ def frame(magnification: float, coarse: list[SphereArc], fine: list[SphereArc]) 
     bend = fisheye(FOCUS, magnification=magnification)
     scene = Scene()
     for arcs, role in ((coarse, "graticule"), (fine, "fine")):
-        scene.add_arcs(from_rows(to_rows(bend.image_of(arc) for arc in arcs)), role=role)
+        scene.add_arcs((bend.image_of(arc) for arc in arcs), role=role)
     caption = Label(f"$S = {magnification:.1f}$", (-1.0, 0.99), align="left", valign="top")
     return Page((-1.04, 1.04, -1.04, 1.04), (*scene.layout(VIEW), caption), width=150.0, views=(VIEW.matrix,))
 

@@ -8,7 +8,6 @@ unit; `width` says how many points the extent is wide.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -137,10 +136,6 @@ class Page:
     def without_labels(self) -> Page:
         """The picture without its text, which is what pixel tests compare."""
         return replace(self, items=tuple(item for item in self.items if not isinstance(item, Label)))
-
-    def with_items(self, items: Iterable[Item]) -> Page:
-        """The picture with more items on top."""
-        return replace(self, items=(*self.items, *items))
 
     def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
         """Everything drawn as named arrays, for the golden tests: a number per thing that a reader could see change."""

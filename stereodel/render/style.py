@@ -40,7 +40,6 @@ VERMILION: Final = _hex("#d55e00")
 GREEN: Final = _hex("#009e73")
 ORANGE: Final = _hex("#e69f00")
 SKY: Final = _hex("#56b4e9")
-PURPLE: Final = _hex("#cc79a7")
 
 FAINT: Final = 0.62
 """How far colours go toward white on the far side of a transparent ball (0: not at all, 1: white)."""
