@@ -1,1 +1,1 @@
-"""Measurements: `python -m benchmarks` compares with the peers, `python -m benchmarks.flat_regions` tests the paper's claim."""
+"""Measurements: `python -m benchmarks` compares with the peers, `python -m benchmarks.flat_regions` tests a claim."""

@@ -122,7 +122,7 @@ def lattice(n: int, generator: np.random.Generator) -> FloatArray:
 
 
 def cube_grid(n: int, generator: np.random.Generator) -> FloatArray:
-    """The integer points on the surface of a cube about the origin as they are: directions of any length, exact ties."""
+    """The integer points on the surface of a cube about the origin as they are: directions of all lengths; ties."""
     half = max(1, round((n / 24) ** 0.5))
     side = np.arange(-half, half + 1, dtype=np.float64)
     u, v = (grid.ravel() for grid in np.meshgrid(side, side))

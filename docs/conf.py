@@ -54,7 +54,8 @@ html_theme_options = {
     "secondary_sidebar_items": {"**": ["page-toc"], "paper": [], "index": []},
 }
 html_sidebars = {
-    page: [] for page in ("index", "names", "conventions", "exactness", "degenerate", "paper", "changelog")
+    page: []
+    for page in ("index", "names", "conventions", "exactness", "degenerate", "paper", "flat_regions", "changelog")
 }
 
 sphinx_gallery_conf = {
