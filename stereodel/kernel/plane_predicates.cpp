@@ -1,0 +1,116 @@
+#include "plane_predicates.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "big_integer.hpp"
+
+namespace stereodel {
+
+namespace {
+
+bool before(const double* p, const double* q) {
+    return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
+}
+
+int orient_signs(const double* a, const double* b, const double* c) {
+    const plane::Estimate e = plane::orient_estimate(a, b, c);
+    Sign sign = decide(e.value, e.bound);
+    if (sign == OPEN) {
+        sign = plane::orient_double_double(a, b, c);
+    }
+    return sign != OPEN ? sign : plane::orient_exact(a, b, c);
+}
+
+}  // namespace
+
+double common_granularity(const double* xy, std::size_t count) {
+    constexpr int LIMIT = 240;
+    int lowest = LIMIT;
+    double modulus = std::ldexp(1.0, LIMIT);
+    for (std::size_t k = 0; k < 2 * count; ++k) {
+        // A double of size 2^52 times the modulus or more is a multiple of it: the common case once a small one came.
+        if (std::fabs(xy[k]) < 0x1p53 * modulus) {
+            lowest = std::min(lowest, lowest_exponent(xy[k]));
+            if (lowest < -LIMIT) {
+                return 0.0;
+            }
+            modulus = std::ldexp(1.0, lowest);
+        }
+    }
+    return modulus;
+}
+
+int PlanePoints::counted(int sign) {
+    tally.exact += sign == 0;
+    return sign;
+}
+
+int PlanePoints::orient_open(const double* a, const double* b, const double* c, const plane::Estimate& e, double exact) {
+    ++tally.filter;
+    if (plane::on_axis_line(a, b, c)) {
+        return counted(0);
+    }
+    if (e.permanent <= exact) {
+        return counted(sign_of(e.value));
+    }
+    const Sign sign = plane::orient_double_double(a, b, c);
+    if (sign != OPEN) {
+        return sign;
+    }
+    ++tally.double_double;
+    return counted(plane::orient_exact(a, b, c));
+}
+
+int PlanePoints::incircle_open(const double* a, const double* b, const double* c, const double* d,
+                               const plane::Estimate& e) {
+    ++tally.filter;
+    if (plane::is_rectangle(a, b, c, d)) {
+        return counted(0);
+    }
+    if (e.permanent <= exact_incircle_) {
+        return counted(sign_of(e.value));
+    }
+    const Sign sign = plane::incircle_double_double(a, b, c, d);
+    if (sign != OPEN) {
+        return sign;
+    }
+    ++tally.double_double;
+    return counted(plane::incircle_exact(a, b, c, d));
+}
+
+bool PlanePoints::in_circle_open(Index a, Index b, Index c, Index d, const plane::Estimate& e) {
+    // A repeated point makes the value exactly zero: it always comes here.
+    if (d == a || d == b || d == c) {
+        return false;
+    }
+    const int sign = incircle_open(at(a), at(b), at(c), at(d), e);
+    return (sign != 0 ? sign : incircle_tie(at(a), at(b), at(c), at(d))) > 0;
+}
+
+int PlanePoints::compare_distances(const double* query, Index a, Index b) {
+    const plane::Estimate e = plane::distance_estimate(query, at(a), at(b));
+    Sign sign = decide(e.value, e.bound);
+    if (sign != OPEN) {
+        return sign;
+    }
+    ++tally.filter;
+    sign = plane::distances_double_double(query, at(a), at(b));
+    if (sign != OPEN) {
+        return sign;
+    }
+    ++tally.double_double;
+    return counted(plane::distances_exact(query, at(a), at(b)));
+}
+
+// The height of row i of the determinant with rows (x, y, x^2 + y^2, 1) has the cofactor (-1)^i times the orientation of
+// the others. Three points of a circle are not collinear, so the first point, whose height grows most, always decides.
+int incircle_tie(const double* a, const double* b, const double* c, const double* d) {
+    const double* points[] = {a, b, c, d};
+    const auto first = std::min_element(points, points + 4, before) - points;
+    std::copy(points + first + 1, points + 4, points + first);
+    const int orientation = orient_signs(points[0], points[1], points[2]);
+    return first % 2 == 0 ? orientation : -orientation;
+}
+
+}  // namespace stereodel

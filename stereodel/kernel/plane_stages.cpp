@@ -1,0 +1,121 @@
+#include "plane_stages.hpp"
+
+#include <algorithm>
+
+#include "big_integer.hpp"
+#include "pair_arithmetic.hpp"
+
+namespace stereodel::plane {
+
+namespace {
+
+// The formulas, for pairs, for the count of their errors, and for integers.
+
+template <class Number>
+constexpr Number cross(const Number& ax, const Number& ay, const Number& bx, const Number& by) {
+    return ax * by - ay * bx;
+}
+
+template <class Number>
+constexpr Number squared(const Number& x, const Number& y) {
+    return x * x + y * y;
+}
+
+template <class Number>
+constexpr Number incircle_form(const Number& ax, const Number& ay, const Number& bx, const Number& by, const Number& cx,
+                               const Number& cy) {
+    return squared(ax, ay) * cross(bx, by, cx, cy) + squared(bx, by) * cross(cx, cy, ax, ay) +
+           squared(cx, cy) * cross(ax, ay, bx, by);
+}
+
+constexpr ErrorCount EDGE = {1, 0};  // an exact difference
+
+// The majorants are the permanents of the first stage. One u^2 beside the count is for the terms of third order, for the
+// permanent's own roundings and for that of h + l: all of them are relative changes of a few u.
+constexpr double ORIENT_ERROR = 16, INCIRCLE_ERROR = 112, DISTANCE_ERROR = 25;
+static_assert(cross(EDGE, EDGE, EDGE, EDGE).e + 1 <= ORIENT_ERROR);
+static_assert(incircle_form(EDGE, EDGE, EDGE, EDGE, EDGE, EDGE).e + 1 <= INCIRCLE_ERROR);
+static_assert((squared(EDGE, EDGE) - squared(EDGE, EDGE)).e + 1 <= DISTANCE_ERROR);
+
+constexpr double U2 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+
+Sign decide_pair(Pair value, double bound) {
+    return decide(value.h + value.l, bound);
+}
+
+struct Edge {
+    Pair x, y;
+
+    Edge(const double* from, const double* to)
+        : x(pair_difference(to[0], from[0])), y(pair_difference(to[1], from[1])) {}
+};
+
+struct IntegerPoint {
+    BigInteger x, y;
+};
+
+int common_exponent(std::initializer_list<const double*> points) {
+    int exponent = EVERY_EXPONENT;
+    for (const double* p : points) {
+        exponent = std::min({exponent, lowest_exponent(p[0]), lowest_exponent(p[1])});
+    }
+    return exponent;
+}
+
+IntegerPoint integer_edge(const double* from, const double* to, int exponent) {
+    return {BigInteger::from_double(to[0], exponent) - BigInteger::from_double(from[0], exponent),
+            BigInteger::from_double(to[1], exponent) - BigInteger::from_double(from[1], exponent)};
+}
+
+}  // namespace
+
+Sign orient_double_double(const double* a, const double* b, const double* c) {
+    const Edge ab(a, b), ac(a, c);
+    const double permanent = orient_estimate(a, b, c).permanent;
+    return decide_pair(cross(ab.x, ab.y, ac.x, ac.y), ORIENT_ERROR * U2 * permanent + FLOOR);
+}
+
+Sign incircle_double_double(const double* a, const double* b, const double* c, const double* d) {
+    const Edge da(d, a), db(d, b), dc(d, c);
+    const double aa = squared(da.x.h, da.y.h), bb = squared(db.x.h, db.y.h), cc = squared(dc.x.h, dc.y.h);
+    const double permanent = aa * (bb + cc) + bb * cc;
+    return decide_pair(incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y),
+                       INCIRCLE_ERROR * U2 * permanent + FLOOR * (aa + (bb + cc) + 1));
+}
+
+Sign distances_double_double(const double* q, const double* a, const double* b) {
+    const Edge qa(q, a), qb(q, b);
+    const double permanent = distance_estimate(q, a, b).permanent;
+    return decide_pair(squared(qa.x, qa.y) - squared(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
+}
+
+int orient_exact(const double* a, const double* b, const double* c) {
+    const int exponent = common_exponent({a, b, c});
+    const IntegerPoint ab = integer_edge(a, b, exponent), ac = integer_edge(a, c, exponent);
+    return cross(ab.x, ab.y, ac.x, ac.y).sign();
+}
+
+int incircle_exact(const double* a, const double* b, const double* c, const double* d) {
+    const int exponent = common_exponent({a, b, c, d});
+    const IntegerPoint da = integer_edge(d, a, exponent), db = integer_edge(d, b, exponent),
+                       dc = integer_edge(d, c, exponent);
+    return incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y).sign();
+}
+
+int distances_exact(const double* q, const double* a, const double* b) {
+    const int exponent = common_exponent({q, a, b});
+    const IntegerPoint qa = integer_edge(q, a, exponent), qb = integer_edge(q, b, exponent);
+    return compare(squared(qa.x, qa.y), squared(qb.x, qb.y));
+}
+
+bool is_rectangle(const double* a, const double* b, const double* c, const double* d) {
+    // o is the corner opposite to d, s and t are the other two.
+    const auto opposite = [d](const double* o, const double* s, const double* t) {
+        const bool s_beside = s[0] == d[0] && s[1] == o[1] && t[0] == o[0] && t[1] == d[1];
+        const bool t_beside = t[0] == d[0] && t[1] == o[1] && s[0] == o[0] && s[1] == d[1];
+        return s_beside || t_beside;
+    };
+    return opposite(a, b, c) || opposite(b, c, a) || opposite(c, a, b);
+}
+
+}  // namespace stereodel::plane

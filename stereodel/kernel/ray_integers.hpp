@@ -1,0 +1,32 @@
+// The last stage of the predicates on directions: integer vectors, square roots by their squares, nothing rounded.
+// The formulas are those of stereodel/predicates/rays.py and ties.py.
+#pragma once
+
+#include "big_integer.hpp"
+
+namespace stereodel::rays {
+
+// The integer vector on the ray that is shortest among those by powers of two.
+struct IntegerRay {
+    BigInteger v[3];
+
+    explicit IntegerRay(const double* vector);
+    BigInteger squared() const;
+};
+
+// Sign of |a| det[b c p] - |b| det[a c p] + |c| det[a b p] - |p| det[a b c].
+int bubble_exact(const double* a, const double* b, const double* c, const double* p);
+
+// Sign of det[a b c].
+int turn_exact(const double* a, const double* b, const double* c);
+
+// Sign of a_k/|a| - b_k/|b|.
+int compare_component_exact(const double* a, const double* b, int k);
+
+// Sign of the angle between q and a less that between q and b.
+int compare_angles_exact(const double* q, const double* a, const double* b);
+
+// Sign of the determinant of the unit vectors with rows (the two components without `axis`, 1).
+int shadow_exact(const double* a, const double* b, const double* c, int axis);
+
+}  // namespace stereodel::rays

@@ -1,0 +1,113 @@
+#include "ray_order.hpp"
+
+#include <cmath>
+
+#include "double_double.hpp"
+#include "pair_arithmetic.hpp"
+#include "ray_integers.hpp"
+
+namespace stereodel::rays {
+
+namespace {
+
+DoubleDouble component(const Direction& d, int k) {
+    return {d.hi[k], d.lo[k]};
+}
+
+DoubleDouble dot(const Direction& a, const Direction& b) {
+    return component(a, 0) * component(b, 0) + component(a, 1) * component(b, 1) + component(a, 2) * component(b, 2);
+}
+
+// a_k^2 (b_i^2 + b_j^2) - b_k^2 (a_i^2 + a_j^2): the squares compared, without the common term a_k^2 b_k^2.
+template <class Number>
+constexpr Number component_form(const Number* a, const Number* b, int k, int i, int j) {
+    return (a[k] * a[k]) * (b[i] * b[i] + b[j] * b[j]) - (b[k] * b[k]) * (a[i] * a[i] + a[j] * a[j]);
+}
+
+constexpr ErrorCount PAIRED[3] = {{1, 0}, {1, 0}, {1, 0}};
+constexpr double COMPONENT_ERROR = 112;
+static_assert(component_form(PAIRED, PAIRED, 0, 1, 2).e + 1 <= COMPONENT_ERROR);
+
+// Equal by symmetry: the case of mirrored points, lattices and circles of latitude, and of most exact ties.
+bool same_component(const double* a, const double* b, int k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    if (a[k] == 0.0 || b[k] == 0.0) {
+        return a[k] == b[k];
+    }
+    const double ai = std::fabs(a[i]), aj = std::fabs(a[j]), bi = std::fabs(b[i]), bj = std::fabs(b[j]);
+    return a[k] == b[k] && ((ai == bi && aj == bj) || (ai == bj && aj == bi));
+}
+
+int compare_component(const double* a, const double* b, int k, bool unit) {
+    if (same_component(a, b, k)) {
+        return 0;
+    }
+    const int sign_a = sign_of(a[k]), sign_b = sign_of(b[k]);
+    if (sign_a != sign_b) {
+        return sign_a < sign_b ? -1 : 1;
+    }
+    Sign sign = unit ? compare_component_filter(a, b, k) : OPEN;
+    if (sign == OPEN) {
+        sign = compare_component_double_double(a, b, k);
+    }
+    return sign != OPEN ? sign : compare_component_exact(a, b, k);
+}
+
+}  // namespace
+
+// Lengths change the components by factors within 1.01 * 2^-49 of 1: two numbers of one sign keep their order if they
+// differ by more than 2^-48 of their larger one (with some room for the roundings here). Nothing underflows that counts:
+// a difference of doubles is at least 2^-1074.
+Sign compare_component_filter(const double* a, const double* b, int k) {
+    return decide(a[k] - b[k], 0x1p-47 * (std::fabs(a[k]) + std::fabs(b[k])));
+}
+
+Sign compare_component_double_double(const double* a, const double* b, int k) {
+    const Direction da(a), db(b);
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const Pair pa[3] = {{da.hi[0], da.lo[0]}, {da.hi[1], da.lo[1]}, {da.hi[2], da.lo[2]}};
+    const Pair pb[3] = {{db.hi[0], db.lo[0]}, {db.hi[1], db.lo[1]}, {db.hi[2], db.lo[2]}};
+    const Pair value = component_form(pa, pb, k, i, j);
+    const double ak = da.hi[k] * da.hi[k], bk = db.hi[k] * db.hi[k];
+    const double permanent = ak * (db.hi[i] * db.hi[i] + db.hi[j] * db.hi[j]) + bk * (da.hi[i] * da.hi[i] + da.hi[j] * da.hi[j]);
+    const Sign squares =
+        decide(value.h + value.l, COMPONENT_ERROR * UNIT_ROUNDOFF * UNIT_ROUNDOFF * permanent + plane::FLOOR);
+    const int sign_a = sign_of(a[k]), sign_b = sign_of(b[k]);
+    if (sign_a != sign_b) {
+        return sign_a < sign_b ? -1 : 1;
+    }
+    return squares == OPEN ? OPEN : sign_a * squares;
+}
+
+int compare(const double* a, const double* b, bool unit) {
+    for (int k = 0; k < 3; ++k) {
+        if (const int sign = compare_component(a, b, k, unit)) {
+            return sign;
+        }
+    }
+    return 0;
+}
+
+// The squared chord of unit vectors is (|a-q|^2 - (|a|-|q|)^2) / (|a||q|) for vectors of any length. Here the lengths are
+// within 2^-49 of 1: the denominator within 2^-47.9 * 1/2 of 1 for each of a and b, the subtrahend at most 2^-96. |a-q|^2
+// is computed with seven roundings a term, its D-vectors are off by 2^-106: below 2^-100 with them. Together 8u + 2^-48 +
+// a little < 2^-47 of both, and 2^-95.
+Sign compare_angles_filter(const Direction& q, const Direction& a, const Direction& b) {
+    double aa = 0.0, bb = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double x = (a.hi[k] - q.hi[k]) + (a.lo[k] - q.lo[k]), y = (b.hi[k] - q.hi[k]) + (b.lo[k] - q.lo[k]);
+        aa += x * x;
+        bb += y * y;
+    }
+    return decide(aa - bb, 0x1p-47 * (aa + bb) + 0x1p-94);
+}
+
+// (q.b)|a| - (q.a)|b| in double-double. A dot product of vectors of length one is off by less than 7u^2 + 2 * 3.1u^2 <
+// 14u^2, a length by (7 + 6.2)/2 u^2 + 5u^2 < 12u^2, their product by 14 + 12 + 7 = 33u^2; twice that, and 3.1u^2 of a
+// difference of at most 2 for the last operation: below 80u^2. Underflow is nothing beside it.
+Sign compare_angles_double_double(const Direction& q, const Direction& a, const Direction& b) {
+    const DoubleDouble value = dot(q, b) * sqrt(dot(a, a)) - dot(q, a) * sqrt(dot(b, b));
+    return decide(value.hi, 80 * UNIT_ROUNDOFF * UNIT_ROUNDOFF);
+}
+
+}  // namespace stereodel::rays

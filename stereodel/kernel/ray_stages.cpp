@@ -1,0 +1,202 @@
+#include "ray_stages.hpp"
+
+#include <algorithm>
+
+#include "pair_arithmetic.hpp"
+
+namespace stereodel::rays {
+
+namespace {
+
+constexpr double U2 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+
+struct Difference {
+    double v[3];
+
+    // Where the difference of the high parts rounds at all (it does not between a/2 and 2a) it exceeds the low parts by
+    // 2^51 or more and counts as one relative rounding; the last sum is a second one. The difference of the low parts,
+    // below 2^-53, rounds by at most 2^-106 = ETA: an absolute error.
+    Difference(const Direction& from, const Direction& to) {
+        for (int k = 0; k < 3; ++k) {
+            v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
+        }
+    }
+};
+
+// The formulas of the third stage, for pairs and for the count of their errors.
+
+template <class Scalar, class Number>
+constexpr auto determinant_form(const Scalar* a, const Number* u, const Number* v) {
+    return a[0] * (u[1] * v[2] - u[2] * v[1]) + a[1] * (u[2] * v[0] - u[0] * v[2]) + a[2] * (u[0] * v[1] - u[1] * v[0]);
+}
+
+template <class Scalar, class Number>
+constexpr Number dot_form(const Scalar* u, const Number* v) {
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+// |D|^2 + 2 a.D = |a + D|^2 - |a|^2
+template <class Number>
+constexpr Number growth_form(const Number& square, const Number& dot) {
+    return square + (dot + dot);
+}
+
+template <class Number>
+constexpr Number sum_form(const Number& b, const Number& c, const Number& p) {
+    return b + c + p;
+}
+
+// Difference vectors as pairs: exact where the vectors are plain doubles.
+struct Edge {
+    Pair v[3];
+
+    Edge(const double* from, const double* to) {
+        for (int k = 0; k < 3; ++k) {
+            v[k] = pair_difference(to[k], from[k]);
+        }
+    }
+
+    // h + r + e1 + e2 is exact, with e1 = 0 unless |h| exceeds 2^51 times the low parts, and |e2| <= 2^-106. Adding up the
+    // small ones rounds by less than 4u^2 |h| and 2^-157, an absolute error; the last line makes |l| <= u|h|.
+    Edge(const Direction& from, const Direction& to) {
+        for (int k = 0; k < 3; ++k) {
+            const DoubleDouble high = two_difference(to.hi[k], from.hi[k]), low = two_difference(to.lo[k], from.lo[k]);
+            const DoubleDouble sum = two_sum(high.hi, low.hi);
+            const DoubleDouble result = two_sum(sum.hi, sum.lo + (high.lo + low.lo));
+            v[k] = {result.hi, result.lo};
+        }
+    }
+};
+
+struct Plain {
+    const double* v;
+
+    explicit Plain(const double* vector) : v(vector) {}
+};
+
+struct Paired {
+    Pair v[3];
+
+    explicit Paired(const Direction& d) : v{{d.hi[0], d.lo[0]}, {d.hi[1], d.lo[1]}, {d.hi[2], d.lo[2]}} {}
+};
+
+constexpr PlainCount PLAIN[3] = {};
+constexpr ErrorCount PAIRED[3] = {{1, 0}, {1, 0}, {1, 0}};
+constexpr ErrorCount EDGE[3] = {{1, 5}, {1, 5}, {1, 5}};  // of directions; those of plain vectors are exact
+
+template <class Scalar>
+constexpr double bubble_error(const Scalar* a) {
+    const ErrorCount term = dot_form(EDGE, EDGE) * determinant_form(a, EDGE, EDGE);
+    return sum_form(term, term, term).e + 1;
+}
+
+template <class Scalar>
+constexpr double growth_error(const Scalar* a) {
+    return growth_form(dot_form(EDGE, EDGE), dot_form(a, EDGE)).e + 1;
+}
+
+// Times sqrt(2) for the permanents of the determinants, as in the second stage: 1.5 with the lengths of a.
+constexpr double BUBBLE_ERROR = 512;
+static_assert(1.5 * bubble_error(PLAIN) <= BUBBLE_ERROR && 1.5 * bubble_error(PAIRED) <= BUBBLE_ERROR);
+constexpr double TURN_ERROR = 128;
+static_assert(1.5 * (determinant_form(PLAIN, EDGE, EDGE).e + 1) <= TURN_ERROR);
+static_assert(1.5 * (determinant_form(PAIRED, EDGE, EDGE).e + 1) <= TURN_ERROR);
+
+// The e_i, where their squares matter: e_i = (|i|^2 - |a|^2)/(|i| + |a|), and the denominator is 2 within 2^-49 of itself.
+// The numerator |D|^2 + 2a.D has a majorant below 4.1 |D_i| and so is known within 2^-97 |D_i| (and 2^-154 of the
+// directions). With |e_i| <= 2^-48: e_i^2 is known within 2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 |D_i| (and less) < 2^-143;
+// times the determinant, summed in doubles: within 2^-142 times the lj lk, whose sum is at most B + C + P.
+static_assert(4.1 * growth_error(PLAIN) <= 0x1p9 && 4.1 * growth_error(PAIRED) <= 0x1p9);
+constexpr double LENGTHS_KNOWN = 0x1p-142;
+
+template <class Scalar>
+double length_difference_squared(const Scalar* a, const Pair* edge, const Pair& square) {
+    const Pair growth = growth_form(square, dot_form(a, edge));
+    const double difference = 0.5 * (growth.h + growth.l);
+    return difference * difference;
+}
+
+// The curvature form in pairs, the e_i first neglected, then added.
+template <class Scalar>
+Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair* dp, double floor) {
+    const Pair bb = dot_form(db, db), cc = dot_form(dc, dc), pp = dot_form(dp, dp);
+    const Pair at_b = determinant_form(a, dc, dp), at_c = determinant_form(a, dp, db), at_p = determinant_form(a, db, dc);
+    const Pair value = sum_form(bb * at_b, cc * at_c, pp * at_p);
+    const double sum = bb.h + (cc.h + pp.h), permanent = bb.h * (cc.h + pp.h) + cc.h * pp.h;
+    const double bound = BUBBLE_ERROR * U2 * permanent + floor;
+    const Sign sign = decide(-(value.h + value.l), bound + LENGTHS * sum);
+    if (sign != OPEN) {
+        return sign;
+    }
+    const double lengths = length_difference_squared(a, db, bb) * at_b.h + length_difference_squared(a, dc, cc) * at_c.h +
+                           length_difference_squared(a, dp, pp) * at_p.h;
+    const DoubleDouble rest = two_difference(lengths, value.h);
+    return decide(rest.hi + (rest.lo - value.l), bound + LENGTHS_KNOWN * sum);
+}
+
+template <class Scalar>
+Sign turn_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, double directions, double floor) {
+    const Pair value = determinant_form(a, db, dc);
+    const double bb = dot_form(db, db).h, cc = dot_form(dc, dc).h;
+    return decide(value.h + value.l,
+                  TURN_ERROR * U2 * std::sqrt(bb * cc) + directions * (std::sqrt(bb) + std::sqrt(cc)) + floor);
+}
+
+// Absolute errors of D-vectors, each component off by h: with l the computed lengths + 4h, the form moves by at most
+// sqrt(3) h (LM + 3 lb lc lp) <= 2.4 h LM, L the sum of the l and M that of their products in pairs; L <= 6 and M is at most
+// 2 (B + C + P) + 100 h^2. For h = 2^-106 that is below 2^-100 (B + C + P), inside the room of LENGTHS, and 2^-300; for
+// h = 2^-157 below 2^-151 (B + C + P), inside that of LENGTHS_KNOWN, and 2^-450.
+constexpr double DIRECTIONS_FLOOR = 0x1p-300, DIRECTIONS_FLOOR_KNOWN = 0x1p-440;
+
+}  // namespace
+
+Direction::Direction(const double* vector) {
+    const double largest = std::max({std::fabs(vector[0]), std::fabs(vector[1]), std::fabs(vector[2])});
+    double v[3] = {vector[0], vector[1], vector[2]};
+    if (!(largest > 0x1p-300 && largest < 0x1p300)) {
+        int exponent = 0;
+        std::frexp(largest, &exponent);
+        for (double& component : v) {
+            component = std::ldexp(component, -exponent);
+        }
+    }
+    // Off by 3.5u: 1.5u of the square, the root, the quotient. Any double near serves.
+    const double factor = 1.0 / std::sqrt(squared(v));
+    for (int k = 0; k < 3; ++k) {
+        const DoubleDouble product = two_product(v[k], factor);
+        hi[k] = product.hi;
+        lo[k] = product.lo;
+    }
+}
+
+// The differences hold two roundings each and a.hi one: N = 20; 21 sqrt(2) < 30.
+Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
+    const Difference db(a, b), dc(a, c), dp(a, p);
+    return curvature_form(a.hi, db.v, dc.v, dp.v, 30 * UNIT_ROUNDOFF, DIRECTIONS_FLOOR);
+}
+
+// N = 10; 11 sqrt(2) < 16. The directions: sqrt(3) ETA (lb + lc + 2 ETA).
+Sign turn_filter(const Direction& a, const Direction& b, const Direction& c) {
+    const Difference db(a, b), dc(a, c);
+    const double bb = squared(db.v), cc = squared(dc.v);
+    const double bound = 16 * UNIT_ROUNDOFF * std::sqrt(bb * cc) + 0x1p-105 * (std::sqrt(bb) + std::sqrt(cc)) + 0x1p-208;
+    return decide(determinant(a.hi, db.v, dc.v), bound);
+}
+
+Sign bubble_double_double(const double* a, const double* b, const double* c, const double* p) {
+    return bubble_in_pairs(a, Edge(a, b).v, Edge(a, c).v, Edge(a, p).v, plane::FLOOR);
+}
+
+Sign bubble_double_double(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
+    return bubble_in_pairs(Paired(a).v, Edge(a, b).v, Edge(a, c).v, Edge(a, p).v, DIRECTIONS_FLOOR_KNOWN);
+}
+
+Sign turn_double_double(const double* a, const double* b, const double* c) {
+    return turn_in_pairs(a, Edge(a, b).v, Edge(a, c).v, 0.0, 0x1p-500);
+}
+
+Sign turn_double_double(const Direction& a, const Direction& b, const Direction& c) {
+    return turn_in_pairs(Paired(a).v, Edge(a, b).v, Edge(a, c).v, 0x1p-156, 0x1p-310);
+}
+
+}  // namespace stereodel::rays
