@@ -22,73 +22,58 @@ int component_of(Pole pole, int coordinate) {
 
 // A vector as the projection sees it: scaled by a power of two to ordinary size, height = sign * p_k.
 struct Seen {
-    double x, y, height;
+    double flat[2], height;
 
     Seen(const double* p, Pole pole)
-        : x(p[component_of(pole, 0)]), y(p[component_of(pole, 1)]), height(pole.sign * p[pole.axis]) {
-        const double largest = std::max({std::fabs(x), std::fabs(y), std::fabs(height)});
+        : flat{p[component_of(pole, 0)], p[component_of(pole, 1)]}, height(pole.sign * p[pole.axis]) {
+        const double largest = std::max({std::fabs(flat[0]), std::fabs(flat[1]), std::fabs(height)});
         if (!(largest > 0x1p-20 && largest < 0x1p20)) {
-            scale(largest);
+            int exponent = 0;
+            std::frexp(largest, &exponent);
+            flat[0] = std::ldexp(flat[0], -exponent);
+            flat[1] = std::ldexp(flat[1], -exponent);
+            height = std::ldexp(height, -exponent);
         }
-    }
-
-  private:
-    void scale(double largest) {
-        int exponent = 0;
-        std::frexp(largest, &exponent);
-        x = scaled(x, -exponent);
-        y = scaled(y, -exponent);
-        height = std::ldexp(height, -exponent);
-    }
-
-    // A component that loses bits among the subnormals breaks the promise of a relative error.
-    static double scaled(double value, int exponent) {
-        const double result = std::ldexp(value, exponent);
-        return value != 0.0 && std::fabs(result) < 0x1p-1000 ? NOT_A_NUMBER : result;
     }
 };
 
-// value, if no bits of it or of what it was computed from can have been lost to underflow.
-double in_range(double value, double numerator, double limit) {
-    return numerator == 0.0 || std::fabs(value) > limit ? value : NOT_A_NUMBER;
+// The factor of a promise: 1, or NaN for a numerator that is not zero and too small for it.
+double promise(double numerator, double limit) {
+    return numerator == 0.0 || std::fabs(numerator) > limit ? 1.0 : NOT_A_NUMBER;
 }
 
 }  // namespace
 
 // For height <= 0, X = x / (|p| - height): the square holds three roundings, halved by the root, the root one, the sum one,
 // the quotient one: 4.5u. For height > 0 without cancellation X = x (|p| + height) / (x^2 + y^2): 3.5u, a product, two
-// roundings of x^2 + y^2, a quotient: 7.5u. Squares that underflow matter in x^2 + y^2 alone: below 2^-900 it is refused.
+// roundings of x^2 + y^2, a quotient: 7.5u. Scaled vectors lie between 2^-20 and 2^20: with numerators and x^2 + y^2 above
+// 2^-900 no result is below 2^-970, and no square that underflows counts.
 void project(const double* p, Pole pole, double out[2]) {
     const Seen v(p, pole);
-    const double flat = v.x * v.x + v.y * v.y;
-    const double reach = std::sqrt(flat + v.height * v.height) + std::fabs(v.height);
-    if (v.height > 0.0) {
-        const double safe = flat > 0x1p-900 ? flat : NOT_A_NUMBER;
-        out[0] = in_range(v.x * reach / safe, v.x, 0x1p-1000);
-        out[1] = in_range(v.y * reach / safe, v.y, 0x1p-1000);
-    } else {
-        out[0] = in_range(v.x / reach, v.x, 0x1p-1000);
-        out[1] = in_range(v.y / reach, v.y, 0x1p-1000);
+    const double square = v.flat[0] * v.flat[0] + v.flat[1] * v.flat[1];
+    const double reach = std::sqrt(square + v.height * v.height) + std::fabs(v.height);
+    const double safe = square > 0x1p-900 ? square : NOT_A_NUMBER;
+    for (int k = 0; k < 2; ++k) {
+        const double image = v.height > 0.0 ? v.flat[k] * reach / safe : v.flat[k] / reach;
+        out[k] = image * promise(v.flat[k], 0x1p-900);
     }
 }
 
 // The same in double-double. Squares are exact; the sums 3.1u^2 each, all terms positive; the root of that 3.1u^2 + 5u^2,
-// the reach 11.2u^2, the product 18.3u^2, the quotient by x^2 + y^2 (3.1u^2) 11u^2 more: below 33u^2 < 2^-100. The
-// operations keep their relative bounds for magnitudes from 2^-480 to 2^480; a lost square of a far smaller component beside
-// the other counts below 2^-200. Components below 2^-400 are refused.
+// the reach 11.2u^2, the product 18.3u^2, the quotient by x^2 + y^2 (3.1u^2) 11u^2 more: below 33u^2 < 2^-100. With the
+// limits 2^-400 everything stays where the operations keep their relative bounds.
 void project_double_double(const double* p, Pole pole, double out[4]) {
     const Seen v(p, pole);
-    const DoubleDouble flat = two_product(v.x, v.x) + two_product(v.y, v.y);
+    const DoubleDouble square = two_product(v.flat[0], v.flat[0]) + two_product(v.flat[1], v.flat[1]);
     const DoubleDouble reach =
-        sqrt(flat + two_product(v.height, v.height)) + DoubleDouble{std::fabs(v.height), 0.0};
-    const double safe = v.height > 0.0 && !(flat.hi > 0x1p-400) ? NOT_A_NUMBER : 1.0;
+        sqrt(square + two_product(v.height, v.height)) + DoubleDouble{std::fabs(v.height), 0.0};
+    const double safe = v.height > 0.0 && !(square.hi > 0x1p-400) ? NOT_A_NUMBER : 1.0;
     for (int k = 0; k < 2; ++k) {
-        const double numerator = k == 0 ? v.x : v.y;
-        const DoubleDouble image =
-            v.height > 0.0 ? DoubleDouble{numerator, 0.0} * reach / flat : DoubleDouble{numerator, 0.0} / reach;
-        const double promise = safe * in_range(1.0, numerator, 0.0) * (numerator == 0.0 || std::fabs(numerator) > 0x1p-400 ? 1.0 : NOT_A_NUMBER);
-        out[2 * k] = image.hi * promise;
-        out[2 * k + 1] = image.lo * promise;
+        const DoubleDouble x = {v.flat[k], 0.0};
+        const DoubleDouble image = v.height > 0.0 ? x * reach / square : x / reach;
+        const double factor = safe * promise(v.flat[k], 0x1p-400);
+        out[2 * k] = image.hi * factor;
+        out[2 * k + 1] = image.lo * factor;
     }
 }
 

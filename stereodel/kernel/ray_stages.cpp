@@ -14,8 +14,8 @@ struct Difference {
     double v[3];
 
     // Where the difference of the high parts rounds at all (it does not between a/2 and 2a) it exceeds the low parts by
-    // 2^51 or more and counts as one relative rounding; the last sum is a second one. The difference of the low parts,
-    // below 2^-53, rounds by at most 2^-106 = ETA: an absolute error.
+    // 2^51 or more and counts as one relative rounding; the last sum is a second one. The difference of the low parts, at
+    // most 2^-52, rounds by at most 2^-106: an absolute error.
     Difference(const Direction& from, const Direction& to) {
         for (int k = 0; k < 3; ++k) {
             v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
@@ -104,8 +104,8 @@ static_assert(1.5 * (determinant_form(PAIRED, EDGE, EDGE).e + 1) <= TURN_ERROR);
 
 // The e_i, where their squares matter: e_i = (|i|^2 - |a|^2)/(|i| + |a|), and the denominator is 2 within 2^-49 of itself.
 // The numerator |D|^2 + 2a.D has a majorant below 4.1 |D_i| and so is known within 2^-97 |D_i| (and 2^-154 of the
-// directions). With |e_i| <= 2^-48: e_i^2 is known within 2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 |D_i| (and less) < 2^-143;
-// times the determinant, summed in doubles: within 2^-142 times the lj lk, whose sum is at most B + C + P.
+// directions). With |e_i| <= 2^-48 and |D_i| < 2.1, e_i^2 is known within 2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 * 2.1 < 2^-142.8;
+// times the determinants, summed in doubles: within 2^-142.5 times the lj lk, whose sum is at most B + C + P.
 static_assert(4.1 * growth_error(PLAIN) <= 0x1p9 && 4.1 * growth_error(PAIRED) <= 0x1p9);
 constexpr double LENGTHS_KNOWN = 0x1p-142;
 
@@ -134,6 +134,10 @@ Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair
     return decide(rest.hi + (rest.lo - value.l), bound + LENGTHS_KNOWN * sum);
 }
 
+// lb lc <= 2^-530 may underflow to zero under the root.
+constexpr double TURN_FLOOR = 0x1p-500;
+
+// `directions`: sqrt(3) times the absolute error of the D-vectors' components, `floor` that times itself, or TURN_FLOOR.
 template <class Scalar>
 Sign turn_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, double directions, double floor) {
     const Pair value = determinant_form(a, db, dc);
@@ -175,7 +179,7 @@ Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction
     return curvature_form(a.hi, db.v, dc.v, dp.v, 30 * UNIT_ROUNDOFF, DIRECTIONS_FLOOR);
 }
 
-// N = 10; 11 sqrt(2) < 16. The directions: sqrt(3) ETA (lb + lc + 2 ETA).
+// N = 10; 11 sqrt(2) < 16. D-vectors off by h = 2^-106 in each component: sqrt(3) h (lb + lc + 2h).
 Sign turn_filter(const Direction& a, const Direction& b, const Direction& c) {
     const Difference db(a, b), dc(a, c);
     const double bb = squared(db.v), cc = squared(dc.v);
@@ -192,7 +196,7 @@ Sign bubble_double_double(const Direction& a, const Direction& b, const Directio
 }
 
 Sign turn_double_double(const double* a, const double* b, const double* c) {
-    return turn_in_pairs(a, Edge(a, b).v, Edge(a, c).v, 0.0, 0x1p-500);
+    return turn_in_pairs(a, Edge(a, b).v, Edge(a, c).v, 0.0, TURN_FLOOR);
 }
 
 Sign turn_double_double(const Direction& a, const Direction& b, const Direction& c) {
