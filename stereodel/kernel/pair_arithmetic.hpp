@@ -3,14 +3,14 @@
 // A pair stands for a polynomial X of the input with the majorant M (its permanent: the same polynomial with every
 // product replaced by its absolute value). It satisfies
 //     |l| <= k u M,    |h + l - X| <= e u^2 M,    hence |h| <= (1 + k u + e u^2) M,    u = 2^-53,
-// where k and e follow from the operations alone; `ErrorCount` computes them at compile time, so that a formula
-// written once gives its value and its error bound:
+// where k and e follow from the operations alone; `ErrorCount` counts them:
 //     sum       h + h' is split exactly into s + r, |r| <= u|s|; l" = r + (l + l') rounds twice:
 //               k" = K + 1, e" = E + K + (K + 1), with K = max(k, k'), E = max(e, e')
 //     product   h h' is split exactly into p + r; l" = r + (h l' + l h') rounds four times and drops l l':
 //               k" = k + k' + 1, e" = e + e' + k k' + k + k' + (k + k') + (k + k' + 1)
 //     multiple  by a double (k = e = 0): l" = r + a l rounds twice: k" = k + 1, e" = e + k + (k + 1)
-// Terms of third order are below k e u < 2^-38 of e while k < 64 and e < 1000: a bound that exceeds e by 1 covers them.
+// Terms of third order are below k e u < 2^-38 of e while k < 64 and e < 1000. A bound of (e + 1) u^2 times the permanent
+// covers them, the permanent's own roundings and that of the last sum h + l: relative changes of a few u.
 // Underflow is the caller's: each two_product may be off by 2^-1072 more.
 #pragma once
 
@@ -47,30 +47,6 @@ inline Pair operator*(Pair a, Pair b) {
 inline Pair operator*(double a, Pair b) {
     const DoubleDouble p = two_product(a, b.h);
     return {p.hi, p.lo + a * b.l};
-}
-
-struct ErrorCount {
-    double k;
-    double e;
-};
-
-struct PlainCount {};  // a double that is exact as it stands
-
-constexpr ErrorCount operator+(ErrorCount a, ErrorCount b) {
-    const double k = a.k > b.k ? a.k : b.k, e = a.e > b.e ? a.e : b.e;
-    return {k + 1, e + k + (k + 1)};
-}
-
-constexpr ErrorCount operator-(ErrorCount a, ErrorCount b) {
-    return a + b;
-}
-
-constexpr ErrorCount operator*(ErrorCount a, ErrorCount b) {
-    return {a.k + b.k + 1, a.e + b.e + a.k * b.k + 2 * (a.k + b.k) + (a.k + b.k + 1)};
-}
-
-constexpr ErrorCount operator*(PlainCount, ErrorCount b) {
-    return {b.k + 1, b.e + b.k + (b.k + 1)};
 }
 
 }  // namespace stereodel

@@ -9,33 +9,12 @@ namespace stereodel::plane {
 
 namespace {
 
-// The formulas, for pairs, for the count of their errors, and for integers.
-
-template <class Number>
-constexpr Number cross(const Number& ax, const Number& ay, const Number& bx, const Number& by) {
-    return ax * by - ay * bx;
-}
-
-template <class Number>
-constexpr Number squared(const Number& x, const Number& y) {
-    return x * x + y * y;
-}
-
-template <class Number>
-constexpr Number incircle_form(const Number& ax, const Number& ay, const Number& bx, const Number& by, const Number& cx,
-                               const Number& cy) {
-    return squared(ax, ay) * cross(bx, by, cx, cy) + squared(bx, by) * cross(cx, cy, ax, ay) +
-           squared(cx, cy) * cross(ax, ay, bx, by);
-}
-
-constexpr ErrorCount EDGE = {1, 0};  // an exact difference
-
-// The majorants are the permanents of the first stage. One u^2 beside the count is for the terms of third order, for the
-// permanent's own roundings and for that of h + l: all of them are relative changes of a few u.
+constexpr ErrorCount EXACT_EDGE = {1, 0};
 constexpr double ORIENT_ERROR = 16, INCIRCLE_ERROR = 112, DISTANCE_ERROR = 25;
-static_assert(cross(EDGE, EDGE, EDGE, EDGE).e + 1 <= ORIENT_ERROR);
-static_assert(incircle_form(EDGE, EDGE, EDGE, EDGE, EDGE, EDGE).e + 1 <= INCIRCLE_ERROR);
-static_assert((squared(EDGE, EDGE) - squared(EDGE, EDGE)).e + 1 <= DISTANCE_ERROR);
+static_assert(cross_form(EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE).bound() <= ORIENT_ERROR);
+static_assert(incircle_form(EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE).bound() <=
+              INCIRCLE_ERROR);
+static_assert((square_form(EXACT_EDGE, EXACT_EDGE) - square_form(EXACT_EDGE, EXACT_EDGE)).bound() <= DISTANCE_ERROR);
 
 constexpr double U2 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
@@ -72,12 +51,12 @@ IntegerPoint integer_edge(const double* from, const double* to, int exponent) {
 Sign orient_double_double(const double* a, const double* b, const double* c) {
     const Edge ab(a, b), ac(a, c);
     const double permanent = orient_estimate(a, b, c).permanent;
-    return decide_pair(cross(ab.x, ab.y, ac.x, ac.y), ORIENT_ERROR * U2 * permanent + FLOOR);
+    return decide_pair(cross_form(ab.x, ab.y, ac.x, ac.y), ORIENT_ERROR * U2 * permanent + FLOOR);
 }
 
 Sign incircle_double_double(const double* a, const double* b, const double* c, const double* d) {
     const Edge da(d, a), db(d, b), dc(d, c);
-    const double aa = squared(da.x.h, da.y.h), bb = squared(db.x.h, db.y.h), cc = squared(dc.x.h, dc.y.h);
+    const double aa = square_form(da.x.h, da.y.h), bb = square_form(db.x.h, db.y.h), cc = square_form(dc.x.h, dc.y.h);
     const double permanent = aa * (bb + cc) + bb * cc;
     return decide_pair(incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y),
                        INCIRCLE_ERROR * U2 * permanent + FLOOR * (aa + (bb + cc) + 1));
@@ -86,13 +65,13 @@ Sign incircle_double_double(const double* a, const double* b, const double* c, c
 Sign distances_double_double(const double* q, const double* a, const double* b) {
     const Edge qa(q, a), qb(q, b);
     const double permanent = distance_estimate(q, a, b).permanent;
-    return decide_pair(squared(qa.x, qa.y) - squared(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
+    return decide_pair(square_form(qa.x, qa.y) - square_form(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
 }
 
 int orient_exact(const double* a, const double* b, const double* c) {
     const int exponent = common_exponent({a, b, c});
     const IntegerPoint ab = integer_edge(a, b, exponent), ac = integer_edge(a, c, exponent);
-    return cross(ab.x, ab.y, ac.x, ac.y).sign();
+    return cross_form(ab.x, ab.y, ac.x, ac.y).sign();
 }
 
 int incircle_exact(const double* a, const double* b, const double* c, const double* d) {
@@ -105,7 +84,7 @@ int incircle_exact(const double* a, const double* b, const double* c, const doub
 int distances_exact(const double* q, const double* a, const double* b) {
     const int exponent = common_exponent({q, a, b});
     const IntegerPoint qa = integer_edge(q, a, exponent), qb = integer_edge(q, b, exponent);
-    return compare(squared(qa.x, qa.y), squared(qb.x, qb.y));
+    return compare(square_form(qa.x, qa.y), square_form(qb.x, qb.y));
 }
 
 bool is_rectangle(const double* a, const double* b, const double* c, const double* d) {

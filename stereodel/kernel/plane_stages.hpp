@@ -4,11 +4,6 @@
 // J. R. Shewchuk, "Adaptive precision floating-point arithmetic and fast robust geometric predicates", Discrete &
 // Computational Geometry 18 (1997), for the idea of stages; the bounds are derived here.
 //
-// How bounds are counted: in an expanded sum of products every term passes through at most N roundings, each a factor
-// 1 + d with |d| <= u = 2^-53, so the computed sum is off by at most ((1+u)^N - 1) times the permanent, the sum of the
-// absolute values of the exact terms. Bounds are stated with N + 1 in place of N: the whole u between them is far more
-// than what (1+u)^N - 1 - Nu and the roundings in the permanent and in the bound itself add.
-//
 // Underflow: a product of doubles is off by 2^-1075 more, sums and differences never are. A bound gets FLOOR = 2^-1000
 // for each factor that such an error meets, thousands of times what the few dozen products can lose. Overflow makes the
 // permanent infinite or NaN, and the sign stays open.
@@ -16,11 +11,12 @@
 
 #include <cmath>
 
+#include "error_counts.hpp"
+#include "plane_forms.hpp"
 #include "tally.hpp"
 
 namespace stereodel::plane {
 
-constexpr double UNIT_ROUNDOFF = 0x1p-53;
 constexpr double FLOOR = 0x1p-1000;
 
 // A computed value and the permanent (or something larger) that its bound is a multiple of.
@@ -30,32 +26,35 @@ struct Estimate {
     double permanent;
 };
 
-// Twice the signed area of abc. A term: two differences, a product, a subtraction: N = 4.
+// What the roundings are multiplied with; a difference of coordinates is rounded once.
+constexpr RoundingCount EDGE = {1};
+constexpr double ORIENT_ROUNDING = 5, INCIRCLE_ROUNDING = 12, DISTANCE_ROUNDING = 6;
+static_assert(cross_form(EDGE, EDGE, EDGE, EDGE).bound() <= ORIENT_ROUNDING);
+static_assert(incircle_form(EDGE, EDGE, EDGE, EDGE, EDGE, EDGE).bound() <= INCIRCLE_ROUNDING);
+static_assert((square_form(EDGE, EDGE) - square_form(EDGE, EDGE)).bound() <= DISTANCE_ROUNDING);
+
+// Twice the signed area of abc.
 inline Estimate orient_estimate(const double* a, const double* b, const double* c) {
-    const double left = (b[0] - a[0]) * (c[1] - a[1]);
-    const double right = (b[1] - a[1]) * (c[0] - a[0]);
-    const double permanent = std::fabs(left) + std::fabs(right);
-    return {left - right, 5 * UNIT_ROUNDOFF * permanent + FLOOR, permanent};
+    const double bx = b[0] - a[0], by = b[1] - a[1], cx = c[0] - a[0], cy = c[1] - a[1];
+    const double permanent = std::fabs(bx * cy) + std::fabs(by * cx);
+    return {cross_form(bx, by, cx, cy), ORIENT_ROUNDING * UNIT_ROUNDOFF * permanent + FLOOR, permanent};
 }
 
-// The incircle determinant of abc and d. A term: four differences, a square, a sum, a product, a subtraction, a product,
-// two sums: N = 11. With A = |a-d|^2 and so on, |bx cy| + |by cx| <= sqrt(BC) <= (B + C)/2 (Cauchy, then the two means),
-// so the permanent is at most AB + BC + CA. Underflow in A, B, C meets factors like |bx cy| <= (B + C)/2, underflow in
-// the products bx cy meets A, B, C, that of the last products meets nothing: FLOOR times A + B + C + 1.
+// The incircle determinant of abc and d. Underflow in A, B, C meets factors like |bx cy| <= (B + C)/2, underflow in the
+// products bx cy meets A, B, C, that of the last products meets nothing: FLOOR times A + B + C + 1.
 inline Estimate incircle_estimate(const double* a, const double* b, const double* c, const double* d) {
-    const double ax = a[0] - d[0], ay = a[1] - d[1], bx = b[0] - d[0], by = b[1] - d[1], cx = c[0] - d[0],
-                 cy = c[1] - d[1];
-    const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
-    const double value = aa * (bx * cy - by * cx) + bb * (cx * ay - cy * ax) + cc * (ax * by - ay * bx);
+    const double ax = a[0] - d[0], ay = a[1] - d[1], bx = b[0] - d[0], by = b[1] - d[1];
+    const double cx = c[0] - d[0], cy = c[1] - d[1];
+    const double aa = square_form(ax, ay), bb = square_form(bx, by), cc = square_form(cx, cy);
     const double permanent = aa * (bb + cc) + bb * cc;
-    return {value, 12 * UNIT_ROUNDOFF * permanent + FLOOR * (aa + (bb + cc) + 1), permanent};
+    return {incircle_form(ax, ay, bx, by, cx, cy),
+            INCIRCLE_ROUNDING * UNIT_ROUNDOFF * permanent + FLOOR * (aa + (bb + cc) + 1), permanent};
 }
 
-// |qa|^2 - |qb|^2. A term: twice a difference, a product, a sum, a subtraction: N = 5.
+// |qa|^2 - |qb|^2.
 inline Estimate distance_estimate(const double* q, const double* a, const double* b) {
-    const double ax = a[0] - q[0], ay = a[1] - q[1], bx = b[0] - q[0], by = b[1] - q[1];
-    const double aa = ax * ax + ay * ay, bb = bx * bx + by * by;
-    return {aa - bb, 6 * UNIT_ROUNDOFF * (aa + bb) + FLOOR, aa + bb};
+    const double aa = square_form(a[0] - q[0], a[1] - q[1]), bb = square_form(b[0] - q[0], b[1] - q[1]);
+    return {aa - bb, DISTANCE_ROUNDING * UNIT_ROUNDOFF * (aa + bb) + FLOOR, aa + bb};
 }
 
 // About twice the precision.

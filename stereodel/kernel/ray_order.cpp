@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "double_double.hpp"
+#include "error_counts.hpp"
 #include "pair_arithmetic.hpp"
 #include "ray_integers.hpp"
 
@@ -26,7 +27,7 @@ constexpr Number component_form(const Number* a, const Number* b, int k, int i, 
 
 constexpr ErrorCount PAIRED[3] = {{1, 0}, {1, 0}, {1, 0}};
 constexpr double COMPONENT_ERROR = 112;
-static_assert(component_form(PAIRED, PAIRED, 0, 1, 2).e + 1 <= COMPONENT_ERROR);
+static_assert(component_form(PAIRED, PAIRED, 0, 1, 2).bound() <= COMPONENT_ERROR);
 
 // Equal by symmetry: the case of mirrored points, lattices and circles of latitude, and of most exact ties.
 bool same_component(const double* a, const double* b, int k) {
@@ -37,6 +38,8 @@ bool same_component(const double* a, const double* b, int k) {
     const double ai = std::fabs(a[i]), aj = std::fabs(a[j]), bi = std::fabs(b[i]), bj = std::fabs(b[j]);
     return a[k] == b[k] && ((ai == bi && aj == bj) || (ai == bj && aj == bi));
 }
+
+}  // namespace
 
 int compare_component(const double* a, const double* b, int k, bool unit) {
     if (same_component(a, b, k)) {
@@ -52,8 +55,6 @@ int compare_component(const double* a, const double* b, int k, bool unit) {
     }
     return sign != OPEN ? sign : compare_component_exact(a, b, k);
 }
-
-}  // namespace
 
 // Lengths change the components by factors within 1.01 * 2^-49 of 1: two numbers of one sign keep their order if they
 // differ by more than 2^-48 of their larger one (with some room for the roundings here). Nothing underflows that counts:

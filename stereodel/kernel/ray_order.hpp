@@ -10,7 +10,8 @@ namespace stereodel::rays {
 // unit: the lengths are within 2^-49 of 1.
 int compare(const double* a, const double* b, bool unit);
 
-// The stages of one component: sign of a_k/|a| - b_k/|b|.
+// One component: sign of a_k/|a| - b_k/|b|; and its stages.
+int compare_component(const double* a, const double* b, int k, bool unit);
 Sign compare_component_filter(const double* a, const double* b, int k);  // lengths within 2^-49 of 1
 Sign compare_component_double_double(const double* a, const double* b, int k);
 

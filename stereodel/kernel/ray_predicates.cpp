@@ -109,19 +109,19 @@ int turn_open(const double* a, const double* b, const double* c, bool unit, Tall
     return counted(rays::turn_exact(a, b, c), tally);
 }
 
-int Rays::compare_distances(const double* query, Index a, Index b) {
-    const Direction q(query), da(at(a)), db(at(b));
-    Sign sign = rays::compare_angles_filter(q, da, db);
+int compare_angles(const double* q, const double* a, const double* b, Tally& tally) {
+    const Direction dq(q), da(a), db(b);
+    Sign sign = rays::compare_angles_filter(dq, da, db);
     if (sign != OPEN) {
         return sign;
     }
     ++tally.filter;
-    sign = rays::compare_angles_double_double(q, da, db);
+    sign = rays::compare_angles_double_double(dq, da, db);
     if (sign != OPEN) {
         return sign;
     }
     ++tally.double_double;
-    return counted(rays::compare_angles_exact(query, at(a), at(b)), tally);
+    return counted(rays::compare_angles_exact(q, a, b), tally);
 }
 
 }  // namespace stereodel

@@ -61,6 +61,9 @@ inline int turn(const double* a, const double* b, const double* c, bool unit, Ta
     return turn_open(a, b, c, unit, tally);
 }
 
+// Sign of the angle between q and a less that between q and b.
+int compare_angles(const double* q, const double* a, const double* b, Tally& tally);
+
 // A cheap view of the vectors; every thread has its own, with its own tally.
 class Rays {
   public:
@@ -85,7 +88,7 @@ class Rays {
 
     // query: any length.
     int turn(Index a, Index b, const double* query) {
-        const double square = rays::squared(query);
+        const double square = rays::dot_form(query, query);
         return stereodel::turn(at(a), at(b), query, unit_ && square > 0.3 && square < 3.9, tally);
     }
 
@@ -93,7 +96,9 @@ class Rays {
     int compare(Index a, Index b) { return rays::compare(at(a), at(b), unit_); }
 
     // Sign of the angle between the query and a less that between the query and b.
-    int compare_distances(const double* query, Index a, Index b);
+    int compare_distances(const double* query, Index a, Index b) {
+        return compare_angles(query, at(a), at(b), tally);
+    }
 
     Tally tally;
 

@@ -23,29 +23,6 @@ struct Difference {
     }
 };
 
-// The formulas of the third stage, for pairs and for the count of their errors.
-
-template <class Scalar, class Number>
-constexpr auto determinant_form(const Scalar* a, const Number* u, const Number* v) {
-    return a[0] * (u[1] * v[2] - u[2] * v[1]) + a[1] * (u[2] * v[0] - u[0] * v[2]) + a[2] * (u[0] * v[1] - u[1] * v[0]);
-}
-
-template <class Scalar, class Number>
-constexpr Number dot_form(const Scalar* u, const Number* v) {
-    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-// |D|^2 + 2 a.D = |a + D|^2 - |a|^2
-template <class Number>
-constexpr Number growth_form(const Number& square, const Number& dot) {
-    return square + (dot + dot);
-}
-
-template <class Number>
-constexpr Number sum_form(const Number& b, const Number& c, const Number& p) {
-    return b + c + p;
-}
-
 // Difference vectors as pairs: exact where the vectors are plain doubles.
 struct Edge {
     Pair v[3];
@@ -84,29 +61,21 @@ constexpr PlainCount PLAIN[3] = {};
 constexpr ErrorCount PAIRED[3] = {{1, 0}, {1, 0}, {1, 0}};
 constexpr ErrorCount EDGE[3] = {{1, 5}, {1, 5}, {1, 5}};  // of directions; those of plain vectors are exact
 
-template <class Scalar>
-constexpr double bubble_error(const Scalar* a) {
-    const ErrorCount term = dot_form(EDGE, EDGE) * determinant_form(a, EDGE, EDGE);
-    return sum_form(term, term, term).e + 1;
-}
+constexpr double BUBBLE_ERROR = 460;
+static_assert(bubble_bound(PLAIN, EDGE) <= BUBBLE_ERROR && bubble_bound(PAIRED, EDGE) <= BUBBLE_ERROR);
+constexpr double TURN_ERROR = 120;
+static_assert(turn_bound(PLAIN, EDGE) <= TURN_ERROR && turn_bound(PAIRED, EDGE) <= TURN_ERROR);
 
 template <class Scalar>
-constexpr double growth_error(const Scalar* a) {
-    return growth_form(dot_form(EDGE, EDGE), dot_form(a, EDGE)).e + 1;
+constexpr double growth_bound(const Scalar* a) {
+    return growth_form(dot_form(EDGE, EDGE), dot_form(a, EDGE)).bound();
 }
-
-// Times sqrt(2) for the permanents of the determinants, as in the second stage: 1.5 with the lengths of a.
-constexpr double BUBBLE_ERROR = 512;
-static_assert(1.5 * bubble_error(PLAIN) <= BUBBLE_ERROR && 1.5 * bubble_error(PAIRED) <= BUBBLE_ERROR);
-constexpr double TURN_ERROR = 128;
-static_assert(1.5 * (determinant_form(PLAIN, EDGE, EDGE).e + 1) <= TURN_ERROR);
-static_assert(1.5 * (determinant_form(PAIRED, EDGE, EDGE).e + 1) <= TURN_ERROR);
 
 // The e_i, where their squares matter: e_i = (|i|^2 - |a|^2)/(|i| + |a|), and the denominator is 2 within 2^-49 of itself.
 // The numerator |D|^2 + 2a.D has a majorant below 4.1 |D_i| and so is known within 2^-97 |D_i| (and 2^-154 of the
 // directions). With |e_i| <= 2^-48 and |D_i| < 2.1, e_i^2 is known within 2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 * 2.1 < 2^-142.8;
 // times the determinants, summed in doubles: within 2^-142.5 times the lj lk, whose sum is at most B + C + P.
-static_assert(4.1 * growth_error(PLAIN) <= 0x1p9 && 4.1 * growth_error(PAIRED) <= 0x1p9);
+static_assert(4.1 * growth_bound(PLAIN) <= 0x1p9 && 4.1 * growth_bound(PAIRED) <= 0x1p9);
 constexpr double LENGTHS_KNOWN = 0x1p-142;
 
 template <class Scalar>
@@ -121,7 +90,7 @@ template <class Scalar>
 Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair* dp, double floor) {
     const Pair bb = dot_form(db, db), cc = dot_form(dc, dc), pp = dot_form(dp, dp);
     const Pair at_b = determinant_form(a, dc, dp), at_c = determinant_form(a, dp, db), at_p = determinant_form(a, db, dc);
-    const Pair value = sum_form(bb * at_b, cc * at_c, pp * at_p);
+    const Pair value = weighted_form(bb, at_b, cc, at_c, pp, at_p);
     const double sum = bb.h + (cc.h + pp.h), permanent = bb.h * (cc.h + pp.h) + cc.h * pp.h;
     const double bound = BUBBLE_ERROR * U2 * permanent + floor;
     const Sign sign = decide(-(value.h + value.l), bound + LENGTHS * sum);
@@ -165,7 +134,7 @@ Direction::Direction(const double* vector) {
         }
     }
     // Off by 3.5u: 1.5u of the square, the root, the quotient. Any double near serves.
-    const double factor = 1.0 / std::sqrt(squared(v));
+    const double factor = 1.0 / std::sqrt(dot_form(v, v));
     for (int k = 0; k < 3; ++k) {
         const DoubleDouble product = two_product(v[k], factor);
         hi[k] = product.hi;
@@ -173,18 +142,23 @@ Direction::Direction(const double* vector) {
     }
 }
 
-// The differences hold two roundings each and a.hi one: N = 20; 21 sqrt(2) < 30.
+// The differences hold two roundings each and a.hi one.
+constexpr double BUBBLE_ROUNDING_OF_DIRECTIONS = 30, TURN_ROUNDING_OF_DIRECTIONS = 16;
+static_assert(bubble_bound(ROUNDED, TWICE_ROUNDED) <= BUBBLE_ROUNDING_OF_DIRECTIONS);
+static_assert(turn_bound(ROUNDED, TWICE_ROUNDED) <= TURN_ROUNDING_OF_DIRECTIONS);
+
 Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
     const Difference db(a, b), dc(a, c), dp(a, p);
-    return curvature_form(a.hi, db.v, dc.v, dp.v, 30 * UNIT_ROUNDOFF, DIRECTIONS_FLOOR);
+    return curvature_form(a.hi, db.v, dc.v, dp.v, BUBBLE_ROUNDING_OF_DIRECTIONS * UNIT_ROUNDOFF, DIRECTIONS_FLOOR);
 }
 
-// N = 10; 11 sqrt(2) < 16. D-vectors off by h = 2^-106 in each component: sqrt(3) h (lb + lc + 2h).
+// D-vectors off by h = 2^-106 in each component: sqrt(3) h (lb + lc + 2h).
 Sign turn_filter(const Direction& a, const Direction& b, const Direction& c) {
     const Difference db(a, b), dc(a, c);
-    const double bb = squared(db.v), cc = squared(dc.v);
-    const double bound = 16 * UNIT_ROUNDOFF * std::sqrt(bb * cc) + 0x1p-105 * (std::sqrt(bb) + std::sqrt(cc)) + 0x1p-208;
-    return decide(determinant(a.hi, db.v, dc.v), bound);
+    const double bb = dot_form(db.v, db.v), cc = dot_form(dc.v, dc.v);
+    const double rounding = TURN_ROUNDING_OF_DIRECTIONS * UNIT_ROUNDOFF * std::sqrt(bb * cc);
+    const double directions = 0x1p-105 * (std::sqrt(bb) + std::sqrt(cc)) + 0x1p-208;
+    return decide(determinant_form(a.hi, db.v, dc.v), rounding + directions);
 }
 
 Sign bubble_double_double(const double* a, const double* b, const double* c, const double* p) {

@@ -10,18 +10,19 @@
 // cancels but what an incircle test cancels. The lengths enter squared: vectors within 2^-49 of length one can be taken
 // as they stand. All others are multiplied by a double near 1/|p| without rounding the products, see `Direction`.
 //
-// Rounding errors are counted as in plane_stages.hpp.
+// Rounding errors are counted as in error_counts.hpp, underflow as in plane_stages.hpp.
 #pragma once
 
 #include <cmath>
 
+#include "error_counts.hpp"
 #include "plane_stages.hpp"
+#include "ray_forms.hpp"
 #include "tally.hpp"
 
 namespace stereodel::rays {
 
 using plane::Estimate;
-using plane::UNIT_ROUNDOFF;
 
 // A multiple of a vector, hi + lo in each component, of length 1 within 2^-49. The factor is a double (and a power of two)
 // and the products are exact, but for underflow: off by less than 2^-1070. So the direction is exact.
@@ -38,53 +39,66 @@ inline bool is_unit(const double* p) {
     return std::fabs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1.0) <= 0x1p-48 - 0x1p-51;
 }
 
-inline double squared(const double* v) {
-    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-}
-
-inline double determinant(const double* a, const double* u, const double* v) {
-    return a[0] * (u[1] * v[2] - u[2] * v[1]) + a[1] * (u[2] * v[0] - u[0] * v[2]) + a[2] * (u[0] * v[1] - u[1] * v[0]);
-}
-
 // (2^-48)^2 for the neglected e_i^2, and twice that for all that is far smaller.
 constexpr double LENGTHS = 0x1p-95;
 
-// The curvature form without the e_i, from a and rounded differences, and the error's bound rounding * (BC + CP + PB) +
+// The curvature form without the e_i, from a and rounded differences, and the error's bound `rounding` * (BC + CP + PB) +
 // LENGTHS * (B + C + P) + floor with B = |Db|^2 and so on.
 //
-// A determinant's permanent is at most sqrt(2) times the product of the lengths of its rows (Cauchy), so that of the form
-// is at most sqrt(2) (1 + 2^-49) lb lc lp (lb + lc + lp) <= 1.5 (BC + CP + PB), as lb^2 lc lp <= B (C + P)/2 and so on.
-// Neglected: e_i^2 <= 2^-96 times |det[a Dj Dk]| <= (1 + 2^-49) lj lk, and the sum of the lj lk is at most B + C + P.
+// Its permanent is at most sqrt(2) (1 + 2^-49) lb lc lp (lb + lc + lp), the l being lengths of differences, and so at most
+// ROOT_TWO (BC + CP + PB), as lb^2 lc lp <= B (C + P)/2 and so on. Neglected: e_i^2 <= 2^-96 times |det[a Dj Dk]| <=
+// (1 + 2^-49) lj lk, and the sum of the lj lk is at most B + C + P.
 inline Estimate curvature_form(const double* a, const double* db, const double* dc, const double* dp, double rounding,
                                double floor) {
-    const double bb = squared(db), cc = squared(dc), pp = squared(dp);
-    const double value = -(bb * determinant(a, dc, dp) + cc * determinant(a, dp, db) + pp * determinant(a, db, dc));
+    const double bb = dot_form(db, db), cc = dot_form(dc, dc), pp = dot_form(dp, dp);
+    const double value = weighted_form(bb, determinant_form(a, dc, dp), cc, determinant_form(a, dp, db), pp,
+                                       determinant_form(a, db, dc));
     const double permanent = bb * (cc + pp) + cc * pp;
-    return {value, rounding * permanent + (LENGTHS * (bb + (cc + pp)) + floor), permanent};
+    return {-value, rounding * permanent + (LENGTHS * (bb + (cc + pp)) + floor), permanent};
 }
 
-// Of vectors of length one as they stand. A term: four differences, three roundings of the square, five of the
-// determinant, a product, two sums: N = 15; 16 sqrt(2) < 23. Underflow: all factors are at most 4 or so.
+constexpr double ROOT_TWO = 1.4143;
+
+template <class Scalar, class Number>
+constexpr double bubble_bound(const Scalar* a, const Number* edge) {
+    const Number square = dot_form(edge, edge), determinant = determinant_form(a, edge, edge);
+    return ROOT_TWO * weighted_form(square, determinant, square, determinant, square, determinant).bound();
+}
+
+template <class Scalar, class Number>
+constexpr double turn_bound(const Scalar* a, const Number* edge) {
+    return ROOT_TWO * determinant_form(a, edge, edge).bound();
+}
+
+constexpr RoundingCount EXACT[3] = {{0}, {0}, {0}}, ROUNDED[3] = {{1}, {1}, {1}}, TWICE_ROUNDED[3] = {{2}, {2}, {2}};
+
+// Of vectors of length one as they stand. Underflow: all factors are at most 4 or so.
+constexpr double BUBBLE_ROUNDING = 23;
+static_assert(bubble_bound(EXACT, ROUNDED) <= BUBBLE_ROUNDING);
+
 inline Estimate bubble_estimate(const double* a, const double* b, const double* c, const double* p) {
     const double db[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const double dc[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
     const double dp[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
-    return curvature_form(a, db, dc, dp, 23 * UNIT_ROUNDOFF, plane::FLOOR);
+    return curvature_form(a, db, dc, dp, BUBBLE_ROUNDING * UNIT_ROUNDOFF, plane::FLOOR);
 }
 
 // Of normalised directions.
 Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction& c, const Direction& p);
 
-// det[a b c] = det[a Db Dc] of vectors with lengths between 1/2 and 2, as they stand. A term: two differences, five
-// roundings of the determinant: N = 7; 8 sqrt(2) < 11.4: the error is below 12u lb lc |a|, compared by its square. What
-// underflow loses, some 2^-1070, is nothing beside the root of FLOOR, what it takes from the bound nothing beside FLOOR.
+// det[a b c] = det[a Db Dc] of vectors with lengths between 1/2 and 2, as they stand: the error is below
+// TURN_ROUNDING u lb lc |a|, and compared by its square. What underflow loses, some 2^-1070, is nothing beside the root of
+// FLOOR, what it takes from the bound nothing beside FLOOR.
+constexpr double TURN_ROUNDING = 12;
+static_assert(turn_bound(EXACT, ROUNDED) <= TURN_ROUNDING);
+
 inline Sign turn_filter(const double* a, const double* b, const double* c) {
     const double db[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
     const double dc[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const double value = determinant(a, db, dc);
-    constexpr double ROUNDING = 12 * UNIT_ROUNDOFF;
-    const double bound = ROUNDING * ROUNDING * (squared(a) * (squared(db) * squared(dc))) + plane::FLOOR;
-    return value * value > bound ? sign_of(value) : OPEN;
+    const double value = determinant_form(a, db, dc);
+    constexpr double ROUNDING = TURN_ROUNDING * UNIT_ROUNDOFF;
+    const double lengths = dot_form(a, a) * (dot_form(db, db) * dot_form(dc, dc));
+    return value * value > ROUNDING * ROUNDING * lengths + plane::FLOOR ? sign_of(value) : OPEN;
 }
 
 // Of normalised directions.

@@ -1,0 +1,70 @@
+// The stereographic projection for Python, and the exact comparisons of projected coordinates.
+#include <nanobind/stl/string.h>
+
+#include "bind_rows.hpp"
+#include "projection.hpp"
+
+namespace stereodel {
+
+namespace {
+
+using namespace nb::literals;
+
+Pole checked_pole(int axis, int sign) {
+    if (axis < 0 || axis > 2 || (sign != 1 && sign != -1)) {
+        throw std::invalid_argument("axis: 0, 1, 2; sign: -1, 1");
+    }
+    return {axis, sign};
+}
+
+template <void (*Project)(const double*, Pole, double*), std::size_t WIDTH>
+Doubles project_rows(const SpaceArray& p, int axis, int sign) {
+    const Pole pole = checked_pole(axis, sign);
+    double* out = nullptr;
+    Doubles result = new_array<Doubles>(out, {p.shape(0), WIDTH});
+    for (std::size_t k = 0; k < p.shape(0); ++k) {
+        Project(row(p, k), pole, out + WIDTH * k);
+    }
+    return result;
+}
+
+Signs compare_projected_rows(const SpaceArray& p, const SpaceArray& q, int axis, int sign, int coordinate,
+                             const std::string& stage) {
+    const Stage only = stage_of(stage);
+    const Pole pole = checked_pole(axis, sign);
+    return over_rows(common_rows(p, q), [&](std::size_t k) {
+        const double *a = row(p, k), *b = row(q, k);
+        return by_stage(
+            only, [&] { return compare_projected(a, b, pole, coordinate); },
+            [&] { return compare_projected_filter(a, b, pole, coordinate); },
+            [&] { return compare_projected_double_double(a, b, pole, coordinate); },
+            [&] { return compare_projected_exact(a, b, pole, coordinate); });
+    });
+}
+
+Signs compare_to_line_rows(const SpaceArray& p, int axis, int sign, int coordinate, const Values& hi, const Values& lo,
+                           const std::string& stage) {
+    const Stage only = stage_of(stage);
+    const Pole pole = checked_pole(axis, sign);
+    return over_rows(common_rows(p, hi, lo), [&](std::size_t k) {
+        const double *a = row(p, k), h = hi.data()[k], l = lo.data()[k];
+        return by_stage(
+            only, [&] { return compare_to_line(a, pole, coordinate, h, l); },
+            [&] { return compare_to_line_filter(a, pole, coordinate, h, l); },
+            [&] { return compare_to_line_double_double(a, pole, coordinate, h, l); },
+            [&] { return compare_to_line_exact(a, pole, coordinate, h, l); });
+    });
+}
+
+}  // namespace
+
+void bind_projection(nb::module_& m) {
+    m.def("project", &project_rows<project, 2>, "p"_a, "axis"_a, "sign"_a);
+    m.def("project_double_double", &project_rows<project_double_double, 4>, "p"_a, "axis"_a, "sign"_a);
+    m.def("compare_projected", &compare_projected_rows, "p"_a, "q"_a, "axis"_a, "sign"_a, "coordinate"_a,
+          "stage"_a = "all");
+    m.def("compare_to_line", &compare_to_line_rows, "p"_a, "axis"_a, "sign"_a, "coordinate"_a, "hi"_a, "lo"_a,
+          "stage"_a = "all");
+}
+
+}  // namespace stereodel

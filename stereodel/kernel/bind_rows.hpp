@@ -1,0 +1,116 @@
+// Arrays of points between Python and the kernel: what the bindings of predicates and projection share.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "ray_predicates.hpp"
+#include "tally.hpp"
+
+namespace stereodel {
+
+namespace nb = nanobind;
+
+using PlaneArray = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
+using SpaceArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using Numbers = nb::ndarray<const Index, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Signs = nb::ndarray<nb::numpy, std::int8_t, nb::ndim<1>>;
+using Doubles = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
+
+// Which stage of a predicate is asked: all of them in turn, or one alone, which may answer OPEN.
+enum class Stage { all, filter, double_double, exact };
+
+inline Stage stage_of(const std::string& name) {
+    const char* names[] = {"all", "filter", "double_double", "exact"};
+    for (int k = 0; k < 4; ++k) {
+        if (name == names[k]) {
+            return static_cast<Stage>(k);
+        }
+    }
+    throw std::invalid_argument("stage: all, filter, double_double or exact");
+}
+
+// One stage of a predicate, or the predicate itself.
+template <class Whole, class Filter, class Pairs, class Exact>
+Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Pairs&& double_double, Exact&& exact) {
+    switch (stage) {
+        case Stage::filter: return filter();
+        case Stage::double_double: return double_double();
+        case Stage::exact: return exact();
+        default: return whole();
+    }
+}
+
+// A new array owned by Python.
+template <class Array, class Number>
+Array new_array(Number*& data, std::initializer_list<std::size_t> shape) {
+    std::size_t size = 1;
+    for (const std::size_t n : shape) {
+        size *= n;
+    }
+    data = new Number[size];
+    const nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<Number*>(p); });
+    return Array(data, shape, owner);
+}
+
+// sign(k) for all rows, without the interpreter's lock.
+template <class SignOf>
+Signs over_rows(std::size_t count, SignOf&& sign) {
+    std::int8_t* out = nullptr;
+    Signs result = new_array<Signs>(out, {count});
+    const nb::gil_scoped_release release;
+    for (std::size_t k = 0; k < count; ++k) {
+        out[k] = static_cast<std::int8_t>(sign(k));
+    }
+    return result;
+}
+
+template <class First, class... Others>
+std::size_t common_rows(const First& first, const Others&... others) {
+    if (((others.shape(0) != first.shape(0)) || ...)) {
+        throw std::invalid_argument("arrays of different length");
+    }
+    return first.shape(0);
+}
+
+inline const double* row(const PlaneArray& array, std::size_t k) {
+    return array.data() + 2 * k;
+}
+
+inline const double* row(const SpaceArray& array, std::size_t k) {
+    return array.data() + 3 * k;
+}
+
+// Whether the vectors can be taken as they stand, if the caller does not say.
+template <class... Arrays>
+bool decide_unit(const std::optional<bool>& unit, const Arrays&... arrays) {
+    return unit ? *unit : (all_unit(arrays.data(), arrays.shape(0)) && ...);
+}
+
+// Rows of `width` numbers of points below `count`.
+inline void check_numbers(const Numbers& numbers, std::size_t width, std::size_t count) {
+    if (numbers.shape(1) != width) {
+        throw std::invalid_argument("numbers: wrong number of columns");
+    }
+    for (std::size_t k = 0; k < numbers.size(); ++k) {
+        if (numbers.data()[k] < 0 || static_cast<std::size_t>(numbers.data()[k]) >= count) {
+            throw std::invalid_argument("numbers: no such point");
+        }
+    }
+}
+
+using TallyTuple = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t>;
+
+inline TallyTuple as_tuple(const Tally& tally) {
+    return {tally.filter, tally.curvature, tally.double_double, tally.exact};
+}
+
+}  // namespace stereodel
