@@ -1,0 +1,69 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+
+#include <optional>
+#include <utility>
+
+#include "bind_support.hpp"
+#include "plane.hpp"
+#include "sphere.hpp"
+
+namespace stereodel {
+namespace {
+
+using namespace nb::literals;
+
+constexpr std::size_t long_work = 20000;  // points: some milliseconds
+
+nb::tuple to_python(Triangulation&& result, bool with_neighbors, const nb::dict& inconclusive) {
+    nb::object neighbors = nb::none();
+    if (with_neighbors) {
+        neighbors = nb::cast(to_rows<3>(std::move(result.triangles.neighbors)));
+    }
+    return nb::make_tuple(to_rows<3>(std::move(result.triangles.corners)), neighbors, to_rows(result.duplicates),
+                          result.dimension, inconclusive);
+}
+
+nb::dict plane_tally(const Tally& tally) {
+    nb::dict result;
+    result["filter"] = tally.filter;
+    result["double_double"] = tally.double_double;
+    result["exact"] = tally.exact;
+    return result;
+}
+
+nb::dict sphere_tally(const Tally& tally) {
+    nb::dict result;
+    result["filter"] = tally.filter;
+    result["curvature"] = tally.curvature;
+    result["double_double"] = tally.double_double;
+    result["exact"] = tally.exact;
+    return result;
+}
+
+nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
+    const std::size_t size = points.shape(0);
+    Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
+        return triangulate_plane(points.data(), size, neighbors, workers, stop);
+    });
+    return to_python(std::move(result), neighbors, plane_tally(result.tally));
+}
+
+nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis, int sign) {
+    const std::size_t size = points.shape(0);
+    Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
+        return triangulate_sphere(points.data(), size, neighbors, workers, Pole{axis, sign}, stop);
+    });
+    return to_python(std::move(result), neighbors, sphere_tally(result.tally));
+}
+
+}  // namespace
+
+void bind_delaunay(nb::module_& module) {
+    module.def("triangulate_plane", plane, "points"_a, "workers"_a = 1, "neighbors"_a = true,
+               "Simplices, neighbors or None, duplicates, dimension and inconclusive tests of points of the plane.");
+    module.def("triangulate_sphere", sphere, "points"_a, "workers"_a = 1, "neighbors"_a = true, "axis"_a = 0, "sign"_a = -1,
+               "The same of directions; `sign` times axis number `axis` is the pole of the projection.");
+}
+
+}  // namespace stereodel

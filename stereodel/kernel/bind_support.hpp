@@ -1,0 +1,96 @@
+// What the bindings share: arrays from and to NumPy, and calls that Ctrl-C can stop.
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/ndarray.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "memory.hpp"
+#include "tally.hpp"
+#include "threads.hpp"
+
+namespace stereodel {
+
+namespace nb = nanobind;
+
+template <class T, std::size_t Width>
+using RowsIn = nb::ndarray<const T, nb::numpy, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig, nb::device::cpu>;
+template <class T, std::size_t Width>
+using RowsOut = nb::ndarray<nb::numpy, T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig>;
+
+// An array of NumPy's that owns the memory of a buffer.
+template <std::size_t Width, class T>
+RowsOut<T, Width> to_rows(Buffer<T>&& buffer) {
+    auto* owned = new Buffer<T>(std::move(buffer));
+    const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
+    return RowsOut<T, Width>(owned->data(), {owned->size() / Width, Width}, owner);
+}
+
+inline RowsOut<Index, 2> to_rows(const std::vector<std::pair<Index, Index>>& pairs) {
+    Buffer<Index> buffer(2 * pairs.size());
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        buffer[2 * k] = pairs[k].first;
+        buffer[2 * k + 1] = pairs[k].second;
+    }
+    return to_rows<2>(std::move(buffer));
+}
+
+// Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for Ctrl-C
+// twenty times a second; then `stop` is raised, the work throws `Cancelled`, and Python's exception goes on from here.
+template <class Work>
+auto run_without_lock(bool is_long, Work&& work) {
+    using Result = decltype(work(Stop{}));
+    if (!is_long) {
+        const nb::gil_scoped_release release;
+        return work(Stop{});
+    }
+    std::atomic<bool> stop{false};
+    std::mutex mutex;
+    std::condition_variable changed;
+    bool done = false;
+    std::exception_ptr failure;
+    Result result{};
+    std::thread thread([&] {
+        try {
+            result = work(Stop{&stop});
+        } catch (...) {
+            failure = std::current_exception();
+        }
+        const std::lock_guard lock(mutex);
+        done = true;
+        changed.notify_one();
+    });
+    bool interrupted = false;
+    for (;;) {
+        {
+            const nb::gil_scoped_release release;
+            std::unique_lock lock(mutex);
+            if (changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
+                break;
+            }
+        }
+        if (!interrupted && PyErr_CheckSignals() != 0) {
+            interrupted = true;
+            stop = true;
+        }
+    }
+    thread.join();
+    if (interrupted) {
+        throw nb::python_error();
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+    return result;
+}
+
+}  // namespace stereodel

@@ -1,0 +1,226 @@
+// Points in the order of a space-filling curve, and the triangulation of them all by tasks of the curve's ranges.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "curve_keys.hpp"
+#include "divide_and_conquer.hpp"
+#include "memory.hpp"
+#include "radix_sort.hpp"
+#include "threads.hpp"
+
+namespace stereodel {
+
+struct Point2 {
+    double x, y;
+};
+
+// By place along the curve: plane coordinates (of the sphere's points the projected ones) and the key, both needed until
+// the triangulation is complete, and the number of the point for those who asked.
+struct CurveArrays {
+    Buffer<Point2> points;
+    Buffer<std::uint32_t> keys;
+    Buffer<Index> source;
+    Buffer<KeyedPoint> sorted_items;  // no longer needed: memory for others
+
+    // `number(k)` for k < size are the points to take, `point` and `key` know them by these numbers.
+    template <class NumberOf, class PointOf, class KeyOf>
+    static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, int workers, Stop stop) {
+        constexpr std::size_t grain = 1 << 14;
+        const std::size_t pieces = (size + grain - 1) / grain;
+        Buffer<KeyedPoint> items(3 * size);  // two for sorting; three are as large as the triangles
+        const auto in_pieces = [&](auto&& body) {
+            parallel_for(pieces, workers, [&](std::size_t piece) {
+                check(stop);
+                const std::size_t end = std::min(size, (piece + 1) * grain);
+                for (std::size_t k = piece * grain; k < end; ++k) {
+                    body(k);
+                }
+            });
+        };
+        in_pieces([&](std::size_t k) {
+            const Index p = number(k);
+            items[k] = {key(p), static_cast<std::uint32_t>(p)};
+        });
+        sort_by_key(items.data(), items.data() + size, size, workers);
+        CurveArrays arrays{Buffer<Point2>(size + size / 2 + 1),  // as large as the neighbours will be
+                           Buffer<std::uint32_t>(size), Buffer<Index>(size), {}};
+        in_pieces([&](std::size_t k) {
+            arrays.source[k] = static_cast<Index>(items[k].point());
+            arrays.points[k] = point(arrays.source[k]);
+            arrays.keys[k] = items[k].key();
+        });
+        arrays.sorted_items = std::move(items);
+        return arrays;
+    }
+};
+
+// What plane and sphere have in common as sites of `DivideAndConquer`. A task's own view of arrays that all share; no two
+// tasks work on the same range of places.
+class CurveSites {
+  public:
+    explicit CurveSites(CurveArrays& arrays)
+        : points_(arrays.points.data()), source_(arrays.source.data()), keys_(arrays.keys.data()) {}
+
+    std::uint32_t key(Index a) const { return keys_[a]; }
+
+    // Points found to be equal: those that were dropped, each with the one that was kept.
+    std::vector<std::pair<Index, Index>> duplicates;
+
+  protected:
+    // Give the places of a range new keys and sort by them.
+    template <class KeyOf>
+    void sort_range(Index low, Index high, KeyOf&& key) {
+        const std::size_t size = static_cast<std::size_t>(high - low);
+        Buffer<KeyedPoint> items(2 * size);
+        for (Index a = low; a < high; ++a) {
+            items[static_cast<std::size_t>(a - low)] = {key(a), static_cast<std::uint32_t>(a)};
+        }
+        sort_by_key(items.data(), items.data() + size, size, 1);
+        reorder(low, high, [&](Index k) { return static_cast<Index>(items[static_cast<std::size_t>(k)].point()); });
+        for (Index a = low; a < high; ++a) {
+            keys_[a] = items[static_cast<std::size_t>(a - low)].key();
+        }
+    }
+
+    // Put the places `order(0)`, `order(1)`, … of a range into that order.
+    template <class Order>
+    void reorder(Index low, Index high, Order&& order) {
+        const std::size_t size = static_cast<std::size_t>(high - low);
+        Buffer<Point2> points(size);
+        Buffer<Index> source(size);
+        for (std::size_t k = 0; k < size; ++k) {
+            points[k] = points_[order(static_cast<Index>(k))];
+            source[k] = source_[order(static_cast<Index>(k))];
+        }
+        std::copy(points.data(), points.data() + size, points_ + low);
+        std::copy(source.data(), source.data() + size, source_ + low);
+    }
+
+    // Sort places by `compare` (-1, 0, 1; 0 for equal points), equal ones by number; the first of equal ones stay, in
+    // front. Returns how many.
+    template <class Compare>
+    Index sort_and_drop(Index low, Index high, Compare&& compare) {
+        std::vector<Index> order(static_cast<std::size_t>(high - low));
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            order[k] = low + static_cast<Index>(k);
+        }
+        std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+            const int sign = a == b ? 0 : compare(a, b);
+            return sign != 0 ? sign < 0 : source_[a] < source_[b];
+        });
+        std::vector<Index> dropped;
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < order.size(); ++k) {
+            if (k > 0 && compare(order[kept - 1], order[k]) == 0) {
+                duplicates.emplace_back(source_[order[k]], source_[order[kept - 1]]);
+                dropped.push_back(order[k]);
+            } else {
+                order[kept++] = order[k];
+            }
+        }
+        std::copy(dropped.begin(), dropped.end(), order.begin() + static_cast<std::ptrdiff_t>(kept));
+        reorder(low, high, [&](Index k) { return order[static_cast<std::size_t>(k)]; });
+        return static_cast<Index>(kept);
+    }
+
+    Point2* points_;
+    Index* source_;
+    std::uint32_t* keys_;
+};
+
+// A triangulation by tasks. The tasks are the same for any number of threads, and so is everything else.
+template <class Sites>
+class CurveTriangulation {
+  public:
+    CurveTriangulation(CurveArrays& arrays, const Sites& sites, int workers, Stop stop)
+        : edges(arrays.source.size()), sites_(sites), stop_(stop) {
+        const Index size = static_cast<Index>(arrays.source.size());
+        plan(0, size, size / tasks_at_least_ + 1);
+        parallel_for(ranges.size(), workers, [&](std::size_t k) { solve(ranges[k]); });
+        join(root_);
+    }
+
+    struct Range {
+        Index low, high;
+        std::unique_ptr<Sites> sites;
+        Part part;
+    };
+
+    Edges edges;
+    std::vector<Range> ranges;  // of the tasks, along the curve
+    Part whole;
+    std::vector<std::pair<Index, Index>> duplicates;
+    Tally tally;
+
+  private:
+    static constexpr Index tasks_at_least_ = 48;  // enough to keep many threads busy to the end
+    static constexpr Index small_ = 2048;         // a range that is not worth a task of its own
+
+    // A cut, or a task if `axis` means nothing: `left` is its number then and `right` -1.
+    struct Node {
+        std::size_t left, right;
+        Axis axis;
+        bool task;
+    };
+
+    std::size_t plan(Index low, Index high, Index most) {
+        if (high - low > std::max(most, small_)) {
+            if (sites_.key(low) != sites_.key(high - 1) || sites_.refine(low, high)) {
+                const typename DivideAndConquer<Sites>::Cut cut(sites_, low, high);
+                const std::size_t left = plan(low, cut.place, most), right = plan(cut.place, high, most);
+                return add({left, right, cut.axis, false});
+            }
+        }
+        ranges.push_back({low, high, nullptr, {}});
+        return add({ranges.size() - 1, 0, Axis::x, true});
+    }
+
+    std::size_t add(Node node) {
+        nodes_.push_back(node);
+        root_ = nodes_.size() - 1;
+        return root_;
+    }
+
+    void solve(Range& range) {
+        if (range.low == range.high) {
+            return;
+        }
+        range.sites = std::make_unique<Sites>(sites_);
+        range.part = DivideAndConquer<Sites>(edges, *range.sites, stop_).solve(range.low, range.high);
+    }
+
+    void join(std::size_t root) {
+        DivideAndConquer<Sites> engine(edges, sites_, stop_);
+        whole = join(engine, root);
+        tally += sites_.tally();
+        for (Range& range : ranges) {
+            if (range.sites) {
+                tally += range.sites->tally();
+                duplicates.insert(duplicates.end(), range.sites->duplicates.begin(), range.sites->duplicates.end());
+            }
+        }
+        std::sort(duplicates.begin(), duplicates.end());
+    }
+
+    Part join(DivideAndConquer<Sites>& engine, std::size_t k) {
+        const Node node = nodes_[k];
+        if (node.task) {
+            return ranges[node.left].part;
+        }
+        const Part left = join(engine, node.left);
+        return engine.merge(left, join(engine, node.right), node.axis);
+    }
+
+    Sites sites_;
+    Stop stop_;
+    std::vector<Node> nodes_;
+    std::size_t root_ = 0;
+};
+
+}  // namespace stereodel

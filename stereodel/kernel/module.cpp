@@ -1,0 +1,15 @@
+// The module stereodel._kernel. Arrays come checked: right type, shape and order, finite numbers, no zero vectors.
+#include <nanobind/nanobind.h>
+
+namespace stereodel {
+
+void bind_delaunay(nanobind::module_& module);
+void bind_predicates(nanobind::module_& module);
+
+}  // namespace stereodel
+
+NB_MODULE(_kernel, module) {
+    module.doc() = "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location.";
+    stereodel::bind_delaunay(module);
+    stereodel::bind_predicates(module);
+}

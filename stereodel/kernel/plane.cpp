@@ -1,0 +1,147 @@
+#include "plane.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "curve_sites.hpp"
+#include "plane_predicates.hpp"
+
+namespace stereodel {
+namespace {
+
+// A square grid over the bounding box of points. Each step from a coordinate to its cell is monotone in doubles, so
+// points of different columns (rows) lie on two sides of a line; that is all that is asked of it.
+class Grid {
+  public:
+    void include(Point2 p) {
+        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+    }
+
+    void include(const Grid& other) {
+        include(other.low_);
+        include(other.high_);
+    }
+
+    // Whether the grid tells at least two points apart. Halves, because a difference of doubles may overflow.
+    bool fit() {
+        const double extent = std::max(high_.x / 2 - low_.x / 2, high_.y / 2 - low_.y / 2);
+        scale_ = (cells - 0.5) / extent;
+        return extent > 0 && scale_ < HUGE_VAL;
+    }
+
+    std::uint32_t key(Point2 p) const { return curve_key(cell(p.x, low_.x), cell(p.y, low_.y)); }
+
+  private:
+    std::uint32_t cell(double x, double low) const {
+        return static_cast<std::uint32_t>(std::min((x / 2 - low / 2) * scale_, cells - 1.0));
+    }
+
+    Point2 low_{HUGE_VAL, HUGE_VAL}, high_{-HUGE_VAL, -HUGE_VAL};
+    double scale_ = 0;
+};
+
+class PlaneSites : public CurveSites {
+  public:
+    PlaneSites(CurveArrays& arrays, double granularity)
+        : CurveSites(arrays), predicates_(&arrays.points.data()->x, granularity) {}
+
+    int orient(Index a, Index b, Index c) { return predicates_.orient(a, b, c); }
+    bool in_circle(Index a, Index b, Index c, Index d) { return predicates_.in_circle(a, b, c, d); }
+
+    bool before(Index a, Index b, Axis axis) const {
+        const Point2 p = points_[a], q = points_[b];
+        return axis == Axis::x ? p.x < q.x || (p.x == q.x && p.y < q.y) : p.y < q.y || (p.y == q.y && p.x < q.x);
+    }
+
+    bool refine(Index low, Index high) {
+        Grid grid;
+        for (Index a = low; a < high; ++a) {
+            grid.include(points_[a]);
+        }
+        if (!grid.fit()) {
+            return false;
+        }
+        sort_range(low, high, [&](Index a) { return grid.key(points_[a]); });
+        return key(low) != key(high - 1);
+    }
+
+    Index sort_distinct(Index low, Index high) {
+        return sort_and_drop(low, high, [this](Index a, Index b) {
+            return before(a, b, Axis::x) ? -1 : (before(b, a, Axis::x) ? 1 : 0);
+        });
+    }
+
+    const Tally& tally() const { return predicates_.tally; }
+
+  private:
+    PlanePoints predicates_;
+};
+
+template <class PointOf>
+Grid bounding_grid(PointOf&& point, std::size_t count, int workers) {
+    const std::size_t pieces = static_cast<std::size_t>(workers);
+    std::vector<Grid> parts(pieces);
+    parallel_for(pieces, workers, [&](std::size_t k) {
+        Grid grid;
+        const Piece piece(count, k, pieces);
+        for (std::size_t i = piece.begin; i < piece.end; ++i) {
+            grid.include(point(static_cast<Index>(i)));
+        }
+        parts[k] = grid;
+    });
+    Grid grid;
+    for (const Grid& part : parts) {
+        grid.include(part);
+    }
+    grid.fit();
+    return grid;
+}
+
+// Leave out what lies outside the hull. Returns how many edges border it.
+std::size_t leave_out_hull(const Edges& edges, Index hull_edge, TriangleWriter& writer) {
+    std::size_t count = 0;
+    Index e = hull_edge;
+    do {
+        const Index following = edges.next(e ^ 1);
+        writer.leave_out(e ^ 1, outside);
+        e = following;
+        ++count;
+    } while (e != hull_edge);
+    return count;
+}
+
+}  // namespace
+
+Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_neighbors, int workers, Stop stop) {
+    check_size(count);
+    Triangulation result;
+    if (count == 0) {
+        return result;
+    }
+    const auto number = [](std::size_t k) { return static_cast<Index>(k); };
+    const auto point = [xy](Index k) { return Point2{xy[2 * static_cast<std::ptrdiff_t>(k)], xy[2 * static_cast<std::ptrdiff_t>(k) + 1]}; };
+    const Grid grid = bounding_grid(point, count, workers);
+    const auto key = [&](Index k) { return grid.key(point(k)); };
+    CurveArrays arrays = CurveArrays::sorted(count, number, point, key, workers, stop);
+    CurveTriangulation<PlaneSites> work(arrays, PlaneSites(arrays, common_granularity(xy, count)), workers, stop);
+    result.duplicates = std::move(work.duplicates);
+    result.tally = work.tally;
+    const std::size_t distinct = count - result.duplicates.size();
+    result.dimension = distinct == 1 ? 0 : 1;
+    if (distinct < 3) {
+        return result;
+    }
+    TriangleWriter writer(work.edges, arrays.source.data());
+    const std::size_t hull = leave_out_hull(work.edges, work.whole.edge, writer);
+    const std::size_t triangles = 2 * distinct - 2 - hull;  // Euler; 0 for a path, whose hull goes there and back
+    result.dimension = triangles > 0 ? 2 : 1;
+    result.triangles.corners = Buffer<Index>(std::move(arrays.sorted_items), 3 * triangles);
+    if (with_neighbors) {
+        result.triangles.neighbors = Buffer<Index>(std::move(arrays.points), 3 * triangles);
+    }
+    write_triangles(writer, work.ranges, result.triangles, workers, stop);
+    return result;
+}
+
+}  // namespace stereodel

@@ -1,0 +1,126 @@
+// Directions in the plane: projected stereographically for sorting and for the first filter, decided on the rays.
+//
+// A circle stays a circle, so the plane's incircle test is the sphere's bubble test, and three points are counterclockwise
+// exactly if the pole does not lie in their bubble. The pole may be one of the points; otherwise it is an artificial point
+// that comes first in the order of displacements. Displaced points are in strictly convex position, and seen from the
+// displaced pole they are a set of the plane without three points on a line or four on a circle.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include "curve_sites.hpp"
+#include "projection.hpp"
+#include "ray_predicates.hpp"
+
+namespace stereodel {
+
+// The directions and the pole that the projection leaves from.
+struct ProjectedRays {
+    const double* xyz;
+    bool unit;        // every length within 2^-49 of 1
+    Pole pole;
+    bool artificial;  // the pole is none of the points
+
+    const double* at(Index point) const { return xyz + 3 * static_cast<std::ptrdiff_t>(point); }
+
+    // The projected point; NaN, which decides nothing, where products of coordinates might leave the range of doubles.
+    Point2 projected(Index point) const {
+        double out[2];
+        project(at(point), pole, out);
+        return {in_range(out[0]), in_range(out[1])};
+    }
+
+    // A coordinate of 2^-70 or more is a multiple of 2^-123, and so are differences: no product of eight of them and three
+    // roundoffs underflows (see `in_circle_estimate`).
+    static double in_range(double x) {
+        return x == 0.0 || (std::fabs(x) >= 0x1p-70 && std::fabs(x) <= 0x1p70) ? x : std::nan("");
+    }
+};
+
+// A value and the bound of its error.
+struct Estimated {
+    double value, bound;
+    bool positive() const { return value > bound; }
+    bool negative() const { return value < -bound; }
+};
+
+// The bounds below. A projected coordinate X is off by 8u|X| (`project`), u = 2^-53. For a difference a = A - D that is
+// 8u(|A| + |D|) <= 16u|D| + 8u|a|, and its own rounding adds u: an error relative to the difference, 9u with the small
+// excess of second order counted as 9.5u, and an absolute one, e = 17u|D|.
+//
+// Three points, pivot A: a product of two differences with five roundings of 9.5u, 9.5u, u, u: 21u and the bound's own: 22u;
+// e moves the sum of the two products by at most e times the sum of the four differences, and 2e^2.
+inline Estimated orient_estimate(Point2 a, Point2 b, Point2 c) {
+    const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const double left = bx * cy, right = by * cx;
+    const double e = 17 * 0x1p-53 * (std::fabs(a.x) + std::fabs(a.y));
+    const double moved = e * (std::fabs(bx) + std::fabs(by) + std::fabs(cx) + std::fabs(cy) + 2 * e);
+    return {left - right, 22 * 0x1p-53 * (std::fabs(left) + std::fabs(right)) + 1.01 * moved};
+}
+
+// Four points, pivot D. A term of the determinant holds four differences (38u) and seven more roundings, with the bound's
+// own: 46u times the permanent AB + BC + CA (A = |a|^2 ...; see plane_stages.hpp).
+// An absolute error e in each difference moves the determinant by at most (4/3) e S P with S = |a|+|b|+|c| and
+// P = |a||b|+|b||c|+|c||a|, all lengths taken longer by e to cover higher orders:
+//   (4/3) e (S + 3e)(P + 2eS + 3e^2).
+// With s = A+B+C and q = AB+BC+CA: S <= sqrt(3s), P <= sqrt(3q), P <= s, eS <= (e^2 + 3s)/2 this is at most
+//   4 e sqrt(sq) + 32 e^2 (s + e^2).
+inline Estimated in_circle_estimate(Point2 a, Point2 b, Point2 c, Point2 d) {
+    const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
+    const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+    const double value = aa * (bx * cy - by * cx) + bb * (cx * ay - cy * ax) + cc * (ax * by - ay * bx);
+    const double q = aa * bb + bb * cc + cc * aa, s = aa + bb + cc;
+    const double ee = (17 * 0x1p-53 * 17 * 0x1p-53) * (d.x * d.x + d.y * d.y);
+    return {value, 46 * 0x1p-53 * q + 4.01 * std::sqrt(ee * s * q) + 33 * ee * (s + ee)};
+}
+
+class SphereSites : public CurveSites {
+  public:
+    SphereSites(CurveArrays& arrays, const ProjectedRays& rays) : CurveSites(arrays), rays_(rays) {
+        const double sign = rays.pole.sign;
+        for (int k = 0; k < 3; ++k) {
+            pole_[k] = k == rays.pole.axis ? sign : 0.0;
+        }
+    }
+
+    // Never 0: displaced points are not on a line.
+    int orient(Index a, Index b, Index c) {
+        const Estimated e = orient_estimate(points_[a], points_[b], points_[c]);
+        if (e.positive()) {
+            return 1;
+        }
+        return e.negative() ? -1 : orient_open(a, b, c);
+    }
+
+    bool in_circle(Index a, Index b, Index c, Index d) {
+        const Estimated e = in_circle_estimate(points_[a], points_[b], points_[c], points_[d]);
+        if (e.positive()) {
+            return true;
+        }
+        return !e.negative() && in_circle_open(a, b, c, d);
+    }
+
+    bool before(Index a, Index b, Axis axis) { return compare(a, b, axis) < 0; }
+    bool refine(Index low, Index high);
+    Index sort_distinct(Index low, Index high);
+    const Tally& tally() const { return tally_; }
+
+  private:
+    const double* ray(Index a) const { return rays_.at(source_[a]); }
+    int orient_open(Index a, Index b, Index c);
+    bool in_circle_open(Index a, Index b, Index c, Index d);
+    int compare(Index a, Index b, Axis axis);
+    int compare_along(Index a, Index b, int coordinate);
+    template <class Coordinates>
+    bool refine(Index low, Index high, const Coordinates& coordinates);
+
+    ProjectedRays rays_;
+    double pole_[3];
+    Tally tally_;
+};
+
+// The key of a direction in the grid over the whole plane.
+std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point);
+
+}  // namespace stereodel

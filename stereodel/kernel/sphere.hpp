@@ -1,0 +1,16 @@
+// Delaunay triangulation of directions: the convex hull of the unit vectors, exact on the rays through the given doubles.
+#pragma once
+
+#include <cstddef>
+
+#include "plane.hpp"
+#include "projection.hpp"
+
+namespace stereodel {
+
+// `xyz` holds finite numbers, `count` vectors of three, none of them zero. The result depends neither on `pole`, the point
+// from which the sphere is projected, nor on `workers`.
+// Throws std::bad_alloc, std::length_error, Cancelled.
+Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with_neighbors, int workers, Pole pole, Stop stop);
+
+}  // namespace stereodel
