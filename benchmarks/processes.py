@@ -78,8 +78,13 @@ class Engine:
         return Answer(**known, extra=answer)
 
     def _listen(self, limit: float) -> dict[str, Any]:
-        """The next line; the process is looked at while it works."""
+        """The next answer; the process is looked at while it works. Lines that are none are a library's own words."""
         end = time.monotonic() + limit
+        while not (line := self._line(end)).startswith("{"):
+            pass
+        return json.loads(line)
+
+    def _line(self, end: float) -> str:
         while not select.select([self._process.stdout], [], [], _LOOK)[0]:
             if time.monotonic() > end:
                 raise StoppedError(f"over {SECONDS:.0f} s")
@@ -88,7 +93,7 @@ class Engine:
         line = self._process.stdout.readline()
         if not line:
             raise StoppedError(self._last_words())
-        return json.loads(line)
+        return line
 
     def _last_words(self) -> str:
         code = self._process.wait()
@@ -98,6 +103,8 @@ class Engine:
 
     def close(self) -> None:
         """End the process."""
+        if self._errors.closed:
+            return
         self._process.kill()
         self._process.wait()
         for stream in (self._process.stdin, self._process.stdout, self._errors):

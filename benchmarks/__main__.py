@@ -1,0 +1,74 @@
+"""Compare stereodel with its peers and write benchmarks/results.json, docs/benchmarks.md and its plots.
+
+    benchmarks/install_peers.sh        once; what cannot be installed is named in the page
+    python -m benchmarks [--only EXPERIMENT…] [--largest 1e7] [--results FILE]
+
+With --only the other experiments keep what was measured before. The page is written only from the usual file of
+results, and with --largest of 1e6 or more.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import platform
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from benchmarks.experiments import EXPERIMENTS, RESULTS
+from stereodel._files import replacing
+
+
+def machine() -> dict[str, str]:
+    """What the numbers depend on."""
+    cpu = [line.split(":")[1] for line in _lines("/proc/cpuinfo") if line.startswith("model name")]
+    memory = [int(line.split()[1]) for line in _lines("/proc/meminfo") if line.startswith("MemTotal:")]
+    system = dict(line.strip().split("=", 1) for line in _lines("/etc/os-release") if "=" in line)
+    return {
+        "processor": cpu[0].strip() if cpu else platform.machine(),
+        "cores": str(os.cpu_count()),
+        "memory": f"{memory[0] / 2**20:.0f} GB" if memory else "unknown",
+        "system": system.get("PRETTY_NAME", platform.system()).strip('"'),
+        "python": platform.python_version(),
+        "load": f"{os.getloadavg()[0]:.1f}",
+        "date": time.strftime("%Y-%m-%d"),
+    }
+
+
+def _lines(path: str) -> list[str]:
+    return Path(path).read_text(encoding="utf-8").splitlines() if Path(path).exists() else []
+
+
+def save(results: dict[str, Any], path: Path) -> None:
+    """Write the results, whole or not at all."""
+    with replacing(path) as temporary:
+        temporary.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+
+
+def main() -> int:
+    """Measure, save after each experiment, write the page."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks", description="Compare stereodel with its peers.")
+    parser.add_argument("--only", nargs="+", choices=list(EXPERIMENTS), default=list(EXPERIMENTS))
+    parser.add_argument("--largest", type=float, default=1e7, help="number of points")
+    parser.add_argument("--results", type=Path, default=RESULTS)
+    options = parser.parse_args()
+    results = json.loads(options.results.read_text(encoding="utf-8")) if options.results.exists() else {}
+    for name in options.only:
+        begin = time.perf_counter()
+        measured = EXPERIMENTS[name](int(options.largest))
+        results[name] = measured
+        results.setdefault("machine", {})[name] = machine()
+        save(results, options.results)
+        print(f"{name}: {time.perf_counter() - begin:.0f} s", flush=True)
+    if options.results == RESULTS and options.largest >= 1e6:
+        from benchmarks import benchmark_page
+
+        benchmark_page.write(results)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

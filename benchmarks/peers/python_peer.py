@@ -1,0 +1,112 @@
+"""Peers with a Python interface, in the conversation of benchmarks/processes.py.
+
+    python python_peer.py NAME FILE
+
+FILE holds doubles: points of the plane or unit vectors. Everything but the peer's own call stays outside the measured
+time: reading, conversion to what the peer wants, counting. Needs NumPy and the peer alone, so that it runs in an
+environment where stereodel is not installed.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import sys
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+Call = Callable[[], np.ndarray]
+"""Triangulates and returns the triangles (m, 3)."""
+
+
+def scipy_delaunay(values: np.ndarray) -> Call:
+    """Triangles and neighbours, by Qhull's paraboloid."""
+    from scipy.spatial import Delaunay
+
+    points = values.reshape(-1, 2)
+    return lambda: Delaunay(points).simplices
+
+
+def scipy_hull(values: np.ndarray) -> Call:
+    """Triangles and neighbours of the hull, of mixed orientation."""
+    from scipy.spatial import ConvexHull
+
+    points = values.reshape(-1, 3)
+    return lambda: ConvexHull(points).simplices
+
+
+def triangle(values: np.ndarray) -> Call:
+    """Triangles and neighbours (option n)."""
+    import triangle
+
+    points = {"vertices": values.reshape(-1, 2)}
+    return lambda: triangle.triangulate(points, "Qn")["triangles"]
+
+
+def triangular(values: np.ndarray) -> Call:
+    """Triangles alone: there are no neighbours to ask for."""
+    import triangular
+
+    points = values.reshape(-1, 2)
+    return lambda: triangular.delaunay(points)
+
+
+def stripy(values: np.ndarray) -> Call:
+    """Triangles and STRIPACK's adjacency lists, from longitude and latitude in radians."""
+    from stripy import sTriangulation
+
+    x, y, z = values.reshape(-1, 3).T
+    lon, lat = np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))
+    return lambda: sTriangulation(lon, lat).simplices
+
+
+PEERS = {
+    "scipy": scipy_delaunay,
+    "scipy_hull": scipy_hull,
+    "triangle": triangle,
+    "triangular": triangular,
+    "stripy": stripy,
+}
+DISTRIBUTION = {"scipy_hull": "scipy"}
+
+
+def high_water() -> int:
+    """High-water mark of resident memory, bytes."""
+    with open("/proc/self/status", encoding="ascii") as status:
+        return sum(1024 * int(line.split()[1]) for line in status if line.startswith("VmHWM:"))
+
+
+def lower_high_water() -> None:
+    """Set the mark to what is resident now, so that imports and reading do not count."""
+    with open("/proc/self/clear_refs", "w", encoding="ascii") as marks:
+        marks.write("5")
+
+
+def timed(call: Call, repetitions: int) -> dict[str, object]:
+    """Seconds of each call, vertices and triangles of the last, growth of peak memory."""
+    lower_high_water()
+    before = high_water()
+    seconds = []
+    for _ in range(repetitions):
+        begin = time.perf_counter()
+        triangles = call()
+        seconds.append(time.perf_counter() - begin)
+    peak = high_water() - before
+    used = np.zeros(int(triangles.max(initial=-1)) + 1, dtype=np.bool_)
+    used[triangles.ravel()] = True
+    return {"seconds": seconds, "points": int(used.sum()), "triangles": len(triangles), "peak": peak}
+
+
+def main(name: str, file: str) -> None:
+    """Read, warm up the imports on a small set, say the version, answer."""
+    PEERS[name](np.random.default_rng(1).standard_normal(600))()
+    call = PEERS[name](np.fromfile(file))
+    print(json.dumps({"version": importlib.metadata.version(DISTRIBUTION.get(name, name))}), flush=True)
+    for line in sys.stdin:
+        print(json.dumps(timed(call, int(line.split()[1]))), flush=True)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,127 @@
+"""Taking turns: several engines at one time in memory, one of them at work, round after round.
+
+A busy moment of the machine then meets all of them alike, and ratios are those of neighbouring measurements.
+"""
+
+from __future__ import annotations
+
+import statistics
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass, field
+from typing import Any
+
+from benchmarks.processes import Engine, StoppedError
+
+SLOW = 15.0
+"""Seconds above which a first call counts and is the only one: it needs no warm-up."""
+
+SHORT = 0.05
+"""Calls shorter than this many seconds are repeated to last about as long within a round."""
+
+
+@dataclass
+class Result:
+    """What one engine did: seconds of a call in each round (medians of repeated calls), counts, peak of the first."""
+
+    key: str
+    version: str = ""
+    seconds: list[float] = field(default_factory=list)
+    points: int = 0
+    triangles: int = 0
+    peak: int = 0
+    stopped: str | None = None
+    extra: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def median(self) -> float:
+        """Of the rounds."""
+        return statistics.median(self.seconds)
+
+    def record(self) -> dict[str, Any]:
+        """For the file of results."""
+        if self.stopped:
+            return {"stopped": self.stopped, "version": self.version}
+        known = {"seconds": self.median, "rounds": self.seconds, "points": self.points, "triangles": self.triangles}
+        return known | {"peak": self.peak, "version": self.version, **self.extra}
+
+
+@dataclass(frozen=True)
+class Entry:
+    """An engine to start: its name in the results, its command, the word that it is asked with."""
+
+    key: str
+    command: Sequence[str]
+    word: str = "run"
+
+
+class _Player:
+    """An engine during the rounds."""
+
+    def __init__(self, entry: Entry) -> None:
+        self.result = Result(entry.key)
+        self._entry = entry
+        self._engine: Engine | None = None
+        self._calls = 1
+        self._again = True
+
+    def start(self) -> None:
+        """Start, and make the first call: it gives memory, counts, and how often to call in a round."""
+        try:
+            self._engine = Engine(list(self._entry.command))
+            self.result.version = self._engine.version
+            self._first(self._engine)
+        except StoppedError as error:
+            self.result.stopped = str(error)
+
+    def _first(self, engine: Engine) -> None:
+        first = engine.run(1, self._entry.word)
+        self.result.points, self.result.triangles = first.points, first.triangles
+        self.result.peak, self.result.extra = first.peak, first.extra
+        if first.seconds[0] > SLOW:
+            self.result.seconds.append(first.seconds[0])
+            self._again = False
+            engine.close()
+        elif first.seconds[0] < SHORT:
+            # Again: the first call of a program is slower than the others.
+            second = max(1e-6, min(engine.run(3, self._entry.word).seconds))
+            self._calls = max(1, round(SHORT / second))
+
+    def play(self) -> None:
+        """One round."""
+        if self.result.stopped or not self._again:
+            return
+        try:
+            self.result.seconds.append(statistics.median(self._engine.run(self._calls, self._entry.word).seconds))
+        except StoppedError as error:
+            self.result.stopped = str(error)
+
+    def close(self) -> None:
+        """End the process."""
+        if self._engine is not None:
+            self._engine.close()
+
+
+def take_turns(entries: Sequence[Entry], rounds: int, say: Callable[[Result], None] | None = None) -> dict[str, Result]:
+    """Start all, then let each call once (short calls: often) in every round."""
+    players = [_Player(entry) for entry in entries]
+    with ExitStack() as ended:
+        for player in players:
+            ended.callback(player.close)
+            player.start()
+        for _ in range(rounds):
+            for player in players:
+                player.play()
+    for player in players:
+        if say:
+            say(player.result)
+    return {player.result.key: player.result for player in players}
+
+
+def ratios(slower: Result | None, faster: Result | None) -> list[float]:
+    """How many times faster the second was, round by round."""
+    if slower is None or faster is None or slower.stopped or faster.stopped:
+        return []
+    if len(slower.seconds) != len(faster.seconds):
+        return [slower.median / faster.median]
+    return [a / b for a, b in zip(slower.seconds, faster.seconds, strict=True)]
