@@ -9,20 +9,24 @@ VENV := .venv
 OUT := out
 JOBS := auto
 PYTEST_ARGS :=
+FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
 STAMP := $(VENV)/installed
 BUILD := $(BIN)/python -m stereodel.render.build --scripts figures --out $(OUT)
 
-.PHONY: help install system figures animations test check lint baselines readme-images docs test-pythons clean
+.PHONY: help install system figures animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
+	readme-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
 
-# The script does nothing when the two files hold what was installed last, so a touched file needs no network.
-$(STAMP): pyproject.toml constraints.txt tools/install.sh tools/find_python.sh
+# The script does nothing when the files hold what was installed last, so a touched file needs no network; a changed
+# kernel is built alone. The folder stands for kernel sources that were added or removed.
+$(STAMP): pyproject.toml constraints.txt CMakeLists.txt stereodel/kernel $(wildcard stereodel/kernel/*) \
+		tools/install.sh tools/build_kernel.sh tools/find_python.sh tools/compiler.sh
 	@tools/install.sh $(VENV)
 
-install: $(STAMP) ## create .venv with the pinned libraries
+install: $(STAMP) ## create .venv with the pinned libraries and the compiled kernel
 	@:
 
 system: ## get the offscreen OpenGL libraries, or say how
@@ -38,14 +42,35 @@ test: $(STAMP) system ## all tests, then the image tests once more on EGL
 	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests
 
+test-large: $(STAMP) ## the tests that take minutes or gigabytes
+	$(BIN)/python -m pytest -m large $(PYTEST_ARGS)
+
+sanitize: $(STAMP) system ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
+	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
+	tools/fuzz.sh $(FUZZ_SECONDS)
+
+fuzz: ## feed random bytes to the kernel for FUZZ_SECONDS
+	tools/fuzz.sh $(FUZZ_SECONDS)
+
 check: lint docs ## format, lint, types, sizes, tracked text, then the documentation
 
 lint: $(STAMP) ## what check does, without the documentation
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python tools/code_sizes.py stereodel figures
+	$(BIN)/python tools/kernel_stub.py --check
+	$(BIN)/python tools/code_sizes.py stereodel figures tests/fuzz
 	$(BIN)/python tools/tracked_text.py
+
+stub: $(STAMP) ## write the kernel's type stub anew
+	$(BIN)/python tools/kernel_stub.py
+
+bench: $(STAMP) ## measure against other libraries, which are installed into benchmarks/.peers
+	benchmarks/install_peers.sh
+	$(BIN)/python -m benchmarks
+
+dist: $(STAMP) ## source archive and wheel into dist/, the wheel tried in a new environment
+	tools/dist.sh $(VENV)
 
 baselines: $(STAMP) system ## draw the stored pictures of the image tests anew: look at what git shows before you commit
 	$(BIN)/python -m stereodel.render.baselines --scripts figures --store tests/images/baselines

@@ -63,6 +63,11 @@ def test_each_limit_is_seen(sources, words):
     assert words in found
 
 
+def test_files_of_the_kernel_are_counted():
+    assert len(sizes.read([str(ROOT / "stereodel" / "kernel")], ".hpp", ".cpp")) > 2
+    assert sizes.file_problems({"k.cpp": "\n" * 400, "k.hpp": "\n" * 399}) == ["k.cpp: 400 lines, at most 399"]
+
+
 def test_what_keeps_the_limits_passes():
     assert sizes.problems({"a": body(60) + body(10) * 5, "b": "\n" * 399, "c": body(30) + body(10) * 5}) == []
 

@@ -1,9 +1,9 @@
-"""Check how long functions and modules are.
+"""Check how long functions, modules and the kernel's files are.
 
 Half of the functions have at most 10 lines of code, nine tenths at most 30, none more than 60.
 
 Lines of code count: no docstrings, comments or blank lines. A function's inner functions count as part of it and on
-their own. Modules have fewer than 400 lines, everything counted.
+their own. Modules and files of the kernel have fewer than 400 lines, everything counted.
 
     python tools/code_sizes.py FOLDER…
 """
@@ -47,13 +47,18 @@ def function_lengths(source: str) -> Iterator[tuple[str, int, int]]:
             yield node.name, node.lineno, len(lines.intersection(range(node.lineno, last + 1)))
 
 
-def problems(sources: dict[str, str]) -> list[str]:
-    """What breaks the rules in the named sources."""
-    found = [
+def file_problems(sources: dict[str, str]) -> list[str]:
+    """Which of the named sources are too long."""
+    return [
         f"{name}: {text.count(chr(10))} lines, at most {MODULE - 1}"
         for name, text in sources.items()
         if text.count("\n") >= MODULE
     ]
+
+
+def problems(sources: dict[str, str]) -> list[str]:
+    """What breaks the rules in the named Python sources."""
+    found = file_problems(sources)
     lengths = [
         (length, f"{name}:{line} {function}")
         for name, text in sources.items()
@@ -71,17 +76,22 @@ def problems(sources: dict[str, str]) -> list[str]:
     return found
 
 
+def read(folders: list[str], *suffixes: str) -> dict[str, str]:
+    """Sources in the folders by name."""
+    paths = sorted(path for folder in folders for path in Path(folder).rglob("*") if path.suffix in suffixes)
+    return {str(path): path.read_text(encoding="utf-8") for path in paths}
+
+
 def main(folders: list[str]) -> int:
     """Report and return the exit code."""
-    paths = sorted(path for folder in folders for path in Path(folder).rglob("*.py"))
-    sources = {str(path): path.read_text(encoding="utf-8") for path in paths}
-    found = problems(sources)
+    sources, kernel = read(folders, ".py"), read(folders, ".hpp", ".cpp")
+    found = problems(sources) + file_problems(kernel)
     lengths = sorted(length for text in sources.values() for _, _, length in function_lengths(text))
     if lengths:
         nine_tenths = lengths[(9 * len(lengths)) // 10 - 1]
         print(
             f"{len(sources)} modules, {len(lengths)} functions: median {statistics.median(lengths):g} lines of code, "
-            f"nine tenths up to {nine_tenths}, longest {lengths[-1]}"
+            f"nine tenths up to {nine_tenths}, longest {lengths[-1]}; {len(kernel)} files of the kernel"
         )
     print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
     return 1 if found else 0

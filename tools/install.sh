@@ -1,20 +1,25 @@
 #!/usr/bin/env bash
 # Usage: tools/install.sh VENV [PYTHON]
-# Create the environment and install the package with the pinned libraries, unless that was done already.
+# Create the environment, install the package with the pinned libraries and build its kernel, unless that was done already.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 venv=$1
 wanted=$(cat pyproject.toml constraints.txt tools/install.sh | sha256sum)
-if [[ -x $venv/bin/python && -f $venv/installed && $(<"$venv/installed") == "$wanted" ]]; then
-    touch "$venv/installed"
-    exit 0
+if [[ ! -x $venv/bin/python || ! -f $venv/installed || $(<"$venv/installed") != "$wanted" ]]; then
+    python=${2:-$(tools/find_python.sh)}
+    echo "Installing into $venv ($("$python" --version))" >&2
+    [[ -x $venv/bin/python ]] || "$python" -m venv "$venv"
+    pip=("$venv/bin/python" -m pip --disable-pip-version-check -qq)
+    build=(scikit-build-core nanobind)
+    command -v cmake >/dev/null || build+=(cmake)
+    command -v ninja >/dev/null || build+=(ninja)
+    # The build backend is pinned as well: installed first, then used without an isolated build environment. The package
+    # stays where it is, on a plain path; its kernel is built beside it below, so that a changed source needs no network.
+    "${pip[@]}" install --constraint constraints.txt "${build[@]}"
+    "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
+        --config-settings editable.mode=inplace --config-settings wheel.cmake=false --editable '.[test,docs,dev]'
+    printf '%s\n' "$wanted" >"$venv/installed"
 fi
-python=${2:-$(tools/find_python.sh)}
-echo "Installing into $venv ($("$python" --version))" >&2
-[[ -x $venv/bin/python ]] || "$python" -m venv "$venv"
-pip=("$venv/bin/python" -m pip --disable-pip-version-check -qq)
-# The build backend is pinned as well: installed first, then used without an isolated build environment.
-"${pip[@]}" install --constraint constraints.txt hatchling editables
-"${pip[@]}" install --constraint constraints.txt --no-build-isolation --editable '.[test,docs,dev]'
-printf '%s\n' "$wanted" >"$venv/installed"
+tools/build_kernel.sh "$venv"
+touch "$venv/installed"

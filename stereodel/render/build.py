@@ -29,6 +29,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from stereodel import _kernel
 from stereodel._files import replacing
 
 LIBRARIES = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
@@ -148,10 +149,11 @@ def read_manifest(out: Path) -> dict[str, Record]:
 
 
 def _shared_digest(scripts: Path) -> str:
-    """Of all that every script depends on: shared modules, library, versions, the renderer that was asked for."""
+    """Of all that every script depends on: shared modules, library, kernel, versions, the renderer asked for."""
     library = Path(__file__).resolve().parent.parent
     skipped = {library / name for name in NOT_DRAWN_WITH}
     files = [*sorted(scripts.glob("_*.py")), *(path for path in sorted(library.rglob("*.py")) if path not in skipped)]
+    files.append(Path(_kernel.__file__))
     digest = hashlib.sha256(json.dumps(library_versions()).encode())
     digest.update(f"{os.environ.get('STEREODEL_GL', '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())
     for path in files:

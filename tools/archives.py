@@ -1,0 +1,51 @@
+"""Check what the source archive and the wheel hold.
+
+The archive: every tracked file but those that only the repository needs. The wheel: the package with its stub and its
+compiled kernel, and no source of the kernel.
+
+    python tools/archives.py ARCHIVE WHEEL
+"""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tarfile
+import zipfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+NOT_IN_ARCHIVE = (".ci/",)
+
+
+def archive_problems(names: set[str], tracked: set[str]) -> list[str]:
+    """What the source archive lacks, and what does not belong there."""
+    wanted = {name for name in tracked if not name.startswith(NOT_IN_ARCHIVE)}
+    missing = [f"not in the archive: {name}" for name in sorted(wanted - names)]
+    return missing + [f"not tracked: {name}" for name in sorted(names - wanted - {"PKG-INFO"})]
+
+
+def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
+    """What the wheel lacks, and what does not belong there."""
+    wanted = {name for name in tracked if name.startswith("stereodel/") and not name.startswith("stereodel/kernel/")}
+    kernels = {name for name in names if name.startswith("stereodel/_kernel.") and name not in wanted}
+    package = {name for name in names if name.startswith("stereodel/")}
+    found = [f"not in the wheel: {name}" for name in sorted(wanted - names)]
+    found += [f"not in the package: {name}" for name in sorted(package - wanted - kernels)]
+    return found if len(kernels) == 1 else [*found, f"one compiled kernel wanted, not {sorted(kernels)}"]
+
+
+def main(archive: str, wheel: str) -> int:
+    """Report and return the exit code."""
+    listing = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=True)
+    tracked = {name for name in listing.stdout.split("\0") if name}
+    with tarfile.open(archive) as source, zipfile.ZipFile(wheel) as built:
+        members = {member.name.partition("/")[2] for member in source.getmembers() if member.isfile()}
+        found = archive_problems(members, tracked) + wheel_problems(set(built.namelist()), tracked)
+    print(f"{len(members)} files in {archive}, {len(built.namelist())} in {wheel}")
+    print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# Usage: tools/build_kernel.sh VENV
+# Build stereodel._kernel for the Python of VENV beside the sources of the package, unless that was done already.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+venv=$1
+PATH=$(cd "$venv/bin" && pwd):$PATH # its cmake and ninja come first
+tag=$(python -c 'import sys; print(sys.implementation.cache_tag)')
+build=build/$tag
+wanted=$(cat CMakeLists.txt tools/build_kernel.sh constraints.txt stereodel/kernel/* | sha256sum)
+if [[ -f $build/installed && $(<"$build/installed") == "$wanted" ]] && compgen -G "stereodel/_kernel.$tag*" >/dev/null; then
+    exit 0
+fi
+tools/compiler.sh python
+echo "Building the kernel for $tag" >&2
+mkdir -p "$build"
+# Configured anew each time: paths of an environment that was made anew must not survive in the cache.
+rm -f "$build/installed" "$build/CMakeCache.txt"
+quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; }
+quietly cmake -S . -B "$build" -G Ninja -DSTEREODEL_DEVELOPMENT=ON -DPython_EXECUTABLE="$(command -v python)" \
+    -Dnanobind_DIR="$(python -m nanobind --cmake_dir)"
+quietly cmake --build "$build"
+# Moved into place whole: a running Python keeps the file that it opened.
+quietly cmake --install "$build" --prefix "$build/stage"
+mv -f "$build"/stage/stereodel/_kernel.* stereodel/
+printf '%s\n' "$wanted" >"$build/installed"
