@@ -13,18 +13,20 @@ PACKAGE = ROOT / "stereodel"
 
 BASE = {"constants", "_arrays", "_double_double"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
+KERNEL = BASE | {"_kernel"}
 MAY_IMPORT = {
     "constants": set(),
     "_files": set(),
+    "_kernel": set(),
     "_arrays": BASE,
     "_double_double": BASE,
-    "sphere": BASE,
+    "sphere": KERNEL,
     "projections": BASE | {"sphere"},
     "conformal": BASE | {"sphere", "projections"},
-    "predicates": BASE,
-    "triangulation": BASE | {"sphere", "projections", "predicates"},
+    "predicates": KERNEL,
+    "triangulation": KERNEL | {"sphere", "projections", "predicates"},
     "__init__": MATHEMATICS,
-    "render": MATHEMATICS | {"__init__", "_files"},
+    "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
@@ -34,7 +36,8 @@ NOT_IN_CORE = GRAPHICS | {"scipy", "pandas", "xarray", "shapely", "typer", "rich
 def module_names():
     """Path of every module of the package by dotted name; a package stands for its `__init__`."""
     names = {}
-    for path in PACKAGE.rglob("*.py"):
+    # The kernel is compiled; its stub stands for it.
+    for path in [*PACKAGE.rglob("*.py"), *PACKAGE.rglob("*.pyi")]:
         parts = path.relative_to(ROOT).with_suffix("").parts
         names[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
     return names

@@ -3,6 +3,7 @@
 
 namespace stereodel {
 
+void bind_degrees(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
 
@@ -10,6 +11,7 @@ void bind_predicates(nanobind::module_& module);
 
 NB_MODULE(_kernel, module) {
     module.doc() = "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location.";
+    stereodel::bind_degrees(module);
     stereodel::bind_delaunay(module);
     stereodel::bind_predicates(module);
 }

@@ -8,10 +8,11 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_direction_or_lonlat, as_directions, as_lonlat
-from stereodel._double_double import DoubleDouble, stack
+from stereodel._double_double import DoubleDouble
 from stereodel.sphere.chunks import by_blocks
-from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
+from stereodel.sphere.degrees import angle_degrees
 
 
 def lonlat_to_xyz(lonlat: npt.ArrayLike) -> FloatArray:
@@ -40,14 +41,8 @@ def lonlat_to_xyz(lonlat: npt.ArrayLike) -> FloatArray:
      [ 0. -1.  0.]
      [ 0.  0.  1.]]
     """
-    return by_blocks(lambda rows: exact_xyz(rows).round() + 0.0, as_lonlat(lonlat))
-
-
-def exact_xyz(lonlat: FloatArray) -> DoubleDouble:
-    """Unit vectors of checked (lon, lat) before they are rounded, error below 2⁻⁹⁸."""
-    sin_lon, cos_lon = sin_cos_degrees(lonlat[..., 0])
-    sin_lat, cos_lat = sin_cos_degrees(lonlat[..., 1])
-    return stack([cos_lat * cos_lon, cos_lat * sin_lon, sin_lat])
+    rows = as_lonlat(lonlat)
+    return _kernel.lonlat_to_xyz(np.ascontiguousarray(rows).reshape(-1, 2)).reshape(*rows.shape[:-1], 3)
 
 
 def xyz_to_lonlat(xyz: npt.ArrayLike) -> FloatArray:

@@ -4,7 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from stereodel._double_double import stack
 from stereodel.sphere import as_direction, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere.degrees import sin_cos_degrees
 
 mpmath.mp.dps = 60
 
@@ -22,6 +24,38 @@ def test_components_are_correctly_rounded(lon, lat):
     for got, want in zip(x, truth, strict=True):
         if abs(want) > 1e-50:  # 60 digits have no exact zero at multiples of 90°
             assert abs(got - want) <= mpmath.mpf(np.spacing(abs(got))) / 2 * (1 + mpmath.mpf(2) ** -40)
+
+
+HARD = [
+    *[(-158.541201, 61.288068), (-92.647732, -34.149795), (177.26967, -13.213355)],
+    *[(89.749361, -12.513244), (74.66785, -59.837665), (128.940741, -5.78789)],
+    *[(-157.882427, 51.384385), (160.248339, -14.323696), (-161.715084, 85.167008)],
+]
+"""Three with x, three with y, three with z so close to the middle of two doubles that the first stage rounds wrong."""
+
+
+def angles_of_all_kinds(rng, count):
+    """Anywhere, on and beside the steps of the kernel's table and half-way between them, tiny."""
+    steps = rng.integers(-2048, 2049, count) * (45 / 512)
+    kinds = [
+        rng.uniform(-360, 360, count),
+        steps,
+        np.nextafter(steps, rng.choice([-np.inf, np.inf], count)),
+        steps * (1 + rng.uniform(-1e-9, 1e-9, count)),
+        rng.uniform(-1, 1, count) * 10.0 ** rng.uniform(-323, 0, count),
+        rng.choice([0.0, -0.0, 5e-324, 2.0**-400, np.nextafter(2.0**-400, 0)], count),
+    ]
+    return np.choose(rng.integers(0, len(kinds), count), kinds)
+
+
+def test_both_stages_of_the_kernel_round_alike():
+    rng = np.random.default_rng(98)
+    uniform = np.stack([rng.uniform(-180, 180, 200_000), rng.uniform(-90, 90, 200_000)], axis=-1)
+    lon, lat = angles_of_all_kinds(rng, 100_000), angles_of_all_kinds(rng, 100_000)
+    for lonlat in (np.array(HARD), uniform, np.stack([lon, np.where(np.abs(lat) > 90, lat / 4, lat)], axis=-1)):
+        (sin_lon, cos_lon), (sin_lat, cos_lat) = (sin_cos_degrees(lonlat[:, k]) for k in range(2))
+        accurate = stack([cos_lat * cos_lon, cos_lat * sin_lon, sin_lat]).round() + 0.0
+        assert lonlat_to_xyz(lonlat).tobytes() == accurate.tobytes()
 
 
 def test_same_bits_for_ever():
