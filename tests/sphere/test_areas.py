@@ -43,9 +43,10 @@ def test_tiny_triangles_keep_their_digits(center, power, shape, angle):
 
 @given(LONLAT, LONLAT, LONLAT)
 def test_signs_and_permutations(p, q, r):
-    a, b, c = lonlat_to_xyz([p, q, r])
+    a, b, c = points = lonlat_to_xyz([p, q, r])
     area = float(solid_angle(a, b, c))
-    if abs(abs(area) - 2 * np.pi) < 1e-9:
+    # Once round a great circle, or with opposite vertices, the sign or the triangle is open.
+    if abs(abs(area) - 2 * np.pi) < 1e-9 or (points @ points.T).min() < -1 + 1e-12:
         return
     for vertices in ((b, c, a), (c, a, b)):
         assert float(solid_angle(*vertices)) == pytest.approx(area, abs=1e-14)
