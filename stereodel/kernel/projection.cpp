@@ -30,10 +30,17 @@ struct Seen {
         if (!(largest > 0x1p-20 && largest < 0x1p20)) {
             int exponent = 0;
             std::frexp(largest, &exponent);
-            flat[0] = std::ldexp(flat[0], -exponent);
-            flat[1] = std::ldexp(flat[1], -exponent);
+            flat[0] = scaled(flat[0], -exponent);
+            flat[1] = scaled(flat[1], -exponent);
             height = std::ldexp(height, -exponent);
         }
+    }
+
+  private:
+    // Zero stays the mark of a zero: what underflows is too small for any promise all the same.
+    static double scaled(double value, int exponent) {
+        const double result = std::ldexp(value, exponent);
+        return result == 0.0 && value != 0.0 ? std::numeric_limits<double>::denorm_min() : result;
     }
 };
 

@@ -1,0 +1,200 @@
+"""The kernel's planar predicates, stage by stage, against Python integers."""
+
+import itertools
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel import _kernel
+from stereodel.predicates.integers import sign, to_integers
+from stereodel.predicates.plane import incircle_integer, orient2d_integer
+from stereodel.predicates.ties import incircle_tie
+
+OPEN = 2
+STAGES = ["filter", "double_double", "exact", "all"]
+SPREADS = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-14, 1e-15]
+SMALL = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
+
+
+def integer_points(*points):
+    flat = to_integers([x for p in points for x in p])
+    return [tuple(flat[k : k + 2]) for k in range(0, len(flat), 2)]
+
+
+def distances_integer(q, a, b):
+    (qx, qy), (ax, ay), (bx, by) = q, a, b
+    return sign((ax - qx) ** 2 + (ay - qy) ** 2 - (bx - qx) ** 2 - (by - qy) ** 2)
+
+
+PREDICATES = {
+    "orient2d": (_kernel.orient2d, orient2d_integer, 3),
+    "incircle": (_kernel.incircle, incircle_integer, 4),
+    "distances": (_kernel.compare_distances, distances_integer, 3),
+}
+EVERY = pytest.mark.parametrize("name", PREDICATES)
+
+
+def check(name, points):
+    """`points` (4, k, 2): no stage is ever wrong, the last is never open. The share that each leaves open."""
+    predicate, oracle, count = PREDICATES[name]
+    points = np.ascontiguousarray(points[:count])
+    truth = np.array([oracle(*integer_points(*row)) for row in points.transpose(1, 0, 2).tolist()])
+    shares = {}
+    for stage in STAGES:
+        signs = predicate(*points, stage=stage)
+        assert ((signs == truth) | (signs == OPEN)).all(), stage
+        shares[stage] = (signs == OPEN).mean()
+    assert shares["exact"] == shares["all"] == 0
+    return shares, truth
+
+
+def on_a_circle(count, seed):
+    """Four points of one circle each, rounded: signs of incircle far below what the coordinates suggest."""
+    rng = np.random.default_rng(seed)
+    angle = rng.uniform(0, 2 * np.pi, size=(4, count))
+    center, radius = rng.uniform(-1, 1, size=(count, 2)), rng.uniform(0.1, 10, size=(count, 1))
+    return center + radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+def on_a_line(count, seed):
+    rng = np.random.default_rng(seed)
+    start, direction = rng.normal(size=(2, count, 2))
+    return start + rng.uniform(-3, 3, size=(4, count, 1)) * direction
+
+
+@EVERY
+@pytest.mark.parametrize("spread", SPREADS)
+def test_clusters(name, spread):
+    rng = np.random.default_rng(1)
+    shares, _ = check(name, rng.uniform(-1, 1, size=2) + spread * rng.normal(size=(4, 400, 2)))
+    assert shares["filter"] < (0.01 if spread > 1e-13 else 0.7)
+
+
+@EVERY
+@pytest.mark.parametrize("near", [on_a_circle, on_a_line])
+def test_near_degenerate(name, near):
+    """What doubles leave open, twice the precision decides, but for exact zeros."""
+    shares, truth = check(name, near(600, 2))
+    assert shares["double_double"] <= (truth == 0).mean()
+
+
+def test_the_filter_is_left_often_near_degenerate():
+    assert check("incircle", on_a_circle(500, 3))[0]["filter"] > 0.5
+    assert check("orient2d", on_a_line(500, 3))[0]["filter"] > 0.5
+
+
+@EVERY
+def test_around_a_tie(name):
+    """Neighbours of an exactly degenerate position by the last bits, at every scale of the last bits."""
+    rng = np.random.default_rng(4)
+    base = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]] if name == "incircle" else [[12.0, 12.0]] * 4)
+    if name == "orient2d":
+        base = base + np.array([[0, 0], [4, 4], [12, 12], [0, 0]])
+    steps = rng.integers(-3, 4, size=(4, 900, 2)) * 2.0 ** rng.integers(-52, -20, size=(1, 900, 1))
+    shares, truth = check(name, base[:, None] + steps)
+    assert {-1, 0, 1} <= set(truth.tolist())
+    assert shares["double_double"] <= (truth == 0).mean() + 0.05
+
+
+@EVERY
+@pytest.mark.parametrize("scale", [2.0**-1070, 1e-300, 1e-160, 1e-80, 1e80, 1e150, 1e160, 1e300])
+def test_tiny_and_huge(name, scale):
+    rng = np.random.default_rng(5)
+    points = np.concatenate([rng.integers(-9, 9, size=(4, 60, 2)), rng.normal(size=(4, 60, 2))], axis=1) * scale
+    shares, _ = check(name, points)
+    assert shares["filter"] == 1 or 1e-240 < scale < 1e240
+
+
+@EVERY
+def test_mixed_exponents(name):
+    rng = np.random.default_rng(6)
+    sizes = rng.choice([2.0**-1074, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 3.0, 1e16, 1e100, 1e200, 1e307], (4, 700, 2))
+    check(name, sizes * rng.integers(-3, 4, size=(4, 700, 2)))
+
+
+@given(SMALL, SMALL, SMALL, SMALL, st.sampled_from([1.0, 0.1, 2.0**-1074, 1e-100, 1e100]))
+def test_small_integers(a, b, c, d, unit):
+    points = np.array([a, b, c, d], dtype=float)[:, None] * unit
+    for name in PREDICATES:
+        check(name, points)
+
+
+@given(st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 2), min_size=4, max_size=4))
+def test_any_doubles(points):
+    for name in PREDICATES:
+        check(name, np.array(points)[:, None])
+
+
+def decided(points, numbers):
+    """in_circle as the oracle has it: exact, ties displaced, a repeated number outside."""
+    a, b, c, d = (tuple(points[k]) for k in numbers)
+    if numbers[3] in numbers[:3].tolist():
+        return 0
+    integers = integer_points(a, b, c, d)
+    return int((incircle_integer(*integers) or incircle_tie(*integers)) > 0)
+
+
+GRIDS = {
+    "integers": [[x, y] for x in range(5) for y in range(5)],
+    "tenths": [[0.1 * x, 0.1 * y] for x in range(5) for y in range(5)],
+    "large": [[2.0**40 + x, y - 2.0**40] for x in range(4) for y in range(4)],
+    "circle": [[x, y] for x, y in itertools.product(range(-7, 8), repeat=2) if x * x + y * y in (25, 50)],
+    "random": np.random.default_rng(7).normal(size=(20, 2)).tolist(),
+}
+
+
+@pytest.mark.parametrize("grid", GRIDS)
+def test_by_number_with_ties(grid):
+    points = np.array(GRIDS[grid], dtype=float)
+    rng = np.random.default_rng(8)
+    numbers = rng.integers(len(points), size=(1500, 4)).astype(np.int32)
+    numbers = numbers[[len(set(row[:3])) == 3 for row in numbers.tolist()]]
+    numbers = numbers[_kernel.orient_numbered(points, numbers[:, :3].copy())[0] > 0]
+    assert len(numbers) > 300
+    signs, tally = _kernel.incircle_numbered(points, numbers, True)
+    assert signs.tolist() == [decided(points.tolist(), row) for row in numbers]
+    undisplaced, other_tally = _kernel.incircle_numbered(points, numbers, False)
+    distinct = np.array([row[3] not in row[:3].tolist() for row in numbers])
+    assert tally[3] == (undisplaced[distinct] == 0).sum()
+    assert other_tally[0] >= tally[0] >= tally[2]
+    if grid in ("integers", "large"):
+        assert tally[2] == other_tally[2] == 0, "on a grid of small numbers doubles are exact"
+
+
+def test_collinear_by_number():
+    points = np.array([[0.1 * x, 0.1 * y] for x in range(7) for y in range(7)])
+    numbers = np.array(list(itertools.permutations(range(0, 49, 3), 3)), dtype=np.int32)
+    signs, tally = _kernel.orient_numbered(points, numbers)
+    assert signs.tolist() == [orient2d_integer(*integer_points(*points[row].tolist())) for row in numbers]
+    assert tally[3] == (signs == 0).sum() > 0
+
+
+def test_a_permanent_that_underflows_proves_nothing():
+    """Without a common grid (the granularity is out of range) a zero of products that underflow is no zero."""
+    points = np.array([[0.0, 0.0], [1e-200, 0.0], [0.0, 1e-200], [3e-200, 5e-200]])
+    assert _kernel.common_granularity(points) == 0
+    assert _kernel.orient_numbered(points, np.array([[0, 1, 2]], dtype=np.int32))[0] == [1]
+    assert _kernel.incircle_numbered(points, np.array([[0, 1, 2, 3]], dtype=np.int32), False)[0] == [-1]
+
+
+@pytest.mark.parametrize("count", range(1, 6))
+@given(data=st.data())
+def test_granularity(count, data):
+    exponents = st.integers(-300, 250)
+    value = st.builds(lambda m, e: float(m) * 2.0**e, st.integers(-(2**20), 2**20), exponents)
+    points = np.array(data.draw(st.lists(st.tuples(value, value), min_size=count, max_size=count)))
+    granularity = _kernel.common_granularity(points)
+    if granularity:
+        assert 2.0**-240 <= granularity <= 2.0**240
+        quotients = [Fraction(x) / Fraction(granularity) for x in points.ravel().tolist()]
+        assert all(q.denominator == 1 for q in quotients)
+        assert granularity == 2.0**240 or any(q.numerator % 2 for q in quotients)
+    else:
+        assert any(x and (Fraction(x) / Fraction(2) ** -240).denominator > 1 for x in points.ravel().tolist())
+
+
+def test_granularity_of_nothing():
+    assert _kernel.common_granularity(np.zeros((0, 2))) == _kernel.common_granularity(np.zeros((3, 2))) == 2.0**240

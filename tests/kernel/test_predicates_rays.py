@@ -1,0 +1,249 @@
+"""The kernel's predicates on directions, stage by stage, against Python integers and roots."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel import _kernel
+from stereodel.predicates.integers import sign_of_roots
+from stereodel.predicates.rays import bubble_ray, compare_component, compare_directions, ray, turn_ray
+
+OPEN = 2
+SPREADS = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13, 1e-14, 1e-15]
+SMALL = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
+
+
+def angles_ray(q, a, b):
+    def cosine(u, v):
+        return sum(x * y for x, y in zip(u[:3], v[:3], strict=True))
+
+    return sign_of_roots(((cosine(q, b), a[3]), (-cosine(q, a), b[3])))
+
+
+PREDICATES = {
+    "bubble": (_kernel.bubble, bubble_ray, 4),
+    "turn": (_kernel.turn, turn_ray, 3),
+    "angles": (lambda *v, unit, stage: _kernel.compare_angles(*v, stage=stage), angles_ray, 3),
+    "component": (
+        lambda a, b, unit, stage: _kernel.compare_component(a, b, 1, unit=unit, stage=stage),
+        lambda a, b: compare_component(a, b, 1),
+        2,
+    ),
+}
+EVERY = pytest.mark.parametrize("name", PREDICATES)
+
+
+def check(name, vectors, unit=None):
+    """`vectors` (4, k, 3): no stage is ever wrong, the last is never open. The share that each leaves open."""
+    predicate, oracle, count = PREDICATES[name]
+    vectors = np.ascontiguousarray(vectors[:count])
+    if unit is None:
+        unit = all(_kernel.all_unit(v) for v in vectors)
+    rays = [[ray(v) for v in array.tolist()] for array in vectors]
+    truth = np.array([oracle(*row) for row in zip(*rays, strict=True)])
+    shares = {}
+    for stage in ("filter", "double_double", "exact", "all"):
+        signs = predicate(*vectors, unit=unit, stage=stage)
+        assert ((signs == truth) | (signs == OPEN)).all(), stage
+        shares[stage] = (signs == OPEN).mean()
+    assert shares["exact"] == shares["all"] == 0
+    return shares, truth
+
+
+def normalised(vectors):
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def cluster(spread, count=250, seed=0):
+    rng = np.random.default_rng(seed)
+    return normalised(rng.normal(size=3)) + spread * rng.normal(size=(4, count, 3))
+
+
+def on_a_circle(spread, count=250, seed=1):
+    """Four directions of one circle each, rounded."""
+    rng = np.random.default_rng(seed)
+    frames = np.linalg.qr(rng.normal(size=(count, 3, 3)))[0]
+    angle = rng.uniform(0, 2 * np.pi, size=(4, count, 1))
+    return normalised(frames[:, 0] + spread * (np.cos(angle) * frames[:, 1] + np.sin(angle) * frames[:, 2]))
+
+
+def off_length(vectors, seed=2):
+    """Lengths as far from one as vectors may be that are taken as they stand."""
+    rng = np.random.default_rng(seed)
+    changed = vectors * (1 + rng.choice([-1, 1], size=(*vectors.shape[:-1], 1)) * 0.6 * 2.0**-49)
+    assert all(_kernel.all_unit(v) for v in changed)
+    return changed
+
+
+def any_length(vectors, seed=3):
+    return vectors * np.random.default_rng(seed).uniform(0.5, 1e6, size=(*vectors.shape[:-1], 1))
+
+
+def allowance(name, spread):
+    """The cosines of angles in the smallest clusters agree in all digits of the third stage."""
+    return 0.8 if name == "angles" and spread < 1e-13 else 0.0
+
+
+@EVERY
+@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("change", [normalised, off_length, any_length])
+def test_clusters(name, spread, change):
+    shares, truth = check(name, change(normalised(cluster(spread))))
+    if change is normalised and name in ("bubble", "turn") and spread > 3e-14:
+        assert shares["filter"] < 0.01
+    assert shares["double_double"] <= (truth == 0).mean() + allowance(name, spread)
+
+
+@EVERY
+@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("change", [normalised, off_length, any_length])
+def test_near_degenerate(name, spread, change):
+    shares, truth = check(name, change(on_a_circle(spread)))
+    assert shares["double_double"] <= (truth == 0).mean() + allowance(name, spread)
+
+
+def test_what_stays_open_is_little():
+    """Row P6: cocircular up to rounding, the curvature form alone decides the more, the smaller the circle."""
+    shares = [check("bubble", on_a_circle(spread))[0]["filter"] for spread in (1.0, 1e-3, 1e-6)]
+    assert shares[0] > 0.6 > 0.4 > shares[1] > 0.01 > shares[2]
+
+
+@EVERY
+@pytest.mark.parametrize("spread", [1e-8, 1e-14, 1e-17, 1e-18, 1e-20, 1e-22, 1e-26, 1e-40, 1e-90, 1e-200, 1e-310])
+@pytest.mark.parametrize("steps", [0, 3])
+def test_beside_an_axis(name, spread, steps):
+    """Near an axis small components resolve directions far below 1e-16; the long component makes the lengths differ."""
+    rng = np.random.default_rng(9)
+    angle = rng.uniform(0, 2 * np.pi, size=(4, 200))
+    long = 1 + 2.0**-52 * rng.integers(-steps, steps + 1, size=(4, 200))
+    vectors = np.stack([spread * np.cos(angle), spread * np.sin(angle), long], axis=-1)
+    check(name, vectors, unit=True)
+    check(name, vectors, unit=False)
+    check(name, np.roll(vectors * 3, 1, axis=-1))
+
+
+@pytest.mark.parametrize("steps", [1, 4])
+def test_lengths_decide(steps):
+    """On a circle about an axis, so small that the squares of the lengths' differences decide the sign."""
+    rng = np.random.default_rng(10)
+    angle = rng.uniform(0, 2 * np.pi, size=(4, 800))
+    radius = 2.0 ** rng.integers(-60, -44, size=800) * (1 + 2.0**-30 * rng.normal(size=(4, 800)))
+    long = 1 + 2.0**-52 * rng.integers(-steps, steps + 1, size=(4, 800))
+    vectors = np.stack([radius * np.cos(angle), radius * np.sin(angle), long], axis=-1)
+    shares, _ = check("bubble", vectors, unit=True)
+    assert shares["filter"] > 0.5 > shares["double_double"]
+    check("bubble", vectors, unit=False)
+
+
+@EVERY
+def test_mixed_exponents(name):
+    rng = np.random.default_rng(11)
+    sizes = rng.choice([5e-324, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 3.0, 1e16, 1e100, 1e200, 1e307], (4, 200, 3))
+    vectors = sizes * rng.integers(-3, 4, size=(4, 200, 3))
+    vectors[(vectors == 0).all(axis=-1)] = 1.0
+    check(name, vectors)
+
+
+@EVERY
+def test_one_long_component(name):
+    """Lengths near one, the other components of any size: the first stages meet underflow."""
+    rng = np.random.default_rng(12)
+    sizes = 2.0 ** rng.integers(-1074, -1, size=(4, 400, 3)) * rng.integers(-3, 4, size=(4, 400, 3))
+    sizes[..., 0] = rng.choice([1.0, 1.0 + 2.0**-52, 1.0 - 2.0**-53], size=(4, 400))
+    vectors = np.minimum(sizes, 1.5)
+    vectors[..., 1:] = np.clip(vectors[..., 1:], -(2.0**-27), 2.0**-27)
+    check(name, vectors, unit=True)
+    check(name, vectors, unit=False)
+
+
+@given(SMALL, SMALL, SMALL, SMALL, st.tuples(*[st.integers(-1000, 1000)] * 4))
+def test_small_integers(a, b, c, p, exponents):
+    """Ties and parallel vectors are frequent here."""
+    vectors = np.array([a, b, c, p], dtype=float)[:, None] * 2.0 ** np.array(exponents)[:, None, None]
+    for name in PREDICATES:
+        check(name, vectors)
+
+
+NUMBER = st.floats(allow_nan=False, allow_infinity=False)
+
+
+@given(st.lists(st.tuples(NUMBER, NUMBER, NUMBER).filter(any), min_size=4, max_size=4))
+def test_any_doubles(vectors):
+    for name in PREDICATES:
+        check(name, np.array(vectors)[:, None])
+
+
+def pythagorean():
+    """Rational points of the sphere, as integer vectors and as the nearest doubles to length one."""
+    points = [(1, 2, 2, 3), (2, 3, 6, 7), (1, 4, 8, 9), (4, 4, 7, 9), (2, 6, 9, 11), (6, 6, 7, 11), (0, 3, 4, 5)]
+    vectors = np.array([p[:3] for p in points], dtype=float)
+    vectors = np.concatenate([np.roll(vectors, k, axis=1) for k in range(3)])
+    return np.concatenate([vectors * s for s in ([1, 1, 1], [-1, 1, 1], [1, -1, 1], [1, 1, -1], [-1, -1, 1])])
+
+
+@pytest.mark.parametrize("vectors", [pythagorean(), normalised(pythagorean())], ids=["integers", "rounded"])
+def test_mirrored_points(vectors):
+    rng = np.random.default_rng(13)
+    chosen = vectors[rng.integers(len(vectors), size=(4, 600))]
+    chosen[2:] = chosen[:2] * rng.choice([[-1, 1, 1], [1, -1, 1], [1, 1, -1]], size=600)
+    for name in PREDICATES:
+        _, truth = check(name, chosen)
+        assert (truth == 0).any() or name == "turn"
+
+
+def test_by_number_and_the_tally():
+    rng = np.random.default_rng(14)
+    vectors = np.concatenate([normalised(pythagorean()), on_a_circle(1e-3, 20).reshape(-1, 3)])
+    numbers = np.array([rng.choice(len(vectors), 4, replace=False) for _ in range(1500)], dtype=np.int32)
+    rows = [np.ascontiguousarray(vectors[numbers[:, k]]) for k in range(4)]
+    truth = np.array([bubble_ray(*(ray(v) for v in row)) for row in vectors[numbers].tolist()])
+    stages = {stage: _kernel.bubble(*rows, stage=stage) for stage in ("filter", "double_double")}
+    for lengths, unit in ((1.0, True), (2.0, False)):
+        signs, tally = _kernel.bubble_numbered(vectors * lengths, numbers, False)
+        assert signs.tolist() == truth.tolist()
+        assert tally[3] == (truth == 0).sum() > 0
+        if unit:
+            left = stages["filter"] == OPEN
+            assert tally[1:3] == (left.sum(), (left & (stages["double_double"] == OPEN)).sum())
+
+
+@pytest.mark.parametrize("length", [1e-300, 1e-3, 0.6, 1.0, 1.9, 1e3, 1e300])
+@pytest.mark.parametrize("unit", [True, False])
+def test_queries_of_any_length(length, unit):
+    rng = np.random.default_rng(15)
+    vectors = on_a_circle(1e-6, 100).reshape(-1, 3) * (1 if unit else 3)
+    numbers = np.array([rng.choice(len(vectors), 2, replace=False) for _ in range(300)], dtype=np.int32)
+    steps = 1e-16 * rng.normal(size=(300, 3)) * rng.integers(0, 2, size=(300, 1))
+    queries = (vectors[numbers[:, 0]] + 3 * vectors[numbers[:, 1]] + steps) / 4 * length
+    queries[::3] = vectors[numbers[::3, 0]] * -1
+    queries[1::3] = rng.normal(size=(100, 3)) * length
+    truth = [turn_ray(*map(ray, (*vectors[row].tolist(), q))) for row, q in zip(numbers, queries.tolist(), strict=True)]
+    assert _kernel.turn_queries(vectors, numbers, queries).tolist() == truth
+
+
+def test_the_order_of_directions():
+    vectors = np.concatenate(
+        [pythagorean(), 7 * pythagorean(), np.eye(3), -np.eye(3), [[1, 1e-200, 0], [1, 0, 5e-324]]]
+    )
+    vectors = np.concatenate([vectors, normalised(vectors), np.nextafter(normalised(vectors), 1)])
+    rng = np.random.default_rng(16)
+    a, b = vectors[rng.integers(len(vectors), size=(2, 2000))]
+    b[::2] = a[::2] * rng.choice([[1, 1, 1], [1, -1, 1], [1, 1, -1], [2, 2, 2]], size=1000)
+    truth = [compare_directions(ray(u), ray(v)) for u, v in zip(a.tolist(), b.tolist(), strict=True)]
+    assert _kernel.compare_directions(a, b).tolist() == truth
+    assert {-1, 0, 1} == set(truth)
+    units = np.array([_kernel.all_unit(u[None]) and _kernel.all_unit(v[None]) for u, v in zip(a, b, strict=True)])
+    assert units.sum() > 100
+    assert _kernel.compare_directions(a[units], b[units], unit=True).tolist() == np.array(truth)[units].tolist()
+
+
+def test_which_lengths_are_one():
+    rng = np.random.default_rng(17)
+    vectors = normalised(rng.normal(size=(1000, 3)))
+    assert _kernel.all_unit(vectors)
+    for factor, answer in ((1 + 0.6 * 2.0**-49, True), (1 - 0.6 * 2.0**-49, True)):
+        assert _kernel.all_unit(vectors * factor) is answer
+    for factor in (1 + 1.2 * 2.0**-49, 1 - 1.2 * 2.0**-49, 0.0, np.nan, np.inf, 1e300):
+        assert not any(_kernel.all_unit(v[None] * factor) for v in vectors)
+    assert not _kernel.all_unit(np.concatenate([vectors, [[0.0, 0.0, 1.0 + 2.0**-48]], vectors]))

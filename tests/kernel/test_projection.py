@@ -1,0 +1,187 @@
+"""The kernel's stereographic projection: promised errors against many digits, comparisons against integers."""
+
+import itertools
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mp, mpf, workdps
+
+from stereodel import _kernel
+from stereodel.predicates.integers import sign_of_roots
+from stereodel.predicates.rays import ray
+
+OPEN = 2
+POLES = list(itertools.product(range(3), (-1, 1)))
+EVERY_POLE = pytest.mark.parametrize(("axis", "sign"), POLES)
+SMALL = st.tuples(*[st.integers(-4, 4)] * 3).filter(any)
+
+
+def components(axis, sign):
+    """Which components become X and Y."""
+    return ((axis + 1) % 3, (axis + 2) % 3) if sign < 0 else ((axis + 2) % 3, (axis + 1) % 3)
+
+
+def vectors(count=300, seed=0):
+    """All over the sphere, close to both poles of each axis, of any length."""
+    rng = np.random.default_rng(seed)
+    out = rng.normal(size=(count, 3))
+    out[::2] *= 10.0 ** rng.uniform(-14, 0, size=(count // 2, 3))
+    out[::5] *= 10.0 ** rng.uniform(-200, 200, size=(len(out[::5]), 1))
+    return out
+
+
+def true_image(p, axis, sign):
+    p = [mpf(x) for x in p]
+    w = mp.sqrt(mp.fsum(x * x for x in p)) - sign * p[axis]
+    return [p[i] / w for i in components(axis, sign)]
+
+
+@EVERY_POLE
+def test_the_promised_errors(axis, sign):
+    points = vectors()
+    images, fine = _kernel.project(points, axis, sign), _kernel.project_double_double(points, axis, sign)
+    assert np.isfinite(images).all()
+    assert np.isfinite(fine).all()
+    with workdps(120):
+        for p, image, pair in zip(points.tolist(), images.tolist(), fine.tolist(), strict=True):
+            for k, truth in enumerate(true_image(p, axis, sign)):
+                assert abs(mpf(image[k]) - truth) <= 8 * mpf(2) ** -53 * abs(truth)
+                assert abs(mpf(pair[2 * k]) + mpf(pair[2 * k + 1]) - truth) <= mpf(2) ** -97 * abs(truth)
+
+
+@EVERY_POLE
+def test_no_promise_no_number(axis, sign):
+    """Where exponents leave the range the answer is NaN or keeps the promise."""
+    rng = np.random.default_rng(1)
+    sizes = rng.choice([5e-324, 1e-310, 1e-280, 1e-200, 1e-130, 1e-100, 1.0, 1e100, 1e300], size=(200, 3))
+    points = sizes * rng.integers(-3, 4, size=(200, 3))
+    points[(points == 0).all(axis=1)] = 1.0
+    images, fine = _kernel.project(points, axis, sign), _kernel.project_double_double(points, axis, sign)
+    with workdps(1500):
+        for p, image, pair in zip(points.tolist(), images.tolist(), fine.tolist(), strict=True):
+            i, j = components(axis, sign)
+            if p[i] == p[j] == 0 and sign * p[axis] > 0:
+                assert np.isnan(image).all()
+                continue
+            for k, truth in enumerate(true_image(p, axis, sign)):
+                assert np.isnan(image[k]) or abs(mpf(image[k]) - truth) <= 8 * mpf(2) ** -53 * abs(truth)
+                value = mpf(pair[2 * k]) + mpf(pair[2 * k + 1])
+                assert np.isnan(pair[2 * k]) or abs(value - truth) <= mpf(2) ** -97 * abs(truth)
+    assert 0.05 < np.isnan(images).mean() < 0.6
+
+
+@EVERY_POLE
+def test_orientation_is_kept(axis, sign):
+    """Counterclockwise in the plane is so from outside: minus the bubble test of the three and the pole."""
+    rng = np.random.default_rng(2)
+    a, b, c = rng.normal(size=(3, 300, 3))
+    pole = np.zeros((300, 3))
+    pole[:, axis] = sign
+    images = [_kernel.project(v, axis, sign) for v in (a, b, c)]
+    assert (_kernel.orient2d(*images) == -_kernel.bubble(a, b, c, pole)).all()
+
+
+def projected_order(p, q, axis, sign, coordinate):
+    i = components(axis, sign)[coordinate]
+    p, q = ray(p), ray(q)
+    cross = sign * (q[i] * p[axis] - p[i] * q[axis])
+    return sign_of_roots(((p[i], q[3]), (-q[i], p[3]), (cross, 1)))
+
+
+def line_order(p, axis, sign, coordinate, hi, lo):
+    i = components(axis, sign)[coordinate]
+    x, y, z, square = ray(p)
+    line = Fraction(hi) + Fraction(lo)
+    b, e = line.numerator, line.denominator
+    return sign_of_roots((((x, y, z)[i] * e + sign * (x, y, z)[axis] * b, 1), (-b, square)))
+
+
+def check_order(p, q, axis, sign, coordinate):
+    truth = [projected_order(u, v, axis, sign, coordinate) for u, v in zip(p.tolist(), q.tolist(), strict=True)]
+    return compare(truth, lambda stage: _kernel.compare_projected(p, q, axis, sign, coordinate, stage=stage))
+
+
+def check_line(p, axis, sign, coordinate, hi, lo):
+    rows = zip(p.tolist(), hi.tolist(), lo.tolist(), strict=True)
+    truth = [line_order(v, axis, sign, coordinate, h, low) for v, h, low in rows]
+    return compare(truth, lambda stage: _kernel.compare_to_line(p, axis, sign, coordinate, hi, lo, stage=stage))
+
+
+def compare(truth, signs_of):
+    """No stage is ever wrong, the last never open. The share that each leaves open."""
+    shares = {}
+    for stage in ("filter", "double_double", "exact", "all"):
+        signs = signs_of(stage)
+        assert ((signs == truth) | (signs == OPEN)).all(), stage
+        shares[stage] = (signs == OPEN).mean()
+    assert shares["exact"] == shares["all"] == 0
+    return shares
+
+
+@EVERY_POLE
+@pytest.mark.parametrize("coordinate", [0, 1])
+def test_order_of_projected_coordinates(axis, sign, coordinate):
+    p = vectors()
+    rng = np.random.default_rng(3)
+    q = p * (1 + 10.0 ** rng.uniform(-17, 0, size=(len(p), 1)) * rng.normal(size=p.shape))
+    q[::7] = p[::7] * [[2.0]] * rng.choice([-1, 1], size=(len(q[::7]), 1))
+    assert check_order(p, q, axis, sign, coordinate)["double_double"] < 0.3
+    assert check_order(p, vectors(seed=4), axis, sign, coordinate)["filter"] < 0.01
+
+
+@EVERY_POLE
+@pytest.mark.parametrize("coordinate", [0, 1])
+def test_coordinates_and_lines(axis, sign, coordinate):
+    p = vectors()
+    rng = np.random.default_rng(5)
+    fine = _kernel.project_double_double(p, axis, sign)[:, 2 * coordinate : 2 * coordinate + 2]
+    low = fine[:, 1] * (1 + 10.0 ** rng.uniform(-17, 17, size=len(p)) * rng.integers(-1, 2, size=len(p)))
+    shares = check_line(p, axis, sign, coordinate, np.ascontiguousarray(fine[:, 0]), low)
+    assert 0.9 > shares["filter"] > 0.5 > shares["double_double"] > 0.1
+    zeros = np.zeros(len(p))
+    assert check_line(p, axis, sign, coordinate, rng.normal(size=len(p)), zeros)["filter"] < 0.01
+    check_line(p, axis, sign, coordinate, zeros, zeros)
+    check_line(p, axis, sign, coordinate, rng.choice([5e-324, 1e-310, 1e307, 1.0], len(p)), 1e-320 + zeros)
+
+
+@given(SMALL, SMALL, st.sampled_from(POLES), st.integers(0, 1), st.integers(-1000, 1000), st.integers(-4, 4))
+def test_small_integers(p, q, pole, coordinate, exponent, numerator):
+    axis, sign = pole
+    for v in (p, q):
+        if v[axis] * sign > 0 and sum(map(abs, v)) == abs(v[axis]):
+            return
+    p, q = np.array([p]) * 2.0**exponent, np.array([q], dtype=float)
+    check_order(p, q, axis, sign, coordinate)
+    check_line(p, axis, sign, coordinate, np.array([numerator / 4]), np.array([0.0]))
+
+
+@EVERY_POLE
+def test_extreme_components(axis, sign):
+    rng = np.random.default_rng(6)
+    sizes = rng.choice([5e-324, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 1e100, 1e300], size=(2, 150, 3))
+    p, q = sizes * rng.choice([-3, -2, -1, 1, 2, 3], size=(2, 150, 3))
+    for coordinate in (0, 1):
+        check_order(p, q, axis, sign, coordinate)
+        check_line(p, axis, sign, coordinate, q[:, 0].copy(), q[:, 1].copy())
+
+
+def test_rational_points_on_rational_lines():
+    """(2X, 2Y, X² + Y² − 1) projects from the north pole to (Y, X) exactly: exact ties."""
+    grid = np.array([[x, y] for x in range(-3, 4) for y in range(-3, 4)]) / 4
+    x, y = grid.T
+    lifted = np.stack([2 * x, 2 * y, x * x + y * y - 1], axis=1)
+    assert (_kernel.compare_to_line(lifted, 2, 1, 0, y, 0 * y) == 0).all()
+    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x) == 0).all()
+    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x + 1e-300) == -1).all()
+    first, second = (np.ascontiguousarray(v) for v in np.stack(list(itertools.product(lifted, lifted)), axis=1))
+    order = np.sign([b - a for b, a in itertools.product(y, y)])
+    assert (_kernel.compare_projected(first, second, 2, 1, 0) == order).all()
+
+
+@pytest.mark.parametrize(("axis", "sign"), [(3, 1), (-1, 1), (0, 0)])
+def test_no_such_pole(axis, sign):
+    with pytest.raises(ValueError, match="axis"):
+        _kernel.project(np.ones((1, 3)), axis, sign)
