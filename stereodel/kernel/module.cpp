@@ -5,6 +5,8 @@ namespace stereodel {
 
 void bind_degrees(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
+void bind_location(nanobind::module_& module);
+void bind_mesh(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
 
 }  // namespace stereodel
@@ -13,5 +15,7 @@ NB_MODULE(_kernel, module) {
     module.doc() = "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location.";
     stereodel::bind_degrees(module);
     stereodel::bind_delaunay(module);
+    stereodel::bind_location(module);
+    stereodel::bind_mesh(module);
     stereodel::bind_predicates(module);
 }

@@ -1,0 +1,153 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "bind_support.hpp"
+#include "dynamic.hpp"
+#include "plane_surface.hpp"
+#include "sphere_surface.hpp"
+
+namespace stereodel {
+namespace {
+
+using namespace nb::literals;
+
+using Numbers = nb::ndarray<const Index, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+
+constexpr std::size_t long_changes = 500;     // points: some milliseconds
+constexpr std::size_t long_copies = 100000;  // points: the same
+
+Pairs to_pairs(const std::optional<RowsIn<Index, 2>>& rows, std::size_t size) {
+    Pairs pairs;
+    for (std::size_t k = 0; rows && k < rows->shape(0); ++k) {
+        const Index dropped = rows->data()[2 * k], kept = rows->data()[2 * k + 1];
+        if (dropped <= kept || kept < 0 || static_cast<std::size_t>(dropped) >= size) {
+            throw std::invalid_argument("duplicates must be pairs dropped, kept of points");
+        }
+        pairs.emplace_back(dropped, kept);
+    }
+    return pairs;
+}
+
+// A triangulation that Python holds; several threads may have it.
+template <class Surface>
+class BoundMesh {
+  public:
+    using Points = RowsIn<double, DynamicDelaunay<Surface>::dimension>;
+
+    BoundMesh(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+              const std::optional<RowsIn<Index, 2>>& duplicates)
+        : delaunay_(make(points, simplices, neighbors, duplicates)) {}
+
+    RowsOut<Index, 2> insert(Points points) {
+        const std::size_t count = points.shape(0);
+        const Pairs added = change(count > long_changes, [&](Stop stop) {
+            const std::size_t old = delaunay_.duplicates().size();
+            delaunay_.insert(points.data(), count, stop);
+            return Pairs(delaunay_.duplicates().begin() + static_cast<std::ptrdiff_t>(old), delaunay_.duplicates().end());
+        });
+        return to_rows(added);
+    }
+
+    nb::object remove(Numbers indices) {
+        const std::size_t count = indices.shape(0);
+        Buffer<Index> number = change(count > long_changes || delaunay_.size() > long_copies, [&](Stop stop) {
+            for (std::size_t k = 0; k < count; ++k) {
+                if (indices.data()[k] < 0 || static_cast<std::size_t>(indices.data()[k]) >= delaunay_.size()) {
+                    throw std::invalid_argument("indices: no such point");
+                }
+            }
+            return delaunay_.remove(indices.data(), count, stop);
+        });
+        return nb::cast(to_rows<1>(std::move(number))).attr("reshape")(-1);
+    }
+
+    nb::tuple arrays() {
+        auto rows = change(delaunay_.size() > long_copies, [&](Stop stop) {
+            const Mesh& mesh = delaunay_.mesh();
+            std::pair<Buffer<Index>, Buffer<Index>> out(3 * mesh.triangles(), 3 * mesh.triangles());
+            mesh.write(out.first.data(), out.second.data(), stop);
+            return out;
+        });
+        return nb::make_tuple(to_rows<3>(std::move(rows.first)), to_rows<3>(std::move(rows.second)));
+    }
+
+    nb::object duplicates() {
+        return nb::cast(to_rows(change(false, [&](Stop) { return delaunay_.duplicates(); })));
+    }
+
+    bool is_flat() {
+        return change(false, [&](Stop) { return delaunay_.is_flat(); });
+    }
+
+    std::size_t size() {
+        return change(false, [&](Stop) { return delaunay_.size(); });
+    }
+
+    nb::dict inconclusive() {
+        const Tally tally = change(false, [&](Stop) { return delaunay_.tally(); });
+        nb::dict result;
+        result["filter"] = tally.filter;
+        if (!Surface::has_ghost) {
+            result["curvature"] = tally.curvature;
+        }
+        result["double_double"] = tally.double_double;
+        result["exact"] = tally.exact;
+        return result;
+    }
+
+  private:
+    static DynamicDelaunay<Surface> make(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+                                         const std::optional<RowsIn<Index, 2>>& duplicates) {
+        if (simplices.shape(0) != neighbors.shape(0)) {
+            throw std::invalid_argument("simplices and neighbors must have the same length");
+        }
+        Pairs pairs = to_pairs(duplicates, points.shape(0));
+        const nb::gil_scoped_release release;
+        return DynamicDelaunay<Surface>(points.data(), points.shape(0), simplices.data(), neighbors.data(), simplices.shape(0),
+                                        std::move(pairs), Stop{});
+    }
+
+    // Calls work(stop) without the interpreter's lock, one thread at a time.
+    template <class Work>
+    auto change(bool is_long, Work&& work) {
+        return run_without_lock(is_long, [&](Stop stop) {
+            const std::lock_guard lock(mutex_);
+            return work(stop);
+        });
+    }
+
+    DynamicDelaunay<Surface> delaunay_;
+    std::mutex mutex_;
+};
+
+template <class Surface>
+void bind(nb::module_& module, const char* name, const char* doc) {
+    using Bound = BoundMesh<Surface>;
+    nb::class_<Bound>(module, name, doc)
+        .def(nb::init<typename Bound::Points, RowsIn<Index, 3>, RowsIn<Index, 3>, std::optional<RowsIn<Index, 2>>>(),
+             "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a = nb::none(),
+             "The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.")
+        .def("insert", &Bound::insert, "points"_a,
+             "Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.")
+        .def("remove", &Bound::remove, "indices"_a,
+             "Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.")
+        .def("arrays", &Bound::arrays, "Simplices, smallest index first, and neighbors, -1 for none, as new arrays.")
+        .def_prop_ro("duplicates", &Bound::duplicates, "All pairs [dropped, kept], by dropped; the lowest index is kept.")
+        .def_prop_ro("is_flat", &Bound::is_flat, "Whether no triangles are left: then points can only be removed.")
+        .def_prop_ro("size", &Bound::size, "Number of points, duplicates included.")
+        .def_prop_ro("inconclusive", &Bound::inconclusive, "Tests that each stage left open, in changes so far.");
+}
+
+}  // namespace
+
+void bind_mesh(nb::module_& module) {
+    bind<PlaneSurface>(module, "PlaneMesh", "Delaunay triangulation of the plane that points can be added to and taken from.");
+    bind<SphereSurface>(module, "SphereMesh", "Delaunay triangulation of directions that points can be added to and taken from.");
+}
+
+}  // namespace stereodel

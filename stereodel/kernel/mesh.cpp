@@ -1,0 +1,130 @@
+#include "mesh.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+namespace stereodel {
+namespace {
+
+constexpr std::size_t block = std::size_t{1} << 14;  // facets between two looks at the stop
+
+// Calls body(k) for all k below size.
+template <class Body>
+void in_blocks(std::size_t size, Stop stop, Body&& body) {
+    for (std::size_t begin = 0; begin < size; begin += block) {
+        check(stop);
+        const std::size_t end = std::min(size, begin + block);
+        for (std::size_t k = begin; k < end; ++k) {
+            body(k);
+        }
+    }
+}
+
+bool below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) < limit; }
+
+}  // namespace
+
+Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop) {
+    if (count == 0) {
+        throw std::invalid_argument("a mesh needs triangles: points on one line or great circle have none");
+    }
+    if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3 || points > std::size_t{1} << 31) {
+        throw std::invalid_argument("too many triangles or points");
+    }
+    facets_.reserve(count + count / 16 + 64);
+    facets_.resize(count);
+    copy_rows(simplices, neighbors, count, points, stop);
+    for (std::size_t t = 0; t < count; ++t) {
+        const Facet& facet = facets_[t];
+        // One test for the three: a neighbour that is none has its highest bit set.
+        if ((facet.neighbor[0] | facet.neighbor[1] | facet.neighbor[2]) < 0) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (facets_[t].neighbor[k] < 0) {
+                    add_ghost(static_cast<Index>(t), k);
+                }
+            }
+        }
+    }
+    for (std::size_t ghost = count; ghost < facets_.size(); ++ghost) {
+        link_ghost(static_cast<Index>(ghost));
+    }
+}
+
+void Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop) {
+    bool valid = true;
+    in_blocks(count, stop, [&](std::size_t t) {
+        const Index* c = simplices + 3 * t;
+        const Index* n = neighbors + 3 * t;
+        valid &= below(c[0], points) & below(c[1], points) & below(c[2], points);
+        valid &= below(n[0] + 1, count + 1) & below(n[1] + 1, count + 1) & below(n[2] + 1, count + 1);
+        put(static_cast<Index>(t), {c[0], c[1], c[2]}, {n[0], n[1], n[2]});
+    });
+    if (!valid) {
+        throw std::invalid_argument("simplices or neighbors hold numbers out of range");
+    }
+}
+
+// The ghost facet beyond an edge of t; its two other neighbours are linked when all ghosts are there.
+void Mesh::add_ghost(Index t, std::size_t opposite) {
+    const Index ghost = slots();
+    const Index u = (*this)[t].corner[(opposite + 1) % 3], v = (*this)[t].corner[(opposite + 2) % 3];
+    facets_.push_back({});
+    put(ghost, {GHOST, v, u}, {t, GHOST, GHOST});
+    at(t).neighbor[opposite] = ghost;
+}
+
+// Its facet across v GHOST lies beyond the hull edge out of v, found by turning around v. Over all ghosts this visits no
+// facet more than three times.
+void Mesh::link_ghost(Index ghost) {
+    const Index v = (*this)[ghost].corner[1];
+    Index t = (*this)[ghost].neighbor[0];
+    do {
+        const Facet& facet = (*this)[t];
+        t = facet.neighbor[(facet.place(v) + 2) % 3];  // across the edge out of v
+    } while (!(*this)[t].is_ghost());
+    at(ghost).neighbor[2] = t;
+    at(t).neighbor[1] = ghost;
+}
+
+void Mesh::write(Index* simplices, Index* neighbors, Stop stop) const {
+    Buffer<Index> row(facets_.size());
+    Index count = 0;
+    in_blocks(facets_.size(), stop, [&](std::size_t t) {
+        const bool is_triangle = facets_[t].corner[0] >= 0;
+        row[t] = is_triangle ? count : -1;
+        count += is_triangle;
+    });
+    in_blocks(facets_.size(), stop, [&](std::size_t t) {
+        if (row[t] >= 0) {
+            const Facet& facet = facets_[t];
+            const std::size_t first = 3 * static_cast<std::size_t>(row[t]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                simplices[first + k] = facet.corner[k];
+                neighbors[first + k] = row[static_cast<std::size_t>(facet.neighbor[k])];
+            }
+        }
+    });
+}
+
+void Mesh::rename(Index start, Index vertex, Index other) {
+    Index t = start;
+    do {
+        const Index next = next_around(t, vertex);
+        Facet facet = (*this)[t];
+        facet.corner[facet.place(vertex)] = other;
+        ghosts_ -= facet.is_ghost();
+        put(t, facet.corner, facet.neighbor);
+        t = next;
+    } while (t != start);
+}
+
+void Mesh::renumber(const Index* number, Stop stop) {
+    in_blocks(facets_.size(), stop, [&](std::size_t t) {
+        for (Index& corner : facets_[t].corner) {
+            corner = corner < 0 ? corner : number[corner];
+        }
+    });
+}
+
+}  // namespace stereodel

@@ -1,0 +1,152 @@
+#include "nearest.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+#include <vector>
+
+#include "sorted_queries.hpp"
+#include "walk.hpp"
+
+namespace stereodel {
+namespace {
+
+template <class Query>
+class NearestFinder {
+  public:
+    NearestFinder(const TriangleArrays& triangles, Stop stop) : triangles_(triangles), query_(triangles.points()), stop_(stop) {}
+
+    // The nearest point of a query, looked for from the triangle `start` on, which becomes one close to it.
+    Index find(const double* query, Index& start) {
+        query_.take(query);
+        const WalkEnd end = walk(triangles_, start, [this](Index u, Index v) { return query_.side(u, v); }, stop_);
+        Near best = nearest_corner(end.triangle);
+        Near here;
+        do {
+            here = best;
+            best = nearest_neighbor(here);
+        } while (best.point != here.point);
+        start = triangles_.may_enter(here.triangle) ? here.triangle : end.triangle;
+        return equal_.empty() ? here.point : lowest_equal(here);
+    }
+
+    Index scan(const double* query, std::size_t size) {
+        query_.take(query);
+        Index best = 0;
+        for (Index p = 1; p < static_cast<Index>(size); ++p) {
+            best = query_.compare(p, best) < 0 ? p : best;
+        }
+        return best;
+    }
+
+  private:
+    // A point and a triangle that has it.
+    struct Near {
+        Index point, triangle;
+    };
+
+    Near nearest_corner(Index t) {
+        const Index* const c = triangles_.corners(t);
+        Index best = query_.compare(c[1], c[0]) < 0 ? c[1] : c[0];
+        best = query_.compare(c[2], best) < 0 ? c[2] : best;
+        return {best, t};
+    }
+
+    // Calls visit(near) for all points that an edge joins to one.
+    template <class Visit>
+    void neighbors(Near here, Visit&& visit) {
+        triangles_.around(here.point, here.triangle, [&](Index t) {
+            const std::size_t place = triangles_.place(t, here.point);
+            visit(Near{triangles_.corners(t)[(place + 1) % 3], t});
+            if (triangles_.neighbors(t)[(place + 1) % 3] < 0) {
+                visit(Near{triangles_.corners(t)[(place + 2) % 3], t});  // the last one of an open fan
+            }
+        });
+    }
+
+    // The nearest of a point and its neighbours; those equally near as the point itself, if none is nearer, are in `equal_`.
+    Near nearest_neighbor(Near here) {
+        Near best = here;
+        equal_.clear();
+        neighbors(here, [&](Near other) {
+            const int sign = query_.compare(other.point, best.point);
+            if (sign < 0) {
+                best = other;
+            } else if (sign == 0) {
+                equal_.push_back(other);
+            }
+        });
+        if (best.point != here.point) {
+            equal_.clear();
+        }
+        return best;
+    }
+
+    // The lowest of all points that are equally near, reached along edges; `equal_` holds the first ones.
+    Index lowest_equal(Near here) {
+        std::unordered_set<Index> seen{here.point};
+        Index lowest = here.point;
+        while (!equal_.empty()) {
+            const Near next = equal_.back();
+            equal_.pop_back();
+            if (!seen.insert(next.point).second) {
+                continue;
+            }
+            check(stop_);
+            lowest = std::min(lowest, next.point);
+            neighbors(next, [&](Near other) {
+                if (query_.compare(other.point, here.point) == 0) {
+                    equal_.push_back(other);
+                }
+            });
+        }
+        return lowest;
+    }
+
+    const TriangleArrays& triangles_;
+    Query query_;
+    std::vector<Near> equal_;
+    Stop stop_;
+};
+
+template <class Query>
+void scan_all(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
+              int workers, Stop stop) {
+    constexpr std::size_t grain = 16;
+    parallel_for((count + grain - 1) / grain, workers, [&](std::size_t piece) {
+        NearestFinder<Query> finder(triangles, stop);
+        for (std::size_t k = piece * grain; k < std::min(count, (piece + 1) * grain); ++k) {
+            check(stop);
+            found[k] = finder.scan(queries + Query::Chart::dimension * k, size);
+        }
+    });
+}
+
+template <class Query>
+void find_nearest(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
+                  int workers, Stop stop) {
+    if (triangles.count() == 0) {
+        scan_all<Query>(triangles, size, queries, count, found, workers, stop);
+        return;
+    }
+    const Starts<typename Query::Chart> starts(triangles);
+    for_sorted_queries(starts, queries, count, workers, stop, [&] {
+        return [found, finder = NearestFinder<Query>(triangles, stop)](const double* query, std::size_t number,
+                                                                      Index& start) mutable {
+            found[number] = finder.find(query, start);
+        };
+    });
+}
+
+}  // namespace
+
+void nearest_plane(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
+                   int workers, Stop stop) {
+    find_nearest<PlaneQuery>(triangles, size, queries, count, found, workers, stop);
+}
+
+void nearest_sphere(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
+                    int workers, Stop stop) {
+    find_nearest<SphereQuery>(triangles, size, queries, count, found, workers, stop);
+}
+
+}  // namespace stereodel

@@ -1,0 +1,143 @@
+// Triangulations as plain arrays, and a query's side of their edges: what location and nearest points share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "charts.hpp"
+#include "plane_predicates.hpp"
+#include "ray_predicates.hpp"
+#include "threads.hpp"
+
+namespace stereodel {
+
+// Neighbours opposite each corner, -1 for none. `closing`: triangles that no query lies in; null if there is none.
+class TriangleArrays {
+  public:
+    TriangleArrays(const double* points, const Index* corners, const Index* neighbors, const bool* closing, std::size_t count)
+        : points_(points), corners_(corners), neighbors_(neighbors), closing_(closing), count_(count) {}
+
+    const double* points() const { return points_; }
+    std::size_t count() const { return count_; }
+    const Index* corners(Index t) const { return corners_ + 3 * static_cast<std::size_t>(t); }
+    const Index* neighbors(Index t) const { return neighbors_ + 3 * static_cast<std::size_t>(t); }
+    bool may_enter(Index t) const { return t >= 0 && (closing_ == nullptr || !closing_[t]); }
+
+    std::size_t place(Index t, Index vertex) const {
+        const Index* const c = corners(t);
+        return c[0] == vertex ? 0 : c[1] == vertex ? 1 : 2;
+    }
+
+    // Calls visit(t) for all triangles at a vertex, of which `start` is one.
+    template <class Visit>
+    void around(Index vertex, Index start, Visit&& visit) const {
+        Index t = start;
+        do {
+            visit(t);
+            t = counterclockwise(t, vertex);
+        } while (t >= 0 && t != start);
+        if (t < 0) {
+            for (t = clockwise(start, vertex); t >= 0; t = clockwise(t, vertex)) {
+                visit(t);
+            }
+        }
+    }
+
+  private:
+    Index counterclockwise(Index t, Index vertex) const { return neighbors(t)[(place(t, vertex) + 1) % 3]; }
+    Index clockwise(Index t, Index vertex) const { return neighbors(t)[(place(t, vertex) + 2) % 3]; }
+
+    const double* points_;
+    const Index* corners_;
+    const Index* neighbors_;
+    const bool* closing_;
+    std::size_t count_;
+};
+
+// One query in the plane at a time.
+class PlaneQuery {
+  public:
+    using Chart = PlaneChart;
+
+    explicit PlaneQuery(const double* points) : points_(points, 0.0) {}
+
+    void take(const double* query) { query_ = query; }
+    int side(Index u, Index v) { return points_.orient(u, v, query_); }
+    int compare(Index a, Index b) { return points_.compare_distances(query_, a, b); }
+
+  private:
+    PlanePoints points_;
+    const double* query_ = nullptr;
+};
+
+// One queried direction at a time.
+class SphereQuery {
+  public:
+    using Chart = SphereChart;
+
+    explicit SphereQuery(const double* points) : points_(points) {}
+
+    void take(const double* query) {
+        is_unit_ = rays::is_unit(query);
+        if (is_unit_) {
+            std::copy_n(query, 3, unit_);
+        } else {
+            Chart::prepare(query, unit_);
+        }
+        query_ = query;
+        if (!is_ordinary(query) && rescale(query)) {
+            query_ = scaled_;
+        }
+        ordinary_ = is_ordinary(query_);
+    }
+
+    int side(Index u, Index v) {
+        const double *a = at(u), *b = at(v);
+        return turn(a, b, query_, ordinary_ && is_ordinary(a) && is_ordinary(b), tally_);
+    }
+
+    // Sign of the angle between the query and a less that between the query and b.
+    int compare(Index a, Index b) {
+        const Sign sign = rays::is_unit(at(a)) && rays::is_unit(at(b)) ? compare_chords(at(a), at(b)) : OPEN;
+        return sign != OPEN ? sign : compare_angles(query_, at(a), at(b), tally_);
+    }
+
+  private:
+    const double* at(Index a) const { return points_ + 3 * static_cast<std::size_t>(a); }
+
+    // The filter of `turn` asks for lengths between 1/2 and 2.
+    static bool is_ordinary(const double* p) {
+        const double square = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+        return square > 0.3 && square < 3.9;
+    }
+
+    // Times a power of two; false if that changes a digit.
+    bool rescale(const double* query) {
+        const int exponent = std::ilogb(std::max({std::fabs(query[0]), std::fabs(query[1]), std::fabs(query[2])}));
+        bool same = true;
+        for (int k = 0; k < 3; ++k) {
+            scaled_[k] = std::scalbn(query[k], -exponent);
+            same &= std::scalbn(scaled_[k], exponent) == query[k];
+        }
+        return same;
+    }
+
+    // By the squared chords A, B to the query's unit vector. For a unit query (lengths within 2^-49 of 1) the angles compare
+    // as A - B does if that exceeds 2^-47 (A + B) + 2^-94, see `rays::compare_angles_filter`. Otherwise its
+    // direction is off by d < 2^-51 (two divisions of each component round), which moves A - B by at most 2d|a - b| <=
+    // 2d sqrt(2(A + B)) < 2^-49 sqrt(A + B).
+    Sign compare_chords(const double* a, const double* b) const {
+        const double chords_a = Chart::rough_distance(unit_, a), chords_b = Chart::rough_distance(unit_, b);
+        const double sum = chords_a + chords_b;
+        return decide(chords_a - chords_b, 0x1p-47 * sum + 0x1p-94 + (is_unit_ ? 0.0 : 0x1p-49 * std::sqrt(sum)));
+    }
+
+    const double* points_;
+    const double* query_ = nullptr;
+    double scaled_[3] = {}, unit_[3] = {};
+    bool ordinary_ = false, is_unit_ = false;
+    Tally tally_;
+};
+
+}  // namespace stereodel
