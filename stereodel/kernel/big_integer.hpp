@@ -64,7 +64,7 @@ class BigInteger {
 
 int compare(const BigInteger& a, const BigInteger& b);
 
-// The exponent of the lowest bit that is set: value = odd * 2^result. A large number for zero, which every power divides.
+// The exponent of the lowest bit that is set: value = odd * 2^result. EVERY_EXPONENT for zero: every power divides it.
 constexpr int EVERY_EXPONENT = 1 << 20;
 int lowest_exponent(double value);
 

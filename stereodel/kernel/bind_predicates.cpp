@@ -1,5 +1,5 @@
-// The predicates for Python: arrays of points in, signs out (int8; 2 = the stage that was asked leaves it open). They serve
-// the tests, stage by stage; the triangulations call the predicates from C++.
+// The predicates for Python: arrays of points in, signs out (int8; 2 = the stage that was asked leaves it open). They
+// serve the tests, stage by stage; the triangulations call the predicates from C++.
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
@@ -211,7 +211,8 @@ void bind_rays(nb::module_& m) {
     m.def("compare_directions", &compare_directions, "a"_a, "b"_a, "unit"_a = unknown);
     m.def("compare_component", &compare_component, "a"_a, "b"_a, "axis"_a, "unit"_a = unknown, "stage"_a = "all");
     m.def("compare_angles", &compare_angles, "q"_a, "a"_a, "b"_a, "stage"_a = "all");
-    m.def("all_unit", [](const SpaceArray& vectors) { return all_unit(vectors.data(), vectors.shape(0)); }, "vectors"_a);
+    m.def(
+        "all_unit", [](const SpaceArray& vectors) { return all_unit(vectors.data(), vectors.shape(0)); }, "vectors"_a);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Error bounds counted by the compiler: a formula written once as a template gives its value in doubles or pairs, its sign
-// in integers, and the number of its roundings.
+// Error bounds counted by the compiler: a formula written once as a template gives its value in doubles or pairs, its
+// sign in integers, and the number of its roundings.
 #pragma once
 
 namespace stereodel {
@@ -8,9 +8,9 @@ constexpr double UNIT_ROUNDOFF = 0x1p-53;
 
 // The most roundings that a term of an expanded sum of products passes through, each a factor 1 + d with |d| <= u.
 //
-// The computed sum is then off by at most ((1+u)^n - 1) times the permanent, the sum of the absolute values of the exact
-// terms. Bounds are stated with n + 1 in place of n: the whole u between them is far more than what (1+u)^n - 1 - nu and
-// the roundings in the permanent and in the bound itself add.
+// The computed sum is then off by at most ((1+u)^n - 1) times the permanent, the sum of the absolute values of the
+// exact terms. Bounds are stated with n + 1 in place of n: the whole u between them is far more than what second order
+// and the roundings in the permanent and in the bound itself add.
 struct RoundingCount {
     int n;
 

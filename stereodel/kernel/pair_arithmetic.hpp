@@ -9,8 +9,8 @@
 //     product   h h' is split exactly into p + r; l" = r + (h l' + l h') rounds four times and drops l l':
 //               k" = k + k' + 1, e" = e + e' + k k' + k + k' + (k + k') + (k + k' + 1)
 //     multiple  by a double (k = e = 0): l" = r + a l rounds twice: k" = k + 1, e" = e + k + (k + 1)
-// Terms of third order are below k e u < 2^-38 of e while k < 64 and e < 1000. A bound of (e + 1) u^2 times the permanent
-// covers them, the permanent's own roundings and that of the last sum h + l: relative changes of a few u.
+// Terms of third order are below k e u < 2^-38 of e while k < 64 and e < 1000. A bound of (e + 1) u^2 times the
+// permanent covers them, the permanent's own roundings and that of the last sum h + l: relative changes of a few u.
 // Underflow is the caller's: each two_product may be off by 2^-1072 more.
 #pragma once
 

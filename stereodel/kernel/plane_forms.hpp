@@ -13,8 +13,8 @@ constexpr Number square_form(const Number& x, const Number& y) {
     return x * x + y * y;
 }
 
-// The incircle determinant of a, b, c relative to d. With A = |a|^2 and so on, |bx cy| + |by cx| <= sqrt(BC) <= (B + C)/2
-// (Cauchy, then the two means), so the permanent is at most AB + BC + CA.
+// The incircle determinant of a, b, c relative to d. With A = |a|^2 and so on, |bx cy| + |by cx| is at most sqrt(BC)
+// (Cauchy) and that at most (B + C)/2 (the two means), so the permanent is at most AB + BC + CA.
 template <class Number>
 constexpr Number incircle_form(const Number& ax, const Number& ay, const Number& bx, const Number& by, const Number& cx,
                                const Number& cy) {

@@ -46,7 +46,8 @@ int PlanePoints::counted(int sign) {
     return sign;
 }
 
-int PlanePoints::orient_open(const double* a, const double* b, const double* c, const plane::Estimate& e, double exact) {
+int PlanePoints::orient_open(const double* a, const double* b, const double* c, const plane::Estimate& e,
+                             double exact) {
     ++tally.filter;
     if (plane::on_axis_line(a, b, c)) {
         return counted(0);
@@ -103,8 +104,9 @@ int PlanePoints::compare_distances(const double* query, Index a, Index b) {
     return counted(plane::distances_exact(query, at(a), at(b)));
 }
 
-// The height of row i of the determinant with rows (x, y, x^2 + y^2, 1) has the cofactor (-1)^i times the orientation of
-// the others. Three points of a circle are not collinear, so the first point, whose height grows most, always decides.
+// The height of row i of the determinant with rows (x, y, x^2 + y^2, 1) has the cofactor (-1)^i times the orientation
+// of the others. Three points of a circle are not collinear, so the first point, whose height grows most, always
+// decides.
 int incircle_tie(const double* a, const double* b, const double* c, const double* d) {
     const double* points[] = {a, b, c, d};
     const auto first = std::min_element(points, points + 4, before) - points;

@@ -1,4 +1,4 @@
-// Orientation and incircle of points of the plane by number, y up: the answers of exact arithmetic on the given doubles.
+// Orientation and incircle of points of the plane by number, y up: the answers of exact arithmetic on their doubles.
 //
 // orient > 0: counterclockwise; incircle > 0: inside a counterclockwise triangle. Ties of `in_circle` are decided by
 // infinitesimal displacement: the heights x^2 + y^2 grow by e, the more the earlier the point stands in lexicographic

@@ -51,10 +51,10 @@ double promise(double numerator, double limit) {
 
 }  // namespace
 
-// For height <= 0, X = x / (|p| - height): the square holds three roundings, halved by the root, the root one, the sum one,
-// the quotient one: 4.5u. For height > 0 without cancellation X = x (|p| + height) / (x^2 + y^2): 3.5u, a product, two
-// roundings of x^2 + y^2, a quotient: 7.5u. Scaled vectors lie between 2^-20 and 2^20: with numerators and x^2 + y^2 above
-// 2^-900 no result is below 2^-970, and no square that underflows counts.
+// For height <= 0, X = x / (|p| - height): the square holds three roundings, halved by the root, the root one, the sum
+// one, the quotient one: 4.5u. For height > 0 without cancellation X = x (|p| + height) / (x^2 + y^2): 3.5u, a product,
+// two roundings of x^2 + y^2, a quotient: 7.5u. Scaled vectors lie between 2^-20 and 2^20: with numerators and x^2 +
+// y^2 above 2^-900 no result is below 2^-970, and no square that underflows counts.
 void project(const double* p, Pole pole, double out[2]) {
     const Seen v(p, pole);
     const double square = v.flat[0] * v.flat[0] + v.flat[1] * v.flat[1];
@@ -66,9 +66,9 @@ void project(const double* p, Pole pole, double out[2]) {
     }
 }
 
-// The same in double-double. Squares are exact; the sums 3.1u^2 each, all terms positive; the root of that 3.1u^2 + 5u^2,
-// the reach 11.2u^2, the product 18.3u^2, the quotient by x^2 + y^2 (3.1u^2) 11u^2 more: below 33u^2 < 2^-100. With the
-// limits 2^-400 everything stays where the operations keep their relative bounds.
+// The same in double-double. Squares are exact; the sums 3.1u^2 each, all terms positive; the root of that 3.1u^2 +
+// 5u^2, the reach 11.2u^2, the product 18.3u^2, the quotient by x^2 + y^2 (3.1u^2) 11u^2 more: below 33u^2 < 2^-100.
+// With the limits 2^-400 everything stays where the operations keep their relative bounds.
 void project_double_double(const double* p, Pole pole, double out[4]) {
     const Seen v(p, pole);
     const DoubleDouble square = two_product(v.flat[0], v.flat[0]) + two_product(v.flat[1], v.flat[1]);

@@ -1,9 +1,9 @@
-// Stereographic projection of directions from the pole sign * e_axis, with error bounds, and exact comparisons of projected
-// coordinates (rows P8 and P5 of the ledger).
+// Stereographic projection of directions from the pole sign * e_axis, with error bounds, and exact comparisons of
+// projected coordinates (rows P8 and P5 of the ledger).
 //
-// With k = axis and w = |p| - sign p_k: (X, Y) = (p_{k+1}, p_{k+2}) / w for sign -1 and (p_{k+2}, p_{k+1}) / w for sign +1,
-// indices modulo 3: counterclockwise in (X, Y) is counterclockwise seen from outside the sphere, and orient2d of three
-// projected points is minus the bubble test of the three and the pole.
+// With k = axis and w = |p| - sign p_k: (X, Y) = (p_{k+1}, p_{k+2}) / w for sign -1 and (p_{k+2}, p_{k+1}) / w for sign
+// +1, indices modulo 3: counterclockwise in (X, Y) is counterclockwise seen from outside the sphere, and orient2d of
+// three projected points is minus the bubble test of the three and the pole.
 #pragma once
 
 #include "tally.hpp"
@@ -15,7 +15,8 @@ struct Pole {
     int sign;  // -1, 1
 };
 
-// Each component relatively within 8u, u = 2^-53; NaN where exponents leave the range of that promise. NaN for the pole.
+// Each component relatively within 8u, u = 2^-53; NaN where exponents leave the range of that promise. NaN for the
+// pole.
 void project(const double* p, Pole pole, double out[2]);
 
 // X hi, X lo, Y hi, Y lo: relatively within 2^-97, NaN where that cannot be promised.

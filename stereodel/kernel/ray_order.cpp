@@ -57,8 +57,8 @@ int compare_component(const double* a, const double* b, int k, bool unit) {
 }
 
 // Lengths change the components by factors within 1.01 * 2^-49 of 1: two numbers of one sign keep their order if they
-// differ by more than 2^-48 of their larger one (with some room for the roundings here). Nothing underflows that counts:
-// a difference of doubles is at least 2^-1074.
+// differ by more than 2^-48 of their larger one (with some room for the roundings here). Nothing underflows that
+// counts: a difference of doubles is at least 2^-1074.
 Sign compare_component_filter(const double* a, const double* b, int k) {
     return decide(a[k] - b[k], 0x1p-47 * (std::fabs(a[k]) + std::fabs(b[k])));
 }
@@ -69,8 +69,8 @@ Sign compare_component_double_double(const double* a, const double* b, int k) {
     const Pair pa[3] = {{da.hi[0], da.lo[0]}, {da.hi[1], da.lo[1]}, {da.hi[2], da.lo[2]}};
     const Pair pb[3] = {{db.hi[0], db.lo[0]}, {db.hi[1], db.lo[1]}, {db.hi[2], db.lo[2]}};
     const Pair value = component_form(pa, pb, k, i, j);
-    const double ak = da.hi[k] * da.hi[k], bk = db.hi[k] * db.hi[k];
-    const double permanent = ak * (db.hi[i] * db.hi[i] + db.hi[j] * db.hi[j]) + bk * (da.hi[i] * da.hi[i] + da.hi[j] * da.hi[j]);
+    const double permanent =
+        dot_form(db.hi, db.hi) * da.hi[k] * da.hi[k] + dot_form(da.hi, da.hi) * db.hi[k] * db.hi[k];
     const Sign squares =
         decide(value.h + value.l, COMPONENT_ERROR * UNIT_ROUNDOFF * UNIT_ROUNDOFF * permanent + plane::FLOOR);
     const int sign_a = sign_of(a[k]), sign_b = sign_of(b[k]);
@@ -89,10 +89,10 @@ int compare(const double* a, const double* b, bool unit) {
     return 0;
 }
 
-// The squared chord of unit vectors is (|a-q|^2 - (|a|-|q|)^2) / (|a||q|) for vectors of any length. Here the lengths are
-// within 2^-49 of 1: the denominator within 2^-47.9 * 1/2 of 1 for each of a and b, the subtrahend at most 2^-96. |a-q|^2
-// is computed with seven roundings a term, its D-vectors are off by 2^-106: below 2^-100 with them. Together 8u + 2^-48 +
-// a little < 2^-47 of both, and 2^-95.
+// The squared chord of unit vectors is (|a-q|^2 - (|a|-|q|)^2) / (|a||q|) for vectors of any length. Here the lengths
+// are within 2^-49 of 1: the denominator within 2^-47.9 * 1/2 of 1 for each of a and b, the subtrahend at most 2^-96.
+// |a-q|^2 is computed with seven roundings a term, its D-vectors are off by 2^-106: below 2^-100 with them. Together 8u
+// + 2^-48 + a little < 2^-47 of both, and 2^-95.
 Sign compare_angles_filter(const Direction& q, const Direction& a, const Direction& b) {
     double aa = 0.0, bb = 0.0;
     for (int k = 0; k < 3; ++k) {

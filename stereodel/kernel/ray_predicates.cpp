@@ -15,7 +15,8 @@ int counted(int sign, Tally& tally) {
     return sign;
 }
 
-Sign bubble_of_directions(const Direction& a, const Direction& b, const Direction& c, const Direction& p, Tally& tally) {
+Sign bubble_of_directions(const Direction& a, const Direction& b, const Direction& c, const Direction& p,
+                          Tally& tally) {
     const plane::Estimate e = rays::bubble_estimate(a, b, c, p);
     const Sign sign = decide(e.value, e.bound);
     if (sign != OPEN) {
@@ -34,8 +35,9 @@ Sign turn_of_directions(const Direction& a, const Direction& b, const Direction&
     return rays::turn_double_double(a, b, c);
 }
 
-// Four points of a great circle: the cofactor of column k is (-1)^k times the area of the triangle of the others, seen along
-// axis k. Whether that is zero depends on the normal of the plane alone, so the first axis that counts is the same for all.
+// Four points of a great circle: the cofactor of column k is (-1)^k times the area of the triangle of the others, seen
+// along axis k. Whether that is zero depends on the normal of the plane alone, so the first axis that counts is the
+// same for all.
 int great_circle_tie(const double* const* others) {
     for (int axis = 0; axis < 3; ++axis) {
         if (const int sign = rays::shadow_exact(others[0], others[1], others[2], axis)) {
@@ -70,14 +72,16 @@ int bubble_open(const double* a, const double* b, const double* c, const double*
     return counted(rays::bubble_exact(a, b, c, p), tally);
 }
 
-bool in_bubble_open(const double* a, const double* b, const double* c, const double* p, bool unit, int first, Tally& tally) {
+bool in_bubble_open(const double* a, const double* b, const double* c, const double* p, bool unit, int first,
+                    Tally& tally) {
     const int sign = bubble_open(a, b, c, p, unit, tally);
     return (sign != 0 ? sign : bubble_tie(a, b, c, p, unit, first)) > 0;
 }
 
-// The test is minus the determinant with rows (x, y, z, 1) of the unit vectors; moving p to p(1 + e) is, up to a positive
-// factor of its row, moving the 1 to 1 - e. The cofactor of that entry of the first point in the order is (-1)^(its row + 1)
-// times the turn of the others. Three points of a small circle are independent: the first point decides there.
+// The test is minus the determinant with rows (x, y, z, 1) of the unit vectors; moving p to p(1 + e) is, up to a
+// positive factor of its row, moving the 1 to 1 - e. The cofactor of that entry of the first point in the order is
+// (-1)^(its row + 1) times the turn of the others. Three points of a small circle are independent: the first point
+// decides there.
 int bubble_tie(const double* a, const double* b, const double* c, const double* p, bool unit, int first) {
     const double* points[] = {a, b, c, p};
     if (first < 0) {

@@ -1,8 +1,9 @@
 // The predicates on directions by number: the answers of exact arithmetic on the rays through the given doubles.
 //
-// in_bubble: inside the circle of a, b, c that appear counterclockwise from outside the hull; turn > 0: c left of the great
-// circle from a to b. Ties are decided by infinitesimal displacement (stereodel/predicates/ties.py): directions move
-// outward, the more the earlier they stand in lexicographic order; four of a great circle move along x, then y, then z.
+// in_bubble: inside the circle of a, b, c that appear counterclockwise from outside the hull; turn > 0: c left of the
+// great circle from a to b. Ties are decided by infinitesimal displacement (stereodel/predicates/ties.py): directions
+// move outward, the more the earlier they stand in lexicographic order; four of a great circle move along x, then y,
+// then z.
 #pragma once
 
 #include <cstddef>
@@ -18,11 +19,12 @@ bool all_unit(const double* xyz, std::size_t count);
 
 // What the filters below leave open, or all that is asked of vectors that are not of length one.
 int bubble_open(const double* a, const double* b, const double* c, const double* p, bool unit, Tally& tally);
-bool in_bubble_open(const double* a, const double* b, const double* c, const double* p, bool unit, int first, Tally& tally);
+bool in_bubble_open(const double* a, const double* b, const double* c, const double* p, bool unit, int first,
+                    Tally& tally);
 int turn_open(const double* a, const double* b, const double* c, bool unit, Tally& tally);
 
-// For four different directions of one circle: 1 or -1. `first`: the place (0..3) of an artificial pole that comes before
-// all others in the order of displacement, -1 = none.
+// For four different directions of one circle: 1 or -1. `first`: the place (0..3) of an artificial pole that comes
+// before all others in the order of displacement, -1 = none.
 int bubble_tie(const double* a, const double* b, const double* c, const double* p, bool unit, int first);
 
 // The predicates on vectors. unit: every length within 2^-49 of 1.

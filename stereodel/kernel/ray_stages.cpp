@@ -14,8 +14,8 @@ struct Difference {
     double v[3];
 
     // Where the difference of the high parts rounds at all (it does not between a/2 and 2a) it exceeds the low parts by
-    // 2^51 or more and counts as one relative rounding; the last sum is a second one. The difference of the low parts, at
-    // most 2^-52, rounds by at most 2^-106: an absolute error.
+    // 2^51 or more and counts as one relative rounding; the last sum is a second one. The difference of the low parts,
+    // at most 2^-52, rounds by at most 2^-106: an absolute error.
     Difference(const Direction& from, const Direction& to) {
         for (int k = 0; k < 3; ++k) {
             v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
@@ -33,8 +33,8 @@ struct Edge {
         }
     }
 
-    // h + r + e1 + e2 is exact, with e1 = 0 unless |h| exceeds 2^51 times the low parts, and |e2| <= 2^-106. Adding up the
-    // small ones rounds by less than 4u^2 |h| and 2^-157, an absolute error; the last line makes |l| <= u|h|.
+    // h + r + e1 + e2 is exact, with e1 = 0 unless |h| exceeds 2^51 times the low parts, and |e2| <= 2^-106. Adding up
+    // the small ones rounds by less than 4u^2 |h| and 2^-157, an absolute error; the last line makes |l| <= u|h|.
     Edge(const Direction& from, const Direction& to) {
         for (int k = 0; k < 3; ++k) {
             const DoubleDouble high = two_difference(to.hi[k], from.hi[k]), low = two_difference(to.lo[k], from.lo[k]);
@@ -71,10 +71,11 @@ constexpr double growth_bound(const Scalar* a) {
     return growth_form(dot_form(EDGE, EDGE), dot_form(a, EDGE)).bound();
 }
 
-// The e_i, where their squares matter: e_i = (|i|^2 - |a|^2)/(|i| + |a|), and the denominator is 2 within 2^-49 of itself.
-// The numerator |D|^2 + 2a.D has a majorant below 4.1 |D_i| and so is known within 2^-97 |D_i| (and 2^-154 of the
-// directions). With |e_i| <= 2^-48 and |D_i| < 2.1, e_i^2 is known within 2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 * 2.1 < 2^-142.8;
-// times the determinants, summed in doubles: within 2^-142.5 times the lj lk, whose sum is at most B + C + P.
+// The e_i, where their squares matter: e_i = (|i|^2 - |a|^2)/(|i| + |a|), and the denominator is 2 within 2^-49 of
+// itself. The numerator |D|^2 + 2a.D has a majorant below 4.1 |D_i| and so is known within 2^-97 |D_i| (and 2^-154 of
+// the directions). With |e_i| <= 2^-48 and |D_i| < 2.1, e_i^2 is known within
+//     2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 * 2.1 < 2^-142.8,
+// times the determinants, summed in doubles, within 2^-142.5 times the lj lk, whose sum is at most B + C + P.
 static_assert(4.1 * growth_bound(PLAIN) <= 0x1p9 && 4.1 * growth_bound(PAIRED) <= 0x1p9);
 constexpr double LENGTHS_KNOWN = 0x1p-142;
 
@@ -89,7 +90,8 @@ double length_difference_squared(const Scalar* a, const Pair* edge, const Pair& 
 template <class Scalar>
 Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair* dp, double floor) {
     const Pair bb = dot_form(db, db), cc = dot_form(dc, dc), pp = dot_form(dp, dp);
-    const Pair at_b = determinant_form(a, dc, dp), at_c = determinant_form(a, dp, db), at_p = determinant_form(a, db, dc);
+    const Pair at_b = determinant_form(a, dc, dp), at_c = determinant_form(a, dp, db);
+    const Pair at_p = determinant_form(a, db, dc);
     const Pair value = weighted_form(bb, at_b, cc, at_c, pp, at_p);
     const double sum = bb.h + (cc.h + pp.h), permanent = bb.h * (cc.h + pp.h) + cc.h * pp.h;
     const double bound = BUBBLE_ERROR * U2 * permanent + floor;
@@ -97,7 +99,8 @@ Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair
     if (sign != OPEN) {
         return sign;
     }
-    const double lengths = length_difference_squared(a, db, bb) * at_b.h + length_difference_squared(a, dc, cc) * at_c.h +
+    const double lengths = length_difference_squared(a, db, bb) * at_b.h +
+                           length_difference_squared(a, dc, cc) * at_c.h +
                            length_difference_squared(a, dp, pp) * at_p.h;
     const DoubleDouble rest = two_difference(lengths, value.h);
     return decide(rest.hi + (rest.lo - value.l), bound + LENGTHS_KNOWN * sum);
@@ -106,7 +109,8 @@ Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair
 // lb lc <= 2^-530 may underflow to zero under the root.
 constexpr double TURN_FLOOR = 0x1p-500;
 
-// `directions`: sqrt(3) times the absolute error of the D-vectors' components, `floor` that times itself, or TURN_FLOOR.
+// `directions`: sqrt(3) times the absolute error of the D-vectors' components, `floor` that times itself, or
+// TURN_FLOOR.
 template <class Scalar>
 Sign turn_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, double directions, double floor) {
     const Pair value = determinant_form(a, db, dc);
@@ -116,9 +120,9 @@ Sign turn_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, double direc
 }
 
 // Absolute errors of D-vectors, each component off by h: with l the computed lengths + 4h, the form moves by at most
-// sqrt(3) h (LM + 3 lb lc lp) <= 2.4 h LM, L the sum of the l and M that of their products in pairs; L <= 6 and M is at most
-// 2 (B + C + P) + 100 h^2. For h = 2^-106 that is below 2^-100 (B + C + P), inside the room of LENGTHS, and 2^-300; for
-// h = 2^-157 below 2^-151 (B + C + P), inside that of LENGTHS_KNOWN, and 2^-450.
+// sqrt(3) h (LM + 3 lb lc lp) <= 2.4 h LM, L the sum of the l and M that of their products in pairs; L <= 6 and M is at
+// most 2 (B + C + P) + 100 h^2. For h = 2^-106 that is below 2^-100 (B + C + P), inside the room of LENGTHS, and
+// 2^-300; for h = 2^-157 below 2^-151 (B + C + P), inside that of LENGTHS_KNOWN, and 2^-450.
 constexpr double DIRECTIONS_FLOOR = 0x1p-300, DIRECTIONS_FLOOR_KNOWN = 0x1p-440;
 
 }  // namespace

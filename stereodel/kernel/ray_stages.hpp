@@ -1,14 +1,17 @@
 // The stages of the predicates on directions: doubles, about twice the precision, integers with roots.
 //
-// The test of four directions is the sign of W = |a| det[b c p] - |b| det[a c p] + |c| det[a b p] - |p| det[a b c] (1: p lies
-// in the open bubble of abc). With D_i = i - a and e_i = |i| - |a|, for vectors of any length,
+// The test of four directions is the sign of
+//     W = |a| det[b c p] - |b| det[a c p] + |c| det[a b p] - |p| det[a b c],
+// 1 if p lies in the open bubble of abc. With D_i = i - a and e_i = |i| - |a|, for vectors of any length,
 //     -2|a| W = (|Db|^2 - eb^2) det[a Dc Dp] + (|Dc|^2 - ec^2) det[a Dp Db] + (|Dp|^2 - ep^2) det[a Db Dc].
-// Proof: |i| = |a| + e_i turns W into |a| det[Db Dc Dp] - eb det[a Dc Dp] - ec det[a Dp Db] - ep det[a Db Dc] (expand the
-// determinant with rows (i, |i|) by its last column); |a|^2 det[Db Dc Dp] = (a.Db) det[a Dc Dp] + (a.Dc) det[a Dp Db] +
-// (a.Dp) det[a Db Dc] (Cramer); and 2 a.D_i = |i|^2 - |a|^2 - |D_i|^2 = e_i^2 + 2|a| e_i - |D_i|^2.
-// This is the curvature form of the paper's idea to lift flat regions (row P6 of the ledger): differences first, nothing
-// cancels but what an incircle test cancels. The lengths enter squared: vectors within 2^-49 of length one can be taken
-// as they stand. All others are multiplied by a double near 1/|p| without rounding the products, see `Direction`.
+// Proof. Expanding the determinant with rows (i, |i|) by its last column, |i| = |a| + e_i, gives
+//     W = |a| det[Db Dc Dp] - eb det[a Dc Dp] - ec det[a Dp Db] - ep det[a Db Dc];
+// by Cramer's rule
+//     |a|^2 det[Db Dc Dp] = (a.Db) det[a Dc Dp] + (a.Dc) det[a Dp Db] + (a.Dp) det[a Db Dc];
+// and 2 a.D_i = |i|^2 - |a|^2 - |D_i|^2 = e_i^2 + 2|a| e_i - |D_i|^2.
+// This is the curvature form of the paper's idea to lift flat regions (row P6 of the ledger): differences first,
+// nothing cancels but what an incircle test cancels. The lengths enter squared: vectors within 2^-49 of length one can
+// be taken as they stand. All others are multiplied by a double near 1/|p|, without rounding: see `Direction`.
 //
 // Rounding errors are counted as in error_counts.hpp, underflow as in plane_stages.hpp.
 #pragma once
@@ -24,8 +27,8 @@ namespace stereodel::rays {
 
 using plane::Estimate;
 
-// A multiple of a vector, hi + lo in each component, of length 1 within 2^-49. The factor is a double (and a power of two)
-// and the products are exact, but for underflow: off by less than 2^-1070. So the direction is exact.
+// A multiple of a vector, hi + lo in each component, of length 1 within 2^-49. The factor is a double (and a power of
+// two) and the products are exact, but for underflow: off by less than 2^-1070. So the direction is exact.
 struct Direction {
     double hi[3];
     double lo[3];
@@ -33,21 +36,21 @@ struct Direction {
     explicit Direction(const double* vector);
 };
 
-// Whether |p| is certainly within 2^-49 of 1. The computed square is off by less than 3.1u = 0.78 * 2^-51, the difference
-// by nothing, and ||p|^2 - 1| <= 2^-48 - 2^-98 suffices.
+// Whether |p| is certainly within 2^-49 of 1. The computed square is off by less than 3.1u = 0.78 * 2^-51, the
+// difference by nothing, and ||p|^2 - 1| <= 2^-48 - 2^-98 suffices.
 inline bool is_unit(const double* p) {
-    return std::fabs(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] - 1.0) <= 0x1p-48 - 0x1p-51;
+    return std::fabs(dot_form(p, p) - 1.0) <= 0x1p-48 - 0x1p-51;
 }
 
 // (2^-48)^2 for the neglected e_i^2, and twice that for all that is far smaller.
 constexpr double LENGTHS = 0x1p-95;
 
-// The curvature form without the e_i, from a and rounded differences, and the error's bound `rounding` * (BC + CP + PB) +
-// LENGTHS * (B + C + P) + floor with B = |Db|^2 and so on.
+// The curvature form without the e_i, from a and rounded differences, and the error's bound `rounding` * (BC + CP + PB)
+// + LENGTHS * (B + C + P) + floor with B = |Db|^2 and so on.
 //
-// Its permanent is at most sqrt(2) (1 + 2^-49) lb lc lp (lb + lc + lp), the l being lengths of differences, and so at most
-// ROOT_TWO (BC + CP + PB), as lb^2 lc lp <= B (C + P)/2 and so on. Neglected: e_i^2 <= 2^-96 times |det[a Dj Dk]| <=
-// (1 + 2^-49) lj lk, and the sum of the lj lk is at most B + C + P.
+// Its permanent is at most sqrt(2) (1 + 2^-49) lb lc lp (lb + lc + lp), the l being lengths of differences, and so at
+// most ROOT_TWO (BC + CP + PB), as lb^2 lc lp <= B (C + P)/2 and so on. Neglected: e_i^2 <= 2^-96 times |det[a Dj Dk]|
+// <= (1 + 2^-49) lj lk, and the sum of the lj lk is at most B + C + P.
 inline Estimate curvature_form(const double* a, const double* db, const double* dc, const double* dp, double rounding,
                                double floor) {
     const double bb = dot_form(db, db), cc = dot_form(dc, dc), pp = dot_form(dp, dp);
@@ -87,8 +90,8 @@ inline Estimate bubble_estimate(const double* a, const double* b, const double* 
 Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction& c, const Direction& p);
 
 // det[a b c] = det[a Db Dc] of vectors with lengths between 1/2 and 2, as they stand: the error is below
-// TURN_ROUNDING u lb lc |a|, and compared by its square. What underflow loses, some 2^-1070, is nothing beside the root of
-// FLOOR, what it takes from the bound nothing beside FLOOR.
+// TURN_ROUNDING u lb lc |a|, and compared by its square. What underflow loses, some 2^-1070, is nothing beside the root
+// of FLOOR, what it takes from the bound nothing beside FLOOR.
 constexpr double TURN_ROUNDING = 12;
 static_assert(turn_bound(EXACT, ROUNDED) <= TURN_ROUNDING);
 
