@@ -13,26 +13,28 @@ namespace {
 // points of different columns (rows) lie on two sides of a line; that is all that is asked of it.
 class Grid {
   public:
-    void include(Point2 p) {
-        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-    }
-
-    void include(const Grid& other) {
-        include(other.low_);
-        include(other.high_);
-    }
+    void include(Point2 p) { include(p, p); }
+    void include(const Grid& other) { include(other.low_, other.high_); }  // of no points as well
 
     // Whether the grid tells at least two points apart. Halves, because a difference of doubles may overflow.
     bool fit() {
         const double extent = std::max(high_.x / 2 - low_.x / 2, high_.y / 2 - low_.y / 2);
         scale_ = (cells - 0.5) / extent;
-        return extent > 0 && scale_ < HUGE_VAL;
+        const bool fits = extent > 0 && scale_ < HUGE_VAL;
+        if (!fits) {
+            scale_ = 0;  // one cell
+        }
+        return fits;
     }
 
     std::uint32_t key(Point2 p) const { return curve_key(cell(p.x, low_.x), cell(p.y, low_.y)); }
 
   private:
+    void include(Point2 low, Point2 high) {
+        low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y)};
+        high_ = {std::max(high_.x, high.x), std::max(high_.y, high.y)};
+    }
+
     std::uint32_t cell(double x, double low) const {
         return static_cast<std::uint32_t>(std::min((x / 2 - low / 2) * scale_, cells - 1.0));
     }
