@@ -23,9 +23,9 @@ CLUSTERS = 100
 GOLDEN_ANGLE = np.pi * (3.0 - 5.0**0.5)
 CIRCLE_LATITUDE = 60.0
 
-# Squared radius of the exact circle: each prime is a sum of two squares, so the product has 4·∏(exponent + 1)
-# representations as x² + y², and x, y stay below 2⁴⁸: exact in doubles, 1 572 864 exactly cocircular points at most.
-CIRCLE_PRIMES = (5, 13, 17, 29, 37, 41, 53, 61, 73, 89, 97, 101, 109, 113, 137, 149, 157)
+# Squared radius of the exact circle. Each prime is a sum of two squares, so that the product has 4·∏(exponent + 1)
+# representations as x² + y²: 1 179 648 exactly cocircular points. The product is below 2¹⁰⁵: x and y are exact in doubles.
+CIRCLE_PRIMES = (5, 5, 13, 13, 17, 29, 37, 41, 53, 61, 73, 89, 97, 101, 109, 113, 137, 149, 157)
 
 
 def make(space: str, name: str, n: int, seed: int = 1) -> FloatArray:
@@ -107,7 +107,8 @@ def _gaussian_integers(n: int) -> FloatArray:
         a = next(a for a in range(1, prime) if int((prime - a * a) ** 0.5) ** 2 == prime - a * a)
         b = int((prime - a * a) ** 0.5)
         x, y = points.T
-        points = np.concatenate([np.stack([a * x - s * b * y, a * y + s * b * x], axis=1) for s in (1, -1)])
+        both = [np.stack([a * x - s * b * y, a * y + s * b * x], axis=1) for s in (1, -1)]
+        points = np.unique(np.concatenate(both), axis=0)  # a prime and its repetition give some points twice
     if len(points) < n:
         raise ValueError(f"n is {n}: the exact circle holds {len(points)} points")
     return points.astype(np.float64)
