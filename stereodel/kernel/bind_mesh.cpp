@@ -68,7 +68,7 @@ class BoundMesh {
 
     nb::tuple arrays() {
         auto rows = change(delaunay_.size() > long_copies, [&](Stop stop) {
-            const Mesh& mesh = delaunay_.mesh();
+            Mesh& mesh = delaunay_.mesh();
             std::pair<Buffer<Index>, Buffer<Index>> out(3 * mesh.triangles(), 3 * mesh.triangles());
             mesh.write(out.first.data(), out.second.data(), stop);
             return out;

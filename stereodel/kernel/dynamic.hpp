@@ -49,7 +49,7 @@ class DynamicDelaunay {
     // Whether the points that are left lie on one line (great circle), or are fewer than three: there are no triangles then.
     bool is_flat() const { return flat_; }
 
-    const Mesh& mesh() const {
+    Mesh& mesh() {
         check_usable();
         return mesh_;
     }

@@ -1,6 +1,8 @@
 #include "mesh.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <stdexcept>
 
@@ -34,35 +36,41 @@ Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, st
     }
     facets_.reserve(count + count / 16 + 64);
     facets_.resize(count);
-    copy_rows(simplices, neighbors, count, points, stop);
-    for (std::size_t t = 0; t < count; ++t) {
-        const Facet& facet = facets_[t];
-        // One test for the three: a neighbour that is none has its highest bit set.
-        if ((facet.neighbor[0] | facet.neighbor[1] | facet.neighbor[2]) < 0) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (facets_[t].neighbor[k] < 0) {
-                    add_ghost(static_cast<Index>(t), k);
-                }
+    for (const Index t : copy_rows(simplices, neighbors, count, points, stop)) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            if ((*this)[t].neighbor[k] < 0) {
+                add_ghost(t, k);
             }
         }
     }
-    for (std::size_t ghost = count; ghost < facets_.size(); ++ghost) {
-        link_ghost(static_cast<Index>(ghost));
+    for (Index ghost = static_cast<Index>(count); ghost < slots(); ++ghost) {
+        link_ghost(ghost);
     }
 }
 
-void Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop) {
-    bool valid = true;
+// Returns the triangles without a neighbour somewhere.
+std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,
+                                   Stop stop) {
+    std::vector<Index> border;
+    bool valid = true, sorted = true;
     in_blocks(count, stop, [&](std::size_t t) {
         const Index* c = simplices + 3 * t;
         const Index* n = neighbors + 3 * t;
         valid &= below(c[0], points) & below(c[1], points) & below(c[2], points);
         valid &= below(n[0] + 1, count + 1) & below(n[1] + 1, count + 1) & below(n[2] + 1, count + 1);
-        put(static_cast<Index>(t), {c[0], c[1], c[2]}, {n[0], n[1], n[2]});
+        sorted &= (c[0] < c[1]) & (c[0] < c[2]);
+        facets_[t] = {{c[0], c[1], c[2]}, {n[0], n[1], n[2]}};
+        if ((n[0] | n[1] | n[2]) < 0) {
+            border.push_back(static_cast<Index>(t));
+        }
     });
     if (!valid) {
         throw std::invalid_argument("simplices or neighbors hold numbers out of range");
     }
+    for (std::size_t t = 0; t < count && !sorted; ++t) {
+        put(static_cast<Index>(t), facets_[t].corner, facets_[t].neighbor);
+    }
+    return border;
 }
 
 // The ghost facet beyond an edge of t; its two other neighbours are linked when all ghosts are there.
@@ -87,22 +95,61 @@ void Mesh::link_ghost(Index ghost) {
     at(t).neighbor[1] = ghost;
 }
 
-void Mesh::write(Index* simplices, Index* neighbors, Stop stop) const {
-    Buffer<Index> row(facets_.size());
-    Index count = 0;
-    in_blocks(facets_.size(), stop, [&](std::size_t t) {
-        const bool is_triangle = facets_[t].corner[0] >= 0;
-        row[t] = is_triangle ? count : -1;
-        count += is_triangle;
-    });
-    in_blocks(facets_.size(), stop, [&](std::size_t t) {
-        if (row[t] >= 0) {
-            const Facet& facet = facets_[t];
-            const std::size_t first = 3 * static_cast<std::size_t>(row[t]);
-            for (std::size_t k = 0; k < 3; ++k) {
-                simplices[first + k] = facet.corner[k];
-                neighbors[first + k] = row[static_cast<std::size_t>(facet.neighbor[k])];
-            }
+void Mesh::move(Index from, Index to) {
+    const Facet facet = (*this)[from];
+    at(to) = facet;
+    for (std::size_t k = 0; k < 3; ++k) {
+        set_neighbor(facet.neighbor[k], facet.corner[(k + 1) % 3], facet.corner[(k + 2) % 3], to);
+    }
+    at(from).corner[0] = unused;
+}
+
+std::vector<Index> Mesh::all_ghosts() const {
+    std::vector<Index> ring;
+    if (ghosts_ > 0) {
+        Index t = last_ghost_;
+        do {
+            ring.push_back(t);
+            t = (*this)[t].neighbor[2];
+        } while (t != last_ghost_);
+    }
+    return ring;
+}
+
+// Ghosts go from low numbers to new ones at the end, triangles from there to the low numbers that are not in use.
+void Mesh::tidy() {
+    const Index count = static_cast<Index>(triangles());
+    std::vector<Index> low;
+    std::copy_if(free_.begin(), free_.end(), std::back_inserter(low), [count](Index t) { return t < count; });
+    for (const Index ghost : all_ghosts()) {
+        if (ghost < count) {
+            facets_.push_back({});
+            move(ghost, slots() - 1);
+            low.push_back(ghost);
+            last_ghost_ = slots() - 1;
+        }
+    }
+    std::sort(low.begin(), low.end(), std::greater<>());
+    free_.clear();
+    for (Index t = slots() - 1; t >= count; --t) {
+        if (in_use(t) && !(*this)[t].is_ghost()) {
+            move(t, low.back());
+            low.pop_back();
+        }
+        if (!in_use(t)) {
+            free_.push_back(t);
+        }
+    }
+}
+
+void Mesh::write(Index* simplices, Index* neighbors, Stop stop) {
+    tidy();
+    const Index count = static_cast<Index>(triangles());
+    in_blocks(triangles(), stop, [&](std::size_t t) {
+        const Facet& facet = facets_[t];
+        for (std::size_t k = 0; k < 3; ++k) {
+            simplices[3 * t + k] = facet.corner[k];
+            neighbors[3 * t + k] = facet.neighbor[k] < count ? facet.neighbor[k] : -1;
         }
     });
 }

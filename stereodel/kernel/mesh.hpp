@@ -50,9 +50,9 @@ class Mesh {
     std::size_t triangles() const { return facets_.size() - free_.size() - ghosts_; }
     std::size_t ghosts() const { return ghosts_; }
 
-    // The triangles in the order of their numbers, smallest corner first, without ghosts, and their neighbours, -1 for
-    // none, into arrays of three times `triangles()`.
-    void write(Index* simplices, Index* neighbors, Stop stop) const;
+    // The triangles, smallest corner first, without ghosts, and their neighbours, -1 for none, into arrays of three times
+    // `triangles()`. Facets get other numbers, so that row k is facet k; nearly all keep the number that they have.
+    void write(Index* simplices, Index* neighbors, Stop stop);
 
     // A number for a new facet.
     Index take() {
@@ -77,7 +77,10 @@ class Mesh {
         const std::size_t first = b < a ? (c < b ? 2 : 1) : (c < a ? 2 : 0);
         const std::size_t second = (first + 1) % 3, third = (first + 2) % 3;
         at(t) = {{corner[first], corner[second], corner[third]}, {neighbor[first], neighbor[second], neighbor[third]}};
-        ghosts_ += at(t).is_ghost();
+        if (at(t).is_ghost()) {
+            ++ghosts_;
+            last_ghost_ = t;
+        }
     }
 
     // The neighbour of t across its edge of u and v.
@@ -99,13 +102,17 @@ class Mesh {
     static constexpr Index unused = -2;  // in place of the first corner
 
     Facet& at(Index t) { return facets_[static_cast<std::size_t>(t)]; }
-    void copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop);
+    std::vector<Index> copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop);
     void add_ghost(Index t, std::size_t opposite);
     void link_ghost(Index ghost);
+    std::vector<Index> all_ghosts() const;
+    void move(Index from, Index to);
+    void tidy();
 
     GrowingArray<Facet> facets_;
     std::vector<Index> free_;
     std::size_t ghosts_ = 0;
+    Index last_ghost_ = -1;  // whoever takes ghosts away makes new ones afterwards, so it is always in use
 };
 
 }  // namespace stereodel
