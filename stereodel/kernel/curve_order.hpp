@@ -20,11 +20,11 @@
 
 namespace stereodel {
 
-template <class Chart>
+template <class Chart, class At>
 class CurveOrder {
   public:
-    // `points`: all of them, by number.
-    CurveOrder(const double* points, int workers, Stop stop) : points_(points), workers_(workers), stop_(stop) {}
+    // `at(k)`: point number k.
+    CurveOrder(At at, int workers, Stop stop) : at_(at), workers_(workers), stop_(stop) {}
 
     // Sort items, whose keys are anything, along the curve; equal points by number if they come in that order.
     void sort(Buffer<KeyedPoint>& items) const {
@@ -51,7 +51,7 @@ class CurveOrder {
     static constexpr std::size_t grain = std::size_t{1} << 14;
     static constexpr std::size_t few = 8;  // so many in one cell stay as they are
 
-    const double* at(KeyedPoint item) const { return points_ + Chart::dimension * item.point(); }
+    const double* at(KeyedPoint item) const { return at_(item.point()); }
 
     template <class KeyOf>
     void give_keys(Buffer<KeyedPoint>& items, KeyOf&& key) const {
@@ -96,7 +96,7 @@ class CurveOrder {
         refine(items, spare, size);
     }
 
-    const double* points_;
+    At at_;
     int workers_;
     Stop stop_;
 };
@@ -115,9 +115,9 @@ std::uint64_t scrambled(const double* p) {
     return z ^ (z >> 31);
 }
 
-// The points `numbers`, ascending, in the order of rounds, each along the curve.
+// The points `numbers`, ascending, in rounds. `points`: all of them.
 template <class Chart>
-std::vector<Index> insertion_order(const double* points, const std::vector<Index>& numbers, Stop stop) {
+std::vector<std::vector<Index>> insertion_rounds(const double* points, const std::vector<Index>& numbers) {
     constexpr std::size_t one_round = 4096;  // so few need no others
     std::size_t rounds = 1;
     for (std::size_t size = numbers.size(); size > one_round; size /= 8) {
@@ -134,20 +134,7 @@ std::vector<Index> insertion_order(const double* points, const std::vector<Index
         }
         members[round].push_back(p);
     }
-    const CurveOrder<Chart> curve(points, 1, stop);
-    std::vector<Index> order;
-    order.reserve(numbers.size());
-    for (const std::vector<Index>& round : members) {
-        Buffer<KeyedPoint> items(round.size());
-        for (std::size_t k = 0; k < round.size(); ++k) {
-            items[k] = {0, static_cast<std::uint32_t>(round[k])};
-        }
-        curve.sort(items);
-        for (std::size_t k = 0; k < items.size(); ++k) {
-            order.push_back(static_cast<Index>(items[k].point()));
-        }
-    }
-    return order;
+    return members;
 }
 
 }  // namespace stereodel

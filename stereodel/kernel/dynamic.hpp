@@ -8,9 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "curve_order.hpp"
 #include "insertion.hpp"
-#include "landmarks.hpp"
+#include "itinerary.hpp"
 #include "mesh.hpp"
 #include "removal.hpp"
 
@@ -67,7 +66,7 @@ class DynamicDelaunay {
         }
         points_.append(points, dimension * count);
         scale_ = Surface::common(scale_, Surface::scale_of(points, count));
-        insert_all(insertion_order<Chart>(points_.data(), fresh, stop), stop);
+        insert_all(fresh, stop);
         usable_ = true;
     }
 
@@ -109,39 +108,38 @@ class DynamicDelaunay {
 
     const double* at(Index p) const { return points_.data() + dimension * static_cast<std::size_t>(p); }
 
-    Landmarks<Chart> landmarks() const {
-        return Landmarks<Chart>(static_cast<std::size_t>(mesh_.slots()), [this](Index t) {
-            return mesh_.in_use(t) && !mesh_[t].is_ghost() ? at(mesh_[t].corner[0]) : nullptr;
-        });
-    }
-
-    // A facet in use, for when there is no landmark.
-    Index some_facet() const {
-        Index t = 0;
-        while (!mesh_.in_use(t)) {
-            ++t;
-        }
-        return t;
-    }
-
-    Index near(Index p) const {
-        const Index best = landmarks().nearest(at(p));
-        return best >= 0 ? best : some_facet();
-    }
-
-    void insert_all(const std::vector<Index>& order, Stop stop) {
-        if (order.empty()) {
+    // Calls visit(k, near) for all k below size; near: a facet near the point numbers[k], which becomes one where the next
+    // may be looked for.
+    template <class Visit>
+    void travel(const std::vector<Index>& numbers, Stop stop, Visit&& visit) {
+        if (numbers.empty()) {
             return;
         }
+        const auto point = [&](std::size_t k) { return at(numbers[k]); };
+        const auto point_of = [this](Index t) {
+            return mesh_.in_use(t) && !mesh_[t].is_ghost() ? at(mesh_[t].corner[0]) : nullptr;
+        };
+        Index fallback = 0;
+        while (!mesh_.in_use(fallback)) {
+            ++fallback;
+        }
+        const Itinerary<Chart, decltype(point)> way(numbers.size(), point, static_cast<std::size_t>(mesh_.slots()), point_of,
+                                                    fallback, 1, stop);
+        way.travel(0, way.size(), visit);
+    }
+
+    // Points equal to one before are among the duplicates only: of equal ones the lowest comes first.
+    void insert_all(const std::vector<Index>& fresh, Stop stop) {
         Surface surface(points_.data(), scale_);
         Insertion<Surface> insertion(mesh_, surface, stop);
         const std::size_t old = duplicates_.size();
-        Index facet = near(order.front());
-        for (const Index p : order) {
-            const Index equal = insertion.insert(p, facet);
-            if (equal != nobody) {
-                duplicates_.emplace_back(p, equal);
-            }
+        for (const std::vector<Index>& round : insertion_rounds<Chart>(points_.data(), fresh)) {
+            travel(round, stop, [&](std::size_t k, Index& near) {
+                const Index equal = insertion.insert(round[k], near);
+                if (equal != nobody) {
+                    duplicates_.emplace_back(round[k], equal);
+                }
+            });
         }
         std::sort(duplicates_.begin() + static_cast<std::ptrdiff_t>(old), duplicates_.end());
         tally_ += surface.tally();
@@ -195,28 +193,32 @@ class DynamicDelaunay {
         Surface surface(points_.data(), scale_);
         Buffer<Index> facet_at(size());
         std::fill_n(facet_at.data(), size(), -1);
-        const std::vector<Index> order = insertion_order<Chart>(points_.data(), leaving, stop);
-        find_all(surface, order, facet_at, stop);
+        travel(leaving, stop, [&](std::size_t k, Index& near) {
+            near = surface.locate(mesh_, near, leaving[k], stop).facet;
+            facet_at[static_cast<std::size_t>(leaving[k])] = near;
+        });
         for (const auto& [kept, heir] : heirs) {
             mesh_.rename(facet_at[static_cast<std::size_t>(kept)], kept, heir);
             facet_at[static_cast<std::size_t>(kept)] = -1;
         }
-        Removal<Surface> removal(mesh_, surface, facet_at.data(), stop);
-        for (std::size_t k = order.size(); k-- > 0 && !flat_;) {  // first those that would be inserted last
-            if (facet_at[static_cast<std::size_t>(order[k])] >= 0) {
-                removal.remove(order[k]);
-                flat_ = Surface::has_ghost && mesh_.triangles() == 0;
-            }
-        }
+        remove_all(surface, leaving, facet_at, stop);
         flat_ = flat_ || surface.is_flat(mesh_);
         tally_ += surface.tally();
     }
 
-    void find_all(Surface& surface, const std::vector<Index>& order, Buffer<Index>& facet_at, Stop stop) {
-        Index facet = near(order.front());
-        for (const Index p : order) {
-            facet = surface.locate(mesh_, facet, p, stop).facet;
-            facet_at[static_cast<std::size_t>(p)] = facet;
+    // The order of insertion reversed: where many go, stars stay small.
+    void remove_all(Surface& surface, const std::vector<Index>& leaving, Buffer<Index>& facet_at, Stop stop) {
+        Removal<Surface> removal(mesh_, surface, facet_at.data(), stop);
+        std::vector<std::vector<Index>> rounds = insertion_rounds<Chart>(points_.data(), leaving);
+        for (; !rounds.empty(); rounds.pop_back()) {
+            for (const Index p : rounds.back()) {
+                if (facet_at[static_cast<std::size_t>(p)] >= 0) {
+                    removal.remove(p);
+                    if (Surface::has_ghost && surface.is_flat(mesh_)) {
+                        return;
+                    }
+                }
+            }
         }
     }
 

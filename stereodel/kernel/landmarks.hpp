@@ -1,10 +1,6 @@
-// Triangles spread over a mesh: a walk begins at the one that seems nearest.
-//
-// E. Muecke, I. Saias, B. Zhu, "Fast randomized point location without preprocessing in two- and three-dimensional Delaunay
-// triangulations" (1996): of n triangles about the cube root of n are worth looking at.
+// Triangles spread over a mesh, as places where a walk may begin.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,45 +14,46 @@ namespace stereodel {
 template <class Chart>
 class Landmarks {
   public:
-    // `at(t)`: a point of triangle t, or nullptr if no walk may begin there.
+    Landmarks() = default;
+
+    // About `count` of `triangles`. `at(t)`: a point of triangle t, or nullptr if no walk may begin there.
     template <class At>
-    Landmarks(std::size_t triangles, At&& at) {
-        const std::size_t count = static_cast<std::size_t>(std::cbrt(static_cast<double>(triangles))) + 1;
-        places_.reserve(count);
+    Landmarks(std::size_t count, std::size_t triangles, At&& at) {
+        triangles_.reserve(count);
+        vectors_.reserve(count);
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t t = triangles / count * k + triangles % count * k / count;
             if (const double* const p = at(static_cast<Index>(t))) {
-                places_.push_back({static_cast<Index>(t), {}});
-                Chart::prepare(p, places_.back().vector.data());
+                triangles_.push_back(static_cast<Index>(t));
+                vectors_.emplace_back();
+                Chart::prepare(p, vectors_.back().data());
             }
         }
     }
 
-    std::size_t size() const { return places_.size(); }
+    std::size_t size() const { return triangles_.size(); }
+    Index triangle(std::size_t k) const { return triangles_[k]; }
+    const double* vector(std::size_t k) const { return vectors_[k].data(); }
 
-    // -1 if there is none. Where distances overflow any one will do.
+    // The triangle of the one that seems nearest, -1 without any. Where distances overflow any one will do.
     Index nearest(const double* query) const {
-        std::array<double, Chart::dimension> vector;
-        Chart::prepare(query, vector.data());
-        Index best = places_.empty() ? -1 : places_.front().triangle;
+        std::array<double, Chart::dimension> prepared;
+        Chart::prepare(query, prepared.data());
         double least = std::numeric_limits<double>::infinity();
-        for (const Landmark& landmark : places_) {
-            const double distance = Chart::rough_distance(vector.data(), landmark.vector.data());
+        std::size_t best = 0;
+        for (std::size_t k = 0; k < size(); ++k) {
+            const double distance = Chart::rough_distance(prepared.data(), vector(k));
             if (distance < least) {
                 least = distance;
-                best = landmark.triangle;
+                best = k;
             }
         }
-        return best;
+        return size() == 0 ? -1 : triangle(best);
     }
 
   private:
-    struct Landmark {
-        Index triangle;
-        std::array<double, Chart::dimension> vector;
-    };
-
-    std::vector<Landmark> places_;
+    std::vector<Index> triangles_;
+    std::vector<std::array<double, Chart::dimension>> vectors_;
 };
 
 }  // namespace stereodel

@@ -1,9 +1,8 @@
 #include "location.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "sorted_queries.hpp"
+#include "query_pieces.hpp"
 #include "walk.hpp"
 
 namespace stereodel {
@@ -40,11 +39,11 @@ class Finder {
     Finder(const TriangleArrays& triangles, Stop stop)
         : triangles_(triangles), query_(triangles.points()), lowest_(triangles), stop_(stop) {}
 
-    // The triangle of a query, looked for from `start` on, which becomes the last one on the way.
-    Index find(const double* query, Index& start) {
+    // The triangle of a query, looked for from `near` on, which becomes the last one on the way.
+    Index find(const double* query, Index& near) {
         query_.take(query);
-        const WalkEnd end = walk(triangles_, start, [this](Index u, Index v) { return query_.side(u, v); }, stop_);
-        start = end.triangle;
+        const WalkEnd end = walk(triangles_, near, [this](Index u, Index v) { return query_.side(u, v); }, stop_);
+        near = end.triangle;
         if (end.exit >= 0) {
             return -1;
         }
@@ -73,15 +72,14 @@ class Finder {
 template <class Query>
 void find_simplex(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
                   Stop stop) {
-    const Starts<typename Query::Chart> starts(triangles);
-    if (starts.none()) {
+    const Index start = first_open(triangles);
+    if (start == static_cast<Index>(triangles.count())) {
         std::fill_n(found, count, -1);
         return;
     }
-    for_sorted_queries(starts, queries, count, workers, stop, [&] {
-        return [&triangles, found, finder = Finder<Query>(triangles, stop)](const double* query, std::size_t number,
-                                                                             Index& start) mutable {
-            found[number] = finder.find(query, start);
+    for_queries<typename Query::Chart>(triangles, start, queries, count, workers, stop, [&] {
+        return [found, finder = Finder<Query>(triangles, stop)](std::size_t k, const double* query, Index& near) mutable {
+            found[k] = finder.find(query, near);
         };
     });
 }

@@ -4,7 +4,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "sorted_queries.hpp"
+#include "query_pieces.hpp"
 #include "walk.hpp"
 
 namespace stereodel {
@@ -15,17 +15,17 @@ class NearestFinder {
   public:
     NearestFinder(const TriangleArrays& triangles, Stop stop) : triangles_(triangles), query_(triangles.points()), stop_(stop) {}
 
-    // The nearest point of a query, looked for from the triangle `start` on, which becomes one close to it.
-    Index find(const double* query, Index& start) {
+    // The nearest point of a query, looked for from the triangle `near` on, which becomes one close to it.
+    Index find(const double* query, Index& near) {
         query_.take(query);
-        const WalkEnd end = walk(triangles_, start, [this](Index u, Index v) { return query_.side(u, v); }, stop_);
+        const WalkEnd end = walk(triangles_, near, [this](Index u, Index v) { return query_.side(u, v); }, stop_);
         Near best = nearest_corner(end.triangle);
         Near here;
         do {
             here = best;
             best = nearest_neighbor(here);
         } while (best.point != here.point);
-        start = triangles_.may_enter(here.triangle) ? here.triangle : end.triangle;
+        near = triangles_.may_enter(here.triangle) ? here.triangle : end.triangle;
         return equal_.empty() ? here.point : lowest_equal(here);
     }
 
@@ -128,11 +128,9 @@ void find_nearest(const TriangleArrays& triangles, std::size_t size, const doubl
         scan_all<Query>(triangles, size, queries, count, found, workers, stop);
         return;
     }
-    const Starts<typename Query::Chart> starts(triangles);
-    for_sorted_queries(starts, queries, count, workers, stop, [&] {
-        return [found, finder = NearestFinder<Query>(triangles, stop)](const double* query, std::size_t number,
-                                                                      Index& start) mutable {
-            found[number] = finder.find(query, start);
+    for_queries<typename Query::Chart>(triangles, first_open(triangles), queries, count, workers, stop, [&] {
+        return [found, finder = NearestFinder<Query>(triangles, stop)](std::size_t k, const double* query, Index& near) mutable {
+            found[k] = finder.find(query, near);
         };
     });
 }
