@@ -29,17 +29,17 @@ TriangleArrays to_triangles(const double* points, const RowsIn<Index, 3>& simpli
 
 // One number for each of `count` queries.
 template <class Work>
-nb::object answers(std::size_t count, bool is_long, Work&& work) {
+ValuesOut<Index> answers(std::size_t count, bool is_long, Work&& work) {
     Buffer<Index> found = run_without_lock(is_long, [&](Stop stop) {
         Buffer<Index> buffer(count);
         work(buffer.data(), stop);
         return buffer;
     });
-    return nb::cast(to_rows<1>(std::move(found))).attr("reshape")(-1);
+    return to_values(std::move(found));
 }
 
-nb::object find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, RowsIn<double, 2> queries,
-                      int workers) {
+ValuesOut<Index> find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+                      RowsIn<double, 2> queries, int workers) {
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
@@ -47,8 +47,8 @@ nb::object find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, Rows
     });
 }
 
-nb::object find_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, RowsIn<double, 3> queries,
-                       std::optional<Closing> closing, int workers) {
+ValuesOut<Index> find_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+                       RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
@@ -67,7 +67,7 @@ bool is_long_search(const TriangleArrays& triangles, std::size_t size, std::size
     return count * (triangles.count() == 0 ? size : 1) > long_work;
 }
 
-nb::object nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+ValuesOut<Index> nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
                             RowsIn<double, 2> queries, int workers) {
     check_points(points.shape(0));
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
@@ -77,7 +77,7 @@ nb::object nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices
     });
 }
 
-nb::object nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+ValuesOut<Index> nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
                              RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
     check_points(points.shape(0));
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
@@ -95,7 +95,8 @@ void bind_location(nb::module_& module) {
     module.def("find_simplex_sphere", find_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "closing"_a = nb::none(), "workers"_a = 1,
                "The same for directions; `closing` tells the triangles that hold none (none if not given).");
-    module.def("nearest_plane", nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a, "workers"_a = 1,
+    module.def("nearest_plane", nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
+               "workers"_a = 1,
                "The nearest point of each query, the lowest of several. Without simplices all points are compared.");
     module.def("nearest_sphere", nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");

@@ -18,7 +18,7 @@ using namespace nb::literals;
 
 using Numbers = nb::ndarray<const Index, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
-constexpr std::size_t long_changes = 500;     // points: some milliseconds
+constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
 Pairs to_pairs(const std::optional<RowsIn<Index, 2>>& rows, std::size_t size) {
@@ -48,12 +48,13 @@ class BoundMesh {
         const Pairs added = change(count > long_changes, [&](Stop stop) {
             const std::size_t old = delaunay_.duplicates().size();
             delaunay_.insert(points.data(), count, stop);
-            return Pairs(delaunay_.duplicates().begin() + static_cast<std::ptrdiff_t>(old), delaunay_.duplicates().end());
+            return Pairs(delaunay_.duplicates().begin() + static_cast<std::ptrdiff_t>(old),
+                         delaunay_.duplicates().end());
         });
         return to_rows(added);
     }
 
-    nb::object remove(Numbers indices) {
+    ValuesOut<Index> remove(Numbers indices) {
         const std::size_t count = indices.shape(0);
         Buffer<Index> number = change(count > long_changes || delaunay_.size() > long_copies, [&](Stop stop) {
             for (std::size_t k = 0; k < count; ++k) {
@@ -63,7 +64,7 @@ class BoundMesh {
             }
             return delaunay_.remove(indices.data(), count, stop);
         });
-        return nb::cast(to_rows<1>(std::move(number))).attr("reshape")(-1);
+        return to_values(std::move(number));
     }
 
     nb::tuple arrays() {
@@ -76,8 +77,8 @@ class BoundMesh {
         return nb::make_tuple(to_rows<3>(std::move(rows.first)), to_rows<3>(std::move(rows.second)));
     }
 
-    nb::object duplicates() {
-        return nb::cast(to_rows(change(false, [&](Stop) { return delaunay_.duplicates(); })));
+    RowsOut<Index, 2> duplicates() {
+        return to_rows(change(false, [&](Stop) { return delaunay_.duplicates(); }));
     }
 
     bool is_flat() {
@@ -108,8 +109,8 @@ class BoundMesh {
         }
         Pairs pairs = to_pairs(duplicates, points.shape(0));
         const nb::gil_scoped_release release;
-        return DynamicDelaunay<Surface>(points.data(), points.shape(0), simplices.data(), neighbors.data(), simplices.shape(0),
-                                        std::move(pairs), Stop{});
+        return DynamicDelaunay<Surface>(points.data(), points.shape(0), simplices.data(), neighbors.data(),
+                                        simplices.shape(0), std::move(pairs), Stop{});
     }
 
     // Calls work(stop) without the interpreter's lock, one thread at a time.
@@ -137,7 +138,8 @@ void bind(nb::module_& module, const char* name, const char* doc) {
         .def("remove", &Bound::remove, "indices"_a,
              "Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.")
         .def("arrays", &Bound::arrays, "Simplices, smallest index first, and neighbors, -1 for none, as new arrays.")
-        .def_prop_ro("duplicates", &Bound::duplicates, "All pairs [dropped, kept], by dropped; the lowest index is kept.")
+        .def_prop_ro("duplicates", &Bound::duplicates,
+                     "All pairs [dropped, kept], by dropped; the lowest index is kept.")
         .def_prop_ro("is_flat", &Bound::is_flat, "Whether no triangles are left: then points can only be removed.")
         .def_prop_ro("size", &Bound::size, "Number of points, duplicates included.")
         .def_prop_ro("inconclusive", &Bound::inconclusive, "Tests that each stage left open, in changes so far.");
@@ -146,8 +148,10 @@ void bind(nb::module_& module, const char* name, const char* doc) {
 }  // namespace
 
 void bind_mesh(nb::module_& module) {
-    bind<PlaneSurface>(module, "PlaneMesh", "Delaunay triangulation of the plane that points can be added to and taken from.");
-    bind<SphereSurface>(module, "SphereMesh", "Delaunay triangulation of directions that points can be added to and taken from.");
+    bind<PlaneSurface>(module, "PlaneMesh",
+                       "Delaunay triangulation of the plane that points can be added to and taken from.");
+    bind<SphereSurface>(module, "SphereMesh",
+                        "Delaunay triangulation of directions that points can be added to and taken from.");
 }
 
 }  // namespace stereodel

@@ -59,8 +59,8 @@ class PlaneChart {
     }
 };
 
-// A face of the cube around the sphere, seen from the centre. A direction's coordinates are quotients rounded once, so equal
-// directions of different length have the same ones.
+// A face of the cube around the sphere, seen from the centre. A direction's coordinates are quotients rounded once, so
+// equal directions of different length have the same ones.
 class SphereChart {
   public:
     static constexpr std::size_t dimension = 3;

@@ -1,9 +1,10 @@
-// Points in the order of a space-filling curve, so that a walk from one to the next is short; clusters have curves of their
-// own, however tight they are.
+// Points in the order of a space-filling curve, so that a walk from one to the next is short; clusters have curves of
+// their own, however tight they are.
 //
-// For insertion in rounds: N. Amenta, S. Choi, G. Rote, "Incremental constructions con BRIO", Symposium on Computational
-// Geometry (2003). Each point is in the last round with probability 7/8, otherwise in the one before with 7/8, and so on.
-// What is drawn depends on the point alone: of equal points the one of lowest number always comes first.
+// For insertion in rounds: N. Amenta, S. Choi, G. Rote, "Incremental constructions con BRIO", Symposium on
+// Computational Geometry (2003). Each point is in the last round with probability 7/8, otherwise in the one before with
+// 7/8, and so on. What is drawn depends on the point alone: of equal points the one of lowest number always comes
+// first.
 #pragma once
 
 #include <algorithm>
@@ -71,7 +72,8 @@ class CurveOrder {
         return grid.fit();
     }
 
-    // Runs of equal keys get a grid of their own. Each level has cells 2^16 times smaller, so few levels exhaust doubles.
+    // Runs of equal keys get a grid of their own. Each level has cells 2^16 times smaller, so few levels exhaust
+    // doubles.
     void refine(KeyedPoint* items, KeyedPoint* spare, std::size_t size) const {
         for (std::size_t begin = 0, end = 0; begin < size; begin = end) {
             for (end = begin + 1; end < size && items[end].key() == items[begin].key(); ++end) {
@@ -101,8 +103,8 @@ class CurveOrder {
     Stop stop_;
 };
 
-// A number that depends on a point alone, as good as random (the finaliser of G. Steele, D. Lea, C. Flood, "Fast splittable
-// pseudorandom number generators", 2014).
+// A number that depends on a point alone, as good as random (the finaliser of G. Steele, D. Lea, C. Flood, "Fast
+// splittable pseudorandom number generators", 2014).
 template <class Chart>
 std::uint64_t scrambled(const double* p) {
     const Chart chart(p);

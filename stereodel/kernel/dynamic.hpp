@@ -1,4 +1,5 @@
-// A Delaunay triangulation of points that come and go: always the one that a fresh start from the present points would give.
+// A Delaunay triangulation of points that come and go: always the one that a fresh start from the present points would
+// give.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +18,8 @@ namespace stereodel {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
 
-// `Surface`: PlaneSurface or SphereSurface. Points, also those that repeat another one, are numbered from 0 on; duplicates
-// are pairs dropped, kept, in the order of the dropped.
+// `Surface`: PlaneSurface or SphereSurface. Points, also those that repeat another one, are numbered from 0 on;
+// duplicates are pairs dropped, kept, in the order of the dropped.
 //
 // After an exception out of `insert` or `remove` the object refuses everything.
 template <class Surface>
@@ -27,8 +28,8 @@ class DynamicDelaunay {
     using Chart = typename Surface::Chart;
     static constexpr std::size_t dimension = Chart::dimension;
 
-    DynamicDelaunay(const double* points, std::size_t size, const Index* simplices, const Index* neighbors, std::size_t triangles,
-                    Pairs duplicates, Stop stop)
+    DynamicDelaunay(const double* points, std::size_t size, const Index* simplices, const Index* neighbors,
+                    std::size_t triangles, Pairs duplicates, Stop stop)
         : mesh_(simplices, neighbors, triangles, size, stop),
           duplicates_(std::move(duplicates)),
           scale_(Surface::scale_of(points, size)) {
@@ -45,7 +46,8 @@ class DynamicDelaunay {
     const Pairs& duplicates() const { return duplicates_; }
     const Tally& tally() const { return tally_; }
 
-    // Whether the points that are left lie on one line (great circle), or are fewer than three: there are no triangles then.
+    // Whether the points that are left lie on one line (great circle), or are fewer than three: there are no triangles
+    // then.
     bool is_flat() const { return flat_; }
 
     Mesh& mesh() {
@@ -70,8 +72,9 @@ class DynamicDelaunay {
         usable_ = true;
     }
 
-    // Take points out and number the others anew, in the same order: `number[old]`, -1 for those removed. If the kept one of
-    // equal points goes, the lowest remaining one takes its place. `indices` below size(), in any order, also repeated.
+    // Take points out and number the others anew, in the same order: `number[old]`, -1 for those removed. If the kept
+    // one of equal points goes, the lowest remaining one takes its place. `indices` below size(), in any order, also
+    // repeated.
     Buffer<Index> remove(const Index* indices, std::size_t count, Stop stop) {
         check_usable();
         usable_ = false;
@@ -108,8 +111,8 @@ class DynamicDelaunay {
 
     const double* at(Index p) const { return points_.data() + dimension * static_cast<std::size_t>(p); }
 
-    // Calls visit(k, near) for all k below size; near: a facet near the point numbers[k], which becomes one where the next
-    // may be looked for.
+    // Calls visit(k, near) for all k below size; near: a facet near the point numbers[k], which becomes one where the
+    // next may be looked for.
     template <class Visit>
     void travel(const std::vector<Index>& numbers, Stop stop, Visit&& visit) {
         if (numbers.empty()) {
@@ -123,8 +126,8 @@ class DynamicDelaunay {
         while (!mesh_.in_use(fallback)) {
             ++fallback;
         }
-        const Itinerary<Chart, decltype(point)> way(numbers.size(), point, static_cast<std::size_t>(mesh_.slots()), point_of,
-                                                    fallback, 1, stop);
+        const Itinerary<Chart, decltype(point)> way(numbers.size(), point, static_cast<std::size_t>(mesh_.slots()),
+                                                    point_of, fallback, 1, stop);
         way.travel(0, way.size(), visit);
     }
 
@@ -145,7 +148,8 @@ class DynamicDelaunay {
         tally_ += surface.tally();
     }
 
-    // Duplicates as they will be without the removed points, old numbers; returns which kept ones are followed by which.
+    // Duplicates as they will be without the removed points, old numbers; returns which kept ones are followed by
+    // which.
     Pairs leave_heirs(const Buffer<Index>& number) {
         const auto stays = [&](Index p) { return number[static_cast<std::size_t>(p)] != removed_; };
         Pairs heirs, rest;
@@ -155,7 +159,8 @@ class DynamicDelaunay {
             }
         }
         std::sort(heirs.begin(), heirs.end());
-        heirs.erase(std::unique(heirs.begin(), heirs.end(), [](auto a, auto b) { return a.first == b.first; }), heirs.end());
+        heirs.erase(std::unique(heirs.begin(), heirs.end(), [](auto a, auto b) { return a.first == b.first; }),
+                    heirs.end());
         for (const auto& [dropped, kept] : duplicates_) {
             if (stays(dropped)) {
                 const Index heir = stays(kept) ? kept : heir_of(heirs, kept);
@@ -228,7 +233,8 @@ class DynamicDelaunay {
         double* const coordinates = points_.data();
         for (std::size_t p = 0; p < number.size(); ++p) {
             if (number[p] != removed_) {
-                std::copy_n(coordinates + dimension * p, dimension, coordinates + dimension * static_cast<std::size_t>(count));
+                std::copy_n(coordinates + dimension * p, dimension,
+                            coordinates + dimension * static_cast<std::size_t>(count));
                 number[p] = count++;
             }
         }

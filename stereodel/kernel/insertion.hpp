@@ -1,4 +1,5 @@
-// One point at a time: find a facet that it sees, the facets that it sees, their horizon; join the horizon to the point.
+// One point at a time: find a facet that it sees, the facets that it sees, their horizon; join the horizon to the
+// point.
 //
 // The paper's pseudo-code, with the projection pole as a ghost vertex in the plane.
 #pragma once
@@ -34,8 +35,8 @@ class Insertion {
         Index u, v, across;
     };
 
-    // Take away what p sees, by depth-first search from one such facet; the horizon comes as one counterclockwise cycle. No
-    // facet is reached twice: a second way to one would close a ring around a vertex and hide it.
+    // Take away what p sees, by depth-first search from one such facet; the horizon comes as one counterclockwise
+    // cycle. No facet is reached twice: a second way to one would close a ring around a vertex and hide it.
     void find_horizon(Index seen, Index p) {
         horizon_.clear();
         front_.clear();

@@ -1,9 +1,10 @@
 // A way through a mesh that visits many queries with short walks: along a curve, past landmarks.
 //
-// E. Muecke, I. Saias, B. Zhu, "Fast randomized point location without preprocessing in two- and three-dimensional Delaunay
-// triangulations" (1996): for one query about n^(1/3) of n triangles are worth looking at; for q queries q^(2/3) n^(1/3) by the
-// same calculation. They are sorted along the curve together with the queries; each walk begins at the landmark before or
-// after it or where the last walk ended, whichever seems nearest. Many queries are each other's landmarks.
+// E. Muecke, I. Saias, B. Zhu, "Fast randomized point location without preprocessing in two- and three-dimensional
+// Delaunay triangulations" (1996): for one query about n^(1/3) of n triangles are worth looking at; for q queries
+// q^(2/3) n^(1/3) by the same calculation. They are sorted along the curve together with the queries; each walk begins
+// at the landmark before or after it or where the last walk ended, whichever seems nearest. Many queries are each
+// other's landmarks.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +21,11 @@ namespace stereodel {
 template <class Chart, class At>
 class Itinerary {
   public:
-    // `point_of(t)`: a point of triangle t, or nullptr if no walk may begin there; `fallback`: a triangle where one may.
+    // `point_of(t)`: a point of triangle t, or nullptr if no walk may begin there; `fallback`: a triangle where one
+    // may.
     template <class PointOf>
-    Itinerary(std::size_t queries, At at, std::size_t triangles, PointOf&& point_of, Index fallback, int workers, Stop stop)
+    Itinerary(std::size_t queries, At at, std::size_t triangles, PointOf&& point_of, Index fallback, int workers,
+              Stop stop)
         : at_(at), queries_(queries), fallback_(fallback) {
         const double n = static_cast<double>(triangles), q = static_cast<double>(queries);
         sorted_landmarks_ = queries > few && queries < triangles / 16;
@@ -33,7 +36,9 @@ class Itinerary {
             items_[k] = {0, static_cast<std::uint32_t>(k)};
         }
         if (queries > few) {
-            const auto any = [this](std::uint32_t k) { return k < queries_ ? at_(k) : landmarks_.vector(k - queries_); };
+            const auto any = [this](std::uint32_t k) {
+                return k < queries_ ? at_(k) : landmarks_.vector(k - queries_);
+            };
             CurveOrder<Chart, decltype(any)>(any, workers, stop).sort(items_);
         }
     }

@@ -78,21 +78,20 @@ void find_simplex(const TriangleArrays& triangles, const double* queries, std::s
         return;
     }
     for_queries<typename Query::Chart>(triangles, start, queries, count, workers, stop, [&] {
-        return [found, finder = Finder<Query>(triangles, stop)](std::size_t k, const double* query, Index& near) mutable {
-            found[k] = finder.find(query, near);
-        };
+        return [found, finder = Finder<Query>(triangles, stop)](
+                   std::size_t k, const double* query, Index& near) mutable { found[k] = finder.find(query, near); };
     });
 }
 
 }  // namespace
 
-void find_simplex_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
-                        Stop stop) {
+void find_simplex_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
+                        int workers, Stop stop) {
     find_simplex<PlaneQuery>(triangles, queries, count, found, workers, stop);
 }
 
-void find_simplex_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
-                         Stop stop) {
+void find_simplex_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
+                         int workers, Stop stop) {
     find_simplex<SphereQuery>(triangles, queries, count, found, workers, stop);
 }
 

@@ -49,8 +49,8 @@ Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, st
 }
 
 // Returns the triangles without a neighbour somewhere.
-std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,
-                                   Stop stop) {
+std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbors, std::size_t count,
+                                   std::size_t points, Stop stop) {
     std::vector<Index> border;
     bool valid = true, sorted = true;
     in_blocks(count, stop, [&](std::size_t t) {
@@ -82,8 +82,8 @@ void Mesh::add_ghost(Index t, std::size_t opposite) {
     at(t).neighbor[opposite] = ghost;
 }
 
-// Its facet across v GHOST lies beyond the hull edge out of v, found by turning around v. Over all ghosts this visits no
-// facet more than three times.
+// Its facet across v GHOST lies beyond the hull edge out of v, found by turning around v. Over all ghosts this visits
+// no facet more than three times.
 void Mesh::link_ghost(Index ghost) {
     const Index v = (*this)[ghost].corner[1];
     Index t = (*this)[ghost].neighbor[0];

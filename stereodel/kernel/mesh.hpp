@@ -1,7 +1,8 @@
-// A closed surface of triangles that can be taken apart and put together: integers alone, nothing here knows a coordinate.
+// A closed surface of triangles that can be taken apart and put together: integers alone, nothing here knows a
+// coordinate.
 //
-// The plane's triangles are closed by a ghost vertex, the projection pole: beyond each edge u -> v of their hull lies the
-// ghost facet v u GHOST.
+// The plane's triangles are closed by a ghost vertex, the projection pole: beyond each edge u -> v of their hull lies
+// the ghost facet v u GHOST.
 #pragma once
 
 #include <array>
@@ -16,7 +17,8 @@ namespace stereodel {
 
 constexpr Index GHOST = -1;
 
-// Corners counterclockwise seen from outside, the smallest first, so that a ghost stands there; neighbours opposite each.
+// Corners counterclockwise seen from outside, the smallest first, so that a ghost stands there; neighbours opposite
+// each.
 struct Facet {
     std::array<Index, 3> corner, neighbor;
 
@@ -26,8 +28,8 @@ struct Facet {
     // Place of a vertex.
     std::size_t place(Index vertex) const { return corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2; }
 
-    // Place of the corner that is neither u nor v. Two facets that share all their corners are neighbours thrice, so the
-    // place of a neighbour cannot be found by its number.
+    // Place of the corner that is neither u nor v. Two facets that share all their corners are neighbours thrice, so
+    // the place of a neighbour cannot be found by its number.
     std::size_t opposite(Index u, Index v) const {
         return corner[0] != u && corner[0] != v ? 0 : corner[1] != u && corner[1] != v ? 1 : 2;
     }
@@ -50,8 +52,9 @@ class Mesh {
     std::size_t triangles() const { return facets_.size() - free_.size() - ghosts_; }
     std::size_t ghosts() const { return ghosts_; }
 
-    // The triangles, smallest corner first, without ghosts, and their neighbours, -1 for none, into arrays of three times
-    // `triangles()`. Facets get other numbers, so that row k is facet k; nearly all keep the number that they have.
+    // The triangles, smallest corner first, without ghosts, and their neighbours, -1 for none, into arrays of three
+    // times `triangles()`. Facets get other numbers, so that row k is facet k; nearly all keep the number that they
+    // have.
     void write(Index* simplices, Index* neighbors, Stop stop);
 
     // A number for a new facet.
@@ -102,7 +105,8 @@ class Mesh {
     static constexpr Index unused = -2;  // in place of the first corner
 
     Facet& at(Index t) { return facets_[static_cast<std::size_t>(t)]; }
-    std::vector<Index> copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop);
+    std::vector<Index> copy_rows(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,
+                                 Stop stop);
     void add_ghost(Index t, std::size_t opposite);
     void link_ghost(Index ghost);
     std::vector<Index> all_ghosts() const;

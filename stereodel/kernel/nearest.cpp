@@ -13,7 +13,8 @@ namespace {
 template <class Query>
 class NearestFinder {
   public:
-    NearestFinder(const TriangleArrays& triangles, Stop stop) : triangles_(triangles), query_(triangles.points()), stop_(stop) {}
+    NearestFinder(const TriangleArrays& triangles, Stop stop)
+        : triangles_(triangles), query_(triangles.points()), stop_(stop) {}
 
     // The nearest point of a query, looked for from the triangle `near` on, which becomes one close to it.
     Index find(const double* query, Index& near) {
@@ -63,7 +64,8 @@ class NearestFinder {
         });
     }
 
-    // The nearest of a point and its neighbours; those equally near as the point itself, if none is nearer, are in `equal_`.
+    // The nearest of a point and its neighbours; those equally near as the point itself, if none is nearer, are in
+    // `equal_`.
     Near nearest_neighbor(Near here) {
         Near best = here;
         equal_.clear();
@@ -122,28 +124,27 @@ void scan_all(const TriangleArrays& triangles, std::size_t size, const double* q
 }
 
 template <class Query>
-void find_nearest(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
-                  int workers, Stop stop) {
+void find_nearest(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count,
+                  Index* found, int workers, Stop stop) {
     if (triangles.count() == 0) {
         scan_all<Query>(triangles, size, queries, count, found, workers, stop);
         return;
     }
     for_queries<typename Query::Chart>(triangles, first_open(triangles), queries, count, workers, stop, [&] {
-        return [found, finder = NearestFinder<Query>(triangles, stop)](std::size_t k, const double* query, Index& near) mutable {
-            found[k] = finder.find(query, near);
-        };
+        return [found, finder = NearestFinder<Query>(triangles, stop)](
+                   std::size_t k, const double* query, Index& near) mutable { found[k] = finder.find(query, near); };
     });
 }
 
 }  // namespace
 
-void nearest_plane(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
-                   int workers, Stop stop) {
+void nearest_plane(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count,
+                   Index* found, int workers, Stop stop) {
     find_nearest<PlaneQuery>(triangles, size, queries, count, found, workers, stop);
 }
 
-void nearest_sphere(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
-                    int workers, Stop stop) {
+void nearest_sphere(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count,
+                    Index* found, int workers, Stop stop) {
     find_nearest<SphereQuery>(triangles, size, queries, count, found, workers, stop);
 }
 

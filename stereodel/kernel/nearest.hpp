@@ -1,8 +1,8 @@
 // Which point is nearest to a query: exact, for many queries at once, on plain arrays that nobody changes meanwhile.
 //
 // From the triangle of a query greedily along Delaunay edges: a point whose Voronoi cell does not hold the query has a
-// neighbour that is nearer. Points equally near lie on an empty circle around the query; Delaunay edges join each to the
-// next around it.
+// neighbour that is nearer. Points equally near lie on an empty circle around the query; Delaunay edges join each to
+// the next around it.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace stereodel {
 
-// For each of `count` queries the nearest of `size` points (at least one), the lowest one of several; on the sphere that of
-// the least angle. Without triangles all points are compared. The result does not depend on `workers`. Throws
+// For each of `count` queries the nearest of `size` points (at least one), the lowest one of several; on the sphere
+// that of the least angle. Without triangles all points are compared. The result does not depend on `workers`. Throws
 // std::bad_alloc, Cancelled.
-void nearest_plane(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
-                   int workers, Stop stop);
-void nearest_sphere(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
-                    int workers, Stop stop);
+void nearest_plane(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count,
+                   Index* found, int workers, Stop stop);
+void nearest_sphere(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count,
+                    Index* found, int workers, Stop stop);
 
 }  // namespace stereodel

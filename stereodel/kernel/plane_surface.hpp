@@ -32,9 +32,9 @@ class PlaneSurface {
         return facet.is_ghost() ? sees_beyond(c[1], c[2], p) : points_.in_circle(c[0], c[1], c[2], p);
     }
 
-    // Four different points in any order: the sign of incircle, after displacement. Four on a line, which heights do not
-    // separate, take second, smaller displacements along x, then along y; they occur between facets that are made and
-    // taken away again while a hole is filled.
+    // Four different points in any order: the sign of incircle, after displacement. Four on a line, which heights do
+    // not separate, take second, smaller displacements along x, then along y; they occur between facets that are made
+    // and taken away again while a hole is filled.
     bool in_bubble(Index a, Index b, Index c, Index p) {
         const int sign = points_.incircle(a, b, c, p);
         if (sign != 0) {
@@ -82,11 +82,12 @@ class PlaneSurface {
         return before(first, middle) == before(middle, last);
     }
 
-    // in_bubble for four different points of a line. The first of them in lexicographic order, in row i of the determinant
-    // with rows (x, y, x^2 + y^2, 1), moves along x; if the line is parallel to it, along y. Its cofactor is then (-1)^i
-    // det[y h 1] or -(-1)^i det[x h 1] of the others, h their heights. With t a coordinate along the line that grows with the
-    // lexicographic order, h is quadratic in t with a positive leading coefficient, so det[t h 1] has the sign of the
-    // permutation that the others are in; y grows with t or falls, and x grows where y does not change.
+    // in_bubble for four different points of a line. The first of them in lexicographic order, in row i of the
+    // determinant with rows (x, y, x^2 + y^2, 1), moves along x; if the line is parallel to it, along y. Its cofactor
+    // is then (-1)^i det[y h 1] or -(-1)^i det[x h 1] of the others, h their heights. With t a coordinate along the
+    // line that grows with the lexicographic order, h is quadratic in t with a positive leading coefficient, so det[t h
+    // 1] has the sign of the permutation that the others are in; y grows with t or falls, and x grows where y does not
+    // change.
     static int line_tie(const double* const* four) {
         const double* rest[4];
         std::copy(four, four + 4, rest);

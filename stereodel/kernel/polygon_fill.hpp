@@ -1,13 +1,13 @@
 // Triangles that fill a hole in a convex hull: the facets of the hull of the hole's border that a removed vertex saw.
 //
-// L. P. Chew, "Building Voronoi diagrams for convex polygons in linear expected time" (1990), for holes as in K. Buchin,
-// O. Devillers, W. Mulzer, O. Schrijvers, J. Shewchuk, "Vertex deletion for 3D Delaunay triangulations" (2013): take the
-// vertices out of the cycle in random order down to three, put them back in reverse order. One that comes back lies
-// beyond the edge between its two neighbours at that time, so what it sees is found there without a search, and expected
-// to be of constant size. No step asks for orientations: on a closed hull a facet is what no point sees.
+// L. P. Chew, "Building Voronoi diagrams for convex polygons in linear expected time" (1990), for holes as in K.
+// Buchin, O. Devillers, W. Mulzer, O. Schrijvers, J. Shewchuk, "Vertex deletion for 3D Delaunay triangulations" (2013):
+// take the vertices out of the cycle in random order down to three, put them back in reverse order. One that comes back
+// lies beyond the edge between its two neighbours at that time, so what it sees is found there without a search, and
+// expected to be of constant size. No step asks for orientations: on a closed hull a facet is what no point sees.
 //
-// Seen from the removed vertex, the border and every part of it is a convex polygon; the facets of the far side of its hull
-// are a triangulation of this polygon. So at every time the triangles here are those of one polygon.
+// Seen from the removed vertex, the border and every part of it is a convex polygon; the facets of the far side of its
+// hull are a triangulation of this polygon. So at every time the triangles here are those of one polygon.
 #pragma once
 
 #include <array>
@@ -105,8 +105,8 @@ class PolygonFill {
         at_edge_[at(left)] = last;
     }
 
-    // Take away the triangle across an edge; go on at its two other edges, that at u first, so that the border of what is
-    // taken away comes in the order of a cycle.
+    // Take away the triangle across an edge; go on at its two other edges, that at u first, so that the border of what
+    // is taken away comes in the order of a cycle.
     void cross(Front edge, const Triangle& other) {
         const std::size_t k = opposite(other, edge.v, edge.u);
         const Index w = other.corner[k];

@@ -15,7 +15,8 @@ namespace stereodel {
 // Neighbours opposite each corner, -1 for none. `closing`: triangles that no query lies in; null if there is none.
 class TriangleArrays {
   public:
-    TriangleArrays(const double* points, const Index* corners, const Index* neighbors, const bool* closing, std::size_t count)
+    TriangleArrays(const double* points, const Index* corners, const Index* neighbors, const bool* closing,
+                   std::size_t count)
         : points_(points), corners_(corners), neighbors_(neighbors), closing_(closing), count_(count) {}
 
     const double* points() const { return points_; }
@@ -123,8 +124,8 @@ class SphereQuery {
         return same;
     }
 
-    // By the squared chords A, B to the query's unit vector. For a unit query (lengths within 2^-49 of 1) the angles compare
-    // as A - B does if that exceeds 2^-47 (A + B) + 2^-94, see `rays::compare_angles_filter`. Otherwise its
+    // By the squared chords A, B to the query's unit vector. For a unit query (lengths within 2^-49 of 1) the angles
+    // compare as A - B does if that exceeds 2^-47 (A + B) + 2^-94, see `rays::compare_angles_filter`. Otherwise its
     // direction is off by d < 2^-51 (two divisions of each component round), which moves A - B by at most 2d|a - b| <=
     // 2d sqrt(2(A + B)) < 2^-49 sqrt(A + B).
     Sign compare_chords(const double* a, const double* b) const {

@@ -18,11 +18,11 @@ inline Index first_open(const TriangleArrays& triangles) {
     return t;
 }
 
-// Calls answer(k, query, near) for all queries; a walk may begin at triangle `near`, which becomes the one where the next may
-// begin. `begin_piece()` returns `answer` for the use of one thread. `start` may be entered.
+// Calls answer(k, query, near) for all queries; a walk may begin at triangle `near`, which becomes the one where the
+// next may begin. `begin_piece()` returns `answer` for the use of one thread. `start` may be entered.
 template <class Chart, class BeginPiece>
-void for_queries(const TriangleArrays& triangles, Index start, const double* queries, std::size_t count, int workers, Stop stop,
-                 BeginPiece&& begin_piece) {
+void for_queries(const TriangleArrays& triangles, Index start, const double* queries, std::size_t count, int workers,
+                 Stop stop, BeginPiece&& begin_piece) {
     constexpr std::size_t grain = std::size_t{1} << 12;
     const auto at = [queries](std::size_t k) { return queries + Chart::dimension * k; };
     const auto point_of = [&](Index t) {

@@ -1,8 +1,8 @@
 // One vertex at a time: take away its star, fill the hole with the facets that it saw.
 //
-// In the plane, where the ghost is in the link of a vertex of the hull, the hole ends at a new piece of the hull: the part of
-// the convex hull of its other border that can be seen from the vertex. Between this piece and the border lie pockets, each
-// a hole of its own without the ghost.
+// In the plane, where the ghost is in the link of a vertex of the hull, the hole ends at a new piece of the hull: the
+// part of the convex hull of its other border that can be seen from the vertex. Between this piece and the border lie
+// pockets, each a hole of its own without the ghost.
 #pragma once
 
 #include <algorithm>
@@ -39,16 +39,16 @@ class Removal {
     }
 
   private:
-    // Corners by place in the link; neighbours by place in the patch, or ~k: what lies across the link's edge from place k
-    // to the next one.
+    // Corners by place in the link; neighbours by place in the patch, or ~k: what lies across the link's edge from
+    // place k to the next one.
     struct Piece {
         std::array<Index, 3> corner, neighbor;
     };
 
     static std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-    // Then `link_` is its border, counterclockwise, the ghost first if there, and `across_[k]` what lies beyond its edge from
-    // place k to the next one.
+    // Then `link_` is its border, counterclockwise, the ghost first if there, and `across_[k]` what lies beyond its
+    // edge from place k to the next one.
     void take_away_star(Index vertex) {
         star_.clear();
         Index t = facet_at_[vertex];
@@ -71,31 +71,36 @@ class Removal {
         }
     }
 
-    // Fill the hole whose border are the places first to last of the link and the edge back, across which lies `beyond`.
-    // Returns the piece at this edge.
+    // Fill the hole whose border are the places first to last of the link and the edge back, across which lies
+    // `beyond`. Returns the piece at this edge.
     Index fill_hole(std::size_t first, std::size_t last, Index beyond) {
-        border_.assign(link_.begin() + static_cast<std::ptrdiff_t>(first), link_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
-        fill_.run(border_, [this](Index a, Index b, Index c, Index p) { return surface_.in_bubble(a, b, c, p); }, stop_);
+        border_.assign(link_.begin() + static_cast<std::ptrdiff_t>(first),
+                       link_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+        fill_.run(
+            border_, [this](Index a, Index b, Index c, Index p) { return surface_.in_bubble(a, b, c, p); }, stop_);
         const Index base = static_cast<Index>(patch_.size()), shift = static_cast<Index>(first);
         for (const PolygonFill::Triangle& triangle : fill_.triangles()) {
             Piece piece;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index from = triangle.corner[(k + 1) % 3], other = triangle.neighbor[k];
                 piece.corner[k] = shift + triangle.corner[k];
-                piece.neighbor[k] = other != PolygonFill::border ? base + other : at(from) == last - first ? beyond : ~(shift + from);
+                piece.neighbor[k] = other != PolygonFill::border ? base + other
+                                    : at(from) == last - first   ? beyond
+                                                                 : ~(shift + from);
             }
             patch_.push_back(piece);
         }
         return base + fill_.triangle_at(last - first);
     }
 
-    // The places 1, 2, ... of the link stand counterclockwise around the vertex, within half a turn. What it sees of their
-    // hull is found by the scan of R. Graham (1972): seen from the vertex this is the lower hull of points in the order of
-    // their abscissae. Points on a side of the hull are vertices of it.
+    // The places 1, 2, ... of the link stand counterclockwise around the vertex, within half a turn. What it sees of
+    // their hull is found by the scan of R. Graham (1972): seen from the vertex this is the lower hull of points in the
+    // order of their abscissae. Points on a side of the hull are vertices of it.
     void fill_to_hull() {
         chain_.clear();
         for (std::size_t k = 1; k < link_.size(); ++k) {
-            while (chain_.size() >= 2 && surface_.orient(link_[chain_[chain_.size() - 2]], link_[chain_.back()], link_[k]) > 0) {
+            while (chain_.size() >= 2 &&
+                   surface_.orient(link_[chain_[chain_.size() - 2]], link_[chain_.back()], link_[k]) > 0) {
                 chain_.pop_back();
             }
             chain_.push_back(k);

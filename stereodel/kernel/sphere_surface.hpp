@@ -29,10 +29,11 @@ class SphereSurface {
 
     // From a facet near p.
     //
-    // The facets that are not closing (det[a b c] > 0) cover the sphere, or a convex part of it with all vertices. Within it
-    // the walk finds the one whose cone holds p, and p sees it. Otherwise the walk leaves across an edge of the border with
-    // p strictly beyond the plane of edge and centre. This plane supports the hull between the planes of the two facets at
-    // the edge: its outward normal is a combination of theirs with coefficients >= 0. So p sees one of the two.
+    // The facets that are not closing (det[a b c] > 0) cover the sphere, or a convex part of it with all vertices.
+    // Within it the walk finds the one whose cone holds p, and p sees it. Otherwise the walk leaves across an edge of
+    // the border with p strictly beyond the plane of edge and centre. This plane supports the hull between the planes
+    // of the two facets at the edge: its outward normal is a combination of theirs with coefficients >= 0. So p sees
+    // one of the two.
     Location locate(const Mesh& mesh, Index near, Index p, Stop stop) {
         const WalkedMesh walked{mesh, [this](const Facet& facet) { return is_open(facet); }};
         const Index start = open_near(mesh, near);
@@ -64,9 +65,9 @@ class SphereSurface {
   private:
     bool is_open(const Facet& facet) { return rays_.turn(facet.corner[0], facet.corner[1], facet.corner[2]) > 0; }
 
-    // A facet that is not closing, at a vertex of the given one. There is one at every vertex w: otherwise -w, like the rest
-    // of the hull seen from w, would lie on the outer side of all of them, and the hull would reach beyond w, out of the
-    // sphere.
+    // A facet that is not closing, at a vertex of the given one. There is one at every vertex w: otherwise -w, like the
+    // rest of the hull seen from w, would lie on the outer side of all of them, and the hull would reach beyond w, out
+    // of the sphere.
     Index open_near(const Mesh& mesh, Index near) {
         const Index vertex = mesh[near].corner[0];
         Index t = near;

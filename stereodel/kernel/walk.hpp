@@ -2,8 +2,8 @@
 //
 // It ends in every Delaunay triangulation (H. Edelsbrunner, "An acyclicity theorem for cell complexes in d dimensions",
 // Combinatorica 10, 1990). On the sphere the same follows from the hull: let f be the linear function that is 1 on the
-// plane of a facet; across an edge u v that has the query q on its far side, f(q) grows, because the difference of the two
-// functions vanishes on u and v and is positive at the third corner of the new facet. This holds for facets that
+// plane of a facet; across an edge u v that has the query q on its far side, f(q) grows, because the difference of the
+// two functions vanishes on u and v and is positive at the third corner of the new facet. This holds for facets that
 // the centre does not see (the walk never enters others), and for several facets of one plane after the displacement
 // outward that cut it into triangles: it moves no point across a plane through the centre.
 #pragma once
@@ -17,8 +17,8 @@
 namespace stereodel {
 
 struct WalkEnd {
-    Index triangle;           // the last one entered
-    int exit;                 // place opposite the edge beyond which the query lies and nothing may be entered; -1: none
+    Index triangle;  // the last one entered
+    int exit;        // place opposite the edge beyond which the query lies and nothing may be entered; -1: none
     std::array<int, 3> side;  // without exit: which side of each edge, by opposite place: 1 inside, 0 on its line
 
     bool on_line() const { return side[0] == 0 || side[1] == 0 || side[2] == 0; }
