@@ -24,7 +24,7 @@ GOLDEN_ANGLE = np.pi * (3.0 - 5.0**0.5)
 CIRCLE_LATITUDE = 60.0
 
 # Squared radius of the exact circle. Each prime is a sum of two squares, so that the product has 4·∏(exponent + 1)
-# representations as x² + y²: 1 179 648 exactly cocircular points. The product is below 2¹⁰⁵: x and y are exact in doubles.
+# representations as x² + y²: 1 179 648 exactly cocircular points. The product is below 2¹⁰⁵: doubles hold x and y.
 CIRCLE_PRIMES = (5, 5, 13, 13, 17, 29, 37, 41, 53, 61, 73, 89, 97, 101, 109, 113, 137, 149, 157)
 
 

@@ -7,6 +7,7 @@ triangulates K times and answers with the seconds of each call, measured inside,
 from __future__ import annotations
 
 import json
+import os
 import select
 import subprocess
 import tempfile
@@ -54,8 +55,9 @@ class Engine:
     def __init__(self, command: list[str]) -> None:
         self._errors = tempfile.TemporaryFile("w+")  # noqa: SIM115 — closed by `close`
         self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, text=True, bufsize=1
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors, bufsize=0
         )
+        self._heard = b""
         try:
             self.version: str = self._listen(STARTUP)["version"]
         except StoppedError:
@@ -65,7 +67,7 @@ class Engine:
     def run(self, calls: int = 1, word: str = "run") -> Answer:
         """Ask for some calls; a StoppedError when they pass a limit, after which the engine is gone."""
         try:
-            self._process.stdin.write(f"{word} {calls}\n")
+            self._process.stdin.write(f"{word} {calls}\n".encode())
             answer = self._listen(STARTUP + SECONDS * calls)
             if max(answer["seconds"]) > SECONDS:
                 raise StoppedError(f"over {SECONDS:.0f} s")
@@ -85,15 +87,19 @@ class Engine:
         return json.loads(line)
 
     def _line(self, end: float) -> str:
-        while not select.select([self._process.stdout], [], [], _LOOK)[0]:
-            if time.monotonic() > end:
+        # Not `readline`: a line that Python has read ahead would not wake `select`.
+        while b"\n" not in self._heard:
+            if select.select([self._process.stdout], [], [], _LOOK)[0]:
+                heard = os.read(self._process.stdout.fileno(), 1 << 16)
+                if not heard:
+                    raise StoppedError(self._last_words())
+                self._heard += heard
+            elif time.monotonic() > end:
                 raise StoppedError(f"over {SECONDS:.0f} s")
-            if resident(self._process.pid) > 1.25 * BYTES:  # its points and libraries are not part of the limit
+            elif resident(self._process.pid) > 1.25 * BYTES:  # its points and libraries are not part of the limit
                 raise StoppedError(f"over {BYTES >> 30} GB")
-        line = self._process.stdout.readline()
-        if not line:
-            raise StoppedError(self._last_words())
-        return line
+        line, self._heard = self._heard.split(b"\n", 1)
+        return line.decode("utf-8", "replace")
 
     def _last_words(self) -> str:
         code = self._process.wait()

@@ -1,0 +1,111 @@
+"""The machinery of the benchmarks: engines and their limits, rounds, tables; with engines made for the test."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT))  # `benchmarks` is a folder of the repository and not installed
+
+from benchmarks import benchmark_asked, pages, processes, rounds  # noqa: E402
+from benchmarks.engines import stereodel  # noqa: E402
+from benchmarks.processes import Engine, StoppedError  # noqa: E402
+from benchmarks.rounds import Entry, take_turns  # noqa: E402
+
+ANSWERS = """
+import json, sys, time
+print("a library greets")
+print(json.dumps({"version": "7"}), flush=True)
+held = []
+for line in sys.stdin:
+    word, calls = line.split()
+    if word == "fail":
+        sys.exit("no such luck")
+    if word == "hold":
+        held.append(bytearray(b"x" * 80_000_000))
+    if word == "sleep":
+        time.sleep(0.5)
+    seconds = [0.5 if word == "sleep" else 0.02] * int(calls)
+    print(json.dumps({"seconds": seconds, "points": 3, "triangles": 1, "peak": sum(map(len, held)), "more": 1}))
+    sys.stdout.flush()
+"""
+ENGINE = [sys.executable, "-c", ANSWERS]
+
+
+def test_an_engine_answers_and_other_words_are_passed_over():
+    with Engine(ENGINE) as engine:
+        answer = engine.run(4)
+    assert (engine.version, answer.seconds, answer.points, answer.triangles) == ("7", [0.02] * 4, 3, 1)
+    assert answer.extra == {"more": 1}
+
+
+@pytest.mark.parametrize(("word", "said"), [("fail", "no such luck"), ("sleep", "over 0 s"), ("hold", "over 0 GB")])
+def test_an_engine_that_fails_or_passes_a_limit_is_stopped(monkeypatch, word, said):
+    monkeypatch.setattr(processes, "SECONDS", 0.3)
+    monkeypatch.setattr(processes, "BYTES", 50_000_000)
+    with Engine(ENGINE) as engine, pytest.raises(StoppedError, match=said):
+        engine.run(1, word)
+
+
+def test_an_engine_that_does_not_start_says_why():
+    with pytest.raises(StoppedError, match="ModuleNotFoundError: No module named 'nothing_of_that_name'"):
+        Engine([sys.executable, "-c", "import nothing_of_that_name"])
+
+
+def test_rounds_repeat_short_calls_and_keep_what_stopped():
+    results = take_turns([Entry("a", ENGINE), Entry("b", ENGINE, "fail"), Entry("c", ENGINE)], 3)
+    assert results["a"].seconds == [0.02] * 3
+    assert results["b"].record() == {"stopped": "no such luck", "version": "7"}
+    assert rounds.ratios(results["a"], results["c"]) == [1.0] * 3
+    assert rounds.ratios(results["a"], results["b"]) == []
+
+
+def test_a_slow_engine_is_called_once(monkeypatch):
+    monkeypatch.setattr(rounds, "SLOW", 0.01)
+    assert take_turns([Entry("a", ENGINE)], 3)["a"].seconds == [0.02]
+
+
+@pytest.mark.parametrize(("space", "dimension"), [("plane", 2), ("sphere", 3)])
+def test_stereodel_takes_part(tmp_path, space, dimension):
+    generator = np.random.default_rng(3)
+    sets = [tmp_path / "points", tmp_path / "more"]
+    for path, n in zip(sets, (4000, 3000), strict=True):
+        generator.standard_normal((n, dimension)).tofile(path)
+    with Engine(stereodel(space, 1, str(sets[1]))(str(sets[0]))) as engine:
+        assert engine.run(2).points == engine.run(1, "bare").points == 4000
+        for word, points in (("find", 4000), ("nearest", 4000), ("insert", 5000), ("changed", 6000), ("remove", 5000)):
+            answer = engine.run(1, word)
+            assert (answer.points, len(answer.seconds)) == (points, 1)
+
+
+def test_table_and_blocks_of_a_page(monkeypatch, tmp_path):
+    monkeypatch.setattr(pages, "DOCS", tmp_path)
+    page = tmp_path / "page.md"
+    page.write_text("a\n<!-- measured: x -->\nold\n<!-- end -->\nb\n", encoding="utf-8")
+    pages.fill("page.md", {"x": pages.table(["n", "time"], [["1", r"2\3"]], "lr")})
+    assert page.read_text(encoding="utf-8") == (
+        "a\n<!-- measured: x -->\n\n| n | time |\n| :-- | --: |\n| 1 | 2\\3 |\n\n<!-- end -->\nb\n"
+    )
+    with pytest.raises(ValueError, match="no place for 'y'"):
+        pages.fill("page.md", {"y": ""})
+
+
+def test_figures_know_whether_they_are_reached():
+    fast = benchmark_asked.Figure("speed", 2.0, [1.5, 2.5, 3.0], "×", at_least=True)
+    small = benchmark_asked.Figure("memory", 200, [201.0], " bytes")
+    assert fast.row() == ["speed", "≥ 2×", "2.5× (1.5–3)", "yes"]
+    assert small.row() == ["memory", "≤ 200 bytes", "201 bytes", "**no**"]
+    assert benchmark_asked.Figure("speed", 2.0, [], "×").row()[2] == "not measured"
+
+
+def test_ratios_pair_the_rounds():
+    record = {"cgal": {"rounds": [2.0, 6.0]}, "ours 1": {"rounds": [1.0, 2.0]}, "scipy": {"rounds": [30.0]}}
+    assert benchmark_asked.faster(record, "cgal", "ours 1") == [2.0, 3.0]
+    assert benchmark_asked.faster(record, "scipy", "ours 1") == [20.0]
+    assert benchmark_asked.faster(record | {"cgal": {"stopped": "over 60 s"}}, "cgal", "ours 1") == []
+
+
+def test_powers():
+    assert [benchmark_asked.power(n) for n in (100, 10**7, 20_000)] == ["10²", "10⁷", "20,000"]
