@@ -138,7 +138,7 @@ void bind(nb::module_& module, const char* name, const char* doc) {
         .def("remove", &Bound::remove, "indices"_a,
              "Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.")
         .def("arrays", &Bound::arrays, "Simplices, smallest index first, and neighbors, -1 for none, as new arrays.")
-        .def_prop_ro("duplicates", &Bound::duplicates,
+        .def_prop_ro("duplicates", &Bound::duplicates, nb::rv_policy::automatic,  // the array owns its memory
                      "All pairs [dropped, kept], by dropped; the lowest index is kept.")
         .def_prop_ro("is_flat", &Bound::is_flat, "Whether no triangles are left: then points can only be removed.")
         .def_prop_ro("size", &Bound::size, "Number of points, duplicates included.")
