@@ -23,7 +23,10 @@ BYTES = 8 << 30
 """So does a process that holds more."""
 
 STARTUP = 180.0
-"""Seconds for starting, reading the points, and the clean-up after a call."""
+"""Seconds for starting and reading the points."""
+
+COUNTING = 30.0
+"""Seconds beside the calls, for counting what came out and giving memory back."""
 
 _LOOK = 0.2
 
@@ -68,7 +71,7 @@ class Engine:
         """Ask for some calls; a StoppedError when they pass a limit, after which the engine is gone."""
         try:
             self._process.stdin.write(f"{word} {calls}\n".encode())
-            answer = self._listen(STARTUP + SECONDS * calls)
+            answer = self._listen(COUNTING + SECONDS * calls)
             if max(answer["seconds"]) > SECONDS:
                 raise StoppedError(f"over {SECONDS:.0f} s")
             if answer["peak"] > BYTES:
@@ -104,7 +107,10 @@ class Engine:
     def _last_words(self) -> str:
         code = self._process.wait()
         self._errors.seek(0)
-        lines = self._errors.read().strip().splitlines()
+        text = self._errors.read()
+        if "heap out of memory" in text:  # node, which is started with the same limit
+            return f"over {BYTES >> 30} GB"
+        lines = text.strip().splitlines()
         return lines[-1][:200] if lines else f"ended with code {code}"
 
     def close(self) -> None:
