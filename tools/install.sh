@@ -14,11 +14,13 @@ if [[ ! -x $venv/bin/python || ! -f $venv/installed || $(<"$venv/installed") != 
     build=(scikit-build-core nanobind)
     command -v cmake >/dev/null || build+=(cmake)
     command -v ninja >/dev/null || build+=(ninja)
-    # The build backend is pinned as well: installed first, then used without an isolated build environment. The package
-    # stays where it is, on a plain path; its kernel is built beside it below, so that a changed source needs no network.
+    # The build backend is pinned as well: installed first, then used without an isolated build environment.
     "${pip[@]}" install --constraint constraints.txt "${build[@]}"
+    # Requirements, metadata and the command alone. The package stays here, on a plain path, with no import hook that would
+    # hide another copy from PYTHONPATH; its kernel is built beside it below, so that changed sources need no network.
     "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
-        --config-settings editable.mode=inplace --config-settings wheel.cmake=false --editable '.[test,docs,dev]'
+        --config-settings wheel.cmake=false --config-settings wheel.packages='[]' '.[test,docs,dev]'
+    pwd >"$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/stereodel.pth"
     printf '%s\n' "$wanted" >"$venv/installed"
 fi
 tools/build_kernel.sh "$venv"
