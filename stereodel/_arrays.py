@@ -164,6 +164,13 @@ def as_count(value: Any, name: str, *, low: int = 1) -> int:
     return int(array)
 
 
+def as_workers(value: Any) -> int | None:
+    """A number of threads, at least 1; -1 stands for all processors, None for a choice by the size of the task."""
+    if value is None or value == -1:
+        return None if value is None else -1
+    return as_count(value, "workers")
+
+
 def as_steps(width: float, spacing: Any, name: str) -> int:
     """How many steps of `spacing` make up `width` degrees, which must be a whole number."""
     step = as_scalar(spacing, name, low=0.0, high=width, open_low=True)
@@ -197,6 +204,18 @@ def as_complex_matrix(value: npt.ArrayLike, name: str) -> npt.NDArray[np.complex
         return as_matrix(value, 2, name).astype(np.complex128)
     parts = as_matrix(array.real, 2, f"{name}.real"), as_matrix(array.imag, 2, f"{name}.imag")
     return np.stack(parts, axis=-1).view(np.complex128)[..., 0]
+
+
+def private(array: FloatArray, given: npt.ArrayLike) -> FloatArray:
+    """`array`, made from what was `given`, in memory that the caller does not hold; nobody can write to it."""
+    shared = not isinstance(given, np.ndarray) or np.may_share_memory(array, given)
+    return locked(array.copy() if shared else array)
+
+
+def locked(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
+    """An array of our own, from now on read-only."""
+    array.flags.writeable = False
+    return array
 
 
 def read_only(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:

@@ -41,6 +41,160 @@ def triangulate_sphere(
     The same of directions; `sign` times axis number `axis` is the pole of the projection.
     """
 
+def closing(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C")]:
+    """Whether det[a b c] <= 0, for each facet."""
+
+def find_simplex_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """The lowest triangle that holds each query, -1 outside."""
+
+def find_simplex_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    The same for directions; `closing` tells the triangles that hold none (none if not given).
+    """
+
+def nearest_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    The nearest point of each query, the lowest of several. Without simplices all points are compared.
+    """
+
+def nearest_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """The same for directions."""
+
+class PlaneMesh:
+    """
+    Delaunay triangulation of the plane that points can be added to and taken from.
+    """
+
+    def __init__(
+        self,
+        points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+        simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
+        | None = None,
+    ) -> None:
+        """
+        The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.
+        """
+
+    def insert(
+        self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
+    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        """
+        Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.
+        """
+
+    def remove(
+        self, indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+        """
+        Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.
+        """
+
+    def arrays(self) -> tuple:
+        """
+        Simplices, smallest index first, and neighbors, -1 for none, as new arrays.
+        """
+
+    @property
+    def duplicates(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        """All pairs [dropped, kept], by dropped; the lowest index is kept."""
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether no triangles are left: then points can only be removed."""
+
+    @property
+    def size(self) -> int:
+        """Number of points, duplicates included."""
+
+    @property
+    def inconclusive(self) -> dict:
+        """Tests that each stage left open, in changes so far."""
+
+class SphereMesh:
+    """
+    Delaunay triangulation of directions that points can be added to and taken from.
+    """
+
+    def __init__(
+        self,
+        points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
+        | None = None,
+    ) -> None:
+        """
+        The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.
+        """
+
+    def insert(
+        self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)]
+    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        """
+        Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.
+        """
+
+    def remove(
+        self, indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+        """
+        Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.
+        """
+
+    def arrays(self) -> tuple:
+        """
+        Simplices, smallest index first, and neighbors, -1 for none, as new arrays.
+        """
+
+    @property
+    def duplicates(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        """All pairs [dropped, kept], by dropped; the lowest index is kept."""
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether no triangles are left: then points can only be removed."""
+
+    @property
+    def size(self) -> int:
+        """Number of points, duplicates included."""
+
+    @property
+    def inconclusive(self) -> dict:
+        """Tests that each stage left open, in changes so far."""
+
 def orient2d(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],

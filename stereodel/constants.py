@@ -21,6 +21,9 @@ caller who normalised in plain double arithmetic.
 UNDERFLOW_FLOOR: Final = 2.0**-1000
 """Added to the error bound of filters whose factors are all at most 4: more than underflow can lose there."""
 
+POINTS_WORTH_THREADS: Final = 20_000
+"""Points (or queries) from which on all processors are used by default: below, starting threads takes as long."""
+
 FILTER_RANGE: Final = 2.0**200
 """Planar filters trust differences d with 1/FILTER_RANGE < |d| < FILTER_RANGE or d = 0 (units of the input).
 

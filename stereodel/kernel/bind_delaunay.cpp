@@ -57,6 +57,15 @@ nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis
     return to_python(std::move(result), neighbors, sphere_tally(result.tally));
 }
 
+ValuesOut<bool> closing(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
+    const std::size_t count = simplices.shape(0);
+    return to_values(run_without_lock(count > long_work, [&](Stop stop) {
+        Buffer<bool> result(count);
+        closing_facets(points.data(), points.shape(0), simplices.data(), count, result.data(), stop);
+        return result;
+    }));
+}
+
 }  // namespace
 
 void bind_delaunay(nb::module_& module) {
@@ -64,6 +73,7 @@ void bind_delaunay(nb::module_& module) {
                "Simplices, neighbors or None, duplicates, dimension and inconclusive tests of points of the plane.");
     module.def("triangulate_sphere", sphere, "points"_a, "workers"_a = 1, "neighbors"_a = true, "axis"_a = 0, "sign"_a = -1,
                "The same of directions; `sign` times axis number `axis` is the pole of the projection.");
+    module.def("closing", closing, "points"_a, "simplices"_a, "Whether det[a b c] <= 0, for each facet.");
 }
 
 }  // namespace stereodel

@@ -3,11 +3,13 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include "bind_rows.hpp"
 #include "plane_predicates.hpp"
 #include "ray_integers.hpp"
 #include "ray_predicates.hpp"
+#include "roots.hpp"
 
 namespace stereodel {
 
@@ -31,6 +33,30 @@ struct Gathered {
 
     PlanePoints view() const { return {xy, 0.0}; }
 };
+
+// The last stage ---------------------------------------------------------------------------------------------------
+
+// An integer from its digits to the base 2^30, the highest first.
+BigInteger from_digits(const std::vector<std::int64_t>& digits) {
+    BigInteger result;
+    for (const std::int64_t digit : digits) {
+        result = result.shifted(30) + BigInteger(digit);
+    }
+    return result;
+}
+
+using Digits = std::vector<std::int64_t>;
+
+int sign_of_root_sum(const std::vector<std::tuple<Digits, Digits>>& terms) {
+    if (terms.size() > 4) {
+        throw std::invalid_argument("terms: at most four");
+    }
+    std::vector<RootTerm> sum;
+    for (const auto& [coefficient, radicand] : terms) {
+        sum.push_back({from_digits(coefficient), from_digits(radicand)});
+    }
+    return sign_of_roots(sum.data(), static_cast<int>(sum.size()));
+}
 
 // The plane ----------------------------------------------------------------------------------------------------------
 
@@ -199,6 +225,7 @@ void bind_plane(nb::module_& m) {
     m.def("orient_numbered", &orient_numbered, "points"_a, "numbers"_a);
     m.def("incircle_numbered", &incircle_numbered, "points"_a, "numbers"_a, "displaced"_a);
     m.def("common_granularity", &granularity, "points"_a);
+    m.def("sign_of_roots", &sign_of_root_sum, "terms"_a);
 }
 
 void bind_rays(nb::module_& m) {

@@ -35,6 +35,16 @@ RowsOut<T, Width> to_rows(Buffer<T>&& buffer) {
     return RowsOut<T, Width>(owned->data(), {owned->size() / Width, Width}, owner);
 }
 
+template <class T>
+using ValuesOut = nb::ndarray<nb::numpy, T, nb::shape<-1>, nb::c_contig>;
+
+template <class T>
+ValuesOut<T> to_values(Buffer<T>&& buffer) {
+    auto* owned = new Buffer<T>(std::move(buffer));
+    const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
+    return ValuesOut<T>(owned->data(), {owned->size()}, owner);
+}
+
 inline RowsOut<Index, 2> to_rows(const std::vector<std::pair<Index, Index>>& pairs) {
     Buffer<Index> buffer(2 * pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {

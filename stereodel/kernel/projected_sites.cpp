@@ -44,7 +44,7 @@ std::uint32_t exact_cell(const ProjectedRays& rays, Index point, int coordinate,
 
 // The cell of a coordinate that lies `place` cells from the first border, within `error` cells.
 template <class BorderOf>
-std::uint32_t cell_at(double place, double error, const ProjectedRays& rays, Index point, int coordinate, BorderOf&& border) {
+inline std::uint32_t cell_at(double place, double error, const ProjectedRays& rays, Index point, int coordinate, BorderOf&& border) {
     const double last = cells - 1.0;
     const double bounded = place > 0.0 ? std::min(place, last) : 0.0;  // NaN becomes 0, and is not certain
     const std::uint32_t near = static_cast<std::uint32_t>(bounded);
@@ -55,16 +55,18 @@ std::uint32_t cell_at(double place, double error, const ProjectedRays& rays, Ind
 }
 
 // The grid over the whole plane: y = X/(1 + |X|) is evenly divided. The borders are the doubles next to y/(1 - |y|).
-Border whole_plane_border(std::uint32_t cell) {
-    const double half = cells / 2, k = cell - half;
-    return {k / (half - std::fabs(k)), 0.0};
-}
+struct WholePlaneBorder {
+    Border operator()(std::uint32_t cell) const {
+        const double half = cells / 2, k = cell - half;
+        return {k / (half - std::fabs(k)), 0.0};
+    }
+};
 
 // Error of the place in the grid: X is off by 8u|X|, which moves y by 8u/4, the formula adds 3u, a border's rounding 1/4 u;
 // times 2^15 cells, far below 2^-30 of a cell.
 std::uint32_t whole_plane_cell(double x, const ProjectedRays& rays, Index point, int coordinate) {
     const double half = cells / 2;
-    return cell_at(half + half * (x / (1.0 + std::fabs(x))), 0x1p-30, rays, point, coordinate, whole_plane_border);
+    return cell_at(half + half * (x / (1.0 + std::fabs(x))), 0x1p-30, rays, point, coordinate, WholePlaneBorder{});
 }
 
 // A square grid with exact borders over part of the plane, for offsets from an origin that is a double.
@@ -145,7 +147,14 @@ int SphereSites::orient_open(Index a, Index b, Index c) {
     return in_bubble(ray(a), ray(b), ray(c), pole_, rays_.unit, first, tally_) ? -1 : 1;
 }
 
-bool SphereSites::in_circle_open(Index a, Index b, Index c, Index d) {
+bool SphereSites::in_circle_close(Index a, Index b, Index c, Index d, const InCircleEstimate& e) {
+    const double bound = e.bound();
+    if (e.value > bound) {
+        return true;
+    }
+    if (e.value < -bound) {
+        return false;
+    }
     ++tally_.filter;
     return in_bubble(ray(a), ray(b), ray(c), ray(d), rays_.unit, -1, tally_);
 }
@@ -153,7 +162,7 @@ bool SphereSites::in_circle_open(Index a, Index b, Index c, Index d) {
 int SphereSites::compare_along(Index a, Index b, int coordinate) {
     const Point2 p = points_[a], q = points_[b];
     const double x = coordinate == 0 ? p.x : p.y, y = coordinate == 0 ? q.x : q.y;
-    const double bound = 17 * 0x1p-53 * std::max(std::fabs(x), std::fabs(y));  // 8u and 8u, and its own roundings
+    const double bound = coordinate_error * (std::fabs(x) + std::fabs(y));
     if (x - y > bound) {
         return 1;
     }

@@ -24,15 +24,33 @@ struct ProjectedRays {
 
     const double* at(Index point) const { return xyz + 3 * static_cast<std::ptrdiff_t>(point); }
 
-    // The projected point; NaN, which decides nothing, where products of coordinates might leave the range of doubles.
+    // The projected point, relatively within 8u; NaN, which decides nothing, where products of coordinates might leave the
+    // range of doubles.
     Point2 projected(Index point) const {
         double out[2];
-        project(at(point), pole, out);
+        if (unit) {
+            project_unit(at(point), out);
+        } else {
+            project(at(point), pole, out);
+        }
         return {in_range(out[0]), in_range(out[1])};
     }
 
+    // X = p_i/w with w = |p| - s p_k, or (p_i^2 + p_j^2)/(|p| + |p_k|) where that difference would cancel. Roundings: the
+    // length 2.5, its sum with |p_k| 3.5, the sum of squares 2: at most 3.5 + 1 + 2 + 1 = 7.5.
+    void project_unit(const double* p, double out[2]) const {
+        const double along = p[pole.axis], x = p[(pole.axis + (pole.sign < 0 ? 1 : 2)) % 3],
+                     y = p[(pole.axis + (pole.sign < 0 ? 2 : 1)) % 3];
+        const double across = x * x + y * y;
+        const double sum = std::sqrt(across + along * along) + std::fabs(along);
+        const bool near = pole.sign * along > 0.0;
+        const double numerator = near ? sum : 1.0, denominator = near ? across : sum;
+        out[0] = x * numerator / denominator;
+        out[1] = y * numerator / denominator;
+    }
+
     // A coordinate of 2^-70 or more is a multiple of 2^-123, and so are differences: no product of eight of them and three
-    // roundoffs underflows (see `in_circle_estimate`).
+    // roundoffs underflows (see `InCircleEstimate`).
     static double in_range(double x) {
         return x == 0.0 || (std::fabs(x) >= 0x1p-70 && std::fabs(x) <= 0x1p70) ? x : std::nan("");
     }
@@ -60,20 +78,33 @@ inline Estimated orient_estimate(Point2 a, Point2 b, Point2 c) {
 }
 
 // Four points, pivot D. A term of the determinant holds four differences (38u) and seven more roundings, with the bound's
-// own: 46u times the permanent AB + BC + CA (A = |a|^2 ...; see plane_stages.hpp).
+// own: 46u times the permanent q = AB + BC + CA (A = |a|^2 and so on; see plane_forms.hpp).
 // An absolute error e in each difference moves the determinant by at most (4/3) e S P with S = |a|+|b|+|c| and
-// P = |a||b|+|b||c|+|c||a|, all lengths taken longer by e to cover higher orders:
-//   (4/3) e (S + 3e)(P + 2eS + 3e^2).
-// With s = A+B+C and q = AB+BC+CA: S <= sqrt(3s), P <= sqrt(3q), P <= s, eS <= (e^2 + 3s)/2 this is at most
+// P = |a||b|+|b||c|+|c||a|, all lengths taken longer by e to cover higher orders: (4/3) e (S + 3e)(P + 2eS + 3e^2). With
+// s = A+B+C: S <= sqrt(3s), P <= sqrt(3q), P <= s, eS <= (e^2 + 3s)/2, this is at most
 //   4 e sqrt(sq) + 32 e^2 (s + e^2).
-inline Estimated in_circle_estimate(Point2 a, Point2 b, Point2 c, Point2 d) {
-    const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
-    const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
-    const double value = aa * (bx * cy - by * cx) + bb * (cx * ay - cy * ax) + cc * (ax * by - ay * bx);
-    const double q = aa * bb + bb * cc + cc * aa, s = aa + bb + cc;
-    const double ee = (17 * 0x1p-53 * 17 * 0x1p-53) * (d.x * d.x + d.y * d.y);
-    return {value, 46 * 0x1p-53 * q + 4.01 * std::sqrt(ee * s * q) + 33 * ee * (s + ee)};
-}
+struct InCircleEstimate {
+    double value, permanent, squares, error_squared;
+
+    InCircleEstimate(Point2 a, Point2 b, Point2 c, Point2 d) {
+        const double ax = a.x - d.x, ay = a.y - d.y, bx = b.x - d.x, by = b.y - d.y, cx = c.x - d.x, cy = c.y - d.y;
+        const double aa = ax * ax + ay * ay, bb = bx * bx + by * by, cc = cx * cx + cy * cy;
+        value = aa * (bx * cy - by * cx) + bb * (cx * ay - cy * ax) + cc * (ax * by - ay * bx);
+        permanent = aa * bb + bb * cc + cc * aa;
+        squares = aa + bb + cc;
+        error_squared = 17 * 0x1p-53 * 17 * 0x1p-53 * (d.x * d.x + d.y * d.y);
+    }
+
+    double bound() const {
+        const double absolute = std::sqrt(error_squared * squares * permanent);
+        return 46 * 0x1p-53 * permanent + 4.01 * absolute + 33 * error_squared * (squares + error_squared);
+    }
+
+    // Where points are far apart, beside the error of their coordinates, a bound without a root: if e^2 s <= 2^-66 q, then
+    // also e^2 <= 2^-66 s (q <= s^2), and the bound is below 2^-30 q.
+    bool is_wide() const { return error_squared * squares * 0x1p66 <= permanent; }
+    double wide_bound() const { return 0x1p-30 * permanent; }
+};
 
 class SphereSites : public CurveSites {
   public:
@@ -94,14 +125,26 @@ class SphereSites : public CurveSites {
     }
 
     bool in_circle(Index a, Index b, Index c, Index d) {
-        const Estimated e = in_circle_estimate(points_[a], points_[b], points_[c], points_[d]);
-        if (e.positive()) {
-            return true;
+        const InCircleEstimate e(points_[a], points_[b], points_[c], points_[d]);
+        if (e.is_wide()) {
+            if (e.value > e.wide_bound()) {
+                return true;
+            }
+            if (e.value < -e.wide_bound()) {
+                return false;
+            }
         }
-        return !e.negative() && in_circle_open(a, b, c, d);
+        return in_circle_close(a, b, c, d, e);
     }
 
-    bool before(Index a, Index b, Axis axis) { return compare(a, b, axis) < 0; }
+    bool before(Index a, Index b, Axis axis) {
+        const double x = axis == Axis::x ? points_[a].x : points_[a].y, y = axis == Axis::x ? points_[b].x : points_[b].y;
+        const double bound = coordinate_error * (std::fabs(x) + std::fabs(y));
+        if (x - y > bound) {
+            return false;
+        }
+        return x - y < -bound || compare(a, b, axis) < 0;
+    }
     bool refine(Index low, Index high);
     Index sort_distinct(Index low, Index high);
     const Tally& tally() const { return tally_; }
@@ -109,11 +152,13 @@ class SphereSites : public CurveSites {
   private:
     const double* ray(Index a) const { return rays_.at(source_[a]); }
     int orient_open(Index a, Index b, Index c);
-    bool in_circle_open(Index a, Index b, Index c, Index d);
+    bool in_circle_close(Index a, Index b, Index c, Index d, const InCircleEstimate& e);
     int compare(Index a, Index b, Axis axis);
     int compare_along(Index a, Index b, int coordinate);
     template <class Coordinates>
     bool refine(Index low, Index high, const Coordinates& coordinates);
+
+    static constexpr double coordinate_error = 9 * 0x1p-53;  // 8u each, and the bound's own roundings
 
     ProjectedRays rays_;
     double pole_[3];

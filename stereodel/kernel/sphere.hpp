@@ -13,4 +13,8 @@ namespace stereodel {
 // Throws std::bad_alloc, std::length_error, Cancelled.
 Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with_neighbors, int workers, Pole pole, Stop stop);
 
+// Of each of `count` facets a b c, counterclockwise seen from outside: whether det[a b c] <= 0, so that its empty bubble is a
+// hemisphere or more. `size`: number of points.
+void closing_facets(const double* xyz, std::size_t size, const Index* simplices, std::size_t count, bool* closing, Stop stop);
+
 }  // namespace stereodel

@@ -250,6 +250,11 @@ class Diagram:
         self.point_region = np.arange(len(self.points), dtype=np.int32)
         self.point_region[duplicates[:, 0]] = duplicates[:, 1]
 
+    def _duplicates(self) -> IntArray:
+        """Pairs [dropped, kept] of equal points, (k, 2)."""
+        dropped = np.flatnonzero(self.point_region != np.arange(len(self.points)))
+        return np.column_stack([dropped, self.point_region[dropped]]).astype(np.int32)
+
     def _next_in_region(self) -> Indices:
         """For each place in `region_indices` the following place of the same cell, cyclically."""
         following = np.arange(1, len(self.region_indices) + 1)

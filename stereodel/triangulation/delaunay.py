@@ -2,91 +2,132 @@
 
 from __future__ import annotations
 
-import copy
+import os
 from abc import ABC, abstractmethod
+from collections.abc import Callable
 from functools import cached_property
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_count, as_indices, read_only
-from stereodel.triangulation.hull_insertion import HullInsertion
-from stereodel.triangulation.location import Side, landmarks, lowest_containing, walk
-from stereodel.triangulation.topology import boundary_of, canonical, edges_of, lowest_incident, neighbors_of
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_indices, as_workers, locked, private
+from stereodel._kernel import PlaneMesh, SphereMesh
+from stereodel.constants import POINTS_WORTH_THREADS
+from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
+
+Mesh = PlaneMesh | SphereMesh
+Built = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
+"""What the kernel returns: simplices, neighbors or None, duplicates, dimension, inconclusive tests."""
 
 
 class Delaunay(ABC):
-    """A triangulation that depends on the set of points alone; see the two subclasses."""
+    """A triangulation that depends on the set of points alone; see the two subclasses.
 
-    points: FloatArray
-    simplices: IntArray
-    duplicates: IntArray
+    After `insert` and `remove` the kernel's mesh is what is up to date; arrays are made from it when asked for.
+    """
+
     dimension: int
-    inconclusive: dict[str, int]
+    _workers: int | None
+    _eager: bool  # whether neighbors are wanted with the simplices
+    _chunks: list[FloatArray]  # the points, in pieces until asked for
+    _simplices: IntArray | None
+    _neighbors: IntArray | None
+    _duplicates: IntArray | None
+    _mesh: Mesh | None
+    _inconclusive: dict[str, int]
 
     def __init__(self, points: npt.ArrayLike, *, workers: int | None = None, neighbors: bool = True) -> None:
-        if workers is not None:
-            as_count(workers, "workers")
+        self._workers = as_workers(workers)
         self._eager = bool(neighbors)
-        self._set_engine(self._as_points(points))
+        self._build(private(self._as_points(points), points))
 
     @classmethod
-    def _from_simplices(cls, points: FloatArray, simplices: npt.ArrayLike) -> Self:
+    def _from_simplices(cls, points: FloatArray, simplices: IntArray, duplicates: IntArray) -> Self:
         """The triangulation of `points` whose simplices are known already, as from the dual diagram; not checked."""
         self = cls.__new__(cls)
-        self._eager = True
-        engine = HullInsertion(points, spatial=True)
-        self._set(engine, canonical(np.asarray(simplices)))
+        self._workers, self._eager = None, True
+        self._take(points, (simplices, neighbors_of(simplices), duplicates, 2, dict.fromkeys(self._stages(), 0)))
         return self
 
-    def _set_engine(self, points: FloatArray) -> None:
-        engine = HullInsertion(points, spatial=True)
-        engine.run()
-        self._set(engine, engine.simplices)
+    def _build(self, points: FloatArray) -> None:
+        """Triangulate from scratch; arrays handed out before stay as they are."""
+        self._take(points, self._triangulate(points, _threads(self._workers, len(points)), self._eager))
 
-    def _set(self, engine: HullInsertion, simplices: IntArray) -> None:
-        """Take the state of an engine; arrays handed out before stay as they are."""
-        self._engine = engine
-        self.points = read_only(engine.points)
-        self.simplices = read_only(simplices)
-        self.duplicates = read_only(engine.duplicates)
-        self.dimension = engine.dimension
-        self.inconclusive = engine.inconclusive
-        for name in ("neighbors", "edges", "convex_hull", "circumcenters", "closing", "_open", "_kept"):
+    def _take(self, points: FloatArray, built: Built) -> None:
+        self._chunks = [points]
+        self._mesh = None
+        self._forget()
+        simplices, neighbors, duplicates, self.dimension, self._inconclusive = built
+        self._simplices, self._duplicates = locked(simplices), locked(duplicates)
+        self._neighbors = None if neighbors is None else locked(neighbors)
+
+    def _forget(self) -> None:
+        self._simplices = self._neighbors = self._duplicates = None
+        for name in ("edges", "convex_hull", "circumcenters", "closing", "_open"):
             self.__dict__.pop(name, None)
-        if self._eager:
-            _ = self.neighbors
 
-    @cached_property
+    @property
+    def points(self) -> FloatArray:
+        """The points, in the order given, inserted ones at the end."""
+        if len(self._chunks) > 1:
+            self._chunks = [locked(np.concatenate(self._chunks))]
+        return self._chunks[0]
+
+    @property
+    def simplices(self) -> IntArray:
+        """Triangles (m, 3) int32, counterclockwise, smallest index first."""
+        if self._simplices is None and self._mesh is None:
+            self._build(self.points)  # a change was interrupted
+        elif self._simplices is None and self._mesh is not None:
+            simplices, neighbors = self._mesh.arrays()
+            self._simplices, self._neighbors = locked(simplices), locked(neighbors)
+        assert self._simplices is not None
+        return self._simplices
+
+    @property
     def neighbors(self) -> IntArray:
         """Triangle opposite each corner, (m, 3) int32, -1 where there is none."""
-        return read_only(neighbors_of(self.simplices))
+        simplices = self.simplices
+        if self._neighbors is None:
+            self._neighbors = locked(neighbors_of(simplices))
+        return self._neighbors
+
+    @property
+    def duplicates(self) -> IntArray:
+        """Pairs [dropped, kept] of equal points, (k, 2) int32."""
+        if self._duplicates is None and self._mesh is not None:
+            self._duplicates = locked(self._mesh.duplicates)
+        elif self._duplicates is None:
+            self._build(self.points)  # a change was interrupted
+        assert self._duplicates is not None
+        return self._duplicates
+
+    @property
+    def inconclusive(self) -> dict[str, int]:
+        """Tests that each stage left open, in construction and changes."""
+        changes = self._mesh.inconclusive if self._mesh is not None else {}
+        return {stage: count + changes.get(stage, 0) for stage, count in self._inconclusive.items()}
 
     @cached_property
     def edges(self) -> IntArray:
         """Edges (e, 2) int32 with i < j, in lexicographic order."""
-        return read_only(edges_of(self.simplices))
+        return locked(edges_of(self.simplices))
 
     @cached_property
     def convex_hull(self) -> IntArray:
         """Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order."""
-        return read_only(boundary_of(self.simplices, self.neighbors, self._open))
+        return locked(boundary_of(self.simplices, self.neighbors, self._open))
 
     @cached_property
     def circumcenters(self) -> FloatArray:
         """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return read_only(self._circumcenters(self.points[self.simplices]))
+        return locked(self._circumcenters(self.points[self.simplices]))
 
     @cached_property
     def _open(self) -> BoolArray:
         """Triangles that a query can lie in."""
-        return np.ones(len(self.simplices), dtype=np.bool_)
-
-    @cached_property
-    def _kept(self) -> npt.NDArray[np.intp]:
-        """Points that repeat no earlier one."""
-        return np.setdiff1d(np.arange(len(self.points)), self.duplicates[:, 0])
+        return locked(np.ones(len(self.simplices), dtype=np.bool_))
 
     def insert(self, points: npt.ArrayLike) -> IntArray:
         """Add points.
@@ -108,13 +149,16 @@ class Delaunay(ABC):
 
         Notes
         -----
-        The result equals the triangulation of all points from scratch. Arrays handed out earlier do not change.
+        The triangles equal those of all points from scratch; the order of their rows may not. Arrays handed out
+        earlier do not change.
         """
-        added = self._as_points(points)
-        size = len(self.points)
-        self._engine.extend(added)
-        self._engine.run()
-        self._set(self._engine, self._engine.simplices)
+        added = private(self._as_points(points), points)
+        size = sum(map(len, self._chunks))
+        if self.dimension < 2:
+            self._build(locked(np.concatenate([self.points, added])))
+        else:
+            self._change(lambda mesh: mesh.insert(added))
+            self._chunks = [*self._chunks, added]
         return np.arange(size, size + len(added), dtype=np.int32)
 
     def remove(self, indices: npt.ArrayLike) -> IntArray:
@@ -137,21 +181,32 @@ class Delaunay(ABC):
 
         Notes
         -----
-        The rest is triangulated from scratch. If the kept one of several duplicates goes, the lowest remaining one
-        takes its place. Arrays handed out earlier do not change.
+        The triangles equal those of the rest from scratch; the order of their rows may not. If the kept one of several
+        duplicates goes, the lowest remaining one takes its place. Arrays handed out earlier do not change.
         """
-        stays = np.ones(len(self.points), dtype=np.bool_)
-        stays[as_indices(indices, len(self.points))] = False
-        self._set_engine(self.points[stays])
+        points = self.points
+        gone = as_indices(indices, len(points))
+        stays = np.ones(len(points), dtype=np.bool_)
+        stays[gone] = False
+        rest = locked(points[stays])
+        if self.dimension < 2 or 2 * len(rest) < len(points):  # from scratch is faster then
+            self._build(rest)
+        elif len(gone):
+            self._change(lambda mesh: mesh.remove(gone.astype(np.int32)))
+            self._chunks = [rest]
+            if self._mesh is not None and self._mesh.is_flat:
+                self._build(rest)
         return np.where(stays, np.cumsum(stays) - 1, -1).astype(np.int32)
 
-    def find_simplex(self, queries: npt.ArrayLike) -> IntArray | int:
+    def find_simplex(self, queries: npt.ArrayLike, *, workers: int | None = None) -> IntArray | int:
         """Triangle that holds each query, exactly.
 
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
             Points of the plane, or directions.
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
@@ -163,28 +218,18 @@ class Delaunay(ABC):
         ValueError, TypeError
             For values that are not finite real numbers, zero vectors, or another last axis.
         """
-        array, flat = self._as_queries(queries)
-        found = np.full(len(flat), -1, dtype=np.int32)
-        if len(self.simplices) and len(flat):
-            found = self._locate(flat)
-        return found.reshape(array.shape[:-1]) if array.ndim > 1 else int(found[0])
+        array, flat, threads = self._as_queries(queries, workers)
+        return _shaped(self._locate(flat, threads), array)
 
-    def _locate(self, queries: FloatArray) -> IntArray:
-        neighbors = np.where(self._open[self.neighbors], self.neighbors, -1).astype(np.int32)
-        side = self._side(queries)
-        places = self._places(self.points)[self.simplices].mean(axis=1)
-        start = landmarks(places, np.flatnonzero(self._open), self._places(queries))
-        found = walk(self.simplices, neighbors, side, start)
-        lowest = lowest_incident(self.simplices, self._open, len(self.points))
-        return lowest_containing(self.simplices, neighbors, lowest, side, found)
-
-    def nearest(self, queries: npt.ArrayLike) -> IntArray | int:
+    def nearest(self, queries: npt.ArrayLike, *, workers: int | None = None) -> IntArray | int:
         """Nearest point of each query, exactly.
 
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
             Points of the plane, or directions.
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
@@ -199,28 +244,51 @@ class Delaunay(ABC):
 
         Notes
         -----
-        All distances are compared, n for each query: the squares in doubles, near ties in integers.
+        A walk through the triangulation. Without triangles (`dimension` below 2) all points are compared.
         """
-        if len(self.points) == 0:
+        if not any(map(len, self._chunks)):
             raise ValueError("nearest needs at least one point; this triangulation has none")
-        array, flat = self._as_queries(queries)
-        found = self._kept[self._nearest(self.points[self._kept], flat)].astype(np.int32)
-        return found.reshape(array.shape[:-1]) if array.ndim > 1 else int(found[0])
+        array, flat, threads = self._as_queries(queries, workers)
+        return _shaped(self._nearest(flat, threads), array)
 
-    def _as_queries(self, queries: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self._check_queries(queries)
-        return array, array.reshape(-1, array.shape[-1])
+        flat = array.reshape(-1, array.shape[-1])
+        chosen = self._workers if workers is None else as_workers(workers)
+        return array, flat, _threads(chosen, len(flat))
 
-    def __copy__(self) -> Self:
-        """A deep copy: the copies' engines must not share points."""
-        return copy.deepcopy(self)
+    def _change(self, change: Callable[[Mesh], object]) -> None:
+        """Change the mesh; if that fails or is interrupted, the triangulation stays that of before."""
+        mesh = self._mesh or self._make_mesh()
+        self._mesh = None
+        change(mesh)
+        self._mesh = mesh
+        self._forget()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Arrays alone; a copy makes its own mesh when it is changed."""
+        state = self.__dict__ | {"_inconclusive": self.inconclusive}
+        state["_chunks"] = [self.points]
+        state["_simplices"], state["_neighbors"], state["_duplicates"] = (
+            self.simplices,
+            self._neighbors,
+            self.duplicates,
+        )
+        state["_mesh"] = None
+        return state
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        for array in (*state["_chunks"], state["_simplices"], state["_neighbors"], state["_duplicates"]):
+            if array is not None:
+                array.flags.writeable = False  # unpickled arrays are not
+        self.__dict__.update(state)
 
     def __len__(self) -> int:
         return len(self.simplices)
 
     def __repr__(self) -> str:
         return (
-            f"{type(self).__name__}({len(self.points)} points, {len(self.simplices)} simplices, "
+            f"{type(self).__name__}({sum(map(len, self._chunks))} points, {len(self.simplices)} simplices, "
             f"{len(self.duplicates)} duplicates, dimension {self.dimension})"
         )
 
@@ -234,16 +302,36 @@ class Delaunay(ABC):
 
     @staticmethod
     @abstractmethod
-    def _places(points: FloatArray) -> FloatArray:
-        """Where points lie, for a rough comparison of distances."""
-
-    @staticmethod
-    @abstractmethod
     def _circumcenters(triangles: FloatArray) -> FloatArray: ...
 
     @staticmethod
     @abstractmethod
-    def _nearest(points: FloatArray, queries: FloatArray) -> IntArray: ...
+    def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built: ...
+
+    @staticmethod
+    @abstractmethod
+    def _stages() -> tuple[str, ...]:
+        """Keys of `inconclusive`."""
 
     @abstractmethod
-    def _side(self, queries: FloatArray) -> Side: ...
+    def _make_mesh(self) -> Mesh: ...
+
+    @abstractmethod
+    def _locate(self, queries: FloatArray, workers: int) -> IntArray: ...
+
+    @abstractmethod
+    def _nearest(self, queries: FloatArray, workers: int) -> IntArray: ...
+
+
+def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:
+    """One number for each query, in the queries' leading shape."""
+    return found.reshape(queries.shape[:-1]) if queries.ndim > 1 else int(found[0])
+
+
+def _threads(workers: int | None, size: int) -> int:
+    """How many threads a task of `size` points takes."""
+    if workers is None and size < POINTS_WORTH_THREADS:
+        return 1
+    if workers is None or workers == -1:
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return workers

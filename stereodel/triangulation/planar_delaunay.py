@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_points, as_vectors
 from stereodel.triangulation.circumcenters import planar_circumcenters
-from stereodel.triangulation.delaunay import Delaunay
-from stereodel.triangulation.location import Side, nearest_in_plane, plane_side
+from stereodel.triangulation.delaunay import Built, Delaunay
 
 
 class PlanarDelaunay(Delaunay):
@@ -18,15 +18,16 @@ class PlanarDelaunay(Delaunay):
     points : (n, 2) array_like
         Finite numbers of any size; y up. Copied.
     workers : int, optional
-        Threads, at least 1. Never changes the result; this engine uses one.
+        Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
     neighbors : bool, optional
-        Whether to compute `neighbors` at once; otherwise when first asked for.
+        Whether to compute `neighbors` at once, which costs little; otherwise when first asked for.
 
     Attributes
     ----------
     points : (n, 2) array
     simplices : (m, 3) array of int32
-        Triangles, counterclockwise, smallest index first, rows in lexicographic order.
+        Triangles, counterclockwise, smallest index first; rows along a space-filling curve, so that triangles that
+        follow one another are mostly near one another.
     neighbors : (m, 3) array of int32
         `neighbors[i, k]` is the triangle opposite corner k of triangle i; -1 where there is none.
     convex_hull : (h, 2) array of int32
@@ -41,8 +42,8 @@ class PlanarDelaunay(Delaunay):
     dimension : int
         -1 without points, 0 for one, 1 if all are collinear, 2 otherwise. Below 2 there are no simplices.
     inconclusive : dict
-        "filter": tests whose sign floating point left open and integers decided; "exact": those that were exactly zero
-        and decided by the tie rule.
+        How many tests each stage left open: "filter" (doubles), "double_double", and "exact": exactly zero, decided by
+        the tie rule.
 
     Raises
     ------
@@ -53,19 +54,21 @@ class PlanarDelaunay(Delaunay):
     -----
     The answer is that of exact arithmetic on the given doubles. Cocircular points are triangulated as if the first of
     them in lexicographic order were lifted a little above the paraboloid z = x² + y²: a rule on points, so that no
-    order of input changes the triangles. Arrays are read-only; `insert` and `remove` replace them.
+    order of input changes the triangles. Arrays are read-only; `insert` and `remove` replace them. Several threads may
+    ask at the same time; changes need a lock of the caller's.
 
-    Source: the paper's Theorem 1 and its pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14).
+    Source: divide and conquer by L. Guibas and J. Stolfi (1985) along a space-filling curve; insertion as in the paper's
+    pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is the readable
+    form.
 
     Examples
     --------
     >>> triangulation = PlanarDelaunay([[0, 0], [2, 0], [2, 2], [0, 2], [1, 1]])
-    >>> triangulation.simplices.tolist()
-    [[0, 1, 4], [0, 4, 3], [1, 2, 4], [2, 3, 4]]
-    >>> triangulation.neighbors[0].tolist()
-    [2, 1, -1]
-    >>> triangulation.find_simplex([[1.5, 1], [1, 1], [3, 3]]).tolist()
-    [2, 0, -1]
+    >>> triangulation.edges.tolist()
+    [[0, 1], [0, 3], [0, 4], [1, 2], [1, 4], [2, 3], [2, 4], [3, 4]]
+    >>> triangle, outside = triangulation.find_simplex([[1.5, 1], [3, 3]])
+    >>> print(triangulation.simplices[triangle], outside)
+    [1 2 4] -1
     """
 
     @staticmethod
@@ -77,16 +80,22 @@ class PlanarDelaunay(Delaunay):
         return as_vectors(queries, 2, "xy")
 
     @staticmethod
-    def _places(points: FloatArray) -> FloatArray:
-        return points
-
-    @staticmethod
     def _circumcenters(triangles: FloatArray) -> FloatArray:
         return planar_circumcenters(triangles)
 
     @staticmethod
-    def _nearest(points: FloatArray, queries: FloatArray) -> IntArray:
-        return nearest_in_plane(points, queries)
+    def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:
+        return _kernel.triangulate_plane(points, workers, neighbors)
 
-    def _side(self, queries: FloatArray) -> Side:
-        return plane_side(self.points, queries)
+    @staticmethod
+    def _stages() -> tuple[str, ...]:
+        return "filter", "double_double", "exact"
+
+    def _make_mesh(self) -> _kernel.PlaneMesh:
+        return _kernel.PlaneMesh(self.points, self.simplices, self.neighbors, self.duplicates)
+
+    def _locate(self, queries: FloatArray, workers: int) -> IntArray:
+        return _kernel.find_simplex_plane(self.points, self.simplices, self.neighbors, queries, workers)
+
+    def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
+        return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers)

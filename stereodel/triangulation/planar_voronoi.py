@@ -179,7 +179,7 @@ class PlanarVoronoi(Diagram):
         rank[np.lexsort((self.points + 0.0).T[::-1])] = np.arange(len(self.points))
         cycles = polygons(from_ridges(self.ridge_points, self.ridge_vertices))
         simplices = triangulate_polygons(cycles, rank, np.zeros(len(cycles.offsets) - 1, dtype=np.bool_))
-        return PlanarDelaunay._from_simplices(self.points, simplices)
+        return PlanarDelaunay._from_simplices(self.points, simplices, self._duplicates())
 
     def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Parameters of both ends of each ridge on its line."""

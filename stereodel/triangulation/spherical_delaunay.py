@@ -8,13 +8,12 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_choice, as_directions, as_lonlat, as_points, read_only
-from stereodel.predicates.rays import turn_signs, units
+from stereodel import _kernel
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_choice, as_directions, as_lonlat, as_points, locked
 from stereodel.sphere.coordinates import lonlat_to_xyz
 from stereodel.sphere.latitudes import authalic_latitude, geocentric_latitude
 from stereodel.triangulation.circumcenters import spherical_circumcenters
-from stereodel.triangulation.delaunay import Delaunay
-from stereodel.triangulation.location import Side, nearest_on_sphere, ray_side
+from stereodel.triangulation.delaunay import Built, Delaunay
 
 
 class SphericalDelaunay(Delaunay):
@@ -25,9 +24,9 @@ class SphericalDelaunay(Delaunay):
     points : (n, 3) array_like
         Directions: non-zero vectors of any length. Copied.
     workers : int, optional
-        Threads, at least 1. Never changes the result; this engine uses one.
+        Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
     neighbors : bool, optional
-        Whether to compute `neighbors` at once; otherwise when first asked for.
+        Whether to compute `neighbors` at once, which costs little; otherwise when first asked for.
 
     Attributes
     ----------
@@ -35,7 +34,8 @@ class SphericalDelaunay(Delaunay):
         As given, not normalised.
     simplices : (m, 3) array of int32
         Facets of the hull, m = 2n − 4 for n different points; counterclockwise seen from outside the hull, smallest
-        index first, rows in lexicographic order.
+        index first; rows along a space-filling curve, so that facets that follow one another are mostly near one
+        another.
     closing : (m,) array of bool
         Facets with det[a, b, c] ≤ 0: their empty bubble is a hemisphere or more, and they are no spherical triangles.
         There are some exactly if all points lie in a closed hemisphere.
@@ -53,8 +53,8 @@ class SphericalDelaunay(Delaunay):
     dimension : int
         -1 without points, 0 for one, 1 if all lie on one great circle, 2 otherwise. Below 2 there are no simplices.
     inconclusive : dict
-        "filter": tests whose sign floating point left open and integers decided; "exact": those that were exactly zero
-        and decided by the tie rule.
+        How many tests each stage left open: "filter" (projected doubles), "curvature" (the form of row P6),
+        "double_double", and "exact": exactly zero, decided by the tie rule.
 
     Raises
     ------
@@ -68,18 +68,20 @@ class SphericalDelaunay(Delaunay):
     larger than a hemisphere. Points of one circle are triangulated as if the first of them in the order of their
     directions (x̂, then ŷ, then ẑ) were moved a little outward: a rule on points, so that no order of input changes the
     triangles. `find_simplex` finds triangles that are not closing. Arrays are read-only; `insert` and `remove` replace
-    them.
+    them. Several threads may ask at the same time; changes need a lock of the caller's.
 
-    Source: the paper's duality of hull and triangulation, and its pseudo-code (rows P2, P14).
+    Source: the paper's one idea, stereographic projection keeps circles (rows P2, P7, P8): divide and conquer in the
+    plane by L. Guibas and J. Stolfi (1985), every sign decided on the rays; insertion as in the paper's pseudo-code
+    (row P14). `HullInsertion` is the readable form.
 
     Examples
     --------
     >>> octahedron = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]
     >>> triangulation = SphericalDelaunay(octahedron)
-    >>> triangulation.simplices[:2].tolist()
-    [[0, 1, 4], [0, 3, 5]]
-    >>> triangulation.find_simplex([[1, 1, 1], [1, 0, 0]]).tolist()
-    [0, 0]
+    >>> print(triangulation.simplices[triangulation.find_simplex([1, 2, 3])])
+    [0 1 4]
+    >>> triangulation.nearest([1, 2, 3])
+    4
     >>> SphericalDelaunay(octahedron[:2] + octahedron[4:5]).closing.tolist()
     [False, True]
     """
@@ -129,12 +131,11 @@ class SphericalDelaunay(Delaunay):
     @cached_property
     def closing(self) -> BoolArray:
         """Facets whose empty bubble is a hemisphere or more, (m,)."""
-        corners = self.points[self.simplices]
-        return read_only(turn_signs(corners[:, 0], corners[:, 1], corners[:, 2]) <= 0)
+        return locked(_kernel.closing(self.points, self.simplices))
 
     @cached_property
     def _open(self) -> BoolArray:
-        return read_only(~self.closing)
+        return locked(~self.closing)
 
     @staticmethod
     def _as_points(points: npt.ArrayLike) -> FloatArray:
@@ -145,16 +146,24 @@ class SphericalDelaunay(Delaunay):
         return as_directions(queries, "xyz")
 
     @staticmethod
-    def _places(points: FloatArray) -> FloatArray:
-        return units(points)[:, :3]
-
-    @staticmethod
     def _circumcenters(triangles: FloatArray) -> FloatArray:
         return spherical_circumcenters(triangles)
 
     @staticmethod
-    def _nearest(points: FloatArray, queries: FloatArray) -> IntArray:
-        return nearest_on_sphere(points, queries)
+    def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:
+        return _kernel.triangulate_sphere(points, workers, neighbors)
 
-    def _side(self, queries: FloatArray) -> Side:
-        return ray_side(self.points, queries)
+    @staticmethod
+    def _stages() -> tuple[str, ...]:
+        return "filter", "curvature", "double_double", "exact"
+
+    def _make_mesh(self) -> _kernel.SphereMesh:
+        return _kernel.SphereMesh(self.points, self.simplices, self.neighbors, self.duplicates)
+
+    def _locate(self, queries: FloatArray, workers: int) -> IntArray:
+        arrays = self.points, self.simplices, self.neighbors
+        return _kernel.find_simplex_sphere(*arrays, queries, self.closing, workers)
+
+    def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
+        arrays = self.points, self.simplices, self.neighbors
+        return _kernel.nearest_sphere(*arrays, queries, self.closing, workers)

@@ -190,7 +190,7 @@ class SphericalVoronoi(Diagram):
         cycles = polygons(from_ridges(self.ridge_points, self.ridge_vertices))
         rank = direction_ranks(self.points, cycles)
         simplices = triangulate_polygons(cycles, rank, displaced_outward(self.points, cycles))
-        return SphericalDelaunay._from_simplices(self.points, simplices)
+        return SphericalDelaunay._from_simplices(self.points, simplices, self._duplicates())
 
 
 class CellSides(NamedTuple):

@@ -57,9 +57,10 @@ def canonical(simplices: Indices) -> IntArray:
 
 def neighbors_of(simplices: Indices) -> IntArray:
     """Triangle opposite each corner, (m, 3), -1 where there is none."""
-    ends = np.sort(_directed_edges(simplices), axis=1)
-    order = np.lexsort(ends.T)
-    shared = (ends[order[1:]] == ends[order[:-1]]).all(axis=1)
+    ends = np.sort(_directed_edges(simplices), axis=1).astype(np.int64)
+    both = ends[:, 0] << 32 | ends[:, 1]
+    order = np.argsort(both, kind="stable")
+    shared = both[order[1:]] == both[order[:-1]]
     one, other = order[:-1][shared], order[1:][shared]
     result = np.full(3 * len(simplices), -1, dtype=np.int32)
     result[one], result[other] = other // 3, one // 3
@@ -68,8 +69,10 @@ def neighbors_of(simplices: Indices) -> IntArray:
 
 def edges_of(simplices: Indices) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
-    ends = np.sort(_directed_edges(simplices), axis=1)
-    return np.unique(ends, axis=0).astype(np.int32).reshape(-1, 2)
+    ends = np.sort(_directed_edges(simplices), axis=1).astype(np.int64)
+    both = np.sort(ends[:, 0] << 32 | ends[:, 1])  # one number for both ends: sorted a hundred times as fast as rows
+    once = both[np.concatenate([[True], both[1:] != both[:-1]])] if len(both) else both
+    return np.column_stack([once >> 32, once & 0xFFFFFFFF]).astype(np.int32)
 
 
 def boundary_of(simplices: Indices, neighbors: Indices, inside: BoolArray) -> IntArray:
@@ -77,14 +80,6 @@ def boundary_of(simplices: Indices, neighbors: Indices, inside: BoolArray) -> In
     bordering = inside[:, None] & ((neighbors < 0) | ~inside[neighbors])
     edges = _directed_edges(simplices)[bordering.ravel()]
     return np.ascontiguousarray(edges[np.lexsort(edges.T[::-1])], dtype=np.int32)
-
-
-def lowest_incident(simplices: Indices, inside: BoolArray, size: int) -> IntArray:
-    """Lowest triangle `inside` at each of `size` vertices, -1 where there is none."""
-    lowest = np.full(size, -1, dtype=np.int32)
-    rows = np.flatnonzero(inside)[::-1]
-    lowest[simplices[rows].ravel()] = np.repeat(rows, 3)  # the last assignment stays: the lowest row
-    return lowest
 
 
 def _directed_edges(simplices: Indices) -> Indices:

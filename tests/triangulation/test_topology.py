@@ -9,7 +9,6 @@ from stereodel.triangulation.topology import (
     boundary_of,
     canonical,
     edges_of,
-    lowest_incident,
     neighbors_of,
 )
 
@@ -70,8 +69,3 @@ def test_nothing():
     assert neighbors_of(none).shape == (0, 3)
     assert edges_of(none).shape == (0, 2)
     assert boundary_of(none, none, np.zeros(0, dtype=bool)).shape == (0, 2)
-
-
-def test_lowest_triangle_at_each_vertex():
-    assert lowest_incident(FAN, np.ones(3, dtype=bool), 6).tolist() == [0, 0, 1, 2, 0, -1]
-    assert lowest_incident(FAN, np.array([False, True, True]), 5).tolist() == [-1, 1, 1, 2, 1]
