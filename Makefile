@@ -47,10 +47,10 @@ test-large: $(STAMP) ## the tests that take minutes or gigabytes
 
 sanitize: $(STAMP) system ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
 	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
-	tools/fuzz.sh $(FUZZ_SECONDS)
+	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
-fuzz: ## feed random bytes to the kernel for FUZZ_SECONDS
-	tools/fuzz.sh $(FUZZ_SECONDS)
+fuzz: $(STAMP) ## feed random bytes to the kernel for FUZZ_SECONDS
+	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
 check: lint docs ## format, lint, types, sizes, tracked text, then the documentation
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Usage: tools/fuzz.sh SECONDS
+# Usage: tools/fuzz.sh VENV SECONDS
 # Feed bytes to the kernel, built with address and undefined-behaviour sanitizers and assertions: through libFuzzer where
 # clang has it, else random ones. What went wrong is left in build/fuzz.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-seconds=$1
+PATH=$(cd "$1/bin" && pwd):$PATH # its cmake and ninja come first
+seconds=$2
 build=$PWD/build/fuzz
 mkdir -p "$build/corpus"
 compiler=${CXX:-c++}
@@ -13,7 +14,6 @@ if echo 'extern "C" int LLVMFuzzerTestOneInput(const unsigned char*, unsigned lo
     clang++ -fsanitize=fuzzer,address,undefined -x c++ -o "$build/probe" - >/dev/null 2>&1; then
     compiler=clang++
 fi
-PATH=$PATH:$PWD/.venv/bin # where cmake is if the system has none
 rm -f "$build/CMakeCache.txt"
 quietly() { "$@" >"$build/log" 2>&1 || { cat "$build/log" >&2; exit 1; }; }
 quietly cmake -S . -B "$build" -G Ninja -DCMAKE_CXX_COMPILER="$compiler" -DSTEREODEL_SANITIZE=ON \
