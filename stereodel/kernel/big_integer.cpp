@@ -181,11 +181,8 @@ BigInteger operator*(const BigInteger& a, const BigInteger& b) {
     return {sign, std::move(result)};
 }
 
-int compare(const BigInteger& a, const BigInteger& b) {
-    if (a.sign_ != b.sign_) {
-        return a.sign_ < b.sign_ ? -1 : 1;
-    }
-    return a.sign_ * compare_magnitudes(a.limbs_, b.limbs_);
+bool operator==(const BigInteger& a, const BigInteger& b) {
+    return a.sign_ == b.sign_ && compare_magnitudes(a.limbs_, b.limbs_) == 0;
 }
 
 int lowest_exponent(double value) {

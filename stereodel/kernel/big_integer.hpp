@@ -51,8 +51,7 @@ class BigInteger {
     friend BigInteger operator+(const BigInteger& a, const BigInteger& b) { return sum(a, b, b.sign_); }
     friend BigInteger operator-(const BigInteger& a, const BigInteger& b) { return sum(a, b, -b.sign_); }
     friend BigInteger operator*(const BigInteger& a, const BigInteger& b);
-    friend bool operator==(const BigInteger& a, const BigInteger& b) { return compare(a, b) == 0; }
-    friend int compare(const BigInteger& a, const BigInteger& b);  // sign of a - b
+    friend bool operator==(const BigInteger& a, const BigInteger& b);
 
   private:
     BigInteger(int sign, Limbs&& limbs);
@@ -61,8 +60,6 @@ class BigInteger {
     int sign_ = 0;
     Limbs limbs_;
 };
-
-int compare(const BigInteger& a, const BigInteger& b);
 
 // The exponent of the lowest bit that is set: value = odd * 2^result. EVERY_EXPONENT for zero: every power divides it.
 constexpr int EVERY_EXPONENT = 1 << 20;

@@ -84,7 +84,7 @@ int incircle_exact(const double* a, const double* b, const double* c, const doub
 int distances_exact(const double* q, const double* a, const double* b) {
     const int exponent = common_exponent({q, a, b});
     const IntegerPoint qa = integer_edge(q, a, exponent), qb = integer_edge(q, b, exponent);
-    return compare(square_form(qa.x, qa.y), square_form(qb.x, qb.y));
+    return (square_form(qa.x, qa.y) - square_form(qb.x, qb.y)).sign();
 }
 
 bool is_rectangle(const double* a, const double* b, const double* c, const double* d) {

@@ -68,17 +68,16 @@ void project(const double* p, Pole pole, double out[2]) {
 
 // The same in double-double. Squares are exact; the sums 3.1u^2 each, all terms positive; the root of that 3.1u^2 +
 // 5u^2, the reach 11.2u^2, the product 18.3u^2, the quotient by x^2 + y^2 (3.1u^2) 11u^2 more: below 33u^2 < 2^-100.
-// With the limits 2^-400 everything stays where the operations keep their relative bounds.
+// With numerators above 2^-400, squares above 2^-800, nothing underflows that the operations' bounds build upon.
 void project_double_double(const double* p, Pole pole, double out[4]) {
     const Seen v(p, pole);
     const DoubleDouble square = two_product(v.flat[0], v.flat[0]) + two_product(v.flat[1], v.flat[1]);
     const DoubleDouble reach =
         sqrt(square + two_product(v.height, v.height)) + DoubleDouble{std::fabs(v.height), 0.0};
-    const double safe = v.height > 0.0 && !(square.hi > 0x1p-400) ? NOT_A_NUMBER : 1.0;
     for (int k = 0; k < 2; ++k) {
         const DoubleDouble x = {v.flat[k], 0.0};
         const DoubleDouble image = v.height > 0.0 ? x * reach / square : x / reach;
-        const double factor = safe * promise(v.flat[k], 0x1p-400);
+        const double factor = promise(v.flat[k], 0x1p-400);
         out[2 * k] = image.hi * factor;
         out[2 * k + 1] = image.lo * factor;
     }

@@ -45,7 +45,7 @@ int sign_of_two(const RootTerm& first, const RootTerm& second) {
     if (sign == second.coefficient.sign()) {
         return sign;
     }
-    return sign * compare(square(first), square(second));
+    return sign * (square(first) - square(second)).sign();
 }
 
 // The square of c sqrt(n) + d sqrt(m) is a whole number and one root, 2cd sqrt(nm).

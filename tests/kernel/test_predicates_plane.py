@@ -65,6 +65,15 @@ def on_a_line(count, seed):
     return start + rng.uniform(-3, 3, size=(4, count, 1)) * direction
 
 
+def around_a_point(count, seed):
+    """A point and others at one distance from it, rounded."""
+    rng = np.random.default_rng(seed)
+    angle = rng.uniform(0, 2 * np.pi, size=(3, count))
+    radius = rng.uniform(0.1, 10, size=(count, 1))
+    center = rng.uniform(-1, 1, size=(1, count, 2))
+    return np.concatenate([center, center + radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)])
+
+
 @EVERY
 @pytest.mark.parametrize("spread", SPREADS)
 def test_clusters(name, spread):
@@ -74,7 +83,7 @@ def test_clusters(name, spread):
 
 
 @EVERY
-@pytest.mark.parametrize("near", [on_a_circle, on_a_line])
+@pytest.mark.parametrize("near", [on_a_circle, on_a_line, around_a_point])
 def test_near_degenerate(name, near):
     """What doubles leave open, twice the precision decides, but for exact zeros."""
     shares, truth = check(name, near(600, 2))
@@ -84,6 +93,7 @@ def test_near_degenerate(name, near):
 def test_the_filter_is_left_often_near_degenerate():
     assert check("incircle", on_a_circle(500, 3))[0]["filter"] > 0.5
     assert check("orient2d", on_a_line(500, 3))[0]["filter"] > 0.5
+    assert check("distances", around_a_point(500, 3))[0]["filter"] > 0.5
 
 
 @EVERY
@@ -106,6 +116,39 @@ def test_tiny_and_huge(name, scale):
     points = np.concatenate([rng.integers(-9, 9, size=(4, 60, 2)), rng.normal(size=(4, 60, 2))], axis=1) * scale
     shares, _ = check(name, points)
     assert shares["filter"] == 1 or 1e-240 < scale < 1e240
+
+
+@EVERY
+@pytest.mark.parametrize("near", [on_a_circle, on_a_line, around_a_point])
+@pytest.mark.parametrize("exponent", [-252, -259, -262, -265, -268, -350, -516, -525, -529, -532, -536])
+def test_where_products_underflow(name, near, exponent):
+    """Products keep a few bits only, and the signs of what is left are wrong more often than not."""
+    check(name, near(150, 9) * 2.0**exponent)
+
+
+def test_rectangles_that_miss_by_one_bit():
+    corners = np.array([[0.1, 0.3], [0.7, 0.3], [0.7, 0.9], [0.1, 0.9]])
+    sets = [corners, corners.round()]
+    for corner, axis, up in itertools.product(range(4), range(2), (-np.inf, np.inf)):
+        moved = corners.copy()
+        moved[corner, axis] = np.nextafter(moved[corner, axis], up)
+        sets.append(moved)
+    rows = [[points[k] for k in order] for points in sets for order in itertools.permutations(range(4))]
+    _, truth = check("incircle", np.array(rows).transpose(1, 0, 2))
+    assert {-1, 0, 1} == set(truth.tolist())
+
+
+def test_a_grid_too_large_for_doubles():
+    """Triangles of twice the area one whose products have up to 66 bits."""
+    fibonacci = [1, 1]
+    while fibonacci[-1] < 2**33:
+        fibonacci.append(fibonacci[-2] + fibonacci[-1])
+    points = np.array([[0, 0], *itertools.pairwise(fibonacci)], dtype=float)
+    numbers = np.array([[0, k, k + 1] for k in range(1, len(points) - 1)], dtype=np.int32)
+    truth = [orient2d_integer(*points[row].astype(int).tolist()) for row in numbers]
+    assert _kernel.common_granularity(points) == 1
+    assert _kernel.orient_numbered(points, numbers)[0].tolist() == truth
+    assert {-1, 1} == set(truth)
 
 
 @EVERY
@@ -183,8 +226,8 @@ def test_a_permanent_that_underflows_proves_nothing():
 @pytest.mark.parametrize("count", range(1, 6))
 @given(data=st.data())
 def test_granularity(count, data):
-    exponents = st.integers(-300, 250)
-    value = st.builds(lambda m, e: float(m) * 2.0**e, st.integers(-(2**20), 2**20), exponents)
+    exponents = st.integers(-300, 250) | st.integers(-3, 3)
+    value = st.builds(lambda m, e: float(m) * 2.0**e, st.integers(-(2**53), 2**53), exponents)
     points = np.array(data.draw(st.lists(st.tuples(value, value), min_size=count, max_size=count)))
     granularity = _kernel.common_granularity(points)
     if granularity:
@@ -194,6 +237,14 @@ def test_granularity(count, data):
         assert granularity == 2.0**240 or any(q.numerator % 2 for q in quotients)
     else:
         assert any(x and (Fraction(x) / Fraction(2) ** -240).denominator > 1 for x in points.ravel().tolist())
+
+
+@pytest.mark.parametrize("bits", [50, 51, 52, 53])
+def test_granularity_of_long_numbers(bits):
+    """A large number after a round one: its last bit counts unless doubles of its size have none so small."""
+    for first in (2.0, 4.0, 8.0):
+        assert _kernel.common_granularity(np.array([[first, 2.0**bits - 1]])) == 1
+        assert _kernel.common_granularity(np.array([[first, 2.0**53 + 2]])) == 2
 
 
 def test_granularity_of_nothing():

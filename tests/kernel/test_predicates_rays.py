@@ -123,6 +123,27 @@ def test_beside_an_axis(name, spread, steps):
     check(name, np.roll(vectors * 3, 1, axis=-1))
 
 
+@pytest.mark.parametrize("exponent", [-30, -60, -120, -249, -262, -266, -268, -300, -515, -525, -532])
+def test_turns_beside_an_axis(exponent):
+    """Great circles through three directions next to an axis, rounded."""
+    rng = np.random.default_rng(18)
+    start, direction = rng.normal(size=(2, 150, 2))
+    vectors = np.ones((3, 150, 3))
+    vectors[..., :2] = (start + rng.uniform(-3, 3, size=(3, 150, 1)) * direction) * 2.0**exponent
+    check("turn", vectors, unit=True)
+    check("turn", vectors, unit=False)
+
+
+def test_turns_of_directions_closer_than_their_low_parts_tell():
+    """Three directions of the plane 3x = y, two of them the same or closer than 1e-34."""
+    k = np.arange(1.0, 201.0)[:, None]
+    for rise in (0.0, 1e-25, 1e-34, 1e-40, 1e-60):
+        vectors = np.stack([k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]])
+        check("turn", vectors)
+        check("bubble", np.concatenate([vectors, vectors[:1] + np.array([0, 1, 0])]))
+        assert not check("turn", vectors[[0, 2, 2]] * [[[1]], [[1]], [[3]]])[1].any()
+
+
 @pytest.mark.parametrize("steps", [1, 4])
 def test_lengths_decide(steps):
     """On a circle about an axis, so small that the squares of the lengths' differences decide the sign."""

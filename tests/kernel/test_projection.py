@@ -134,6 +134,17 @@ def test_order_of_projected_coordinates(axis, sign, coordinate):
 
 @EVERY_POLE
 @pytest.mark.parametrize("coordinate", [0, 1])
+def test_multiples_of_a_vector_project_alike(axis, sign, coordinate):
+    """Exact ties whose roundings differ."""
+    p = np.random.default_rng(7).integers(-(2**30), 2**30, size=(200, 3)).astype(float)
+    for factor in (3.0, 11.0):
+        shares = check_order(p, p * factor, axis, sign, coordinate)
+        assert shares["filter"] == shares["double_double"] == 1
+    assert (_kernel.compare_projected(p, 7 * p, axis, sign, coordinate) == 0).all()
+
+
+@EVERY_POLE
+@pytest.mark.parametrize("coordinate", [0, 1])
 def test_coordinates_and_lines(axis, sign, coordinate):
     p = vectors()
     rng = np.random.default_rng(5)
@@ -168,17 +179,22 @@ def test_extreme_components(axis, sign):
         check_line(p, axis, sign, coordinate, q[:, 0].copy(), q[:, 1].copy())
 
 
-def test_rational_points_on_rational_lines():
-    """(2X, 2Y, X² + Y² − 1) projects from the north pole to (Y, X) exactly: exact ties."""
-    grid = np.array([[x, y] for x in range(-3, 4) for y in range(-3, 4)]) / 4
-    x, y = grid.T
-    lifted = np.stack([2 * x, 2 * y, x * x + y * y - 1], axis=1)
-    assert (_kernel.compare_to_line(lifted, 2, 1, 0, y, 0 * y) == 0).all()
-    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x) == 0).all()
-    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x + 1e-300) == -1).all()
+@pytest.mark.parametrize("parts", [4.0, 3.0])
+def test_rational_points_on_rational_lines(parts):
+    """(2X, 2Y, X² + Y² − 1), times anything, projects from the north pole to (Y, X): exact ties."""
+    x, y = np.array([[x, y] for x in range(-3, 4) for y in range(-3, 4)], dtype=float).T
+    lifted = np.stack([2 * x * parts, 2 * y * parts, x * x + y * y - parts * parts], axis=1)
+    x, y = x / parts, y / parts
     first, second = (np.ascontiguousarray(v) for v in np.stack(list(itertools.product(lifted, lifted)), axis=1))
     order = np.sign([b - a for b, a in itertools.product(y, y)])
     assert (_kernel.compare_projected(first, second, 2, 1, 0) == order).all()
+    for k in range(7):
+        check_order(lifted, np.roll(lifted, 7 * k, axis=0), 2, 1, 0)
+    if parts != 4:
+        return
+    assert (_kernel.compare_to_line(lifted, 2, 1, 0, y, 0 * y) == 0).all()
+    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x) == 0).all()
+    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x + 1e-300) == -1).all()
 
 
 @pytest.mark.parametrize(("axis", "sign"), [(3, 1), (-1, 1), (0, 0)])
