@@ -2,6 +2,7 @@
 The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location.
 """
 
+from collections.abc import Sequence
 from typing import Annotated
 
 import numpy
@@ -226,6 +227,7 @@ def incircle_numbered(
 def common_granularity(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
 ) -> float: ...
+def sign_of_roots(terms: Sequence[tuple[Sequence[int], Sequence[int]]]) -> int: ...
 def bubble(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
