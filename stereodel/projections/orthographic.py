@@ -73,7 +73,8 @@ class Orthographic(TangentPlane):
         local = transform(self.frame, normal)
         across = dot(local[:2], local[:2]).sqrt()
         a, c, r = float(across.round()), float(local[2].round()), circle.radius
-        along = (local[:2] / across).round() if a > 0 else np.array([1.0, 0.0])
+        # Nearer to the view's axis squares leave the range of double-double, and the ellipse is a circle to all digits.
+        along = (local[:2] / across).round() if a > 2.0**-240 else np.array([1.0, 0.0])
         basis = np.array([along, [-along[1], along[0]]])
         center = (across * cosine * self.radius).round()
         # (s − s₀)² + c² p² = c² r², s along the normal's image and p across it.
