@@ -27,6 +27,7 @@ struct CurveArrays {
     Buffer<std::uint32_t> keys;
     Buffer<Index> source;
     Buffer<KeyedPoint> sorted_items;  // no longer needed: memory for others
+    Stop stop = nullptr;
 
     // `number(k)` for k < size are the points to take, `point` and `key` know them by these numbers.
     template <class NumberOf, class PointOf, class KeyOf>
@@ -49,7 +50,7 @@ struct CurveArrays {
         });
         sort_by_key(items.data(), items.data() + size, size, workers);
         CurveArrays arrays{Buffer<Point2>(size + size / 2 + 1),  // as large as the neighbours will be
-                           Buffer<std::uint32_t>(size), Buffer<Index>(size), {}};
+                           Buffer<std::uint32_t>(size), Buffer<Index>(size), {}, stop};
         in_pieces([&](std::size_t k) {
             arrays.source[k] = static_cast<Index>(items[k].point());
             arrays.points[k] = point(arrays.source[k]);
@@ -65,7 +66,7 @@ struct CurveArrays {
 class CurveSites {
   public:
     explicit CurveSites(CurveArrays& arrays)
-        : points_(arrays.points.data()), source_(arrays.source.data()), keys_(arrays.keys.data()) {}
+        : points_(arrays.points.data()), source_(arrays.source.data()), keys_(arrays.keys.data()), stop_(arrays.stop) {}
 
     std::uint32_t key(Index a) const { return keys_[a]; }
 
@@ -79,6 +80,7 @@ class CurveSites {
         const std::size_t size = static_cast<std::size_t>(high - low);
         Buffer<KeyedPoint> items(2 * size);
         for (Index a = low; a < high; ++a) {
+            poll();
             items[static_cast<std::size_t>(a - low)] = {key(a), static_cast<std::uint32_t>(a)};
         }
         sort_by_key(items.data(), items.data() + size, size, 1);
@@ -111,6 +113,7 @@ class CurveSites {
             order[k] = low + static_cast<Index>(k);
         }
         std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+            poll();
             const int sign = a == b ? 0 : compare(a, b);
             return sign != 0 ? sign < 0 : source_[a] < source_[b];
         });
@@ -129,9 +132,20 @@ class CurveSites {
         return static_cast<Index>(kept);
     }
 
+    // To be called in long loops: looks at `stop` now and then.
+    void poll() {
+        if (++steps_ % 4096 == 0) {
+            check(stop_);
+        }
+    }
+
     Point2* points_;
     Index* source_;
     std::uint32_t* keys_;
+
+  private:
+    Stop stop_;
+    std::uint32_t steps_ = 0;
 };
 
 // A triangulation by tasks. The tasks are the same for any number of threads, and so is everything else.

@@ -187,6 +187,7 @@ template <class Coordinates>
 bool SphereSites::refine(Index low, Index high, const Coordinates& coordinates) {
     FineGrid grid;
     for (Index a = low; a < high; ++a) {
+        poll();
         const Point2 offset = coordinates.offset(a, ray(a));
         if (!is_finite(offset)) {
             return false;

@@ -19,12 +19,13 @@ bool dependent(Rays& rays, Index a, Index b) {
 }
 
 // Whether all directions lie on one great circle.
-bool on_one_great_circle(Rays& rays, Index count) {
+bool on_one_great_circle(Rays& rays, Index count, Stop stop) {
     Index b = 1;
     while (b < count && dependent(rays, 0, b)) {
         ++b;
     }
     for (Index c = b + 1; c < count; ++c) {
+        check(stop);
         if (rays.turn(0, b, c) != 0) {
             return false;
         }
@@ -33,12 +34,13 @@ bool on_one_great_circle(Rays& rays, Index count) {
 }
 
 // Points without triangles: which are repeated, and whether there are one or more.
-Triangulation flat(Rays& rays, Index count) {
+Triangulation flat(Rays& rays, Index count, Stop stop) {
     std::vector<Index> order(static_cast<std::size_t>(count));
     for (std::size_t k = 0; k < order.size(); ++k) {
         order[k] = static_cast<Index>(k);
     }
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        check(stop);
         const int sign = a == b ? 0 : rays.compare(a, b);
         return sign != 0 ? sign < 0 : a < b;
     });
@@ -188,8 +190,8 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
     if (count == 0) {
         return {};
     }
-    if (on_one_great_circle(exact, static_cast<Index>(count))) {
-        return flat(exact, static_cast<Index>(count));
+    if (on_one_great_circle(exact, static_cast<Index>(count), stop)) {
+        return flat(exact, static_cast<Index>(count), stop);
     }
     ProjectedRays rays{xyz, unit, pole, true};
     const Division division(rays, static_cast<Index>(count));

@@ -1,0 +1,50 @@
+"""Ctrl-C in the middle of long calls: they end soon, and what they worked on is what it was.
+
+Each in a process of its own: a signal that comes late must not hit the test runner.
+"""
+
+import subprocess
+import sys
+
+import pytest
+
+PROGRAM = """
+import signal, time
+import numpy as np
+from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
+
+rng = np.random.default_rng(0)
+cluster = np.array([0.6, 0.5, 0.3]) + 1e-14 * rng.normal(size=(400_000, 3))  # every sign takes long
+few = SphericalDelaunay(rng.normal(size=(500, 3)))
+signal.signal(signal.SIGALRM, signal.default_int_handler)
+started = []
+
+def interrupt_after(seconds):
+    signal.setitimer(signal.ITIMER_REAL, seconds)
+    started.append(time.perf_counter() + seconds)
+
+try:
+    {call}
+except KeyboardInterrupt:
+    print(time.perf_counter() - started[-1])
+else:
+    print("ended")
+assert len(few.points) == 500
+check_delaunay(few)
+check_delaunay(SphericalDelaunay(cluster[:100]))
+"""
+CALLS = {
+    "build": "interrupt_after(0.1); SphericalDelaunay(cluster, workers=1)",
+    "build on two threads": "interrupt_after(0.1); SphericalDelaunay(cluster, workers=2)",
+    "insert": "interrupt_after(0.1); few.insert(cluster)",
+    "find_simplex": "interrupt_after(0.05); few.find_simplex(np.repeat(few.points, 20_000, axis=0), workers=1)",
+}
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
+@pytest.mark.parametrize("call", CALLS)
+def test_an_interrupted_call_ends_soon_and_harms_nothing(call):
+    program = PROGRAM.format(call=CALLS[call])
+    ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
+    assert ran.returncode == 0, ran.stderr
+    assert float(ran.stdout) < 2.0  # half a second on a quiet machine
