@@ -39,7 +39,7 @@ ValuesOut<Index> answers(std::size_t count, bool is_long, Work&& work) {
 }
 
 ValuesOut<Index> find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                      RowsIn<double, 2> queries, int workers) {
+                            RowsIn<double, 2> queries, int workers) {
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
@@ -48,7 +48,7 @@ ValuesOut<Index> find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices
 }
 
 ValuesOut<Index> find_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                       RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
+                             RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
@@ -68,7 +68,7 @@ bool is_long_search(const TriangleArrays& triangles, std::size_t size, std::size
 }
 
 ValuesOut<Index> nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                            RowsIn<double, 2> queries, int workers) {
+                                  RowsIn<double, 2> queries, int workers) {
     check_points(points.shape(0));
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
     const std::size_t count = queries.shape(0);
@@ -78,7 +78,7 @@ ValuesOut<Index> nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> sim
 }
 
 ValuesOut<Index> nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                             RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
+                                   RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
     check_points(points.shape(0));
     const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
     const std::size_t count = queries.shape(0);

@@ -44,7 +44,8 @@ class CurveOrder {
             give_keys(items, [](const double* p) { return Chart::key(p); });
         }
         Buffer<KeyedPoint> spare(size);
-        sort_by_key(items.data(), spare.data(), size, workers_);
+        Crew crew(workers_);
+        sort_by_key(items.data(), spare.data(), size, crew);
         refine(items.data(), spare.data(), size);
     }
 

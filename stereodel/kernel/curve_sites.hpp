@@ -2,9 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -31,12 +32,12 @@ struct CurveArrays {
 
     // `number(k)` for k < size are the points to take, `point` and `key` know them by these numbers.
     template <class NumberOf, class PointOf, class KeyOf>
-    static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, int workers, Stop stop) {
+    static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, Crew& crew, Stop stop) {
         constexpr std::size_t grain = 1 << 14;
         const std::size_t pieces = (size + grain - 1) / grain;
         Buffer<KeyedPoint> items(3 * size);  // two for sorting; three are as large as the triangles
         const auto in_pieces = [&](auto&& body) {
-            parallel_for(pieces, workers, [&](std::size_t piece) {
+            crew.run(pieces, [&](std::size_t piece) {
                 check(stop);
                 const std::size_t end = std::min(size, (piece + 1) * grain);
                 for (std::size_t k = piece * grain; k < end; ++k) {
@@ -48,7 +49,7 @@ struct CurveArrays {
             const Index p = number(k);
             items[k] = {key(p), static_cast<std::uint32_t>(p)};
         });
-        sort_by_key(items.data(), items.data() + size, size, workers);
+        sort_by_key(items.data(), items.data() + size, size, crew);
         CurveArrays arrays{Buffer<Point2>(size + size / 2 + 1),  // as large as the neighbours will be
                            Buffer<std::uint32_t>(size), Buffer<Index>(size), {}, stop};
         in_pieces([&](std::size_t k) {
@@ -83,7 +84,8 @@ class CurveSites {
             poll();
             items[static_cast<std::size_t>(a - low)] = {key(a), static_cast<std::uint32_t>(a)};
         }
-        sort_by_key(items.data(), items.data() + size, size, 1);
+        Crew alone(1);
+        sort_by_key(items.data(), items.data() + size, size, alone);
         reorder(low, high, [&](Index k) { return static_cast<Index>(items[static_cast<std::size_t>(k)].point()); });
         for (Index a = low; a < high; ++a) {
             keys_[a] = items[static_cast<std::size_t>(a - low)].key();
@@ -152,22 +154,24 @@ class CurveSites {
 template <class Sites>
 class CurveTriangulation {
   public:
-    CurveTriangulation(CurveArrays& arrays, const Sites& sites, int workers, Stop stop)
-        : edges(arrays.source.size()), sites_(sites), stop_(stop) {
+    CurveTriangulation(CurveArrays& arrays, const Sites& sites, Crew& crew)
+        : edges(arrays.source.size()), sites_(sites), stop_(arrays.stop) {
         const Index size = static_cast<Index>(arrays.source.size());
         plan(0, size, size / tasks_at_least_ + 1);
-        parallel_for(ranges.size(), workers, [&](std::size_t k) { solve(ranges[k]); });
-        join(root_);
+        arrived_ = std::vector<std::atomic<int>>(nodes_.size());
+        crew.run(ranges.size(), [&](std::size_t k) { solve(k); });
+        whole = nodes_.back().part;
+        std::sort(duplicates.begin(), duplicates.end());
     }
 
+    // What one task triangulates.
     struct Range {
         Index low, high;
-        std::unique_ptr<Sites> sites;
-        Part part;
+        std::size_t node;
     };
 
     Edges edges;
-    std::vector<Range> ranges;  // of the tasks, along the curve
+    std::vector<Range> ranges;  // along the curve
     Part whole;
     std::vector<std::pair<Index, Index>> duplicates;
     Tally tally;
@@ -175,66 +179,52 @@ class CurveTriangulation {
   private:
     static constexpr Index tasks_at_least_ = 48;  // enough to keep many threads busy to the end
     static constexpr Index small_ = 2048;         // a range that is not worth a task of its own
+    static constexpr std::size_t none_ = static_cast<std::size_t>(-1);
 
-    // A cut, or a task if `axis` means nothing: `left` is its number then and `right` -1.
+    // A task, or a cut between two nodes; the root is the last one.
     struct Node {
-        std::size_t left, right;
+        std::size_t left, right, parent;
         Axis axis;
-        bool task;
+        Part part;
     };
 
     std::size_t plan(Index low, Index high, Index most) {
-        if (high - low > std::max(most, small_)) {
-            if (sites_.key(low) != sites_.key(high - 1) || sites_.refine(low, high)) {
-                const typename DivideAndConquer<Sites>::Cut cut(sites_, low, high);
-                const std::size_t left = plan(low, cut.place, most), right = plan(cut.place, high, most);
-                return add({left, right, cut.axis, false});
-            }
+        const bool divisible = high - low > std::max(most, small_);
+        if (divisible && (sites_.key(low) != sites_.key(high - 1) || sites_.refine(low, high))) {
+            const typename DivideAndConquer<Sites>::Cut cut(sites_, low, high);
+            const std::size_t left = plan(low, cut.place, most), right = plan(cut.place, high, most);
+            nodes_[left].parent = nodes_[right].parent = nodes_.size();
+            nodes_.push_back({left, right, none_, cut.axis, {}});
+        } else {
+            ranges.push_back({low, high, nodes_.size()});
+            nodes_.push_back({none_, none_, none_, Axis::x, {}});
         }
-        ranges.push_back({low, high, nullptr, {}});
-        return add({ranges.size() - 1, 0, Axis::x, true});
+        return nodes_.size() - 1;
     }
 
-    std::size_t add(Node node) {
-        nodes_.push_back(node);
-        root_ = nodes_.size() - 1;
-        return root_;
-    }
-
-    void solve(Range& range) {
+    // Triangulate a range, then join all whose other half is done already: what comes last does the rest.
+    void solve(std::size_t k) {
+        const Range& range = ranges[k];
         if (range.low == range.high) {
             return;
         }
-        range.sites = std::make_unique<Sites>(sites_);
-        range.part = DivideAndConquer<Sites>(edges, *range.sites, stop_).solve(range.low, range.high);
-    }
-
-    void join(std::size_t root) {
-        DivideAndConquer<Sites> engine(edges, sites_, stop_);
-        whole = join(engine, root);
-        tally += sites_.tally();
-        for (Range& range : ranges) {
-            if (range.sites) {
-                tally += range.sites->tally();
-                duplicates.insert(duplicates.end(), range.sites->duplicates.begin(), range.sites->duplicates.end());
-            }
+        Sites sites(sites_);
+        DivideAndConquer<Sites> engine(edges, sites, stop_);
+        nodes_[range.node].part = engine.solve(range.low, range.high);
+        for (std::size_t up = nodes_[range.node].parent; up != none_ && arrived_[up]++ == 1; up = nodes_[up].parent) {
+            Node& node = nodes_[up];
+            node.part = engine.merge(nodes_[node.left].part, nodes_[node.right].part, node.axis);
         }
-        std::sort(duplicates.begin(), duplicates.end());
-    }
-
-    Part join(DivideAndConquer<Sites>& engine, std::size_t k) {
-        const Node node = nodes_[k];
-        if (node.task) {
-            return ranges[node.left].part;
-        }
-        const Part left = join(engine, node.left);
-        return engine.merge(left, join(engine, node.right), node.axis);
+        const std::lock_guard lock(mutex_);
+        tally += sites.tally();
+        duplicates.insert(duplicates.end(), sites.duplicates.begin(), sites.duplicates.end());
     }
 
     Sites sites_;
     Stop stop_;
     std::vector<Node> nodes_;
-    std::size_t root_ = 0;
+    std::vector<std::atomic<int>> arrived_;  // how many halves of each node are done
+    std::mutex mutex_;                       // of what all tasks add to
 };
 
 }  // namespace stereodel

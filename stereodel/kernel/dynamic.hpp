@@ -138,6 +138,7 @@ class DynamicDelaunay {
         const std::size_t old = duplicates_.size();
         for (const std::vector<Index>& round : insertion_rounds<Chart>(points_.data(), fresh)) {
             travel(round, stop, [&](std::size_t k, Index& near) {
+                check(stop);
                 const Index equal = insertion.insert(round[k], near);
                 if (equal != nobody) {
                     duplicates_.emplace_back(round[k], equal);
@@ -199,6 +200,7 @@ class DynamicDelaunay {
         Buffer<Index> facet_at(size());
         std::fill_n(facet_at.data(), size(), -1);
         travel(leaving, stop, [&](std::size_t k, Index& near) {
+            check(stop);
             near = surface.locate(mesh_, near, leaving[k], stop).facet;
             facet_at[static_cast<std::size_t>(leaving[k])] = near;
         });
@@ -217,6 +219,7 @@ class DynamicDelaunay {
         std::vector<std::vector<Index>> rounds = insertion_rounds<Chart>(points_.data(), leaving);
         for (; !rounds.empty(); rounds.pop_back()) {
             for (const Index p : rounds.back()) {
+                check(stop);
                 if (facet_at[static_cast<std::size_t>(p)] >= 0) {
                     removal.remove(p);
                     if (Surface::has_ghost && surface.is_flat(mesh_)) {

@@ -1,7 +1,6 @@
 #include "mesh.hpp"
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <stdexcept>
@@ -129,7 +128,6 @@ void Mesh::tidy() {
             last_ghost_ = slots() - 1;
         }
     }
-    std::sort(low.begin(), low.end(), std::greater<>());
     free_.clear();
     for (Index t = slots() - 1; t >= count; --t) {
         if (in_use(t) && !(*this)[t].is_ghost()) {

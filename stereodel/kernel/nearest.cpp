@@ -64,8 +64,7 @@ class NearestFinder {
         });
     }
 
-    // The nearest of a point and its neighbours; those equally near as the point itself, if none is nearer, are in
-    // `equal_`.
+    // The nearest of a point and its neighbours. If that is the point itself, `equal_` holds the equally near ones.
     Near nearest_neighbor(Near here) {
         Near best = here;
         equal_.clear();
@@ -77,9 +76,6 @@ class NearestFinder {
                 equal_.push_back(other);
             }
         });
-        if (best.point != here.point) {
-            equal_.clear();
-        }
         return best;
     }
 

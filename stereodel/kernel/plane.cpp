@@ -81,10 +81,10 @@ class PlaneSites : public CurveSites {
 };
 
 template <class PointOf>
-Grid bounding_grid(PointOf&& point, std::size_t count, int workers) {
-    const std::size_t pieces = static_cast<std::size_t>(workers);
+Grid bounding_grid(PointOf&& point, std::size_t count, Crew& crew) {
+    const std::size_t pieces = crew.size();
     std::vector<Grid> parts(pieces);
-    parallel_for(pieces, workers, [&](std::size_t k) {
+    crew.run(pieces, [&](std::size_t k) {
         Grid grid;
         const Piece piece(count, k, pieces);
         for (std::size_t i = piece.begin; i < piece.end; ++i) {
@@ -121,12 +121,13 @@ Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_n
     if (count == 0) {
         return result;
     }
+    Crew crew(workers);
     const auto number = [](std::size_t k) { return static_cast<Index>(k); };
     const auto point = [xy](Index k) { return Point2{xy[2 * static_cast<std::ptrdiff_t>(k)], xy[2 * static_cast<std::ptrdiff_t>(k) + 1]}; };
-    const Grid grid = bounding_grid(point, count, workers);
+    const Grid grid = bounding_grid(point, count, crew);
     const auto key = [&](Index k) { return grid.key(point(k)); };
-    CurveArrays arrays = CurveArrays::sorted(count, number, point, key, workers, stop);
-    CurveTriangulation<PlaneSites> work(arrays, PlaneSites(arrays, common_granularity(xy, count)), workers, stop);
+    CurveArrays arrays = CurveArrays::sorted(count, number, point, key, crew, stop);
+    CurveTriangulation<PlaneSites> work(arrays, PlaneSites(arrays, common_granularity(xy, count)), crew);
     result.duplicates = std::move(work.duplicates);
     result.tally = work.tally;
     const std::size_t distinct = count - result.duplicates.size();
@@ -142,7 +143,7 @@ Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_n
     if (with_neighbors) {
         result.triangles.neighbors = Buffer<Index>(std::move(arrays.points), 3 * triangles);
     }
-    write_triangles(writer, work.ranges, result.triangles, workers, stop);
+    write_triangles(writer, work.ranges, result.triangles, crew, stop);
     return result;
 }
 

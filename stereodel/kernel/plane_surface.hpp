@@ -32,17 +32,11 @@ class PlaneSurface {
         return facet.is_ghost() ? sees_beyond(c[1], c[2], p) : points_.in_circle(c[0], c[1], c[2], p);
     }
 
-    // Four different points in any order: the sign of incircle, after displacement. Four on a line, which heights do
-    // not separate, take second, smaller displacements along x, then along y; they occur between facets that are made
-    // and taken away again while a hole is filled.
-    bool in_bubble(Index a, Index b, Index c, Index p) {
-        const int sign = points_.incircle(a, b, c, p);
-        if (sign != 0) {
-            return sign > 0;
-        }
-        const double* four[] = {points_.at(a), points_.at(b), points_.at(c), points_.at(p)};
-        return (points_.orient(a, b, c) != 0 ? incircle_tie(four[0], four[1], four[2], four[3]) : line_tie(four)) > 0;
-    }
+    // Of the hull of the lifted points: whether p sees a facet, which may be clockwise in the plane; four different
+    // points. None sees a facet on its own line; such facets are made and taken away again while a hole is filled.
+    // Their points are the corners of a convex polygon in a vertical plane, and other points see all of it or nothing,
+    // however it is cut.
+    bool in_bubble(Index a, Index b, Index c, Index p) { return points_.in_circle(a, b, c, p); }
 
     // From a facet near p.
     Location locate(const Mesh& mesh, Index near, Index p, Stop stop) {
@@ -80,25 +74,6 @@ class PlaneSurface {
         }
         const double *first = points_.at(u), *last = points_.at(v), *middle = points_.at(p);
         return before(first, middle) == before(middle, last);
-    }
-
-    // in_bubble for four different points of a line. The first of them in lexicographic order, in row i of the
-    // determinant with rows (x, y, x^2 + y^2, 1), moves along x; if the line is parallel to it, along y. Its cofactor
-    // is then (-1)^i det[y h 1] or -(-1)^i det[x h 1] of the others, h their heights. With t a coordinate along the
-    // line that grows with the lexicographic order, h is quadratic in t with a positive leading coefficient, so det[t h
-    // 1] has the sign of the permutation that the others are in; y grows with t or falls, and x grows where y does not
-    // change.
-    static int line_tie(const double* const* four) {
-        const double* rest[4];
-        std::copy(four, four + 4, rest);
-        const auto first = std::min_element(rest, rest + 4, before) - rest;
-        const double dy = four[first == 0 ? 1 : 0][1] - four[first][1];  // may round, but not to zero or past it
-        std::copy(rest + first + 1, rest + 4, rest + first);
-        int sign = first % 2 == 0 ? 1 : -1;
-        for (const auto& [j, k] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 2}}) {
-            sign = before(rest[j], rest[k]) ? sign : -sign;
-        }
-        return dy > 0 ? sign : -sign;
     }
 
     PlanePoints points_;

@@ -41,7 +41,7 @@ class LeastDigitFirst {
 };
 
 // Sort items[0, size) by key; points of one key stay in the order of their numbers if they come in it. `spare` is as large.
-inline void sort_by_key(KeyedPoint* items, KeyedPoint* spare, std::size_t size, int workers) {
+inline void sort_by_key(KeyedPoint* items, KeyedPoint* spare, std::size_t size, Crew& crew) {
     constexpr int top = 24;  // the first pass takes the bits from here on
     constexpr std::size_t buckets = std::size_t{1} << (32 - top);
     constexpr std::size_t few = 128;  // fewer are sorted faster by comparison
@@ -49,9 +49,9 @@ inline void sort_by_key(KeyedPoint* items, KeyedPoint* spare, std::size_t size, 
         std::sort(items, items + size);
         return;
     }
-    const std::size_t pieces = static_cast<std::size_t>(workers);
+    const std::size_t pieces = crew.size();
     std::vector<std::array<std::uint32_t, buckets>> places(pieces);
-    parallel_for(pieces, workers, [&](std::size_t k) {
+    crew.run(pieces, [&](std::size_t k) {
         std::array<std::uint32_t, buckets> counts{};
         const Piece piece(size, k, pieces);
         for (std::size_t i = piece.begin; i < piece.end; ++i) {
@@ -68,14 +68,14 @@ inline void sort_by_key(KeyedPoint* items, KeyedPoint* spare, std::size_t size, 
         }
     }
     begins[buckets] = sum;
-    parallel_for(pieces, workers, [&](std::size_t k) {
+    crew.run(pieces, [&](std::size_t k) {
         std::array<std::uint32_t, buckets> place = places[k];
         const Piece piece(size, k, pieces);
         for (std::size_t i = piece.begin; i < piece.end; ++i) {
             spare[place[items[i].key() >> top]++] = items[i];
         }
     });
-    parallel_for(buckets, workers, [&](std::size_t bucket) {
+    crew.run(buckets, [&](std::size_t bucket) {
         const std::size_t begin = begins[bucket], end = begins[bucket + 1];
         KeyedPoint* const source = spare + begin;
         if (end - begin < few) {

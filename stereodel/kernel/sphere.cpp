@@ -64,27 +64,48 @@ struct Division {
     std::vector<Index> others;  // empty if these are all
     std::vector<Index> at_pole;
 
-    Division(const ProjectedRays& rays, Index count) {
-        const auto [axis, sign] = rays.pole;
-        const auto is_at_pole = [&, axis = axis, sign = sign](Index a) {
-            const double* const p = rays.at(a);
-            return p[(axis + 1) % 3] == 0.0 && p[(axis + 2) % 3] == 0.0 && sign * p[axis] > 0.0;
-        };
-        for (Index a = 0; a < count; ++a) {
-            if (is_at_pole(a)) {
-                at_pole.push_back(a);
-            }
+    Division(const ProjectedRays& rays, std::size_t count, Crew& crew) {
+        const std::size_t pieces = crew.size();
+        std::vector<std::vector<Index>> found(pieces);
+        crew.run(pieces, [&](std::size_t k) { found[k] = find(rays, Piece(count, k, pieces)); });
+        for (const std::vector<Index>& part : found) {
+            at_pole.insert(at_pole.end(), part.begin(), part.end());
         }
-        for (Index a = 0; !at_pole.empty() && a < count; ++a) {
-            if (!is_at_pole(a)) {
-                others.push_back(a);
+        for (std::size_t k = 0, next = 0; !at_pole.empty() && k < count; ++k) {
+            if (next < at_pole.size() && static_cast<Index>(k) == at_pole[next]) {
+                ++next;
+            } else {
+                others.push_back(static_cast<Index>(k));
             }
         }
     }
 
     std::size_t shown(std::size_t count) const { return count - at_pole.size(); }
     Index number(std::size_t k) const { return others.empty() ? static_cast<Index>(k) : others[k]; }
+
+  private:
+    static std::vector<Index> find(const ProjectedRays& rays, Piece piece) {
+        const int along = rays.pole.axis, x = (along + 1) % 3, y = (along + 2) % 3;
+        std::vector<Index> result;
+        for (std::size_t k = piece.begin; k < piece.end; ++k) {
+            const double* const p = rays.at(static_cast<Index>(k));
+            if (p[x] == 0.0 && p[y] == 0.0 && rays.pole.sign * p[along] > 0.0) {
+                result.push_back(static_cast<Index>(k));
+            }
+        }
+        return result;
+    }
 };
+
+bool all_unit(const double* xyz, std::size_t count, Crew& crew) {
+    const std::size_t pieces = crew.size();
+    std::vector<char> unit(pieces);
+    crew.run(pieces, [&](std::size_t k) {
+        const Piece piece(count, k, pieces);
+        unit[k] = stereodel::all_unit(xyz + 3 * piece.begin, piece.end - piece.begin) ? 1 : 0;
+    });
+    return std::find(unit.begin(), unit.end(), 0) == unit.end();
+}
 
 // What closes the sphere around the pole.
 class Closure {
@@ -169,7 +190,7 @@ class Closure {
 
 // Write all: what was triangulated around the pole's antipode, then what closes it at the pole.
 void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure, CurveArrays& arrays, std::size_t distinct,
-                  bool with_neighbors, int workers, Stop stop, Triangles& triangles) {
+                  bool with_neighbors, Crew& crew, Stop stop, Triangles& triangles) {
     const std::size_t count = 2 * distinct - 4, first = count - closure.count();  // Euler
     triangles.corners = Buffer<Index>(std::move(arrays.sorted_items), 3 * count);
     if (with_neighbors) {
@@ -177,7 +198,7 @@ void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure,
     }
     TriangleWriter writer(work.edges, arrays.source.data());
     closure.leave_out(writer, first);
-    write_triangles(writer, work.ranges, triangles, workers, stop);
+    write_triangles(writer, work.ranges, triangles, crew, stop);
     closure.write(work.edges, first, triangles);
 }
 
@@ -185,7 +206,8 @@ void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure,
 
 Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with_neighbors, int workers, Pole pole, Stop stop) {
     check_size(count);
-    const bool unit = all_unit(xyz, count);
+    Crew crew(workers);
+    const bool unit = all_unit(xyz, count, crew);
     Rays exact(xyz, unit);
     if (count == 0) {
         return {};
@@ -194,12 +216,12 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
         return flat(exact, static_cast<Index>(count), stop);
     }
     ProjectedRays rays{xyz, unit, pole, true};
-    const Division division(rays, static_cast<Index>(count));
+    const Division division(rays, count, crew);
     rays.artificial = division.at_pole.empty();
     CurveArrays arrays = CurveArrays::sorted(
         division.shown(count), [&](std::size_t k) { return division.number(k); }, [&](Index p) { return rays.projected(p); },
-        [&](Index p) { return whole_plane_key(rays, p); }, workers, stop);
-    CurveTriangulation<SphereSites> work(arrays, SphereSites(arrays, rays), workers, stop);
+        [&](Index p) { return whole_plane_key(rays, p); }, crew, stop);
+    CurveTriangulation<SphereSites> work(arrays, SphereSites(arrays, rays), crew);
 
     Triangulation result;
     result.dimension = 2;
@@ -216,7 +238,7 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
     } else {
         closure.join(division.at_pole[0]);
     }
-    write_sphere(work, closure, arrays, count - result.duplicates.size(), with_neighbors, workers, stop, result.triangles);
+    write_sphere(work, closure, arrays, count - result.duplicates.size(), with_neighbors, crew, stop, result.triangles);
     return result;
 }
 

@@ -1,9 +1,11 @@
-// Threads: a loop over tasks on several of them, and a way to stop all.
+// Threads: loops over tasks on several of them, and a way to stop all.
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -21,48 +23,117 @@ inline void check(Stop stop) {
     }
 }
 
-// Calls task(k) for every k < count, on up to `workers` threads, the calling one among them; tasks are taken in order.
-// The first exception ends the loop and is thrown here, after all threads have come back.
+// Threads that wait for loops. The calling thread is one of them: a crew of one starts none.
+class Crew {
+  public:
+    explicit Crew(int workers) {
+        for (int k = 1; k < workers; ++k) {
+            try {
+                threads_.emplace_back([this] { serve(); });
+            } catch (const std::exception&) {
+                break;  // no more threads to be had: those that run do all the work
+            }
+        }
+    }
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+    ~Crew() {
+        {
+            const std::lock_guard lock(mutex_);
+            leave_ = true;
+        }
+        begins_.notify_all();
+        for (std::thread& thread : threads_) {
+            thread.join();
+        }
+    }
+
+    std::size_t size() const { return threads_.size() + 1; }
+
+    // Calls task(k) for every k < count; tasks are taken in order. The first exception ends the loop and is thrown here,
+    // after all threads have come back.
+    template <class Task>
+    void run(std::size_t count, Task&& task) {
+        std::atomic<std::size_t> taken{0};
+        std::exception_ptr failure;
+        const auto work = [&] {
+            try {
+                for (std::size_t k = taken++; k < count; k = taken++) {
+                    task(k);
+                }
+            } catch (...) {
+                taken = count;
+                const std::lock_guard lock(mutex_);
+                if (!failure) {
+                    failure = std::current_exception();
+                }
+            }
+        };
+        if (count > 1 && !threads_.empty()) {
+            together(work);
+        } else {
+            work();
+        }
+        if (failure) {
+            std::rethrow_exception(failure);
+        }
+    }
+
+  private:
+    // All threads do the same work.
+    void together(const std::function<void()>& work) {
+        {
+            const std::lock_guard lock(mutex_);
+            work_ = &work;
+            busy_ = threads_.size();
+            ++round_;
+        }
+        begins_.notify_all();
+        work();
+        std::unique_lock lock(mutex_);
+        ends_.wait(lock, [this] { return busy_ == 0; });
+    }
+
+    void serve() {
+        std::size_t seen = 0;
+        std::unique_lock lock(mutex_);
+        for (;;) {
+            begins_.wait(lock, [&] { return leave_ || round_ != seen; });
+            if (leave_) {
+                return;
+            }
+            seen = round_;
+            const std::function<void()>& work = *work_;
+            lock.unlock();
+            work();
+            lock.lock();
+            if (--busy_ == 0) {
+                ends_.notify_one();
+            }
+        }
+    }
+
+    std::vector<std::thread> threads_;
+    std::mutex mutex_;
+    std::condition_variable begins_, ends_;
+    const std::function<void()>* work_ = nullptr;
+    std::size_t round_ = 0, busy_ = 0;
+    bool leave_ = false;
+};
+
+// One loop, with threads of its own.
 template <class Task>
 void parallel_for(std::size_t count, int workers, Task&& task) {
-    std::atomic<std::size_t> taken{0};
-    std::exception_ptr failure;
-    std::mutex mutex;
-    const auto work = [&] {
-        try {
-            for (std::size_t k = taken++; k < count; k = taken++) {
-                task(k);
-            }
-        } catch (...) {
-            taken = count;
-            const std::lock_guard lock(mutex);
-            if (!failure) {
-                failure = std::current_exception();
-            }
-        }
-    };
-    std::vector<std::thread> threads;
-    for (std::size_t k = 1; k < static_cast<std::size_t>(workers) && k < count; ++k) {
-        try {
-            threads.emplace_back(work);
-        } catch (const std::exception&) {
-            break;  // no more threads to be had: those that run do all the work
-        }
-    }
-    work();
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    if (failure) {
-        std::rethrow_exception(failure);
-    }
+    const std::size_t useful = count < static_cast<std::size_t>(workers) ? count : static_cast<std::size_t>(workers);
+    Crew(static_cast<int>(useful)).run(count, task);
 }
 
 // Piece `k` of `pieces` of the range [0, size).
 struct Piece {
     std::size_t begin, end;
     Piece(std::size_t size, std::size_t k, std::size_t pieces)
-        : begin(size / pieces * k + size % pieces * k / pieces), end(size / pieces * (k + 1) + size % pieces * (k + 1) / pieces) {}
+        : begin(size / pieces * k + size % pieces * k / pieces),
+          end(size / pieces * (k + 1) + size % pieces * (k + 1) / pieces) {}
 };
 
 }  // namespace stereodel

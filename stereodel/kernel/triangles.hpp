@@ -120,7 +120,7 @@ class TriangleWriter {
 
 // Write the triangles of all ranges (with members `low` and `high`), in their order, into rows from 0 on.
 template <class Ranges>
-void write_triangles(TriangleWriter& writer, const Ranges& ranges, Triangles& triangles, int workers, Stop stop) {
+void write_triangles(TriangleWriter& writer, const Ranges& ranges, Triangles& triangles, Crew& crew, Stop stop) {
     const auto begin = [&](std::size_t k) { return static_cast<std::size_t>(ranges[k].low); };
     const auto end = [&](std::size_t k) { return static_cast<std::size_t>(ranges[k].high); };
     std::vector<std::size_t> first(ranges.size() + 1, 0);
@@ -128,17 +128,17 @@ void write_triangles(TriangleWriter& writer, const Ranges& ranges, Triangles& tr
         check(stop);
         return writer.write(begin(k), end(k), first[k], triangles);
     };
-    if (workers == 1) {
+    if (crew.size() == 1) {
         for (std::size_t k = 0; k < ranges.size(); ++k) {
             first[k + 1] = write(k);
         }
     } else {
-        parallel_for(ranges.size(), workers, [&](std::size_t k) { first[k + 1] = writer.count(begin(k), end(k)); });
+        crew.run(ranges.size(), [&](std::size_t k) { first[k + 1] = writer.count(begin(k), end(k)); });
         std::partial_sum(first.begin(), first.end(), first.begin());
-        parallel_for(ranges.size(), workers, write);
+        crew.run(ranges.size(), write);
     }
     if (triangles.neighbors.size() != 0) {
-        parallel_for(ranges.size(), workers, [&](std::size_t k) {
+        crew.run(ranges.size(), [&](std::size_t k) {
             check(stop);
             writer.link(first[k], first[k + 1], triangles);
         });
