@@ -95,7 +95,8 @@ class CurveOrder {
         for (std::size_t k = 0; k < size; ++k) {
             items[k] = {grid.key(chart(at(items[k]))), items[k].point()};
         }
-        sort_by_key(items, spare, size, 1);
+        Crew alone(1);
+        sort_by_key(items, spare, size, alone);
         refine(items, spare, size);
     }
 
