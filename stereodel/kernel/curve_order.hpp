@@ -25,10 +25,10 @@ template <class Chart, class At>
 class CurveOrder {
   public:
     // `at(k)`: point number k.
-    CurveOrder(At at, int workers, Stop stop) : at_(at), workers_(workers), stop_(stop) {}
+    CurveOrder(At at, Crew& crew, Stop stop) : at_(at), crew_(crew), stop_(stop) {}
 
     // Sort items, whose keys are anything, along the curve; equal points by number if they come in that order.
-    void sort(Buffer<KeyedPoint>& items) const {
+    void sort(Buffer<KeyedPoint>& items) {
         const std::size_t size = items.size();
         if (size < 2) {
             return;
@@ -44,8 +44,7 @@ class CurveOrder {
             give_keys(items, [](const double* p) { return Chart::key(p); });
         }
         Buffer<KeyedPoint> spare(size);
-        Crew crew(workers_);
-        sort_by_key(items.data(), spare.data(), size, crew);
+        sort_by_key(items.data(), spare.data(), size, crew_);
         refine(items.data(), spare.data(), size);
     }
 
@@ -56,8 +55,8 @@ class CurveOrder {
     const double* at(KeyedPoint item) const { return at_(item.point()); }
 
     template <class KeyOf>
-    void give_keys(Buffer<KeyedPoint>& items, KeyOf&& key) const {
-        parallel_for((items.size() + grain - 1) / grain, workers_, [&](std::size_t piece) {
+    void give_keys(Buffer<KeyedPoint>& items, KeyOf&& key) {
+        crew_.run((items.size() + grain - 1) / grain, [&](std::size_t piece) {
             check(stop_);
             const std::size_t end = std::min(items.size(), (piece + 1) * grain);
             for (std::size_t k = piece * grain; k < end; ++k) {
@@ -75,7 +74,7 @@ class CurveOrder {
 
     // Runs of equal keys get a grid of their own. Each level has cells 2^16 times smaller, so few levels exhaust
     // doubles.
-    void refine(KeyedPoint* items, KeyedPoint* spare, std::size_t size) const {
+    void refine(KeyedPoint* items, KeyedPoint* spare, std::size_t size) {
         for (std::size_t begin = 0, end = 0; begin < size; begin = end) {
             for (end = begin + 1; end < size && items[end].key() == items[begin].key(); ++end) {
             }
@@ -86,7 +85,7 @@ class CurveOrder {
         }
     }
 
-    void refine_run(KeyedPoint* items, KeyedPoint* spare, std::size_t size) const {
+    void refine_run(KeyedPoint* items, KeyedPoint* spare, std::size_t size) {
         const Chart chart(at(items[0]));
         CurveGrid grid;
         if (!fit(grid, chart, items, size)) {
@@ -95,13 +94,13 @@ class CurveOrder {
         for (std::size_t k = 0; k < size; ++k) {
             items[k] = {grid.key(chart(at(items[k]))), items[k].point()};
         }
-        Crew alone(1);
-        sort_by_key(items, spare, size, alone);
+        sort_by_key(items, spare, size, alone_);
         refine(items, spare, size);
     }
 
     At at_;
-    int workers_;
+    Crew& crew_;
+    Crew alone_{1};
     Stop stop_;
 };
 

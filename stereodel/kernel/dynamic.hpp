@@ -126,9 +126,13 @@ class DynamicDelaunay {
         while (!mesh_.in_use(fallback)) {
             ++fallback;
         }
+        Crew alone(1);
         const Itinerary<Chart, decltype(point)> way(numbers.size(), point, static_cast<std::size_t>(mesh_.slots()),
-                                                    point_of, fallback, 1, stop);
-        way.travel(0, way.size(), visit);
+                                                    point_of, fallback, alone, stop);
+        way.travel(0, way.size(), [&](std::size_t k, Index& near) {
+            check(stop);
+            visit(k, near);
+        });
     }
 
     // Points equal to one before are among the duplicates only: of equal ones the lowest comes first.
@@ -138,7 +142,6 @@ class DynamicDelaunay {
         const std::size_t old = duplicates_.size();
         for (const std::vector<Index>& round : insertion_rounds<Chart>(points_.data(), fresh)) {
             travel(round, stop, [&](std::size_t k, Index& near) {
-                check(stop);
                 const Index equal = insertion.insert(round[k], near);
                 if (equal != nobody) {
                     duplicates_.emplace_back(round[k], equal);
@@ -200,7 +203,6 @@ class DynamicDelaunay {
         Buffer<Index> facet_at(size());
         std::fill_n(facet_at.data(), size(), -1);
         travel(leaving, stop, [&](std::size_t k, Index& near) {
-            check(stop);
             near = surface.locate(mesh_, near, leaving[k], stop).facet;
             facet_at[static_cast<std::size_t>(leaving[k])] = near;
         });

@@ -24,7 +24,7 @@ class Itinerary {
     // `point_of(t)`: a point of triangle t, or nullptr if no walk may begin there; `fallback`: a triangle where one
     // may.
     template <class PointOf>
-    Itinerary(std::size_t queries, At at, std::size_t triangles, PointOf&& point_of, Index fallback, int workers,
+    Itinerary(std::size_t queries, At at, std::size_t triangles, PointOf&& point_of, Index fallback, Crew& crew,
               Stop stop)
         : at_(at), queries_(queries), fallback_(fallback) {
         const double n = static_cast<double>(triangles), q = static_cast<double>(queries);
@@ -39,7 +39,7 @@ class Itinerary {
             const auto any = [this](std::uint32_t k) {
                 return k < queries_ ? at_(k) : landmarks_.vector(k - queries_);
             };
-            CurveOrder<Chart, decltype(any)>(any, workers, stop).sort(items_);
+            CurveOrder<Chart, decltype(any)>(any, crew, stop).sort(items_);
         }
     }
 

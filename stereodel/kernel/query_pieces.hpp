@@ -29,12 +29,14 @@ void for_queries(const TriangleArrays& triangles, Index start, const double* que
         const std::size_t v = static_cast<std::size_t>(*triangles.corners(t));
         return triangles.may_enter(t) ? triangles.points() + Chart::dimension * v : nullptr;
     };
-    const Itinerary<Chart, decltype(at)> way(count, at, triangles.count(), point_of, start, workers, stop);
-    parallel_for((way.size() + grain - 1) / grain, workers, [&](std::size_t piece) {
-        check(stop);
+    Crew crew(static_cast<int>(std::min(static_cast<std::size_t>(workers), count / grain + 1)));
+    const Itinerary<Chart, decltype(at)> way(count, at, triangles.count(), point_of, start, crew, stop);
+    crew.run((way.size() + grain - 1) / grain, [&](std::size_t piece) {
         auto answer = begin_piece();
-        way.travel(piece * grain, std::min(way.size(), (piece + 1) * grain),
-                   [&](std::size_t k, Index& near) { answer(k, at(k), near); });
+        way.travel(piece * grain, std::min(way.size(), (piece + 1) * grain), [&](std::size_t k, Index& near) {
+            check(stop);
+            answer(k, at(k), near);
+        });
     });
 }
 

@@ -236,6 +236,30 @@ def test_components_of_very_different_size():
     assert arrays.nearest(queries).tolist() == [lowest_nearest(points, q) for q in queries]
 
 
+def test_a_query_that_no_power_of_two_brings_near_length_one():
+    """Its second component would become subnormal and lose digits: it would then lie on the edge between y = 3 tiny."""
+    tiny = 5e-324
+    arrays = Arrays.of([[1, 3 * tiny, -1], [1, 3 * tiny, 1], [1, 1, 0], [1, -1, 0]])
+    queries = [[2.0**1000, k / 4 * 2.0**-74, 0] for k in range(8, 17)]  # k / 4 tiny of the first component
+    found = arrays.find(queries)
+    assert found.tolist() == [arrays.lowest_holder(q) for q in queries]
+    assert np.count_nonzero(found == found[0]) in (4, 5)
+
+
+@pytest.mark.parametrize("of_length_one", [False, True])
+def test_nearest_on_a_circle_of_rounded_directions(of_length_one):
+    """Their distances from the middle differ by less than those are rounded."""
+    rng = np.random.default_rng(12)
+    for query in rng.normal(size=(6, 3)):
+        axis = query / np.linalg.norm(query)
+        across = np.linalg.svd(axis[None])[2][1:]
+        angle = rng.random(150) * 2 * np.pi
+        points = axis + 0.3 * np.column_stack([np.cos(angle), np.sin(angle)]) @ across
+        points /= np.linalg.norm(points, axis=1, keepdims=True)
+        around = [q * (1 if of_length_one else 3) for q in (axis, axis + 1e-16, np.nextafter(axis, 2))]
+        assert Arrays.large(points).nearest(around).tolist() == [lowest_nearest(points.tolist(), q) for q in around]
+
+
 def test_unit_vectors_that_are_almost_equally_near():
     """Points mirrored in a plane, and queries on it or an ulp beside it."""
     rng = np.random.default_rng(7)

@@ -1,5 +1,7 @@
 """The kernel's meshes under insertion and removal, against the paper's insertion from scratch, and proved Delaunay."""
 
+import subprocess
+import sys
 import threading
 from dataclasses import dataclass
 
@@ -254,7 +256,10 @@ def test_many_points_into_few(width):
 def test_duplicates_of_one_batch_keep_the_lowest(width):
     rng = np.random.default_rng(11)
     points = random_points(width, rng, 50)
-    added = np.repeat(random_points(width, rng, 2000), 3, axis=0)[rng.permutation(6000)]
+    distinct = random_points(width, rng, 2000)
+    distinct[:, 0] = np.where(rng.random(2000) < 0.3, 0.0, distinct[:, 0])
+    added = np.repeat(distinct, 3, axis=0)[rng.permutation(6000)]
+    added[rng.random(6000) < 0.5, 0] *= -1  # also −0 beside 0
     mesh = Oracle.of(points).mesh()
     mesh.insert(added)
     expected = TRIANGULATE[width](np.vstack([points, added]))[2]
@@ -364,6 +369,36 @@ def test_wrong_input():
         with pytest.raises(ValueError, match="no such point"):
             mesh.remove(np.array([wrong], dtype=np.int32))
     prove_equal(mesh, points)
+
+
+INTERRUPTED = """
+import signal
+import numpy as np
+from stereodel import _kernel
+
+points = np.random.default_rng(0).random((400_000, 2))
+simplices, neighbors, duplicates, _, _ = _kernel.triangulate_plane(points[:1000])
+mesh = _kernel.PlaneMesh(points[:1000], simplices, neighbors, duplicates)
+signal.signal(signal.SIGALRM, signal.default_int_handler)
+signal.setitimer(signal.ITIMER_REAL, 0.02)
+try:
+    mesh.insert(points[1000:])
+except KeyboardInterrupt:
+    print("interrupted")
+for use in (mesh.arrays, lambda: mesh.insert(points[:1]), lambda: mesh.remove(np.zeros(1, dtype=np.int32))):
+    try:
+        use()
+    except ValueError as error:
+        print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
+def test_a_change_that_was_interrupted_is_not_used():
+    ran = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True, timeout=60)
+    first, *others = ran.stdout.splitlines()
+    assert first == "interrupted"
+    assert others == ["an earlier change did not come to its end; build the triangulation anew"] * 3
 
 
 def test_threads_take_turns():
