@@ -239,7 +239,7 @@ def test_components_of_very_different_size():
 def test_a_query_that_no_power_of_two_brings_near_length_one():
     """Its second component would become subnormal and lose digits: it would then lie on the edge between y = 3 tiny."""
     tiny = 5e-324
-    arrays = Arrays.of([[1, 3 * tiny, -1], [1, 3 * tiny, 1], [1, 1, 0], [1, -1, 0]])
+    arrays = Arrays.of([[1, 3 * tiny, -1], [1, 3 * tiny, 1], [1, 2, 0], [1, -2, 0]])
     queries = [[2.0**1000, k / 4 * 2.0**-74, 0] for k in range(8, 17)]  # k / 4 tiny of the first component
     found = arrays.find(queries)
     assert found.tolist() == [arrays.lowest_holder(q) for q in queries]
