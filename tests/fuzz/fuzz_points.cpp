@@ -1,15 +1,19 @@
 // Any bytes as points of the plane or directions: the kernel must give a valid triangulation, the same on one and two
-// threads and, on the sphere, from any pole. A crash, a wrong address, a hang or a failed check stops the program.
+// threads, after insertions and removals, and on the sphere from any pole. A crash, a wrong address, a hang or a failed
+// check stops the program.
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "changes.hpp"
 #include "checks.hpp"
 #include "plane_predicates.hpp"
+#include "plane_surface.hpp"
 #include "points_from_bytes.hpp"
 #include "ray_predicates.hpp"
 #include "sphere.hpp"
+#include "sphere_surface.hpp"
 
 namespace fuzz {
 namespace {
@@ -66,6 +70,9 @@ void check_plane(const Points& points) {
         check_flat(result, points.count, orient);
     }
     check_equal(result, stereodel::triangulate_plane(xy, points.count, true, 2, nullptr), "threads change triangles");
+    check_changes<stereodel::PlaneSurface>(points.coordinates, [](const Coordinates& some) {
+        return stereodel::triangulate_plane(some.data(), some.size() / 2, true, 1, nullptr);
+    });
 }
 
 void check_sphere(const Points& points) {
@@ -86,6 +93,9 @@ void check_sphere(const Points& points) {
     const stereodel::Pole other{(points.pole.axis + 1) % 3, -points.pole.sign};
     check_equal(result, stereodel::triangulate_sphere(xyz, points.count, true, 2, other, nullptr),
                 "other pole or threads, other triangles");
+    check_changes<stereodel::SphereSurface>(points.coordinates, [&](const Coordinates& some) {
+        return stereodel::triangulate_sphere(some.data(), some.size() / 3, true, 1, other, nullptr);
+    });
 }
 
 }  // namespace
