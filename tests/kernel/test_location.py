@@ -246,15 +246,16 @@ def test_a_query_that_no_power_of_two_brings_near_length_one():
     assert np.count_nonzero(found == found[0]) in (4, 5)
 
 
+@pytest.mark.parametrize("radius", [0.3, 1e-6])
 @pytest.mark.parametrize("of_length_one", [False, True])
-def test_nearest_on_a_circle_of_rounded_directions(of_length_one):
+def test_nearest_on_a_circle_of_rounded_directions(radius, of_length_one):
     """Their distances from the middle differ by less than those are rounded."""
     rng = np.random.default_rng(12)
     for query in rng.normal(size=(6, 3)):
         axis = query / np.linalg.norm(query)
         across = np.linalg.svd(axis[None])[2][1:]
         angle = rng.random(150) * 2 * np.pi
-        points = axis + 0.3 * np.column_stack([np.cos(angle), np.sin(angle)]) @ across
+        points = axis + radius * np.column_stack([np.cos(angle), np.sin(angle)]) @ across
         points /= np.linalg.norm(points, axis=1, keepdims=True)
         around = [q * (1 if of_length_one else 3) for q in (axis, axis + 1e-16, np.nextafter(axis, 2))]
         assert Arrays.large(points).nearest(around).tolist() == [lowest_nearest(points.tolist(), q) for q in around]

@@ -239,6 +239,26 @@ def test_coordinates_of_any_size(width, size):
     prove_equal(mesh, remove(mesh, points, range(5, len(points), 2)))
 
 
+def test_finer_points_than_before():
+    """What was exact in doubles for integers is not for those inserted, which lie on a line but for their rounding."""
+    rng = np.random.default_rng(20)
+    coarse = np.array([[0.0, 0], [3, 1], [1, 2], [2, -1]])
+    x = 3 * rng.random(60)
+    mesh = Oracle.of(coarse).mesh()
+    mesh.insert(np.column_stack([x, x / 3]))
+    prove_equal(mesh, np.vstack([coarse, np.column_stack([x, x / 3])]))
+
+
+def test_other_lengths_than_before():
+    rng = np.random.default_rng(21)
+    unit = directions(rng, 30)
+    unit /= np.linalg.norm(unit, axis=1, keepdims=True)
+    added = directions(rng, 30) * 10.0 ** rng.integers(-3, 3, size=(30, 1))
+    mesh = Oracle.of(unit).mesh()
+    mesh.insert(added)
+    prove_equal(mesh, np.vstack([unit, added]))
+
+
 @BOTH
 def test_many_points_into_few(width):
     """More than one round of insertion; removal of most of them again."""
