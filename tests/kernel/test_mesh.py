@@ -240,13 +240,13 @@ def test_coordinates_of_any_size(width, size):
 
 
 def test_finer_points_than_before():
-    """What was exact in doubles for integers is not for those inserted, which lie on a line but for their rounding."""
-    rng = np.random.default_rng(20)
-    coarse = np.array([[0.0, 0], [3, 1], [1, 2], [2, -1]])
-    x = 3 * rng.random(60)
+    """What doubles tell of integers they do not of those inserted, which lie on a circle but for their rounding."""
+    angle = np.random.default_rng(20).random(80) * 2 * np.pi
+    coarse = np.array([[9.0, 9], [-9, 9], [0, -9]])
+    circle = 5 * np.column_stack([np.cos(angle), np.sin(angle)])
     mesh = Oracle.of(coarse).mesh()
-    mesh.insert(np.column_stack([x, x / 3]))
-    prove_equal(mesh, np.vstack([coarse, np.column_stack([x, x / 3])]))
+    mesh.insert(circle)
+    prove_equal(mesh, np.vstack([coarse, circle]))
 
 
 def test_other_lengths_than_before():
