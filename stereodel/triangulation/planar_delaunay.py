@@ -57,8 +57,8 @@ class PlanarDelaunay(Delaunay):
     order of input changes the triangles. Arrays are read-only; `insert` and `remove` replace them. Several threads may
     ask at the same time; changes need a lock of the caller's.
 
-    Source: divide and conquer by L. Guibas and J. Stolfi (1985) along a space-filling curve; insertion as in the paper's
-    pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is the readable
+    Source: divide and conquer by L. Guibas and J. Stolfi (1985) along a space-filling curve; insertion as in the
+    paper's pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is the readable
     form.
 
     Examples
