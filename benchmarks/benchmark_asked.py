@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from benchmarks.experiments import SPACES
+from benchmarks.rounds import paired
 
 Results = dict[str, Any]
 
@@ -63,13 +64,8 @@ def rounds(record: dict[str, Any] | None) -> list[float]:
 
 
 def faster(record: dict[str, Any], peer: str, ours: str) -> list[float]:
-    """How many times the peer takes as long, round by round where the rounds pair."""
-    theirs, own = rounds(record.get(peer)), rounds(record.get(ours))
-    if not theirs or not own:
-        return []
-    if len(theirs) != len(own):
-        return [statistics.median(theirs) / statistics.median(own)]
-    return [a / b for a, b in zip(theirs, own, strict=True)]
+    """How many times the peer takes as long, round by round."""
+    return paired(rounds(record.get(peer)), rounds(record.get(ours)))
 
 
 def against_cgal(results: Results) -> Iterator[Figure]:

@@ -109,6 +109,9 @@ def changes(results: Results) -> str:
         records = [measured[column].get(word, {}) for column in columns]
         times = [digits(1e6 * r["seconds"] / each) if "seconds" in r else r.get("stopped", "–") for r in records]
         rows.append([what, *map(short_reason, times)])
+    for word, what in (("insert", "the first batch inserted, in all"), ("remove", "the first batch removed, in all")):
+        records = [measured[column].get(word, {}) for column in columns]
+        rows.append([what, *(digits(1e6 * r["first"]) if "first" in r else "–" for r in records)])
     bare = [measured[column].get("bare", {}) for column in columns]
     rows.append(
         ["peak bytes per point without `neighbors`", *(digits(r["peak"] / n) if "peak" in r else "–" for r in bare)]

@@ -17,14 +17,14 @@ TITLES = {"plane": "plane", "sphere": "sphere"}
 
 def sizes(results: Results) -> None:
     """docs/images/benchmarks_sizes.svg: time per point over the number of points."""
-    with pages.plot("benchmarks_sizes", 290, 1, 2) as axes:
+    with pages.plot("benchmarks_sizes", 300, 1, 2, sharey=True) as axes:
         for axis, space in zip(axes[0], SPACES, strict=True):
             for contender in CONTENDERS[space]:
                 _curve(axis, results["sizes"][space], contender)
             axis.set_title(TITLES[space])
             _log_axes(axis)
             axis.set_xlabel("uniform points")
-            axis.legend(loc="upper left", fontsize=6.8, ncols=2, handlelength=1.4, columnspacing=1.0, borderaxespad=0.2)
+            _legend(axis)
         axes[0][0].set_ylabel("nanoseconds per point")
 
 
@@ -49,11 +49,13 @@ def _curve(axis: Axes, sized: Results, contender: Contender) -> None:
         )
 
 
+def _legend(axis: Axes) -> None:
+    axis.legend(fontsize=6.8, ncols=2, loc="upper center", bbox_to_anchor=(0.45, -0.17), handletextpad=0.4)
+
+
 def _log_axes(axis: Axes) -> None:
     axis.set_xscale("log")
     axis.set_yscale("log")
-    low, high = axis.get_ylim()
-    axis.set_ylim(low, high * 12)  # room for the names
     axis.yaxis.set_major_locator(FixedLocator([m * 10.0**k for k in range(1, 7) for m in (1, 2, 5)]))
     axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.0f}".replace(",", "\u202f")))
     axis.yaxis.set_minor_formatter(NullFormatter())
@@ -72,7 +74,7 @@ def distributions(results: Results) -> None:
             axis.set_xscale("log")
             axis.set_title(TITLES[space])
             axis.set_xlabel("nanoseconds per point")
-            axis.legend(fontsize=6.8, ncols=2, loc="upper center", bbox_to_anchor=(0.4, -0.2), handletextpad=0.2)
+            _legend(axis)
 
 
 def _dots(axis: Axes, named: Results, names: list[str], contender: Contender) -> None:

@@ -6,6 +6,7 @@ A busy moment of the machine then meets all of them alike, and ratios are those 
 from __future__ import annotations
 
 import statistics
+import sys
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -16,13 +17,19 @@ from benchmarks.processes import Engine, StoppedError
 SLOW = 15.0
 """Seconds above which a first call counts and is the only one: it needs no warm-up."""
 
+LONG = 4.0
+"""Seconds of a first call above which an engine takes part in the first PAIRS rounds only."""
+
+PAIRS = 3
+"""Neighbouring measurements that a ratio needs at least."""
+
 SHORT = 0.05
 """Calls shorter than this many seconds are repeated to last about as long within a round."""
 
 
 @dataclass
 class Result:
-    """What one engine did: seconds of a call in each round (medians of repeated calls), counts, peak of the first."""
+    """What one engine did: seconds of a call in each round (medians of repeated calls), counts, the first call."""
 
     key: str
     version: str = ""
@@ -30,6 +37,7 @@ class Result:
     points: int = 0
     triangles: int = 0
     peak: int = 0
+    first: float = 0.0
     stopped: str | None = None
     extra: dict[str, Any] = field(default_factory=dict)
 
@@ -43,7 +51,7 @@ class Result:
         if self.stopped:
             return {"stopped": self.stopped, "version": self.version}
         known = {"seconds": self.median, "rounds": self.seconds, "points": self.points, "triangles": self.triangles}
-        return known | {"peak": self.peak, "version": self.version, **self.extra}
+        return known | {"peak": self.peak, "first": self.first, "version": self.version, **self.extra}
 
 
 @dataclass(frozen=True)
@@ -63,7 +71,7 @@ class _Player:
         self._entry = entry
         self._engine: Engine | None = None
         self._calls = 1
-        self._again = True
+        self._rounds = sys.maxsize
 
     def start(self) -> None:
         """Start, and make the first call: it gives memory, counts, and how often to call in a round."""
@@ -78,10 +86,13 @@ class _Player:
         first = engine.run(1, self._entry.word)
         self.result.points, self.result.triangles = first.points, first.triangles
         self.result.peak, self.result.extra = first.peak, first.extra
+        self.result.first = first.seconds[0]
         if first.seconds[0] > SLOW:
             self.result.seconds.append(first.seconds[0])
-            self._again = False
+            self._rounds = 0
             engine.close()
+        elif first.seconds[0] > LONG:
+            self._rounds = PAIRS
         elif first.seconds[0] < SHORT:
             # Again: the first call of a program is slower than the others.
             second = max(1e-6, min(engine.run(3, self._entry.word).seconds))
@@ -89,8 +100,9 @@ class _Player:
 
     def play(self) -> None:
         """One round."""
-        if self.result.stopped or not self._again:
+        if self.result.stopped or self._rounds == 0:
             return
+        self._rounds -= 1
         try:
             self.result.seconds.append(statistics.median(self._engine.run(self._calls, self._entry.word).seconds))
         except StoppedError as error:
@@ -118,10 +130,17 @@ def take_turns(entries: Sequence[Entry], rounds: int, say: Callable[[Result], No
     return {player.result.key: player.result for player in players}
 
 
+def paired(slower: Sequence[float], faster: Sequence[float]) -> list[float]:
+    """Ratios of the rounds that both took part in; that of the medians where these are fewer than PAIRS."""
+    if not slower or not faster:
+        return []
+    if min(len(slower), len(faster)) < PAIRS:
+        return [statistics.median(slower) / statistics.median(faster)]
+    return [a / b for a, b in zip(slower, faster, strict=False)]
+
+
 def ratios(slower: Result | None, faster: Result | None) -> list[float]:
     """How many times faster the second was, round by round."""
     if slower is None or faster is None or slower.stopped or faster.stopped:
         return []
-    if len(slower.seconds) != len(faster.seconds):
-        return [slower.median / faster.median]
-    return [a / b for a, b in zip(slower.seconds, faster.seconds, strict=True)]
+    return paired(slower.seconds, faster.seconds)

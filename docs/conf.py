@@ -55,7 +55,17 @@ html_theme_options = {
 }
 html_sidebars = {
     page: []
-    for page in ("index", "names", "conventions", "exactness", "degenerate", "paper", "flat_regions", "changelog")
+    for page in (
+        "index",
+        "names",
+        "conventions",
+        "exactness",
+        "degenerate",
+        "paper",
+        "flat_regions",
+        "benchmarks",
+        "changelog",
+    )
 }
 
 sphinx_gallery_conf = {
