@@ -64,10 +64,55 @@ class NearestFinder {
         });
     }
 
-    // The nearest of a point and its neighbours. If that is the point itself, `equal_` holds the equally near ones.
+    // The nearest of a point and its neighbours. If that is the point itself, `equal_` holds those that are as near. A
+    // look along the star to the largest gain mostly tells that this is so, however large the star is.
     Near nearest_neighbor(Near here) {
-        Near best = here;
+        const Near top = climb(here);
+        const int sign = top.point < 0 ? -1 : query_.compare(top.point, here.point);
         equal_.clear();
+        if (sign < 0) {
+            return nearest_of_star(here);
+        }
+        if (sign == 0) {
+            equal_.push_back(top);
+        }
+        return here;
+    }
+
+    // The neighbour of largest gain, -1 if that is not certain.
+    Near climb(Near here) {
+        const std::size_t place = triangles_.place(here.triangle, here.point);
+        const Index* const c = triangles_.corners(here.triangle);
+        Near now{c[(place + 1) % 3], here.triangle};
+        Gain behind = query_.gain(c[(place + 2) % 3], here.point), gain = query_.gain(now.point, here.point);
+        std::size_t turn = 2;  // clockwise
+        if (behind.value > gain.value) {
+            now.point = c[(place + 2) % 3];
+            std::swap(behind, gain);
+            turn = 1;
+        }
+        for (;;) {
+            const Near next = neighbor_after(here.point, now.triangle, turn);
+            const Gain ahead = next.point < 0 ? GHOST_GAIN : query_.gain(next.point, here.point);
+            if (next.point < 0 || !(ahead.value > gain.value)) {
+                const bool certain = gain.certainly_exceeds(behind) && gain.certainly_exceeds(ahead);
+                return {certain ? now.point : -1, now.triangle};
+            }
+            behind = gain;
+            gain = ahead;
+            now = next;
+        }
+    }
+
+    // The neighbour of a point beyond the two in a triangle, counterclockwise (1) or clockwise (2); -1 if there is
+    // none.
+    Near neighbor_after(Index point, Index triangle, std::size_t turn) const {
+        const Index t = triangles_.neighbors(triangle)[(triangles_.place(triangle, point) + turn) % 3];
+        return {t < 0 ? -1 : triangles_.corners(t)[(triangles_.place(t, point) + 3 - turn) % 3], t};
+    }
+
+    Near nearest_of_star(Near here) {
+        Near best = here;
         neighbors(here, [&](Near other) {
             const int sign = query_.compare(other.point, best.point);
             if (sign < 0) {

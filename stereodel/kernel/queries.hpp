@@ -56,6 +56,17 @@ class TriangleArrays {
     std::size_t count_;
 };
 
+// How much nearer than v a neighbour u is: (|q-v|^2 - |q-u|^2) / |u-v|^2, and the bound of its error, which may be
+// infinite or NaN. Inversion at v takes the neighbours of v to the corners of a convex polygon and this to a linear
+// function: where it is larger than on both sides it is largest. The ghost, at infinity, has -1.
+struct Gain {
+    double value, error;
+
+    bool certainly_exceeds(Gain other) const { return value - other.value > error + other.error; }
+};
+
+constexpr Gain GHOST_GAIN{-1.0, 0.0};
+
 // One query in the plane at a time.
 class PlaneQuery {
   public:
@@ -66,6 +77,16 @@ class PlaneQuery {
     void take(const double* query) { query_ = query; }
     int side(Index u, Index v) { return points_.orient(u, v, query_); }
     int compare(Index a, Index b) { return points_.compare_distances(query_, a, b); }
+
+    // A squared distance is off by 4u of it (each difference counts twice, a square, a sum), so the gain by less than
+    // 16u of the sum of the two above, over that below. That sum is at least half of that below, so underflow is
+    // nothing.
+    Gain gain(Index u, Index v) const {
+        const double *a = points_.at(u), *b = points_.at(v);
+        const double to_a = PlaneChart::rough_distance(query_, a), to_b = PlaneChart::rough_distance(query_, b);
+        const double between = PlaneChart::rough_distance(a, b);
+        return {(to_b - to_a) / between, between > 0x1p-900 ? 0x1p-49 * (to_a + to_b) / between : HUGE_VAL};
+    }
 
   private:
     PlanePoints points_;
@@ -102,6 +123,18 @@ class SphereQuery {
     int compare(Index a, Index b) {
         const Sign sign = rays::is_unit(at(a)) && rays::is_unit(at(b)) ? compare_chords(at(a), at(b)) : OPEN;
         return sign != OPEN ? sign : compare_angles(query_, at(a), at(b), tally_);
+    }
+
+    // Squared chords of vectors within 2^-49 of length one, off by 2^-47 of them and 2^-95 (see `compare_chords`, also
+    // for what is added if the query is not of length one); the quotient by the errors above over that below, and by
+    // that below relatively. Of directions closer than 2^-40 it is not known.
+    Gain gain(Index u, Index v) const {
+        const double *a = at(u), *b = at(v);
+        const double to_a = Chart::rough_distance(unit_, a), to_b = Chart::rough_distance(unit_, b);
+        const double between = Chart::rough_distance(a, b), sum = to_a + to_b;
+        const double above = 0x1p-46 * sum + 0x1p-94 + (is_unit_ ? 0.0 : 0x1p-49 * std::sqrt(sum));
+        const bool known = between > 0x1p-80 && rays::is_unit(a) && rays::is_unit(b);
+        return {(to_b - to_a) / between, known ? (above + 0x1p-93 * sum / between) / between : HUGE_VAL};
     }
 
   private:

@@ -289,6 +289,26 @@ def test_the_center_of_many_cocircular_points(width):
 
 
 @BOTH
+@pytest.mark.parametrize("ring", [5, 60, 400])
+@pytest.mark.parametrize("size", [1.0, 1e-5, 1e-11])
+def test_around_a_hub(width, ring, size):
+    """A point with many neighbours; queries nearest to it, to the ring, and between."""
+    rng = np.random.default_rng(13)
+    angle = rng.random(ring) * 2 * np.pi
+    circle = size * np.column_stack([np.cos(angle), np.sin(angle)]) * (1 + 0.1 * rng.random((ring, 1)))
+    around = size * rng.normal(size=(60, 2))
+    if width == PLANE:
+        points, queries = np.vstack([circle, [[0, 0]]]), around
+    else:
+        points = np.vstack([np.column_stack([circle, np.ones(ring)]), [[0, 0, 1]], [[0, 0, -1]]])
+        points /= np.linalg.norm(points, axis=1, keepdims=True)
+        queries = np.column_stack([around, np.ones(60)])
+    arrays = Arrays.large(points)
+    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
+    assert arrays.nearest(queries).tolist() == [lowest_nearest(points.tolist(), q) for q in queries.tolist()]
+
+
+@BOTH
 def test_far_outside(width):
     rng = np.random.default_rng(9)
     points = rng.random((100, width)) + (0 if width == PLANE else 1)
