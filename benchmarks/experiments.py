@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, SPHERE, make
+from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, REAL_SETS, SPHERE, make
 from benchmarks.engines import Contender, contenders, stereodel
 from benchmarks.rounds import SLOW, Entry, Result, ratios, take_turns
 from stereodel._arrays import FloatArray
@@ -86,7 +86,7 @@ def distributions(largest: int) -> Records:
                 if n <= largest and not (name in REAL and n > 100_000)
             }
             for name in DISTRIBUTIONS[space]
-            if name != "uniform"
+            if name != "uniform" and (name not in REAL or (REAL_SETS / f"{name}.npy").exists())
         }
         for space in SPACES
     }

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import select
 import subprocess
 import tempfile
@@ -111,7 +112,8 @@ class Engine:
         if "heap out of memory" in text:  # node, which is started with the same limit
             return f"over {BYTES >> 30} GB"
         lines = text.strip().splitlines()
-        return lines[-1][:200] if lines else f"ended with code {code}"
+        # Folders of one machine are of no use in the results.
+        return re.sub(r"(?:/[\w.+-]+)+/", "", lines[-1])[:200] if lines else f"ended with code {code}"
 
     def close(self) -> None:
         """End the process."""

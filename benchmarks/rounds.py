@@ -23,7 +23,7 @@ LONG = 4.0
 PAIRS = 3
 """Neighbouring measurements that a ratio needs at least."""
 
-SHORT = 0.05
+SHORT = 0.2
 """Calls shorter than this many seconds are repeated to last about as long within a round."""
 
 

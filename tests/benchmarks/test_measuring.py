@@ -22,7 +22,7 @@ held = []
 for line in sys.stdin:
     word, calls = line.split()
     if word == "fail":
-        sys.exit("no such luck")
+        sys.exit("no such luck in /a/folder/file")
     if word == "hold":
         held.append(bytearray(b"x" * 80_000_000))
     if word == "sleep":
@@ -41,7 +41,9 @@ def test_an_engine_answers_and_other_words_are_passed_over():
     assert answer.extra == {"more": 1}
 
 
-@pytest.mark.parametrize(("word", "said"), [("fail", "no such luck"), ("sleep", "over 0 s"), ("hold", "over 0 GB")])
+@pytest.mark.parametrize(
+    ("word", "said"), [("fail", "no such luck in file"), ("sleep", "over 0 s"), ("hold", "over 0 GB")]
+)
 def test_an_engine_that_fails_or_passes_a_limit_is_stopped(monkeypatch, word, said):
     monkeypatch.setattr(processes, "SECONDS", 0.3)
     monkeypatch.setattr(processes, "BYTES", 50_000_000)
@@ -57,7 +59,7 @@ def test_an_engine_that_does_not_start_says_why():
 def test_rounds_repeat_short_calls_and_keep_what_stopped():
     results = take_turns([Entry("a", ENGINE), Entry("b", ENGINE, "fail"), Entry("c", ENGINE)], 3)
     assert results["a"].seconds == [0.02] * 3
-    assert results["b"].record() == {"stopped": "no such luck", "version": "7"}
+    assert results["b"].record() == {"stopped": "no such luck in file", "version": "7"}
     assert rounds.ratios(results["a"], results["c"]) == [1.0] * 3
     assert rounds.ratios(results["a"], results["b"]) == []
 
@@ -78,6 +80,11 @@ def test_stereodel_takes_part(tmp_path, space, dimension):
         for word, points in (("find", 4000), ("nearest", 4000), ("insert", 5000), ("changed", 6000), ("remove", 5000)):
             answer = engine.run(1, word)
             assert (answer.points, len(answer.seconds)) == (points, 1)
+
+
+def test_a_long_call_takes_part_in_three_rounds(monkeypatch):
+    monkeypatch.setattr(rounds, "LONG", 0.01)
+    assert len(take_turns([Entry("a", ENGINE)], 5)["a"].seconds) == 3
 
 
 def test_table_and_blocks_of_a_page(monkeypatch, tmp_path):
@@ -101,8 +108,12 @@ def test_figures_know_whether_they_are_reached():
 
 
 def test_ratios_pair_the_rounds():
-    record = {"cgal": {"rounds": [2.0, 6.0]}, "ours 1": {"rounds": [1.0, 2.0]}, "scipy": {"rounds": [30.0]}}
-    assert benchmark_asked.faster(record, "cgal", "ours 1") == [2.0, 3.0]
+    record = {
+        "cgal": {"rounds": [2.0, 6.0, 1.5]},
+        "ours 1": {"rounds": [1.0, 2.0, 1.5, 9.0]},
+        "scipy": {"rounds": [35.0]},
+    }
+    assert benchmark_asked.faster(record, "cgal", "ours 1") == [2.0, 3.0, 1.0]
     assert benchmark_asked.faster(record, "scipy", "ours 1") == [20.0]
     assert benchmark_asked.faster(record | {"cgal": {"stopped": "over 60 s"}}, "cgal", "ours 1") == []
 
