@@ -121,7 +121,7 @@ std::uint64_t scrambled(const double* p) {
 // The points `numbers`, ascending, in rounds. `points`: all of them.
 template <class Chart>
 std::vector<std::vector<Index>> insertion_rounds(const double* points, const std::vector<Index>& numbers) {
-    constexpr std::size_t one_round = 4096;  // so few need no others
+    constexpr std::size_t one_round = 32;  // so few need no others
     std::size_t rounds = 1;
     for (std::size_t size = numbers.size(); size > one_round; size /= 8) {
         ++rounds;
