@@ -56,7 +56,7 @@ class BoundMesh {
 
     ValuesOut<Index> remove(Numbers indices) {
         const std::size_t count = indices.shape(0);
-        Buffer<Index> number = change(count > long_changes || delaunay_.size() > long_copies, [&](Stop stop) {
+        Buffer<Index> number = change(count > long_changes || size() > long_copies, [&](Stop stop) {
             for (std::size_t k = 0; k < count; ++k) {
                 if (indices.data()[k] < 0 || static_cast<std::size_t>(indices.data()[k]) >= delaunay_.size()) {
                     throw std::invalid_argument("indices: no such point");
@@ -68,7 +68,7 @@ class BoundMesh {
     }
 
     nb::tuple arrays() {
-        auto rows = change(delaunay_.size() > long_copies, [&](Stop stop) {
+        auto rows = change(size() > long_copies, [&](Stop stop) {
             Mesh& mesh = delaunay_.mesh();
             std::pair<Buffer<Index>, Buffer<Index>> out(3 * mesh.triangles(), 3 * mesh.triangles());
             mesh.write(out.first.data(), out.second.data(), stop);

@@ -106,6 +106,17 @@ class CurveSites {
         std::copy(source.data(), source.data() + size, source_ + low);
     }
 
+    // Sort a few places by `before`, by insertion.
+    template <class Before>
+    void insertion_sort(Index low, Index high, Before&& before) {
+        for (Index a = low + 1; a < high; ++a) {
+            for (Index b = a; b > low && before(b, b - 1); --b) {
+                std::swap(points_[b], points_[b - 1]);
+                std::swap(source_[b], source_[b - 1]);
+            }
+        }
+    }
+
     // Sort places by `compare` (-1, 0, 1; 0 for equal points), equal ones by number; the first of equal ones stay, in
     // front. Returns how many.
     template <class Compare>
@@ -154,10 +165,12 @@ class CurveSites {
 template <class Sites>
 class CurveTriangulation {
   public:
-    CurveTriangulation(CurveArrays& arrays, const Sites& sites, Crew& crew)
-        : edges(arrays.source.size()), sites_(sites), stop_(arrays.stop) {
+    // `memory`: for the edges, if there is enough of it.
+    template <class Used>
+    CurveTriangulation(CurveArrays& arrays, const Sites& sites, Crew& crew, Buffer<Used>&& memory)
+        : edges(arrays.source.size(), std::move(memory)), sites_(sites), stop_(arrays.stop) {
         const Index size = static_cast<Index>(arrays.source.size());
-        plan(0, size, size / tasks_at_least_ + 1);
+        plan(0, size, std::min(size / tasks_at_least_ + 1, large_));
         arrived_ = std::vector<std::atomic<int>>(nodes_.size());
         crew.run(ranges.size(), [&](std::size_t k) { solve(k); });
         whole = nodes_.back().part;
@@ -179,6 +192,7 @@ class CurveTriangulation {
   private:
     static constexpr Index tasks_at_least_ = 48;  // enough to keep many threads busy to the end
     static constexpr Index small_ = 2048;         // a range that is not worth a task of its own
+    static constexpr Index large_ = 1 << 13;      // one whose triangles still find room in a thread's cache
     static constexpr std::size_t none_ = static_cast<std::size_t>(-1);
 
     // A task, or a cut between two nodes; the root is the last one.

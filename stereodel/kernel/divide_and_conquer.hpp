@@ -52,6 +52,10 @@ class DivideAndConquer {
         if (high - low <= 3 && (high - low == 2 || (sites_.key(low + 1) != first && sites_.key(low + 1) != last))) {
             return leaf(low, high, high);
         }
+        if (high - low <= few_ && keys_differ(low, high)) {
+            sites_.sort_few(low, high);
+            return strips(low, high, high);
+        }
         const Cut cut(sites_, low, high);
         const Part left = solve(low, cut.place), right = solve(cut.place, high);
         return merge(left, right, cut.axis);
@@ -90,8 +94,8 @@ class DivideAndConquer {
         whole.edge = base ^ 1;
         for (;;) {
             const Index l = edges_.target(base), r = edges_.origin(base);
-            const Index from_left = candidate(base, l, r, whole.free, Side::left);
-            const Index from_right = candidate(base, l, r, whole.free, Side::right);
+            const Index from_left = candidate<Side::left>(base, l, r, whole.free);
+            const Index from_right = candidate<Side::right>(base, l, r, whole.free);
             if (from_left < 0 && from_right < 0) {
                 return whole;
             }
@@ -101,6 +105,16 @@ class DivideAndConquer {
 
   private:
     enum class Side { left, right };
+
+    static constexpr Index few_ = 10;  // so many points are cut along x alone, into halves
+
+    bool keys_differ(Index low, Index high) const {
+        bool differ = true;
+        for (Index a = low + 1; a < high; ++a) {
+            differ &= sites_.key(a) != sites_.key(a - 1);
+        }
+        return differ;
+    }
 
     Part single(Index low) {
         Part part;
@@ -233,8 +247,9 @@ class DivideAndConquer {
 
     // The next edge of one side that the bubble meets, after taking out those that it has swallowed; -1 if the rest of
     // the side lies below the base edge.
-    Index candidate(Index base, Index l, Index r, FreeBlocks& free, Side side) {
-        const bool is_left = side == Side::left;
+    template <Side side>
+    Index candidate(Index base, Index l, Index r, FreeBlocks& free) {
+        constexpr bool is_left = side == Side::left;
         Index e = is_left ? edges_.next(base ^ 1) : edges_.prev(base);
         Index p = edges_.target(e);
         if (e == (is_left ? base ^ 1 : base) || sites_.orient(p, l, r) <= 0) {

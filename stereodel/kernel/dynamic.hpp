@@ -42,7 +42,6 @@ class DynamicDelaunay {
     }
 
     std::size_t size() const { return points_.size() / dimension; }
-    const double* points() const { return points_.data(); }
     const Pairs& duplicates() const { return duplicates_; }
     const Tally& tally() const { return tally_; }
 
@@ -57,7 +56,7 @@ class DynamicDelaunay {
 
     // Append `count` points. Those equal to one that is there already are among the duplicates only.
     void insert(const double* points, std::size_t count, Stop stop) {
-        check_round();
+        check_has_triangles();
         if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3 - size()) {
             throw std::invalid_argument("too many points");
         }
@@ -102,7 +101,7 @@ class DynamicDelaunay {
         }
     }
 
-    void check_round() const {
+    void check_has_triangles() const {
         check_usable();
         if (flat_) {
             throw std::invalid_argument("there are no triangles to insert into; build the triangulation anew");

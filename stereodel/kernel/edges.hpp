@@ -25,7 +25,11 @@ struct FreeBlocks {
 // of directed edges: parts of the triangulation never share edges, and nothing is allocated on the way.
 class Edges {
   public:
-    explicit Edges(std::size_t points) : edges_(6 * points) {}
+    // `memory` is used if it is large enough.
+    template <class Used>
+    Edges(std::size_t points, Buffer<Used>&& memory) : edges_(std::move(memory), 6 * points) {}
+
+    static constexpr std::size_t bytes_a_point = 6 * sizeof(DirectedEdge);
 
     Index origin(Index e) const { return edges_[static_cast<std::size_t>(e)].origin; }
     Index target(Index e) const { return edges_[static_cast<std::size_t>(e ^ 1)].origin; }

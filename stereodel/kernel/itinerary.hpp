@@ -11,6 +11,9 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
 
 #include "curve_order.hpp"
 #include "landmarks.hpp"
@@ -31,6 +34,9 @@ class Itinerary {
         sorted_landmarks_ = queries > few && queries < triangles / 16;
         const double count = std::cbrt(n) * (sorted_landmarks_ ? std::cbrt(q) * std::cbrt(q) : 1.0);
         landmarks_ = Landmarks<Chart>(static_cast<std::size_t>(count) + 1, triangles, point_of);
+        if (queries > std::numeric_limits<std::uint32_t>::max() - landmarks_.size()) {
+            throw std::invalid_argument("too many queries for one call");
+        }
         items_ = Buffer<KeyedPoint>(queries + (sorted_landmarks_ ? landmarks_.size() : 0));
         for (std::size_t k = 0; k < items_.size(); ++k) {
             items_[k] = {0, static_cast<std::uint32_t>(k)};

@@ -68,6 +68,10 @@ class PlaneSites : public CurveSites {
         return key(low) != key(high - 1);
     }
 
+    void sort_few(Index low, Index high) {
+        insertion_sort(low, high, [this](Index a, Index b) { return before(a, b, Axis::x); });
+    }
+
     Index sort_distinct(Index low, Index high) {
         return sort_and_drop(low, high, [this](Index a, Index b) {
             return before(a, b, Axis::x) ? -1 : (before(b, a, Axis::x) ? 1 : 0);
@@ -127,7 +131,7 @@ Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_n
     const Grid grid = bounding_grid(point, count, crew);
     const auto key = [&](Index k) { return grid.key(point(k)); };
     CurveArrays arrays = CurveArrays::sorted(count, number, point, key, crew, stop);
-    CurveTriangulation<PlaneSites> work(arrays, PlaneSites(arrays, common_granularity(xy, count)), crew);
+    CurveTriangulation<PlaneSites> work(arrays, PlaneSites(arrays, common_granularity(xy, count)), crew, Buffer<char>());
     result.duplicates = std::move(work.duplicates);
     result.tally = work.tally;
     const std::size_t distinct = count - result.duplicates.size();

@@ -62,11 +62,11 @@ struct WholePlaneBorder {
     }
 };
 
-// Error of the place in the grid: X is off by 8u|X|, which moves y by 8u/4, the formula adds 3u, a border's rounding 1/4 u;
-// times 2^15 cells, far below 2^-30 of a cell.
-std::uint32_t whole_plane_cell(double x, const ProjectedRays& rays, Index point, int coordinate) {
+// The place in the grid of X = x/w, half (1 + x/(w + |x|)). Both are off by 7u, the formula adds 4u, a border's rounding u/4:
+// times 2^15 cells far below 2^-30 of a cell.
+std::uint32_t whole_plane_cell(double x, double w, const ProjectedRays& rays, Index point, int coordinate) {
     const double half = cells / 2;
-    return cell_at(half + half * (x / (1.0 + std::fabs(x))), 0x1p-30, rays, point, coordinate, WholePlaneBorder{});
+    return cell_at(half + half * (x / (w + std::fabs(x))), 0x1p-30, rays, point, coordinate, WholePlaneBorder{});
 }
 
 // A square grid with exact borders over part of the plane, for offsets from an origin that is a double.
@@ -136,9 +136,8 @@ bool is_finite(Point2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
 }  // namespace
 
-std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point) {
-    const Point2 p = rays.projected(point);
-    return curve_key(whole_plane_cell(p.x, rays, point, 0), whole_plane_cell(p.y, rays, point, 1));
+std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point, ProjectedRays::Ratio p) {
+    return curve_key(whole_plane_cell(p.x, p.w, rays, point, 0), whole_plane_cell(p.y, p.w, rays, point, 1));
 }
 
 int SphereSites::orient_open(Index a, Index b, Index c) {

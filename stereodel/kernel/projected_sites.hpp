@@ -24,29 +24,30 @@ struct ProjectedRays {
 
     const double* at(Index point) const { return xyz + 3 * static_cast<std::ptrdiff_t>(point); }
 
-    // The projected point, relatively within 8u; NaN, which decides nothing, where products of coordinates might leave the
-    // range of doubles.
-    Point2 projected(Index point) const {
-        double out[2];
-        if (unit) {
-            project_unit(at(point), out);
-        } else {
-            project(at(point), pole, out);
-        }
-        return {in_range(out[0]), in_range(out[1])};
-    }
+    // A projected point as (x/w, y/w).
+    struct Ratio {
+        double x, y, w;
 
-    // X = p_i/w with w = |p| - s p_k, or (p_i^2 + p_j^2)/(|p| + |p_k|) where that difference would cancel. Roundings: the
-    // length 2.5, its sum with |p_k| 3.5, the sum of squares 2: at most 3.5 + 1 + 2 + 1 = 7.5.
-    void project_unit(const double* p, double out[2]) const {
-        const double along = p[pole.axis], x = p[(pole.axis + (pole.sign < 0 ? 1 : 2)) % 3],
-                     y = p[(pole.axis + (pole.sign < 0 ? 2 : 1)) % 3];
+        // Relatively within 8u; NaN, which decides nothing, where products of coordinates might leave the range of doubles.
+        Point2 point() const { return {in_range(x / w), in_range(y / w)}; }
+    };
+
+    // Relatively within 7u, so that one more rounding makes 8u, or NaN.
+    Ratio ratio(Index point) const {
+        const double* const p = at(point);
+        if (!unit) {
+            double out[2];
+            project(p, pole, out);
+            return {out[0], out[1], 1.0};
+        }
+        // w = |p| - s p_k, or (x^2 + y^2)/(|p| + |p_k|) where that difference would cancel. Roundings: the length 2.5, its sum
+        // with |p_k| 3.5, the sum of squares 2: at most 3.5 + 2 + 1 = 6.5.
+        const double along = p[pole.axis];
+        const double x = p[(pole.axis + (pole.sign < 0 ? 1 : 2)) % 3], y = p[(pole.axis + (pole.sign < 0 ? 2 : 1)) % 3];
         const double across = x * x + y * y;
         const double sum = std::sqrt(across + along * along) + std::fabs(along);
         const bool near = pole.sign * along > 0.0;
-        const double numerator = near ? sum : 1.0, denominator = near ? across : sum;
-        out[0] = x * numerator / denominator;
-        out[1] = y * numerator / denominator;
+        return {x, y, (near ? across : sum) / (near ? sum : 1.0)};  // no branch: half of the points are near
     }
 
     // A coordinate of 2^-70 or more is a multiple of 2^-123, and so are differences: no product of eight of them and three
@@ -146,6 +147,9 @@ class SphereSites : public CurveSites {
         return x - y < -bound || compare(a, b, axis) < 0;
     }
     bool refine(Index low, Index high);
+    void sort_few(Index low, Index high) {
+        insertion_sort(low, high, [this](Index a, Index b) { return before(a, b, Axis::x); });
+    }
     Index sort_distinct(Index low, Index high);
     const Tally& tally() const { return tally_; }
 
@@ -165,7 +169,7 @@ class SphereSites : public CurveSites {
     Tally tally_;
 };
 
-// The key of a direction in the grid over the whole plane.
-std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point);
+// The key of a direction in the grid over the whole plane; `ratio` is its projection.
+std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point, ProjectedRays::Ratio ratio);
 
 }  // namespace stereodel

@@ -218,10 +218,17 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
     ProjectedRays rays{xyz, unit, pole, true};
     const Division division(rays, count, crew);
     rays.artificial = division.at_pole.empty();
+    // Projected once, into memory that becomes the edges'.
+    Buffer<Point2> projected(count * Edges::bytes_a_point / sizeof(Point2) + 1);
+    const auto key = [&](Index p) {
+        const ProjectedRays::Ratio ratio = rays.ratio(p);
+        projected[static_cast<std::size_t>(p)] = ratio.point();
+        return whole_plane_key(rays, p, ratio);
+    };
     CurveArrays arrays = CurveArrays::sorted(
-        division.shown(count), [&](std::size_t k) { return division.number(k); }, [&](Index p) { return rays.projected(p); },
-        [&](Index p) { return whole_plane_key(rays, p); }, crew, stop);
-    CurveTriangulation<SphereSites> work(arrays, SphereSites(arrays, rays), crew);
+        division.shown(count), [&](std::size_t k) { return division.number(k); },
+        [&](Index p) { return projected[static_cast<std::size_t>(p)]; }, key, crew, stop);
+    CurveTriangulation<SphereSites> work(arrays, SphereSites(arrays, rays), crew, std::move(projected));
 
     Triangulation result;
     result.dimension = 2;

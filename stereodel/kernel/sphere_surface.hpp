@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 
 #include "charts.hpp"
 #include "mesh_walk.hpp"

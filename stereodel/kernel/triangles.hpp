@@ -1,9 +1,11 @@
 // From directed edges to arrays of triangles and their neighbours.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
-#include <numeric>
+#include <thread>
 #include <vector>
 
 #include "edges.hpp"
@@ -37,20 +39,42 @@ class TriangleWriter {
         edges_[e].prev = left;
     }
 
-    // Triangles that belong to the edges of the points [begin, end), a range that was triangulated as one.
-    std::size_t count(std::size_t begin, std::size_t end) const {
-        std::size_t result = 0;
-        each(begin, end, [&](Index, Index, Index) { ++result; });
-        return result;
+    // The triangles that belong to the edges of the points [begin, end), a range that was triangulated as one: three edges
+    // each. They are collected without a branch that would be guessed wrong half of the time.
+    std::vector<Index> collect(std::size_t begin, std::size_t end) const {
+        constexpr std::size_t block = 3 * 1024;
+        std::vector<Index> triples(6 * (end - begin) + block);  // about two triangles a point
+        std::size_t filled = 0;
+        const Index last = static_cast<Index>(6 * end);
+        for (Index e = static_cast<Index>(6 * begin); e < last;) {
+            if (triples.size() < filled + block) {
+                triples.resize(triples.size() + triples.size() / 2);
+            }
+            for (const Index stop = std::min(last, e + 1024); e < stop; ++e) {
+                const DirectedEdge edge = edges_[e];
+                if (edge.origin < 0) {
+                    e += -2 * edge.origin - 1;  // a block of unused edges
+                    continue;
+                }
+                const Index wu = edge.next ^ 1;
+                const Index vw = edges_.next(wu) ^ 1;
+                triples[filled] = e;
+                triples[filled + 1] = vw;
+                triples[filled + 2] = wu;
+                filled += 3 * static_cast<std::size_t>((e < wu) & (e < vw));
+            }
+        }
+        triples.resize(filled);
+        return triples;
     }
 
     // Write their corners from row `first` on, and the edges across which their neighbours lie, opposite each corner.
-    // Returns the row after the last one.
-    std::size_t write(std::size_t begin, std::size_t end, std::size_t first, Triangles& triangles) {
+    void write(const std::vector<Index>& triples, std::size_t first, Triangles& triangles) {
         Index triangle = static_cast<Index>(first);
         Index* corners = triangles.corners.data() + 3 * first;
         Index* neighbors = triangles.neighbors.size() == 0 ? nullptr : triangles.neighbors.data() + 3 * first;
-        each(begin, end, [&](Index uv, Index vw, Index wu) {
+        for (std::size_t k = 0; k < triples.size(); k += 3) {
+            const Index uv = triples[k], vw = triples[k + 1], wu = triples[k + 2];
             edges_[uv].prev = edges_[vw].prev = edges_[wu].prev = triangle++;
             const Index u = source(uv), v = source(vw), w = source(wu);
             const std::size_t least = v < u ? (w < v ? 2 : 1) : (w < u ? 2 : 0);
@@ -58,8 +82,7 @@ class TriangleWriter {
             if (neighbors != nullptr) {
                 neighbors = put(neighbors, {vw ^ 1, wu ^ 1, uv ^ 1, vw ^ 1, wu ^ 1}, least);
             }
-        });
-        return static_cast<std::size_t>(triangle);
+        }
     }
 
     // Edges to the triangles on their left, in rows [first, end), once all have their numbers.
@@ -81,66 +104,62 @@ class TriangleWriter {
         return row + 3;
     }
 
-    // Every triangle of a range by its three edges. They are collected first, without a branch that would be guessed
-    // wrong half of the time, then visited.
-    template <class Visit>
-    void each(std::size_t begin, std::size_t end, Visit&& visit) const {
-        constexpr std::size_t many = 256;
-        std::array<Index, 3 * (many + 1)> collected;
-        std::size_t filled = 0;
-        const auto visit_collected = [&] {
-            for (std::size_t k = 0; k < filled; k += 3) {
-                visit(collected[k], collected[k + 1], collected[k + 2]);
-            }
-            filled = 0;
-        };
-        const Index last = static_cast<Index>(6 * end);
-        for (Index e = static_cast<Index>(6 * begin); e < last; ++e) {
-            const DirectedEdge edge = edges_[e];
-            if (edge.origin < 0) {
-                e += -2 * edge.origin - 1;  // a block of unused edges
-                continue;
-            }
-            const Index wu = edge.next ^ 1;
-            const Index vw = edges_.next(wu) ^ 1;
-            collected[filled] = e;
-            collected[filled + 1] = vw;
-            collected[filled + 2] = wu;
-            filled += 3 * static_cast<std::size_t>((e < wu) & (e < vw));
-            if (filled == 3 * many) {
-                visit_collected();
-            }
-        }
-        visit_collected();
-    }
-
     Edges& edges_;
     const Index* source_;
+};
+
+// Where each of several ranges of rows begins; known one after the other, by threads that take the ranges in order.
+class RowsInOrder {
+  public:
+    explicit RowsInOrder(std::size_t ranges) : first_(ranges + 1) {
+        for (auto& first : first_) {
+            first = unknown_;
+        }
+        first_[0] = 0;
+    }
+
+    // Waits for the range before. Throws Cancelled if that failed.
+    std::size_t first(std::size_t k) const {
+        std::size_t row = unknown_;
+        while ((row = first_[k].load(std::memory_order_acquire)) == unknown_) {
+            std::this_thread::yield();
+        }
+        if (row == failed_) {
+            throw Cancelled{};
+        }
+        return row;
+    }
+
+    void set(std::size_t k, std::size_t row) { first_[k].store(row, std::memory_order_release); }
+    void fail(std::size_t k) { set(k, failed_); }
+
+  private:
+    static constexpr std::size_t unknown_ = static_cast<std::size_t>(-1), failed_ = static_cast<std::size_t>(-2);
+
+    std::vector<std::atomic<std::size_t>> first_;
 };
 
 // Write the triangles of all ranges (with members `low` and `high`), in their order, into rows from 0 on.
 template <class Ranges>
 void write_triangles(TriangleWriter& writer, const Ranges& ranges, Triangles& triangles, Crew& crew, Stop stop) {
-    const auto begin = [&](std::size_t k) { return static_cast<std::size_t>(ranges[k].low); };
-    const auto end = [&](std::size_t k) { return static_cast<std::size_t>(ranges[k].high); };
-    std::vector<std::size_t> first(ranges.size() + 1, 0);
-    const auto write = [&](std::size_t k) {
-        check(stop);
-        return writer.write(begin(k), end(k), first[k], triangles);
-    };
-    if (crew.size() == 1) {
-        for (std::size_t k = 0; k < ranges.size(); ++k) {
-            first[k + 1] = write(k);
+    RowsInOrder rows(ranges.size());
+    crew.run(ranges.size(), [&](std::size_t k) {
+        try {
+            check(stop);
+            const auto low = static_cast<std::size_t>(ranges[k].low), high = static_cast<std::size_t>(ranges[k].high);
+            const std::vector<Index> triples = writer.collect(low, high);
+            const std::size_t first = rows.first(k);
+            rows.set(k + 1, first + triples.size() / 3);
+            writer.write(triples, first, triangles);
+        } catch (...) {
+            rows.fail(k + 1);
+            throw;
         }
-    } else {
-        crew.run(ranges.size(), [&](std::size_t k) { first[k + 1] = writer.count(begin(k), end(k)); });
-        std::partial_sum(first.begin(), first.end(), first.begin());
-        crew.run(ranges.size(), write);
-    }
+    });
     if (triangles.neighbors.size() != 0) {
         crew.run(ranges.size(), [&](std::size_t k) {
             check(stop);
-            writer.link(first[k], first[k + 1], triangles);
+            writer.link(rows.first(k), rows.first(k + 1), triangles);
         });
     }
 }
