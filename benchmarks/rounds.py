@@ -14,7 +14,7 @@ from typing import Any
 
 from benchmarks.processes import Engine, StoppedError
 
-SLOW = 15.0
+SLOW = 30.0
 """Seconds above which a first call counts and is the only one: it needs no warm-up."""
 
 LONG = 4.0

@@ -1,5 +1,7 @@
 """The machinery of the benchmarks: engines and their limits, rounds, tables; with engines made for the test."""
 
+import json
+import re
 import sys
 from pathlib import Path
 
@@ -9,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))  # `benchmarks` is a folder of the repository and not installed
 
-from benchmarks import benchmark_asked, pages, processes, rounds  # noqa: E402
+from benchmarks import benchmark_asked, benchmark_page, pages, processes, rounds  # noqa: E402
 from benchmarks.engines import stereodel  # noqa: E402
 from benchmarks.processes import Engine, StoppedError  # noqa: E402
 from benchmarks.rounds import Entry, take_turns  # noqa: E402
@@ -120,3 +122,18 @@ def test_ratios_pair_the_rounds():
 
 def test_powers():
     assert [benchmark_asked.power(n) for n in (100, 10**7, 20_000)] == ["10²", "10⁷", "20,000"]
+
+
+def test_the_page_is_written_from_the_results(monkeypatch, tmp_path):
+    (tmp_path / "images").mkdir()
+    page = tmp_path / "benchmarks.md"
+    text = (ROOT / "docs" / "benchmarks.md").read_text(encoding="utf-8")
+    page.write_text(
+        re.sub(r"(<!-- measured: [^>]*-->\n).*?(<!-- end)", r"\1\2", text, flags=re.DOTALL), encoding="utf-8"
+    )
+    monkeypatch.setattr(pages, "DOCS", tmp_path)
+    benchmark_page.write(json.loads((ROOT / "benchmarks" / "results.json").read_text(encoding="utf-8")))
+    written = page.read_text(encoding="utf-8")
+    assert not re.search(r"<!-- measured: [^>]*-->\n<!-- end", written)
+    assert "| stereodel, one thread |" in written
+    assert {path.name for path in (tmp_path / "images").iterdir()} == set(re.findall(r"\{image\} images/(\S+)", text))
