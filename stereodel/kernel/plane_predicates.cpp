@@ -27,15 +27,18 @@ int orient_signs(const double* a, const double* b, const double* c) {
 double common_granularity(const double* xy, std::size_t count) {
     constexpr int LIMIT = 240;
     int lowest = LIMIT;
-    double modulus = std::ldexp(1.0, LIMIT);
+    double modulus = std::ldexp(1.0, LIMIT), inverse = std::ldexp(1.0, -LIMIT);
     for (std::size_t k = 0; k < 2 * count; ++k) {
-        // A double of size 2^52 times the modulus or more is a multiple of it: the common case once a small one came.
-        if (std::fabs(xy[k]) < 0x1p53 * modulus) {
+        // The common cases once a small one came: 2^53 times the modulus or more, or a whole multiple of it, which adding
+        // 2^52 to the quotient does not round. A quotient that underflows tells nothing.
+        const double size = std::fabs(xy[k]), quotient = size * inverse;
+        if (size < 0x1p53 * modulus && !((quotient + 0x1p52) - 0x1p52 == quotient && (quotient > 0 || size == 0))) {
             lowest = std::min(lowest, lowest_exponent(xy[k]));
             if (lowest < -LIMIT) {
                 return 0.0;
             }
             modulus = std::ldexp(1.0, lowest);
+            inverse = std::ldexp(1.0, -lowest);
         }
     }
     return modulus;
