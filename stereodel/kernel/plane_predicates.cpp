@@ -29,10 +29,10 @@ double common_granularity(const double* xy, std::size_t count) {
     int lowest = LIMIT;
     double modulus = std::ldexp(1.0, LIMIT), inverse = std::ldexp(1.0, -LIMIT);
     for (std::size_t k = 0; k < 2 * count; ++k) {
-        // The common cases once a small one came: 2^53 times the modulus or more, or a whole multiple of it, which adding
-        // 2^52 to the quotient does not round. A quotient that underflows tells nothing.
+        // The common cases once a small one came: 2^52 times the modulus or more, where all doubles are multiples, or a
+        // multiple that tells by its quotient, which adding 2^52 does not round. One that underflows tells nothing.
         const double size = std::fabs(xy[k]), quotient = size * inverse;
-        if (size < 0x1p53 * modulus && !((quotient + 0x1p52) - 0x1p52 == quotient && (quotient > 0 || size == 0))) {
+        if (size < 0x1p52 * modulus && !((quotient + 0x1p52) - 0x1p52 == quotient && (quotient > 0 || size == 0))) {
             lowest = std::min(lowest, lowest_exponent(xy[k]));
             if (lowest < -LIMIT) {
                 return 0.0;
