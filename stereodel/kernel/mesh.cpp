@@ -24,6 +24,8 @@ void in_blocks(std::size_t size, Stop stop, Body&& body) {
 
 bool below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) < limit; }
 
+bool none_or_below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) + 1u <= limit; }
+
 }  // namespace
 
 Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop) {
@@ -56,7 +58,7 @@ std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbor
         const Index* c = simplices + 3 * t;
         const Index* n = neighbors + 3 * t;
         valid &= below(c[0], points) & below(c[1], points) & below(c[2], points);
-        valid &= below(n[0] + 1, count + 1) & below(n[1] + 1, count + 1) & below(n[2] + 1, count + 1);
+        valid &= none_or_below(n[0], count) & none_or_below(n[1], count) & none_or_below(n[2], count);
         sorted &= (c[0] < c[1]) & (c[0] < c[2]);
         facets_[t] = {{c[0], c[1], c[2]}, {n[0], n[1], n[2]}};
         if ((n[0] | n[1] | n[2]) < 0) {
