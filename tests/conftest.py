@@ -2,8 +2,15 @@
 
 import os
 
+import pytest
 from hypothesis import settings
 
 # No deadline: the first call of a test may load a library or meet a busy machine. In CI the same examples every time.
 settings.register_profile("stereodel", deadline=None, derandomize=bool(os.environ.get("CI")))
 settings.load_profile("stereodel")
+
+
+@pytest.fixture
+def patience():
+    """By what limits on seconds are multiplied: the kernel with sanitizers is several times as slow."""
+    return float(os.environ.get("STEREODEL_TEST_PATIENCE", "1"))

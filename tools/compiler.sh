@@ -12,8 +12,12 @@ compiles() { # a program of C++17, with Python's header
 }
 if compiles; then exit 0; fi
 
-version=$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-say="stereodel's kernel needs a C++17 compiler and Python's headers. On Debian: apt-get install g++ python$version-dev"
+packages=(g++)
+# A Python that was not installed by Debian has its headers with it.
+if [[ $("$python" -c 'import sys; print(sys.base_prefix)') == /usr ]]; then
+    packages+=("$("$python" -c 'import sys; print("python%d.%d-dev" % sys.version_info[:2])')")
+fi
+say="stereodel's kernel needs a C++17 compiler and Python's headers. On Debian: apt-get install ${packages[*]}"
 if ! command -v apt-get >/dev/null; then
     echo "$say" >&2
     exit 1
@@ -22,9 +26,6 @@ if ((EUID == 0)); then run=(env); elif sudo -n true 2>/dev/null; then run=(sudo 
     echo "$say" >&2
     exit 1
 fi
-packages=(g++)
-# A Python that was not installed by Debian has its headers with it.
-if [[ $("$python" -c 'import sys; print(sys.base_prefix)') == /usr ]]; then packages+=("python$version-dev"); fi
 echo "Installing ${packages[*]}" >&2
 install=("${run[@]}" DEBIAN_FRONTEND=noninteractive apt-get -qq -y -o Dpkg::Use-Pty=0 install --no-install-recommends "${packages[@]}")
 "${install[@]}" >/dev/null 2>&1 || { "${run[@]}" apt-get -qq update && "${install[@]}" >/dev/null; } || true

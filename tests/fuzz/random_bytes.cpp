@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -58,7 +59,7 @@ int main(int count, char** arguments) {
     for (int k = 1; k < count; ++k) {
         if (std::strncmp(arguments[k], TIME, sizeof TIME - 1) == 0) {
             run_for(std::atof(arguments[k] + sizeof TIME - 1));
-        } else if (arguments[k][0] != '-') {
+        } else if (arguments[k][0] != '-' && !std::filesystem::is_directory(arguments[k])) {
             run_file(arguments[k]);
         }
     }

@@ -43,8 +43,8 @@ CALLS = {
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
 @pytest.mark.parametrize("call", CALLS)
-def test_an_interrupted_call_ends_soon_and_harms_nothing(call):
+def test_an_interrupted_call_ends_soon_and_harms_nothing(call, patience):
     program = PROGRAM.format(call=CALLS[call])
     ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
     assert ran.returncode == 0, ran.stderr
-    assert float(ran.stdout) < 2.0  # half a second on a quiet machine
+    assert float(ran.stdout) < 2.0 * patience  # half a second on a quiet machine
