@@ -24,6 +24,12 @@ UNDERFLOW_FLOOR: Final = 2.0**-1000
 POINTS_WORTH_THREADS: Final = 20_000
 """Points (or queries) from which on all processors are used by default: below, starting threads takes as long."""
 
+REBUILD_INSERTING: Final = 3
+"""Inserting more than one point for so many present ones takes longer than starting from scratch (measured)."""
+
+REBUILD_REMOVING: Final = 6
+"""Removing more than one point for so many that stay takes longer than starting from scratch (measured)."""
+
 FILTER_RANGE: Final = 2.0**200
 """Planar filters trust differences d with 1/FILTER_RANGE < |d| < FILTER_RANGE or d = 0 (units of the input).
 

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, IntArray, as_indices, as_workers, locked, private
 from stereodel._kernel import PlaneMesh, SphereMesh
-from stereodel.constants import POINTS_WORTH_THREADS
+from stereodel.constants import POINTS_WORTH_THREADS, REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
 
 Mesh = PlaneMesh | SphereMesh
@@ -154,7 +154,7 @@ class Delaunay(ABC):
         """
         added = private(self._as_points(points), points)
         size = sum(map(len, self._chunks))
-        if self.dimension < 2:
+        if self.dimension < 2 or REBUILD_INSERTING * len(added) > size:
             self._build(locked(np.concatenate([self.points, added])))
         else:
             self._change(lambda mesh: mesh.insert(added))
@@ -188,15 +188,18 @@ class Delaunay(ABC):
         gone = as_indices(indices, len(points))
         stays = np.ones(len(points), dtype=np.bool_)
         stays[gone] = False
-        rest = locked(points[stays])
-        if self.dimension < 2 or 2 * len(rest) < len(points):  # from scratch is faster then
+        left = np.flatnonzero(stays)
+        number = np.full(len(points), -1, dtype=np.int32)
+        number[left] = np.arange(len(left), dtype=np.int32)
+        rest = locked(points.take(left, axis=0))  # four times as fast as points[stays]
+        if self.dimension < 2 or REBUILD_REMOVING * (len(points) - len(left)) > len(left):
             self._build(rest)
         elif len(gone):
             self._change(lambda mesh: mesh.remove(gone.astype(np.int32)))
             self._chunks = [rest]
             if self._mesh is not None and self._mesh.is_flat:
                 self._build(rest)
-        return np.where(stays, np.cumsum(stays) - 1, -1).astype(np.int32)
+        return number
 
     def find_simplex(self, queries: npt.ArrayLike, *, workers: int | None = None) -> IntArray | int:
         """Triangle that holds each query, exactly.
