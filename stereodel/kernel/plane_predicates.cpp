@@ -80,7 +80,8 @@ int PlanePoints::incircle_open(const double* a, const double* b, const double* c
         return sign;
     }
     ++tally.double_double;
-    return counted(plane::incircle_exact(a, b, c, d));
+    const Sign last = per_unit_ > 0.0 ? plane::incircle_last_digits(a, b, c, d, per_unit_) : OPEN;
+    return counted(last != OPEN ? last : plane::incircle_exact(a, b, c, d));
 }
 
 bool PlanePoints::in_circle_open(Index a, Index b, Index c, Index d, const plane::Estimate& e) {

@@ -20,7 +20,10 @@ class PlanePoints {
   public:
     // xy[2i], xy[2i+1]; granularity: any power of two that divides all coordinates, 0 if none is known.
     PlanePoints(const double* xy, double granularity)
-        : xy_(xy), exact_orient_(exact_up_to(granularity, 2)), exact_incircle_(exact_up_to(granularity, 4)) {}
+        : xy_(xy),
+          exact_orient_(exact_up_to(granularity, 2)),
+          exact_incircle_(exact_up_to(granularity, 4)),
+          per_unit_(granularity > 0.0 ? 1.0 / granularity : 0.0) {}
 
     const double* at(Index a) const { return xy_ + 2 * static_cast<std::ptrdiff_t>(a); }
 
@@ -77,6 +80,7 @@ class PlanePoints {
     const double* xy_;
     double exact_orient_;
     double exact_incircle_;
+    double per_unit_;  // 0 if no grid is known
 };
 
 // in_circle for four different cocircular points, as vectors: 1 or -1.

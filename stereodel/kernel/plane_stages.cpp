@@ -1,9 +1,11 @@
 #include "plane_stages.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "big_integer.hpp"
 #include "pair_arithmetic.hpp"
+#include "wrapping_integer.hpp"
 
 namespace stereodel::plane {
 
@@ -60,6 +62,25 @@ Sign incircle_double_double(const double* a, const double* b, const double* c, c
     const double permanent = aa * (bb + cc) + bb * cc;
     return decide_pair(incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y),
                        INCIRCLE_ERROR * U2 * permanent + FLOOR * (aa + (bb + cc) + 1));
+}
+
+// The stage before found |value| at most its own bound, so the true value is at most twice that. In units of the grid it is
+// an integer; below 2^126 nothing is lost modulo 2^128. Coordinates below 2^61 units have differences that fit in 64 bits.
+Sign incircle_last_digits(const double* a, const double* b, const double* c, const double* d, double per_unit) {
+    const Estimate e = incircle_estimate(a, b, c, d);
+    const double square = per_unit * per_unit;
+    double largest = 0.0;
+    for (const double* p : {a, b, c, d}) {
+        largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
+    }
+    if (!(largest * per_unit < 0x1p61) || !(2.1 * INCIRCLE_ERROR * U2 * e.permanent * square * square < 0x1p126)) {
+        return OPEN;
+    }
+    const auto edge = [&](const double* p, int k) {
+        const auto units = [&](double x) { return static_cast<std::int64_t>(x * per_unit); };
+        return WrappingInteger(units(p[k]) - units(d[k]));
+    };
+    return incircle_form(edge(a, 0), edge(a, 1), edge(b, 0), edge(b, 1), edge(c, 0), edge(c, 1)).sign();
 }
 
 Sign distances_double_double(const double* q, const double* a, const double* b) {

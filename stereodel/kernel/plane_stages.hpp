@@ -60,6 +60,9 @@ inline Estimate distance_estimate(const double* q, const double* a, const double
 // About twice the precision.
 Sign orient_double_double(const double* a, const double* b, const double* c);
 Sign incircle_double_double(const double* a, const double* b, const double* c, const double* d);
+// For coordinates that are multiples of 1/`per_unit`, a power of two, and signs that the stage before left open: so the
+// value is small, and its last 128 binary digits tell all. Open where they do not.
+Sign incircle_last_digits(const double* a, const double* b, const double* c, const double* d, double per_unit);
 Sign distances_double_double(const double* q, const double* a, const double* b);
 
 // Integers: always right, never open.

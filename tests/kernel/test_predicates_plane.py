@@ -249,3 +249,16 @@ def test_granularity_of_long_numbers(bits):
 
 def test_granularity_of_nothing():
     assert _kernel.common_granularity(np.zeros((0, 2))) == _kernel.common_granularity(np.zeros((3, 2))) == 2.0**240
+
+
+@given(st.integers(2**40, 2**50), st.permutations(range(12)), st.integers(-1, 1), st.integers(0, 1))
+def test_the_last_digits_of_large_integers_on_a_circle(size, order, change, axis):
+    """Ties, and values that a change by one leaves tiny beside the permanent."""
+    circle = [(s * x, t * y) for x, y in ((3, 4), (4, 3), (5, 0), (0, 5)) for s in (1, -1) for t in (1, -1)]
+    circle = sorted(set(circle))
+    quad = np.array([circle[k] for k in order[:4]], dtype=float) * size
+    quad[3, axis] += change
+    exact = incircle_integer(*[[int(x) for x in p] for p in quad.tolist()])
+    for scale in (1.0, 2.0**-30, 2.0**20):
+        signs, _ = _kernel.incircle_numbered(quad * scale, np.array([[0, 1, 2, 3]], dtype=np.int32), False)
+        assert signs.tolist() == [exact]

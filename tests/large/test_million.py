@@ -58,14 +58,18 @@ PLANE = {
     "integer grid": lambda: grid(1000, 1000),
     "grid of tenths, slanting": lambda: grid(1000, 1000) @ [[0.3, 0.4], [-0.4, 0.3]],
     "circle": lambda: circle(2),
-    "millimetres far away": lambda: np.round(np.random.default_rng(2).random((SIZE, 2)) * 1e3, 3) + [500_000, 5_000_000],
+    "millimetres far away": lambda: (
+        np.round(np.random.default_rng(2).random((SIZE, 2)) * 1e3, 3) + [500_000, 5_000_000]
+    ),
 }
 SPHERE = {
     "uniform": lambda: np.random.default_rng(0).normal(size=(SIZE, 3)),
     "clusters of 1e-3": lambda: clusters(3, 1e-3),
     "clusters of 1e-6": lambda: clusters(3, 1e-6),
     "clusters of 1e-9": lambda: clusters(3, 1e-9),
-    "one city": lambda: np.vstack([unit(np.ones((1, 3))) + 1e-7 * np.random.default_rng(3).normal(size=(SIZE, 3)), np.eye(3)]),
+    "one city": lambda: np.vstack(
+        [unit(np.ones((1, 3))) + 1e-7 * np.random.default_rng(3).normal(size=(SIZE, 3)), np.eye(3)]
+    ),
     "Fibonacci lattice": fibonacci,
     "graticule": graticule,
     "circle": lambda: circle(3),
