@@ -294,6 +294,16 @@ def project_double_double(
     axis: int,
     sign: int,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
+def projected(
+    p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    axis: int,
+    sign: int,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
+def projected_estimates(
+    fours: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    axis: int,
+    sign: int,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
 def compare_projected(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     q: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

@@ -71,7 +71,8 @@ ValuesOut<bool> closing(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
 void bind_delaunay(nb::module_& module) {
     module.def("triangulate_plane", plane, "points"_a, "workers"_a = 1, "neighbors"_a = true,
                "Simplices, neighbors or None, duplicates, dimension and inconclusive tests of points of the plane.");
-    module.def("triangulate_sphere", sphere, "points"_a, "workers"_a = 1, "neighbors"_a = true, "axis"_a = 0, "sign"_a = -1,
+    module.def("triangulate_sphere", sphere, "points"_a, "workers"_a = 1, "neighbors"_a = true, "axis"_a = 0,
+               "sign"_a = -1,
                "The same of directions; `sign` times axis number `axis` is the pole of the projection.");
     module.def("closing", closing, "points"_a, "simplices"_a, "Whether det[a b c] <= 0, for each facet.");
 }

@@ -1,7 +1,11 @@
 // The stereographic projection for Python, and the exact comparisons of projected coordinates.
 #include <nanobind/stl/string.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "bind_rows.hpp"
+#include "projected_sites.hpp"
 #include "projection.hpp"
 
 namespace stereodel {
@@ -56,11 +60,47 @@ Signs compare_to_line_rows(const SpaceArray& p, int axis, int sign, int coordina
     });
 }
 
+ProjectedRays checked_rays(const SpaceArray& p, int axis, int sign) {
+    return {p.data(), all_unit(p.data(), p.shape(0)), checked_pole(axis, sign), true};
+}
+
+// X, Y of the first filter.
+Doubles projected_rows(const SpaceArray& p, int axis, int sign) {
+    const ProjectedRays rays = checked_rays(p, axis, sign);
+    double* out = nullptr;
+    Doubles result = new_array<Doubles>(out, {p.shape(0), 2});
+    for (std::size_t k = 0; k < p.shape(0); ++k) {
+        const Point2 image = rays.ratio(static_cast<Index>(k)).point();
+        out[2 * k] = image.x;
+        out[2 * k + 1] = image.y;
+    }
+    return result;
+}
+
+// The first filter of points in fours, the orientation of each row's first three and the incircle test of all: value,
+// bound, and of the latter the bound without a root, infinite where it does not apply.
+Doubles projected_estimates(const SpaceArray& p, int axis, int sign) {
+    const ProjectedRays rays = checked_rays(p, axis, sign);
+    double* out = nullptr;
+    Doubles result = new_array<Doubles>(out, {p.shape(0) / 4, 5});
+    for (std::size_t k = 0; k + 3 < p.shape(0); k += 4) {
+        const auto image = [&](std::size_t j) { return rays.ratio(static_cast<Index>(k + j)).point(); };
+        const Estimated turn = orient_estimate(image(0), image(1), image(2));
+        const InCircleEstimate circle(image(0), image(1), image(2), image(3));
+        const double wide = circle.is_wide() ? circle.wide_bound() : HUGE_VAL;
+        const double row[] = {turn.value, turn.bound, circle.value, circle.bound(), wide};
+        std::copy(row, row + 5, out + 5 * (k / 4));
+    }
+    return result;
+}
+
 }  // namespace
 
 void bind_projection(nb::module_& m) {
     m.def("project", &project_rows<project, 2>, "p"_a, "axis"_a, "sign"_a);
     m.def("project_double_double", &project_rows<project_double_double, 4>, "p"_a, "axis"_a, "sign"_a);
+    m.def("projected", &projected_rows, "p"_a, "axis"_a, "sign"_a);
+    m.def("projected_estimates", &projected_estimates, "fours"_a, "axis"_a, "sign"_a);
     m.def("compare_projected", &compare_projected_rows, "p"_a, "q"_a, "axis"_a, "sign"_a, "coordinate"_a,
           "stage"_a = "all");
     m.def("compare_to_line", &compare_to_line_rows, "p"_a, "axis"_a, "sign"_a, "coordinate"_a, "hi"_a, "lo"_a,

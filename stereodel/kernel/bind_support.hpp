@@ -23,7 +23,8 @@ namespace stereodel {
 namespace nb = nanobind;
 
 template <class T, std::size_t Width>
-using RowsIn = nb::ndarray<const T, nb::numpy, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig, nb::device::cpu>;
+using RowsIn =
+    nb::ndarray<const T, nb::numpy, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig, nb::device::cpu>;
 template <class T, std::size_t Width>
 using RowsOut = nb::ndarray<nb::numpy, T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig>;
 
@@ -54,8 +55,9 @@ inline RowsOut<Index, 2> to_rows(const std::vector<std::pair<Index, Index>>& pai
     return to_rows<2>(std::move(buffer));
 }
 
-// Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for Ctrl-C
-// twenty times a second; then `stop` is raised, the work throws `Cancelled`, and Python's exception goes on from here.
+// Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for
+// Ctrl-C twenty times a second; then `stop` is raised, the work throws `Cancelled`, and Python's exception goes on from
+// here.
 template <class Work>
 auto run_without_lock(bool is_long, Work&& work) {
     using Result = decltype(work(Stop{}));

@@ -21,8 +21,8 @@ struct Point2 {
     double x, y;
 };
 
-// By place along the curve: plane coordinates (of the sphere's points the projected ones) and the key, both needed until
-// the triangulation is complete, and the number of the point for those who asked.
+// By place along the curve: plane coordinates (of the sphere's points the projected ones) and the key, both needed
+// until the triangulation is complete, and the number of the point for those who asked.
 struct CurveArrays {
     Buffer<Point2> points;
     Buffer<std::uint32_t> keys;
@@ -32,7 +32,8 @@ struct CurveArrays {
 
     // `number(k)` for k < size are the points to take, `point` and `key` know them by these numbers.
     template <class NumberOf, class PointOf, class KeyOf>
-    static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, Crew& crew, Stop stop) {
+    static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, Crew& crew,
+                              Stop stop) {
         constexpr std::size_t grain = 1 << 14;
         const std::size_t pieces = (size + grain - 1) / grain;
         Buffer<KeyedPoint> items(3 * size);  // two for sorting; three are as large as the triangles
@@ -62,8 +63,8 @@ struct CurveArrays {
     }
 };
 
-// What plane and sphere have in common as sites of `DivideAndConquer`. A task's own view of arrays that all share; no two
-// tasks work on the same range of places.
+// What plane and sphere have in common as sites of `DivideAndConquer`. A task's own view of arrays that all share; no
+// two tasks work on the same range of places.
 class CurveSites {
   public:
     explicit CurveSites(CurveArrays& arrays)

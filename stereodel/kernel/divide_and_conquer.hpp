@@ -1,12 +1,12 @@
 // Delaunay triangulation by divide and conquer over points in the order of a space-filling curve.
 //
-// L. Guibas, J. Stolfi, "Primitives for the manipulation of general subdivisions and the computation of Voronoi diagrams", ACM
-// Transactions on Graphics 4 (1985), with the alternating cuts of R. Dwyer, "A faster divide-and-conquer algorithm for
-// constructing Delaunay triangulations", Algorithmica 2 (1987). The highest bit in which the first and the last key of a
-// range differ is the cut.
+// L. Guibas, J. Stolfi, "Primitives for the manipulation of general subdivisions and the computation of Voronoi
+// diagrams", ACM Transactions on Graphics 4 (1985), with the alternating cuts of R. Dwyer, "A faster divide-and-conquer
+// algorithm for constructing Delaunay triangulations", Algorithmica 2 (1987). The highest bit in which the first and
+// the last key of a range differ is the cut.
 //
-// The sites answer three questions, always exactly: the orientation of three points, whether a point lies in the circle of
-// three, and the order of two points along an axis. The two sides of a cut must lie on two sides of a line.
+// The sites answer three questions, always exactly: the orientation of three points, whether a point lies in the circle
+// of three, and the order of two points along an axis. The two sides of a cut must lie on two sides of a line.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,8 @@ struct Part {
 //   int orient(a, b, c), bool in_circle(a, b, c, d)     for places in the curve's order
 //   bool before(a, b, axis)                             along the axis, ties along the other one
 //   std::uint32_t key(a)                                sorted; refined where it is equal for many
-//   bool refine(low, high)                              new keys, sorted, for a range of equal ones; false if all stay equal
+//   bool refine(low, high)                              new, sorted keys for equal ones; false if all stay equal
+//   void sort_few(low, high)                            sort different points along x
 //   Index sort_distinct(low, high)                      sort along x; the different points come first: their number
 template <class Sites>
 class DivideAndConquer {
@@ -188,7 +189,7 @@ class DivideAndConquer {
     // The lower common tangent as an edge from right to left. Starts at the points next to the cut, so that the line
     // between them meets neither hull.
     Index tangent(Part left, Part right, Axis axis, FreeBlocks& free) {
-        Index l = -1, r = -1;  // hull edges with the outside on their left (clockwise), on their right (counterclockwise)
+        Index l = -1, r = -1;  // hull edges with the outside on their left (clockwise) and right (counterclockwise)
         if (left.edge >= 0) {
             l = edges_.prev(extreme(left.edge, axis, true));
             left.vertex = edges_.origin(l);
@@ -221,7 +222,9 @@ class DivideAndConquer {
 
     // The counterclockwise hull edge out of the last (first) point along the axis, by climbing along the hull from `e`.
     Index extreme(Index e, Axis axis, bool last) {
-        const auto better = [&](Index a, Index b) { return last ? sites_.before(b, a, axis) : sites_.before(a, b, axis); };
+        const auto better = [&](Index a, Index b) {
+            return last ? sites_.before(b, a, axis) : sites_.before(a, b, axis);
+        };
         Index here = edges_.origin(e);
         bool forward = false;
         for (;;) {

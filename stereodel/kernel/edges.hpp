@@ -1,5 +1,6 @@
-// Directed edges of a planar subdivision, as L. Guibas and J. Stolfi use them ("Primitives for the manipulation of general
-// subdivisions and the computation of Voronoi diagrams", ACM Transactions on Graphics 4, 1985), without the dual half.
+// Directed edges of a planar subdivision, as L. Guibas and J. Stolfi use them ("Primitives for the manipulation of
+// general subdivisions and the computation of Voronoi diagrams", ACM Transactions on Graphics 4, 1985), without the
+// dual half.
 #pragma once
 
 #include <cstdint>

@@ -125,13 +125,17 @@ Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_n
     if (count == 0) {
         return result;
     }
-    Crew crew(workers);
+    Crew crew(useful_workers(workers, count));
     const auto number = [](std::size_t k) { return static_cast<Index>(k); };
-    const auto point = [xy](Index k) { return Point2{xy[2 * static_cast<std::ptrdiff_t>(k)], xy[2 * static_cast<std::ptrdiff_t>(k) + 1]}; };
+    const auto point = [xy](Index k) {
+        const double* const p = xy + 2 * static_cast<std::ptrdiff_t>(k);
+        return Point2{p[0], p[1]};
+    };
     const Grid grid = bounding_grid(point, count, crew);
     const auto key = [&](Index k) { return grid.key(point(k)); };
     CurveArrays arrays = CurveArrays::sorted(count, number, point, key, crew, stop);
-    CurveTriangulation<PlaneSites> work(arrays, PlaneSites(arrays, common_granularity(xy, count)), crew, Buffer<char>());
+    const PlaneSites sites(arrays, common_granularity(xy, count));
+    CurveTriangulation<PlaneSites> work(arrays, sites, crew, Buffer<char>());
     result.duplicates = std::move(work.duplicates);
     result.tally = work.tally;
     const std::size_t distinct = count - result.duplicates.size();

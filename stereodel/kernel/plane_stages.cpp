@@ -64,8 +64,9 @@ Sign incircle_double_double(const double* a, const double* b, const double* c, c
                        INCIRCLE_ERROR * U2 * permanent + FLOOR * (aa + (bb + cc) + 1));
 }
 
-// The stage before found |value| at most its own bound, so the true value is at most twice that. In units of the grid it is
-// an integer; below 2^126 nothing is lost modulo 2^128. Coordinates below 2^61 units have differences that fit in 64 bits.
+// The stage before found |value| at most its own bound, so the true value is at most twice that. In units of the grid
+// it is an integer; below 2^126 nothing is lost modulo 2^128. Coordinates below 2^61 units have differences that fit in
+// 64 bits.
 Sign incircle_last_digits(const double* a, const double* b, const double* c, const double* d, double per_unit) {
     const Estimate e = incircle_estimate(a, b, c, d);
     const double square = per_unit * per_unit;

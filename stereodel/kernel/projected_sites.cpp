@@ -15,11 +15,12 @@ struct Border {
     double hi, lo;
 };
 
-// Number of the cell that holds a coordinate: the one whose lower border is the last not above it. `near` is a guess, the
-// answer is exact, whatever the guess: so cells are cells of the true projection, and points of different ones lie on two
-// sides of a line.
+// Number of the cell that holds a coordinate: the one whose lower border is the last not above it. `near` is a guess,
+// the answer is exact, whatever the guess: so cells are cells of the true projection, and points of different ones lie
+// on two sides of a line.
 template <class BorderOf>
-std::uint32_t exact_cell(const ProjectedRays& rays, Index point, int coordinate, std::uint32_t near, BorderOf&& border) {
+std::uint32_t exact_cell(const ProjectedRays& rays, Index point, int coordinate, std::uint32_t near,
+                         BorderOf&& border) {
     const double* const p = rays.at(point);
     const auto beyond = [&](std::uint32_t cell) {  // not before the lower border of the cell
         const Border b = border(cell);
@@ -44,7 +45,8 @@ std::uint32_t exact_cell(const ProjectedRays& rays, Index point, int coordinate,
 
 // The cell of a coordinate that lies `place` cells from the first border, within `error` cells.
 template <class BorderOf>
-inline std::uint32_t cell_at(double place, double error, const ProjectedRays& rays, Index point, int coordinate, BorderOf&& border) {
+inline std::uint32_t cell_at(double place, double error, const ProjectedRays& rays, Index point, int coordinate,
+                             BorderOf&& border) {
     const double last = cells - 1.0;
     const double bounded = place > 0.0 ? std::min(place, last) : 0.0;  // NaN becomes 0, and is not certain
     const std::uint32_t near = static_cast<std::uint32_t>(bounded);
@@ -62,8 +64,8 @@ struct WholePlaneBorder {
     }
 };
 
-// The place in the grid of X = x/w, half (1 + x/(w + |x|)). Both are off by 7u, the formula adds 4u, a border's rounding u/4:
-// times 2^15 cells far below 2^-30 of a cell.
+// The place in the grid of X = x/w, half (1 + x/(w + |x|)). Both are off by 7u, the formula adds 4u, a border's
+// rounding u/4: times 2^15 cells far below 2^-30 of a cell.
 std::uint32_t whole_plane_cell(double x, double w, const ProjectedRays& rays, Index point, int coordinate) {
     const double half = cells / 2;
     return cell_at(half + half * (x / (w + std::fabs(x))), 0x1p-30, rays, point, coordinate, WholePlaneBorder{});
@@ -80,12 +82,12 @@ class FineGrid {
     }
 
     double largest() const {
-        return std::max(std::max(std::fabs(low_.x), std::fabs(high_.x)), std::max(std::fabs(low_.y), std::fabs(high_.y)));
+        return std::max({std::fabs(low_.x), std::fabs(high_.x), std::fabs(low_.y), std::fabs(high_.y)});
     }
 
     // `error`: how far an offset may be from the true one, its rounding apart. False where cells would be so small that
-    // many points needed exact decisions. An offset is at most 2^16 steps from the base, so roundings of u are far below
-    // the slack of 2^-30 of a cell.
+    // many points needed exact decisions. An offset is at most 2^16 steps from the base, so roundings of u are far
+    // below the slack of 2^-30 of a cell.
     bool fit(double error) {
         const double extent = std::max(high_.x - low_.x, high_.y - low_.y);
         if (!(extent > 0x1p-600 && extent < 0x1p300)) {

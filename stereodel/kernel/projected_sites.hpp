@@ -1,9 +1,9 @@
 // Directions in the plane: projected stereographically for sorting and for the first filter, decided on the rays.
 //
-// A circle stays a circle, so the plane's incircle test is the sphere's bubble test, and three points are counterclockwise
-// exactly if the pole does not lie in their bubble. The pole may be one of the points; otherwise it is an artificial point
-// that comes first in the order of displacements. Displaced points are in strictly convex position, and seen from the
-// displaced pole they are a set of the plane without three points on a line or four on a circle.
+// A circle stays a circle, so the plane's incircle test is the sphere's bubble test, and three points are
+// counterclockwise exactly if the pole does not lie in their bubble. The pole may be one of the points; otherwise it is
+// an artificial point that comes first in the order of displacements. Displaced points are in strictly convex position,
+// and seen from the displaced pole they are a set of the plane without three points on a line or four on a circle.
 #pragma once
 
 #include <cmath>
@@ -28,7 +28,8 @@ struct ProjectedRays {
     struct Ratio {
         double x, y, w;
 
-        // Relatively within 8u; NaN, which decides nothing, where products of coordinates might leave the range of doubles.
+        // Relatively within 8u; NaN, which decides nothing, where products of coordinates might leave the range of
+        // doubles.
         Point2 point() const { return {in_range(x / w), in_range(y / w)}; }
     };
 
@@ -40,8 +41,8 @@ struct ProjectedRays {
             project(p, pole, out);
             return {out[0], out[1], 1.0};
         }
-        // w = |p| - s p_k, or (x^2 + y^2)/(|p| + |p_k|) where that difference would cancel. Roundings: the length 2.5, its sum
-        // with |p_k| 3.5, the sum of squares 2: at most 3.5 + 2 + 1 = 6.5.
+        // w = |p| - s p_k, or (x^2 + y^2)/(|p| + |p_k|) where that difference would cancel. Roundings: the length 2.5,
+        // its sum with |p_k| 3.5, the sum of squares 2: at most 3.5 + 2 + 1 = 6.5.
         const double along = p[pole.axis];
         const double x = p[(pole.axis + (pole.sign < 0 ? 1 : 2)) % 3], y = p[(pole.axis + (pole.sign < 0 ? 2 : 1)) % 3];
         const double across = x * x + y * y;
@@ -50,8 +51,8 @@ struct ProjectedRays {
         return {x, y, (near ? across : sum) / (near ? sum : 1.0)};  // no branch: half of the points are near
     }
 
-    // A coordinate of 2^-70 or more is a multiple of 2^-123, and so are differences: no product of eight of them and three
-    // roundoffs underflows (see `InCircleEstimate`).
+    // A coordinate of 2^-70 or more is a multiple of 2^-123, and so are differences: no product of eight of them and
+    // three roundoffs underflows (see `InCircleEstimate`).
     static double in_range(double x) {
         return x == 0.0 || (std::fabs(x) >= 0x1p-70 && std::fabs(x) <= 0x1p70) ? x : std::nan("");
     }
@@ -68,8 +69,8 @@ struct Estimated {
 // 8u(|A| + |D|) <= 16u|D| + 8u|a|, and its own rounding adds u: an error relative to the difference, 9u with the small
 // excess of second order counted as 9.5u, and an absolute one, e = 17u|D|.
 //
-// Three points, pivot A: a product of two differences with five roundings of 9.5u, 9.5u, u, u: 21u and the bound's own: 22u;
-// e moves the sum of the two products by at most e times the sum of the four differences, and 2e^2.
+// Three points, pivot A: a product of two differences with five roundings of 9.5u, 9.5u, u, u: 21u and the bound's own:
+// 22u; e moves the sum of the two products by at most e times the sum of the four differences, and 2e^2.
 inline Estimated orient_estimate(Point2 a, Point2 b, Point2 c) {
     const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
     const double left = bx * cy, right = by * cx;
@@ -78,11 +79,11 @@ inline Estimated orient_estimate(Point2 a, Point2 b, Point2 c) {
     return {left - right, 22 * 0x1p-53 * (std::fabs(left) + std::fabs(right)) + 1.01 * moved};
 }
 
-// Four points, pivot D. A term of the determinant holds four differences (38u) and seven more roundings, with the bound's
-// own: 46u times the permanent q = AB + BC + CA (A = |a|^2 and so on; see plane_forms.hpp).
-// An absolute error e in each difference moves the determinant by at most (4/3) e S P with S = |a|+|b|+|c| and
-// P = |a||b|+|b||c|+|c||a|, all lengths taken longer by e to cover higher orders: (4/3) e (S + 3e)(P + 2eS + 3e^2). With
-// s = A+B+C: S <= sqrt(3s), P <= sqrt(3q), P <= s, eS <= (e^2 + 3s)/2, this is at most
+// Four points, pivot D. A term of the determinant holds four differences (38u) and seven more roundings, with the
+// bound's own: 46u times the permanent q = AB + BC + CA (A = |a|^2 and so on; see plane_forms.hpp). An absolute error e
+// in each difference moves the determinant by at most (4/3) e S P with S = |a|+|b|+|c| and P = |a||b|+|b||c|+|c||a|,
+// all lengths taken longer by e to cover higher orders: (4/3) e (S + 3e)(P + 2eS + 3e^2). With s = A+B+C: S <=
+// sqrt(3s), P <= sqrt(3q), P <= s, eS <= (e^2 + 3s)/2, this is at most
 //   4 e sqrt(sq) + 32 e^2 (s + e^2).
 struct InCircleEstimate {
     double value, permanent, squares, error_squared;
@@ -101,8 +102,8 @@ struct InCircleEstimate {
         return 46 * 0x1p-53 * permanent + 4.01 * absolute + 33 * error_squared * (squares + error_squared);
     }
 
-    // Where points are far apart, beside the error of their coordinates, a bound without a root: if e^2 s <= 2^-66 q, then
-    // also e^2 <= 2^-66 s (q <= s^2), and the bound is below 2^-30 q.
+    // Where points are far apart, beside the error of their coordinates, a bound without a root: if e^2 s <= 2^-66 q,
+    // then also e^2 <= 2^-66 s (q <= s^2), and the bound is below 2^-30 q.
     bool is_wide() const { return error_squared * squares * 0x1p66 <= permanent; }
     double wide_bound() const { return 0x1p-30 * permanent; }
 };
@@ -139,7 +140,8 @@ class SphereSites : public CurveSites {
     }
 
     bool before(Index a, Index b, Axis axis) {
-        const double x = axis == Axis::x ? points_[a].x : points_[a].y, y = axis == Axis::x ? points_[b].x : points_[b].y;
+        const Point2 p = points_[a], q = points_[b];
+        const double x = axis == Axis::x ? p.x : p.y, y = axis == Axis::x ? q.x : q.y;
         const double bound = coordinate_error * (std::fabs(x) + std::fabs(y));
         if (x - y > bound) {
             return false;

@@ -13,8 +13,8 @@
 
 namespace stereodel {
 
-// Sort `items[0, size)` by key, equal keys in their old order, by passes over `digits` bits from bit `low` of the key on.
-// `spare` is as large. The result may end in either array: returns which.
+// Sort `items[0, size)` by key, equal keys in their old order, by passes over `digits` bits from bit `low` of the key
+// on. `spare` is as large. The result may end in either array: returns which.
 class LeastDigitFirst {
   public:
     static constexpr int digit_bits = 8;
@@ -40,7 +40,8 @@ class LeastDigitFirst {
     }
 };
 
-// Sort items[0, size) by key; points of one key stay in the order of their numbers if they come in it. `spare` is as large.
+// Sort items[0, size) by key; points of one key stay in the order of their numbers if they come in it. `spare` is as
+// large.
 inline void sort_by_key(KeyedPoint* items, KeyedPoint* spare, std::size_t size, Crew& crew) {
     constexpr int top = 24;  // the first pass takes the bits from here on
     constexpr std::size_t buckets = std::size_t{1} << (32 - top);

@@ -15,7 +15,8 @@ constexpr double coordinate_axes[3][3] = {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0
 
 // Whether two vectors have one direction or opposite ones: their plane is that of any third.
 bool dependent(Rays& rays, Index a, Index b) {
-    return std::all_of(coordinate_axes, coordinate_axes + 3, [&](const double* axis) { return rays.turn(a, b, axis) == 0; });
+    const auto in_plane = [&](const double* axis) { return rays.turn(a, b, axis) == 0; };
+    return std::all_of(coordinate_axes, coordinate_axes + 3, in_plane);
 }
 
 // Whether all directions lie on one great circle.
@@ -158,7 +159,8 @@ class Closure {
         for (std::size_t k = 0; k < triangles_.size(); ++k) {
             const PolygonFill::Triangle& triangle = triangles_[k];
             const Three corners{vertex(triangle.corner[0]), vertex(triangle.corner[1]), vertex(triangle.corner[2])};
-            const std::size_t least = static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
+            const auto first_corner = std::min_element(corners.begin(), corners.end());
+            const std::size_t least = static_cast<std::size_t>(first_corner - corners.begin());
             for (std::size_t j = 0; j < 3; ++j) {
                 const std::size_t place = 3 * (first + k) + j, corner = (least + j) % 3;
                 triangles.corners[place] = corners[corner];
@@ -175,7 +177,8 @@ class Closure {
     Index vertex(Index place) const { return cycle_[static_cast<std::size_t>(place)]; }
 
     // What lies opposite a corner: a triangle here, or the one across the border edge that begins at the next corner.
-    Index neighbor(const Edges& edges, std::size_t first, const PolygonFill::Triangle& triangle, std::size_t corner) const {
+    Index neighbor(const Edges& edges, std::size_t first, const PolygonFill::Triangle& triangle,
+                   std::size_t corner) const {
         const Index here = triangle.neighbor[corner];
         if (here != PolygonFill::border) {
             return static_cast<Index>(first) + here;
@@ -189,8 +192,8 @@ class Closure {
 };
 
 // Write all: what was triangulated around the pole's antipode, then what closes it at the pole.
-void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure, CurveArrays& arrays, std::size_t distinct,
-                  bool with_neighbors, Crew& crew, Stop stop, Triangles& triangles) {
+void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure, CurveArrays& arrays,
+                  std::size_t distinct, bool with_neighbors, Crew& crew, Stop stop, Triangles& triangles) {
     const std::size_t count = 2 * distinct - 4, first = count - closure.count();  // Euler
     triangles.corners = Buffer<Index>(std::move(arrays.sorted_items), 3 * count);
     if (with_neighbors) {
@@ -204,9 +207,10 @@ void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure,
 
 }  // namespace
 
-Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with_neighbors, int workers, Pole pole, Stop stop) {
+Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with_neighbors, int workers, Pole pole,
+                                 Stop stop) {
     check_size(count);
-    Crew crew(workers);
+    Crew crew(useful_workers(workers, count));
     const bool unit = all_unit(xyz, count, crew);
     Rays exact(xyz, unit);
     if (count == 0) {
@@ -249,7 +253,8 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
     return result;
 }
 
-void closing_facets(const double* xyz, std::size_t size, const Index* simplices, std::size_t count, bool* closing, Stop stop) {
+void closing_facets(const double* xyz, std::size_t size, const Index* simplices, std::size_t count, bool* closing,
+                    Stop stop) {
     Rays rays(xyz, all_unit(xyz, size));
     for (std::size_t k = 0; k < count; ++k) {
         if (k % 4096 == 0) {

@@ -23,6 +23,13 @@ inline void check(Stop stop) {
     }
 }
 
+// As many of `workers` as a call on `points` points can keep busy.
+inline int useful_workers(int workers, std::size_t points) {
+    constexpr std::size_t worth_a_thread = 1024;
+    const std::size_t most = points / worth_a_thread + 1;
+    return static_cast<std::size_t>(workers) < most ? workers : static_cast<int>(most);
+}
+
 // Threads that wait for loops. The calling thread is one of them: a crew of one starts none.
 class Crew {
   public:
@@ -50,23 +57,30 @@ class Crew {
 
     std::size_t size() const { return threads_.size() + 1; }
 
-    // Calls task(k) for every k < count; tasks are taken in order. The first exception ends the loop and is thrown here,
-    // after all threads have come back.
+    // Calls task(k) for every k < count; tasks are taken in order. The first exception ends the loop and is thrown
+    // here, after all threads have come back.
     template <class Task>
     void run(std::size_t count, Task&& task) {
         std::atomic<std::size_t> taken{0};
         std::exception_ptr failure;
+        bool failed = false;  // by more than being cancelled, which often follows from the failure of another task
+        const auto end_with = [&](bool by_more) {
+            taken = count;
+            const std::lock_guard lock(mutex_);
+            if (!failure || (by_more && !failed)) {
+                failure = std::current_exception();
+                failed = by_more;
+            }
+        };
         const auto work = [&] {
             try {
                 for (std::size_t k = taken++; k < count; k = taken++) {
                     task(k);
                 }
+            } catch (const Cancelled&) {
+                end_with(false);
             } catch (...) {
-                taken = count;
-                const std::lock_guard lock(mutex_);
-                if (!failure) {
-                    failure = std::current_exception();
-                }
+                end_with(true);
             }
         };
         if (count > 1 && !threads_.empty()) {

@@ -25,9 +25,9 @@ struct Triangles {
 // Writes the triangles of a subdivision in the order of its edges: that of the curve, but for edges across wide cuts. A
 // triangle belongs to the least of its edges.
 //
-// Around the face on the left of e = (u, v) all goes by `next`: f = next(e) leads to the third corner w, f ^ 1 back from
-// it, and g = next(f ^ 1) from w to v. So `next` of an edge serves the face on its left alone, and `prev` is no longer
-// needed: it takes the number of the triangle on the left of each edge.
+// Around the face on the left of e = (u, v) all goes by `next`: f = next(e) leads to the third corner w, f ^ 1 back
+// from it, and g = next(f ^ 1) from w to v. So `next` of an edge serves the face on its left alone, and `prev` is no
+// longer needed: it takes the number of the triangle on the left of each edge.
 class TriangleWriter {
   public:
     // `source`: the number of each place's point for those who asked.
@@ -39,8 +39,8 @@ class TriangleWriter {
         edges_[e].prev = left;
     }
 
-    // The triangles that belong to the edges of the points [begin, end), a range that was triangulated as one: three edges
-    // each. They are collected without a branch that would be guessed wrong half of the time.
+    // The triangles that belong to the edges of the points [begin, end), a range that was triangulated as one: three
+    // edges each. They are collected without a branch that would be guessed wrong half of the time.
     std::vector<Index> collect(std::size_t begin, std::size_t end) const {
         constexpr std::size_t block = 3 * 1024;
         std::vector<Index> triples(6 * (end - begin) + block);  // about two triangles a point

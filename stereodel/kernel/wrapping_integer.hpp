@@ -1,4 +1,5 @@
-// Integers modulo 2^128: the last digits of a number that is known to be small, at a fraction of what all its digits cost.
+// Integers modulo 2^128: the last digits of a number that is known to be small, at a fraction of what all its digits
+// cost.
 #pragma once
 
 #include <cstdint>
