@@ -1,4 +1,4 @@
-"""The first filter of the sphere: determinants of rounded projected points stay within their bounds of the true ones."""
+"""The first filter of the sphere: determinants of rounded projected points stay within their bounds."""
 
 import numpy as np
 import pytest
