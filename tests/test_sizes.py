@@ -65,7 +65,13 @@ def test_each_limit_is_seen(sources, words):
 
 def test_files_of_the_kernel_are_counted():
     assert len(sizes.read([str(ROOT / "stereodel" / "kernel")], ".hpp", ".cpp")) > 2
-    assert sizes.file_problems({"k.cpp": "\n" * 400, "k.hpp": "\n" * 399}) == ["k.cpp: 400 lines, at most 399"]
+    assert sizes.kernel_problems({"k.cpp": "\n" * 400, "k.hpp": "\n" * 399}) == ["k.cpp: 400 lines, at most 399"]
+
+
+@pytest.mark.parametrize("line", ["x" * 121, "\tx", "x "])
+def test_lines_of_the_kernel_are_seen(line):
+    (found,) = sizes.kernel_problems({"k.cpp": "x" * 120 + "\n" + line})
+    assert found.startswith("k.cpp:2: ")
 
 
 def test_what_keeps_the_limits_passes():

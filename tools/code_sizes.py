@@ -3,7 +3,8 @@
 Half of the functions have at most 10 lines of code, nine tenths at most 30, none more than 60.
 
 Lines of code count: no docstrings, comments or blank lines. A function's inner functions count as part of it and on
-their own. Modules and files of the kernel have fewer than 400 lines, everything counted.
+their own. Modules and files of the kernel have fewer than 400 lines, everything counted; lines of the kernel at most
+120 characters, as those of the modules.
 
     python tools/code_sizes.py FOLDER…
 """
@@ -18,7 +19,7 @@ import tokenize
 from collections.abc import Iterator
 from pathlib import Path
 
-MEDIAN, NINE_TENTHS, LONGEST, MODULE = 10, 30, 60, 400
+MEDIAN, NINE_TENTHS, LONGEST, MODULE, COLUMNS = 10, 30, 60, 400, 120
 _LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
 _Function = ast.FunctionDef | ast.AsyncFunctionDef
 _Documented = _Function | ast.ClassDef | ast.Module
@@ -56,6 +57,16 @@ def file_problems(sources: dict[str, str]) -> list[str]:
     ]
 
 
+def kernel_problems(sources: dict[str, str]) -> list[str]:
+    """What breaks the rules in C++ sources: length of files and lines, tabs, spaces at the end."""
+    return file_problems(sources) + [
+        f"{name}:{number}: more than {COLUMNS} characters, a tab, or a space at the end"
+        for name, text in sources.items()
+        for number, line in enumerate(text.splitlines(), 1)
+        if len(line) > COLUMNS or "\t" in line or line.endswith(" ")
+    ]
+
+
 def problems(sources: dict[str, str]) -> list[str]:
     """What breaks the rules in the named Python sources."""
     found = file_problems(sources)
@@ -85,7 +96,7 @@ def read(folders: list[str], *suffixes: str) -> dict[str, str]:
 def main(folders: list[str]) -> int:
     """Report and return the exit code."""
     sources, kernel = read(folders, ".py"), read(folders, ".hpp", ".cpp")
-    found = problems(sources) + file_problems(kernel)
+    found = problems(sources) + kernel_problems(kernel)
     lengths = sorted(length for text in sources.values() for _, _, length in function_lengths(text))
     if lengths:
         nine_tenths = lengths[(9 * len(lengths)) // 10 - 1]

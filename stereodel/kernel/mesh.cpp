@@ -26,6 +26,9 @@ bool below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(v
 
 bool none_or_below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) + 1u <= limit; }
 
+// Without a branch.
+bool all(bool a, bool b, bool c) { return (int{a} & int{b} & int{c}) != 0; }
+
 }  // namespace
 
 Mesh::Mesh(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points, Stop stop) {
@@ -57,8 +60,8 @@ std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbor
     in_blocks(count, stop, [&](std::size_t t) {
         const Index* c = simplices + 3 * t;
         const Index* n = neighbors + 3 * t;
-        valid &= below(c[0], points) & below(c[1], points) & below(c[2], points);
-        valid &= none_or_below(n[0], count) & none_or_below(n[1], count) & none_or_below(n[2], count);
+        valid &= all(below(c[0], points), below(c[1], points), below(c[2], points));
+        valid &= all(none_or_below(n[0], count), none_or_below(n[1], count), none_or_below(n[2], count));
         sorted &= (c[0] < c[1]) & (c[0] < c[2]);
         facets_[t] = {{c[0], c[1], c[2]}, {n[0], n[1], n[2]}};
         if ((n[0] | n[1] | n[2]) < 0) {
