@@ -72,6 +72,10 @@ class CurveSites {
 
     std::uint32_t key(Index a) const { return keys_[a]; }
 
+    // What is asked concerns the places [low, high) alone, until `leave`: a sphere's filter gets cheaper by it.
+    void stay_within(Index, Index) {}
+    void leave() {}
+
     // Points found to be equal: those that were dropped, each with the one that was kept.
     std::vector<std::pair<Index, Index>> duplicates;
 
@@ -225,7 +229,9 @@ class CurveTriangulation {
         }
         Sites sites(sites_);
         DivideAndConquer<Sites> engine(edges, sites, stop_);
+        sites.stay_within(range.low, range.high);
         nodes_[range.node].part = engine.solve(range.low, range.high);
+        sites.leave();
         for (std::size_t up = nodes_[range.node].parent; up != none_ && arrived_[up]++ == 1; up = nodes_[up].parent) {
             Node& node = nodes_[up];
             node.part = engine.merge(nodes_[node.left].part, nodes_[node.right].part, node.axis);

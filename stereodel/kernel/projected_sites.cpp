@@ -142,7 +142,11 @@ std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point, ProjectedR
     return curve_key(whole_plane_cell(p.x, p.w, rays, point, 0), whole_plane_cell(p.y, p.w, rays, point, 1));
 }
 
-int SphereSites::orient_open(Index a, Index b, Index c) {
+int SphereSites::orient_close(Index a, Index b, Index c) {
+    const Estimated e = orient_estimate(points_[a], points_[b], points_[c]);
+    if (e.positive() || e.negative()) {
+        return e.positive() ? 1 : -1;
+    }
     ++tally_.filter;
     const int first = rays_.artificial ? 3 : -1;
     return in_bubble(ray(a), ray(b), ray(c), pole_, rays_.unit, first, tally_) ? -1 : 1;

@@ -6,6 +6,7 @@
 // and seen from the displaced pole they are a set of the plane without three points on a line or four on a circle.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -79,6 +80,11 @@ inline Estimated orient_estimate(Point2 a, Point2 b, Point2 c) {
     return {left - right, 22 * 0x1p-53 * (std::fabs(left) + std::fabs(right)) + 1.01 * moved};
 }
 
+// The same where no coordinate exceeds r: differences are at most 2r and off by 2 * 8u r for the coordinates and 2u r,
+// 18u r; each product of two moves by 2 * 2r * 18u r = 72u r^2, and its rounding adds 4u r^2, the last one 8u r^2. With
+// terms of second order less than 2^8 u r^2.
+inline double orient_bound_within(double r) { return 0x1p-45 * r * r; }
+
 // Four points, pivot D. A term of the determinant holds four differences (38u) and seven more roundings, with the
 // bound's own: 46u times the permanent q = AB + BC + CA (A = |a|^2 and so on; see plane_forms.hpp). An absolute error e
 // in each difference moves the determinant by at most (4/3) e S P with S = |a|+|b|+|c| and P = |a||b|+|b||c|+|c||a|,
@@ -117,13 +123,24 @@ class SphereSites : public CurveSites {
         }
     }
 
+    // From now on it is asked about these points alone.
+    void stay_within(Index low, Index high) {
+        double reach = 0.0;
+        for (Index a = low; a < high; ++a) {
+            reach = std::max({reach, std::fabs(points_[a].x), std::fabs(points_[a].y)});  // NaN decides nothing later
+        }
+        orient_bound_ = orient_bound_within(reach);
+    }
+    void leave() { orient_bound_ = HUGE_VAL; }
+
     // Never 0: displaced points are not on a line.
     int orient(Index a, Index b, Index c) {
-        const Estimated e = orient_estimate(points_[a], points_[b], points_[c]);
-        if (e.positive()) {
+        const Point2 p = points_[a], q = points_[b], r = points_[c];
+        const double area = (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x);
+        if (area > orient_bound_) {
             return 1;
         }
-        return e.negative() ? -1 : orient_open(a, b, c);
+        return area < -orient_bound_ ? -1 : orient_close(a, b, c);
     }
 
     bool in_circle(Index a, Index b, Index c, Index d) {
@@ -157,7 +174,7 @@ class SphereSites : public CurveSites {
 
   private:
     const double* ray(Index a) const { return rays_.at(source_[a]); }
-    int orient_open(Index a, Index b, Index c);
+    int orient_close(Index a, Index b, Index c);
     bool in_circle_close(Index a, Index b, Index c, Index d, const InCircleEstimate& e);
     int compare(Index a, Index b, Axis axis);
     int compare_along(Index a, Index b, int coordinate);
@@ -168,6 +185,7 @@ class SphereSites : public CurveSites {
 
     ProjectedRays rays_;
     double pole_[3];
+    double orient_bound_ = HUGE_VAL;
     Tally tally_;
 };
 
