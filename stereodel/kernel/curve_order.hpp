@@ -16,6 +16,7 @@
 #include "charts.hpp"
 #include "memory.hpp"
 #include "radix_sort.hpp"
+#include "square_grid.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
 
@@ -34,7 +35,7 @@ class CurveOrder {
             return;
         }
         if constexpr (Chart::dimension == 2) {
-            CurveGrid grid;
+            SquareGrid grid;
             const Chart chart(at(items[0]));
             if (!fit(grid, chart, items.data(), size)) {
                 return;
@@ -65,7 +66,7 @@ class CurveOrder {
         });
     }
 
-    bool fit(CurveGrid& grid, const Chart& chart, const KeyedPoint* items, std::size_t size) const {
+    bool fit(SquareGrid& grid, const Chart& chart, const KeyedPoint* items, std::size_t size) const {
         for (std::size_t k = 0; k < size; ++k) {
             grid.include(chart(at(items[k])));
         }
@@ -87,7 +88,7 @@ class CurveOrder {
 
     void refine_run(KeyedPoint* items, KeyedPoint* spare, std::size_t size) {
         const Chart chart(at(items[0]));
-        CurveGrid grid;
+        SquareGrid grid;
         if (!fit(grid, chart, items, size)) {
             return;
         }
@@ -109,7 +110,7 @@ class CurveOrder {
 template <class Chart>
 std::uint64_t scrambled(const double* p) {
     const Chart chart(p);
-    const ChartPoint place = chart(p);
+    const Point2 place = chart(p);
     std::uint64_t bits[2];
     std::memcpy(bits, &place, sizeof bits);
     std::uint64_t z = bits[0] * 0x9E3779B97F4A7C15u + bits[1] + chart.face;

@@ -13,13 +13,10 @@
 #include "divide_and_conquer.hpp"
 #include "memory.hpp"
 #include "radix_sort.hpp"
+#include "square_grid.hpp"
 #include "threads.hpp"
 
 namespace stereodel {
-
-struct Point2 {
-    double x, y;
-};
 
 // By place along the curve: plane coordinates (of the sphere's points the projected ones) and the key, both needed
 // until the triangulation is complete, and the number of the point for those who asked.
