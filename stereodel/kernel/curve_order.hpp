@@ -7,7 +7,6 @@
 // first.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -50,19 +49,14 @@ class CurveOrder {
     }
 
   private:
-    static constexpr std::size_t grain = std::size_t{1} << 14;
     static constexpr std::size_t few = 8;  // so many in one cell stay as they are
 
     const double* at(KeyedPoint item) const { return at_(item.point()); }
 
     template <class KeyOf>
     void give_keys(Buffer<KeyedPoint>& items, KeyOf&& key) {
-        crew_.run((items.size() + grain - 1) / grain, [&](std::size_t piece) {
-            check(stop_);
-            const std::size_t end = std::min(items.size(), (piece + 1) * grain);
-            for (std::size_t k = piece * grain; k < end; ++k) {
-                items[k] = {key(at(items[k])), items[k].point()};
-            }
+        for_all(items.size(), crew_, stop_, [&](std::size_t k) {
+            items[k] = {key(at(items[k])), items[k].point()};
         });
     }
 

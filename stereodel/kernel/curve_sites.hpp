@@ -31,26 +31,15 @@ struct CurveArrays {
     template <class NumberOf, class PointOf, class KeyOf>
     static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, Crew& crew,
                               Stop stop) {
-        constexpr std::size_t grain = 1 << 14;
-        const std::size_t pieces = (size + grain - 1) / grain;
         Buffer<KeyedPoint> items(3 * size);  // two for sorting; three are as large as the triangles
-        const auto in_pieces = [&](auto&& body) {
-            crew.run(pieces, [&](std::size_t piece) {
-                check(stop);
-                const std::size_t end = std::min(size, (piece + 1) * grain);
-                for (std::size_t k = piece * grain; k < end; ++k) {
-                    body(k);
-                }
-            });
-        };
-        in_pieces([&](std::size_t k) {
+        for_all(size, crew, stop, [&](std::size_t k) {
             const Index p = number(k);
             items[k] = {key(p), static_cast<std::uint32_t>(p)};
         });
         sort_by_key(items.data(), items.data() + size, size, crew);
         CurveArrays arrays{Buffer<Point2>(size + size / 2 + 1),  // as large as the neighbours will be
                            Buffer<std::uint32_t>(size), Buffer<Index>(size), {}, stop};
-        in_pieces([&](std::size_t k) {
+        for_all(size, crew, stop, [&](std::size_t k) {
             arrays.source[k] = static_cast<Index>(items[k].point());
             arrays.points[k] = point(arrays.source[k]);
             arrays.keys[k] = items[k].key();

@@ -256,12 +256,9 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
 void closing_facets(const double* xyz, std::size_t size, const Index* simplices, std::size_t count, bool* closing,
                     Stop stop) {
     Rays rays(xyz, all_unit(xyz, size));
-    for (std::size_t k = 0; k < count; ++k) {
-        if (k % 4096 == 0) {
-            check(stop);
-        }
+    for_range(0, count, stop, [&](std::size_t k) {
         closing[k] = rays.turn(simplices[3 * k], simplices[3 * k + 1], simplices[3 * k + 2]) <= 0;
-    }
+    });
 }
 
 }  // namespace stereodel
