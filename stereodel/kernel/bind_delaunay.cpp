@@ -15,30 +15,13 @@ using namespace nb::literals;
 
 constexpr std::size_t long_work = 20000;  // points: some milliseconds
 
-nb::tuple to_python(Triangulation&& result, bool with_neighbors, const nb::dict& inconclusive) {
+nb::tuple to_python(Triangulation&& result, bool with_neighbors, bool on_sphere) {
     nb::object neighbors = nb::none();
     if (with_neighbors) {
         neighbors = nb::cast(to_rows<3>(std::move(result.triangles.neighbors)));
     }
     return nb::make_tuple(to_rows<3>(std::move(result.triangles.corners)), neighbors, to_rows(result.duplicates),
-                          result.dimension, inconclusive);
-}
-
-nb::dict plane_tally(const Tally& tally) {
-    nb::dict result;
-    result["filter"] = tally.filter;
-    result["double_double"] = tally.double_double;
-    result["exact"] = tally.exact;
-    return result;
-}
-
-nb::dict sphere_tally(const Tally& tally) {
-    nb::dict result;
-    result["filter"] = tally.filter;
-    result["curvature"] = tally.curvature;
-    result["double_double"] = tally.double_double;
-    result["exact"] = tally.exact;
-    return result;
+                          result.dimension, to_dict(result.tally, on_sphere));
 }
 
 nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
@@ -46,7 +29,7 @@ nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
     Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
         return triangulate_plane(points.data(), size, neighbors, workers, stop);
     });
-    return to_python(std::move(result), neighbors, plane_tally(result.tally));
+    return to_python(std::move(result), neighbors, false);
 }
 
 nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis, int sign) {
@@ -54,7 +37,7 @@ nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis
     Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
         return triangulate_sphere(points.data(), size, neighbors, workers, Pole{axis, sign}, stop);
     });
-    return to_python(std::move(result), neighbors, sphere_tally(result.tally));
+    return to_python(std::move(result), neighbors, true);
 }
 
 ValuesOut<bool> closing(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {

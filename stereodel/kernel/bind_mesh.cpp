@@ -90,15 +90,7 @@ class BoundMesh {
     }
 
     nb::dict inconclusive() {
-        const Tally tally = change(false, [&](Stop) { return delaunay_.tally(); });
-        nb::dict result;
-        result["filter"] = tally.filter;
-        if (!Surface::has_ghost) {
-            result["curvature"] = tally.curvature;
-        }
-        result["double_double"] = tally.double_double;
-        result["exact"] = tally.exact;
-        return result;
+        return to_dict(change(false, [&](Stop) { return delaunay_.tally(); }), !Surface::has_ghost);
     }
 
   private:

@@ -55,6 +55,18 @@ inline RowsOut<Index, 2> to_rows(const std::vector<std::pair<Index, Index>>& pai
     return to_rows<2>(std::move(buffer));
 }
 
+// Tests left open, by stage; the curvature form is of the sphere alone.
+inline nb::dict to_dict(const Tally& tally, bool on_sphere) {
+    nb::dict result;
+    result["filter"] = tally.filter;
+    if (on_sphere) {
+        result["curvature"] = tally.curvature;
+    }
+    result["double_double"] = tally.double_double;
+    result["exact"] = tally.exact;
+    return result;
+}
+
 // Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for
 // Ctrl-C twenty times a second; then `stop` is raised, the work throws `Cancelled`, and Python's exception goes on from
 // here.
