@@ -40,12 +40,10 @@ nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis
     return to_python(std::move(result), neighbors, true);
 }
 
-ValuesOut<bool> closing(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
+ValuesOut<bool> closing_rows(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
     const std::size_t count = simplices.shape(0);
-    return to_values(run_without_lock(count > long_work, [&](Stop stop) {
-        Buffer<bool> result(count);
-        closing_facets(points.data(), points.shape(0), simplices.data(), count, result.data(), stop);
-        return result;
+    return to_values(filled<bool>(count, count > long_work, [&](bool* closing, Stop stop) {
+        closing_facets(points.data(), points.shape(0), simplices.data(), count, closing, stop);
     }));
 }
 
@@ -57,7 +55,7 @@ void bind_delaunay(nb::module_& module) {
     module.def("triangulate_sphere", sphere, "points"_a, "workers"_a = 1, "neighbors"_a = true, "axis"_a = 0,
                "sign"_a = -1,
                "The same of directions; `sign` times axis number `axis` is the pole of the projection.");
-    module.def("closing", closing, "points"_a, "simplices"_a, "Whether det[a b c] <= 0, for each facet.");
+    module.def("closing", closing_rows, "points"_a, "simplices"_a, "Whether det[a b c] <= 0, for each facet.");
 }
 
 }  // namespace stereodel

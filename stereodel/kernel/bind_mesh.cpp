@@ -16,8 +16,6 @@ namespace {
 
 using namespace nb::literals;
 
-using Numbers = nb::ndarray<const Index, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
 constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
@@ -54,7 +52,7 @@ class BoundMesh {
         return to_rows(added);
     }
 
-    ValuesOut<Index> remove(Numbers indices) {
+    ValuesOut<Index> remove(ValuesIn<Index> indices) {
         const std::size_t count = indices.shape(0);
         Buffer<Index> number = change(count > long_changes || size() > long_copies, [&](Stop stop) {
             for (std::size_t k = 0; k < count; ++k) {
