@@ -33,8 +33,8 @@ inline Stage stage_of(const std::string& name) {
 }
 
 // One stage of a predicate, or the predicate itself.
-template <class Whole, class Filter, class Pairs, class Exact>
-Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Pairs&& double_double, Exact&& exact) {
+template <class Whole, class Filter, class Middle, class Exact>
+Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Middle&& double_double, Exact&& exact) {
     switch (stage) {
         case Stage::filter: return filter();
         case Stage::double_double: return double_double();

@@ -13,8 +13,8 @@
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
+#include "duplicates.hpp"
 #include "memory.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
@@ -54,7 +54,7 @@ ValuesOut<T> to_values(Buffer<T>&& buffer) {
     return to_array<ValuesOut<T>>(std::move(buffer), {count});
 }
 
-inline RowsOut<Index, 2> to_rows(const std::vector<std::pair<Index, Index>>& pairs) {
+inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {
     Buffer<Index> buffer(2 * pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         buffer[2 * k] = pairs[k].first;

@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "curve_keys.hpp"
 #include "divide_and_conquer.hpp"
+#include "duplicates.hpp"
 #include "memory.hpp"
 #include "radix_sort.hpp"
 #include "square_grid.hpp"
@@ -59,7 +61,7 @@ class CurveSites {
     std::uint32_t key(Index a) const { return keys_[a]; }
 
     // Points found to be equal: those that were dropped, each with the one that was kept.
-    std::vector<std::pair<Index, Index>> duplicates;
+    Pairs duplicates;
 
   protected:
     // Give the places of a range new keys and sort by them.
@@ -109,25 +111,13 @@ class CurveSites {
     template <class Compare>
     Index sort_and_drop(Index low, Index high, Compare&& compare) {
         std::vector<Index> order(static_cast<std::size_t>(high - low));
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            order[k] = low + static_cast<Index>(k);
-        }
-        std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        std::iota(order.begin(), order.end(), low);
+        const auto polling = [&](Index a, Index b) {
             poll();
-            const int sign = a == b ? 0 : compare(a, b);
-            return sign != 0 ? sign < 0 : source_[a] < source_[b];
-        });
-        std::vector<Index> dropped;
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            if (k > 0 && compare(order[kept - 1], order[k]) == 0) {
-                duplicates.emplace_back(source_[order[k]], source_[order[kept - 1]]);
-                dropped.push_back(order[k]);
-            } else {
-                order[kept++] = order[k];
-            }
-        }
-        std::copy(dropped.begin(), dropped.end(), order.begin() + static_cast<std::ptrdiff_t>(kept));
+            return compare(a, b);
+        };
+        const auto number = [this](Index a) { return source_[a]; };
+        const std::size_t kept = stereodel::sort_and_drop(order, polling, number, duplicates);
         reorder(low, high, [&](Index k) { return order[static_cast<std::size_t>(k)]; });
         return static_cast<Index>(kept);
     }
@@ -173,7 +163,7 @@ class CurveTriangulation {
     Edges edges;
     std::vector<Range> ranges;  // along the curve
     Part whole;
-    std::vector<std::pair<Index, Index>> duplicates;
+    Pairs duplicates;
     Tally tally;
 
   private:

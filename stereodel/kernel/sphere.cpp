@@ -1,9 +1,11 @@
 #include "sphere.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "duplicates.hpp"
 #include "polygon_fill.hpp"
 #include "projected_sites.hpp"
 #include "ray_predicates.hpp"
@@ -37,25 +39,14 @@ bool on_one_great_circle(Rays& rays, Index count, Stop stop) {
 // Points without triangles: which are repeated, and whether there are one or more.
 Triangulation flat(Rays& rays, Index count, Stop stop) {
     std::vector<Index> order(static_cast<std::size_t>(count));
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        order[k] = static_cast<Index>(k);
-    }
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    std::iota(order.begin(), order.end(), 0);
+    const auto compare = [&](Index a, Index b) {
         check(stop);
-        const int sign = a == b ? 0 : rays.compare(a, b);
-        return sign != 0 ? sign < 0 : a < b;
-    });
+        return rays.compare(a, b);
+    };
     Triangulation result;
-    Index kept = outside;
-    for (const Index a : order) {
-        if (kept != outside && rays.compare(kept, a) == 0) {
-            result.duplicates.emplace_back(a, kept);
-        } else {
-            kept = a;
-        }
-    }
+    const std::size_t distinct = sort_and_drop(order, compare, [](Index a) { return a; }, result.duplicates);
     std::sort(result.duplicates.begin(), result.duplicates.end());
-    const std::size_t distinct = order.size() - result.duplicates.size();
     result.dimension = static_cast<int>(std::min<std::size_t>(distinct, 2)) - 1;
     return result;
 }
