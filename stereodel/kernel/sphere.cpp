@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "corners.hpp"
 #include "duplicates.hpp"
 #include "polygon_fill.hpp"
 #include "projected_sites.hpp"
@@ -150,8 +151,7 @@ class Closure {
         for (std::size_t k = 0; k < triangles_.size(); ++k) {
             const PolygonFill::Triangle& triangle = triangles_[k];
             const Three corners{vertex(triangle.corner[0]), vertex(triangle.corner[1]), vertex(triangle.corner[2])};
-            const auto first_corner = std::min_element(corners.begin(), corners.end());
-            const std::size_t least = static_cast<std::size_t>(first_corner - corners.begin());
+            const std::size_t least = place_of_least(corners.data());
             for (std::size_t j = 0; j < 3; ++j) {
                 const std::size_t place = 3 * (first + k) + j, corner = (least + j) % 3;
                 triangles.corners[place] = corners[corner];
