@@ -168,9 +168,9 @@ def as_count(value: Any, name: str, *, low: int = 1) -> int:
 
 def as_workers(value: Any) -> int | None:
     """A number of threads, at least 1; -1 stands for all processors, None for a choice by the size of the task."""
-    if value is None or value == -1:
-        return None if value is None else -1
-    return as_count(value, "workers")
+    if value is None:
+        return None
+    return -1 if value == -1 else as_count(value, "workers")
 
 
 def as_steps(width: float, spacing: Any, name: str) -> int:
@@ -222,9 +222,7 @@ def locked(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
 
 def read_only(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
     """A private copy that nobody can write to, for frozen value objects."""
-    copy = np.array(array)
-    copy.flags.writeable = False
-    return copy
+    return locked(np.array(array))
 
 
 def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.NDArray[np.intp]:

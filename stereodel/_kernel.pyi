@@ -201,29 +201,29 @@ def orient2d(
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     c: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def incircle(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     c: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     d: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def compare_distances(
     q: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def orient_numbered(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
-) -> tuple[Annotated[NDArray[numpy.int8], dict(shape=(None,))], tuple[int, int, int, int]]: ...
+) -> tuple[Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")], tuple[int, int, int, int]]: ...
 def incircle_numbered(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
     displaced: bool,
-) -> tuple[Annotated[NDArray[numpy.int8], dict(shape=(None,))], tuple[int, int, int, int]]: ...
+) -> tuple[Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")], tuple[int, int, int, int]]: ...
 def common_granularity(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
 ) -> float: ...
@@ -235,7 +235,7 @@ def bubble(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     unit: bool | None = None,
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def in_bubble(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
@@ -243,44 +243,44 @@ def in_bubble(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     unit: bool | None = None,
     first: int = -1,
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def bubble_numbered(
     vectors: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
     displaced: bool,
     unit: bool | None = None,
-) -> tuple[Annotated[NDArray[numpy.int8], dict(shape=(None,))], tuple[int, int, int, int]]: ...
+) -> tuple[Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")], tuple[int, int, int, int]]: ...
 def turn(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     c: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     unit: bool | None = None,
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def turn_queries(
     vectors: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     unit: bool | None = None,
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def compare_directions(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     unit: bool | None = None,
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def compare_component(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     axis: int,
     unit: bool | None = None,
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def compare_angles(
     q: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def all_unit(
     vectors: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
 ) -> bool: ...
@@ -288,22 +288,22 @@ def project(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     axis: int,
     sign: int,
-) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]: ...
 def project_double_double(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     axis: int,
     sign: int,
-) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]: ...
 def projected(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     axis: int,
     sign: int,
-) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]: ...
 def projected_estimates(
     fours: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     axis: int,
     sign: int,
-) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None))]: ...
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 5), order="C")]: ...
 def compare_projected(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     q: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
@@ -311,7 +311,7 @@ def compare_projected(
     sign: int,
     coordinate: int,
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def compare_to_line(
     p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     axis: int,
@@ -320,4 +320,4 @@ def compare_to_line(
     hi: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
     lo: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
     stage: str = "all",
-) -> Annotated[NDArray[numpy.int8], dict(shape=(None,))]: ...
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...

@@ -8,13 +8,10 @@ namespace stereodel {
 namespace {
 
 using namespace nb::literals;
-using Angles = nb::ndarray<const double, nb::numpy, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 
-RowsOut<double, 4> sines_and_cosines(const Angles& angles) {
+RowsOut<double, 4> sines_and_cosines(const ValuesIn<double>& angles) {
     const std::size_t count = angles.shape(0);
-    Buffer<double> rows(4 * count);
-    {
-        const nb::gil_scoped_release release;
+    return to_rows<4>(filled<double>(4 * count, false, [&](double* rows, Stop) {
         for (std::size_t k = 0; k < count; ++k) {
             const SineCosine value = sin_cos_degrees(angles.data()[k]);
             rows[4 * k] = value.sine.hi;
@@ -22,18 +19,13 @@ RowsOut<double, 4> sines_and_cosines(const Angles& angles) {
             rows[4 * k + 2] = value.cosine.hi;
             rows[4 * k + 3] = value.cosine.lo;
         }
-    }
-    return to_rows<4>(std::move(rows));
+    }));
 }
 
 RowsOut<double, 3> unit_vectors(const RowsIn<double, 2>& lonlat) {
     const std::size_t count = lonlat.shape(0);
-    Buffer<double> xyz(3 * count);
-    {
-        const nb::gil_scoped_release release;
-        lonlat_to_xyz(lonlat.data(), count, xyz.data());
-    }
-    return to_rows<3>(std::move(xyz));
+    return to_rows<3>(
+        filled<double>(3 * count, false, [&](double* xyz, Stop) { lonlat_to_xyz(lonlat.data(), count, xyz); }));
 }
 
 }  // namespace

@@ -15,30 +15,13 @@ using namespace nb::literals;
 
 constexpr std::size_t long_work = 20000;  // points: some milliseconds
 
-nb::tuple to_python(Triangulation&& result, bool with_neighbors, const nb::dict& inconclusive) {
+nb::tuple to_python(Triangulation&& result, bool with_neighbors, bool on_sphere) {
     nb::object neighbors = nb::none();
     if (with_neighbors) {
         neighbors = nb::cast(to_rows<3>(std::move(result.triangles.neighbors)));
     }
     return nb::make_tuple(to_rows<3>(std::move(result.triangles.corners)), neighbors, to_rows(result.duplicates),
-                          result.dimension, inconclusive);
-}
-
-nb::dict plane_tally(const Tally& tally) {
-    nb::dict result;
-    result["filter"] = tally.filter;
-    result["double_double"] = tally.double_double;
-    result["exact"] = tally.exact;
-    return result;
-}
-
-nb::dict sphere_tally(const Tally& tally) {
-    nb::dict result;
-    result["filter"] = tally.filter;
-    result["curvature"] = tally.curvature;
-    result["double_double"] = tally.double_double;
-    result["exact"] = tally.exact;
-    return result;
+                          result.dimension, to_dict(result.tally, on_sphere));
 }
 
 nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
@@ -46,7 +29,7 @@ nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
     Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
         return triangulate_plane(points.data(), size, neighbors, workers, stop);
     });
-    return to_python(std::move(result), neighbors, plane_tally(result.tally));
+    return to_python(std::move(result), neighbors, false);
 }
 
 nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis, int sign) {
@@ -54,15 +37,13 @@ nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis
     Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
         return triangulate_sphere(points.data(), size, neighbors, workers, Pole{axis, sign}, stop);
     });
-    return to_python(std::move(result), neighbors, sphere_tally(result.tally));
+    return to_python(std::move(result), neighbors, true);
 }
 
-ValuesOut<bool> closing(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
+ValuesOut<bool> closing_rows(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
     const std::size_t count = simplices.shape(0);
-    return to_values(run_without_lock(count > long_work, [&](Stop stop) {
-        Buffer<bool> result(count);
-        closing_facets(points.data(), points.shape(0), simplices.data(), count, result.data(), stop);
-        return result;
+    return to_values(filled<bool>(count, count > long_work, [&](bool* closing, Stop stop) {
+        closing_facets(points.data(), points.shape(0), simplices.data(), count, closing, stop);
     }));
 }
 
@@ -74,7 +55,7 @@ void bind_delaunay(nb::module_& module) {
     module.def("triangulate_sphere", sphere, "points"_a, "workers"_a = 1, "neighbors"_a = true, "axis"_a = 0,
                "sign"_a = -1,
                "The same of directions; `sign` times axis number `axis` is the pole of the projection.");
-    module.def("closing", closing, "points"_a, "simplices"_a, "Whether det[a b c] <= 0, for each facet.");
+    module.def("closing", closing_rows, "points"_a, "simplices"_a, "Whether det[a b c] <= 0, for each facet.");
 }
 
 }  // namespace stereodel

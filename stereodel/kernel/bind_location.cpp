@@ -16,7 +16,7 @@ using namespace nb::literals;
 
 constexpr std::size_t long_work = 10000;  // queries: some milliseconds
 
-using Closing = nb::ndarray<const bool, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Closing = ValuesIn<bool>;
 
 TriangleArrays to_triangles(const double* points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
                             const std::optional<Closing>& closing) {
@@ -30,12 +30,7 @@ TriangleArrays to_triangles(const double* points, const RowsIn<Index, 3>& simpli
 // One number for each of `count` queries.
 template <class Work>
 ValuesOut<Index> answers(std::size_t count, bool is_long, Work&& work) {
-    Buffer<Index> found = run_without_lock(is_long, [&](Stop stop) {
-        Buffer<Index> buffer(count);
-        work(buffer.data(), stop);
-        return buffer;
-    });
-    return to_values(std::move(found));
+    return to_values(filled<Index>(count, is_long, work));
 }
 
 ValuesOut<Index> find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,

@@ -16,8 +16,6 @@ namespace {
 
 using namespace nb::literals;
 
-using Numbers = nb::ndarray<const Index, nb::numpy, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-
 constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
@@ -54,7 +52,7 @@ class BoundMesh {
         return to_rows(added);
     }
 
-    ValuesOut<Index> remove(Numbers indices) {
+    ValuesOut<Index> remove(ValuesIn<Index> indices) {
         const std::size_t count = indices.shape(0);
         Buffer<Index> number = change(count > long_changes || size() > long_copies, [&](Stop stop) {
             for (std::size_t k = 0; k < count; ++k) {
@@ -90,15 +88,7 @@ class BoundMesh {
     }
 
     nb::dict inconclusive() {
-        const Tally tally = change(false, [&](Stop) { return delaunay_.tally(); });
-        nb::dict result;
-        result["filter"] = tally.filter;
-        if (!Surface::has_ghost) {
-            result["curvature"] = tally.curvature;
-        }
-        result["double_double"] = tally.double_double;
-        result["exact"] = tally.exact;
-        return result;
+        return to_dict(change(false, [&](Stop) { return delaunay_.tally(); }), !Surface::has_ghost);
     }
 
   private:

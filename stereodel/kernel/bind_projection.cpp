@@ -22,14 +22,13 @@ Pole checked_pole(int axis, int sign) {
 }
 
 template <void (*Project)(const double*, Pole, double*), std::size_t WIDTH>
-Doubles project_rows(const SpaceArray& p, int axis, int sign) {
+RowsOut<double, WIDTH> project_rows(const SpaceArray& p, int axis, int sign) {
     const Pole pole = checked_pole(axis, sign);
-    double* out = nullptr;
-    Doubles result = new_array<Doubles>(out, {p.shape(0), WIDTH});
-    for (std::size_t k = 0; k < p.shape(0); ++k) {
-        Project(row(p, k), pole, out + WIDTH * k);
-    }
-    return result;
+    return to_rows<WIDTH>(filled<double>(WIDTH * p.shape(0), false, [&](double* out, Stop) {
+        for (std::size_t k = 0; k < p.shape(0); ++k) {
+            Project(row(p, k), pole, out + WIDTH * k);
+        }
+    }));
 }
 
 Signs compare_projected_rows(const SpaceArray& p, const SpaceArray& q, int axis, int sign, int coordinate,
@@ -65,33 +64,32 @@ ProjectedRays checked_rays(const SpaceArray& p, int axis, int sign) {
 }
 
 // X, Y of the first filter.
-Doubles projected_rows(const SpaceArray& p, int axis, int sign) {
+RowsOut<double, 2> projected_rows(const SpaceArray& p, int axis, int sign) {
     const ProjectedRays rays = checked_rays(p, axis, sign);
-    double* out = nullptr;
-    Doubles result = new_array<Doubles>(out, {p.shape(0), 2});
-    for (std::size_t k = 0; k < p.shape(0); ++k) {
-        const Point2 image = rays.ratio(static_cast<Index>(k)).point();
-        out[2 * k] = image.x;
-        out[2 * k + 1] = image.y;
-    }
-    return result;
+    return to_rows<2>(filled<double>(2 * p.shape(0), false, [&](double* out, Stop) {
+        for (std::size_t k = 0; k < p.shape(0); ++k) {
+            const Point2 image = rays.ratio(static_cast<Index>(k)).point();
+            out[2 * k] = image.x;
+            out[2 * k + 1] = image.y;
+        }
+    }));
 }
 
 // The first filter of points in fours, the orientation of each row's first three and the incircle test of all: value,
 // bound, and of the latter the bound without a root, infinite where it does not apply.
-Doubles projected_estimates(const SpaceArray& p, int axis, int sign) {
+RowsOut<double, 5> projected_estimates(const SpaceArray& p, int axis, int sign) {
     const ProjectedRays rays = checked_rays(p, axis, sign);
-    double* out = nullptr;
-    Doubles result = new_array<Doubles>(out, {p.shape(0) / 4, 5});
-    for (std::size_t k = 0; k + 3 < p.shape(0); k += 4) {
-        const auto image = [&](std::size_t j) { return rays.ratio(static_cast<Index>(k + j)).point(); };
-        const Estimated turn = orient_estimate(image(0), image(1), image(2));
-        const InCircleEstimate circle(image(0), image(1), image(2), image(3));
-        const double wide = circle.is_wide() ? circle.wide_bound() : HUGE_VAL;
-        const double row[] = {turn.value, turn.bound, circle.value, circle.bound(), wide};
-        std::copy(row, row + 5, out + 5 * (k / 4));
-    }
-    return result;
+    const std::size_t fours = p.shape(0) / 4;
+    return to_rows<5>(filled<double>(5 * fours, false, [&](double* out, Stop) {
+        for (std::size_t k = 0; k < fours; ++k) {
+            const auto image = [&](std::size_t j) { return rays.ratio(static_cast<Index>(4 * k + j)).point(); };
+            const Estimated turn = orient_estimate(image(0), image(1), image(2));
+            const InCircleEstimate circle(image(0), image(1), image(2), image(3));
+            const double wide = circle.is_wide() ? circle.wide_bound() : HUGE_VAL;
+            const double row[] = {turn.value, turn.bound, circle.value, circle.bound(), wide};
+            std::copy(row, row + 5, out + 5 * k);
+        }
+    }));
 }
 
 }  // namespace

@@ -1,29 +1,23 @@
 // Arrays of points between Python and the kernel: what the bindings of predicates and projection share.
 #pragma once
 
-#include <nanobind/nanobind.h>
-#include <nanobind/ndarray.h>
-
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <tuple>
 
+#include "bind_support.hpp"
 #include "ray_predicates.hpp"
 #include "tally.hpp"
 
 namespace stereodel {
 
-namespace nb = nanobind;
-
-using PlaneArray = nb::ndarray<const double, nb::shape<-1, 2>, nb::c_contig, nb::device::cpu>;
-using SpaceArray = nb::ndarray<const double, nb::shape<-1, 3>, nb::c_contig, nb::device::cpu>;
+using PlaneArray = RowsIn<double, 2>;
+using SpaceArray = RowsIn<double, 3>;
 using Numbers = nb::ndarray<const Index, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
-using Values = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
-using Signs = nb::ndarray<nb::numpy, std::int8_t, nb::ndim<1>>;
-using Doubles = nb::ndarray<nb::numpy, double, nb::ndim<2>>;
+using Values = ValuesIn<double>;
+using Signs = ValuesOut<std::int8_t>;
 
 // Which stage of a predicate is asked: all of them in turn, or one alone, which may answer OPEN.
 enum class Stage { all, filter, double_double, exact };
@@ -39,8 +33,8 @@ inline Stage stage_of(const std::string& name) {
 }
 
 // One stage of a predicate, or the predicate itself.
-template <class Whole, class Filter, class Pairs, class Exact>
-Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Pairs&& double_double, Exact&& exact) {
+template <class Whole, class Filter, class Middle, class Exact>
+Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Middle&& double_double, Exact&& exact) {
     switch (stage) {
         case Stage::filter: return filter();
         case Stage::double_double: return double_double();
@@ -49,28 +43,14 @@ Sign by_stage(Stage stage, Whole&& whole, Filter&& filter, Pairs&& double_double
     }
 }
 
-// A new array owned by Python.
-template <class Array, class Number>
-Array new_array(Number*& data, std::initializer_list<std::size_t> shape) {
-    std::size_t size = 1;
-    for (const std::size_t n : shape) {
-        size *= n;
-    }
-    data = new Number[size];
-    const nb::capsule owner(data, [](void* p) noexcept { delete[] static_cast<Number*>(p); });
-    return Array(data, shape, owner);
-}
-
 // sign(k) for all rows, without the interpreter's lock.
 template <class SignOf>
 Signs over_rows(std::size_t count, SignOf&& sign) {
-    std::int8_t* out = nullptr;
-    Signs result = new_array<Signs>(out, {count});
-    const nb::gil_scoped_release release;
-    for (std::size_t k = 0; k < count; ++k) {
-        out[k] = static_cast<std::int8_t>(sign(k));
-    }
-    return result;
+    return to_values(filled<std::int8_t>(count, false, [&](std::int8_t* out, Stop) {
+        for (std::size_t k = 0; k < count; ++k) {
+            out[k] = static_cast<std::int8_t>(sign(k));
+        }
+    }));
 }
 
 template <class First, class... Others>

@@ -9,11 +9,12 @@
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
+#include <initializer_list>
 #include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
 
+#include "duplicates.hpp"
 #include "memory.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
@@ -28,31 +29,50 @@ using RowsIn =
 template <class T, std::size_t Width>
 using RowsOut = nb::ndarray<nb::numpy, T, nb::shape<-1, static_cast<nb::ssize_t>(Width)>, nb::c_contig>;
 
-// An array of NumPy's that owns the memory of a buffer.
-template <std::size_t Width, class T>
-RowsOut<T, Width> to_rows(Buffer<T>&& buffer) {
-    auto* owned = new Buffer<T>(std::move(buffer));
-    const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
-    return RowsOut<T, Width>(owned->data(), {owned->size() / Width, Width}, owner);
-}
-
+template <class T>
+using ValuesIn = nb::ndarray<const T, nb::numpy, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 template <class T>
 using ValuesOut = nb::ndarray<nb::numpy, T, nb::shape<-1>, nb::c_contig>;
 
-template <class T>
-ValuesOut<T> to_values(Buffer<T>&& buffer) {
+// An array of NumPy's that owns the memory of a buffer.
+template <class Array, class T>
+Array to_array(Buffer<T>&& buffer, std::initializer_list<std::size_t> shape) {
     auto* owned = new Buffer<T>(std::move(buffer));
     const nb::capsule owner(owned, [](void* p) noexcept { delete static_cast<Buffer<T>*>(p); });
-    return ValuesOut<T>(owned->data(), {owned->size()}, owner);
+    return Array(owned->data(), shape, owner);
 }
 
-inline RowsOut<Index, 2> to_rows(const std::vector<std::pair<Index, Index>>& pairs) {
+template <std::size_t Width, class T>
+RowsOut<T, Width> to_rows(Buffer<T>&& buffer) {
+    const std::size_t count = buffer.size() / Width;
+    return to_array<RowsOut<T, Width>>(std::move(buffer), {count, Width});
+}
+
+template <class T>
+ValuesOut<T> to_values(Buffer<T>&& buffer) {
+    const std::size_t count = buffer.size();
+    return to_array<ValuesOut<T>>(std::move(buffer), {count});
+}
+
+inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {
     Buffer<Index> buffer(2 * pairs.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
         buffer[2 * k] = pairs[k].first;
         buffer[2 * k + 1] = pairs[k].second;
     }
     return to_rows<2>(std::move(buffer));
+}
+
+// Tests left open, by stage; the curvature form is of the sphere alone.
+inline nb::dict to_dict(const Tally& tally, bool on_sphere) {
+    nb::dict result;
+    result["filter"] = tally.filter;
+    if (on_sphere) {
+        result["curvature"] = tally.curvature;
+    }
+    result["double_double"] = tally.double_double;
+    result["exact"] = tally.exact;
+    return result;
 }
 
 // Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for
@@ -103,6 +123,16 @@ auto run_without_lock(bool is_long, Work&& work) {
         std::rethrow_exception(failure);
     }
     return result;
+}
+
+// A buffer that work(data, stop) fills without the interpreter's lock.
+template <class T, class Work>
+Buffer<T> filled(std::size_t size, bool is_long, Work&& work) {
+    return run_without_lock(is_long, [&](Stop stop) {
+        Buffer<T> buffer(size);
+        work(buffer.data(), stop);
+        return buffer;
+    });
 }
 
 }  // namespace stereodel

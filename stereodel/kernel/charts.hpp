@@ -7,38 +7,9 @@
 #include <cstdint>
 
 #include "curve_keys.hpp"
+#include "square_grid.hpp"
 
 namespace stereodel {
-
-struct ChartPoint {
-    double x, y;
-};
-
-// A square grid over the bounding box of points of a chart.
-class CurveGrid {
-  public:
-    void include(ChartPoint p) {
-        low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
-        high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-    }
-
-    // Whether the grid tells at least two of them apart. Halves, because a difference of doubles may overflow.
-    bool fit() {
-        const double extent = std::max(high_.x / 2 - low_.x / 2, high_.y / 2 - low_.y / 2);
-        scale_ = (cells - 0.5) / extent;
-        return extent > 0 && scale_ < HUGE_VAL;
-    }
-
-    std::uint32_t key(ChartPoint p) const { return curve_key(cell(p.x, low_.x), cell(p.y, low_.y)); }
-
-  private:
-    std::uint32_t cell(double x, double low) const {
-        return static_cast<std::uint32_t>(std::min((x / 2 - low / 2) * scale_, cells - 1.0));
-    }
-
-    ChartPoint low_{HUGE_VAL, HUGE_VAL}, high_{-HUGE_VAL, -HUGE_VAL};
-    double scale_ = 0;
-};
 
 // The plane is its own chart.
 class PlaneChart {
@@ -49,7 +20,7 @@ class PlaneChart {
     explicit PlaneChart(const double*) {}
 
     static constexpr std::uint32_t face = 0;
-    ChartPoint operator()(const double* p) const { return {p[0] + 0.0, p[1] + 0.0}; }  // -0 becomes 0
+    Point2 operator()(const double* p) const { return {p[0] + 0.0, p[1] + 0.0}; }  // -0 becomes 0
 
     // A vector in place of the point, such that `rough_distance` of two grows with their distance.
     static void prepare(const double* p, double* out) { std::copy(p, p + 2, out); }
@@ -72,7 +43,7 @@ class SphereChart {
     }
 
     std::uint32_t face;
-    ChartPoint operator()(const double* p) const {
+    Point2 operator()(const double* p) const {
         return {p[(axis_ + 1) % 3] / p[axis_] + 0.0, p[(axis_ + 2) % 3] / p[axis_] + 0.0};  // -0 becomes 0
     }
 
@@ -80,7 +51,7 @@ class SphereChart {
     static std::uint32_t key(const double* p) {
         constexpr double half = 8191.5;
         const SphereChart chart(p);
-        const ChartPoint place = chart(p);
+        const Point2 place = chart(p);
         const auto cell = [](double x) { return static_cast<std::uint32_t>((x + 1) * half); };
         return chart.face << 28 | curve_key(cell(place.x), cell(place.y));
     }

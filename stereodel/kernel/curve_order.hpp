@@ -7,7 +7,6 @@
 // first.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -16,6 +15,7 @@
 #include "charts.hpp"
 #include "memory.hpp"
 #include "radix_sort.hpp"
+#include "square_grid.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
 
@@ -34,7 +34,7 @@ class CurveOrder {
             return;
         }
         if constexpr (Chart::dimension == 2) {
-            CurveGrid grid;
+            SquareGrid grid;
             const Chart chart(at(items[0]));
             if (!fit(grid, chart, items.data(), size)) {
                 return;
@@ -49,23 +49,18 @@ class CurveOrder {
     }
 
   private:
-    static constexpr std::size_t grain = std::size_t{1} << 14;
     static constexpr std::size_t few = 8;  // so many in one cell stay as they are
 
     const double* at(KeyedPoint item) const { return at_(item.point()); }
 
     template <class KeyOf>
     void give_keys(Buffer<KeyedPoint>& items, KeyOf&& key) {
-        crew_.run((items.size() + grain - 1) / grain, [&](std::size_t piece) {
-            check(stop_);
-            const std::size_t end = std::min(items.size(), (piece + 1) * grain);
-            for (std::size_t k = piece * grain; k < end; ++k) {
-                items[k] = {key(at(items[k])), items[k].point()};
-            }
+        for_all(items.size(), crew_, stop_, [&](std::size_t k) {
+            items[k] = {key(at(items[k])), items[k].point()};
         });
     }
 
-    bool fit(CurveGrid& grid, const Chart& chart, const KeyedPoint* items, std::size_t size) const {
+    bool fit(SquareGrid& grid, const Chart& chart, const KeyedPoint* items, std::size_t size) const {
         for (std::size_t k = 0; k < size; ++k) {
             grid.include(chart(at(items[k])));
         }
@@ -87,7 +82,7 @@ class CurveOrder {
 
     void refine_run(KeyedPoint* items, KeyedPoint* spare, std::size_t size) {
         const Chart chart(at(items[0]));
-        CurveGrid grid;
+        SquareGrid grid;
         if (!fit(grid, chart, items, size)) {
             return;
         }
@@ -109,7 +104,7 @@ class CurveOrder {
 template <class Chart>
 std::uint64_t scrambled(const double* p) {
     const Chart chart(p);
-    const ChartPoint place = chart(p);
+    const Point2 place = chart(p);
     std::uint64_t bits[2];
     std::memcpy(bits, &place, sizeof bits);
     std::uint64_t z = bits[0] * 0x9E3779B97F4A7C15u + bits[1] + chart.face;

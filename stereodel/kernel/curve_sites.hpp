@@ -6,20 +6,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <mutex>
+#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "curve_keys.hpp"
 #include "divide_and_conquer.hpp"
+#include "duplicates.hpp"
 #include "memory.hpp"
 #include "radix_sort.hpp"
+#include "square_grid.hpp"
 #include "threads.hpp"
 
 namespace stereodel {
-
-struct Point2 {
-    double x, y;
-};
 
 // By place along the curve: plane coordinates (of the sphere's points the projected ones) and the key, both needed
 // until the triangulation is complete, and the number of the point for those who asked.
@@ -34,26 +33,15 @@ struct CurveArrays {
     template <class NumberOf, class PointOf, class KeyOf>
     static CurveArrays sorted(std::size_t size, NumberOf&& number, PointOf&& point, KeyOf&& key, Crew& crew,
                               Stop stop) {
-        constexpr std::size_t grain = 1 << 14;
-        const std::size_t pieces = (size + grain - 1) / grain;
         Buffer<KeyedPoint> items(3 * size);  // two for sorting; three are as large as the triangles
-        const auto in_pieces = [&](auto&& body) {
-            crew.run(pieces, [&](std::size_t piece) {
-                check(stop);
-                const std::size_t end = std::min(size, (piece + 1) * grain);
-                for (std::size_t k = piece * grain; k < end; ++k) {
-                    body(k);
-                }
-            });
-        };
-        in_pieces([&](std::size_t k) {
+        for_all(size, crew, stop, [&](std::size_t k) {
             const Index p = number(k);
             items[k] = {key(p), static_cast<std::uint32_t>(p)};
         });
         sort_by_key(items.data(), items.data() + size, size, crew);
         CurveArrays arrays{Buffer<Point2>(size + size / 2 + 1),  // as large as the neighbours will be
                            Buffer<std::uint32_t>(size), Buffer<Index>(size), {}, stop};
-        in_pieces([&](std::size_t k) {
+        for_all(size, crew, stop, [&](std::size_t k) {
             arrays.source[k] = static_cast<Index>(items[k].point());
             arrays.points[k] = point(arrays.source[k]);
             arrays.keys[k] = items[k].key();
@@ -77,7 +65,7 @@ class CurveSites {
     void leave() {}
 
     // Points found to be equal: those that were dropped, each with the one that was kept.
-    std::vector<std::pair<Index, Index>> duplicates;
+    Pairs duplicates;
 
   protected:
     // Give the places of a range new keys and sort by them.
@@ -127,25 +115,13 @@ class CurveSites {
     template <class Compare>
     Index sort_and_drop(Index low, Index high, Compare&& compare) {
         std::vector<Index> order(static_cast<std::size_t>(high - low));
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            order[k] = low + static_cast<Index>(k);
-        }
-        std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        std::iota(order.begin(), order.end(), low);
+        const auto polling = [&](Index a, Index b) {
             poll();
-            const int sign = a == b ? 0 : compare(a, b);
-            return sign != 0 ? sign < 0 : source_[a] < source_[b];
-        });
-        std::vector<Index> dropped;
-        std::size_t kept = 0;
-        for (std::size_t k = 0; k < order.size(); ++k) {
-            if (k > 0 && compare(order[kept - 1], order[k]) == 0) {
-                duplicates.emplace_back(source_[order[k]], source_[order[kept - 1]]);
-                dropped.push_back(order[k]);
-            } else {
-                order[kept++] = order[k];
-            }
-        }
-        std::copy(dropped.begin(), dropped.end(), order.begin() + static_cast<std::ptrdiff_t>(kept));
+            return compare(a, b);
+        };
+        const auto number = [this](Index a) { return source_[a]; };
+        const std::size_t kept = stereodel::sort_and_drop(order, polling, number, duplicates);
         reorder(low, high, [&](Index k) { return order[static_cast<std::size_t>(k)]; });
         return static_cast<Index>(kept);
     }
@@ -191,7 +167,7 @@ class CurveTriangulation {
     Edges edges;
     std::vector<Range> ranges;  // along the curve
     Part whole;
-    std::vector<std::pair<Index, Index>> duplicates;
+    Pairs duplicates;
     Tally tally;
 
   private:

@@ -9,14 +9,13 @@
 #include <utility>
 #include <vector>
 
+#include "duplicates.hpp"
 #include "insertion.hpp"
 #include "itinerary.hpp"
 #include "mesh.hpp"
 #include "removal.hpp"
 
 namespace stereodel {
-
-using Pairs = std::vector<std::pair<Index, Index>>;
 
 // `Surface`: PlaneSurface or SphereSurface. Points, also those that repeat another one, are numbered from 0 on;
 // duplicates are pairs dropped, kept, in the order of the dropped.

@@ -8,20 +8,6 @@
 namespace stereodel {
 namespace {
 
-constexpr std::size_t block = std::size_t{1} << 14;  // facets between two looks at the stop
-
-// Calls body(k) for all k below size.
-template <class Body>
-void in_blocks(std::size_t size, Stop stop, Body&& body) {
-    for (std::size_t begin = 0; begin < size; begin += block) {
-        check(stop);
-        const std::size_t end = std::min(size, begin + block);
-        for (std::size_t k = begin; k < end; ++k) {
-            body(k);
-        }
-    }
-}
-
 bool below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) < limit; }
 
 bool none_or_below(Index value, std::size_t limit) { return static_cast<std::uint32_t>(value) + 1u <= limit; }
@@ -57,7 +43,7 @@ std::vector<Index> Mesh::copy_rows(const Index* simplices, const Index* neighbor
                                    std::size_t points, Stop stop) {
     std::vector<Index> border;
     bool valid = true, sorted = true;
-    in_blocks(count, stop, [&](std::size_t t) {
+    for_range(0, count, stop, [&](std::size_t t) {
         const Index* c = simplices + 3 * t;
         const Index* n = neighbors + 3 * t;
         valid &= all(below(c[0], points), below(c[1], points), below(c[2], points));
@@ -148,7 +134,7 @@ void Mesh::tidy() {
 void Mesh::write(Index* simplices, Index* neighbors, Stop stop) {
     tidy();
     const Index count = static_cast<Index>(triangles());
-    in_blocks(triangles(), stop, [&](std::size_t t) {
+    for_range(0, triangles(), stop, [&](std::size_t t) {
         const Facet& facet = facets_[t];
         for (std::size_t k = 0; k < 3; ++k) {
             simplices[3 * t + k] = facet.corner[k];
@@ -170,7 +156,7 @@ void Mesh::rename(Index start, Index vertex, Index other) {
 }
 
 void Mesh::renumber(const Index* number, Stop stop) {
-    in_blocks(facets_.size(), stop, [&](std::size_t t) {
+    for_range(0, facets_.size(), stop, [&](std::size_t t) {
         for (Index& corner : facets_[t].corner) {
             corner = corner < 0 ? corner : number[corner];
         }

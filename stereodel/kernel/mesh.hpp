@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "corners.hpp"
 #include "growing_array.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
@@ -24,15 +25,8 @@ struct Facet {
 
     bool is_ghost() const { return corner[0] == GHOST; }
     bool has(Index vertex) const { return corner[0] == vertex || corner[1] == vertex || corner[2] == vertex; }
-
-    // Place of a vertex.
-    std::size_t place(Index vertex) const { return corner[0] == vertex ? 0 : corner[1] == vertex ? 1 : 2; }
-
-    // Place of the corner that is neither u nor v. Two facets that share all their corners are neighbours thrice, so
-    // the place of a neighbour cannot be found by its number.
-    std::size_t opposite(Index u, Index v) const {
-        return corner[0] != u && corner[0] != v ? 0 : corner[1] != u && corner[1] != v ? 1 : 2;
-    }
+    std::size_t place(Index vertex) const { return place_of(corner.data(), vertex); }
+    std::size_t opposite(Index u, Index v) const { return place_opposite(corner.data(), u, v); }
 };
 
 class Mesh {
@@ -76,8 +70,7 @@ class Mesh {
 
     // The facet a b c, with its neighbours opposite each, at a number that was taken.
     void put(Index t, std::array<Index, 3> corner, std::array<Index, 3> neighbor) {
-        const auto [a, b, c] = corner;
-        const std::size_t first = b < a ? (c < b ? 2 : 1) : (c < a ? 2 : 0);
+        const std::size_t first = place_of_least(corner.data());
         const std::size_t second = (first + 1) % 3, third = (first + 2) % 3;
         at(t) = {{corner[first], corner[second], corner[third]}, {neighbor[first], neighbor[second], neighbor[third]}};
         if (at(t).is_ghost()) {

@@ -155,9 +155,10 @@ template <class Query>
 void scan_all(const TriangleArrays& triangles, std::size_t size, const double* queries, std::size_t count, Index* found,
               int workers, Stop stop) {
     constexpr std::size_t grain = 16;
-    parallel_for((count + grain - 1) / grain, workers, [&](std::size_t piece) {
+    Crew crew(useful_workers(workers, count, grain));
+    in_grains(count, grain, crew, [&](std::size_t begin, std::size_t end) {
         NearestFinder<Query> finder(triangles, stop);
-        for (std::size_t k = piece * grain; k < std::min(count, (piece + 1) * grain); ++k) {
+        for (std::size_t k = begin; k < end; ++k) {
             check(stop);
             found[k] = finder.scan(queries + Query::Chart::dimension * k, size);
         }

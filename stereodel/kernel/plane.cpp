@@ -1,47 +1,15 @@
 #include "plane.hpp"
 
-#include <cmath>
-#include <stdexcept>
+#include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "curve_sites.hpp"
 #include "plane_predicates.hpp"
+#include "square_grid.hpp"
 
 namespace stereodel {
 namespace {
-
-// A square grid over the bounding box of points. Each step from a coordinate to its cell is monotone in doubles, so
-// points of different columns (rows) lie on two sides of a line; that is all that is asked of it.
-class Grid {
-  public:
-    void include(Point2 p) { include(p, p); }
-    void include(const Grid& other) { include(other.low_, other.high_); }  // of no points as well
-
-    // Whether the grid tells at least two points apart. Halves, because a difference of doubles may overflow.
-    bool fit() {
-        const double extent = std::max(high_.x / 2 - low_.x / 2, high_.y / 2 - low_.y / 2);
-        scale_ = (cells - 0.5) / extent;
-        const bool fits = extent > 0 && scale_ < HUGE_VAL;
-        if (!fits) {
-            scale_ = 0;  // one cell
-        }
-        return fits;
-    }
-
-    std::uint32_t key(Point2 p) const { return curve_key(cell(p.x, low_.x), cell(p.y, low_.y)); }
-
-  private:
-    void include(Point2 low, Point2 high) {
-        low_ = {std::min(low_.x, low.x), std::min(low_.y, low.y)};
-        high_ = {std::max(high_.x, high.x), std::max(high_.y, high.y)};
-    }
-
-    std::uint32_t cell(double x, double low) const {
-        return static_cast<std::uint32_t>(std::min((x / 2 - low / 2) * scale_, cells - 1.0));
-    }
-
-    Point2 low_{HUGE_VAL, HUGE_VAL}, high_{-HUGE_VAL, -HUGE_VAL};
-    double scale_ = 0;
-};
 
 class PlaneSites : public CurveSites {
   public:
@@ -57,7 +25,7 @@ class PlaneSites : public CurveSites {
     }
 
     bool refine(Index low, Index high) {
-        Grid grid;
+        SquareGrid grid;
         for (Index a = low; a < high; ++a) {
             grid.include(points_[a]);
         }
@@ -85,19 +53,19 @@ class PlaneSites : public CurveSites {
 };
 
 template <class PointOf>
-Grid bounding_grid(PointOf&& point, std::size_t count, Crew& crew) {
+SquareGrid bounding_grid(PointOf&& point, std::size_t count, Crew& crew) {
     const std::size_t pieces = crew.size();
-    std::vector<Grid> parts(pieces);
+    std::vector<SquareGrid> parts(pieces);
     crew.run(pieces, [&](std::size_t k) {
-        Grid grid;
+        SquareGrid grid;
         const Piece piece(count, k, pieces);
         for (std::size_t i = piece.begin; i < piece.end; ++i) {
             grid.include(point(static_cast<Index>(i)));
         }
         parts[k] = grid;
     });
-    Grid grid;
-    for (const Grid& part : parts) {
+    SquareGrid grid;
+    for (const SquareGrid& part : parts) {
         grid.include(part);
     }
     grid.fit();
@@ -131,7 +99,7 @@ Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_n
         const double* const p = xy + 2 * static_cast<std::ptrdiff_t>(k);
         return Point2{p[0], p[1]};
     };
-    const Grid grid = bounding_grid(point, count, crew);
+    const SquareGrid grid = bounding_grid(point, count, crew);
     const auto key = [&](Index k) { return grid.key(point(k)); };
     CurveArrays arrays = CurveArrays::sorted(count, number, point, key, crew, stop);
     const PlaneSites sites(arrays, common_granularity(xy, count));

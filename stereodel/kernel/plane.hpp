@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
+#include "duplicates.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
 #include "triangles.hpp"
@@ -15,8 +14,8 @@ namespace stereodel {
 
 struct Triangulation {
     Triangles triangles;
-    std::vector<std::pair<Index, Index>> duplicates;  // dropped, kept; in order
-    int dimension = -1;                               // 0 one point, 1 all on one line (great circle), 2 triangles
+    Pairs duplicates;    // in order
+    int dimension = -1;  // 0 one point, 1 all on one line (great circle), 2 triangles
     Tally tally;
 };
 

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "corners.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
 
@@ -108,20 +109,11 @@ class PolygonFill {
     // Take away the triangle across an edge; go on at its two other edges, that at u first, so that the border of what
     // is taken away comes in the order of a cycle.
     void cross(Front edge, const Triangle& other) {
-        const std::size_t k = opposite(other, edge.v, edge.u);
+        const std::size_t k = place_opposite(other.corner.data(), edge.u, edge.v);
         const Index w = other.corner[k];
         free_.push_back(edge.across);
         front_.push_back({w, edge.v, other.neighbor[(k + 2) % 3]});
         front_.push_back({edge.u, w, other.neighbor[(k + 1) % 3]});
-    }
-
-    // The corner opposite the edge v → u.
-    static std::size_t opposite(const Triangle& triangle, Index v, Index u) {
-        std::size_t k = 0;
-        while (triangle.corner[k] == v || triangle.corner[k] == u) {
-            ++k;
-        }
-        return k;
     }
 
     // The triangle u v p. Its edge v → p belongs to the next one of the fan, p → u to the one before it.
@@ -144,7 +136,7 @@ class PolygonFill {
             at_edge_[at(edge.u)] = made;
         } else {
             Triangle& other = triangles_[at(edge.across)];
-            other.neighbor[opposite(other, edge.v, edge.u)] = made;
+            other.neighbor[place_opposite(other.corner.data(), edge.u, edge.v)] = made;
         }
         return made;
     }

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "charts.hpp"
+#include "corners.hpp"
 #include "plane_predicates.hpp"
 #include "ray_predicates.hpp"
 #include "threads.hpp"
@@ -25,10 +26,7 @@ class TriangleArrays {
     const Index* neighbors(Index t) const { return neighbors_ + 3 * static_cast<std::size_t>(t); }
     bool may_enter(Index t) const { return t >= 0 && (closing_ == nullptr || !closing_[t]); }
 
-    std::size_t place(Index t, Index vertex) const {
-        const Index* const c = corners(t);
-        return c[0] == vertex ? 0 : c[1] == vertex ? 1 : 2;
-    }
+    std::size_t place(Index t, Index vertex) const { return place_of(corners(t), vertex); }
 
     // Calls visit(t) for all triangles at a vertex, of which `start` is one.
     template <class Visit>

@@ -1,7 +1,6 @@
 // Many queries to a triangulation as plain arrays, in pieces for several threads.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 
 #include "itinerary.hpp"
@@ -29,11 +28,11 @@ void for_queries(const TriangleArrays& triangles, Index start, const double* que
         const std::size_t v = static_cast<std::size_t>(*triangles.corners(t));
         return triangles.may_enter(t) ? triangles.points() + Chart::dimension * v : nullptr;
     };
-    Crew crew(static_cast<int>(std::min(static_cast<std::size_t>(workers), count / grain + 1)));
+    Crew crew(useful_workers(workers, count, grain));
     const Itinerary<Chart, decltype(at)> way(count, at, triangles.count(), point_of, start, crew, stop);
-    crew.run((way.size() + grain - 1) / grain, [&](std::size_t piece) {
+    in_grains(way.size(), grain, crew, [&](std::size_t begin, std::size_t end) {
         auto answer = begin_piece();
-        way.travel(piece * grain, std::min(way.size(), (piece + 1) * grain), [&](std::size_t k, Index& near) {
+        way.travel(begin, end, [&](std::size_t k, Index& near) {
             check(stop);
             answer(k, at(k), near);
         });

@@ -1,9 +1,12 @@
 #include "sphere.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "corners.hpp"
+#include "duplicates.hpp"
 #include "polygon_fill.hpp"
 #include "projected_sites.hpp"
 #include "ray_predicates.hpp"
@@ -37,25 +40,14 @@ bool on_one_great_circle(Rays& rays, Index count, Stop stop) {
 // Points without triangles: which are repeated, and whether there are one or more.
 Triangulation flat(Rays& rays, Index count, Stop stop) {
     std::vector<Index> order(static_cast<std::size_t>(count));
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        order[k] = static_cast<Index>(k);
-    }
-    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    std::iota(order.begin(), order.end(), 0);
+    const auto compare = [&](Index a, Index b) {
         check(stop);
-        const int sign = a == b ? 0 : rays.compare(a, b);
-        return sign != 0 ? sign < 0 : a < b;
-    });
+        return rays.compare(a, b);
+    };
     Triangulation result;
-    Index kept = outside;
-    for (const Index a : order) {
-        if (kept != outside && rays.compare(kept, a) == 0) {
-            result.duplicates.emplace_back(a, kept);
-        } else {
-            kept = a;
-        }
-    }
+    const std::size_t distinct = sort_and_drop(order, compare, [](Index a) { return a; }, result.duplicates);
     std::sort(result.duplicates.begin(), result.duplicates.end());
-    const std::size_t distinct = order.size() - result.duplicates.size();
     result.dimension = static_cast<int>(std::min<std::size_t>(distinct, 2)) - 1;
     return result;
 }
@@ -159,8 +151,7 @@ class Closure {
         for (std::size_t k = 0; k < triangles_.size(); ++k) {
             const PolygonFill::Triangle& triangle = triangles_[k];
             const Three corners{vertex(triangle.corner[0]), vertex(triangle.corner[1]), vertex(triangle.corner[2])};
-            const auto first_corner = std::min_element(corners.begin(), corners.end());
-            const std::size_t least = static_cast<std::size_t>(first_corner - corners.begin());
+            const std::size_t least = place_of_least(corners.data());
             for (std::size_t j = 0; j < 3; ++j) {
                 const std::size_t place = 3 * (first + k) + j, corner = (least + j) % 3;
                 triangles.corners[place] = corners[corner];
@@ -256,12 +247,9 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
 void closing_facets(const double* xyz, std::size_t size, const Index* simplices, std::size_t count, bool* closing,
                     Stop stop) {
     Rays rays(xyz, all_unit(xyz, size));
-    for (std::size_t k = 0; k < count; ++k) {
-        if (k % 4096 == 0) {
-            check(stop);
-        }
+    for_range(0, count, stop, [&](std::size_t k) {
         closing[k] = rays.turn(simplices[3 * k], simplices[3 * k + 1], simplices[3 * k + 2]) <= 0;
-    }
+    });
 }
 
 }  // namespace stereodel

@@ -1,6 +1,7 @@
 // Threads: loops over tasks on several of them, and a way to stop all.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
@@ -23,10 +24,9 @@ inline void check(Stop stop) {
     }
 }
 
-// As many of `workers` as a call on `points` points can keep busy.
-inline int useful_workers(int workers, std::size_t points) {
-    constexpr std::size_t worth_a_thread = 1024;
-    const std::size_t most = points / worth_a_thread + 1;
+// As many of `workers` as a call on `size` points can keep busy, with about `worth_a_thread` of them each.
+inline int useful_workers(int workers, std::size_t size, std::size_t worth_a_thread = 1024) {
+    const std::size_t most = (size + worth_a_thread - 1) / worth_a_thread;
     return static_cast<std::size_t>(workers) < most ? workers : static_cast<int>(most);
 }
 
@@ -135,11 +135,29 @@ class Crew {
     bool leave_ = false;
 };
 
-// One loop, with threads of its own.
+// Calls task(begin, end) for the ranges that make up [0, size): `grain` numbers each, the last one fewer.
 template <class Task>
-void parallel_for(std::size_t count, int workers, Task&& task) {
-    const std::size_t useful = count < static_cast<std::size_t>(workers) ? count : static_cast<std::size_t>(workers);
-    Crew(static_cast<int>(useful)).run(count, task);
+void in_grains(std::size_t size, std::size_t grain, Crew& crew, Task&& task) {
+    crew.run((size + grain - 1) / grain, [&](std::size_t k) { task(k * grain, std::min(size, (k + 1) * grain)); });
+}
+
+// Calls body(k) for all k of [begin, end) and looks at `stop` now and then.
+template <class Body>
+void for_range(std::size_t begin, std::size_t end, Stop stop, Body&& body) {
+    constexpr std::size_t between_looks = 4096;
+    while (begin < end) {
+        check(stop);
+        for (const std::size_t pause = std::min(end, begin + between_looks); begin < pause; ++begin) {
+            body(begin);
+        }
+    }
+}
+
+// The same for all k below `size`, in any order.
+template <class Body>
+void for_all(std::size_t size, Crew& crew, Stop stop, Body&& body) {
+    constexpr std::size_t grain = std::size_t{1} << 14;
+    in_grains(size, grain, crew, [&](std::size_t begin, std::size_t end) { for_range(begin, end, stop, body); });
 }
 
 // Piece `k` of `pieces` of the range [0, size).

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 
+#include "corners.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
 
@@ -34,7 +35,7 @@ WalkEnd walk(const Triangles& triangles, Index start, Side&& side, Stop stop) {
         if (steps % 4096 == 0) {
             check(stop);
         }
-        const auto corner = triangles.corners(here.triangle);
+        const Index* const corner = triangles.corners(here.triangle);
         std::size_t exit = 3;
         for (std::size_t k = 0; k < 3; ++k) {
             if (k == entry) {
@@ -56,8 +57,7 @@ WalkEnd walk(const Triangles& triangles, Index start, Side&& side, Stop stop) {
             return here;
         }
         const Index u = corner[(exit + 1) % 3], v = corner[(exit + 2) % 3];
-        const auto entered = triangles.corners(next);
-        entry = entered[0] != u && entered[0] != v ? 0 : entered[1] != u && entered[1] != v ? 1 : 2;
+        entry = place_opposite(triangles.corners(next), u, v);
         here.triangle = next;
     }
 }

@@ -57,8 +57,7 @@ def canonical(simplices: Indices) -> IntArray:
 
 def neighbors_of(simplices: Indices) -> IntArray:
     """Triangle opposite each corner, (m, 3), -1 where there is none."""
-    ends = np.sort(_directed_edges(simplices), axis=1).astype(np.int64)
-    both = ends[:, 0] << 32 | ends[:, 1]
+    both = _packed_edges(simplices)
     order = np.argsort(both, kind="stable")
     shared = both[order[1:]] == both[order[:-1]]
     one, other = order[:-1][shared], order[1:][shared]
@@ -69,8 +68,7 @@ def neighbors_of(simplices: Indices) -> IntArray:
 
 def edges_of(simplices: Indices) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
-    ends = np.sort(_directed_edges(simplices), axis=1).astype(np.int64)
-    both = np.sort(ends[:, 0] << 32 | ends[:, 1])  # one number for both ends: sorted a hundred times as fast as rows
+    both = np.sort(_packed_edges(simplices))
     once = both[np.concatenate([[True], both[1:] != both[:-1]])] if len(both) else both
     return np.column_stack([once >> 32, once & 0xFFFFFFFF]).astype(np.int32)
 
@@ -85,3 +83,9 @@ def boundary_of(simplices: Indices, neighbors: Indices, inside: BoolArray) -> In
 def _directed_edges(simplices: Indices) -> Indices:
     """Edge opposite each corner, (3m, 2), in counterclockwise direction."""
     return np.stack([np.roll(simplices, -1, axis=1), np.roll(simplices, -2, axis=1)], axis=-1).reshape(-1, 2)
+
+
+def _packed_edges(simplices: Indices) -> npt.NDArray[np.int64]:
+    """Edge opposite each corner, (3m,): one number for both ends, which is sorted a hundred times as fast as rows."""
+    ends = np.sort(_directed_edges(simplices), axis=1).astype(np.int64)
+    return ends[:, 0] << 32 | ends[:, 1]

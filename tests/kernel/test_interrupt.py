@@ -48,3 +48,33 @@ def test_an_interrupted_call_ends_soon_and_harms_nothing(call, patience):
     ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
     assert ran.returncode == 0, ran.stderr
     assert float(ran.stdout) < 2.0 * patience  # half a second on a quiet machine
+
+
+INTERRUPTED = """
+import signal
+import numpy as np
+from stereodel import _kernel
+
+points = np.random.default_rng(0).random((400_000, 2))
+simplices, neighbors, duplicates, _, _ = _kernel.triangulate_plane(points[:1000])
+mesh = _kernel.PlaneMesh(points[:1000], simplices, neighbors, duplicates)
+signal.signal(signal.SIGALRM, signal.default_int_handler)
+signal.setitimer(signal.ITIMER_REAL, 0.02)
+try:
+    mesh.insert(points[1000:])
+except KeyboardInterrupt:
+    print("interrupted")
+for use in (mesh.arrays, lambda: mesh.insert(points[:1]), lambda: mesh.remove(np.zeros(1, dtype=np.int32))):
+    try:
+        use()
+    except ValueError as error:
+        print(error)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
+def test_a_change_that_was_interrupted_is_not_used():
+    ran = subprocess.run([sys.executable, "-c", INTERRUPTED], capture_output=True, text=True, check=True, timeout=60)
+    first, *others = ran.stdout.splitlines()
+    assert first == "interrupted"
+    assert others == ["an earlier change did not come to its end; build the triangulation anew"] * 3

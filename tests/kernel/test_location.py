@@ -100,6 +100,15 @@ def lowest_nearest(points, query):
     return best
 
 
+def prove_find(arrays, queries):
+    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
+
+
+def prove_nearest(arrays, queries):
+    points, rows = arrays.points.tolist(), np.array(queries, dtype=float).tolist()
+    assert arrays.nearest(queries).tolist() == [lowest_nearest(points, q) for q in rows]
+
+
 def random_points(width, rng, size):
     return rng.random((size, PLANE)) if width == PLANE else rng.normal(size=(size, SPHERE))
 
@@ -107,25 +116,25 @@ def random_points(width, rng, size):
 @given(st.lists(GRID_POINT, min_size=3, max_size=20), st.lists(HALF_POINT, min_size=1, max_size=25))
 def test_in_the_plane_on_edges_and_vertices(points, queries):
     arrays = Arrays.of(points)
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
+    prove_find(arrays, queries)
 
 
 @given(st.lists(DIRECTION, min_size=3, max_size=20), st.lists(DIRECTION, min_size=1, max_size=25))
 def test_on_the_sphere_on_edges_and_vertices(points, queries):
     arrays = Arrays.of(points)
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
+    prove_find(arrays, queries)
 
 
 @given(st.lists(GRID_POINT, min_size=1, max_size=20), st.lists(HALF_POINT, min_size=1, max_size=25))
 def test_nearest_in_the_plane_with_ties(points, queries):
     arrays = Arrays.of(points)
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points, q) for q in queries]
+    prove_nearest(arrays, queries)
 
 
 @given(st.lists(DIRECTION, min_size=1, max_size=20), st.lists(DIRECTION, min_size=1, max_size=25))
 def test_nearest_on_the_sphere_with_ties(points, queries):
     arrays = Arrays.of(points)
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points, q) for q in queries]
+    prove_nearest(arrays, queries)
 
 
 @BOTH
@@ -186,8 +195,8 @@ def test_clusters_on_the_sphere(spread):
     points = np.vstack([center + spread * rng.normal(size=(60, 3)), rng.normal(size=(3, 3))])
     arrays = Arrays.of(points)
     queries = np.vstack([center + spread * rng.normal(size=(40, 3)), rng.normal(size=(10, 3)), -points[:5]])
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points.tolist(), q) for q in queries.tolist()]
+    prove_find(arrays, queries)
+    prove_nearest(arrays, queries)
 
 
 @pytest.mark.parametrize("lift", [0.0, 0.3, -0.2])
@@ -201,8 +210,8 @@ def test_sets_within_a_hemisphere_or_nearly(lift):
     assert arrays.closing.any() == (lift >= 0)
     rim = np.column_stack([rng.integers(-5, 6, size=(60, 2)), rng.integers(-1, 2, size=60)])
     queries = np.vstack([-points, points, rim[rim.any(axis=1)], rng.normal(size=(30, 3))])
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points.tolist(), q) for q in queries.tolist()]
+    prove_find(arrays, queries)
+    prove_nearest(arrays, queries)
 
 
 @BOTH
@@ -214,8 +223,8 @@ def test_coordinates_of_any_size(width, size):
     arrays = Arrays.of(points)
     queries = np.vstack([points, rng.integers(-11, 12, size=(30, width)) * size])
     queries = queries[queries.any(axis=1)]
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points.tolist(), q) for q in queries.tolist()]
+    prove_find(arrays, queries)
+    prove_nearest(arrays, queries)
 
 
 def test_the_length_of_a_queried_direction_does_not_matter():
@@ -232,8 +241,8 @@ def test_components_of_very_different_size():
     points = [[1, tiny, 0], [1, 0, tiny], [1, -tiny, -tiny], [-1, 0, 0]]
     arrays = Arrays.of(points)
     queries = [[1, 0, 0], [1e300, 0.5, 0.1], [1, 0, 5e-324], [1, -tiny / 4, 0], [1e-8, 1e-307, 0], [-1, 0, 0]]
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points, q) for q in queries]
+    prove_find(arrays, queries)
+    prove_nearest(arrays, queries)
 
 
 def test_a_query_that_no_power_of_two_brings_near_length_one():
@@ -258,7 +267,7 @@ def test_nearest_on_a_circle_of_rounded_directions(radius, of_length_one):
         points = axis + radius * np.column_stack([np.cos(angle), np.sin(angle)]) @ across
         points /= np.linalg.norm(points, axis=1, keepdims=True)
         around = [q * (1 if of_length_one else 3) for q in (axis, axis + 1e-16, np.nextafter(axis, 2))]
-        assert Arrays.large(points).nearest(around).tolist() == [lowest_nearest(points.tolist(), q) for q in around]
+        prove_nearest(Arrays.large(points), around)
 
 
 def test_unit_vectors_that_are_almost_equally_near():
@@ -272,7 +281,7 @@ def test_unit_vectors_that_are_almost_equally_near():
     queries[:, 2] = rng.choice([0.0, 1e-17, -1e-17, 1e-300], size=60)
     unit = queries / np.linalg.norm(queries, axis=1, keepdims=True)
     for some in (queries, unit):
-        assert arrays.nearest(some).tolist() == [lowest_nearest(mirrored.tolist(), q) for q in some.tolist()]
+        prove_nearest(arrays, some)
 
 
 @BOTH
@@ -304,8 +313,8 @@ def test_around_a_hub(width, ring, size):
         points /= np.linalg.norm(points, axis=1, keepdims=True)
         queries = np.column_stack([around, np.ones(60)])
     arrays = Arrays.large(points)
-    assert arrays.find(queries).tolist() == [arrays.lowest_holder(q) for q in queries]
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points.tolist(), q) for q in queries.tolist()]
+    prove_find(arrays, queries)
+    prove_nearest(arrays, queries)
 
 
 @BOTH
@@ -314,7 +323,7 @@ def test_far_outside(width):
     points = rng.random((100, width)) + (0 if width == PLANE else 1)
     arrays = Arrays.of(points)
     queries = 1000 * rng.normal(size=(80, width))
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points.tolist(), q) for q in queries.tolist()]
+    prove_nearest(arrays, queries)
 
 
 @pytest.mark.parametrize(
@@ -334,7 +343,7 @@ def test_without_triangles(points):
     queries = np.random.default_rng(10).integers(-3, 4, size=(40, len(points[0]))).astype(float)
     queries = queries[queries.any(axis=1)]
     assert (arrays.find(queries) == -1).all()
-    assert arrays.nearest(queries).tolist() == [lowest_nearest(points, q) for q in queries.tolist()]
+    prove_nearest(arrays, queries)
 
 
 def test_wrong_input():

@@ -207,6 +207,14 @@ def test_round_trip_of_a_large_polygon():
     assert rows(diagram.delaunay().simplices) == rows(direct.simplices)
 
 
+def exact_circumcenter(triangle):
+    """Rounded once."""
+    a, b, c = [[Fraction(x) for x in p] for p in triangle.tolist()]
+    d, e = [b[k] - a[k] for k in (0, 1)], [c[k] - a[k] for k in (0, 1)]
+    dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
+    return [float(a[0] + (e[1] * dd - d[1] * ee) / area), float(a[1] + (d[0] * ee - e[0] * dd) / area)]
+
+
 @pytest.mark.parametrize("shape", [1.0, 1e-3, 1e-9, 1e-14, 0.0])
 @pytest.mark.parametrize("exponent", [-900, -30, 0, 400])
 def test_circumcentres_of_any_shape(shape, exponent):
@@ -215,30 +223,20 @@ def test_circumcentres_of_any_shape(shape, exponent):
         triangle = np.column_stack([rng.random(3), rng.random() + shape * rng.random(3)])
         triangle[2, 1] += 2.0**-40
         triangle = np.ldexp(triangle, exponent)
-        a, b, c = [[Fraction(x) for x in p] for p in triangle.tolist()]
-        d, e = [b[k] - a[k] for k in (0, 1)], [c[k] - a[k] for k in (0, 1)]
-        dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
-        exact = [a[0] + (e[1] * dd - d[1] * ee) / area, a[1] + (d[0] * ee - e[0] * dd) / area]
-        assert planar_circumcenters(triangle[None])[0] == pytest.approx([float(x) for x in exact], rel=2.0**-52, abs=0)
+        exact = exact_circumcenter(triangle)
+        assert planar_circumcenters(triangle[None])[0] == pytest.approx(exact, rel=2.0**-52, abs=0)
 
 
 def test_circumcentre_where_double_double_cancels():
     triangle = np.array([[1e-20, 3e-20], [1 / 3, 1 / 3], [2 / 3, 2 / 3]])
-    (ax, ay), b, c = [Fraction(x) for x in triangle[0]], Fraction(1 / 3), Fraction(2 / 3)
-    d, e = (b - ax, b - ay), (c - ax, c - ay)
-    dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
-    exact = [float(ax + (e[1] * dd - d[1] * ee) / area), float(ay + (d[0] * ee - e[0] * dd) / area)]
-    assert planar_circumcenters(triangle[None])[0].tolist() == exact
+    assert planar_circumcenters(triangle[None])[0].tolist() == exact_circumcenter(triangle)
 
 
 def test_a_circumcentre_near_zero_is_rounded_once():
     angle = np.random.default_rng(1).random((20, 3)) * 2 * np.pi
     for triangle in np.stack([np.cos(angle) + 1e-6, np.sin(angle) - 2e-6], axis=-1):
-        a, b, c = [[Fraction(x) for x in p] for p in triangle.tolist()]
-        d, e = [b[k] - a[k] for k in (0, 1)], [c[k] - a[k] for k in (0, 1)]
-        dd, ee, area = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
-        exact = [a[0] + (e[1] * dd - d[1] * ee) / area, a[1] + (d[0] * ee - e[0] * dd) / area]
-        assert planar_circumcenters(triangle[None])[0] == pytest.approx([float(x) for x in exact], rel=2.0**-52, abs=0)
+        exact = exact_circumcenter(triangle)
+        assert planar_circumcenters(triangle[None])[0] == pytest.approx(exact, rel=2.0**-52, abs=0)
 
 
 def test_a_cell_with_a_vertex_at_infinity_has_no_finite_area():

@@ -1,0 +1,89 @@
+"""The kernel's meshes as Python holds them: what they take and refuse, the arrays that they give, threads."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from stereodel import _kernel
+
+PLANE, SPHERE = 2, 3
+MESHES = {PLANE: _kernel.PlaneMesh, SPHERE: _kernel.SphereMesh}
+TRIANGULATE = {PLANE: _kernel.triangulate_plane, SPHERE: _kernel.triangulate_sphere}
+
+
+def triangulated(points):
+    """What a mesh is made of."""
+    simplices, neighbors, duplicates, _, _ = TRIANGULATE[points.shape[1]](points)
+    return points, simplices, neighbors, duplicates
+
+
+def start(points):
+    return MESHES[points.shape[1]](*triangulated(points))
+
+
+def test_tests_left_open_are_counted():
+    grid = np.array([[x, y] for x in range(4) for y in range(4)], dtype=float)
+    mesh = start(grid[:6])
+    assert set(mesh.inconclusive.values()) == {0}
+    mesh.insert(grid[6:])
+    assert mesh.inconclusive.keys() == {"filter", "double_double", "exact"}
+    assert mesh.inconclusive["filter"] >= mesh.inconclusive["exact"] > 0
+    assert start(np.vstack([np.eye(3), -np.eye(3)])).inconclusive.keys() >= {"curvature", "exact"}
+
+
+def test_rows_are_given_in_any_rotation():
+    points, simplices, neighbors, _ = triangulated(np.random.default_rng(15).random((30, 2)))
+    mesh = _kernel.PlaneMesh(points, np.roll(simplices, 1, axis=1), np.roll(neighbors, 1, axis=1))
+    assert np.array_equal(mesh.arrays()[0], simplices)
+    assert np.array_equal(mesh.arrays()[1], neighbors)
+
+
+@pytest.mark.parametrize("width", [PLANE, SPHERE])
+def test_arrays_are_new_each_time(width):
+    rng = np.random.default_rng(16)
+    mesh = start(rng.normal(size=(20, width)))
+    first = mesh.arrays()
+    before = [array.copy() for array in first]
+    mesh.insert(rng.normal(size=(20, width)))
+    assert all(np.array_equal(a, b) for a, b in zip(first, before, strict=True))
+
+
+def test_wrong_input():
+    points, simplices, neighbors, _ = triangulated(np.random.default_rng(18).random((20, 2)))
+    empty = np.zeros((0, 3), dtype=np.int32)
+    with pytest.raises(ValueError, match="needs triangles"):
+        _kernel.PlaneMesh(points, empty, empty)
+    with pytest.raises(ValueError, match="same length"):
+        _kernel.PlaneMesh(points, simplices, neighbors[1:])
+    for wrong in (simplices - 1, simplices + 1):
+        with pytest.raises(ValueError, match="out of range"):
+            _kernel.PlaneMesh(points, wrong, neighbors)
+    for wrong in (neighbors - 1, neighbors + 1):
+        with pytest.raises(ValueError, match="out of range"):
+            _kernel.PlaneMesh(points, simplices, wrong)
+    with pytest.raises(ValueError, match="dropped, kept"):
+        _kernel.PlaneMesh(points, simplices, neighbors, np.array([[3, 20]], dtype=np.int32))
+    with pytest.raises(ValueError, match="closed surface"):
+        _kernel.SphereMesh(np.column_stack([points, np.ones(20)]), simplices, neighbors)
+    mesh = _kernel.PlaneMesh(points, simplices, neighbors)
+    for wrong in (-1, 20):
+        with pytest.raises(ValueError, match="no such point"):
+            mesh.remove(np.array([0, wrong], dtype=np.int32))
+    assert mesh.size == 20
+    assert np.array_equal(mesh.arrays()[0], simplices)
+    assert np.array_equal(mesh.arrays()[1], neighbors)
+
+
+def test_threads_take_turns():
+    rng = np.random.default_rng(19)
+    points = rng.random((4000, 2))
+    mesh = start(points[:100])
+    parts = np.array_split(points[100:], 13)
+    threads = [threading.Thread(target=mesh.insert, args=(part,)) for part in parts]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert mesh.size == 4000
+    assert len(mesh.arrays()[0]) == len(TRIANGULATE[PLANE](points)[0])
