@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "corners.hpp"
 #include "edges.hpp"
 #include "threads.hpp"
 
@@ -75,8 +76,9 @@ class TriangleWriter {
             const Index uv = triples[k], vw = triples[k + 1], wu = triples[k + 2];
             edges_[uv].prev = edges_[vw].prev = edges_[wu].prev = triangle++;
             const Index u = source(uv), v = source(vw), w = source(wu);
-            const std::size_t least = v < u ? (w < v ? 2 : 1) : (w < u ? 2 : 0);
-            corners = put(corners, {u, v, w, u, v}, least);
+            const std::array<Index, 5> cycle{u, v, w, u, v};
+            const std::size_t least = place_of_least(cycle.data());
+            corners = put(corners, cycle, least);
             if (neighbors != nullptr) {
                 neighbors = put(neighbors, {vw ^ 1, wu ^ 1, uv ^ 1, vw ^ 1, wu ^ 1}, least);
             }
