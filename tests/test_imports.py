@@ -128,13 +128,18 @@ def test_figures_draw_through_the_library():
 
 
 def loaded_by(statement):
-    code = f"{statement}; import sys; print(*sorted({{name.split('.')[0] for name in sys.modules}}))"
+    code = f"{statement}\nimport sys; print(*sorted({{name.split('.')[0] for name in sys.modules}}))"
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return set(ran.stdout.split())
 
 
 def test_import_loads_no_graphics():
     assert not loaded_by("import stereodel; dir(stereodel)") & NOT_IN_CORE
+
+
+def test_help_loads_nothing_heavy():
+    statement = "import contextlib, io; from stereodel.cli import app\nwith contextlib.redirect_stdout(io.StringIO()):"
+    assert not loaded_by(f"{statement} app(['--help'], standalone_mode=False)\n") & (NOT_IN_CORE - {"typer", "rich"})
 
 
 def test_import_adds_few_modules_to_numpy():

@@ -35,8 +35,8 @@ from stereodel._files import replacing
 LIBRARIES = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
 
-NOT_DRAWN_WITH = ("cli.py", "render/build.py", "render/baselines.py", "render/report.py")
-"""Modules of the library that no picture depends on."""
+NOT_DRAWN_WITH = ("cli", "render/build.py", "render/baselines.py", "render/report.py")
+"""Modules and packages of the library that no picture depends on."""
 
 Record = dict[str, Any]
 
@@ -152,7 +152,8 @@ def _shared_digest(scripts: Path) -> str:
     """Of all that every script depends on: shared modules, library, kernel, versions, the renderer asked for."""
     library = Path(__file__).resolve().parent.parent
     skipped = {library / name for name in NOT_DRAWN_WITH}
-    files = [*sorted(scripts.glob("_*.py")), *(path for path in sorted(library.rglob("*.py")) if path not in skipped)]
+    modules = (path for path in sorted(library.rglob("*.py")) if skipped.isdisjoint((path, *path.parents)))
+    files = [*sorted(scripts.glob("_*.py")), *modules]
     files.append(Path(_kernel.__file__))
     digest = hashlib.sha256(json.dumps(library_versions()).encode())
     digest.update(f"{os.environ.get('STEREODEL_GL', '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())

@@ -1,39 +1,27 @@
-"""The command `stereodel`: what would draw here, and the figures."""
+"""`stereodel doctor`: what would draw here, and what is missing."""
 
 from __future__ import annotations
 
 import platform
-from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING
 
 import typer
-from rich.console import Console
-from rich.table import Table
 
 import stereodel
-from stereodel.render import build, gl
 
-app = typer.Typer(help="Delaunay, Voronoi and the figures of the paper.", no_args_is_help=True, add_completion=False)
+if TYPE_CHECKING:
+    from stereodel.render import gl
 
-
-def _print_version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(f"stereodel {stereodel.__version__}")
-        raise typer.Exit
+EXAMPLE = "STEREODEL_GL=egl stereodel doctor"
 
 
-@app.callback()
-def _options(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
-    ] = False,
-) -> None:
-    """Delaunay triangulations and Voronoi diagrams of the plane and the sphere, and the figures of the paper."""
-
-
-@app.command()
-def doctor() -> None:
+def command() -> None:
     """Say what would draw here, every version that matters, and what is missing; exit code 1 if nothing can draw."""
+    from rich.console import Console
+    from rich.table import Table
+
+    from stereodel.render import build, gl
+
     console = Console(highlight=False, soft_wrap=True)
     found = gl.describe()
     for title, rows in (("Rendering", _rendering_rows(found)), ("Versions", _version_rows())):
@@ -54,6 +42,8 @@ def doctor() -> None:
 
 def _rendering_rows(found: gl.Description) -> list[tuple[str, str]]:
     """What draws and why, and which libraries are there."""
+    from stereodel.render import gl
+
     reasons = {"found": "the first that can be opened"}
     rows = [("would be used", f"{found.platform} ({reasons.get(found.chosen_by, found.chosen_by)})")]
     if not found.platform:
@@ -67,19 +57,8 @@ def _rendering_rows(found: gl.Description) -> list[tuple[str, str]]:
 
 
 def _version_rows() -> list[tuple[str, str]]:
+    """The library, the system, and the libraries that pictures and files depend on."""
+    from stereodel.render import build
+
     rows = [("stereodel", stereodel.__version__), ("system", platform.platform())]
     return rows + list(build.library_versions().items())
-
-
-@app.command()
-def figures(
-    names: Annotated[
-        list[str] | None, typer.Argument(help="Beginnings of script names, e.g. fig03; all by default.")
-    ] = None,
-    scripts: Annotated[Path, typer.Option(help="Folder of the scripts.")] = Path("figures"),
-    out: Annotated[Path, typer.Option(help="Folder to write to.")] = Path("out"),
-    jobs: Annotated[int | None, typer.Option(min=1, help="Scripts that run at once; the cores by default.")] = None,
-    force: Annotated[bool, typer.Option(help="Draw also what is up to date.")] = False,
-) -> None:
-    """Draw the figures and animations that are out of date."""
-    raise typer.Exit(build.run(scripts, out, names or (), jobs=jobs, force=force))

@@ -1,0 +1,13 @@
+"""The command `stereodel`.
+
+One module a command, each with a function `command` and an `EXAMPLE`. They import nothing heavy before they run, so
+that the help answers at once.
+"""
+
+from stereodel.cli import doctor, figures
+from stereodel.cli.application import app
+
+__all__ = ["app"]
+
+for module in (figures, doctor):
+    app.command(module.__name__.rpartition(".")[2], epilog=f"Example: {module.EXAMPLE}")(module.command)

@@ -1,0 +1,75 @@
+"""How commands end: exit codes, one line on stderr, and silence where a reader has gone."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+import typer
+from typer.testing import CliRunner
+
+from stereodel.cli import app
+from stereodel.cli.application import Commands
+
+COMMANDS = [command.name for command in app.registered_commands]
+
+
+def ending(error):
+    """What the shell sees of a command that fails with `error`."""
+    failing = typer.Typer(cls=Commands, pretty_exceptions_enable=False)
+
+    @failing.callback()
+    def _several():
+        pass
+
+    @failing.command("fail")
+    def _fail():
+        raise error
+
+    return CliRunner().invoke(failing, ["fail"])
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "line"),
+    [
+        (ValueError("row 17: latitude 95.2\nis outside"), 2, "error: row 17: latitude 95.2 is outside"),
+        (FileNotFoundError(2, "No such file or directory", "a.csv"), 2, "error: a.csv: No such file or directory"),
+        (OSError("no space"), 2, "error: no space"),
+        (ModuleNotFoundError("pip install stereodel[geo]"), 2, "error: pip install stereodel[geo]"),
+        (MemoryError(), 2, "error: not enough memory for so many points"),
+        (KeyboardInterrupt(), 130, "interrupted; nothing was written"),
+    ],
+)
+def test_failures_are_one_line(error, code, line):
+    ran = ending(error)
+    assert (ran.exit_code, ran.stderr, ran.stdout) == (code, f"{line}\n", "")
+
+
+def test_a_mistake_of_ours_keeps_its_traceback():
+    ran = ending(ZeroDivisionError("ours"))
+    assert isinstance(ran.exception, ZeroDivisionError)
+
+
+def command_line(*arguments):
+    return [sys.executable, "-c", "from stereodel.cli import app; app()", *arguments]
+
+
+def test_a_broken_pipe_is_quiet():
+    reading, writing = os.pipe()
+    os.close(reading)
+    with os.fdopen(writing, "wb") as pipe:
+        ran = subprocess.run(command_line("doctor"), stdout=pipe, stderr=subprocess.PIPE, text=True, check=False)
+    assert (ran.returncode, ran.stderr) == (1, "")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_shows_an_example(command):
+    ran = CliRunner().invoke(app, [command, "--help"], env={"COLUMNS": "100"})
+    assert ran.exit_code == 0
+    assert "Example: " in ran.stdout
+    assert f"stereodel {command}" in ran.stdout
+
+
+def test_wrong_usage():
+    assert CliRunner().invoke(app, ["triangle"]).exit_code == 2
+    assert CliRunner().invoke(app, []).exit_code == 2
