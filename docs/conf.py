@@ -59,6 +59,7 @@ html_sidebars = {
         "index",
         "names",
         "conventions",
+        "earth",
         "exactness",
         "degenerate",
         "paper",

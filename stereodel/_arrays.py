@@ -18,6 +18,7 @@ FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
 _Scalar = TypeVar("_Scalar", bound=np.generic)
+_Word = TypeVar("_Word", bound=str)
 
 
 def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
@@ -183,11 +184,11 @@ def as_steps(width: float, spacing: Any, name: str) -> int:
     return count
 
 
-def as_choice(value: Any, choices: tuple[str, ...], name: str) -> str:
+def as_choice(value: Any, choices: tuple[_Word, ...], name: str) -> _Word:
     """One of a few words."""
     if value not in choices:
         raise ValueError(f"{name} is {value!r}, but must be one of {', '.join(map(repr, choices))}")
-    return str(value)
+    return choices[choices.index(value)]
 
 
 def as_lengths(values: npt.ArrayLike, name: str) -> FloatArray:

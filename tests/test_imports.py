@@ -11,11 +11,12 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
-BASE = {"constants", "_arrays", "_double_double"}
+BASE = {"constants", "earth", "_arrays", "_double_double"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel"}
 MAY_IMPORT = {
     "constants": set(),
+    "earth": set(),
     "_files": set(),
     "_kernel": set(),
     "_arrays": BASE,

@@ -5,34 +5,42 @@ Axes: x towards (lon 0, lat 0), y towards (90, 0), z towards the north pole. Ang
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, IntArray, as_direction_or_lonlat, as_directions, as_lonlat
-from stereodel._double_double import DoubleDouble
+from stereodel._arrays import FloatArray, IntArray, as_choice, as_direction_or_lonlat, as_directions, as_lonlat
+from stereodel._double_double import DoubleDouble, stack
 from stereodel.sphere.chunks import by_blocks
-from stereodel.sphere.degrees import angle_degrees
+from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
+from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
 
 
-def lonlat_to_xyz(lonlat: npt.ArrayLike) -> FloatArray:
+def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical") -> FloatArray:
     """Unit vectors of points given by longitude and latitude.
 
     Parameters
     ----------
     lonlat : array_like, shape (..., 2)
         (lon, lat) in degrees, any finite longitude, latitude in [−90, 90].
+    latitude : {"spherical", "geodetic", "authalic"}, optional
+        "spherical" takes latitudes as they stand. The others take them as geodetic latitudes on WGS84, which is what
+        maps and receivers give, and return the direction from the Earth's centre ("geodetic") or the point on the
+        sphere of equal area ("authalic").
 
     Returns
     -------
     ndarray, shape (..., 3)
-        Each component is cos φ cos λ, cos φ sin λ or sin φ rounded once: the same bits on every machine, mirrored
-        points get mirrored vectors, multiples of 90° give 0 and ±1 exactly, and there is no −0.
+        Each component is cos φ cos λ, cos φ sin λ or sin φ rounded once, φ being the latitude on the sphere: the same
+        bits on every machine, mirrored points get mirrored vectors, multiples of 90° give 0 and ±1 exactly, and there
+        is no −0.
 
     Raises
     ------
     ValueError
-        For a latitude outside [−90, 90], NaN, infinities or another shape.
+        For a latitude outside [−90, 90], NaN, infinities, another shape, or another `latitude`.
 
     Examples
     --------
@@ -42,16 +50,26 @@ def lonlat_to_xyz(lonlat: npt.ArrayLike) -> FloatArray:
      [ 0.  0.  1.]]
     """
     rows = as_lonlat(lonlat)
+    kind = as_choice(latitude, KINDS, "latitude")
+    if kind != "spherical":
+        return by_blocks(partial(_from_ellipsoid, kind=kind), rows)
     return _kernel.lonlat_to_xyz(np.ascontiguousarray(rows).reshape(-1, 2)).reshape(*rows.shape[:-1], 3)
 
 
-def xyz_to_lonlat(xyz: npt.ArrayLike) -> FloatArray:
+def _from_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
+    (sin_lon, cos_lon), (sin_lat, cos_lat) = sin_cos_degrees(rows[:, 0]), sin_cos_on_sphere(rows[:, 1], kind)
+    return stack([cos_lat * cos_lon, cos_lat * sin_lon, sin_lat]).round() + 0.0
+
+
+def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical") -> FloatArray:
     """Longitude and latitude of directions.
 
     Parameters
     ----------
     xyz : array_like, shape (..., 3)
         Non-zero vectors; only their directions count.
+    latitude : {"spherical", "geodetic", "authalic"}, optional
+        As for `lonlat_to_xyz`: what the vectors were made with. For the last two geodetic latitudes on WGS84 result.
 
     Returns
     -------
@@ -62,7 +80,7 @@ def xyz_to_lonlat(xyz: npt.ArrayLike) -> FloatArray:
     Raises
     ------
     ValueError
-        For a zero vector, NaN, infinities or another shape.
+        For a zero vector, NaN, infinities, another shape, or another `latitude`.
 
     Examples
     --------
@@ -71,10 +89,11 @@ def xyz_to_lonlat(xyz: npt.ArrayLike) -> FloatArray:
      [-180.    0.]
      [   0.   90.]]
     """
-    return by_blocks(_lonlat, as_directions(xyz, "xyz"))
+    kind = as_choice(latitude, KINDS, "latitude")
+    return by_blocks(partial(_lonlat, kind=kind), as_directions(xyz, "xyz"))
 
 
-def _lonlat(rows: FloatArray) -> FloatArray:
+def _lonlat(rows: FloatArray, kind: Latitude) -> FloatArray:
     vectors, whole = scaled(rows)
     # The horizontal part is scaled on its own, so that a longitude survives one subnormal step away from the pole.
     horizontal, own = scaled(rows[:, :2])
@@ -83,7 +102,7 @@ def _lonlat(rows: FloatArray) -> FloatArray:
     lon = angle_degrees(y, x)
     root = (x * x + y * y).sqrt()
     rho = DoubleDouble(np.ldexp(root.hi, exponent), np.ldexp(root.lo, exponent))
-    lat = angle_degrees(DoubleDouble(vectors[:, 2]), rho)
+    lat = latitude_of(DoubleDouble(vectors[:, 2]), rho, kind)
     return np.stack([np.where(lon == 180.0, -180.0, lon), lat], axis=-1) + 0.0
 
 

@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Literal
 
-import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_choice, as_directions, as_lonlat, as_points, locked
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_directions, as_points, locked
 from stereodel.sphere.coordinates import lonlat_to_xyz
-from stereodel.sphere.latitudes import authalic_latitude, geocentric_latitude
+from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.circumcenters import spherical_circumcenters
 from stereodel.triangulation.delaunay import Built, Delaunay
 
@@ -91,7 +89,7 @@ class SphericalDelaunay(Delaunay):
         cls,
         lonlat: npt.ArrayLike,
         *,
-        latitude: Literal["spherical", "geodetic", "authalic"] = "spherical",
+        latitude: Latitude = "spherical",
         workers: int | None = None,
         neighbors: bool = True,
     ) -> SphericalDelaunay:
@@ -102,8 +100,8 @@ class SphericalDelaunay(Delaunay):
         lonlat : (n, 2) array_like
             (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
         latitude : {"spherical", "geodetic", "authalic"}, optional
-            "spherical" takes latitudes as they stand. The others take them as geodetic latitudes on WGS84 and use the
-            direction from the Earth's centre ("geodetic"), or that on the sphere of equal area ("authalic").
+            As for `lonlat_to_xyz`: "spherical" takes latitudes as they stand; the others take them as geodetic
+            latitudes on WGS84 and use the direction from the Earth's centre, or the point on the sphere of equal area.
         workers, neighbors
             As for the constructor.
 
@@ -122,11 +120,8 @@ class SphericalDelaunay(Delaunay):
         >>> print(SphericalDelaunay.from_lonlat([[0, 0], [90, 0], [7, 90], [180, 0], [-180, 0]]).duplicates)
         [[4 3]]
         """
-        kind = as_choice(latitude, ("spherical", "geodetic", "authalic"), "latitude")
-        degrees = np.array(as_lonlat(as_points(lonlat, 2, "lonlat")))
-        if kind != "spherical":
-            degrees[:, 1] = (geocentric_latitude if kind == "geodetic" else authalic_latitude)(degrees[:, 1])
-        return cls(lonlat_to_xyz(degrees), workers=workers, neighbors=neighbors)
+        xyz = lonlat_to_xyz(as_points(lonlat, 2, "lonlat"), latitude=latitude)
+        return cls(xyz, workers=workers, neighbors=neighbors)
 
     @cached_property
     def closing(self) -> BoolArray:

@@ -12,6 +12,7 @@ from stereodel._double_double import unit
 from stereodel.predicates import in_bubble
 from stereodel.predicates.rays import turn_signs
 from stereodel.sphere import SphereArc, SphereCircle, solid_angle
+from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.bisectors import bisector_normals
 from stereodel.triangulation.cells import (
     Diagram,
@@ -97,6 +98,40 @@ class SphericalVoronoi(Diagram):
         else:
             self._set_circle()
         self._freeze()
+
+    @classmethod
+    def from_lonlat(
+        cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None
+    ) -> SphericalVoronoi:
+        """The diagram of points given by longitude and latitude.
+
+        Parameters
+        ----------
+        lonlat : (n, 2) array_like
+            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
+        latitude : {"spherical", "geodetic", "authalic"}, optional
+            As for `lonlat_to_xyz`. With "authalic", ``areas(radius=stereodel.earth.AUTHALIC_RADIUS_KM)`` are areas on
+            the WGS84 ellipsoid in km².
+        workers : int, optional
+            Threads of the triangulation, as for `SphericalDelaunay`.
+
+        Returns
+        -------
+        SphericalVoronoi
+            Of the unit vectors that `lonlat_to_xyz` gives, which are exact from then on.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
+
+        Examples
+        --------
+        >>> diagram = SphericalVoronoi.from_lonlat([(0, 60), (120, 60), (-120, 60), (0, -60)], latitude="geodetic")
+        >>> [len(region) for region in diagram.regions]
+        [3, 3, 3, 3]
+        """
+        return cls(SphericalDelaunay.from_lonlat(lonlat, latitude=latitude, workers=workers))
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
         simplices = triangulation.simplices
