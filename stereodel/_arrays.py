@@ -157,13 +157,15 @@ def as_scalar(
     return number
 
 
-def as_count(value: Any, name: str, *, low: int = 1) -> int:
-    """One whole number, at least `low`."""
+def as_count(value: Any, name: str, *, low: int = 1, high: int | None = None) -> int:
+    """One whole number, at least `low`, at most `high`."""
     array = np.asarray(value)
     if array.ndim != 0 or array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be one integer, got {value!r}")
     if array < low:
         raise ValueError(f"{name} is {value}, but must be at least {low}")
+    if high is not None and array > high:
+        raise ValueError(f"{name} is {value}, but must be at most {high}")
     return int(array)
 
 

@@ -92,6 +92,32 @@ def nearest_sphere(
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """The same for directions."""
 
+def k_nearest_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    k: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
+    """
+    The k nearest points of each query, duplicates among them, by distance, equally near ones by number.
+    """
+
+def k_nearest_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    k: int,
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
+    """The same for directions."""
+
 class PlaneMesh:
     """
     Delaunay triangulation of the plane that points can be added to and taken from.

@@ -5,7 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bind_support.hpp"
+#include "bind_triangles.hpp"
+#include "k_nearest.hpp"
 #include "location.hpp"
 #include "nearest.hpp"
 
@@ -13,19 +14,9 @@ namespace stereodel {
 namespace {
 
 using namespace nb::literals;
+using RowsOfAnyWidth = nb::ndarray<nb::numpy, Index, nb::ndim<2>, nb::c_contig>;
 
 constexpr std::size_t long_work = 10000;  // queries: some milliseconds
-
-using Closing = ValuesIn<bool>;
-
-TriangleArrays to_triangles(const double* points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
-                            const std::optional<Closing>& closing) {
-    const std::size_t count = simplices.shape(0);
-    if (neighbors.shape(0) != count || (closing && closing->shape(0) != count)) {
-        throw std::invalid_argument("simplices, neighbors and closing must have the same length");
-    }
-    return {points, simplices.data(), neighbors.data(), closing ? closing->data() : nullptr, count};
-}
 
 // One number for each of `count` queries.
 template <class Work>
@@ -82,6 +73,37 @@ ValuesOut<Index> nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> si
     });
 }
 
+// Rows of k numbers of points; `duplicates` of the triangulation.
+template <class Points, class Work>
+RowsOfAnyWidth k_nearest(const TriangleArrays& triangles, const Points& points, const RowsIn<Index, 2>& duplicates,
+                         const Points& queries, std::size_t k, Work&& work) {
+    const std::size_t size = points.shape(0), count = queries.shape(0);
+    if (k == 0 || k > size) {
+        throw std::invalid_argument("k must be at least 1 and at most the number of points");
+    }
+    const Pairs pairs = to_pairs(duplicates, size);
+    const bool is_long = is_long_search(triangles, size, count) || count * k > long_work;
+    Buffer<Index> numbers = filled<Index>(count * k, is_long, [&](Index* found, Stop stop) {
+        work(KNearestTask{triangles, size, pairs, queries.data(), count, k, found}, stop);
+    });
+    return to_array<RowsOfAnyWidth>(std::move(numbers), {count, k});
+}
+
+RowsOfAnyWidth k_nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+                                  RowsIn<Index, 2> duplicates, RowsIn<double, 2> queries, std::size_t k, int workers) {
+    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
+    return k_nearest(triangles, points, duplicates, queries, k,
+                     [&](const KNearestTask& task, Stop stop) { k_nearest_plane(task, workers, stop); });
+}
+
+RowsOfAnyWidth k_nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+                                   RowsIn<Index, 2> duplicates, RowsIn<double, 3> queries, std::size_t k,
+                                   std::optional<Closing> closing, int workers) {
+    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
+    return k_nearest(triangles, points, duplicates, queries, k,
+                     [&](const KNearestTask& task, Stop stop) { k_nearest_sphere(task, workers, stop); });
+}
+
 }  // namespace
 
 void bind_location(nb::module_& module) {
@@ -95,6 +117,11 @@ void bind_location(nb::module_& module) {
                "The nearest point of each query, the lowest of several. Without simplices all points are compared.");
     module.def("nearest_sphere", nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");
+    module.def("k_nearest_plane", k_nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
+               "queries"_a, "k"_a, "workers"_a = 1,
+               "The k nearest points of each query, duplicates among them, by distance, equally near ones by number.");
+    module.def("k_nearest_sphere", k_nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
+               "queries"_a, "k"_a, "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");
 }
 
 }  // namespace stereodel

@@ -19,18 +19,6 @@ using namespace nb::literals;
 constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
-Pairs to_pairs(const std::optional<RowsIn<Index, 2>>& rows, std::size_t size) {
-    Pairs pairs;
-    for (std::size_t k = 0; rows && k < rows->shape(0); ++k) {
-        const Index dropped = rows->data()[2 * k], kept = rows->data()[2 * k + 1];
-        if (dropped <= kept || kept < 0 || static_cast<std::size_t>(dropped) >= size) {
-            throw std::invalid_argument("duplicates must be pairs dropped, kept of points");
-        }
-        pairs.emplace_back(dropped, kept);
-    }
-    return pairs;
-}
-
 // A triangulation that Python holds; several threads may have it.
 template <class Surface>
 class BoundMesh {

@@ -88,11 +88,12 @@ Signs compare_distances(const PlaneArray& q, const PlaneArray& a, const PlaneArr
     const Stage only = stage_of(stage);
     return over_rows(common_rows(q, a, b), [&](std::size_t k) {
         const double *query = row(q, k), *p = row(a, k), *r = row(b, k);
-        const plane::Estimate e = plane::distance_estimate(query, p, r);
+        const plane::Estimate e = plane::distance_estimate(query, p, query, r);
         return by_stage(
             only, [&] { return Gathered<2>(p, r).view().compare_distances(query, 0, 1); },
-            [&] { return decide(e.value, e.bound); }, [&] { return plane::distances_double_double(query, p, r); },
-            [&] { return plane::distances_exact(query, p, r); });
+            [&] { return decide(e.value, e.bound); },
+            [&] { return plane::distances_double_double(query, p, query, r); },
+            [&] { return plane::distances_exact(query, p, query, r); });
     });
 }
 

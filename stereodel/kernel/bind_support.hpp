@@ -11,6 +11,8 @@
 #include <exception>
 #include <initializer_list>
 #include <mutex>
+#include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -61,6 +63,19 @@ inline RowsOut<Index, 2> to_rows(const Pairs& pairs) {
         buffer[2 * k + 1] = pairs[k].second;
     }
     return to_rows<2>(std::move(buffer));
+}
+
+// Pairs (dropped, kept) of `size` points; none if there are no rows.
+inline Pairs to_pairs(const std::optional<RowsIn<Index, 2>>& rows, std::size_t size) {
+    Pairs pairs;
+    for (std::size_t k = 0; rows && k < rows->shape(0); ++k) {
+        const Index dropped = rows->data()[2 * k], kept = rows->data()[2 * k + 1];
+        if (dropped <= kept || kept < 0 || static_cast<std::size_t>(dropped) >= size) {
+            throw std::invalid_argument("duplicates must be pairs dropped, kept of points");
+        }
+        pairs.emplace_back(dropped, kept);
+    }
+    return pairs;
 }
 
 // Tests left open, by stage; the curvature form is of the sphere alone.

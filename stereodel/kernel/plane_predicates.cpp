@@ -93,19 +93,19 @@ bool PlanePoints::in_circle_open(Index a, Index b, Index c, Index d, const plane
     return (sign != 0 ? sign : incircle_tie(at(a), at(b), at(c), at(d))) > 0;
 }
 
-int PlanePoints::compare_distances(const double* query, Index a, Index b) {
-    const plane::Estimate e = plane::distance_estimate(query, at(a), at(b));
+int PlanePoints::compare_distances(const double* p, const double* a, const double* q, const double* b) {
+    const plane::Estimate e = plane::distance_estimate(p, a, q, b);
     Sign sign = decide(e.value, e.bound);
     if (sign != OPEN) {
         return sign;
     }
     ++tally.filter;
-    sign = plane::distances_double_double(query, at(a), at(b));
+    sign = plane::distances_double_double(p, a, q, b);
     if (sign != OPEN) {
         return sign;
     }
     ++tally.double_double;
-    return counted(plane::distances_exact(query, at(a), at(b)));
+    return counted(plane::distances_exact(p, a, q, b));
 }
 
 // The height of row i of the determinant with rows (x, y, x^2 + y^2, 1) has the cofactor (-1)^i times the orientation

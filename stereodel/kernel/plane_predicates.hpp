@@ -57,7 +57,12 @@ class PlanePoints {
     }
 
     // Sign of |q-a| - |q-b|.
-    int compare_distances(const double* query, Index a, Index b);
+    int compare_distances(const double* query, Index a, Index b) {
+        return compare_distances(query, at(a), query, at(b));
+    }
+
+    // Sign of |p-a| - |q-b|.
+    int compare_distances(const double* p, const double* a, const double* q, const double* b);
 
     Tally tally;
 

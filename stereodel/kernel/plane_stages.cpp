@@ -84,10 +84,10 @@ Sign incircle_last_digits(const double* a, const double* b, const double* c, con
     return incircle_form(edge(a, 0), edge(a, 1), edge(b, 0), edge(b, 1), edge(c, 0), edge(c, 1)).sign();
 }
 
-Sign distances_double_double(const double* q, const double* a, const double* b) {
-    const Edge qa(q, a), qb(q, b);
-    const double permanent = distance_estimate(q, a, b).permanent;
-    return decide_pair(square_form(qa.x, qa.y) - square_form(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
+Sign distances_double_double(const double* p, const double* a, const double* q, const double* b) {
+    const Edge pa(p, a), qb(q, b);
+    const double permanent = distance_estimate(p, a, q, b).permanent;
+    return decide_pair(square_form(pa.x, pa.y) - square_form(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
 }
 
 int orient_exact(const double* a, const double* b, const double* c) {
@@ -103,10 +103,10 @@ int incircle_exact(const double* a, const double* b, const double* c, const doub
     return incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y).sign();
 }
 
-int distances_exact(const double* q, const double* a, const double* b) {
-    const int exponent = common_exponent({q, a, b});
-    const IntegerPoint qa = integer_edge(q, a, exponent), qb = integer_edge(q, b, exponent);
-    return (square_form(qa.x, qa.y) - square_form(qb.x, qb.y)).sign();
+int distances_exact(const double* p, const double* a, const double* q, const double* b) {
+    const int exponent = common_exponent({p, a, q, b});
+    const IntegerPoint pa = integer_edge(p, a, exponent), qb = integer_edge(q, b, exponent);
+    return (square_form(pa.x, pa.y) - square_form(qb.x, qb.y)).sign();
 }
 
 bool is_rectangle(const double* a, const double* b, const double* c, const double* d) {

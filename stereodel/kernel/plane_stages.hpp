@@ -51,9 +51,18 @@ inline Estimate incircle_estimate(const double* a, const double* b, const double
             INCIRCLE_ROUNDING * UNIT_ROUNDOFF * permanent + FLOOR * (aa + (bb + cc) + 1), permanent};
 }
 
-// |qa|^2 - |qb|^2.
-inline Estimate distance_estimate(const double* q, const double* a, const double* b) {
-    const double aa = square_form(a[0] - q[0], a[1] - q[1]), bb = square_form(b[0] - q[0], b[1] - q[1]);
+inline double squared_length(const double* p, const double* q) {
+    return square_form(q[0] - p[0], q[1] - p[1]);
+}
+
+// Which of two squared lengths so computed is smaller.
+inline Sign compare_squares(double aa, double bb) {
+    return decide(aa - bb, DISTANCE_ROUNDING * UNIT_ROUNDOFF * (aa + bb) + FLOOR);
+}
+
+// |pa|^2 - |qb|^2.
+inline Estimate distance_estimate(const double* p, const double* a, const double* q, const double* b) {
+    const double aa = squared_length(p, a), bb = squared_length(q, b);
     return {aa - bb, DISTANCE_ROUNDING * UNIT_ROUNDOFF * (aa + bb) + FLOOR, aa + bb};
 }
 
@@ -63,12 +72,12 @@ Sign incircle_double_double(const double* a, const double* b, const double* c, c
 // For coordinates that are multiples of 1/`per_unit`, a power of two, and signs that the stage before left open: so the
 // value is small, and its last 128 binary digits tell all. Open where they do not.
 Sign incircle_last_digits(const double* a, const double* b, const double* c, const double* d, double per_unit);
-Sign distances_double_double(const double* q, const double* a, const double* b);
+Sign distances_double_double(const double* p, const double* a, const double* q, const double* b);
 
 // Integers: always right, never open.
 int orient_exact(const double* a, const double* b, const double* c);
 int incircle_exact(const double* a, const double* b, const double* c, const double* d);
-int distances_exact(const double* q, const double* a, const double* b);
+int distances_exact(const double* p, const double* a, const double* q, const double* b);
 
 // Whether the four points are the corners of a rectangle with sides along the axes (or fewer than four different ones
 // of them): then incircle is exactly zero. Grids consist of these.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "charts.hpp"
 #include "corners.hpp"
@@ -12,6 +13,11 @@
 #include "threads.hpp"
 
 namespace stereodel {
+
+// A point and a triangle that has it.
+struct Near {
+    Index point, triangle;
+};
 
 // Neighbours opposite each corner, -1 for none. `closing`: triangles that no query lies in; null if there is none.
 class TriangleArrays {
@@ -41,6 +47,18 @@ class TriangleArrays {
                 visit(t);
             }
         }
+    }
+
+    // Calls visit(near) for all points that an edge joins to one.
+    template <class Visit>
+    void neighbors_around(Near here, Visit&& visit) const {
+        around(here.point, here.triangle, [&](Index t) {
+            const std::size_t at = place(t, here.point);
+            visit(Near{corners(t)[(at + 1) % 3], t});
+            if (neighbors(t)[(at + 1) % 3] < 0) {
+                visit(Near{corners(t)[(at + 2) % 3], t});  // the last one of an open fan
+            }
+        });
     }
 
   private:
@@ -75,6 +93,10 @@ class PlaneQuery {
     void take(const double* query) { query_ = query; }
     int side(Index u, Index v) { return points_.orient(u, v, query_); }
     int compare(Index a, Index b) { return points_.compare_distances(query_, a, b); }
+
+    // The squared distance from a point, rounded; which of two is smaller, if that is certain.
+    double square(Index a) const { return PlaneChart::rough_distance(query_, points_.at(a)); }
+    static Sign compare_squares(double to_a, double to_b) { return plane::compare_squares(to_a, to_b); }
 
     // A squared distance is off by 4u of it (each difference counts twice, a square, a sum), so the gain by less than
     // 16u of the sum of the two above, over that below. That sum is at least half of that below, so underflow is
@@ -119,11 +141,25 @@ class SphereQuery {
 
     // Sign of the angle between the query and a less that between the query and b.
     int compare(Index a, Index b) {
-        const Sign sign = rays::is_unit(at(a)) && rays::is_unit(at(b)) ? compare_chords(at(a), at(b)) : OPEN;
+        const Sign sign = compare_squares(square(a), square(b));
         return sign != OPEN ? sign : compare_angles(query_, at(a), at(b), tally_);
     }
 
-    // Squared chords of vectors within 2^-49 of length one, off by 2^-47 of them and 2^-95 (see `compare_chords`, also
+    // The squared chord to a point, rounded; not a number if its vector is not of length one.
+    double square(Index a) const {
+        return rays::is_unit(at(a)) ? Chart::rough_distance(unit_, at(a)) : std::numeric_limits<double>::quiet_NaN();
+    }
+
+    // Which of two squared chords A, B belongs to the smaller angle, if that is certain. For a unit query (lengths
+    // within 2^-49 of 1) the angles compare as A - B does if that exceeds 2^-47 (A + B) + 2^-94, see
+    // `rays::compare_angles_filter`. Otherwise its direction is off by d < 2^-51 (two divisions of each component
+    // round), which moves A - B by at most 2d|a - b| <= 2d sqrt(2(A + B)) < 2^-49 sqrt(A + B).
+    Sign compare_squares(double to_a, double to_b) const {
+        const double sum = to_a + to_b;
+        return decide(to_a - to_b, 0x1p-47 * sum + 0x1p-94 + (is_unit_ ? 0.0 : 0x1p-49 * std::sqrt(sum)));
+    }
+
+    // Squared chords of vectors within 2^-49 of length one, off by 2^-47 of them and 2^-95 (see `compare_squares`, also
     // for what is added if the query is not of length one); the quotient by the errors above over that below, and by
     // that below relatively. Of directions closer than 2^-40 it is not known.
     Gain gain(Index u, Index v) const {
@@ -153,16 +189,6 @@ class SphereQuery {
             same &= std::scalbn(scaled_[k], exponent) == query[k];
         }
         return same;
-    }
-
-    // By the squared chords A, B to the query's unit vector. For a unit query (lengths within 2^-49 of 1) the angles
-    // compare as A - B does if that exceeds 2^-47 (A + B) + 2^-94, see `rays::compare_angles_filter`. Otherwise its
-    // direction is off by d < 2^-51 (two divisions of each component round), which moves A - B by at most 2d|a - b| <=
-    // 2d sqrt(2(A + B)) < 2^-49 sqrt(A + B).
-    Sign compare_chords(const double* a, const double* b) const {
-        const double chords_a = Chart::rough_distance(unit_, a), chords_b = Chart::rough_distance(unit_, b);
-        const double sum = chords_a + chords_b;
-        return decide(chords_a - chords_b, 0x1p-47 * sum + 0x1p-94 + (is_unit_ ? 0.0 : 0x1p-49 * std::sqrt(sum)));
     }
 
     const double* points_;

@@ -11,7 +11,7 @@ from typing import Any, Self
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_indices, as_workers, locked, private
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_count, as_indices, as_workers, locked, private
 from stereodel._kernel import PlaneMesh, SphereMesh
 from stereodel.constants import POINTS_WORTH_THREADS, REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
@@ -224,35 +224,57 @@ class Delaunay(ABC):
         array, flat, threads = self._as_queries(queries, workers)
         return _shaped(self._locate(flat, threads), array)
 
-    def nearest(self, queries: npt.ArrayLike, *, workers: int | None = None) -> IntArray | int:
-        """Nearest point of each query, exactly.
+    def nearest(self, queries: npt.ArrayLike, *, k: int | None = None, workers: int | None = None) -> IntArray | int:
+        """Nearest point of each query, or the k nearest, exactly.
 
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
             Points of the plane, or directions.
+        k : int, optional
+            How many points are wanted, 1 to the number of points; by default the nearest alone, without an axis of its
+            own.
         workers : int, optional
             Threads; -1 for all processors. By default those of the constructor, for many queries.
 
         Returns
         -------
-        int32 array of the leading shape, or int for a single query
-            Index of the nearest point; the lowest one if several are equally near.
+        int32 array of the leading shape, or int for a single query; (..., k) with `k`
+            Index of the nearest point, the lowest one if several are equally near. With `k` the nearest points in the
+            order of their distances (angles on the sphere), equally near ones in the order of their indices; duplicates
+            are points like all others.
 
         Raises
         ------
         ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, another last axis, or a triangulation without
-            points.
+            For values that are not finite real numbers, zero vectors, another last axis, a triangulation without
+            points, or `k` below 1 or above the number of points.
 
         Notes
         -----
-        A walk through the triangulation. Without triangles (`dimension` below 2) all points are compared.
+        A walk through the triangulation, then outward along its edges: after the nearest ones, the next nearest point
+        is always a neighbour of one that was found before. Source: M. Dickerson, R. Drysdale, J.-R. Sack, "Simple
+        algorithms for enumerating interpoint distances and finding k nearest neighbors" (1992). Without triangles
+        (`dimension` below 2) all points are compared. Distances are those of the points of the answer:
+        `np.linalg.norm(points[found] - queries[..., None, :], axis=-1)`, `angular_distance` on the sphere.
+
+        Examples
+        --------
+        >>> from stereodel import PlanarDelaunay
+        >>> square = PlanarDelaunay([[0, 0], [2, 0], [2, 2], [0, 2], [2, 2]])
+        >>> square.nearest([1.5, 1.0])
+        1
+        >>> square.nearest([[1.5, 1.0], [0.1, 1.9]], k=4).tolist()
+        [[1, 2, 4, 0], [3, 0, 2, 4]]
         """
-        if not any(map(len, self._chunks)):
+        size = sum(map(len, self._chunks))
+        if size == 0:
             raise ValueError("nearest needs at least one point; this triangulation has none")
         array, flat, threads = self._as_queries(queries, workers)
-        return _shaped(self._nearest(flat, threads), array)
+        if k is None:
+            return _shaped(self._nearest(flat, threads), array)
+        found = self._k_nearest(flat, as_count(k, "k", high=size), threads)
+        return found.reshape(*array.shape[:-1], found.shape[1])
 
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self._check_queries(queries)
@@ -324,6 +346,9 @@ class Delaunay(ABC):
 
     @abstractmethod
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray: ...
+
+    @abstractmethod
+    def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray: ...
 
 
 def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:

@@ -99,3 +99,7 @@ class PlanarDelaunay(Delaunay):
 
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
         return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers)
+
+    def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
+        arrays = self.points, self.simplices, self.neighbors, self.duplicates
+        return _kernel.k_nearest_plane(*arrays, queries, k, workers)

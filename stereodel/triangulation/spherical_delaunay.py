@@ -162,3 +162,7 @@ class SphericalDelaunay(Delaunay):
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors
         return _kernel.nearest_sphere(*arrays, queries, self.closing, workers)
+
+    def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
+        arrays = self.points, self.simplices, self.neighbors, self.duplicates
+        return _kernel.k_nearest_sphere(*arrays, queries, k, self.closing, workers)

@@ -1,0 +1,141 @@
+"""The k nearest points against sorting all of them by exact distance."""
+
+from fractions import Fraction
+from functools import cmp_to_key
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
+from stereodel.predicates.integers import sign_of_roots
+from stereodel.predicates.rays import ray
+
+GRID_POINT = st.tuples(st.integers(-3, 3), st.integers(-3, 3))
+HALF_POINT = st.tuples(st.integers(-8, 8), st.integers(-8, 8)).map(lambda p: (p[0] / 2, p[1] / 2))
+DIRECTION = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
+PLANE_SETS = {
+    "one": [[1, 2]],
+    "all the same": [[1, 2]] * 4,
+    "line": [[k * k, 2 * k * k] for k in range(7)],
+    "grid": [[i, j] for i in range(4) for j in range(4)],
+    "circle": [[3, 4], [4, 3], [5, 0], [-3, 4], [0, -5], [-4, -3], [0, 0]],
+    "cluster": [[1 + i * 1e-12, j * 1e-12] for i in range(3) for j in range(3)] + [[0, 0], [9, 9]],
+    "large and small": [[1e150, 0], [0, 1e150], [1e-150, 0], [0, 0], [5e-324, 0], [-1, -1]],
+}
+SPHERE_SETS = {
+    "one": [[0, 0, 2]],
+    "opposite": [[0, 0, 1], [0, 0, -3]],
+    "great circle": [[1, 0, 0], [0, 2, 0], [-1, 0, 0], [1, 1, 0], [2, 2, 0]],
+    "small circle": [[3, 4, 1], [4, 3, 1], [5, 0, 1], [-3, 4, 1], [0, -5, 1]],
+    "octahedron": [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1], [0, 0, 7]],
+    "hemisphere": [[i, j, 4] for i in range(-2, 3) for j in range(-2, 3)],
+    "cluster": [[i * 1e-12, j * 1e-12, 1] for i in range(3) for j in range(3)] + [[1, 0, 0], [0, 0, -1]],
+}
+
+
+def plane_order(points, query):
+    """All points by exact distance, then index."""
+    exact = [Fraction(x) for x in query]
+
+    def square(k):
+        return sum((Fraction(x) - y) ** 2 for x, y in zip(points[k], exact, strict=True))
+
+    return sorted(range(len(points)), key=lambda k: (square(k), k))
+
+
+def sphere_order(points, query):
+    """All directions by exact angle, then index."""
+    q, rays = ray(query), [ray(p) for p in points]
+    dots = [sum(x * y for x, y in zip(q[:3], r[:3], strict=True)) for r in rays]
+
+    def compare(a, b):
+        return sign_of_roots(((dots[b], rays[a][3]), (-dots[a], rays[b][3]))) or a - b
+
+    return sorted(range(len(points)), key=cmp_to_key(compare))
+
+
+def prove(triangulation, queries):
+    """For all k: the first k of all points in order, whatever the number of threads."""
+    check_delaunay(triangulation)
+    order = plane_order if triangulation.points.shape[1] == 2 else sphere_order
+    points, size = triangulation.points.tolist(), len(triangulation.points)
+    wanted = [order(points, query) for query in np.array(queries, dtype=float).tolist()]
+    assert triangulation.nearest(queries, k=size, workers=2).tolist() == wanted
+    for k in {1, 2, size // 2} & set(range(1, size)):
+        assert triangulation.nearest(queries, k=k).tolist() == [row[:k] for row in wanted]
+    assert triangulation.nearest(queries).tolist() == [row[0] for row in wanted]
+
+
+@given(st.lists(GRID_POINT, min_size=1, max_size=20), st.lists(HALF_POINT, min_size=1, max_size=8))
+def test_plane_with_ties_and_duplicates(points, queries):
+    prove(PlanarDelaunay(points), queries)
+
+
+@given(st.lists(DIRECTION, min_size=1, max_size=20), st.lists(DIRECTION, min_size=1, max_size=8))
+def test_sphere_with_ties_and_duplicates(points, queries):
+    prove(SphericalDelaunay(points), queries)
+
+
+@pytest.mark.parametrize("name", PLANE_SETS)
+def test_awkward_sets_of_the_plane(name):
+    prove(PlanarDelaunay(PLANE_SETS[name]), [*PLANE_SETS[name], [0.5, 0.5], [1e-3, -1e5], [1.5, 1.5]])
+
+
+@pytest.mark.parametrize("name", SPHERE_SETS)
+def test_awkward_sets_of_the_sphere(name):
+    queries = [[0, 0, 1], [0, 0, -1], [1, 2, 3], [1e-12, 0, 1], [-1, 1e-3, 0], [1e200, 1e200, 0]]
+    prove(SphericalDelaunay(SPHERE_SETS[name]), [*SPHERE_SETS[name], *queries])
+
+
+def test_in_a_cluster_far_from_everything():
+    """Points 1e-13 rad apart, of any length: squared chords in doubles tell nothing."""
+    rng = np.random.default_rng(1)
+    points = np.array([0.3, -0.5, 0.8]) + 1e-13 * rng.normal(size=(25, 3))
+    prove(SphericalDelaunay(points * rng.uniform(0.5, 9, size=(25, 1))), points[:6] * 3)
+
+
+@pytest.mark.parametrize("width", [2, 3])
+def test_many_against_a_tree(width):
+    rng = np.random.default_rng(2)
+    points, queries = rng.normal(size=(2, 5000, width))
+    if width == 3:
+        points /= np.linalg.norm(points, axis=1)[:, None]
+        queries /= np.linalg.norm(queries, axis=1)[:, None]
+    triangulation = (PlanarDelaunay if width == 2 else SphericalDelaunay)(points)
+    check_delaunay(triangulation)
+    found = triangulation.nearest(queries, k=40)
+    assert np.array_equal(found, cKDTree(points).query(queries, k=40)[1])
+    assert np.array_equal(triangulation.nearest(queries.reshape(50, 2, 50, width), k=7).reshape(-1, 7), found[:, :7])
+
+
+def test_after_changes():
+    rng = np.random.default_rng(3)
+    triangulation = PlanarDelaunay(rng.integers(0, 12, size=(60, 2)))
+    triangulation.insert(rng.integers(0, 12, size=(3, 2)))
+    triangulation.remove([5, 17, 30])
+    prove(triangulation, rng.integers(0, 24, size=(10, 2)) / 2)
+
+
+def test_shapes():
+    triangulation = PlanarDelaunay([[0, 0], [1, 0], [0, 1]])
+    assert triangulation.nearest([0.1, 0.2], k=2).shape == (2,)
+    assert triangulation.nearest(np.zeros((0, 2)), k=2).shape == (0, 2)
+    assert triangulation.nearest(np.zeros((4, 5, 2)), k=1).shape == (4, 5, 1)
+    assert triangulation.nearest([0.1, 0.2], k=np.int64(3)).dtype == np.int32
+
+
+@pytest.mark.parametrize(
+    ("k", "error", "message"),
+    [
+        (0, ValueError, "k is 0, but must be at least 1"),
+        (4, ValueError, "k is 4, but must be at most 3"),
+        (1.5, TypeError, "k must be one integer"),
+        (True, TypeError, "k must be one integer"),
+    ],
+)
+def test_wrong_k(k, error, message):
+    with pytest.raises(error, match=message):
+        PlanarDelaunay([[0, 0], [1, 0], [0, 1]]).nearest([0, 0], k=k)
