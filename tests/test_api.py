@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import stereodel
+import stereodel.data
 import stereodel.earth
 import stereodel.render
 import stereodel.sphere
@@ -69,6 +70,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel") == set(PUBLIC)
     assert reference("stereodel.triangulation") | set(PUBLIC) >= set(stereodel.triangulation.__all__)
     assert reference("stereodel.earth") == {name for name in vars(stereodel.earth) if name.isupper() and name[0] != "_"}
+    assert reference("stereodel.data") == set(stereodel.data.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}
 

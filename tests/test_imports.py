@@ -21,6 +21,7 @@ MAY_IMPORT = {
     "_kernel": set(),
     "_arrays": BASE,
     "_double_double": BASE,
+    "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
     "conformal": BASE | {"sphere", "projections"},

@@ -154,7 +154,7 @@ def _shared_digest(scripts: Path) -> str:
     skipped = {library / name for name in NOT_DRAWN_WITH}
     modules = (path for path in sorted(library.rglob("*.py")) if skipped.isdisjoint((path, *path.parents)))
     files = [*sorted(scripts.glob("_*.py")), *modules]
-    files.append(Path(_kernel.__file__))
+    files += [Path(_kernel.__file__), library / "data" / "sources.json"]  # with the checksums of the real data
     digest = hashlib.sha256(json.dumps(library_versions()).encode())
     digest.update(f"{os.environ.get('STEREODEL_GL', '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())
     for path in files:

@@ -1,0 +1,163 @@
+"""The sets and what their columns mean."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, IntArray, as_choice, locked
+from stereodel.data import stored
+from stereodel.data.stored import Texts
+
+DEGREE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5, "coastlines": 4}
+"""Digits behind the point of the stored degrees: for airports and cities all that the sources have."""
+
+MAGNITUDE_DIGITS: Final = 2
+"""Of magnitudes and colour indices of stars."""
+
+
+@dataclass(frozen=True, eq=False)
+class Airports:
+    """Airports, landing strips and some seaplane bases of the world, in the order of their codes."""
+
+    lonlat: FloatArray
+    """(n, 2): longitude and geodetic latitude in degrees. Five places are held by two airports each."""
+    icao: Texts
+    """(n,): location indicators of four letters, or identifiers made up by the source where there is none."""
+    iata: Texts
+    """(n,): codes of three letters, empty for most."""
+    name: Texts
+    """(n,)."""
+    country: Texts
+    """(n,): ISO 3166-1 codes of two letters."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cities:
+    """Places of more than 500 people, and seats of administrations, in the order of their GeoNames numbers."""
+
+    lonlat: FloatArray
+    """(n, 2): longitude and geodetic latitude in degrees, duplicates included."""
+    population: IntArray
+    """(n,): people; 0 where unknown."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stars:
+    """The stars of the Hipparcos catalogue, new reduction, in the order of their numbers."""
+
+    lonlat: FloatArray
+    """(n, 2): right ascension in [0, 360) and declination in degrees, ICRS, epoch J1991.25."""
+    hip: IntArray
+    """(n,): number in the catalogue."""
+    magnitude: FloatArray
+    """(n,): magnitude Hp, smaller is brighter."""
+    color_index: FloatArray
+    """(n,): B − V, magnitudes; blue stars are below 0, red ones above 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class Coastlines:
+    """Coastlines as polylines: line i is ``lonlat[offsets[i]:offsets[i + 1]]``, closed where its ends are equal."""
+
+    lonlat: FloatArray
+    """(n, 2): longitude and geodetic latitude in degrees."""
+    offsets: IntArray
+    """(m + 1,)."""
+
+    def lines(self) -> list[FloatArray]:
+        """The polylines, each (k, 2)."""
+        return np.split(self.lonlat, self.offsets[1:-1])
+
+
+def sources() -> dict[str, MappingProxyType[str, Any]]:
+    """Where each set is from: name → source, licence, package and version, number of rows, file and its SHA-256.
+
+    Examples
+    --------
+    >>> sources()["stars"]["rows"], sources()["cities"]["licence"]
+    (117955, 'CC BY 4.0')
+    """
+    return {name: MappingProxyType(entry) for name, entry in stored.table().items()}
+
+
+@cache
+def airports() -> Airports:
+    """28 298 airports, after `airportsdata` (MIT licence).
+
+    Examples
+    --------
+    >>> from stereodel import SphericalDelaunay, lonlat_to_xyz
+    >>> table = airports()
+    >>> cells = SphericalDelaunay.from_lonlat(table.lonlat, latitude="geodetic")
+    >>> nearest = cells.nearest(lonlat_to_xyz((10.0, 48.4), latitude="geodetic"))
+    >>> print(table.name[nearest], table.country[nearest], len(cells.duplicates))
+    Erbach Airport DE 5
+    """
+    columns = stored.load("airports")
+    words = (locked(stored.texts(columns[key])) for key in ("icao", "iata", "name", "country"))
+    return Airports(_lonlat(columns, "airports"), *words)
+
+
+@cache
+def cities() -> Cities:
+    """234 908 populated places with the number of their people (GeoNames, CC BY 4.0).
+
+    Examples
+    --------
+    >>> table = cities()
+    >>> len(table.lonlat), len(np.unique(table.lonlat, axis=0))
+    (234908, 234799)
+    """
+    columns = stored.load("cities")
+    return Cities(_lonlat(columns, "cities"), locked(stored.integers(columns["population"])))
+
+
+@cache
+def stars() -> Stars:
+    """117 955 stars of the Hipparcos catalogue (ESA; F. van Leeuwen, 2007).
+
+    Examples
+    --------
+    >>> table = stars()
+    >>> brightest = table.magnitude.argmin()
+    >>> print(table.hip[brightest], table.magnitude[brightest], table.lonlat[brightest])  # Sirius
+    32349 -1.09 [101.28854 -16.71314]
+    """
+    columns = stored.load("stars")
+    fractions = (locked(stored.decimals(columns[key], MAGNITUDE_DIGITS)) for key in ("magnitude", "color_index"))
+    return Stars(_lonlat(columns, "stars"), locked(stored.integers(columns["hip"])), *fractions)
+
+
+@cache
+def coastlines(resolution: str = "50m") -> Coastlines:
+    """Coastlines of Natural Earth (public domain).
+
+    Parameters
+    ----------
+    resolution : {"50m", "110m"}, optional
+        Made for maps of 1 : 50 or 1 : 110 million.
+
+    Raises
+    ------
+    ValueError
+        For another resolution.
+
+    Examples
+    --------
+    >>> [len(coastlines(resolution).lines()) for resolution in ("50m", "110m")]
+    [1422, 128]
+    """
+    name = f"coastlines_{as_choice(resolution, ('50m', '110m'), 'resolution')}"
+    columns = stored.load(name)
+    offsets = np.concatenate([[0], np.cumsum(stored.integers(columns["sizes"]))]).astype(np.int32)
+    return Coastlines(_lonlat(columns, "coastlines"), locked(offsets))
+
+
+def _lonlat(columns: dict[str, stored.Bytes], kind: str) -> FloatArray:
+    degrees = (stored.decimals(columns[key], DEGREE_DIGITS[kind]) for key in ("lon", "lat"))
+    return locked(np.stack(list(degrees), axis=-1))

