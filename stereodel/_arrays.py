@@ -31,6 +31,13 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     ValueError
         For NaN, infinities, masked values and ragged nesting.
     """
+    result = _as_doubles(values, name)
+    _refuse(~np.isfinite(result), result, name, "every value must be a finite number")
+    return result
+
+
+def _as_doubles(values: npt.ArrayLike, name: str) -> FloatArray:
+    """Real numbers of any shape, NaN and infinities among them."""
     _refuse_masked(values, name)
     try:
         array = np.asarray(values)
@@ -38,12 +45,30 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
         raise ValueError(f"{name} is ragged: its rows must all have the same length") from error
     if array.dtype == object or array.dtype.kind not in "iuf":
         array = _from_objects(array, name)
-    result = np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
-    finite = np.isfinite(result)
-    if not finite.all():
-        index = tuple(int(i) for i in np.argwhere(~finite)[0])
-        raise ValueError(f"{_entry(name, index)} is {result[index]}; every value must be a finite number")
-    return result
+    return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+
+
+def _refuse(wrong: BoolArray, array: FloatArray, name: str, expected: str) -> None:
+    if wrong.any():
+        index = tuple(int(i) for i in np.argwhere(wrong)[0])
+        raise ValueError(f"{_entry(name, index)} is {array[index]}; {expected}")
+
+
+def as_values(values: npt.ArrayLike, size: int, name: str = "values") -> FloatArray:
+    """One value for each of `size` points, (size, ...): finite numbers, or NaN where the value is not known."""
+    array = _as_doubles(values, name)
+    if array.ndim == 0 or len(array) != size:
+        raise ValueError(f"{name} must have shape ({size}, ...), one entry for each point, got {array.shape}")
+    _refuse(np.isinf(array), array, name, "every value must be finite, or NaN where it is not known")
+    return array
+
+
+def as_levels(values: npt.ArrayLike) -> FloatArray:
+    """One or more finite numbers, (l,); a single number stands for a list of one."""
+    array = np.atleast_1d(as_floats(values, "levels"))
+    if array.ndim != 1:
+        raise ValueError(f"levels must be a number or a list of numbers, got shape {array.shape}")
+    return array
 
 
 def _refuse_masked(values: npt.ArrayLike, name: str) -> None:

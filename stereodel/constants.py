@@ -76,3 +76,15 @@ PIXEL_SHARE_VISIBLE: Final = 1e-4
 
 PIXEL_SHARE_ANY: Final = 1e-2
 """Share of the pixels of a picture that may differ at all; a processor without AVX moves 5e-5 of them, by one level."""
+
+THIN_TRIANGLE: Final = 2.0**-12
+"""Twice the area of a triangle, relative to the square of its size, below which weights are computed in double-double.
+
+A doubled area is off by about 2⁻⁵¹ in these units, so that weights keep 39 bits above it.
+"""
+
+UNDETERMINED: Final = 1e-12
+"""Part of a column's square that must be left after the columns before it, for neighbours to determine its unknown.
+
+In fits of gradients: neighbours within 1e-6 rad of a line tell nothing of the slope across it. Rounding leaves 1e-15.
+"""

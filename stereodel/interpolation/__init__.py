@@ -1,0 +1,16 @@
+"""Values between scattered points of the plane and the sphere: interpolation, gradients, contours."""
+
+from stereodel.interpolation.contours import Contour, contours
+from stereodel.interpolation.gradients import estimate_gradients
+from stereodel.interpolation.linear import LinearInterpolator
+from stereodel.interpolation.nearest import NearestInterpolator
+from stereodel.interpolation.smooth import SmoothInterpolator
+
+__all__ = [
+    "Contour",
+    "LinearInterpolator",
+    "NearestInterpolator",
+    "SmoothInterpolator",
+    "contours",
+    "estimate_gradients",
+]

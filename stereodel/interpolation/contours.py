@@ -1,0 +1,165 @@
+"""Contours of values in triangles, as oriented polylines (row P22 of the ledger: triangulated networks)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, as_levels, as_values, read_only
+from stereodel.interpolation.sites import Indices, Places, Triangulation, as_triangulation, one_value_a_place
+
+
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A connected piece of a contour.
+
+    Parameters
+    ----------
+    level : float
+        The value along it.
+    points : (k, 2) or (k, 3) array
+        Corners of the polyline, at least two: points of the plane, to be joined by segments, or unit vectors, to be
+        joined by great circles. Higher values lie on the left, on the sphere as seen from outside. Read-only.
+    closed : bool
+        Whether it is a ring; then the last of the points is the first again. Otherwise it ends at the hull, or beside a
+        value that is NaN.
+
+    Examples
+    --------
+    >>> Contour(0.5, np.array([[0.0, 1.0], [1.0, 1.0]]), False).closed
+    False
+    """
+
+    level: float
+    points: FloatArray
+    closed: bool
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "points", read_only(self.points))
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Contour):
+            return NotImplemented
+        same = self.level == other.level and self.closed == other.closed
+        return same and np.array_equal(self.points, other.points)
+
+    def __hash__(self) -> int:
+        return hash((self.level, self.closed, self.points.tobytes()))
+
+
+def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, levels: npt.ArrayLike) -> list[Contour]:
+    """Contours of the function that is linear in each triangle, `LinearInterpolator`.
+
+    Parameters
+    ----------
+    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
+        Points of the plane, directions, or a triangulation of them.
+    values : (n,) array_like
+        A number for each point; triangles with a NaN are left out.
+    levels : float or (l,) array_like
+        Values along the contours.
+
+    Returns
+    -------
+    list of Contour
+        Level after level in the order given.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points as the triangulation does; for values that are infinite, no real numbers, or not one number for each
+        point; for levels that are not finite numbers.
+
+    Notes
+    -----
+    A value equal to the level counts as above it. So a triangle has one piece of a contour or none, and each piece
+    joins the next across an edge: contours neither break nor branch, and meet at most in points that have the level's
+    value. What shrinks to such a point is left out. The topology follows from comparisons alone; only the places where
+    contours cross edges are rounded.
+
+    Contours of smooth functions: take the values of a `SmoothInterpolator` at more points.
+
+    Examples
+    --------
+    >>> (ridge,) = contours([[0, 0], [2, 0], [2, 2], [0, 2]], [0, 4, 4, 0], 1)
+    >>> ridge.closed, ridge.points.tolist()
+    (False, [[0.5, 2.0], [0.5, 1.5], [0.5, 0.0]])
+    """
+    triangulation = as_triangulation(points)
+    array = as_values(values, len(triangulation.points))
+    if array.ndim != 1:
+        raise ValueError(f"values must be one number for each point, got shape {array.shape}")
+    merged = one_value_a_place(triangulation, array[:, None])[:, 0]
+    network = _Network(triangulation, merged)
+    return [contour for level in as_levels(levels).tolist() for contour in network.contours(level)]
+
+
+class _Network:
+    """Triangles whose corners have values, joined across their edges."""
+
+    def __init__(self, triangulation: Triangulation, values: FloatArray) -> None:
+        self._places = Places(triangulation.points)
+        self._values = values
+        self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors
+        self._inside: BoolArray = triangulation._open & ~np.isnan(values[self._simplices]).any(axis=1)
+
+    def contours(self, level: float) -> list[Contour]:
+        """All pieces of one level."""
+        above = self._values >= level
+        corners_above = above[self._simplices]
+        count = corners_above.sum(axis=1)
+        crossed = np.flatnonzero(self._inside & (count > 0) & (count < 3))
+        # The corner that differs from the two others; the contour keeps it on the left if it is above.
+        lone_above = count[crossed] == 1
+        lone = (corners_above[crossed] == lone_above[:, None]).argmax(axis=1)
+        entry, exit_ = (lone + np.where(lone_above, 2, 1)) % 3, (lone + np.where(lone_above, 1, 2)) % 3
+        number = np.full(len(self._simplices) + 1, -1)
+        number[crossed] = np.arange(len(crossed))
+        following = number[self._neighbors[crossed, exit_]]
+        ins, outs = self._crossings(level, crossed, entry), self._crossings(level, crossed, exit_)
+        pieces = (self._piece(level, chain, closed, ins, outs) for chain, closed in chains(following))
+        return [piece for piece in pieces if piece is not None]
+
+    def _crossings(self, level: float, triangles: Indices, opposite: Indices) -> FloatArray:
+        """Where the contour crosses the edges opposite these corners, alike from both sides."""
+        ends = [self._simplices[triangles, (opposite + k) % 3] for k in (1, 2)]
+        swap = self._values[ends[0]] < level
+        high, low = np.where(swap, ends[1], ends[0]), np.where(swap, ends[0], ends[1])
+        # Halves: the difference of two large values of opposite sign is no double.
+        drop = self._values[high] / 2 - level / 2
+        fraction = drop / (self._values[high] / 2 - self._values[low] / 2)
+        start = self._places.rounded[high]
+        points = start + fraction[:, None] * self._places.minus(low, self._places, high)
+        if self._places.curved:
+            points = np.where(fraction[:, None] > 0, points / np.sqrt((points**2).sum(axis=1, keepdims=True)), start)
+        return np.asarray(points)
+
+    @staticmethod
+    def _piece(level: float, chain: list[int], closed: bool, ins: FloatArray, outs: FloatArray) -> Contour | None:
+        points = np.concatenate([ins[chain], outs[chain[-1:]]])
+        points = points[np.concatenate([[True], (points[1:] != points[:-1]).any(axis=1)])]
+        return Contour(level, points, closed) if len(points) > 1 else None
+
+
+def chains(following: Indices) -> list[tuple[list[int], bool]]:
+    """Cut a one-to-one map, -1 where it ends, into chains of numbers, and tell which are rings.
+
+    Open chains come first, each kind in the order of its lowest number.
+    """
+    after = following.tolist()
+    begins = np.ones(len(after), dtype=np.bool_)
+    begins[following[following >= 0]] = False
+    seen = [False] * len(after)
+    found = []
+    for start in [*np.flatnonzero(begins).tolist(), *range(len(after))]:
+        if seen[start]:
+            continue
+        chain, at = [], start
+        while at >= 0 and not seen[at]:
+            seen[at] = True
+            chain.append(at)
+            at = after[at]
+        found.append((chain, at >= 0))
+    return found

@@ -1,0 +1,140 @@
+"""Gradients at the points, estimated from the values around them."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray
+from stereodel.constants import UNDETERMINED
+from stereodel.interpolation.rings import rings_in_blocks
+from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values, as_triangulation
+from stereodel.interpolation.triangles import cross3, dot
+
+_UNKNOWNS = 5
+
+
+def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> FloatArray:
+    """Gradients at the points of a function known at these points alone.
+
+    Parameters
+    ----------
+    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
+        Points of the plane, directions, or a triangulation of them.
+    values : (n, ...) array_like
+        A number or an array of numbers for each point; NaN where it is not known.
+
+    Returns
+    -------
+    (n, ..., 2) or (n, ..., 3) array
+        Per unit of length, or tangent vectors per radian. NaN where the value is NaN and where there is no triangle.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points as the triangulation does; for values that are infinite, no real numbers, or not one for each point.
+
+    Notes
+    -----
+    At each point the quadratic polynomial of the tangent plane that has the point's value and comes nearest to those of
+    its neighbours and their neighbours, in the sense of least squares with the weights (R − r)/(R r); r is the
+    distance, R a little more than the largest. On the sphere the polynomial is in the tangential components ξ, η of
+    the difference d of the unit vectors, with |d|² in place of ξ² + η². So quadratic polynomials of the plane and
+    linear functions of (x, y, z) have their exact gradients; for smooth functions the error is of order h². What the
+    neighbours do not determine is left out, second derivatives first. Neighbours without a value are passed over;
+    equal points take the mean of their values and have the same gradient.
+
+    References
+    ----------
+    R. J. Renka, "Interpolation of data on the surface of a sphere", ACM TOMS 10 (1984): local quadratic fits.
+
+    Examples
+    --------
+    >>> x, y = np.mgrid[:3, :3].reshape(2, -1).astype(float)
+    >>> estimate_gradients(np.column_stack([x, y]), x * x + 3 * y)[4].round(9).tolist()
+    [2.0, 3.0]
+    """
+    triangulation = as_triangulation(points)
+    flat, shape = as_site_values(triangulation, values)
+    gradients = np.moveaxis(fit_gradients(triangulation, flat), 1, 2)
+    return gradients.reshape(len(flat), *shape, triangulation.points.shape[1])
+
+
+def fit_gradients(triangulation: Triangulation, values: FloatArray) -> FloatArray:
+    """The same (n, d, k) for values (n, k), one a place."""
+    gradients = np.full((*triangulation.points.shape, values.shape[1]), np.nan)
+    sites = Places(triangulation.points)
+    known = ~np.isnan(values)
+    # Columns with the same points share the work of the fit.
+    groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(values.shape[1])]
+    for block, owners, others in rings_in_blocks(triangulation):
+        for columns in groups:
+            usable = known[others, columns].all(axis=1)
+            fitted = _fit(sites, values[:, columns], block, owners[usable], others[usable])
+            gradients[block, :, columns] = fitted
+    dropped, kept = triangulation.duplicates.T
+    gradients[dropped] = gradients[kept]
+    return gradients
+
+
+def _fit(sites: Places, values: FloatArray, block: Indices, owners: Indices, others: Indices) -> FloatArray:
+    """Gradients (b, d, k) at the points `block`; pairs of a place in it, sorted, and one of its neighbours."""
+    axes = _axes(sites, block)
+    gradients = np.full((len(block), axes.shape[2], values.shape[1]), np.nan)
+    if len(owners) == 0:
+        return gradients
+    starts = np.flatnonzero(np.diff(owners, prepend=-1))
+    fitted = owners[starts]
+    columns, weights, scale = _columns(sites, block, owners, others, axes, starts)
+    rises = (values[others] - values[block[owners]]) * weights[:, None]
+    normal = np.add.reduceat(columns[:, :, None] * columns[:, None, :], starts, axis=0)
+    right = np.add.reduceat(columns[:, :, None] * rises[:, None, :], starts, axis=0)
+    slopes = _solve(normal, right)[:, :2] / scale[:, None, None]
+    gradients[fitted] = np.einsum("bij,bik->bjk", axes[fitted], slopes)
+    return gradients
+
+
+def _columns(
+    sites: Places, block: Indices, owners: Indices, others: Indices, axes: FloatArray, starts: Indices
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (p, 5), its weight, and the scale of each point in units."""
+    differences = sites.minus(others, sites, block[owners])
+    size = np.sqrt(dot(differences, differences))[:, 0]
+    scale = 1.1 * np.maximum.reduceat(size, starts)
+    of_pair = np.repeat(scale, np.diff(starts, append=len(owners)))
+    d = differences / of_pair[:, None]
+    r = size / of_pair
+    xi, eta = np.einsum("pij,pj->ip", axes[owners], d)
+    weights = (1.0 - r) / r
+    columns = np.stack([xi, eta, r * r, xi * xi - eta * eta, 2.0 * xi * eta], axis=1)
+    return columns * weights[:, None], weights, scale
+
+
+def _axes(sites: Places, block: Indices) -> FloatArray:
+    """Two unit vectors of the tangent plane at each point, (b, 2, d)."""
+    if not sites.curved:
+        return np.broadcast_to(np.eye(2), (len(block), 2, 2))
+    up = sites.rounded[block]
+    first = cross3(np.eye(3)[np.abs(up).argmin(axis=1)], up)
+    first /= np.sqrt(dot(first, first))
+    return np.stack([first, cross3(up, first)], axis=1)
+
+
+def _solve(normal: FloatArray, right: FloatArray) -> FloatArray:
+    """Solve symmetric systems (b, 5, 5) by elimination in order; unknowns that are not determined are zero.
+
+    A pivot is the part of a column's square that the columns before it do not explain.
+    """
+    squares = np.einsum("bii->bi", normal).copy()
+    matrix = np.concatenate([normal, right], axis=2)
+    inverse = np.zeros((len(normal), _UNKNOWNS))
+    for i in range(_UNKNOWNS):
+        determined = matrix[:, i, i] > UNDETERMINED * squares[:, i]
+        np.divide(1.0, matrix[:, i, i], out=inverse[:, i], where=determined)
+        factors = matrix[:, i + 1 :, i] * inverse[:, i, None]
+        matrix[:, i + 1 :] -= factors[:, :, None] * matrix[:, None, i]
+    solution = matrix[:, :, _UNKNOWNS:]
+    for i in reversed(range(_UNKNOWNS)):
+        known = np.einsum("bj,bjk->bk", matrix[:, i, i + 1 : _UNKNOWNS], solution[:, i + 1 :])
+        solution[:, i] = (solution[:, i] - known) * inverse[:, i, None]
+    return solution

@@ -1,0 +1,150 @@
+"""What all interpolators have in common: the triangulation, the values, and what happens outside."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_choice, as_directions, as_vectors, locked
+from stereodel.interpolation.sites import Indices, Triangulation, as_site_values, as_triangulation
+
+BLOCK = 4096
+"""Queries at a time: a temporary of three vectors is 300 KB and stays in the second-level cache."""
+
+
+class Interpolator(ABC):
+    """A function on the plane or the sphere that takes given values at given points.
+
+    Attributes
+    ----------
+    triangulation : PlanarDelaunay or SphericalDelaunay
+        Of the points; a copy, which later changes of the given one do not reach.
+    values : (n, ...) array
+        As used, read-only: equal points have the mean of their values.
+    """
+
+    triangulation: Triangulation
+    values: FloatArray
+
+    def __init__(
+        self, points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, *, extrapolate: str | None = None
+    ) -> None:
+        self.triangulation = as_triangulation(points)
+        flat, shape = as_site_values(self.triangulation, values)
+        self._values = locked(flat.copy())
+        self.values = self._values.reshape(len(flat), *shape)
+        self._value_shape = shape
+        self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
+
+    def __call__(self, queries: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
+        """Interpolated values.
+
+        Parameters
+        ----------
+        queries : array_like of shape (..., 2) or (..., 3)
+            Points of the plane, or directions.
+        workers : int, optional
+            Threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
+
+        Returns
+        -------
+        array of the leading shape, then the shape of one value
+            NaN outside, unless `extrapolate` says otherwise, and where a NaN of `values` takes part.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, zero vectors, or another last axis.
+        """
+        array, flat = self._as_queries(queries)
+        with np.errstate(all="ignore"):
+            result = self._evaluate(flat, workers)
+        return result.reshape(array.shape[:-1] + self._value_shape)
+
+    def gradient(self, queries: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
+        """Gradients of the interpolated function, per unit of length of the plane or per radian.
+
+        Parameters
+        ----------
+        queries, workers
+            As for a call.
+
+        Returns
+        -------
+        array of the leading shape, then the shape of one value, then 2 or 3
+            Last axis: a vector of the plane, or a tangent vector of the unit sphere at the query. NaN as for a call.
+
+        Raises
+        ------
+        ValueError, TypeError
+            As a call does.
+        """
+        array, flat = self._as_queries(queries)
+        with np.errstate(all="ignore"):
+            result = np.moveaxis(self._evaluate_gradient(flat, workers), 1, 2)
+        return result.reshape(array.shape[:-1] + self._value_shape + array.shape[-1:])
+
+    def _as_queries(self, queries: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+        dimension = self.triangulation.points.shape[1]
+        array = as_directions(queries, "queries") if dimension == 3 else as_vectors(queries, 2, "queries")
+        return array, array.reshape(-1, dimension)
+
+    @abstractmethod
+    def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        """Values (m, k) at queries (m, d)."""
+
+    @abstractmethod
+    def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        """Gradients (m, d, k) at queries (m, d)."""
+
+    def _of_nearest(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        if len(self._values) == 0:
+            return np.full((len(queries), self._values.shape[1]), np.nan)
+        return np.asarray(self._values[self.triangulation.nearest(queries, workers=workers)])
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}({self.triangulation!r}, values {self.values.shape})"
+
+
+class TriangleInterpolator(Interpolator):
+    """An interpolator that asks the triangle of each query; outside of all, NaN or the nearest point's value."""
+
+    def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        result = np.full((len(queries), self._values.shape[1]), np.nan)
+        outside = self._in_blocks(result, queries, workers, self._within)
+        if self._nearest_outside and len(outside):
+            result[outside] = self._of_nearest(queries[outside], workers)
+        return result
+
+    def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        result = np.full((*queries.shape, self._values.shape[1]), np.nan)
+        outside = self._in_blocks(result, queries, workers, self._slope_within)
+        if self._nearest_outside:
+            result[outside] = 0.0
+        return result
+
+    def _in_blocks(
+        self,
+        result: FloatArray,
+        queries: FloatArray,
+        workers: int | None,
+        function: Callable[[Indices, FloatArray], FloatArray],
+    ) -> Indices:
+        """Fill the rows of `result` for queries inside triangles; returns the other rows."""
+        found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
+        inside = np.flatnonzero(found >= 0)
+        for first in range(0, len(inside), BLOCK):
+            rows = inside[first : first + BLOCK]
+            result[rows] = function(self.triangulation.simplices[found[rows]], queries[rows])
+        return np.flatnonzero(found < 0)
+
+    @abstractmethod
+    def _within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+        """Values (m, k) at queries (m, d) in the triangles of these corners (m, 3)."""
+
+    @abstractmethod
+    def _slope_within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+        """Gradients (m, d, k)."""

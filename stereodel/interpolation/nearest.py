@@ -1,0 +1,54 @@
+"""The value of the nearest point."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray
+from stereodel.interpolation.interpolator import Interpolator
+from stereodel.interpolation.sites import Triangulation
+
+
+class NearestInterpolator(Interpolator):
+    """The value of the nearest point, exactly the nearest: constant on Voronoi cells.
+
+    Parameters
+    ----------
+    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
+        Points of the plane, directions, or a triangulation of them.
+    values : (n, ...) array_like
+        A number or an array of numbers for each point; NaN is a value like others.
+
+    Attributes
+    ----------
+    triangulation : PlanarDelaunay or SphericalDelaunay
+    values : (n, ...) array
+        As used: equal points have the mean of their values.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points as the triangulation does; for values that are infinite, no real numbers, or not one for each point.
+
+    Notes
+    -----
+    Defined everywhere; NaN if there is no point. Of several points equally near the lowest index counts. The gradient
+    is zero.
+
+    Examples
+    --------
+    >>> height = NearestInterpolator([[0, 0], [4, 0], [0, 4]], [1.0, 2.0, 3.0])
+    >>> height([[1, 0], [3, 1], [-9, 9]]).tolist()
+    [1.0, 2.0, 3.0]
+    """
+
+    def __init__(self, points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> None:
+        super().__init__(points, values)
+
+    def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        return self._of_nearest(queries, workers)
+
+    def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
+        size = 1 if len(self._values) else np.nan
+        return np.zeros((*queries.shape, self._values.shape[1])) * size

@@ -1,0 +1,54 @@
+"""The neighbours of points and the neighbours of these, block by block."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from stereodel.interpolation.sites import Indices, Triangulation
+from stereodel.triangulation.topology import edges_of
+
+BLOCK = 4096
+"""Points at a time: they have some 80 000 neighbours of neighbours."""
+
+
+class Stars:
+    """The points that an edge joins to each point, as flat arrays."""
+
+    def __init__(self, edges: Indices, size: int) -> None:
+        both = np.concatenate([edges, edges[:, ::-1]])
+        self._ends = both[np.argsort(both[:, 0], kind="stable"), 1].astype(np.int64)
+        self._counts = np.bincount(both[:, 0], minlength=size)
+        self._starts = np.cumsum(self._counts) - self._counts
+
+    def around(self, points: Indices) -> tuple[Indices, Indices]:
+        """Pairs of a place in `points` and a point joined to the point there."""
+        counts = self._counts[points]
+        owners = np.repeat(np.arange(len(points)), counts)
+        steps = np.arange(len(owners)) - np.repeat(np.cumsum(counts) - counts, counts)
+        return owners, self._ends[self._starts[points][owners] + steps]
+
+
+def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[Indices, Indices, Indices]]:
+    """Points that have triangles, in blocks, with the neighbours of each and their neighbours.
+
+    Yields
+    ------
+    points : (b,) array
+    owners, others : (p,) arrays
+        Pairs of a place in `points`, in order, and a point of the two rings around the point there, each once. Edges of
+        triangles that close a set within a hemisphere do not count.
+    """
+    simplices = triangulation.simplices[triangulation._open]
+    size = len(triangulation.points)
+    stars = Stars(edges_of(simplices), size)
+    used = np.unique(simplices)
+    for first in range(0, len(used), BLOCK):
+        points = used[first : first + BLOCK]
+        owners, ring = stars.around(points)
+        places, second = stars.around(ring)
+        pairs = np.sort(np.concatenate([owners * size + ring, owners[places] * size + second]))
+        owners, others = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], size)
+        apart = others != points[owners]
+        yield points, owners[apart], others[apart]

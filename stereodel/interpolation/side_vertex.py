@@ -1,0 +1,200 @@
+"""A once differentiable function in each triangle from values and gradients at its corners, on plane and sphere.
+
+The side-vertex method of G. M. Nielson, "The side-vertex method for interpolation in triangles", J. Approx. Theory 25
+(1979), carried to the sphere by C. L. Lawson (1984) and by R. J. Renka, "Interpolation of data on the surface of a
+sphere", ACM TOMS 10 (1984), with arcs of great circles for segments. For each corner i:
+
+1. The line from i through the query meets the opposite side jk in Q. Along the side the function is the cubic of the
+   values and slopes at j and k; its slope across the side is linear between those at j and k.
+2. Along the line the function is the cubic of value and slope at i and at Q. Call it S_i. On all sides it has the
+   right values, on the side jk the right slopes too.
+3. The three are mixed with the weights b_j b_k, b_k b_i, b_i b_j divided by their sum: on the side jk that of S_i is 1.
+
+Neighbouring triangles agree in value and slope along their common side, as both depend on its two ends alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+from stereodel.interpolation.jets import Jet, Number, arctan2, norm, sin_cos, sqrt
+from stereodel.interpolation.triangles import Holders, cross3, dot
+
+_SMALLEST = 2.0**-200  # of barycentric coordinates: at a corner the sum of the two others must not be zero
+
+
+def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
+    """Values (m, k) at the queries.
+
+    Parameters
+    ----------
+    holders : Holders
+    values : (m, 3, k) array
+        At the corners of each query's triangle.
+    gradients : (m, 3, d, k) array
+        Tangent there.
+    """
+    weights = np.maximum(holders.weights(), _SMALLEST)
+    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
+    b = [weights[:, k : k + 1] for k in range(3)]
+    return np.asarray(first[:, 0] + _mix(holders, b, values - first, gradients))
+
+
+def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
+    """Gradients (m, d, k) at the queries; parameters as for `side_vertex`."""
+    weights = np.maximum(holders.weights(), _SMALLEST)
+    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
+    directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
+    b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
+    mixed = _mix(holders, b, values - first, gradients)
+    assert isinstance(mixed, Jet)
+    return holders.slope(*mixed.slope)
+
+
+def _mix(holders: Holders, b: list[Jet] | list[FloatArray], values: FloatArray, gradients: FloatArray) -> Number:
+    total: Number = 0.0
+    divisor: Number = 0.0
+    for i in range(3):
+        corner = _Corner(holders, i, values, gradients)
+        weight = b[i - 2] * b[i - 1]
+        total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
+        divisor = divisor + weight
+    return total / divisor
+
+
+Pair = tuple[Number, Number]
+
+
+def hermite(ends: Pair, slopes: Pair, parts: Pair, length: Number) -> Number:
+    """The cubic of given values and slopes at the two ends of a length that is cut into the two parts.
+
+    Parts are fractions of the length; both are given, as 1 − t would lose the digits of a small one.
+    """
+    s, t = parts
+    return (
+        ends[0] * (t * t * (1.0 + 2.0 * s))
+        + ends[1] * (s * s * (1.0 + 2.0 * t))
+        + length * s * t * (t * slopes[0] - s * slopes[1])
+    )
+
+
+def hermite_slope(ends: Pair, slopes: Pair, parts: Pair, length: Number) -> Number:
+    """Its derivative."""
+    s, t = parts
+    return 6.0 * s * t * ((ends[1] - ends[0]) / length) + t * (t - 2.0 * s) * slopes[0] + s * (s - 2.0 * t) * slopes[1]
+
+
+@dataclass(frozen=True)
+class _Side:
+    """The side from j to k: length, unit tangents at both ends, unit normal, all (m, 1) or (m, d)."""
+
+    length: FloatArray
+    sine: FloatArray
+    cosine: FloatArray
+    tangents: tuple[FloatArray, FloatArray]
+    normal: FloatArray
+
+    @classmethod
+    def straight(cls, edge: FloatArray) -> _Side:
+        length = np.asarray(norm(edge))
+        tangent = edge / length
+        return cls(length, length, length, (tangent, tangent), np.stack([-tangent[:, 1], tangent[:, 0]], axis=1))
+
+    @classmethod
+    def curved(cls, start: FloatArray, end: FloatArray, edge: FloatArray) -> _Side:
+        normal = cross3(start, edge)
+        sine = np.asarray(norm(normal))
+        normal /= sine
+        cosine = 1.0 + dot(start, edge)
+        return cls(np.arctan2(sine, cosine), sine, cosine, (cross3(normal, start), cross3(normal, end)), normal)
+
+
+def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
+    return np.asarray(np.einsum("mdk,md->mk", gradients, vectors))
+
+
+class _Corner:
+    """S_i of the module's description: corner i, the side jk opposite."""
+
+    def __init__(self, holders: Holders, i: int, values: FloatArray, gradients: FloatArray) -> None:
+        sites = holders.sites
+        at, start, end = (holders.corners[:, k] for k in (i, i - 2, i - 1))
+        self.curved = sites.curved
+        self.to_start, self.to_end = sites.minus(start, sites, at), sites.minus(end, sites, at)
+        edge = sites.minus(end, sites, start)
+        if self.curved:
+            self.origin, self.foot = sites.rounded[at], sites.rounded[start]
+            self.side = _Side.curved(self.foot, sites.rounded[end], edge)
+        else:
+            self.side = _Side.straight(edge)
+        self.value, self.ends = values[:, i], (values[:, i - 2], values[:, i - 1])
+        self.gradient, self.end_gradients = gradients[:, i], (gradients[:, i - 2], gradients[:, i - 1])
+
+    def surface(self, b: Number, b_start: Number, b_end: Number) -> Number:
+        """Values (m, k) where the barycentric coordinates of the corner and of the side's two ends are given."""
+        share = b_start + b_end
+        rests = b_end / share, b_start / share  # parts of the chord jk before and behind the line
+        parts, length, divisor, (along, across) = self._line(b, share, rests)
+        value, slope_along, slope_across = self._on_side(rests)
+        start = self._from_corner(rests, [_along(self.gradient, d) for d in (self.to_start, self.to_end)]) / divisor
+        end = (slope_along * along + slope_across * across) / divisor
+        return hermite((self.value, value), (start, end), parts, length)
+
+    @staticmethod
+    def _from_corner(rests: Pair, of_ends: list[FloatArray]) -> Number:
+        """What is linear in the vector from the corner to the chord, from what it is for the chord's two ends."""
+        return of_ends[0] * rests[1] + of_ends[1] * rests[0]
+
+    def _line(self, b: Number, share: Number, rests: Pair) -> tuple[Pair, Number, Number, Pair]:
+        """The line from the corner to Q.
+
+        Returns
+        -------
+        parts
+            Fractions of its length before and behind the query.
+        length
+        divisor
+            Of slopes along the vector from the corner to the chord, at the corner, and of the next.
+        components
+            Of the line's direction at Q, along the side and across.
+        """
+        tangent = self.side.tangents[0]
+        across = dot(self.to_start, self.side.normal)
+        if not self.curved:
+            length = norm(self._from_corner(rests, [self.to_start, self.to_end]))
+            along = dot(self.to_start, tangent) + rests[0] * self.side.length
+            return (share, b), length, length, (along, across)
+        ends = self.to_start, self.to_end
+        sine = norm(self._from_corner(rests, [cross3(self.origin, d) for d in ends]))
+        cosine = 1.0 + self._from_corner(rests, [dot(self.origin, d) for d in ends])
+        square = sine * sine + cosine * cosine
+        length = arctan2(sine, cosine)
+        before = arctan2(share * sine, b + share * cosine)
+        behind = arctan2(b * sine, share * square + b * cosine)
+        turn_sine, turn_cosine = sin_cos(self._angle(rests))
+        along = turn_cosine * (dot(self.to_start, tangent) + rests[0] * self.side.sine) - turn_sine * (
+            dot(self.to_start, self.foot) + rests[0] * (self.side.cosine - 1.0)
+        )
+        stretch = sqrt(square)
+        return (before / length, behind / length), length, sine, (along * stretch, across * stretch)
+
+    def _angle(self, rests: Pair) -> Number:
+        """Length along the curved side up to Q, or with the rests exchanged from Q on."""
+        return arctan2(rests[0] * self.side.sine, rests[1] + rests[0] * self.side.cosine)
+
+    def _on_side(self, rests: Pair) -> tuple[Number, Number, Number]:
+        """Value, slope along and slope across at Q."""
+        side, (first, last) = self.side, self.end_gradients
+        parts = rests
+        if self.curved:
+            parts = self._angle(rests) / side.length, self._angle(rests[::-1]) / side.length
+        slopes = _along(first, side.tangents[0]), _along(last, side.tangents[1])
+        across = _along(first, side.normal) * parts[1] + _along(last, side.normal) * parts[0]
+        return (
+            hermite(self.ends, slopes, parts, side.length),
+            hermite_slope(self.ends, slopes, parts, side.length),
+            across,
+        )

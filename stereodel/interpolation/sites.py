@@ -1,0 +1,78 @@
+"""Points that carry values: a triangulation as it was, lengths one in double-double, one value a place."""
+
+from __future__ import annotations
+
+import copy
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_plane_or_sphere, as_values
+from stereodel._double_double import DoubleDouble, unit
+from stereodel.sphere.chunks import ROWS
+from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
+
+Triangulation = PlanarDelaunay | SphericalDelaunay
+Indices = npt.NDArray[np.integer]
+
+
+def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
+    """A triangulation of our own: of points (n, 2) or (n, 3), or of those given, as they are now."""
+    if isinstance(points, PlanarDelaunay | SphericalDelaunay):
+        return copy.copy(points)  # shares the arrays, which never change
+    array = as_plane_or_sphere(points)
+    return SphericalDelaunay(array) if array.shape[1] == 3 else PlanarDelaunay(array)
+
+
+def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:
+    """Values (n, k) in which equal points all have the mean of theirs; NaN if one of them is NaN."""
+    dropped, kept = triangulation.duplicates.T
+    if len(dropped) == 0:
+        return values
+    # Means of differences from the kept one: what is equal stays equal to the last bit.
+    total, count = np.zeros_like(values), np.ones(len(values))
+    np.add.at(total, kept, values[dropped] - values[kept])
+    np.add.at(count, kept, 1.0)
+    merged = values + total / count[:, None]
+    merged[dropped] = merged[kept]
+    return merged
+
+
+def as_site_values(triangulation: Triangulation, values: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
+    """Checked values as (n, k), one a place, and the shape of a single value."""
+    array = as_values(values, len(triangulation.points))
+    shape = array.shape[1:]
+    flat = array.reshape(len(array), int(np.prod(shape, dtype=np.intp)))
+    return one_value_a_place(triangulation, flat), shape
+
+
+class Places:
+    """Points of the plane, or unit vectors in double-double, and their differences to full relative precision.
+
+    A unit vector rounded to doubles is off by 1e-16, which is nothing to its place and everything to its difference
+    from a neighbour 1e-15 away.
+    """
+
+    def __init__(self, points: FloatArray) -> None:
+        self._points = points
+        self.curved = points.shape[1] == 3
+
+    @cached_property
+    def exact(self) -> DoubleDouble:
+        """Points, or unit vectors with errors below 2⁻¹⁰² (n, d)."""
+        if not self.curved or len(self._points) == 0:
+            return DoubleDouble(self._points)
+        blocks = [unit(self._points[i : i + ROWS]) for i in range(0, len(self._points), ROWS)]
+        return DoubleDouble(np.concatenate([b.hi for b in blocks]), np.concatenate([b.lo for b in blocks]))
+
+    @property
+    def rounded(self) -> FloatArray:
+        """Points, or unit vectors (n, d)."""
+        return self.exact.hi
+
+    def minus(self, a: Indices, other: Places, b: Indices) -> FloatArray:
+        """Points `a` less points `b` of the other places, rounded: errors below 2⁻⁵² of the result and 2⁻¹⁰¹."""
+        p, q = self.exact, other.exact
+        rough = p.hi.take(a, axis=0) - q.hi.take(b, axis=0)
+        return rough + (p.lo.take(a, axis=0) - q.lo.take(b, axis=0)) if self.curved else rough
