@@ -10,6 +10,7 @@ import pytest
 import stereodel
 import stereodel.data
 import stereodel.earth
+import stereodel.interpolation
 import stereodel.render
 import stereodel.sphere
 import stereodel.triangulation
@@ -71,6 +72,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.triangulation") | set(PUBLIC) >= set(stereodel.triangulation.__all__)
     assert reference("stereodel.earth") == {name for name in vars(stereodel.earth) if name.isupper() and name[0] != "_"}
     assert reference("stereodel.data") == set(stereodel.data.__all__)
+    assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}
 

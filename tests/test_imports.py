@@ -27,6 +27,7 @@ MAY_IMPORT = {
     "conformal": BASE | {"sphere", "projections"},
     "predicates": KERNEL,
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
+    "interpolation": KERNEL | {"sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "render"},
