@@ -62,24 +62,44 @@ class PolygonFill {
 
     static std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-    // Shuffle the places, with the same seed every time, and take out all but the first three, the last one first.
-    // Afterwards each remembers between which two it stood.
+    // Order the places, and take out all but the first three, the last one first. Afterwards each remembers between which
+    // two it stood.
     void take_out(std::size_t size) {
-        order_.resize(size);
+        put_in_order(size);
         before_.resize(size);
         following_.resize(size);
         for (std::size_t k = 0; k < size; ++k) {
-            order_[k] = static_cast<Index>(k);
             before_[k] = static_cast<Index>(k == 0 ? size - 1 : k - 1);
             following_[k] = static_cast<Index>(k + 1 == size ? 0 : k + 1);
         }
-        std::uint64_t state = 1;
         for (std::size_t k = size; k-- > 3;) {
-            state = state * 6364136223846793005u + 1442695040888963407u;  // D. Knuth, MMIX
-            std::swap(order_[k], order_[((state >> 32) * (k + 1)) >> 32]);
             const Index out = order_[k];
             following_[at(before_[at(out)])] = following_[at(out)];
             before_[at(following_[at(out)])] = before_[at(out)];
+        }
+    }
+
+    // A biased random order, the same every time (N. Amenta, S. Choi, G. Rote, "Incremental constructions con BRIO",
+    // 2003): each place belongs with probability 1/2 to the last round, else with probability 1/2 to the one before, and
+    // so on. Rounds are random, which is enough; within one neighbours follow one another, and memory is read in order.
+    void put_in_order(std::size_t size) {
+        round_.resize(size);
+        std::array<std::size_t, rounds_ + 1> begin{};  // of each round
+        std::uint64_t state = 1;
+        for (std::size_t k = 0; k < size; ++k) {
+            state = state * 6364136223846793005u + 1442695040888963407u;  // D. Knuth, MMIX
+            round_[k] = rounds_ - 1;
+            for (std::uint64_t coins = state >> 32 | std::uint64_t{1} << (rounds_ - 1); coins % 2 == 0; coins /= 2) {
+                --round_[k];
+            }
+            ++begin[round_[k] + 1u];
+        }
+        for (std::size_t r = 0; r < rounds_; ++r) {
+            begin[r + 1] += begin[r];
+        }
+        order_.resize(size);
+        for (std::size_t k = 0; k < size; ++k) {
+            order_[begin[round_[k]]++] = static_cast<Index>(k);
         }
     }
 
@@ -141,6 +161,9 @@ class PolygonFill {
         return made;
     }
 
+    static constexpr std::uint8_t rounds_ = 24;
+
+    std::vector<std::uint8_t> round_;
     std::vector<Index> order_, before_, following_, at_edge_, free_;
     std::vector<Front> front_;
     std::vector<Triangle> triangles_;

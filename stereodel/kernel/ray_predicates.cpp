@@ -38,9 +38,9 @@ Sign turn_of_directions(const Direction& a, const Direction& b, const Direction&
 // Four points of a great circle: the cofactor of column k is (-1)^k times the area of the triangle of the others, seen
 // along axis k. Whether that is zero depends on the normal of the plane alone, so the first axis that counts is the
 // same for all.
-int great_circle_tie(const double* const* others) {
+int great_circle_tie(const double* const* others, bool unit) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (const int sign = rays::shadow_exact(others[0], others[1], others[2], axis)) {
+        if (const int sign = rays::shadow(others[0], others[1], others[2], axis, unit)) {
             return axis == 1 ? -sign : sign;
         }
     }
@@ -58,6 +58,9 @@ bool all_unit(const double* xyz, std::size_t count) {
 }
 
 int bubble_open(const double* a, const double* b, const double* c, const double* p, bool unit, Tally& tally) {
+    if (rays::cocircular_by_symmetry(a, b, c, p)) {
+        return counted(0, tally);
+    }
     Sign sign = OPEN;
     if (unit) {
         ++tally.curvature;
@@ -94,11 +97,14 @@ int bubble_tie(const double* a, const double* b, const double* c, const double* 
     std::copy(points + first + 1, points + 4, points + first);
     Tally uncounted;
     const int others = turn(points[0], points[1], points[2], unit, uncounted);
-    const int sign = others != 0 ? others : great_circle_tie(points);
+    const int sign = others != 0 ? others : great_circle_tie(points, unit);
     return first % 2 == 0 ? -sign : sign;
 }
 
 int turn_open(const double* a, const double* b, const double* c, bool unit, Tally& tally) {
+    if (rays::on_mirror(a, b, c)) {
+        return counted(0, tally);
+    }
     Sign sign = OPEN;
     if (unit) {
         ++tally.filter;

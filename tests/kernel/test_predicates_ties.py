@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import _kernel
-from stereodel.predicates.rays import bubble_ray, ray
+from stereodel.predicates.rays import bubble_ray, ray, turn_ray
 from stereodel.predicates.ties import bubble_tie
 
 SMALL = st.tuples(*[st.integers(-2, 2)] * 3).filter(any)
@@ -67,6 +67,68 @@ def test_small_integers(vectors):
     for four in itertools.islice(itertools.permutations(vectors, 4), 30):
         rays = [ray(v) for v in four]
         assert in_bubble(*four) == ((bubble_ray(*rays) or bubble_tie(*rays)) > 0)
+
+
+GREAT = [(1, 0), (1, 1), (1, 3), (0, 1), (-1, 2), (-1, 0), (-3, -1), (2, -1), (1, -3)]
+PLANES = {
+    "x = 0": lambda x, y: (0, x, y),
+    "y = 0": lambda x, y: (x, 0, y),
+    "z = 0": lambda x, y: (x, y, 0),
+    "x = y": lambda x, y: (x, x, y),
+    "y = -z": lambda x, y: (y, x, -x),
+    "x = z": lambda x, y: (x, y, x),
+}
+
+
+@pytest.mark.parametrize("plane", PLANES)
+def test_unit_vectors_of_a_great_circle(plane):
+    vectors = np.array([PLANES[plane](x, y) for x, y in GREAT], dtype=float)
+    vectors /= np.linalg.norm(vectors, axis=1)[:, None]
+    numbers = np.array(list(itertools.permutations(range(len(vectors)), 4)), dtype=np.int32)[::7]
+    signs, tally = _kernel.bubble_numbered(vectors, numbers, True)
+    rays = [ray(v) for v in vectors]
+    assert signs.astype(bool).tolist() == [bubble_tie(*(rays[k] for k in row)) > 0 for row in numbers]
+    assert tally[3] == len(numbers)
+
+
+REFLECTIONS = [np.diag(signs) for signs in ([-1, 1, 1], [1, -1, 1], [1, 1, -1])]
+REFLECTIONS += [
+    np.array(rows)
+    for rows in (
+        [[0, 1, 0], [1, 0, 0], [0, 0, 1]],
+        [[0, -1, 0], [-1, 0, 0], [0, 0, 1]],
+        [[0, 0, 1], [0, 1, 0], [1, 0, 0]],
+        [[0, 0, -1], [0, 1, 0], [-1, 0, 0]],
+        [[1, 0, 0], [0, 0, 1], [0, 1, 0]],
+        [[1, 0, 0], [0, 0, -1], [0, -1, 0]],
+    )
+]
+ANY = st.tuples(*[st.floats(0.25, 1.0) | st.floats(-1.0, -0.25)] * 3)
+
+
+@given(ANY, ANY, st.sampled_from(REFLECTIONS), st.permutations(range(4)), st.integers(0, 11), st.booleans())
+def test_mirror_images_are_ties_and_their_neighbours_are_not(u, w, mirror, order, entry, unit):
+    u, w = np.array(u), np.array(w)
+    if unit:
+        u, w = u / np.linalg.norm(u), w / np.linalg.norm(w)
+    four = np.array([u, mirror @ u, w, mirror @ w])[list(order)]
+    if len(distinct(four.tolist())) == 4:
+        assert _kernel.bubble(*four[:, None])[0] == 0
+        assert in_bubble(*four) == (bubble_tie(*map(ray, four)) > 0)
+    four.ravel()[entry] = np.nextafter(four.ravel()[entry], 2.0)
+    if len(distinct(four.tolist())) == 4:
+        rays = [ray(v) for v in four]
+        assert _kernel.bubble(*four[:, None])[0] == bubble_ray(*rays)
+        assert in_bubble(*four) == ((bubble_ray(*rays) or bubble_tie(*rays)) > 0)
+
+
+@given(ANY, ANY, ANY, st.sampled_from(REFLECTIONS), st.integers(0, 8))
+def test_directions_of_a_mirror_are_on_a_great_circle(u, v, w, mirror, entry):
+    three = np.array([(np.array(x) + mirror @ np.array(x)) for x in (u, v, w)])
+    if three.any(axis=1).all():
+        assert _kernel.turn(*three[:, None])[0] == 0
+        three.ravel()[entry] = np.nextafter(three.ravel()[entry], 4.0)
+        assert _kernel.turn(*three[:, None])[0] == turn_ray(*map(ray, three))
 
 
 def chirotope(vectors, pole):
