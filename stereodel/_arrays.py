@@ -91,21 +91,21 @@ def _from_objects(array: npt.NDArray[Any], name: str) -> FloatArray:
     raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
 
 
-def as_vectors(values: npt.ArrayLike, dimension: int, name: str) -> FloatArray:
-    """Coordinates of any leading shape, (..., dimension)."""
-    array = as_floats(values, name)
+def as_vectors(values: npt.ArrayLike, dimension: int, name: str, *, gaps: bool = False) -> FloatArray:
+    """Coordinates of any leading shape, (..., dimension); with `gaps` they may be NaN and infinite."""
+    array = _as_doubles(values, name) if gaps else as_floats(values, name)
     if array.ndim == 0 or array.shape[-1] != dimension:
         raise ValueError(f"{name} must have shape (..., {dimension}), got {array.shape}")
     return array
 
 
-def as_points(values: npt.ArrayLike, dimension: int, name: str = "points") -> FloatArray:
-    """A list of points, (n, dimension); an empty list is (0, dimension)."""
+def as_points(values: npt.ArrayLike, dimension: int, name: str = "points", *, hint: str = "") -> FloatArray:
+    """A list of points, (n, dimension); an empty list is (0, dimension). `hint` ends a message about the shape."""
     array = as_floats(values, name)
     if array.size == 0 and array.ndim <= 2 and (array.ndim < 2 or array.shape[1] in (0, dimension)):
         return np.zeros((0, dimension))
     if array.ndim != 2 or array.shape[1] != dimension:
-        raise ValueError(f"{name} must have shape (n, {dimension}), got {array.shape}")
+        raise ValueError(f"{name} must have shape (n, {dimension}), got {array.shape}{hint and '; '}{hint}")
     return array
 
 
