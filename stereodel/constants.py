@@ -30,6 +30,15 @@ REBUILD_INSERTING: Final = 3
 REBUILD_REMOVING: Final = 6
 """Removing more than one point for so many that stay takes longer than starting from scratch (measured)."""
 
+INSIDE_TOLERANCE: Final = 100 * 2.0**-52
+"""How far below zero barycentric coordinates may be inside by default, in `stereodel.spatial`: as in SciPy."""
+
+TRANSFORM_CONDITION: Final = 1000 * 2.0**-52
+"""Smallest reciprocal condition number of a triangle with barycentric coordinates in `stereodel.spatial`: as in SciPy.
+
+Three digits of the coordinates are right there at least.
+"""
+
 FILTER_RANGE: Final = 2.0**200
 """Planar filters trust differences d with 1/FILTER_RANGE < |d| < FILTER_RANGE or d = 0 (units of the input).
 

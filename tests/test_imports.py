@@ -28,6 +28,7 @@ MAY_IMPORT = {
     "predicates": KERNEL,
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
     "interpolation": KERNEL | {"sphere", "triangulation"},
+    "spatial": BASE | {"triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "render"},

@@ -1,0 +1,24 @@
+"""`scipy.spatial` with exact answers: change the import, keep the script.
+
+`Delaunay`, `Voronoi` and `SphericalVoronoi` have SciPy's signatures, attributes and methods over the exact
+triangulations of this library; they are subclasses of SciPy's classes, so that code which asks `isinstance` accepts
+them. `QhullError` and every other name of `scipy.spatial` are SciPy's own.
+"""
+
+from typing import Any
+
+import scipy.spatial
+from scipy.spatial import QhullError
+
+from stereodel.spatial.delaunay import Delaunay
+from stereodel.spatial.spherical_voronoi import SphericalVoronoi
+from stereodel.spatial.voronoi import Voronoi
+
+__all__ = ["Delaunay", "QhullError", "SphericalVoronoi", "Voronoi"]
+
+
+def __getattr__(name: str) -> Any:
+    """What this module does not have, from `scipy.spatial`: trees, distances, convex hulls, plots."""
+    if name.startswith("__") or not hasattr(scipy.spatial, name):
+        raise AttributeError(f"neither {__name__} nor scipy.spatial has {name!r}")
+    return getattr(scipy.spatial, name)

@@ -1,0 +1,231 @@
+"""`scipy.spatial.Delaunay` over the exact triangulation of the plane."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+import scipy.spatial
+
+from stereodel._arrays import FloatArray, IntArray, as_scalar, as_vectors
+from stereodel.constants import INSIDE_TOLERANCE
+from stereodel.spatial.barycentric import NearMisses, transforms
+from stereodel.spatial.growing import GrowingPoints
+from stereodel.spatial.paraboloid import Paraboloid
+
+
+class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
+    """Delaunay triangulation of the plane with the interface of `scipy.spatial.Delaunay`, exact.
+
+    Parameters
+    ----------
+    points : (npoints, 2) array_like
+        Finite numbers. Copied.
+    furthest_site : bool, optional
+        Only False.
+    incremental : bool, optional
+        Whether `add_points` may be called.
+    qhull_options : str, optional
+        "Qbb" (scaled paraboloid), "Qc" (`coplanar` is listed) and "Qz" (point at infinity, above the paraboloid) mean
+        what they mean to Qhull; "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and not needed.
+        Default: "Qbb Qc Qz Q12", in incremental mode "Qc".
+
+    Attributes
+    ----------
+    points : (npoints, 2) array
+    simplices : (nsimplex, 3) array of int32
+        Triangles, counterclockwise.
+    neighbors : (nsimplex, 3) array of int32
+        The neighbor opposite each corner, -1 for none.
+    equations : (nsimplex, 4) array
+        Unit normal and offset of each triangle's plane on the paraboloid; normals point down.
+    paraboloid_scale, paraboloid_shift : float
+        Heights are ``paraboloid_scale * (x**2 + y**2) + paraboloid_shift``.
+    transform : (nsimplex, 3, 2) array
+        ``transform[i, :2] @ (x - transform[i, 2])`` are the barycentric coordinates of x for the first two corners;
+        NaN for triangles so thin that less than three digits would be right.
+    vertex_to_simplex : (npoints,) array of int32
+        A triangle of each point, for a duplicate one of the point that was kept; -1 for none.
+    convex_hull : (nfaces, 2) array of int32
+        Edges of the hull, counterclockwise.
+    coplanar : (ncoplanar, 3) array of int32
+        [point, triangle, vertex] for points that are no vertices: those exactly equal to the vertex, and no others.
+    vertex_neighbor_vertices : tuple of two int32 arrays
+        The neighbors of vertex k are ``indices[indptr[k]:indptr[k + 1]]``, in ascending order.
+    good : (nsimplex,) array of int32
+        Ones.
+    ndim, npoints, nsimplex, min_bound, max_bound, furthest_site
+        As in SciPy.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points that are not finite real numbers of shape (npoints, 2), furthest sites and unknown options. Never
+        `QhullError`: collinear points, fewer than three and none have no triangles.
+
+    Notes
+    -----
+    Arrays can be written to, as SciPy's; the triangulation behind them does not change. Source:
+    `stereodel.PlanarDelaunay`, whose rows have the same order.
+
+    Examples
+    --------
+    >>> from stereodel.spatial import Delaunay
+    >>> tri = Delaunay([[0, 0], [0, 1.1], [1, 0], [1, 1]])
+    >>> tri.find_simplex([(0.1, 0.2), (1.5, 0.5)]) >= 0
+    array([ True, False])
+    >>> tri.vertex_neighbor_vertices[1].tolist()
+    [1, 2, 3, 0, 3, 0, 3, 0, 1, 2]
+    """
+
+    @cached_property
+    def simplices(self) -> IntArray:
+        """Triangles (nsimplex, 3), counterclockwise."""
+        return np.array(self._triangulation.simplices)
+
+    @cached_property
+    def neighbors(self) -> IntArray:
+        """Neighbor opposite each corner, (nsimplex, 3), -1 for none."""
+        return np.array(self._triangulation.neighbors)
+
+    @property
+    def nsimplex(self) -> int:
+        """Number of triangles."""
+        return len(self._triangulation.simplices)
+
+    @cached_property
+    def good(self) -> IntArray:
+        """Ones, (nsimplex,): Qhull's mark of facets that were asked for."""
+        return np.ones(self.nsimplex, dtype=np.int32)
+
+    @cached_property
+    def convex_hull(self) -> IntArray:
+        """Edges of the hull, (nfaces, 2), counterclockwise."""
+        return np.array(self._triangulation.convex_hull)
+
+    @cached_property
+    def coplanar(self) -> IntArray:
+        """Rows [point, triangle, vertex] of points equal to a vertex, (ncoplanar, 3); none without the option "Qc"."""
+        dropped, kept = self._triangulation.duplicates.T if self._options.coplanar else np.zeros((2, 0), dtype=np.int32)
+        return np.column_stack([dropped, self._triangle_of_vertex[kept], kept])
+
+    @cached_property
+    def _triangle_of_vertex(self) -> IntArray:
+        simplices = self._triangulation.simplices
+        result = np.full(self.npoints, -1, dtype=np.int32)
+        result[simplices[::-1].ravel()] = np.repeat(np.arange(len(simplices), dtype=np.int32)[::-1], 3)
+        return result
+
+    @cached_property
+    def vertex_to_simplex(self) -> IntArray:
+        """The lowest triangle of each point, (npoints,), -1 for none; a duplicate's is that of its vertex."""
+        result = self._triangle_of_vertex.copy()
+        result[self.coplanar[:, 0]] = self.coplanar[:, 1]
+        return result
+
+    @cached_property
+    def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
+        """Neighbors of each vertex k: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
+        edges = self._triangulation.edges
+        both = np.concatenate([edges, edges[:, ::-1]])
+        both = both[np.lexsort(both.T[::-1])]
+        indptr = np.zeros(self.npoints + 1, dtype=np.int32)
+        np.cumsum(np.bincount(both[:, 0], minlength=self.npoints), out=indptr[1:])
+        return indptr, both[:, 1].copy()
+
+    @cached_property
+    def _paraboloid(self) -> Paraboloid:
+        return Paraboloid.over(self._triangulation.points, self._options)
+
+    @property
+    def paraboloid_scale(self) -> float:
+        """Height of the paraboloid at distance 1, over that at the origin."""
+        return self._paraboloid.scale
+
+    @property
+    def paraboloid_shift(self) -> float:
+        """Height of the paraboloid at the origin."""
+        return self._paraboloid.shift
+
+    @cached_property
+    def equations(self) -> FloatArray:
+        """Unit normal and offset of each triangle's plane on the paraboloid, (nsimplex, 4)."""
+        return self._paraboloid.equations(self._corners)
+
+    @cached_property
+    def transform(self) -> FloatArray:
+        """Maps to barycentric coordinates, (nsimplex, 3, 2): [T⁻¹, r]; NaN for degenerate triangles."""
+        return transforms(self._corners)
+
+    @property
+    def _corners(self) -> FloatArray:
+        return self._triangulation.points[self._triangulation.simplices]
+
+    @cached_property
+    def _near_misses(self) -> NearMisses:
+        return NearMisses(self._triangulation, transforms(self._corners))
+
+    def lift_points(self, x: npt.ArrayLike) -> FloatArray:
+        """Points on the paraboloid.
+
+        Parameters
+        ----------
+        x : (..., 2) array_like
+
+        Returns
+        -------
+        (..., 3) array
+        """
+        return self._paraboloid.lift(as_vectors(x, 2, "x"))
+
+    def plane_distance(self, xi: npt.ArrayLike) -> FloatArray:
+        """Signed distances of lifted points from the planes of all triangles.
+
+        Parameters
+        ----------
+        xi : (..., 2) array_like
+
+        Returns
+        -------
+        (..., nsimplex) array
+            Positive where the triangle's circle holds the point.
+        """
+        return self._paraboloid.lift(as_vectors(xi, 2, "xi")) @ self.equations[:, :3].T + self.equations[:, 3]
+
+    def find_simplex(self, xi: npt.ArrayLike, bruteforce: bool = False, tol: float | None = None) -> IntArray:
+        """Triangle that holds each point.
+
+        Parameters
+        ----------
+        xi : (..., 2) array_like
+        bruteforce : bool, optional
+            Changes nothing: the answer is always right.
+        tol : float, optional
+            How far below 0 barycentric coordinates may be for points outside the hull. Default: 100 times the
+            spacing of doubles at 1; 0 for exact answers.
+
+        Returns
+        -------
+        (...) int32 array
+            -1 for points outside, NaN and infinities; the lowest index on shared edges and vertices.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For other shapes, values that are no real numbers, and a negative `tol`.
+
+        Notes
+        -----
+        As in SciPy, a point in a triangle without `transform` is given to a neighbor that has one, if the coordinate
+        there is not below -√tol.
+        """
+        slack = as_scalar(INSIDE_TOLERANCE if tol is None else tol, "tol", low=0.0)
+        array = as_vectors(xi, 2, "xi", gaps=True)
+        flat = array.reshape(-1, 2)
+        finite = np.isfinite(flat).all(axis=1)
+        queries = flat[finite]
+        exact = np.asarray(self._triangulation.find_simplex(queries), dtype=np.int32)
+        result = np.full(len(flat), -1, dtype=np.int32)
+        result[finite] = self._near_misses.improve(queries, exact, slack)
+        return result.reshape(array.shape[:-1])

@@ -1,0 +1,134 @@
+"""`scipy.spatial.SphericalVoronoi` over the exact diagram of directions."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import scipy.spatial
+
+from stereodel import triangulation as exact
+from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_scalar
+
+
+class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
+    """Voronoi diagram of a sphere with the interface of `scipy.spatial.SphericalVoronoi`, exact.
+
+    Parameters
+    ----------
+    points : (npoints, 3) array_like
+        Points of the sphere. Copied.
+    radius : float, optional
+        Radius of the sphere.
+    center : (3,) array_like, optional
+        Center of the sphere; default the origin.
+    threshold : float, optional
+        How far points may be from the sphere, relative to the radius. Points may be as close to one another as they
+        like.
+
+    Attributes
+    ----------
+    points : (npoints, 3) array
+    radius : float
+    center : (3,) array
+    vertices : (nvertices, 3) array
+        Centers of the empty circles: one for each of the 2·npoints − 4 triangles, bitwise equal ones for cocircular
+        triangles; two if all points lie on one circle, its poles; none for a single point.
+    regions : list of lists of int
+        Vertices of each point's region, counterclockwise seen from outside. Empty for a single point, and for points
+        in the same direction as an earlier one.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points that are not finite real numbers of shape (npoints, 3) or not on the sphere, and for a radius that
+        is not positive.
+
+    Notes
+    -----
+    Directions are those of ``points - center``, as rounded: with the center at the origin, exactly those of the points.
+    Answers to points that SciPy refuses, those on one circle, close together, equal, one or none, are those of
+    `stereodel.SphericalVoronoi`, on which this is built. Arrays can be written to, as SciPy's.
+
+    Examples
+    --------
+    >>> from stereodel.spatial import SphericalVoronoi
+    >>> sv = SphericalVoronoi([[0, 0, 1], [0, 0, -1], [1, 0, 0], [0, 1, 0], [0, -1, 0], [-1, 0, 0]])
+    >>> len(sv.vertices), [len(region) for region in sv.regions]
+    (8, [4, 4, 4, 4, 4, 4])
+    >>> print(sv.calculate_areas() / np.pi)
+    [0.66666667 0.66666667 0.66666667 0.66666667 0.66666667 0.66666667]
+    """
+
+    def __init__(
+        self,
+        points: npt.ArrayLike,
+        radius: float = 1,
+        center: npt.ArrayLike | None = None,
+        threshold: float = 1e-06,
+    ) -> None:
+        if radius is None:
+            raise ValueError("`radius` is `None`. Please provide a floating point number (i.e. `radius=1`).")
+        self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
+        self.points = np.array(as_points(points, 3, hint="for other dimensions use the class of scipy.spatial"))
+        self.center = np.zeros(3) if center is None else _as_center(center)
+        directions = self.points - self.center
+        self._refuse_off_sphere(directions, as_scalar(threshold, "threshold", low=0.0))
+        triangles = exact.SphericalDelaunay(directions)
+        self._diagram = exact.SphericalVoronoi(triangles)
+        self._simplices = np.array(triangles.simplices)
+        self._set_cells(triangles)
+
+    def _refuse_off_sphere(self, directions: FloatArray, threshold: float) -> None:
+        distances = np.linalg.norm(directions, axis=1)
+        off = np.abs(distances - self.radius)
+        if off.max(initial=0.0) >= threshold * self.radius:
+            worst = int(off.argmax())
+            raise ValueError(
+                f"Radius inconsistent with generators: points[{worst}] is {float(distances[worst])} from the center, "
+                f"but radius is {self.radius}; scale the points, or allow more by threshold"
+            )
+
+    def _set_cells(self, triangles: exact.SphericalDelaunay) -> None:
+        """Two poles, one vertex for each triangle, or nothing."""
+        units = self._diagram.vertices
+        self.regions: list[list[int]] = self._diagram.regions
+        if len(units) > 2:
+            units = units[self._diagram.simplex_vertex]
+            self.regions = _fans(triangles)
+        self.vertices = self.radius * units + self.center
+
+    def sort_vertices_of_regions(self) -> None:
+        """Nothing to do: regions are counterclockwise from the start."""
+
+    def calculate_areas(self) -> FloatArray:
+        """Area of each region, (npoints,); together 4π·radius²."""
+        return np.array(self._diagram.areas(radius=self.radius))
+
+
+def _as_center(center: npt.ArrayLike) -> FloatArray:
+    array = as_floats(center, "center")
+    if array.shape != (3,):
+        raise ValueError(f"center must have shape (3,), got {array.shape}")
+    return np.array(array)
+
+
+def _fans(triangles: exact.SphericalDelaunay) -> list[list[int]]:
+    """Triangles around each point, counterclockwise from the lowest one.
+
+    A corner of a triangle has the number 3·triangle + place. After corner k the fan goes on in the triangle opposite
+    corner k + 1.
+    """
+    simplices: IntArray = triangles.simplices
+    around = np.roll(triangles.neighbors, -1, axis=1).ravel()
+    place = (simplices[around] == simplices.reshape(-1, 1)).argmax(axis=1)
+    following = (3 * around + place).tolist()
+    points, first = np.unique(simplices.ravel(), return_index=True)
+    result: list[list[int]] = [[] for _ in triangles.points]
+    for point, start in zip(points.tolist(), first.tolist(), strict=True):
+        corner = start
+        while True:
+            result[point].append(corner // 3)
+            corner = following[corner]
+            if corner == start:
+                break
+    return result

@@ -1,0 +1,271 @@
+"""`stereodel.spatial.Delaunay`: attribute by attribute against SciPy, and where SciPy has no answer."""
+
+import copy
+import pickle
+
+import numpy as np
+import pytest
+import scipy.spatial
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel import PlanarDelaunay, check_delaunay
+from stereodel.spatial import Delaunay
+
+SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
+
+
+def random_points(n=200, seed=0, size=1.0, offset=0.0):
+    return np.random.default_rng(seed).random((n, 2)) * size + offset
+
+
+def as_sets(rows):
+    return {frozenset(row) for row in np.asarray(rows).tolist()}
+
+
+def places(theirs, ours):
+    """For each of their triangles the row of ours with the same corners, and the places of the corners in it."""
+    number = {frozenset(row): i for i, row in enumerate(ours.simplices.tolist())}
+    match = np.array([number[frozenset(row)] for row in theirs.simplices.tolist()])
+    corner = (ours.simplices[match][:, None, :] == theirs.simplices[:, :, None]).argmax(axis=2)
+    return match, corner
+
+
+@pytest.fixture(scope="module", params=[(1.0, 0.0), (1e-3, 7.0), (1e6, -3e5)], ids=["unit", "far", "large"])
+def pair(request):
+    points = random_points(300, 1, *request.param)
+    return Delaunay(points), scipy.spatial.Delaunay(points)
+
+
+def test_same_triangles_and_neighbors(pair):
+    ours, theirs = pair
+    assert as_sets(ours.simplices) == as_sets(theirs.simplices)
+    match, corner = places(theirs, ours)
+    expected = np.where(theirs.neighbors < 0, -1, match[theirs.neighbors])
+    np.testing.assert_array_equal(np.take_along_axis(ours.neighbors[match], corner, axis=1), expected)
+    check_delaunay(ours.points, ours.simplices)
+
+
+def test_same_paraboloid(pair):
+    ours, theirs = pair
+    np.testing.assert_allclose(
+        [ours.paraboloid_scale, ours.paraboloid_shift], [theirs.paraboloid_scale, theirs.paraboloid_shift], rtol=1e-12
+    )
+    match, _ = places(theirs, ours)
+    size = np.abs(theirs.equations).max(axis=0)
+    # Qhull's planes are off where triangles are small against the coordinates' rounding.
+    assert (np.abs(ours.equations[match] - theirs.equations) <= 1e-5 * size).all()
+    np.testing.assert_allclose(ours.lift_points(ours.points), theirs.lift_points(theirs.points), rtol=1e-12, atol=1e-9)
+
+
+def test_equations_hold_the_lifted_corners_and_see_other_points_above(pair):
+    ours, _ = pair
+    heights = np.abs(ours.lift_points(ours.points)).max()
+    distances = ours.plane_distance(ours.points)
+    own = np.take_along_axis(distances.T, ours.simplices, axis=1)
+    assert np.abs(own).max() < 1e-14 * heights
+    assert distances.max() < 1e-14 * heights
+    np.testing.assert_allclose(np.linalg.norm(ours.equations[:, :3], axis=1), 1.0, rtol=1e-14)
+    assert (ours.equations[:, 2] < 0).all()
+
+
+def test_same_transforms(pair):
+    ours, theirs = pair
+    queries = theirs.points[theirs.simplices].mean(axis=1)
+    match, corner = places(theirs, ours)
+
+    def coordinates(tri, rows):
+        first = np.einsum("nij,nj->ni", tri.transform[rows, :2], queries - tri.transform[rows, 2])
+        return np.column_stack([first, 1 - first.sum(axis=1)])
+
+    np.testing.assert_array_equal(np.isnan(ours.transform[match, 0, 0]), np.isnan(theirs.transform[:, 0, 0]))
+    np.testing.assert_allclose(
+        np.take_along_axis(coordinates(ours, match), corner, axis=1),
+        coordinates(theirs, np.arange(len(match))),
+        rtol=1e-9,
+    )
+
+
+def test_same_hull_vertices_and_bounds(pair):
+    ours, theirs = pair
+    assert as_sets(ours.convex_hull) == as_sets(theirs.convex_hull)
+    indptr, indices = ours.vertex_neighbor_vertices
+    their_indptr, their_indices = theirs.vertex_neighbor_vertices
+    np.testing.assert_array_equal(indptr, their_indptr)
+    for k in range(ours.npoints):
+        assert indices[indptr[k] : indptr[k + 1]].tolist() == sorted(their_indices[indptr[k] : indptr[k + 1]])
+    assert (ours.simplices[ours.vertex_to_simplex] == np.arange(ours.npoints)[:, None]).any(axis=1).all()
+    for name in ("ndim", "npoints", "nsimplex", "furthest_site"):
+        assert getattr(ours, name) == getattr(theirs, name)
+    for name in ("points", "min_bound", "max_bound", "good", "coplanar"):
+        np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
+
+
+ARRAYS = ["points", "simplices", "neighbors", "equations", "transform", "vertex_to_simplex", "convex_hull", "coplanar"]
+
+
+@pytest.mark.parametrize("name", [*ARRAYS, "good", "min_bound", "max_bound"])
+def test_same_types(pair, name):
+    ours, theirs = (getattr(tri, name) for tri in pair)
+    assert ours.dtype == theirs.dtype
+    assert ours.ndim == theirs.ndim
+    assert ours.flags.writeable
+    assert ours.flags.c_contiguous
+
+
+def test_arrays_can_be_written_to_and_keep_what_is_written():
+    tri = Delaunay(random_points())
+    tri.simplices.sort()
+    assert (np.diff(tri.simplices) > 0).all()
+    long = np.ptp(tri.points[tri.simplices], axis=1).max(axis=1) > 0.2
+    tri.simplices = tri.simplices[~long]
+    assert len(tri.simplices) == (~long).sum()
+
+
+def test_input_is_copied():
+    points = random_points()
+    tri = Delaunay(points)
+    points[:] = 0
+    assert tri.points.max() > 0.9
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e-3])
+def test_triangles_so_thin_that_three_digits_would_not_be_right_have_no_transform(shift):
+    tri = Delaunay([[0, 0], [1, shift + 1e-14], [2, 0]])
+    assert np.isnan(tri.transform).all() == (shift == 0)
+
+
+def test_transforms_of_any_size():
+    for size in (1e-300, 1e-150, 1e150, 1e300):
+        tri = Delaunay(np.array([[0, 0], [1, 0], [0, 1]]) * size)
+        inverse = tri.transform[0, :2]
+        corners = tri.points[tri.simplices[0]]
+        np.testing.assert_allclose(inverse @ (corners[:2] - corners[2]).T, np.eye(2), atol=1e-12)
+
+
+def test_coplanar_are_equal_points_and_no_others():
+    points = random_points(20)
+    tri = Delaunay(np.concatenate([points, points[:5], points[:5] + 1e-15]))
+    assert tri.coplanar[:, 0].tolist() == list(range(20, 25))
+    assert tri.coplanar[:, 2].tolist() == list(range(5))
+    assert (tri.simplices[tri.coplanar[:, 1]] == tri.coplanar[:, 2:]).any(axis=1).all()
+    np.testing.assert_array_equal(tri.vertex_to_simplex[20:25], tri.vertex_to_simplex[:5])
+    check_delaunay(tri.points, tri.simplices)
+
+
+def test_coplanar_points_are_listed_with_qc_alone():
+    points = [[0, 0], [1, 0], [0, 1], [0, 0]]
+    assert Delaunay(points, qhull_options="Qbb Qc Qz").coplanar.tolist() == [[3, 0, 0]]
+    without = Delaunay(points, False, False, "Qbb Qz")
+    assert without.coplanar.shape == (0, 3)
+    assert without.vertex_to_simplex.tolist() == [0, 0, 0, -1]
+
+
+@pytest.mark.parametrize("options", ["Qbb Qc Qz Q12", "Qbb Qc", "Qc", "Qt Qbb Qc Qz Qx Q12", "Qbb Qc Q14 Pp Qs"])
+def test_options_mean_what_they_mean_to_qhull(options):
+    points = random_points(50, 3, 2.0, 1.0)
+    ours, theirs = Delaunay(points, qhull_options=options), scipy.spatial.Delaunay(points, qhull_options=options)
+    assert ours.paraboloid_scale == pytest.approx(theirs.paraboloid_scale, rel=1e-14)
+    assert ours.paraboloid_shift == pytest.approx(theirs.paraboloid_shift, rel=1e-14)
+
+
+@given(SMALL_SETS, st.lists(SMALL_SETS, max_size=3))
+def test_adding_points_gives_the_triangles_of_all_points(first, others):
+    tri = Delaunay(first, incremental=True)
+    before = tri.simplices, tri.simplices.copy()
+    for k, more in enumerate(others):
+        tri.add_points(np.reshape(more, (-1, 2)), restart=bool(k % 2))
+    tri.close()
+    points = np.concatenate([np.reshape(some, (-1, 2)) for some in (first, *others)])
+    whole = PlanarDelaunay(points)
+    np.testing.assert_array_equal(tri.points, points)
+    assert as_sets(tri.simplices) == as_sets(whole.simplices)
+    assert tri.coplanar[:, [0, 2]].tolist() == sorted(tri.coplanar[:, [0, 2]].tolist())
+    assert as_sets(tri.coplanar[:, [0, 2]]) == as_sets(whole.duplicates)
+    assert (tri.paraboloid_scale, tri.paraboloid_shift) == (1.0, 0.0)
+    np.testing.assert_array_equal(*before)
+    check_delaunay(tri.points, tri.simplices)
+
+
+def test_points_are_added_in_incremental_mode_until_closed():
+    with pytest.raises(RuntimeError, match="incremental mode not enabled or already closed"):
+        Delaunay(random_points()).add_points([[2, 2]])
+    tri = Delaunay(random_points(), incremental=True)
+    with pytest.raises(ValueError, match=r"\(n, 2\)"):
+        tri.add_points([2, 2])
+    tri.add_points([[2, 2]])
+    assert tri.npoints == 201
+    assert tri.max_bound.tolist() == [2, 2]
+    tri.close()
+    tri.close()
+    with pytest.raises(RuntimeError, match="already closed"):
+        tri.add_points([[3, 3]])
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((np.zeros((4, 3)),), "for other dimensions use the class of scipy.spatial"),
+        ((np.zeros((4, 2)), True), "furthest_site=True"),
+        ((np.zeros((4, 2)), False, True, "Qbb Qz Qc"), "'Qbb', 'Qz' cannot be used with incremental=True"),
+        ((np.zeros((4, 2)), False, False, "Qc QG0"), "'QG0'; known here are"),
+        (([[0, np.nan]],), r"points\[0, 1\] is nan"),
+        ((np.ma.masked_all((3, 2)),), "masked"),
+    ],
+)
+def test_what_is_not_supported_is_a_clear_error(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Delaunay(*arguments)
+
+
+def test_options_are_a_string():
+    with pytest.raises(TypeError, match="qhull_options must be a string or None"):
+        Delaunay(random_points(), qhull_options=b"Qc")
+
+
+REFUSED = {
+    "none": np.zeros((0, 2)),
+    "one": [[1, 2]],
+    "two": [[1, 2], [3, 4]],
+    "equal": [[1, 2]] * 4,
+    "on a line": np.linspace([0, 1], [3, -4], 20) * [1, 0],
+}
+
+
+@pytest.mark.parametrize("points", REFUSED.values(), ids=REFUSED)
+def test_where_scipy_refuses_there_are_no_triangles(points):
+    with pytest.raises((scipy.spatial.QhullError, ValueError)):
+        scipy.spatial.Delaunay(points)
+    tri = Delaunay(points)
+    assert tri.nsimplex == 0
+    for name, shape in {
+        "simplices": (0, 3),
+        "neighbors": (0, 3),
+        "convex_hull": (0, 2),
+        "equations": (0, 4),
+        "transform": (0, 3, 2),
+        "good": (0,),
+    }.items():
+        assert getattr(tri, name).shape == shape
+    assert (tri.vertex_to_simplex == -1).all()
+    assert tri.vertex_neighbor_vertices[0].tolist() == [0] * (tri.npoints + 1)
+    assert tri.find_simplex([[0, 0], [1, 2]]).tolist() == [-1, -1]
+    assert tri.plane_distance(np.zeros((5, 2))).shape == (5, 0)
+
+
+def test_every_point_is_a_vertex_where_qhull_drops_some():
+    cluster = [0.5, 0.5] + 1e-12 * random_points(100, 5)
+    points = np.concatenate([random_points(100, 4), cluster])
+    tri = Delaunay(points)
+    assert len(np.unique(tri.simplices)) == len(points)
+    assert len(scipy.spatial.Delaunay(points).coplanar) > 0
+    assert tri.coplanar.shape == (0, 3)
+    check_delaunay(points, tri.simplices)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda tri: pickle.loads(pickle.dumps(tri))])
+def test_copies(again):
+    tri = Delaunay(random_points(), incremental=True)
+    other = again(tri)
+    np.testing.assert_array_equal(other.simplices, tri.simplices)
+    np.testing.assert_array_equal(other.find_simplex(tri.points), tri.find_simplex(tri.points))

@@ -1,0 +1,136 @@
+"""`Delaunay.find_simplex`: exact inside, SciPy's tolerance at the hull and around triangles without a transform."""
+
+import numpy as np
+import pytest
+import scipy.spatial
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel import PlanarDelaunay
+from stereodel.spatial import Delaunay, barycentric
+
+
+def random_points(n=200, seed=0):
+    return np.random.default_rng(seed).random((n, 2))
+
+
+def coordinates(tri, found, queries):
+    first = np.einsum("nij,nj->ni", tri.transform[found, :2], queries - tri.transform[found, 2])
+    return np.column_stack([first, 1 - first.sum(axis=1)])
+
+
+def hull_queries(tri, seed=0):
+    """Points of the hull's sides as floating point gives them: half of them are just outside."""
+    a, b = tri.points[tri.convex_hull].transpose(1, 0, 2)
+    share = np.random.default_rng(seed).random((len(a), 200, 1))
+    return ((1 - share) * a[:, None] + share * b[:, None]).reshape(-1, 2)
+
+
+def test_inside_as_scipy():
+    points = random_points()
+    ours, theirs = Delaunay(points), scipy.spatial.Delaunay(points)
+    queries = np.random.default_rng(1).uniform(-0.2, 1.2, (3000, 2))
+    mine, other = ours.find_simplex(queries), theirs.find_simplex(queries)
+    np.testing.assert_array_equal(mine < 0, other < 0)
+    np.testing.assert_array_equal(
+        np.sort(ours.simplices[mine[mine >= 0]]), np.sort(theirs.simplices[other[other >= 0]])
+    )
+    np.testing.assert_array_equal(ours.find_simplex(queries, True), mine)
+
+
+def test_inside_as_exact():
+    points = random_points()
+    queries = np.random.default_rng(1).uniform(-0.2, 1.2, (3000, 2))
+    np.testing.assert_array_equal(Delaunay(points).find_simplex(queries), PlanarDelaunay(points).find_simplex(queries))
+
+
+@pytest.mark.parametrize(("offset", "tol"), [(0.0, 1e-12), (100.0, 1e-10)])
+def test_rounded_points_of_the_hull_are_inside(offset, tol):
+    ours = Delaunay(random_points() + offset)
+    theirs = scipy.spatial.Delaunay(ours.points)
+    queries = hull_queries(ours)
+    exact = ours.find_simplex(queries, tol=0)
+    assert (exact < 0).any()
+    np.testing.assert_array_equal(exact, PlanarDelaunay(ours.points).find_simplex(queries))
+    found = ours.find_simplex(queries, tol=tol)
+    assert (theirs.find_simplex(queries, tol=tol) >= 0).all()
+    assert (found >= 0).all()
+    assert coordinates(ours, found, queries).min() >= -tol
+
+
+@given(st.integers(0, 2**32), st.sampled_from([1e-12, 1e-6, 1e-3]))
+def test_no_coordinate_is_below_the_tolerance(seed, tol):
+    rng = np.random.default_rng(seed)
+    tri = Delaunay(rng.random((12, 2)))
+    ends = tri.points[tri.convex_hull]
+    outward = (ends[:, 1] - ends[:, 0])[:, ::-1] * [1, -1]
+    queries = (ends.mean(axis=1)[:, None] + outward[:, None] * rng.uniform(0, 3 * tol, (1, 40, 1))).reshape(-1, 2)
+    found = tri.find_simplex(queries, tol=tol)
+    every = barycentric._coordinates(tri.transform, queries).min(axis=2)
+    np.testing.assert_array_equal(found >= 0, (every >= -tol).any(axis=1))
+    inside = found >= 0
+    assert (every[np.flatnonzero(inside), found[inside]] >= -tol).all()
+
+
+def test_points_of_triangles_without_transform_are_given_to_a_neighbor_with_one():
+    line = np.column_stack([np.linspace(0, 1, 30), np.linspace(0, 1, 30) / 3])
+    tri = Delaunay(np.concatenate([line, [[0.5, 2.0], [0.2, -2.0]]]))
+    assert (
+        np.isnan(tri.transform[:, 0, 0]).any() == np.isnan(scipy.spatial.Delaunay(tri.points).transform[:, 0, 0]).any()
+    )
+    hull = Delaunay(np.concatenate([line, [[0.5, 2.0]]]))
+    assert np.isnan(hull.transform[:, 0, 0]).any()
+    slivers = hull.points[hull.simplices[np.isnan(hull.transform[:, 0, 0])]].mean(axis=1)
+    found = hull.find_simplex(slivers)
+    assert (found >= 0).all()
+    assert coordinates(hull, found, slivers).min() > -1e-7
+    assert (hull.find_simplex(hull_queries(hull)) >= 0).all()
+
+
+def test_the_only_triangles_are_degenerate():
+    tri = Delaunay([[0, 0], [1, 1e-14], [2, 0]])
+    assert tri.find_simplex([[1, 1e-15], [1, 1]]).tolist() == [0, -1]
+
+
+def test_chunks_do_not_matter(monkeypatch):
+    tri = Delaunay(random_points())
+    queries = hull_queries(tri)
+    whole = tri.find_simplex(queries)
+    monkeypatch.setattr(barycentric, "_PAIRS_AT_ONCE", 100)
+    np.testing.assert_array_equal(tri.find_simplex(queries), whole)
+
+
+@pytest.mark.parametrize("shape", [(), (0,), (5,), (2, 3)])
+def test_shape_and_type(shape):
+    found = Delaunay(random_points()).find_simplex(np.full((*shape, 2), 0.5))
+    assert isinstance(found, np.ndarray)
+    assert found.shape == shape
+    assert found.dtype == np.int32
+
+
+def test_what_is_not_finite_is_outside():
+    tri = Delaunay(random_points())
+    queries = [[0.5, 0.5], [np.nan, 0.5], [0.5, np.inf], [-np.inf, np.nan]]
+    expected = scipy.spatial.Delaunay(tri.points).find_simplex(queries) >= 0
+    assert (tri.find_simplex(queries) >= 0).tolist() == expected.tolist() == [True, False, False, False]
+
+
+def test_errors():
+    tri = Delaunay(random_points())
+    with pytest.raises(ValueError, match=r"xi must have shape \(\.\.\., 2\), got \(3,\)"):
+        tri.find_simplex([1, 2, 3])
+    with pytest.raises(TypeError, match="xi must hold real numbers"):
+        tri.find_simplex([["a", "b"]])
+    with pytest.raises(ValueError, match="tol is -1"):
+        tri.find_simplex([0, 0], tol=-1)
+    with pytest.raises(ValueError, match=r"xi\[0, 0\] is masked"):
+        tri.find_simplex(np.ma.masked_all((1, 2)))
+
+
+def test_adding_points_forgets_what_was_known_of_the_hull():
+    tri = Delaunay([[0, 0], [1, 0], [0, 1]], incremental=True)
+    outside = [[1 + 1e-15, 0]]
+    assert tri.find_simplex(outside) == [0]
+    tri.add_points([[2, 0]])
+    assert tri.find_simplex([[2 + 1e-15, 0]]) >= 0
+    assert tri.find_simplex(outside) >= 0

@@ -1,0 +1,179 @@
+"""`stereodel.spatial.SphericalVoronoi`: attribute by attribute against SciPy, and where SciPy has no answer."""
+
+import pickle
+
+import numpy as np
+import pytest
+import scipy.spatial
+from hypothesis import given
+from hypothesis import strategies as st
+
+import stereodel
+from stereodel import check_delaunay
+from stereodel.spatial import SphericalVoronoi
+
+
+def sphere(n=100, seed=0):
+    points = np.random.default_rng(seed).normal(size=(n, 3))
+    return points / np.linalg.norm(points, axis=1, keepdims=True)
+
+
+GREAT = [[0, 13, 0], [5, 12, 0], [-5, 12, 0], [12, -5, 0], [-13, 0, 0]]
+SMALL = [[3, 4, 12], [4, 3, 12], [5, 0, 12], [-3, 4, 12], [0, -5, 12], [-4, -3, 12]]
+
+
+def cycle(region):
+    start = region.index(min(region))
+    turned = region[start:] + region[:start]
+    return tuple(min(turned, turned[:1] + turned[:0:-1]))
+
+
+@pytest.mark.parametrize(("radius", "center"), [(1, None), (6371.0, None), (2.5, (1.0, -2.0, 3.0))])
+def test_same_cells(radius, center):
+    points = sphere() * radius + (0 if center is None else np.array(center))
+    ours = SphericalVoronoi(points, radius, center)
+    theirs = scipy.spatial.SphericalVoronoi(points, radius, center)
+    theirs.sort_vertices_of_regions()
+    distance, match = scipy.spatial.cKDTree(ours.vertices).query(theirs.vertices)
+    assert distance.max() < 1e-11 * radius
+    assert len(np.unique(match)) == len(theirs.vertices) == len(ours.vertices) == 2 * len(points) - 4
+    assert [cycle(region) for region in ours.regions] == [cycle([int(match[v]) for v in r]) for r in theirs.regions]
+    np.testing.assert_allclose(ours.calculate_areas(), theirs.calculate_areas(), rtol=1e-10)
+    np.testing.assert_array_equal(ours.center, theirs.center)
+    np.testing.assert_array_equal(ours.points, theirs.points)
+    assert ours.radius == theirs.radius
+    check_delaunay(ours.points - ours.center, ours._simplices)
+
+
+def test_same_types():
+    ours, theirs = SphericalVoronoi(sphere()), scipy.spatial.SphericalVoronoi(sphere())
+    for name in ("points", "vertices", "center"):
+        assert getattr(ours, name).dtype == getattr(theirs, name).dtype == np.float64
+        assert getattr(ours, name).shape == getattr(theirs, name).shape
+        assert getattr(ours, name).flags.writeable
+    assert type(ours.radius) is type(theirs.radius) is float
+    assert {type(region) for region in ours.regions} == {list}
+    assert ours.calculate_areas().shape == theirs.calculate_areas().shape
+    assert ours._simplices.dtype == theirs._simplices.dtype
+
+
+def test_each_vertex_is_the_center_of_its_triangle_and_regions_turn_counterclockwise():
+    sv = SphericalVoronoi(sphere() * 3 + [1, 2, 3], 3, [1, 2, 3])
+    corners = (sv.points[sv._simplices] - sv.center) / 3
+    heights = np.einsum("mkj,mj->mk", corners, (sv.vertices - sv.center) / 3)
+    assert np.ptp(heights, axis=1).max() < 1e-12
+    for i, region in enumerate(sv.regions):
+        assert all(i in sv._simplices[v] for v in region)
+        around = sv.vertices[region] - sv.points[i]
+        turns = np.cross(around, np.roll(around, -1, axis=0)) @ (sv.points[i] - sv.center)
+        assert (turns > 0).all()
+    before = [list(region) for region in sv.regions]
+    sv.sort_vertices_of_regions()
+    assert sv.regions == before
+
+
+def test_cocircular_triangles_have_equal_vertices():
+    cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / np.sqrt(3)
+    sv = SphericalVoronoi(cube)
+    assert sv.vertices.shape == scipy.spatial.SphericalVoronoi(cube).vertices.shape == (12, 3)
+    assert len(np.unique(sv.vertices, axis=0)) == 6
+    np.testing.assert_allclose(sv.calculate_areas(), np.pi / 2)
+
+
+@pytest.mark.parametrize("points", [GREAT, SMALL, SMALL[:3], GREAT[:2], [[0, 0, 13], [0, 0, -13]]])
+def test_points_on_one_circle(points):
+    with pytest.raises(ValueError, match="Rank"):
+        scipy.spatial.SphericalVoronoi(points, 13)
+    sv = SphericalVoronoi(points, 13)
+    exact = stereodel.SphericalVoronoi(points)
+    np.testing.assert_array_equal(sv.vertices, 13 * exact.vertices)
+    np.testing.assert_array_equal(sv.vertices[0], -sv.vertices[1])
+    assert sv.regions == exact.regions
+    assert sv.calculate_areas().sum() == pytest.approx(4 * np.pi * 169)
+    assert all(sorted(region) == [0, 1] for region in sv.regions)
+    check_delaunay(sv.points, sv._simplices)
+
+
+def test_one_point_and_none():
+    one = SphericalVoronoi([[0, 0, 2]], 2)
+    assert (one.regions, one.vertices.shape, one.calculate_areas().tolist()) == ([[]], (0, 3), [16 * np.pi])
+    none = SphericalVoronoi(np.zeros((0, 3)))
+    assert (none.regions, none.vertices.shape, none.calculate_areas().shape) == ([], (0, 3), (0,))
+
+
+@pytest.mark.parametrize("distance", [1e-7, 1e-12, 3e-16])
+def test_points_closer_than_the_threshold(distance):
+    cluster = [0, 0, 1.0] + distance * np.column_stack([np.random.default_rng(1).random((10, 2)), np.zeros(10)])
+    points = np.concatenate([sphere(50), cluster])
+    with pytest.raises(ValueError, match="Duplicate"):
+        scipy.spatial.SphericalVoronoi(points)
+    sv = SphericalVoronoi(points)
+    distinct = len(np.unique(points, axis=0))
+    assert len(sv.vertices) == 2 * distinct - 4
+    areas = sv.calculate_areas()
+    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-12)
+    assert (areas > 0).sum() == distinct
+    check_delaunay(points, sv._simplices)
+
+
+def test_equal_points_have_empty_regions():
+    points = np.concatenate([sphere(20), sphere(20)[:5]])
+    sv = SphericalVoronoi(points)
+    assert sv.regions[20:] == [[]] * 5
+    assert (sv.calculate_areas()[20:] == 0).all()
+    np.testing.assert_array_equal(sv.calculate_areas()[:20], SphericalVoronoi(points[:20]).calculate_areas())
+    check_delaunay(points, sv._simplices)
+
+
+def test_points_of_a_hemisphere():
+    points = sphere()
+    points[:, 2] = np.abs(points[:, 2])
+    ours, theirs = SphericalVoronoi(points), scipy.spatial.SphericalVoronoi(points)
+    np.testing.assert_allclose(ours.calculate_areas(), theirs.calculate_areas(), rtol=1e-9)
+    check_delaunay(points, ours._simplices)
+
+
+@given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), max_size=12), st.integers(1, 9))
+def test_areas_fill_the_sphere(vectors, radius):
+    points = np.reshape(vectors, (-1, 3)).astype(float)
+    points *= radius / np.linalg.norm(points, axis=1, keepdims=True)
+    sv = SphericalVoronoi(points, radius)
+    if len(points):
+        assert sv.calculate_areas().sum() == pytest.approx(4 * np.pi * radius**2)
+        assert (np.abs(np.linalg.norm(sv.vertices, axis=1) - radius) < 1e-14 * radius).all()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((sphere(), None), "`radius` is `None`"),
+        ((sphere(), 0.98), r"Radius inconsistent with generators: points\[\d+\] is 1.* from the center, but radius"),
+        ((sphere(), 1, [0.1, 0, 0]), "Radius inconsistent"),
+        ((sphere(), -1), "radius is -1"),
+        ((sphere(), 1, [0, 0]), r"center must have shape \(3,\)"),
+        ((sphere()[:, :2],), "for other dimensions use the class of scipy.spatial"),
+        (([[0, 0, np.nan]],), r"points\[0, 2\] is nan"),
+        ((sphere(), 1, None, -1e-6), "threshold is -1e-06"),
+    ],
+)
+def test_errors(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        SphericalVoronoi(*arguments)
+
+
+def test_threshold_is_relative_to_the_radius():
+    points = sphere() * 1000
+    points[3] *= 1 + 2e-6
+    with pytest.raises(ValueError, match=r"points\[3\]"):
+        SphericalVoronoi(points, 1000)
+    assert len(SphericalVoronoi(points, 1000, threshold=3e-6).vertices) == 196
+
+
+def test_input_is_copied_and_pickles():
+    points, center = sphere(), np.zeros(3)
+    sv = SphericalVoronoi(points, center=center)
+    points[:] = center[:] = 7
+    assert np.abs(sv.points).max() <= 1
+    assert (sv.center == 0).all()
+    again = pickle.loads(pickle.dumps(sv))
+    np.testing.assert_array_equal(again.calculate_areas(), sv.calculate_areas())

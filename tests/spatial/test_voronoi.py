@@ -1,0 +1,148 @@
+"""`stereodel.spatial.Voronoi`: attribute by attribute against SciPy, and where SciPy has no answer."""
+
+import pickle
+
+import numpy as np
+import pytest
+import scipy.spatial
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel import PlanarVoronoi, check_delaunay
+from stereodel.spatial import Voronoi
+
+SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
+GRID = np.array([[x, y] for x in range(4) for y in range(3)], dtype=float)
+
+
+def random_points(n=200, seed=0):
+    return np.random.default_rng(seed).random((n, 2))
+
+
+def vertex_numbers(theirs, ours):
+    """Our number of each of their vertices; their -1 stays."""
+    distance, match = scipy.spatial.cKDTree(ours.vertices).query(theirs.vertices)
+    assert distance.max() < 1e-7 * np.abs(theirs.vertices).max()
+    assert len(np.unique(match)) == len(ours.vertices) == len(theirs.vertices)
+    return [*match.tolist(), -1]
+
+
+def cycle(region):
+    """The same cycle from its lowest member on, in the direction of its lower neighbor."""
+    start = region.index(min(region))
+    turned = region[start:] + region[:start]
+    return tuple(min(turned, turned[:1] + turned[:0:-1]))
+
+
+@pytest.mark.parametrize("points", [random_points(), GRID], ids=["random", "grid"])
+@pytest.mark.parametrize("options", [None, "Qbb Qc", "Qc Qz"])
+def test_same_cells_and_ridges(points, options):
+    ours, theirs = Voronoi(points, qhull_options=options), scipy.spatial.Voronoi(points, qhull_options=options)
+    number = vertex_numbers(theirs, ours)
+    assert len(ours.regions) == len(theirs.regions)
+    assert ours.regions.count([]) == theirs.regions.count([])
+    for mine, other in zip(ours.point_region, theirs.point_region, strict=True):
+        assert cycle(ours.regions[mine]) == cycle([number[v] for v in theirs.regions[other]])
+
+    def ridges(diagram, number):
+        rows = zip(diagram.ridge_points.tolist(), diagram.ridge_vertices, strict=True)
+        return sorted((sorted(pair), sorted(number[v] for v in ends)) for pair, ends in rows)
+
+    assert ridges(ours, [*range(len(ours.vertices)), -1]) == ridges(theirs, number)
+    assert {frozenset(pair): sorted(ends) for pair, ends in ours.ridge_dict.items()} == {
+        frozenset(pair): sorted(number[v] for v in ends) for pair, ends in theirs.ridge_dict.items()
+    }
+    for name in ("ndim", "npoints", "furthest_site"):
+        assert getattr(ours, name) == getattr(theirs, name)
+    for name in ("points", "min_bound", "max_bound"):
+        np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
+
+
+def test_same_types():
+    ours, theirs = Voronoi(random_points()), scipy.spatial.Voronoi(random_points())
+    for name in ("points", "vertices", "ridge_points", "point_region"):
+        assert getattr(ours, name).dtype == getattr(theirs, name).dtype
+        assert getattr(ours, name).flags.writeable
+    for name in ("regions", "ridge_vertices"):
+        assert {type(row) for row in getattr(ours, name)} == {type(row) for row in getattr(theirs, name)} == {list}
+        assert {type(v) for row in getattr(ours, name) for v in row} == {int}
+    key = next(iter(ours.ridge_dict))
+    assert type(key) is type(next(iter(theirs.ridge_dict)))
+    assert all(ends[1] >= 0 for ends in ours.ridge_vertices), "infinity comes first, as in SciPy"
+
+
+def test_regions_are_those_of_the_exact_diagram():
+    ours, exact = Voronoi(random_points()), PlanarVoronoi(random_points())
+    assert [ours.regions[i] for i in ours.point_region] == exact.regions
+    np.testing.assert_array_equal(ours.vertices, exact.vertices)
+    check_delaunay(ours.points, exact.delaunay().simplices)
+
+
+def test_a_duplicate_has_the_region_of_its_point():
+    points = np.concatenate([random_points(20), random_points(20)[:6], random_points(20)[:6] + 1e-14])
+    ours, theirs = Voronoi(points), scipy.spatial.Voronoi(points[:26])
+    np.testing.assert_array_equal(ours.point_region[20:26], ours.point_region[:6])
+    np.testing.assert_array_equal(theirs.point_region[20:26], theirs.point_region[:6])
+    assert len(ours.regions) == 1 + 26
+    assert len(set(ours.point_region[:20]) | set(ours.point_region[26:])) == 26
+    assert Voronoi(points, qhull_options="Qz").point_region[20:26].tolist() == [-1] * 6
+
+
+@given(SMALL_SETS, st.lists(SMALL_SETS, max_size=3))
+def test_adding_points_gives_the_diagram_of_all_points(first, others):
+    vor = Voronoi(first, incremental=True)
+    for k, more in enumerate(others):
+        assert vor.point_region.shape == (vor.npoints,)
+        vor.add_points(np.reshape(more, (-1, 2)), restart=bool(k % 2))
+    vor.close()
+    whole = Voronoi(vor.points, qhull_options="Qc")
+    assert vor.regions == whole.regions
+    assert vor.ridge_dict == whole.ridge_dict
+    np.testing.assert_array_equal(vor.vertices, whole.vertices)
+    np.testing.assert_array_equal(vor.point_region, whole.point_region)
+
+
+@pytest.mark.parametrize(
+    ("points", "regions", "ridges"),
+    [
+        (np.zeros((0, 2)), [[]], []),
+        ([[1, 2]], [[], [-1]], []),
+        ([[0, 0], [1, 1]], [[], [-1], [-1]], [[-1, -1]]),
+        ([[0, 0], [1, 1], [3, 3], [0, 0]], [[], [-1], [-1], [-1]], [[-1, -1], [-1, -1]]),
+        ([[0, 0], [1, 0], [0, 1]], [[], [-1, 0], [-1, 0], [-1, 0]], [[-1, 0]] * 3),
+    ],
+)
+def test_small_sets(points, regions, ridges):
+    vor = Voronoi(points)
+    assert vor.regions == regions
+    assert vor.ridge_vertices == ridges
+    if len(vor.vertices) == 0:
+        with pytest.raises((scipy.spatial.QhullError, ValueError)):
+            scipy.spatial.Voronoi(points)
+
+
+def test_points_that_qhull_cannot_separate_have_cells_of_their_own():
+    points = np.concatenate([random_points(50), [0.5, 0.5] + 1e-13 * random_points(50, 1)])
+    vor = Voronoi(points)
+    assert len(set(vor.point_region.tolist())) == 100
+    theirs = scipy.spatial.Voronoi(points)
+    assert len(set(theirs.point_region.tolist())) < 100
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ((np.zeros((4, 3)),), "for other dimensions use the class of scipy.spatial"),
+        ((np.zeros((4, 2)), True), "furthest_site=True"),
+        ((np.zeros((4, 2)), False, False, "Qu"), "'Qu'; known here are"),
+        (([[0, np.inf]],), r"points\[0, 1\] is inf"),
+    ],
+)
+def test_what_is_not_supported_is_a_clear_error(arguments, message):
+    with pytest.raises(ValueError, match=message):
+        Voronoi(*arguments)
+
+
+def test_pickle():
+    vor = pickle.loads(pickle.dumps(Voronoi(random_points())))
+    assert vor.regions == Voronoi(random_points()).regions
