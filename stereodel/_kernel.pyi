@@ -1,5 +1,5 @@
 """
-The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location.
+The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location, Voronoi diagrams.
 """
 
 from collections.abc import Sequence
@@ -347,3 +347,78 @@ def compare_to_line(
     lo: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
     stage: str = "all",
 ) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
+def voronoi_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple:
+    """
+    Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle, three sites of each vertex.
+    """
+
+def voronoi_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple:
+    """The same for directions."""
+
+def voronoi_ridges(
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> tuple:
+    """
+    Sites i < j and vertices of the ridges of a diagram, in lexicographic order.
+    """
+
+def voronoi_polygons(
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> tuple:
+    """Offsets and sites of the polygons around the vertices of a diagram."""
+
+def delaunay_of_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
+    """Triangles of a diagram's sites, vertex by vertex."""
+
+def delaunay_of_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
+    """The same for directions."""
+
+def circumcenters_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple:
+    """
+    Centres of triangles by number, and the rows that are too flat for twice the precision.
+    """
+
+def circumcenters_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple:
+    """
+    The same for directions: unit normals on the side seen counterclockwise.
+    """

@@ -8,14 +8,18 @@ void bind_delaunay(nanobind::module_& module);
 void bind_location(nanobind::module_& module);
 void bind_mesh(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
+void bind_voronoi(nanobind::module_& module);
 
 }  // namespace stereodel
 
 NB_MODULE(_kernel, module) {
-    module.doc() = "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location.";
+    module.doc() =
+        "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location, Voronoi "
+        "diagrams.";
     stereodel::bind_degrees(module);
     stereodel::bind_delaunay(module);
     stereodel::bind_location(module);
     stereodel::bind_mesh(module);
     stereodel::bind_predicates(module);
+    stereodel::bind_voronoi(module);
 }

@@ -95,10 +95,15 @@ int bubble_tie(const double* a, const double* b, const double* c, const double* 
                                  points);
     }
     std::copy(points + first + 1, points + 4, points + first);
-    Tally uncounted;
-    const int others = turn(points[0], points[1], points[2], unit, uncounted);
-    const int sign = others != 0 ? others : great_circle_tie(points, unit);
+    const int sign = displaced_turn(points[0], points[1], points[2], unit);
     return first % 2 == 0 ? -sign : sign;
+}
+
+int displaced_turn(const double* a, const double* b, const double* c, bool unit) {
+    Tally uncounted;
+    const double* const points[] = {a, b, c};
+    const int sign = turn(a, b, c, unit, uncounted);
+    return sign != 0 ? sign : great_circle_tie(points, unit);
 }
 
 int turn_open(const double* a, const double* b, const double* c, bool unit, Tally& tally) {

@@ -27,6 +27,10 @@ int turn_open(const double* a, const double* b, const double* c, bool unit, Tall
 // before all others in the order of displacement, -1 = none.
 int bubble_tie(const double* a, const double* b, const double* c, const double* p, bool unit, int first);
 
+// Whether displacements of three different directions lead out of the hull (1) or into it (-1) on the side from which
+// they appear counterclockwise. Ties of great circles are turned by the first component of the normal that is not zero.
+int displaced_turn(const double* a, const double* b, const double* c, bool unit);
+
 // The predicates on vectors. unit: every length within 2^-49 of 1.
 inline int bubble(const double* a, const double* b, const double* c, const double* p, bool unit, Tally& tally) {
     if (unit) {

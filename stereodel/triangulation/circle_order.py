@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
+import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel.predicates.integers import primitive, sign
-from stereodel.triangulation.cells import Indices
 from stereodel.triangulation.circumcenters import integer_cross, integer_unit
 
+Indices = npt.NDArray[np.intp]
 IntegerVector = tuple[int, int, int]
 
 
@@ -51,12 +52,6 @@ def circle_axis(sites: FloatArray) -> FloatArray:
         normal = integer_cross(rays[0], (int(shortest == 0), int(shortest == 1), int(shortest == 2)))
     axis = np.array(integer_unit(normal)) + 0.0
     return np.array([axis, 0.0 - axis])
-
-
-def normal_signs(sites: FloatArray) -> tuple[int, int, int]:
-    """Signs of the components of the axis around which three directions of a great circle are counterclockwise."""
-    x, y, z = _normal([primitive(p) for p in sites.tolist()])
-    return sign(x), sign(y), sign(z)
 
 
 def _normal(rays: Sequence[IntegerVector]) -> IntegerVector:

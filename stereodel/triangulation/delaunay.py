@@ -47,7 +47,7 @@ class Delaunay(ABC):
         """The triangulation of `points` whose simplices are known already, as from the dual diagram; not checked."""
         self = cls.__new__(cls)
         self._workers, self._eager = None, True
-        self._take(points, (simplices, neighbors_of(simplices), duplicates, 2, dict.fromkeys(self._stages(), 0)))
+        self._take(points, (simplices, None, duplicates, 2, dict.fromkeys(self._stages(), 0)))
         return self
 
     def _build(self, points: FloatArray) -> None:
@@ -122,7 +122,7 @@ class Delaunay(ABC):
     @cached_property
     def circumcenters(self) -> FloatArray:
         """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return locked(self._circumcenters(self.points[self.simplices]))
+        return locked(self._circumcenters(self._thread_count()))
 
     @cached_property
     def _open(self) -> BoolArray:
@@ -279,8 +279,12 @@ class Delaunay(ABC):
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self._check_queries(queries)
         flat = array.reshape(-1, array.shape[-1])
+        return array, flat, self._thread_count(workers, len(flat))
+
+    def _thread_count(self, workers: int | None = None, size: int | None = None) -> int:
+        """How many threads a task of `size` points takes, by default of all points."""
         chosen = self._workers if workers is None else as_workers(workers)
-        return array, flat, _threads(chosen, len(flat))
+        return _threads(chosen, len(self.points) if size is None else size)
 
     def _change(self, change: Callable[[Mesh], object]) -> None:
         """Change the mesh; if that fails or is interrupted, the triangulation stays that of before."""
@@ -325,9 +329,8 @@ class Delaunay(ABC):
     @abstractmethod
     def _check_queries(queries: npt.ArrayLike) -> FloatArray: ...
 
-    @staticmethod
     @abstractmethod
-    def _circumcenters(triangles: FloatArray) -> FloatArray: ...
+    def _circumcenters(self, workers: int) -> FloatArray: ...
 
     @staticmethod
     @abstractmethod

@@ -79,9 +79,8 @@ class PlanarDelaunay(Delaunay):
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
         return as_vectors(queries, 2, "xy")
 
-    @staticmethod
-    def _circumcenters(triangles: FloatArray) -> FloatArray:
-        return planar_circumcenters(triangles)
+    def _circumcenters(self, workers: int) -> FloatArray:
+        return planar_circumcenters(self.points, self.simplices, workers=workers)
 
     @staticmethod
     def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:

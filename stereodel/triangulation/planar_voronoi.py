@@ -5,21 +5,11 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_floats
-from stereodel.predicates import incircle
-from stereodel.triangulation.cells import (
-    Diagram,
-    Indices,
-    canonical_names,
-    from_ridges,
-    half_ridges,
-    polygons,
-    spread_triples,
-    twins,
-)
+from stereodel import _kernel
+from stereodel._arrays import FloatArray, as_floats, locked
+from stereodel.triangulation.cells import Diagram, Indices
 from stereodel.triangulation.circumcenters import planar_circumcenters
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
-from stereodel.triangulation.polygon_diagonals import triangulate_polygons
 
 
 class PlanarVoronoi(Diagram):
@@ -29,6 +19,8 @@ class PlanarVoronoi(Diagram):
     ----------
     points : (n, 2) array_like or PlanarDelaunay
         Sites, or their triangulation, which is then not computed again.
+    workers : int, optional
+        Threads; -1 for all processors. By default as for `PlanarDelaunay`. Never changes the result.
 
     Attributes
     ----------
@@ -40,6 +32,8 @@ class PlanarVoronoi(Diagram):
         Vertices of each point's cell, counterclockwise; unbounded cells begin with -1, duplicates have [].
     region_indices, region_offsets : arrays of int
         The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+    region_neighbors : array of int32
+        The site beyond the ridge from each entry of `region_indices` to the next one of its cell; -1 in strips.
     ridge_points : (r, 2) array of int32
         Sites i < j on both sides of each ridge, in lexicographic order.
     ridge_vertices : (r, 2) array of int32
@@ -69,25 +63,23 @@ class PlanarVoronoi(Diagram):
     [[-1, 0], [-1, 0], [-1, 0], [-1, 0]]
     """
 
-    def __init__(self, points: npt.ArrayLike | PlanarDelaunay) -> None:
-        triangulation = points if isinstance(points, PlanarDelaunay) else PlanarDelaunay(points)
+    def __init__(self, points: npt.ArrayLike | PlanarDelaunay, *, workers: int | None = None) -> None:
+        given = isinstance(points, PlanarDelaunay)
+        triangulation = points if isinstance(points, PlanarDelaunay) else PlanarDelaunay(points, workers=workers)
         self.points = triangulation.points
+        self._threads = triangulation._thread_count(workers if given else None)
         self._set_point_region(triangulation.duplicates)
         if triangulation.dimension == 2:
             self._set_diagram(triangulation)
         else:
             self._set_strips()
-        self._freeze()
 
     def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
-        simplices = triangulation.simplices
-        twin = twins(simplices)
-        half, labels = half_ridges(simplices, twin, planar_ties(self.points, simplices, twin))
-        names = canonical_names(polygons(half))
-        half = half.relabelled(names)
-        self.simplex_vertex = names[labels].astype(np.int32)
-        self.vertices = planar_circumcenters(self.points[spread_triples(polygons(half))])
-        self._set_cells(half)
+        arrays = self.points, triangulation.simplices, triangulation.neighbors
+        *cells, simplex_vertex, sites = _kernel.voronoi_plane(*arrays, self._threads)
+        self._set_cells(*cells)
+        self.simplex_vertex = locked(simplex_vertex)
+        self.vertices = locked(planar_circumcenters(self.points, sites, workers=self._threads))
 
     def _set_strips(self) -> None:
         """Points on one line, in lexicographic order along it."""
@@ -95,11 +87,11 @@ class PlanarVoronoi(Diagram):
         order = np.lexsort(self.points.T[::-1])
         order = order[kept[order]]
         pairs = np.sort(np.column_stack([order[:-1], order[1:]]), axis=1)
-        self.vertices, self.simplex_vertex = np.zeros((0, 2)), np.zeros(0, dtype=np.int32)
-        self.ridge_points = pairs[np.lexsort(pairs.T[::-1])].astype(np.int32)
-        self.ridge_vertices = np.full_like(self.ridge_points, -1)
-        self.region_indices = np.full(len(order), -1, dtype=np.int32)
-        self.region_offsets = np.concatenate([[0], np.cumsum(kept)])
+        self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
+        points = pairs[np.lexsort(pairs.T[::-1])].astype(np.int32)
+        self._ridges = locked(points), locked(np.full_like(points, -1))
+        nowhere = np.full(len(order), -1, dtype=np.int32)
+        self._set_cells(np.concatenate([[0], np.cumsum(kept)]), nowhere, nowhere)
 
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates, infinite for unbounded cells.
@@ -112,9 +104,12 @@ class PlanarVoronoi(Diagram):
         scale = float(as_floats(radius, "radius"))
         site = np.repeat(np.arange(len(self.points)), np.diff(self.region_offsets))
         corners = self.vertices[self.region_indices] if len(self.vertices) else np.zeros((len(site), 2))
+        following = np.arange(1, len(site) + 1)
+        filled = np.flatnonzero(np.diff(self.region_offsets))
+        following[self.region_offsets[filled + 1] - 1] = self.region_offsets[filled]
         with np.errstate(over="ignore", invalid="ignore"):
             here = corners - self.points[site]
-            there = here[self._next_in_region()]
+            there = here[following]
             pieces = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
         doubled = np.bincount(site, pieces, minlength=len(self.points)).astype(np.float64)
         unbounded = (self.region_indices < 0) | ~np.isfinite(pieces)
@@ -175,10 +170,7 @@ class PlanarVoronoi(Diagram):
         """
         if len(self.vertices) == 0:
             return PlanarDelaunay(self.points)
-        rank = np.empty(len(self.points), dtype=np.intp)
-        rank[np.lexsort((self.points + 0.0).T[::-1])] = np.arange(len(self.points))
-        cycles = polygons(from_ridges(self.ridge_points, self.ridge_vertices))
-        simplices = triangulate_polygons(cycles, rank, np.zeros(len(cycles.offsets) - 1, dtype=np.bool_))
+        simplices = _kernel.delaunay_of_plane(self.points, *self._cells(), self._threads)
         return PlanarDelaunay._from_simplices(self.points, simplices, self._duplicates())
 
     def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -191,17 +183,6 @@ class PlanarVoronoi(Diagram):
             t[bounded] = (offset * along[bounded]).sum(axis=1) / (along[bounded] ** 2).sum(axis=1)
             ends.append(t)
         return ends[0], ends[1]
-
-
-def planar_ties(points: FloatArray, simplices: IntArray, twin: Indices) -> BoolArray:
-    """Half-edges whose opposite corner lies on the circle of their triangle."""
-    tied = np.zeros(len(twin), dtype=np.bool_)
-    inner = np.flatnonzero(twin > np.arange(len(twin)))
-    corners = points[simplices[inner // 3]]
-    opposite = points[simplices.ravel()[twin[inner]]]
-    tied[inner] = np.asarray(incircle(corners[:, 0], corners[:, 1], corners[:, 2], opposite)) == 0
-    tied[twin[inner]] = tied[inner]
-    return tied
 
 
 def _corners(extent: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:

@@ -140,9 +140,8 @@ class SphericalDelaunay(Delaunay):
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
         return as_directions(queries, "xyz")
 
-    @staticmethod
-    def _circumcenters(triangles: FloatArray) -> FloatArray:
-        return spherical_circumcenters(triangles)
+    def _circumcenters(self, workers: int) -> FloatArray:
+        return spherical_circumcenters(self.points, self.simplices, workers=workers)
 
     @staticmethod
     def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:

@@ -7,29 +7,14 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_floats
+from stereodel import _kernel
+from stereodel._arrays import FloatArray, IntArray, as_floats, locked
 from stereodel._double_double import unit
-from stereodel.predicates import in_bubble
-from stereodel.predicates.rays import turn_signs
 from stereodel.sphere import SphereArc, SphereCircle, solid_angle
-from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.bisectors import bisector_normals
-from stereodel.triangulation.cells import (
-    Diagram,
-    HalfRidges,
-    Indices,
-    canonical_names,
-    circle_half_ridges,
-    from_ridges,
-    half_ridges,
-    polygons,
-    spread_triples,
-    twins,
-)
+from stereodel.triangulation.cells import Diagram, Indices, circle_cells
 from stereodel.triangulation.circle_order import circle_axis, circle_order
 from stereodel.triangulation.circumcenters import spherical_circumcenters
-from stereodel.triangulation.direction_ties import direction_ranks, displaced_outward
-from stereodel.triangulation.polygon_diagonals import triangulate_polygons
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 
@@ -40,6 +25,8 @@ class SphericalVoronoi(Diagram):
     ----------
     points : (n, 3) array_like or SphericalDelaunay
         Sites (directions; lengths do not matter), or their triangulation, which is then not computed again.
+    workers : int, optional
+        Threads; -1 for all processors. By default as for `SphericalDelaunay`. Never changes the result.
 
     Attributes
     ----------
@@ -52,6 +39,8 @@ class SphericalVoronoi(Diagram):
         Vertices of each point's cell, counterclockwise seen from outside; [] for duplicates and for a single point.
     region_indices, region_offsets : arrays of int
         The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+    region_neighbors : array of int32
+        The site beyond the ridge from each entry of `region_indices` to the next one of its cell.
     ridge_points : (r, 2) array of int32
         Sites i < j on both sides of each ridge, in lexicographic order.
     ridge_vertices : (r, 2) array of int32
@@ -87,82 +76,50 @@ class SphericalVoronoi(Diagram):
     [0.66666667 0.66666667 0.66666667 0.66666667 0.66666667 0.66666667]
     """
 
-    def __init__(self, points: npt.ArrayLike | SphericalDelaunay) -> None:
-        triangulation = points if isinstance(points, SphericalDelaunay) else SphericalDelaunay(points)
+    def __init__(self, points: npt.ArrayLike | SphericalDelaunay, *, workers: int | None = None) -> None:
+        given = isinstance(points, SphericalDelaunay)
+        triangulation = points if isinstance(points, SphericalDelaunay) else SphericalDelaunay(points, workers=workers)
         self.points = triangulation.points
         self._dimension = triangulation.dimension
+        self._threads = triangulation._thread_count(workers if given else None)
         self._set_point_region(triangulation.duplicates)
-        self.simplex_vertex = np.zeros(0, dtype=np.int32)
         if triangulation.dimension == 2:
             self._set_diagram(triangulation)
         else:
             self._set_circle()
-        self._freeze()
-
-    @classmethod
-    def from_lonlat(
-        cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None
-    ) -> SphericalVoronoi:
-        """The diagram of points given by longitude and latitude.
-
-        Parameters
-        ----------
-        lonlat : (n, 2) array_like
-            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
-        latitude : {"spherical", "geodetic", "authalic"}, optional
-            As for `lonlat_to_xyz`. With "authalic", ``areas(radius=stereodel.earth.AUTHALIC_RADIUS_KM)`` are areas on
-            the WGS84 ellipsoid in km².
-        workers : int, optional
-            Threads of the triangulation, as for `SphericalDelaunay`.
-
-        Returns
-        -------
-        SphericalVoronoi
-            Of the unit vectors that `lonlat_to_xyz` gives, which are exact from then on.
-
-        Raises
-        ------
-        ValueError, TypeError
-            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
-
-        Examples
-        --------
-        >>> diagram = SphericalVoronoi.from_lonlat([(0, 60), (120, 60), (-120, 60), (0, -60)], latitude="geodetic")
-        >>> [len(region) for region in diagram.regions]
-        [3, 3, 3, 3]
-        """
-        return cls(SphericalDelaunay.from_lonlat(lonlat, latitude=latitude, workers=workers))
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
-        simplices = triangulation.simplices
-        twin = twins(simplices)
-        half, labels = half_ridges(simplices, twin, spherical_ties(self.points, simplices, twin))
-        names = self._set_vertices(half)
-        self.simplex_vertex = names[labels].astype(np.int32)
+        arrays = self.points, triangulation.simplices, triangulation.neighbors
+        *cells, simplex_vertex, sites = _kernel.voronoi_sphere(*arrays, self._threads)
+        self._set_cells(*cells)
+        self.simplex_vertex = locked(simplex_vertex)
+        self._set_vertices(spherical_circumcenters(self.points, sites, workers=self._threads))
 
     def _set_circle(self) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""
-        kept = np.flatnonzero(self.point_region == np.arange(len(self.points)))
-        if len(kept) > 1:
-            self._set_vertices(circle_half_ridges(kept[circle_order(self.points[kept])]))
-            return
-        self.vertices = np.zeros((0, 3))
-        self._set_cells(circle_half_ridges(np.zeros(0, dtype=np.intp)))
-
-    def _set_vertices(self, half: HalfRidges) -> Indices:
-        """Cells with vertices in canonical order, and their names in terms of the given numbers."""
-        names = canonical_names(polygons(half))
-        half = half.relabelled(names)
-        self._set_cells(half)
-        around = polygons(half)
-        sites = spread_triples(around)
-        if self._dimension < 2:
-            self.vertices = circle_axis(self.points[around.members[:2] if around.offsets[1] == 2 else sites[0]])
+        self.simplex_vertex = locked(np.zeros(0, dtype=np.int32))
+        order = self._around_circle()
+        if len(order) > 1:
+            self._set_vertices(circle_axis(self.points[order[np.unique(np.arange(3) * len(order) // 3)]]))
         else:
-            self.vertices = spherical_circumcenters(self.points[sites])
-        if len(self.vertices) == 2:
-            self.vertices[1] = 0.0 - self.vertices[0]
-        return names
+            order = order[:0]
+            self._set_vertices(np.zeros((0, 3)))
+        self._set_cells(*circle_cells(order, len(self.points)))
+
+    def _around_circle(self) -> Indices:
+        """Different sites of one great circle, counterclockwise around vertex 0, beginning with the lowest."""
+        kept = np.flatnonzero(self.point_region == np.arange(len(self.points)))
+        if len(kept) < 3:
+            return kept
+        order = circle_order(self.points[kept])
+        order = np.roll(order, -int(np.argmin(order)))
+        place = np.argsort(order)
+        return kept[order if place[1] < place[2] else np.roll(order[::-1], 1)]
+
+    def _set_vertices(self, vertices: FloatArray) -> None:
+        if len(vertices) == 2:
+            vertices[1] = 0.0 - vertices[0]
+        self.vertices = locked(vertices)
 
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates; together 4π radius².
@@ -222,9 +179,7 @@ class SphericalVoronoi(Diagram):
         """
         if self._dimension < 2:
             return SphericalDelaunay(self.points)
-        cycles = polygons(from_ridges(self.ridge_points, self.ridge_vertices))
-        rank = direction_ranks(self.points, cycles)
-        simplices = triangulate_polygons(cycles, rank, displaced_outward(self.points, cycles))
+        simplices = _kernel.delaunay_of_sphere(self.points, *self._cells(), self._threads)
         return SphericalDelaunay._from_simplices(self.points, simplices, self._duplicates())
 
 
@@ -244,23 +199,6 @@ class CellSides(NamedTuple):
         m, n = self.normal[arriving], self.normal[leaving]
         turns[arriving] = np.arctan2(np.linalg.norm(np.cross(m, n), axis=1), np.sum(m * n, axis=1))
         return turns
-
-
-def spherical_ties(points: FloatArray, simplices: IntArray, twin: Indices) -> BoolArray:
-    """Half-edges whose opposite corner lies on the circle of their triangle, both triangles facing the same way.
-
-    Points all on one small circle form a flat, two-sided polygon: across its rim the corners are cocircular as well.
-    """
-    tied = np.zeros(len(twin), dtype=np.bool_)
-    inner = np.flatnonzero(twin > np.arange(len(twin)))
-    corners = points[simplices[inner // 3]]
-    opposite = points[simplices.ravel()[twin[inner]]]
-    on_circle = np.asarray(in_bubble(corners[:, 0], corners[:, 1], corners[:, 2], opposite)) == 0
-    corners = points[simplices]
-    facing = np.repeat(turn_signs(corners[:, 0], corners[:, 1], corners[:, 2]), 3)
-    tied[inner] = on_circle & (facing[inner] == facing[twin[inner]])
-    tied[twin[inner]] = tied[inner]
-    return tied
 
 
 def _angles(start: FloatArray, end: FloatArray) -> FloatArray:

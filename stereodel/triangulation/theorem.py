@@ -17,14 +17,14 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_directions, as_points
 from stereodel._double_double import two_prod, two_sum
 from stereodel.predicates import in_bubble
-from stereodel.triangulation.cells import half_ridges, polygons, twins
+from stereodel.triangulation.cells import polygons
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
-from stereodel.triangulation.planar_voronoi import planar_ties
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
-from stereodel.triangulation.spherical_voronoi import spherical_ties
+from stereodel.triangulation.topology import neighbors_of
 
 PROJECTION_POLE = (0.0, 0.0, -1.0)
 """The point of the sphere that `exact_lift` sends nothing to: the plane touches the opposite one."""
@@ -122,10 +122,9 @@ def merged_polygons(
     chosen = triangulation.simplices if simplices is None else np.asarray(simplices, dtype=np.int32).reshape(-1, 3)
     if len(chosen) == 0:
         return frozenset()
-    twin = twins(chosen)
-    ties = planar_ties if isinstance(triangulation, PlanarDelaunay) else spherical_ties
-    half, _ = half_ridges(chosen, twin, ties(triangulation.points, chosen, twin))
-    return frozenset(tuple(cycle) for cycle in polygons(half).as_lists())
+    voronoi = _kernel.voronoi_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.voronoi_sphere
+    offsets, vertices, across, _, sites = voronoi(triangulation.points, chosen, neighbors_of(chosen))
+    return frozenset(map(tuple, polygons(offsets, vertices, across, len(sites))))
 
 
 def theorem_1_holds(points: npt.ArrayLike) -> bool:

@@ -1,87 +1,141 @@
-"""Combinatorics of diagrams: integers only."""
+"""Combinatorics of diagrams: what the kernel makes of triangles, against sorting by angle."""
+
+from itertools import pairwise
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from stereodel.triangulation.cells import (
-    Cycles,
-    canonical_names,
-    circle_half_ridges,
-    from_ridges,
-    half_ridges,
-    polygons,
-    regions,
-    ridges,
-    spread_triples,
-    twins,
-)
-from stereodel.triangulation.polygon_diagonals import triangulate_polygons
+from stereodel import _kernel
+from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel.triangulation.cells import circle_cells, polygons
 
-SQUARE = np.array([[0, 1, 2], [0, 2, 3]])
-OTHER = np.array([[3, 0, 1], [1, 2, 3]])
-TETRAHEDRON = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
+SQUARE_POINTS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
+DIRECTIONS = st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=3, max_size=24)
+PLACES = st.lists(st.tuples(*[st.integers(0, 4)] * 2), min_size=3, max_size=24)
 
 
-def square(simplices):
-    twin = twins(simplices)
-    return half_ridges(simplices, twin, twin >= 0)[0]
+def listed(offsets, members):
+    members = members.tolist()
+    return [members[a:b] for a, b in pairwise(offsets.tolist())]
 
 
-def test_twins_are_mutual_and_opposite():
-    twin = twins(TETRAHEDRON)
-    assert (twin[twin] == np.arange(12)).all()
-    assert twins(np.array([[0, 1, 2]])).tolist() == [-1, -1, -1]
+def rotated(cycle):
+    start = cycle.index(min(cycle))
+    return cycle[start:] + cycle[:start]
+
+
+@pytest.mark.parametrize("simplices", [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]])
+def test_a_square_is_one_vertex_whatever_its_diagonal(simplices):
+    rows = np.array(simplices, dtype=np.int32)
+    across = {0: [[-1, 1, -1], [-1, -1, 0]], 1: [[1, -1, -1], [-1, 0, -1]]}[simplices[0][2] == 3]
+    offsets, vertices, neighbors, simplex_vertex, sites = _kernel.voronoi_plane(
+        SQUARE_POINTS, rows, np.array(across, dtype=np.int32)
+    )
+    assert listed(offsets, vertices) == [[-1, 0]] * 4
+    assert listed(offsets, neighbors) == [[1, 3], [2, 0], [3, 1], [0, 2]]
+    assert simplex_vertex.tolist() == [0, 0]
+    assert sites.tolist() == [[0, 1, 2]]
+    points, ends = _kernel.voronoi_ridges(offsets, vertices, neighbors, 1)
+    assert points.tolist() == [[0, 1], [0, 3], [1, 2], [2, 3]]
+    # The ridge between 0 and 1 comes in from below, that between 0 and 3 leaves to the left: site 0 is on the left.
+    assert ends.tolist() == [[-1, 0], [0, -1], [-1, 0], [-1, 0]]
+    assert polygons(offsets, vertices, neighbors, 1) == [[0, 1, 2, 3]]
 
 
 def test_two_triangles_that_share_all_edges():
-    both = np.array([[0, 1, 2], [0, 2, 1]])
-    half, labels = half_ridges(both, twins(both), np.zeros(6, dtype=bool))
-    assert labels.tolist() == [0, 1]
-    assert polygons(half).as_lists() == [[0, 1, 2], [0, 2, 1]]
-    assert sorted(map(sorted, regions(half, 3).as_lists())) == [[0, 1]] * 3
+    diagram = SphericalVoronoi(np.eye(3))
+    assert diagram.regions == [[0, 1]] * 3
+    assert diagram.region_neighbors.tolist() == [2, 1, 0, 2, 1, 0]
+    assert polygons(*diagram._cells()) == [[0, 1, 2], [0, 2, 1]]
 
 
-@pytest.mark.parametrize("simplices", [SQUARE, OTHER])
-def test_a_square_is_one_vertex_whatever_its_diagonal(simplices):
-    half = square(simplices)
-    assert polygons(half).as_lists() == [[0, 1, 2, 3]]
-    assert regions(half, 5).as_lists() == [[-1, 0]] * 4 + [[]]
-    points, vertices = ridges(half)
-    assert points.tolist() == [[0, 1], [0, 3], [1, 2], [2, 3]]
-    # The ridge between 0 and 1 comes in from below, that between 0 and 3 leaves to the left: site 0 is on the left.
-    assert vertices.tolist() == [[-1, 0], [0, -1], [-1, 0], [-1, 0]]
+def expected_numbers(triangulation, around):
+    """Vertices in the order of their three lowest sites, and of those with the same first the counterclockwise one."""
+    lowest = [sorted(cycle)[:3] for cycle in around]
+    turn = [rotated([s for s in cycle if s in low]) != low for cycle, low in zip(around, lowest, strict=True)]
+    return sorted(range(len(around)), key=lambda v: (lowest[v], turn[v]))
 
 
-def test_ridges_lead_back_to_half_ridges():
-    half, _ = half_ridges(TETRAHEDRON, twins(TETRAHEDRON), np.zeros(12, dtype=bool))
-    back = from_ridges(*ridges(half))
-    assert polygons(back).as_lists() == polygons(half).as_lists()
-    assert regions(back, 4).as_lists() == regions(half, 4).as_lists()
-    assert (back.twin[back.twin] == np.arange(12)).all()
+def check_diagram(triangulation, diagram):
+    """Everything that the arrays promise one another, and the triangles."""
+    around = polygons(*diagram._cells())
+    assert expected_numbers(triangulation, around) == list(range(len(around)))
+    assert all(rotated(cycle) == cycle for cycle in around)
+    owner = {}
+    for t, corners in enumerate(triangulation.simplices.tolist()):
+        assert set(corners) <= set(around[diagram.simplex_vertex[t]])
+        owner.setdefault(int(diagram.simplex_vertex[t]), []).append(t)
+    assert all(len(around[v]) == len(triangles) + 2 for v, triangles in owner.items())
+    steps = {}
+    cells = list(pairwise(diagram.region_offsets.tolist()))
+    for site, (a, b) in enumerate(cells):
+        region, beyond = diagram.region_indices[a:b].tolist(), diagram.region_neighbors[a:b].tolist()
+        assert len(set(region)) == len(region)
+        assert region == rotated(region) if region else site in triangulation.duplicates[:, 0]
+        for k in range(len(region)):
+            steps[site, beyond[k], region[k]] = region[(k + 1) % len(region)]
+            if region[k] >= 0:
+                cycle = around[region[k]]
+                assert cycle[cycle.index(site) - 1] == beyond[k]
+    # Each ridge is passed twice, once in each direction.
+    assert all(steps[other, site, end] == start for (site, other, start), end in steps.items())
+    ridges = sorted((i, j, start, end) for (i, j, start), end in steps.items() if i < j)
+    assert np.column_stack([diagram.ridge_points, diagram.ridge_vertices]).tolist() == [list(r) for r in ridges]
 
 
-def test_canonical_names_order_by_the_three_lowest_sites():
-    half, labels = half_ridges(TETRAHEDRON[[3, 1, 0, 2]], twins(TETRAHEDRON[[3, 1, 0, 2]]), np.zeros(12, dtype=bool))
-    assert canonical_names(polygons(half))[labels].tolist() == [3, 2, 0, 1]
+@settings(deadline=None, max_examples=60)
+@given(PLACES)
+def test_diagrams_of_the_plane_with_ties(points):
+    triangulation = PlanarDelaunay(points)
+    if triangulation.dimension == 2:
+        check_diagram(triangulation, PlanarVoronoi(triangulation))
 
 
-def test_both_sides_of_a_circle():
-    half = circle_half_ridges(np.array([0, 2, 1, 3]))
-    names = canonical_names(polygons(half))
-    assert names.tolist() == [1, 0]  # around vertex 0 of the half-ridges 0, 1, 2 are clockwise
-    assert polygons(half.relabelled(names)).as_lists() == [[0, 3, 1, 2], [0, 2, 1, 3]]
-    assert regions(half, 4).as_lists() == [[0, 1]] * 4
+@settings(deadline=None, max_examples=60)
+@given(DIRECTIONS)
+def test_diagrams_of_the_sphere_with_ties(points):
+    triangulation = SphericalDelaunay(points)
+    if triangulation.dimension == 2:
+        check_diagram(triangulation, SphericalVoronoi(triangulation))
 
 
-def test_spread_triples():
-    cycles = Cycles(np.array([0, 5, 6, 7, 8, 9, 1, 2, 3]), np.array([0, 6, 9]))
-    assert spread_triples(cycles).tolist() == [[0, 6, 8], [1, 2, 3]]
+@pytest.mark.parametrize("diagram", [PlanarVoronoi, SphericalVoronoi])
+def test_threads_and_pieces_of_work_do_not_matter(diagram):
+    rng = np.random.default_rng(0)
+    width = 2 if diagram is PlanarVoronoi else 3
+    points = rng.integers(-60, 61, size=(20_000, width)).astype(float)
+    points = points[points.any(axis=1)]
+    one, two = diagram(points, workers=1), diagram(points, workers=2)
+    check_diagram((PlanarDelaunay if width == 2 else SphericalDelaunay)(points), one)
+    for name in ("vertices", "region_indices", "region_offsets", "region_neighbors", "ridge_points", "ridge_vertices"):
+        assert np.array_equal(getattr(one, name), getattr(two, name)), name
+    assert np.array_equal(one.delaunay().simplices, two.delaunay().simplices)
 
 
-def test_diagonals_by_rank():
-    pentagon = Cycles(np.array([0, 1, 2, 3, 4]), np.array([0, 5]))
-    rank = np.array([3, 0, 4, 1, 2])
-    fan = triangulate_polygons(pentagon, rank, np.array([True]))
-    assert fan.tolist() == [[0, 1, 4], [1, 2, 3], [1, 3, 4]]
-    ears = triangulate_polygons(pentagon, rank, np.array([False]))
-    assert ears.tolist() == [[0, 1, 2], [0, 2, 4], [2, 3, 4]]
+def test_sites_on_a_circle():
+    offsets, vertices, neighbors = circle_cells(np.array([0, 3, 2]), 5)
+    assert listed(offsets, vertices) == [[0, 1], [], [0, 1], [0, 1], []]
+    assert listed(offsets, neighbors) == [[2, 3], [], [3, 0], [0, 2], []]
+    assert polygons(offsets, vertices, neighbors, 2) == [[0, 3, 2], [0, 2, 3]]
+
+
+def test_wrong_arrays_are_refused():
+    diagram = SphericalVoronoi(np.vstack([np.eye(3), -np.eye(3)]))
+    offsets, vertices, neighbors, count = diagram._cells()
+    for wrong in (
+        (offsets[:-1], vertices, neighbors, count),
+        (offsets, vertices, neighbors[1:], count),
+        (offsets, vertices, neighbors, count - 1),
+        (offsets, vertices, np.roll(neighbors, 1), count),
+        (offsets[::-1].copy(), vertices, neighbors, count),
+    ):
+        with pytest.raises(ValueError, match="not those of a Voronoi diagram"):
+            _kernel.delaunay_of_sphere(diagram.points, *wrong)
+    with pytest.raises(ValueError, match="out of range"):
+        _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
+    with pytest.raises(ValueError, match="same length"):
+        _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), np.zeros((0, 3), dtype=np.int32))
+    with pytest.raises(ValueError, match="no such point"):
+        _kernel.circumcenters_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32))

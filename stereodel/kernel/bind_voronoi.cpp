@@ -1,0 +1,175 @@
+#include <nanobind/nanobind.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "bind_support.hpp"
+#include "circumcenters.hpp"
+#include "diagram_parts.hpp"
+#include "voronoi.hpp"
+
+namespace stereodel {
+namespace {
+
+using namespace nb::literals;
+
+constexpr std::size_t long_work = 20000;  // rows: some milliseconds
+
+nb::tuple to_python(Diagram&& diagram) {
+    return nb::make_tuple(to_values(std::move(diagram.offsets)), to_values(std::move(diagram.vertices)),
+                          to_values(std::move(diagram.neighbors)), to_values(std::move(diagram.simplex_vertex)),
+                          to_rows<3>(std::move(diagram.vertex_sites)));
+}
+
+template <std::size_t Width, class Make>
+nb::tuple diagram(const RowsIn<double, Width>& points, const RowsIn<Index, 3>& simplices,
+                  const RowsIn<Index, 3>& neighbors, int workers, Make&& make) {
+    const std::size_t count = simplices.shape(0);
+    if (neighbors.shape(0) != count) {
+        throw std::invalid_argument("simplices and neighbors must have the same length");
+    }
+    return to_python(run_without_lock(count > long_work, [&](Stop stop) {
+        return make(points.data(), points.shape(0), simplices.data(), neighbors.data(), count, workers, stop);
+    }));
+}
+
+nb::tuple of_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers) {
+    return diagram<2>(points, simplices, neighbors, workers, voronoi_plane);
+}
+
+nb::tuple of_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers) {
+    return diagram<3>(points, simplices, neighbors, workers, voronoi_sphere);
+}
+
+using Offsets = ValuesIn<std::int64_t>;
+using Entries = ValuesIn<Index>;
+
+Cells to_cells(const Offsets& offsets, const Entries& vertices, const Entries& neighbors, std::size_t vertex_count) {
+    const std::size_t sites = offsets.shape(0) == 0 ? 0 : offsets.shape(0) - 1, entries = vertices.shape(0);
+    bool valid = offsets.shape(0) > 0 && neighbors.shape(0) == entries && offsets.data()[0] == 0 &&
+                 offsets.data()[sites] == static_cast<std::int64_t>(entries);
+    for (std::size_t site = 0; valid && site < sites; ++site) {
+        valid = offsets.data()[site] <= offsets.data()[site + 1];
+    }
+    for (std::size_t k = 0; valid && k < entries; ++k) {
+        valid = static_cast<std::uint32_t>(vertices.data()[k]) + 1u <= vertex_count &&
+                static_cast<std::uint32_t>(neighbors.data()[k]) < sites;
+    }
+    if (!valid) {
+        throw std::invalid_argument("the arrays are not those of a Voronoi diagram");
+    }
+    return {offsets.data(), vertices.data(), neighbors.data(), sites, vertex_count};
+}
+
+nb::tuple ridges(Offsets offsets, Entries vertices, Entries neighbors, std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    Ridges made = run_without_lock(cells.sites > long_work, [&](Stop stop) { return ridges_of(cells, workers, stop); });
+    return nb::make_tuple(to_rows<2>(std::move(made.sites)), to_rows<2>(std::move(made.vertices)));
+}
+
+nb::tuple polygons(Offsets offsets, Entries vertices, Entries neighbors, std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    Polygons made =
+        run_without_lock(cells.sites > long_work, [&](Stop stop) { return polygons_of(cells, workers, stop); });
+    return nb::make_tuple(to_array<ValuesOut<std::int64_t>>(std::move(made.offsets), {vertex_count + 1}),
+                          to_values(std::move(made.sites)));
+}
+
+// The triangles of a diagram's vertices: triangles_of(polygons, stop).
+template <class TrianglesOf>
+RowsOut<Index, 3> triangulated(const Cells& cells, int workers, TrianglesOf&& triangles_of) {
+    return to_rows<3>(run_without_lock(cells.sites > long_work, [&](Stop stop) {
+        return triangles_of(polygons_of(cells, workers, stop), stop);
+    }));
+}
+
+void check_sites(const Cells& cells, std::size_t points) {
+    if (cells.sites != points) {
+        throw std::invalid_argument("points and cells must have the same number");
+    }
+}
+
+RowsOut<Index, 3> delaunay_of_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
+                                    std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    check_sites(cells, points.shape(0));
+    return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
+        return triangles_in_plane(points.data(), polygons, workers, stop);
+    });
+}
+
+RowsOut<Index, 3> delaunay_of_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
+                                     std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    check_sites(cells, points.shape(0));
+    return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
+        return triangles_on_sphere(points.data(), cells.sites, polygons, workers, stop);
+    });
+}
+
+void check_numbers(const RowsIn<Index, 3>& triangles, std::size_t size) {
+    for (std::size_t k = 0; k < triangles.size(); ++k) {
+        if (static_cast<std::uint32_t>(triangles.data()[k]) >= size) {
+            throw std::invalid_argument("triangles: no such point");
+        }
+    }
+}
+
+struct Centers {
+    Buffer<double> coordinates;
+    std::vector<Index> open;
+};
+
+template <std::size_t Width, class Fill>
+nb::tuple centers(const RowsIn<double, Width>& points, const RowsIn<Index, 3>& triangles, Fill&& fill) {
+    const std::size_t count = triangles.shape(0);
+    check_numbers(triangles, points.shape(0));
+    Centers result = run_without_lock(count > long_work, [&](Stop stop) {
+        Centers made{Buffer<double>(Width * count), {}};
+        made.open = fill(made.coordinates.data(), stop);
+        return made;
+    });
+    Buffer<Index> open(result.open.size());
+    std::copy(result.open.begin(), result.open.end(), open.data());
+    return nb::make_tuple(to_rows<Width>(std::move(result.coordinates)), to_values(std::move(open)));
+}
+
+nb::tuple centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, int workers) {
+    return centers<2>(points, triangles, [&](double* out, Stop stop) {
+        return circumcenters_plane(points.data(), triangles.data(), triangles.shape(0), out, workers, stop);
+    });
+}
+
+nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, int workers) {
+    return centers<3>(points, triangles, [&](double* out, Stop stop) {
+        return circumcenters_sphere(points.data(), points.shape(0), triangles.data(), triangles.shape(0), out, workers,
+                                    stop);
+    });
+}
+
+}  // namespace
+
+void bind_voronoi(nb::module_& module) {
+    module.def("voronoi_plane", of_plane, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
+               "Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle, three "
+               "sites of each vertex.");
+    module.def("voronoi_sphere", of_sphere, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
+               "The same for directions.");
+    module.def("voronoi_ridges", ridges, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a, "workers"_a = 1,
+               "Sites i < j and vertices of the ridges of a diagram, in lexicographic order.");
+    module.def("voronoi_polygons", polygons, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a,
+               "workers"_a = 1, "Offsets and sites of the polygons around the vertices of a diagram.");
+    module.def("delaunay_of_plane", delaunay_of_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+               "vertex_count"_a, "workers"_a = 1, "Triangles of a diagram's sites, vertex by vertex.");
+    module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+               "vertex_count"_a, "workers"_a = 1, "The same for directions.");
+    module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "workers"_a = 1,
+               "Centres of triangles by number, and the rows that are too flat for twice the precision.");
+    module.def("circumcenters_sphere", centers_on_sphere, "points"_a, "triangles"_a, "workers"_a = 1,
+               "The same for directions: unit normals on the side seen counterclockwise.");
+}
+
+}  // namespace stereodel

@@ -1,0 +1,44 @@
+// What follows from the cells of a diagram: its ridges, the sites around its vertices, its triangulation.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "memory.hpp"
+#include "tally.hpp"
+#include "threads.hpp"
+
+namespace stereodel {
+
+// The arrays of a diagram; see voronoi.hpp. Entries must fit together.
+struct Cells {
+    const std::int64_t* offsets;
+    const Index *vertices, *neighbors;
+    std::size_t sites, vertex_count;
+
+    std::size_t begin(std::size_t site) const { return static_cast<std::size_t>(offsets[site]); }
+    std::size_t end(std::size_t site) const { return static_cast<std::size_t>(offsets[site + 1]); }
+};
+
+// Ridges by their two sites, i < j, in lexicographic order, with their first and last vertices, i on the left.
+struct Ridges {
+    Buffer<Index> sites, vertices;
+};
+
+// The sites around each vertex, counterclockwise from the lowest: those of vertex v in [offsets[v], offsets[v + 1]).
+struct Polygons {
+    Buffer<std::int64_t> offsets;
+    Buffer<Index> sites;
+};
+
+Ridges ridges_of(const Cells& cells, int workers, Stop stop);
+// Throws std::invalid_argument if the cells are not those of a diagram.
+Polygons polygons_of(const Cells& cells, int workers, Stop stop);
+
+// The triangles of displaced points (plane_predicates.hpp, ray_predicates.hpp), lowest site first, those of one vertex
+// after those of the vertices before it.
+Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, int workers, Stop stop);
+Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons, int workers,
+                                  Stop stop);
+
+}  // namespace stereodel

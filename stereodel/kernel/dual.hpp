@@ -1,0 +1,134 @@
+// A triangulation as the dual of a Voronoi diagram: which triangles share a vertex, which lie around a site.
+//
+// Triangles across a tied edge, whose four corners lie on one circle, share their Voronoi vertex: their union is the
+// polygon of its sites, and the edge has no ridge. Integers alone; who is tied is told from outside.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "corners.hpp"
+#include "memory.hpp"
+#include "threads.hpp"
+
+namespace stereodel {
+
+// An edge: the one opposite corner `place` of triangle t, from corner place + 1 to place + 2.
+struct HalfEdge {
+    Index t;
+    std::size_t place;
+};
+
+class DualTriangles {
+  public:
+    // Neighbours opposite each corner, -1 for none; rows and numbers must fit together.
+    DualTriangles(const Index* corners, const Index* neighbors, std::size_t count)
+        : corners_(corners), neighbors_(neighbors), count_(count) {}
+
+    std::size_t count() const { return count_; }
+    const Index* corners(Index t) const { return corners_ + 3 * static_cast<std::size_t>(t); }
+    Index neighbor(HalfEdge e) const { return neighbors_[3 * static_cast<std::size_t>(e.t) + e.place]; }
+    Index origin(HalfEdge e) const { return corners(e.t)[(e.place + 1) % 3]; }
+    Index target(HalfEdge e) const { return corners(e.t)[(e.place + 2) % 3]; }
+
+    // The same edge of the triangle beyond, which there is. Two triangles may share all their edges.
+    HalfEdge twin(HalfEdge e) const {
+        const Index across = neighbor(e);
+        return {across, place_opposite(corners(across), origin(e), target(e))};
+    }
+
+    bool is_tied(HalfEdge e) const { return !tied_.empty() && ((tied_[static_cast<std::size_t>(e.t)] >> e.place) & 1); }
+    bool has_ties() const { return !tied_.empty(); }
+
+    // The lowest triangle with the same vertex.
+    Index root(Index t) const { return root_.size() == 0 ? t : root_[static_cast<std::size_t>(t)]; }
+
+    // Ask for each edge inside, once, from the triangle of lower number: tie(e, twin).
+    template <class MakeTie>
+    void find_ties(Crew& crew, Stop stop, MakeTie&& make_tie) {
+        constexpr std::size_t grain = std::size_t{1} << 14;
+        std::vector<std::vector<HalfEdge>> found((count_ + grain - 1) / grain);
+        in_grains(count_, grain, crew, [&](std::size_t begin, std::size_t end) {
+            auto tie = make_tie();
+            std::vector<HalfEdge>& here = found[begin / grain];
+            for_range(begin, end, stop, [&](std::size_t t) {
+                for (std::size_t place = 0; place < 3; ++place) {
+                    const HalfEdge e{static_cast<Index>(t), place};
+                    if (neighbor(e) > e.t && tie(e, twin(e))) {
+                        here.push_back(e);
+                    }
+                }
+            });
+        });
+        for (const std::vector<HalfEdge>& some : found) {
+            check(stop);
+            for (const HalfEdge e : some) {
+                join(e, twin(e));
+            }
+        }
+        for (std::size_t t = 0; t < root_.size(); ++t) {
+            root_[t] = root(root_[t]);  // whose root is known: it is lower
+        }
+    }
+
+    // The next untied edge around the polygon of a vertex, counterclockwise; `e` is one.
+    HalfEdge next_side(HalfEdge e) const {
+        e.place = (e.place + 1) % 3;
+        while (is_tied(e)) {
+            e = twin(e);
+            e.place = (e.place + 1) % 3;
+        }
+        return e;
+    }
+
+    // Calls visit(edge) for the edges that lead to a corner from the one before it, in the triangles around the corner,
+    // counterclockwise from `start` on: the edge opposite corner place + 1 if `place` is that of the corner. Returns
+    // whether the triangles go all round.
+    template <class Visit>
+    bool around(Index start, std::size_t place, Visit&& visit) const {
+        const Index corner = corners(start)[place];
+        Index t = start;
+        do {
+            const HalfEdge e{t, (place_of(corners(t), corner) + 1) % 3};
+            visit(e);
+            t = neighbor(e);
+        } while (t >= 0 && t != start);
+        return t == start;
+    }
+
+  private:
+    void join(HalfEdge e, HalfEdge other) {
+        if (tied_.empty()) {
+            tied_.assign(count_, 0);
+            root_ = Buffer<Index>(count_);
+            for (std::size_t t = 0; t < count_; ++t) {
+                root_[t] = static_cast<Index>(t);
+            }
+        }
+        for (const HalfEdge side : {e, other}) {
+            tied_[static_cast<std::size_t>(side.t)] |= static_cast<std::uint8_t>(1u << side.place);
+        }
+        const Index a = find(e.t), b = find(other.t);
+        root_[static_cast<std::size_t>(a < b ? b : a)] = a < b ? a : b;
+    }
+
+    // With path halving.
+    Index find(Index t) {
+        while (root(t) != t) {
+            Index& above = root_[static_cast<std::size_t>(t)];
+            above = root(above);
+            t = above;
+        }
+        return t;
+    }
+
+    const Index* corners_;
+    const Index* neighbors_;
+    std::size_t count_;
+    std::vector<std::uint8_t> tied_;  // three bits a triangle; empty without ties
+    Buffer<Index> root_;
+};
+
+}  // namespace stereodel

@@ -1,0 +1,115 @@
+// Unit vectors of given directions to about twice the precision, and their differences.
+//
+// Rounded unit vectors of two directions 1e-12 apart have a difference that is wrong from its fifth digit on. Two kinds
+// are kept: `UnitVector`, off by less than 2^-101 in each component, for most work, and `Ray`, whose differences have a
+// relative error, for what is closer together than that allows.
+#pragma once
+
+#include "double_double.hpp"
+#include "pair_arithmetic.hpp"
+#include "ray_forms.hpp"
+#include "ray_stages.hpp"
+
+namespace stereodel {
+
+// hi + lo, |lo| <= ulp(hi)/2.
+struct UnitVector {
+    double hi[3];
+    double lo[3];
+};
+
+// (1 + s)^(-1/2) - 1 for |s| <= 2^-47: the next term is below 2^-142.
+inline double inverse_root_less_one(double s) {
+    return s * (0.375 * s - 0.5);
+}
+
+// |v|^2 - 1 of a vector of length 1 within 2^-48. The squares, their sums and the difference are exact but for some
+// 10u^2, and what is left is rounded once: off by 12u^2 < 2^-102.
+inline double excess(const Pair* v) {
+    const Pair square = rays::dot_form(v, v);
+    return (square.h - 1.0) + square.l;
+}
+
+// The direction is an exact multiple of the vector, c its correction: hi + (lo + c hi). The last term is at most 2^-48,
+// rounded twice, and half the error of `excess`: 2^-102 for each of the two.
+inline UnitVector unit_vector(const double* vector) {
+    const rays::Direction d(vector);
+    const Pair v[3] = {{d.hi[0], d.lo[0]}, {d.hi[1], d.lo[1]}, {d.hi[2], d.lo[2]}};
+    const double correction = inverse_root_less_one(excess(v));
+    UnitVector unit;
+    for (int k = 0; k < 3; ++k) {
+        const DoubleDouble sum = fast_two_sum(d.hi[k], d.lo[k] + correction * d.hi[k]);
+        unit.hi[k] = sum.hi;
+        unit.lo[k] = sum.lo;
+    }
+    return unit;
+}
+
+// A difference as a double: rounded twice, beside the errors of the vectors, 2^-100.
+struct RoundedEdge {
+    double v[3];
+
+    RoundedEdge(const UnitVector& from, const UnitVector& to) {
+        for (int k = 0; k < 3; ++k) {
+            v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
+        }
+    }
+};
+
+// A difference as pairs: off by 2^-100 and 4u^2 of itself.
+struct PairedEdge {
+    Pair v[3];
+
+    PairedEdge(const UnitVector& from, const UnitVector& to) {
+        for (int k = 0; k < 3; ++k) {
+            const DoubleDouble high = two_difference(to.hi[k], from.hi[k]);
+            const DoubleDouble sum = two_sum(high.hi, high.lo + (to.lo[k] - from.lo[k]));
+            v[k] = {sum.hi, sum.lo};
+        }
+    }
+};
+
+inline DoubleDouble dot(const DoubleDouble* a, const DoubleDouble* b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline void cross(const DoubleDouble* a, const DoubleDouble* b, DoubleDouble* result) {
+    for (int k = 0; k < 3; ++k) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        result[k] = a[i] * b[j] - a[j] * b[i];
+    }
+}
+
+// An exact multiple of a vector, of length 1 within 2^-49, and its length.
+struct Ray {
+    DoubleDouble v[3], length;
+
+    explicit Ray(const double* vector) {
+        const rays::Direction d(vector);
+        for (int k = 0; k < 3; ++k) {
+            v[k] = {d.hi[k], d.lo[k]};
+        }
+        length = sqrt(dot(v, v));
+    }
+};
+
+// q/|q| - p/|p| = E = (G - q (|q| - |p|)/|q|) / |p| with G = q - p and |q| - |p| = G.(q + p)/(|q| + |p|). Sums and
+// differences in double-double are relatively right even where they cancel, so all errors are relative to |G|, and that
+// is at most 1.1 |E| and what the lengths differ by, 2^-48: off by less than 2^-99 (|E| + 2^-48), however short E is.
+struct RayEdge {
+    DoubleDouble v[3];
+
+    RayEdge(const Ray& p, const Ray& q) {
+        DoubleDouble difference[3], sum[3];
+        for (int k = 0; k < 3; ++k) {
+            difference[k] = q.v[k] - p.v[k];
+            sum[k] = q.v[k] + p.v[k];
+        }
+        const DoubleDouble growth = dot(difference, sum) / (q.length * (q.length + p.length));
+        for (int k = 0; k < 3; ++k) {
+            v[k] = (difference[k] - q.v[k] * growth) / p.length;
+        }
+    }
+};
+
+}  // namespace stereodel

@@ -1,0 +1,78 @@
+#include "voronoi.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "plane_predicates.hpp"
+#include "ray_predicates.hpp"
+#include "voronoi_cells.hpp"
+
+namespace stereodel {
+namespace {
+
+void check_rows(std::size_t sites, const Index* simplices, const Index* neighbors, std::size_t count) {
+    if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3) {
+        throw std::invalid_argument("too many triangles");
+    }
+    bool valid = true;
+    for (std::size_t k = 0; k < 3 * count; ++k) {
+        valid &= static_cast<std::uint32_t>(simplices[k]) < sites;
+        valid &= static_cast<std::uint32_t>(neighbors[k]) + 1u <= count;
+    }
+    if (!valid) {
+        throw std::invalid_argument("simplices or neighbors hold numbers out of range");
+    }
+}
+
+// `make_view()`: a view of the points with is_tied(dual, edge, twin), for the use of one thread.
+template <class MakeView>
+Diagram voronoi(std::size_t sites, const Index* simplices, const Index* neighbors, std::size_t count, int workers,
+                Stop stop, MakeView&& make_view) {
+    check_rows(sites, simplices, neighbors, count);
+    DualTriangles dual(simplices, neighbors, count);
+    Crew crew(useful_workers(workers, count));
+    dual.find_ties(crew, stop, [&] {
+        return [view = make_view(), &dual](HalfEdge e, HalfEdge twin) mutable { return view.is_tied(dual, e, twin); };
+    });
+    return cells_of(dual, sites, crew, stop);
+}
+
+struct PlaneView {
+    PlanePoints points;
+
+    bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
+        const Index* c = dual.corners(e.t);
+        return points.incircle(c[0], c[1], c[2], dual.corners(twin.t)[twin.place]) == 0;
+    }
+};
+
+// Points all on one small circle form a flat polygon with two sides: across its rim the corners lie on one circle, too,
+// but the triangles face different ways.
+struct SphereView {
+    Rays rays;
+
+    bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
+        const Index *c = dual.corners(e.t), *d = dual.corners(twin.t);
+        return rays.bubble(c[0], c[1], c[2], d[twin.place]) == 0 &&
+               rays.turn(c[0], c[1], c[2]) == rays.turn(d[0], d[1], d[2]);
+    }
+};
+
+}  // namespace
+
+Diagram voronoi_plane(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
+                      std::size_t count, int workers, Stop stop) {
+    const double granularity = common_granularity(points, sites);
+    return voronoi(sites, simplices, neighbors, count, workers, stop,
+                   [&] { return PlaneView{PlanePoints(points, granularity)}; });
+}
+
+Diagram voronoi_sphere(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,
+                       std::size_t count, int workers, Stop stop) {
+    const bool unit = all_unit(points, sites);
+    return voronoi(sites, simplices, neighbors, count, workers, stop,
+                   [&] { return SphereView{Rays(points, unit)}; });
+}
+
+}  // namespace stereodel

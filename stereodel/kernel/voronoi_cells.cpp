@@ -1,0 +1,251 @@
+#include "voronoi_cells.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+
+namespace stereodel {
+namespace {
+
+using Size = std::size_t;
+
+Size at(Index k) { return static_cast<Size>(k); }
+
+// A vertex among those with the same lowest site: the two next sites, whether the three are clockwise, and its
+// triangle of lowest number.
+struct VertexKey {
+    Index second, third;
+    bool clockwise;
+    Index root;
+
+    bool operator<(const VertexKey& other) const {
+        return std::tie(second, third, clockwise) < std::tie(other.second, other.third, other.clockwise);
+    }
+};
+
+struct LowestSites {
+    Index first;
+    VertexKey key;
+};
+
+LowestSites of_triangle(const Index* corner, Index t) {
+    const Size k = place_of_least(corner);
+    const Index b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
+    return {corner[k], {std::min(b, c), std::max(b, c), c < b, t}};
+}
+
+LowestSites of_polygon(const std::vector<Index>& polygon, Index t) {
+    std::vector<Size> place(polygon.size());
+    for (Size k = 0; k < place.size(); ++k) {
+        place[k] = k;
+    }
+    std::partial_sort(place.begin(), place.begin() + 3, place.end(),
+                      [&](Size a, Size b) { return polygon[a] < polygon[b]; });
+    const auto turn = [&](Size k) { return (place[k] + polygon.size() - place[0]) % polygon.size(); };
+    return {polygon[place[0]], {polygon[place[1]], polygon[place[2]], turn(2) < turn(1), t}};
+}
+
+class CellBuilder {
+  public:
+    CellBuilder(const DualTriangles& dual, Size sites, Crew& crew, Stop stop)
+        : dual_(dual), sites_(sites), crew_(crew), stop_(stop) {}
+
+    Diagram build() {
+        find_sides();
+        number_vertices();
+        count_entries();
+        diagram_.vertices = Buffer<Index>(entries_);
+        diagram_.neighbors = Buffer<Index>(entries_);
+        in_grains(dual_.count(), grain, crew_, [&](Size begin, Size end) {
+            std::vector<Index> room;
+            for_range(begin, end, stop_, [&](Size t) { write_cells_from(static_cast<Index>(t), room); });
+        });
+        return std::move(diagram_);
+    }
+
+  private:
+    static constexpr Size grain = Size{1} << 13;
+
+    // Where the polygons of several triangles can be entered.
+    void find_sides() {
+        if (!dual_.has_ties()) {
+            return;
+        }
+        side_ = Buffer<Index>(dual_.count());
+        std::fill_n(side_.data(), side_.size(), -1);
+        for_range(0, dual_.count(), stop_, [&](Size t) {
+            Index& side = side_[at(dual_.root(static_cast<Index>(t)))];
+            for (Size place = 0; place < 3 && side < 0; ++place) {
+                if (!dual_.is_tied({static_cast<Index>(t), place})) {
+                    side = static_cast<Index>(3 * t + place);
+                }
+            }
+        });
+    }
+
+    // The sites around the vertex of a root, counterclockwise from the lowest.
+    void polygon_of(Index root, std::vector<Index>& polygon) const {
+        const HalfEdge start{side_[at(root)] / 3, at(side_[at(root)]) % 3};
+        polygon.clear();
+        HalfEdge e = start;
+        do {
+            polygon.push_back(dual_.origin(e));
+            e = dual_.next_side(e);
+        } while (e.t != start.t || e.place != start.place);
+        std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
+    }
+
+    bool is_triangle(Index t) const {
+        return !dual_.has_ties() || !(dual_.is_tied({t, 0}) || dual_.is_tied({t, 1}) || dual_.is_tied({t, 2}));
+    }
+
+    LowestSites lowest_sites(Index root, std::vector<Index>& polygon) const {
+        if (is_triangle(root)) {
+            return of_triangle(dual_.corners(root), root);
+        }
+        polygon_of(root, polygon);
+        return of_polygon(polygon, root);
+    }
+
+    // Sorted into one list for each lowest site, the lists one after the other.
+    void number_vertices() {
+        std::vector<Index> polygon;
+        Buffer<Index> end(sites_ + 1);
+        std::fill_n(end.data(), end.size(), 0);
+        Size vertices = 0;
+        const auto each_root = [&](auto&& visit) {
+            for_range(0, dual_.count(), stop_, [&](Size k) {
+                const Index t = static_cast<Index>(k);
+                if (dual_.root(t) == t) {
+                    visit(lowest_sites(t, polygon));
+                }
+            });
+        };
+        each_root([&](const LowestSites& sites) {
+            ++end[at(sites.first) + 1];
+            ++vertices;
+        });
+        for (Size site = 0; site < sites_; ++site) {
+            end[site + 1] += end[site];
+        }
+        Buffer<VertexKey> keys(vertices);
+        each_root([&](const LowestSites& sites) { keys[at(end[at(sites.first)]++)] = sites.key; });
+        // Now end[site] is where the list of the next site begins.
+        number_ = Buffer<Index>(dual_.count());
+        diagram_.vertex_sites = Buffer<Index>(3 * vertices);
+        in_grains(sites_, grain, crew_, [&](Size first, Size last) {
+            std::vector<Index> room;
+            for_range(first, last, stop_, [&](Size site) {
+                VertexKey* const begin = keys.data() + (site == 0 ? 0 : end[site - 1]);
+                std::sort(begin, keys.data() + end[site]);
+                for (VertexKey* key = begin; key < keys.data() + end[site]; ++key) {
+                    name(static_cast<Index>(key - keys.data()), static_cast<Index>(site), *key, room);
+                }
+            });
+        });
+        name_triangles();
+    }
+
+    void name(Index number, Index lowest, const VertexKey& key, std::vector<Index>& polygon) {
+        Index* const sites = diagram_.vertex_sites.data() + 3 * at(number);
+        number_[at(key.root)] = number;
+        sites[0] = lowest;
+        if (is_triangle(key.root)) {
+            sites[1] = key.clockwise ? key.third : key.second;
+            sites[2] = key.clockwise ? key.second : key.third;
+        } else {
+            polygon_of(key.root, polygon);
+            sites[1] = polygon[polygon.size() / 3];
+            sites[2] = polygon[2 * polygon.size() / 3];
+        }
+    }
+
+    void name_triangles() {
+        if (!dual_.has_ties()) {
+            diagram_.simplex_vertex = std::move(number_);
+            return;
+        }
+        diagram_.simplex_vertex = Buffer<Index>(dual_.count());
+        for_all(dual_.count(), crew_, stop_, [&](Size t) {
+            diagram_.simplex_vertex[t] = number_[at(dual_.root(static_cast<Index>(t)))];
+        });
+    }
+
+    // A site's entries: its untied edges, and one for infinity. Where to begin to turn around it: at the border, if it
+    // lies there, else in its lowest triangle.
+    void count_entries() {
+        start_ = Buffer<Index>(sites_);
+        std::fill_n(start_.data(), sites_, -1);
+        diagram_.offsets = Buffer<std::int64_t>(sites_ + 1);
+        std::int64_t* const count = diagram_.offsets.data();
+        std::fill_n(count, sites_ + 1, 0);
+        for_range(0, dual_.count(), stop_, [&](Size k) {
+            const Index t = static_cast<Index>(k);
+            for (Size place = 0; place < 3; ++place) {
+                const Size site = at(dual_.corners(t)[place]);
+                const bool at_border = dual_.neighbor({t, (place + 2) % 3}) < 0;
+                count[site + 1] += std::int64_t{!dual_.is_tied({t, (place + 1) % 3})} + std::int64_t{at_border};
+                if (at_border || start_[site] < 0) {
+                    start_[site] = static_cast<Index>(3 * k + place);
+                }
+            }
+        });
+        for (Size site = 0; site < sites_; ++site) {
+            count[site + 1] += count[site];
+        }
+        entries_ = static_cast<Size>(count[sites_]);
+    }
+
+    // The cells of the sites around which to turn from triangle t.
+    void write_cells_from(Index t, std::vector<Index>& room) {
+        for (Size place = 0; place < 3; ++place) {
+            const Index site = dual_.corners(t)[place];
+            if (start_[at(site)] == 3 * t + static_cast<Index>(place)) {
+                write_cell(t, place, room);
+            }
+        }
+    }
+
+    void write_cell(Index t, Size place, std::vector<Index>& entries) {
+        entries.clear();  // vertex, neighbour
+        const bool closed = dual_.around(t, place, [&](HalfEdge e) {
+            if (!dual_.is_tied(e)) {
+                entries.push_back(diagram_.simplex_vertex[at(e.t)]);
+                entries.push_back(dual_.origin(e));
+            }
+        });
+        if (!closed) {
+            entries.push_back(-1);
+            entries.push_back(dual_.corners(t)[(place + 1) % 3]);
+        }
+        const Size size = entries.size() / 2;
+        Size lowest = 0;
+        for (Size k = 1; k < size; ++k) {
+            lowest = entries[2 * k] < entries[2 * lowest] ? k : lowest;
+        }
+        const Size offset = static_cast<Size>(diagram_.offsets[at(dual_.corners(t)[place])]);
+        for (Size k = 0; k < size; ++k) {
+            const Size from = lowest + k < size ? lowest + k : lowest + k - size;
+            diagram_.vertices[offset + k] = entries[2 * from];
+            diagram_.neighbors[offset + k] = entries[2 * from + 1];
+        }
+    }
+
+    const DualTriangles& dual_;
+    Size sites_, entries_ = 0;
+    Crew& crew_;
+    Stop stop_;
+    Diagram diagram_;
+    Buffer<Index> side_;    // of each root of several triangles: 3 t + place of a side of its polygon
+    Buffer<Index> number_;  // of each root: its vertex
+    Buffer<Index> start_;   // of each site: 3 t + place
+};
+
+}  // namespace
+
+Diagram cells_of(const DualTriangles& dual, std::size_t sites, Crew& crew, Stop stop) {
+    return CellBuilder(dual, sites, crew, stop).build();
+}
+
+}  // namespace stereodel
