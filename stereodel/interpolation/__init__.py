@@ -3,12 +3,14 @@
 from stereodel.interpolation.contours import Contour, contours
 from stereodel.interpolation.gradients import estimate_gradients
 from stereodel.interpolation.linear import LinearInterpolator
+from stereodel.interpolation.natural_neighbor import NaturalNeighborInterpolator
 from stereodel.interpolation.nearest import NearestInterpolator
 from stereodel.interpolation.smooth import SmoothInterpolator
 
 __all__ = [
     "Contour",
     "LinearInterpolator",
+    "NaturalNeighborInterpolator",
     "NearestInterpolator",
     "SmoothInterpolator",
     "contours",

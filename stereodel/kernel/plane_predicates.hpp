@@ -56,6 +56,12 @@ class PlanePoints {
         return sign != OPEN ? sign : incircle_open(at(a), at(b), at(c), at(d), e);
     }
 
+    int incircle(Index a, Index b, Index c, const double* query) {
+        const plane::Estimate e = plane::incircle_estimate(at(a), at(b), at(c), query);
+        const Sign sign = decide(e.value, e.bound);
+        return sign != OPEN ? sign : incircle_open(at(a), at(b), at(c), query, e);
+    }
+
     // Sign of |q-a| - |q-b|.
     int compare_distances(const double* query, Index a, Index b) {
         return compare_distances(query, at(a), query, at(b));

@@ -94,6 +94,9 @@ class PlaneQuery {
     int side(Index u, Index v) { return points_.orient(u, v, query_); }
     int compare(Index a, Index b) { return points_.compare_distances(query_, a, b); }
 
+    // Whether the query lies inside the circle of three corners; points have no common granularity here.
+    bool sees(const Index* c) { return points_.incircle(c[0], c[1], c[2], query_) > 0; }
+
     // The squared distance from a point, rounded; which of two is smaller, if that is certain.
     double square(Index a) const { return PlaneChart::rough_distance(query_, points_.at(a)); }
     static Sign compare_squares(double to_a, double to_b) { return plane::compare_squares(to_a, to_b); }
@@ -137,6 +140,13 @@ class SphereQuery {
     int side(Index u, Index v) {
         const double *a = at(u), *b = at(v);
         return turn(a, b, query_, ordinary_ && is_ordinary(a) && is_ordinary(b), tally_);
+    }
+
+    // Whether the query lies inside the bubble of three corners.
+    bool sees(const Index* c) {
+        const double *p = at(c[0]), *q = at(c[1]), *r = at(c[2]);
+        const bool unit = is_unit_ && rays::is_unit(p) && rays::is_unit(q) && rays::is_unit(r);
+        return bubble(p, q, r, query_, unit, tally_) > 0;
     }
 
     // Sign of the angle between the query and a less that between the query and b.

@@ -10,10 +10,16 @@ from hypothesis import strategies as st
 from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
-from stereodel.interpolation import LinearInterpolator, NearestInterpolator, SmoothInterpolator, estimate_gradients
+from stereodel.interpolation import (
+    LinearInterpolator,
+    NaturalNeighborInterpolator,
+    NearestInterpolator,
+    SmoothInterpolator,
+    estimate_gradients,
+)
 
-METHODS = [NearestInterpolator, LinearInterpolator, SmoothInterpolator]
-TRIANGLE_METHODS = [LinearInterpolator, SmoothInterpolator]
+INNER_METHODS = [LinearInterpolator, SmoothInterpolator, NaturalNeighborInterpolator]  # defined within the hull
+METHODS = [NearestInterpolator, *INNER_METHODS]
 GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
 SMALL = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
 
@@ -61,7 +67,7 @@ def test_shapes_follow_queries_and_values(method, make_points, rng):
 def test_linear_functions_of_the_plane(rng):
     points = rng.random((500, 2))
     queries = 0.2 + 0.6 * rng.random((200, 2))
-    for method in TRIANGLE_METHODS:
+    for method in INNER_METHODS:
         function = method(points, points @ [2.0, -3.0])
         assert np.allclose(function(queries), queries @ [2.0, -3.0], rtol=0, atol=1e-14)
         assert np.allclose(function.gradient(queries), [2.0, -3.0], rtol=0, atol=1e-10)
@@ -111,7 +117,7 @@ def test_linear_and_nearest_agree_with_scipy(rng):
     assert np.array_equal(NearestInterpolator(points, values)(queries), NearestNDInterpolator(points, values)(queries))
 
 
-@pytest.mark.parametrize("method", TRIANGLE_METHODS)
+@pytest.mark.parametrize("method", INNER_METHODS)
 @pytest.mark.parametrize("step", [1e-6])
 def test_gradient_agrees_with_differences(method, step, make_points, rng, known, slopes):
     points = make_points(rng, 400)
@@ -173,7 +179,10 @@ def test_smooth_has_the_given_gradients_at_the_points(distance, make_points, rng
     assert np.allclose(function.gradient(points[0]), function.gradients[0], rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize(("method", "order", "of_gradient"), [(LinearInterpolator, 2, 1), (SmoothInterpolator, 3, 2)])
+@pytest.mark.parametrize(
+    ("method", "order", "of_gradient"),
+    [(LinearInterpolator, 2, 1), (SmoothInterpolator, 3, 2), (NaturalNeighborInterpolator, 2, 1)],
+)
 def test_order_of_convergence(method, order, of_gradient, make_points, known, slopes):
     """Errors over points of four times the density: half the distance, so a factor of 2 to the order."""
     errors, gradient_errors = [], []
@@ -232,7 +241,7 @@ def test_equal_points_have_the_mean_of_their_values(method, make_points, rng):
     assert np.array_equal(gradients[:5], gradients[60:65])
 
 
-@pytest.mark.parametrize("method", TRIANGLE_METHODS)
+@pytest.mark.parametrize("method", [LinearInterpolator, SmoothInterpolator])
 def test_a_value_that_is_not_known_stays_in_its_triangles(method, make_points, rng):
     points, values, queries = make_points(rng, 80), rng.random((80, 2)), make_points(rng, 400)
     holes = values.copy()
@@ -262,13 +271,13 @@ def test_points_without_triangles_in_the_plane(method, points):
 @pytest.mark.parametrize("points", [[[0, 0, 2]], [[1, 0, 0], [0, 1, 0]], [[1, 0, 0], [0, 1, 0], [-1, -1, 0]]])
 def test_points_without_triangles_on_the_sphere(points):
     values = np.arange(float(len(points)))
-    for method in TRIANGLE_METHODS:
+    for method in INNER_METHODS:
         assert np.isnan(method(points, values)(points)).all()
         assert np.array_equal(method(points, values, extrapolate="nearest")(points), values)
     assert np.array_equal(NearestInterpolator(points, values)(points), values)
 
 
-@pytest.mark.parametrize("method", TRIANGLE_METHODS)
+@pytest.mark.parametrize("method", INNER_METHODS)
 def test_three_points_of_the_sphere_have_one_inside(method):
     function = method(np.eye(3), [1.0, 2.0, 4.0], extrapolate="nearest")
     assert function([1, 1, 1]) == pytest.approx(7 / 3)
@@ -277,7 +286,7 @@ def test_three_points_of_the_sphere_have_one_inside(method):
     assert np.array_equal(function.gradient([-1, -1, -0.5]), [0.0, 0.0, 0.0])
 
 
-@pytest.mark.parametrize("method", TRIANGLE_METHODS)
+@pytest.mark.parametrize("method", INNER_METHODS)
 def test_a_hemisphere_is_not_left(method, rng, known):
     points = rng.normal(size=(200, 3))
     points[:, 2] = np.abs(points[:, 2]) + 0.2
@@ -290,7 +299,7 @@ def test_a_hemisphere_is_not_left(method, rng, known):
     assert np.array_equal(nearest(queries)[outside], NearestInterpolator(points, known(points))(queries)[outside])
 
 
-@pytest.mark.parametrize("method", TRIANGLE_METHODS)
+@pytest.mark.parametrize("method", INNER_METHODS)
 @pytest.mark.parametrize("spread", [1e-3, 1e-8, 1e-12])
 def test_clusters_are_as_accurate_as_the_whole(method, spread, rng):
     """Values linear in the tangent plane of a cluster: doubles off the sphere by 1e-16, known by their directions."""
@@ -361,7 +370,17 @@ def test_all_methods_take_any_directions(points, queries):
             assert np.isfinite(result).all()
         else:
             assert np.array_equal(np.isfinite(result), held)
-            assert np.isfinite(slopes[held]).all()
+            at_point = (np.cross(np.array(queries)[:, None], points).any(axis=2) == 0).any(axis=1)  # or opposite
+            assert np.isfinite(slopes[held & ~at_point]).all()
+
+
+@pytest.mark.parametrize("scale", [1e-150, 1e-30, 1e30, 1e150])
+@pytest.mark.parametrize("method", INNER_METHODS)
+def test_any_size_of_the_plane(method, scale, rng):
+    points, values, queries = rng.random((60, 2)), rng.random(60), 0.3 + 0.4 * rng.random((40, 2))
+    function, scaled = method(points, values), method(scale * points, values)
+    assert np.allclose(scaled(scale * queries), function(queries), rtol=0, atol=1e-12)
+    assert np.allclose(scaled.gradient(scale * queries) * scale, function.gradient(queries), rtol=1e-9, atol=1e-9)
 
 
 def test_later_changes_of_the_triangulation_do_not_matter(rng):

@@ -1,0 +1,100 @@
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "bind_triangles.hpp"
+#include "natural_neighbors.hpp"
+
+namespace stereodel {
+namespace {
+
+using namespace nb::literals;
+
+constexpr std::size_t long_work = 4000;  // queries: some milliseconds
+
+using Table = nb::ndarray<const double, nb::numpy, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using Vectors = nb::ndarray<nb::numpy, double, nb::ndim<3>, nb::c_contig>;
+
+void check_lengths(bool same) {
+    if (!same) {
+        throw std::invalid_argument("points, values and queries must have rows that belong together");
+    }
+}
+
+// Values at the queries, (count, 1, width), or gradients, (count, dimension, width).
+template <class Work>
+Vectors answers(const NaturalNeighborTask& task, std::size_t dimension, bool gradients, Work&& work) {
+    const std::size_t size = task.count * task.width;
+    const bool is_long = task.count > long_work;
+    using Both = std::pair<Buffer<double>, Buffer<double>>;
+    Both both = run_without_lock(is_long, [&](Stop stop) {
+        Both out(Buffer<double>{size}, Buffer<double>{gradients ? size * dimension : 0});
+        NaturalNeighborTask filled = task;
+        filled.found = out.first.data();
+        filled.gradients = gradients ? out.second.data() : nullptr;
+        work(filled, stop);
+        return out;
+    });
+    return gradients ? to_array<Vectors>(std::move(both.second), {task.count, dimension, task.width})
+                     : to_array<Vectors>(std::move(both.first), {task.count, 1, task.width});
+}
+
+Vectors in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values,
+                    RowsIn<double, 2> queries, bool gradients, int workers) {
+    check_lengths(values.shape(0) == points.shape(0));
+    const NaturalNeighborTask task{to_triangles(points.data(), simplices, neighbors, {}),
+                                   nullptr,
+                                   nullptr,
+                                   queries.data(),
+                                   nullptr,
+                                   nullptr,
+                                   queries.shape(0),
+                                   values.data(),
+                                   values.shape(1),
+                                   nullptr,
+                                   nullptr};
+    return answers(task, 2, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
+        natural_neighbors_plane(filled, workers, stop);
+    });
+}
+
+Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
+                     RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values, RowsIn<double, 3> queries,
+                     RowsIn<double, 3> query_units, RowsIn<double, 3> query_rests, std::optional<Closing> closing,
+                     bool gradients, int workers) {
+    const std::size_t size = points.shape(0), count = queries.shape(0);
+    check_lengths(values.shape(0) == size && units.shape(0) == size && rests.shape(0) == size &&
+                  query_units.shape(0) == count && query_rests.shape(0) == count);
+    const NaturalNeighborTask task{to_triangles(points.data(), simplices, neighbors, closing),
+                                   units.data(),
+                                   rests.data(),
+                                   queries.data(),
+                                   query_units.data(),
+                                   query_rests.data(),
+                                   count,
+                                   values.data(),
+                                   values.shape(1),
+                                   nullptr,
+                                   nullptr};
+    return answers(task, 3, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
+        natural_neighbors_sphere(filled, workers, stop);
+    });
+}
+
+}  // namespace
+
+void bind_interpolation(nb::module_& module) {
+    module.def("natural_neighbors_plane", in_plane, "points"_a, "simplices"_a, "neighbors"_a, "values"_a, "queries"_a,
+               "gradients"_a = false, "workers"_a = 1,
+               "Sibson's interpolant of values (n, k) at the queries, (m, 1, k), or its gradients, (m, 2, k).");
+    module.def("natural_neighbors_sphere", on_sphere, "points"_a, "units"_a, "rests"_a, "simplices"_a, "neighbors"_a,
+               "values"_a, "queries"_a, "query_units"_a, "query_rests"_a, "closing"_a = nb::none(),
+               "gradients"_a = false, "workers"_a = 1,
+               "The same for directions, which come as unit vectors in double-double too: units + rests.");
+}
+
+}  // namespace stereodel
