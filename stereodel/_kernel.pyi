@@ -48,6 +48,66 @@ def closing(
 ) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C")]:
     """Whether det[a b c] <= 0, for each facet."""
 
+def proximity_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    graph: str,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+    """
+    Edges of the graph "gabriel", "urquhart" or "relative" of a triangulation, sorted.
+    """
+
+def proximity_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    graph: str,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+    """The same for directions."""
+
+def spanning_tree_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    edges: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+    """
+    The shortest forest among the edges, equally long ones in the order of their ends; sorted.
+    """
+
+def spanning_tree_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    edges: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+    """The same for directions."""
+
+def compare_lengths_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """Sign of |ab| - |cd| for rows a b c d of numbers."""
+
+def compare_lengths_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """The same of angles between directions."""
+
+def diametral_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """
+    1 where p lies outside the circle with diameter ab, 0 on it, -1 inside, for rows a b p of numbers.
+    """
+
+def diametral_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """The same for directions; 0 for opposite a and b."""
+
 def natural_neighbors_plane(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

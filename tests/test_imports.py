@@ -29,6 +29,7 @@ MAY_IMPORT = {
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
     "interpolation": KERNEL | {"sphere", "triangulation"},
     "spatial": BASE | {"triangulation"},
+    "graphs": KERNEL | {"triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "render"},

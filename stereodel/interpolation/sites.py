@@ -8,10 +8,10 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_plane_or_sphere, as_values
+from stereodel._arrays import FloatArray, as_values
 from stereodel._double_double import DoubleDouble, unit
 from stereodel.sphere.chunks import ROWS
-from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
+from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay, given
 
 Triangulation = PlanarDelaunay | SphericalDelaunay
 Indices = npt.NDArray[np.integer]
@@ -19,10 +19,7 @@ Indices = npt.NDArray[np.integer]
 
 def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
     """A triangulation of our own: of points (n, 2) or (n, 3), or of those given, as they are now."""
-    if isinstance(points, PlanarDelaunay | SphericalDelaunay):
-        return copy.copy(points)  # shares the arrays, which never change
-    array = as_plane_or_sphere(points)
-    return SphericalDelaunay(array) if array.shape[1] == 3 else PlanarDelaunay(array)
+    return copy.copy(given.as_triangulation(points))  # shares the arrays, which never change
 
 
 def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:

@@ -5,6 +5,7 @@ namespace stereodel {
 
 void bind_degrees(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
+void bind_graphs(nanobind::module_& module);
 void bind_interpolation(nanobind::module_& module);
 void bind_location(nanobind::module_& module);
 void bind_mesh(nanobind::module_& module);
@@ -19,6 +20,7 @@ NB_MODULE(_kernel, module) {
         "diagrams.";
     stereodel::bind_degrees(module);
     stereodel::bind_delaunay(module);
+    stereodel::bind_graphs(module);
     stereodel::bind_interpolation(module);
     stereodel::bind_location(module);
     stereodel::bind_mesh(module);

@@ -9,6 +9,11 @@ constexpr Number cross_form(const Number& ax, const Number& ay, const Number& bx
 }
 
 template <class Number>
+constexpr Number dot_form(const Number& ax, const Number& ay, const Number& bx, const Number& by) {
+    return ax * bx + ay * by;
+}
+
+template <class Number>
 constexpr Number square_form(const Number& x, const Number& y) {
     return x * x + y * y;
 }

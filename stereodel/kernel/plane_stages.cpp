@@ -14,6 +14,7 @@ namespace {
 constexpr ErrorCount EXACT_EDGE = {1, 0};
 constexpr double ORIENT_ERROR = 16, INCIRCLE_ERROR = 112, DISTANCE_ERROR = 25;
 static_assert(cross_form(EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE).bound() <= ORIENT_ERROR);
+static_assert(dot_form(EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE).bound() <= ORIENT_ERROR);
 static_assert(incircle_form(EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE, EXACT_EDGE).bound() <=
               INCIRCLE_ERROR);
 static_assert((square_form(EXACT_EDGE, EXACT_EDGE) - square_form(EXACT_EDGE, EXACT_EDGE)).bound() <= DISTANCE_ERROR);
@@ -84,6 +85,12 @@ Sign incircle_last_digits(const double* a, const double* b, const double* c, con
     return incircle_form(edge(a, 0), edge(a, 1), edge(b, 0), edge(b, 1), edge(c, 0), edge(c, 1)).sign();
 }
 
+Sign diametral_double_double(const double* a, const double* b, const double* p) {
+    const Edge pa(p, a), pb(p, b);
+    const double permanent = diametral_estimate(a, b, p).permanent;
+    return decide_pair(dot_form(pa.x, pa.y, pb.x, pb.y), ORIENT_ERROR * U2 * permanent + FLOOR);
+}
+
 Sign distances_double_double(const double* p, const double* a, const double* q, const double* b) {
     const Edge pa(p, a), qb(q, b);
     const double permanent = distance_estimate(p, a, q, b).permanent;
@@ -101,6 +108,12 @@ int incircle_exact(const double* a, const double* b, const double* c, const doub
     const IntegerPoint da = integer_edge(d, a, exponent), db = integer_edge(d, b, exponent),
                        dc = integer_edge(d, c, exponent);
     return incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y).sign();
+}
+
+int diametral_exact(const double* a, const double* b, const double* p) {
+    const int exponent = common_exponent({a, b, p});
+    const IntegerPoint pa = integer_edge(p, a, exponent), pb = integer_edge(p, b, exponent);
+    return dot_form(pa.x, pa.y, pb.x, pb.y).sign();
 }
 
 int distances_exact(const double* p, const double* a, const double* q, const double* b) {

@@ -30,6 +30,7 @@ struct Estimate {
 constexpr RoundingCount EDGE = {1};
 constexpr double ORIENT_ROUNDING = 5, INCIRCLE_ROUNDING = 12, DISTANCE_ROUNDING = 6;
 static_assert(cross_form(EDGE, EDGE, EDGE, EDGE).bound() <= ORIENT_ROUNDING);
+static_assert(dot_form(EDGE, EDGE, EDGE, EDGE).bound() <= ORIENT_ROUNDING);
 static_assert(incircle_form(EDGE, EDGE, EDGE, EDGE, EDGE, EDGE).bound() <= INCIRCLE_ROUNDING);
 static_assert((square_form(EDGE, EDGE) - square_form(EDGE, EDGE)).bound() <= DISTANCE_ROUNDING);
 
@@ -49,6 +50,13 @@ inline Estimate incircle_estimate(const double* a, const double* b, const double
     const double permanent = aa * (bb + cc) + bb * cc;
     return {incircle_form(ax, ay, bx, by, cx, cy),
             INCIRCLE_ROUNDING * UNIT_ROUNDOFF * permanent + FLOOR * (aa + (bb + cc) + 1), permanent};
+}
+
+// (a-p).(b-p), at most zero in the disk with the diameter ab.
+inline Estimate diametral_estimate(const double* a, const double* b, const double* p) {
+    const double ax = a[0] - p[0], ay = a[1] - p[1], bx = b[0] - p[0], by = b[1] - p[1];
+    const double permanent = std::fabs(ax * bx) + std::fabs(ay * by);
+    return {dot_form(ax, ay, bx, by), ORIENT_ROUNDING * UNIT_ROUNDOFF * permanent + FLOOR, permanent};
 }
 
 inline double squared_length(const double* p, const double* q) {
@@ -72,11 +80,13 @@ Sign incircle_double_double(const double* a, const double* b, const double* c, c
 // For coordinates that are multiples of 1/`per_unit`, a power of two, and signs that the stage before left open: so the
 // value is small, and its last 128 binary digits tell all. Open where they do not.
 Sign incircle_last_digits(const double* a, const double* b, const double* c, const double* d, double per_unit);
+Sign diametral_double_double(const double* a, const double* b, const double* p);
 Sign distances_double_double(const double* p, const double* a, const double* q, const double* b);
 
 // Integers: always right, never open.
 int orient_exact(const double* a, const double* b, const double* c);
 int incircle_exact(const double* a, const double* b, const double* c, const double* d);
+int diametral_exact(const double* a, const double* b, const double* p);
 int distances_exact(const double* p, const double* a, const double* q, const double* b);
 
 // Whether the four points are the corners of a rectangle with sides along the axes (or fewer than four different ones

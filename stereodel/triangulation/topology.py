@@ -57,7 +57,7 @@ def canonical(simplices: Indices) -> IntArray:
 
 def neighbors_of(simplices: Indices) -> IntArray:
     """Triangle opposite each corner, (m, 3), -1 where there is none."""
-    both = _packed_edges(simplices)
+    both = _packed(_directed_edges(simplices))
     order = np.argsort(both, kind="stable")
     shared = both[order[1:]] == both[order[:-1]]
     one, other = order[:-1][shared], order[1:][shared]
@@ -68,7 +68,16 @@ def neighbors_of(simplices: Indices) -> IntArray:
 
 def edges_of(simplices: Indices) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
-    both = np.sort(_packed_edges(simplices))
+    return _unpacked(_packed(_directed_edges(simplices)))
+
+
+def as_edges(one: Indices, other: Indices) -> IntArray:
+    """Pairs of vertices as edges (e, 2), each once, with i < j, in lexicographic order."""
+    return _unpacked(_packed(np.stack([one, other], axis=-1)))
+
+
+def _unpacked(edges: npt.NDArray[np.int64]) -> IntArray:
+    both = np.sort(edges)
     once = both[np.concatenate([[True], both[1:] != both[:-1]])] if len(both) else both
     return np.column_stack([once >> 32, once & 0xFFFFFFFF]).astype(np.int32)
 
@@ -85,7 +94,7 @@ def _directed_edges(simplices: Indices) -> Indices:
     return np.stack([np.roll(simplices, -1, axis=1), np.roll(simplices, -2, axis=1)], axis=-1).reshape(-1, 2)
 
 
-def _packed_edges(simplices: Indices) -> npt.NDArray[np.int64]:
-    """Edge opposite each corner, (3m,): one number for both ends, which is sorted a hundred times as fast as rows."""
-    ends = np.sort(_directed_edges(simplices), axis=1).astype(np.int64)
+def _packed(edges: Indices) -> npt.NDArray[np.int64]:
+    """One number for both ends of each edge (e, 2), which is sorted a hundred times as fast as rows."""
+    ends = np.sort(edges, axis=1).astype(np.int64)
     return ends[:, 0] << 32 | ends[:, 1]

@@ -1,0 +1,82 @@
+"""What the graphs of nearness share: edges from the kernel, or from a line or great circle."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import _kernel
+from stereodel._arrays import FloatArray, IntArray
+from stereodel.triangulation.circle_order import circle_order
+from stereodel.triangulation.given import Triangulation
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.topology import as_edges
+
+Kind = Literal["gabriel", "urquhart", "relative"]
+Indices = npt.NDArray[np.integer]
+
+
+def proximity_edges(triangulation: Triangulation, kind: Kind, workers: int | None) -> IntArray:
+    """Edges (e, 2) with i < j, in lexicographic order, of a graph of nearness."""
+    threads = triangulation._thread_count(workers)
+    if triangulation.dimension < 2:
+        return _flat_edges(triangulation, kind)
+    function = _kernel.proximity_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.proximity_sphere
+    arrays = triangulation.points, triangulation.simplices, triangulation.neighbors
+    return function(*arrays, kind, threads)
+
+
+def different_points(triangulation: Triangulation) -> Indices:
+    """Indices of the points without the dropped duplicates, (k,)."""
+    return np.delete(np.arange(len(triangulation.points)), triangulation.duplicates[:, 0])
+
+
+def points_in_order(triangulation: Triangulation) -> Indices:
+    """The different points of a triangulation without triangles, along their line or around their great circle."""
+    different = different_points(triangulation)
+    places = triangulation.points[different]
+    if len(different) < 2:
+        return different
+    if isinstance(triangulation, PlanarDelaunay):
+        return different[np.lexsort(places.T[::-1])]
+    return different[circle_order(places)]
+
+
+def short_steps(points: FloatArray, circle: Indices) -> Indices:
+    """Steps (e, 2) around three or more different directions of a great circle that are less than half-turns.
+
+    A step of less than a half-turn has all other points outside its diametral circle, a longer one inside, a half-turn
+    on it: the next point tells.
+    """
+    three = np.column_stack([circle, np.roll(circle, -1), np.roll(circle, -2)]).astype(np.int32)
+    return three[_kernel.diametral_sphere(points, three) > 0, :2]
+
+
+def _flat_edges(triangulation: Triangulation, kind: Kind) -> IntArray:
+    order, points = points_in_order(triangulation), triangulation.points
+    if isinstance(triangulation, PlanarDelaunay) or len(order) < 3:
+        return as_edges(order[:-1], order[1:])
+    steps = short_steps(points, order)
+    if kind == "relative":
+        steps = steps[[_has_empty_lune(points, order, step) for step in steps]]
+    return as_edges(*steps.T)
+
+
+def _has_empty_lune(points: FloatArray, circle: Indices, step: Indices) -> bool:
+    """Whether no point of a great circle is strictly nearer to both ends of a step than these are to each other.
+
+    That takes a step of more than a third of the circle, the squared chord of which is 3: two steps at most.
+    """
+    a, b = step
+    chord = np.subtract(*(points[[a, b]] / np.linalg.norm(points[[a, b]], axis=1)[:, None]))
+    if chord @ chord < 2.99:
+        return True
+    others = circle[(circle != a) & (circle != b)]
+
+    def nearer(end: int) -> npt.NDArray[np.bool_]:
+        rows = [np.broadcast_to(k, others.shape) for k in (end, others, a, b)]
+        return _kernel.compare_lengths_sphere(points, np.column_stack(rows).astype(np.int32)) < 0
+
+    return not (nearer(a) & nearer(b)).any()

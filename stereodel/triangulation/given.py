@@ -1,0 +1,19 @@
+"""Points, or a triangulation of them: what functions on triangulations take."""
+
+from __future__ import annotations
+
+import numpy.typing as npt
+
+from stereodel._arrays import as_plane_or_sphere
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+
+Triangulation = PlanarDelaunay | SphericalDelaunay
+
+
+def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
+    """The triangulation given, or that of points (n, 2) of the plane or of directions (n, 3)."""
+    if isinstance(points, PlanarDelaunay | SphericalDelaunay):
+        return points
+    array = as_plane_or_sphere(points)
+    return SphericalDelaunay(array) if array.shape[1] == 3 else PlanarDelaunay(array)
