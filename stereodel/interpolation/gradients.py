@@ -37,12 +37,13 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
     Notes
     -----
     At each point the quadratic polynomial of the tangent plane that has the point's value and comes nearest to those of
-    its neighbours and their neighbours, in the sense of least squares with the weights (R − r)/(R r); r is the
-    distance, R a little more than the largest. On the sphere the polynomial is in the tangential components ξ, η of
-    the difference d of the unit vectors, with |d|² in place of ξ² + η². So quadratic polynomials of the plane and
-    linear functions of (x, y, z) have their exact gradients; for smooth functions the error is of order h². What the
-    neighbours do not determine is left out, second derivatives first. Neighbours without a value are passed over;
-    equal points take the mean of their values and have the same gradient.
+    its neighbours and their neighbours: least squares of the differences times (1/r − 1/R)², where r is the distance
+    and R a little more than the largest one. The three nearest count like the third: else a very close one would
+    decide alone, and by its rounding. On the sphere the polynomial is in the tangential components ξ, η of the
+    difference d of the unit vectors, with |d|² in place of ξ² + η². So quadratic polynomials of the plane and linear
+    functions of (x, y, z) have their exact gradients; for smooth functions the error is of order h². What the
+    neighbours do not determine is left out, second derivatives first. Neighbours without a value are passed over; equal
+    points take the mean of their values and have the same gradient.
 
     References
     ----------
@@ -100,12 +101,14 @@ def _columns(
     """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (p, 5), its weight, and the scale of each point in units."""
     differences = sites.minus(others, sites, block[owners])
     size = np.sqrt(dot(differences, differences))[:, 0]
+    counts = np.diff(starts, append=len(owners))
     scale = 1.1 * np.maximum.reduceat(size, starts)
-    of_pair = np.repeat(scale, np.diff(starts, append=len(owners)))
+    of_pair = np.repeat(scale, counts)
+    third = size[np.lexsort((size, owners))[starts + np.minimum(2, counts - 1)]]
     d = differences / of_pair[:, None]
     r = size / of_pair
     xi, eta = np.einsum("pij,pj->ip", axes[owners], d)
-    weights = (1.0 - r) / r
+    weights = ((1.0 - r) / np.maximum(r, np.repeat(third / scale, counts))) ** 2
     columns = np.stack([xi, eta, r * r, xi * xi - eta * eta, 2.0 * xi * eta], axis=1)
     return columns * weights[:, None], weights, scale
 

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_directions, as_vectors, locked
-from stereodel.interpolation.sites import Indices, Triangulation, as_site_values, as_triangulation
+from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values, as_triangulation
 
 BLOCK = 4096
 """Queries at a time: a temporary of three vectors is 300 KB and stays in the second-level cache."""
@@ -37,6 +37,7 @@ class Interpolator(ABC):
         self._values = locked(flat.copy())
         self.values = self._values.reshape(len(flat), *shape)
         self._value_shape = shape
+        self._sites = Places(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
     def __call__(self, queries: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.interpolation.interpolator import TriangleInterpolator
-from stereodel.interpolation.sites import Indices, Places
+from stereodel.interpolation.sites import Indices
 from stereodel.interpolation.triangles import Holders
 
 
@@ -65,10 +63,6 @@ class LinearInterpolator(TriangleInterpolator):
     >>> LinearInterpolator(octahedron, [6.0, 9.0, 0.0, 0.0, 3.0, 0.0])([1, 1, 1]).item()
     6.0
     """
-
-    @cached_property
-    def _sites(self) -> Places:
-        return Places(self.triangulation.points)
 
     def _within(self, corners: Indices, queries: FloatArray) -> FloatArray:
         weights = Holders(self._sites, corners, queries).weights()

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 import numpy.typing as npt
 
@@ -78,10 +76,6 @@ class NaturalNeighborInterpolator(Interpolator):
 
     def _outside(self, queries: FloatArray, workers: int | None) -> npt.NDArray[np.intp]:
         return np.flatnonzero(np.asarray(self.triangulation.find_simplex(queries, workers=workers)) < 0)
-
-    @cached_property
-    def _sites(self) -> Places:
-        return Places(self.triangulation.points)
 
     def _ask(self, queries: FloatArray, workers: int | None, *, gradients: bool) -> FloatArray:
         triangulation: Triangulation = self.triangulation

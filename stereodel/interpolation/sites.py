@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -52,16 +51,11 @@ class Places:
     """
 
     def __init__(self, points: FloatArray) -> None:
-        self._points = points
         self.curved = points.shape[1] == 3
-
-    @cached_property
-    def exact(self) -> DoubleDouble:
-        """Points, or unit vectors with errors below 2⁻¹⁰² (n, d)."""
-        if not self.curved or len(self._points) == 0:
-            return DoubleDouble(self._points)
-        blocks = [unit(self._points[i : i + ROWS]) for i in range(0, len(self._points), ROWS)]
-        return DoubleDouble(np.concatenate([b.hi for b in blocks]), np.concatenate([b.lo for b in blocks]))
+        self.exact = DoubleDouble(points)  # or unit vectors with errors below 2⁻¹⁰², (n, d)
+        if self.curved and len(points):
+            blocks = [unit(points[i : i + ROWS]) for i in range(0, len(points), ROWS)]
+            self.exact = DoubleDouble(np.concatenate([b.hi for b in blocks]), np.concatenate([b.lo for b in blocks]))
 
     @property
     def rounded(self) -> FloatArray:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy as np
 import numpy.typing as npt
 
@@ -11,7 +9,7 @@ from stereodel._arrays import FloatArray, as_values, locked
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import TriangleInterpolator
 from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
-from stereodel.interpolation.sites import Indices, Places, Triangulation, one_value_a_place
+from stereodel.interpolation.sites import Indices, Triangulation, one_value_a_place
 from stereodel.interpolation.triangles import Holders, dot
 
 
@@ -96,10 +94,6 @@ class SmoothInterpolator(TriangleInterpolator):
             up = self._sites.rounded[:, None, :]
             vectors = vectors - up * dot(vectors, np.broadcast_to(up, vectors.shape))
         return np.array(np.moveaxis(vectors, 2, 1))
-
-    @cached_property
-    def _sites(self) -> Places:
-        return Places(self.triangulation.points)
 
     def _within(self, corners: Indices, queries: FloatArray) -> FloatArray:
         holders = Holders(self._sites, corners, queries)

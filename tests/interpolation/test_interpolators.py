@@ -73,9 +73,12 @@ def test_linear_functions_of_the_plane(rng):
         assert np.allclose(function.gradient(queries), [2.0, -3.0], rtol=0, atol=1e-10)
 
 
-def test_quadratic_polynomials_of_the_plane(rng):
-    """Estimated gradients are exact for them, and so is the smooth interpolant."""
+@pytest.mark.parametrize("pairs", [None, 1e-3, 1e-9])
+def test_quadratic_polynomials_of_the_plane(pairs, rng):
+    """Estimated gradients are exact for them, and so is the smooth interpolant; also where some points nearly meet."""
     points = rng.normal(size=(400, 2))
+    if pairs:
+        points = np.concatenate([points, points[::7] + pairs * rng.normal(size=points[::7].shape)])
     queries = 0.2 * rng.normal(size=(200, 2))
 
     def polynomial(x):
