@@ -8,8 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, IntArray
-from stereodel.constants import TRANSFORM_CONDITION
+from stereodel.constants import INSIDE_TOLERANCE, TRANSFORM_CONDITION
 from stereodel.triangulation import PlanarDelaunay
+
+Indices = npt.NDArray[np.intp]
 
 _PAIRS_AT_ONCE = 2**20
 """Queries times triangles that are compared in one step: 50 MB."""
@@ -53,7 +55,7 @@ class NearMisses:
     Let x have barycentric coordinates of at least -tol in a triangle, and f be a side of the hull. All corners lie on
     one side of f and within the hull's width w of it, so x is at most 2·tol·w beyond f. The hull's centroid is at least
     w/3 inside (Minkowski and Radon), so x moved by 8·tol of its way there is inside f: only queries that come into the
-    hull when moved need to be compared with the triangles at the hull.
+    hull when moved can be in a triangle.
     """
 
     def __init__(self, triangulation: PlanarDelaunay, transform: FloatArray) -> None:
@@ -61,33 +63,57 @@ class NearMisses:
         self._transform = transform
         self._degenerate = np.isnan(transform[:, 0, 0])
 
-    def improve(self, queries: FloatArray, found: IntArray, tol: float) -> IntArray:
-        """Replace exact answers (k,), -1 outside, by the lowest triangle that holds the query (k, 2) within `tol`.
+    def improve(self, queries: FloatArray, found: IntArray, tol: float, *, exhaustive: bool) -> IntArray:
+        """Replace exact answers (k,), -1 outside, by triangles that hold the queries (k, 2) within `tol`.
 
         A triangle that is not degenerate holds what has no barycentric coordinate below -tol; towards a degenerate
-        neighbour, below -√tol. Where there is none the exact answer stays.
+        neighbour, below -√tol. Asked are the triangles of the query moved by 8·tol, by less, so that a larger `tol`
+        loses nothing, and by 8·√tol, which is beyond degenerate triangles, and their neighbors; if `exhaustive`, all at
+        the hull, in ascending order. Where none does the exact answer stays.
         """
         doubtful = self._doubtful(queries, found, tol)
-        if len(doubtful) == 0 or len(self._candidates) == 0:
+        if len(doubtful) == 0:
             return found
-        lowest = np.where(self._beside_degenerate[self._candidates], -np.sqrt(tol), -tol)
+        shares = 0.0, 8.0 * min(tol, INSIDE_TOLERANCE), 8.0 * tol, 8.0 * np.sqrt(tol)
+        near = [self._moved(queries[doubtful], share) for share in shares]
         result = found.copy()
-        step = max(1, _PAIRS_AT_ONCE // len(lowest))
-        for some in (doubtful[i : i + step] for i in range(0, len(doubtful), step)):
-            holds = np.all(_coordinates(self._transform[self._candidates], queries[some]) >= lowest, axis=-1)
-            result[some] = np.where(holds.any(axis=1), self._candidates[holds.argmax(axis=1)], found[some])
+        result[doubtful] = self._first_holding(queries[doubtful], self._with_neighbors(near), found[doubtful], tol)
+        if exhaustive:
+            outside = doubtful[found[doubtful] < 0]
+            step = max(1, _PAIRS_AT_ONCE // len(self._rim))
+            for some in (outside[i : i + step] for i in range(0, len(outside), step)):
+                result[some] = self._first_holding(queries[some], self._rim[None], result[some], tol)
         return result
 
-    def _doubtful(self, queries: FloatArray, found: IntArray, tol: float) -> npt.NDArray[np.intp]:
+    def _doubtful(self, queries: FloatArray, found: IntArray, tol: float) -> Indices:
+        """Queries whose exact answer can be bettered: in degenerate triangles, and outside but coming inside."""
         if len(self._transform) == 0:
             return np.zeros(0, dtype=np.intp)
         outside = np.flatnonzero(found < 0)
         inside = np.flatnonzero((found >= 0) & self._degenerate[found])
         if len(outside) == 0:
             return inside
-        moved = queries[outside] + min(8.0 * tol, 1.0) * (self._centroid - queries[outside])
-        near = np.asarray(self._triangulation.find_simplex(moved)) >= 0
-        return np.sort(np.concatenate([inside, outside[near]]))
+        return np.concatenate([inside, outside[self._moved(queries[outside], 8.0 * tol) >= 0]])
+
+    def _moved(self, queries: FloatArray, share: float) -> IntArray:
+        """Triangles of queries that are moved a share of their way to the centroid, all of it at most."""
+        moved = queries + min(share, 1.0) * (self._centroid - queries)
+        return np.asarray(self._triangulation.find_simplex(moved))
+
+    def _with_neighbors(self, near: list[IntArray]) -> IntArray:
+        """Columns of triangles, -1 for none, and of their neighbors, (k, 4c), filled up with what there is."""
+        columns = np.column_stack(near)
+        beside = np.where(columns[:, :, None] < 0, -1, self._triangulation.neighbors[columns])
+        around = np.concatenate([columns, beside.reshape(len(columns), -1)], axis=1)
+        return np.where(around < 0, around.max(axis=1, keepdims=True), around)
+
+    def _first_holding(self, queries: FloatArray, candidates: IntArray, otherwise: IntArray, tol: float) -> IntArray:
+        """The first of the candidates (k, c) or (1, c) that holds each query (k, 2)."""
+        lowest = np.where(self._beside_degenerate[candidates], -np.sqrt(tol), -tol)
+        holds = np.all(coordinates(self._transform[candidates], queries[:, None]) >= lowest, axis=-1)
+        first = holds.argmax(axis=1)
+        chosen = np.take_along_axis(np.broadcast_to(candidates, holds.shape), first[:, None], axis=1)[:, 0]
+        return np.where(holds.any(axis=1), chosen, otherwise)
 
     @cached_property
     def _centroid(self) -> FloatArray:
@@ -104,15 +130,14 @@ class NearMisses:
         return self._degenerate[neighbors] & (neighbors >= 0)
 
     @cached_property
-    def _candidates(self) -> IntArray:
-        """Triangles with a corner on the hull or a degenerate neighbour, themselves not degenerate, ascending."""
+    def _rim(self) -> IntArray:
+        """Triangles with a corner on the hull, in ascending order."""
         on_hull = np.zeros(len(self._triangulation.points), dtype=np.bool_)
         on_hull[self._triangulation.convex_hull] = True
-        touching = on_hull[self._triangulation.simplices].any(axis=1) | self._beside_degenerate.any(axis=1)
-        return np.flatnonzero(touching & ~self._degenerate).astype(np.int32)
+        return np.flatnonzero(on_hull[self._triangulation.simplices].any(axis=1)).astype(np.int32)
 
 
-def _coordinates(transform: FloatArray, queries: FloatArray) -> FloatArray:
-    """Barycentric coordinates (k, m, 3) of each query in each triangle."""
-    first = np.einsum("mij,kmj->kmi", transform[:, :2], queries[:, None] - transform[:, 2])
+def coordinates(transform: FloatArray, points: FloatArray) -> FloatArray:
+    """Barycentric coordinates (..., 3) of points (..., 2) by maps (..., 3, 2)."""
+    first = np.einsum("...ij,...j->...i", transform[..., :2, :], points - transform[..., 2, :])
     return np.concatenate([first, 1.0 - first.sum(axis=-1, keepdims=True)], axis=-1)

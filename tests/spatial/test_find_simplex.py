@@ -65,11 +65,13 @@ def test_no_coordinate_is_below_the_tolerance(seed, tol):
     ends = tri.points[tri.convex_hull]
     outward = (ends[:, 1] - ends[:, 0])[:, ::-1] * [1, -1]
     queries = (ends.mean(axis=1)[:, None] + outward[:, None] * rng.uniform(0, 3 * tol, (1, 40, 1))).reshape(-1, 2)
-    found = tri.find_simplex(queries, tol=tol)
-    every = barycentric._coordinates(tri.transform, queries).min(axis=2)
-    np.testing.assert_array_equal(found >= 0, (every >= -tol).any(axis=1))
-    inside = found >= 0
-    assert (every[np.flatnonzero(inside), found[inside]] >= -tol).all()
+    every = barycentric.coordinates(tri.transform, queries[:, None]).min(axis=2)
+    exhaustive = tri.find_simplex(queries, bruteforce=True, tol=tol)
+    np.testing.assert_array_equal(exhaustive >= 0, (every >= -tol).any(axis=1))
+    for found in (exhaustive, tri.find_simplex(queries, tol=tol)):
+        inside = found >= 0
+        assert (every[np.flatnonzero(inside), found[inside]] >= -tol).all()
+        np.testing.assert_array_equal(found[exhaustive < 0], -1)
 
 
 def test_points_of_triangles_without_transform_are_given_to_a_neighbor_with_one():
@@ -92,12 +94,23 @@ def test_the_only_triangles_are_degenerate():
     assert tri.find_simplex([[1, 1e-15], [1, 1]]).tolist() == [0, -1]
 
 
+@pytest.mark.parametrize("corners", [5, 40, 200])
+def test_a_larger_tolerance_loses_nothing(corners):
+    turn = np.linspace(0, 2 * np.pi, corners, endpoint=False)
+    tri = Delaunay(np.column_stack([np.cos(turn), np.sin(turn)]))
+    queries = hull_queries(tri)
+    inside = [tri.find_simplex(queries, tol=tol) >= 0 for tol in (0, 1e-16, None, 1e-12, 1e-9, 1e-6, 1e-3, 1)]
+    for less, more in zip(inside[:-1], inside[1:], strict=True):
+        assert not (less & ~more).any()
+    assert inside[-1].all()
+
+
 def test_chunks_do_not_matter(monkeypatch):
     tri = Delaunay(random_points())
     queries = hull_queries(tri)
-    whole = tri.find_simplex(queries)
+    whole = tri.find_simplex(queries, True)
     monkeypatch.setattr(barycentric, "_PAIRS_AT_ONCE", 100)
-    np.testing.assert_array_equal(tri.find_simplex(queries), whole)
+    np.testing.assert_array_equal(tri.find_simplex(queries, True), whole)
 
 
 @pytest.mark.parametrize("shape", [(), (0,), (5,), (2, 3)])
