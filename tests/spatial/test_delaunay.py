@@ -8,9 +8,12 @@ import pytest
 import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial._qhull import _get_barycentric_transforms
 
-from stereodel import PlanarDelaunay, check_delaunay
+from stereodel import PlanarDelaunay, check_delaunay, orient2d
 from stereodel.spatial import Delaunay
+from stereodel.spatial.barycentric import transforms
+from stereodel.spatial.paraboloid import Paraboloid
 
 SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
 
@@ -133,6 +136,35 @@ def test_input_is_copied():
 def test_triangles_so_thin_that_three_digits_would_not_be_right_have_no_transform(shift):
     tri = Delaunay([[0, 0], [1, shift + 1e-14], [2, 0]])
     assert np.isnan(tri.transform).all() == (shift == 0)
+
+
+def test_transforms_are_missing_where_scipys_are():
+    rng = np.random.default_rng(4)
+    corners = rng.normal(size=(3000, 3, 2)) * [1.0, 7.0]
+    share, aside = rng.random((3000, 1)), 10.0 ** rng.uniform(-13.5, -10.5, (3000, 1))
+    corners[:, 2] = share * corners[:, 0] + (1 - share) * corners[:, 1] + aside * rng.normal(size=(3000, 2))
+    rows = np.arange(9000, dtype=np.int32).reshape(-1, 3)
+    theirs = _get_barycentric_transforms(corners.reshape(-1, 2), rows, np.finfo(float).eps)
+    ours = transforms(corners)
+    missing = np.isnan(ours[:, 0, 0])
+    assert 500 < missing.sum() < 2500
+    assert (missing != np.isnan(theirs[:, 0, 0])).sum() <= 15  # SciPy's condition number comes from a rounded inverse
+    both = ~missing & ~np.isnan(theirs[:, 0, 0])
+    np.testing.assert_allclose(ours[both], theirs[both], rtol=0.02)
+
+
+def test_planes_of_slivers_point_down():
+    """Also where the area, which is exactly positive, is zero or negative as rounded."""
+    rng = np.random.default_rng(5)
+    ends = rng.random((4000, 2, 2)) * [[1, 1], [30, 30]]
+    share = rng.random((4000, 1, 1))
+    corners = np.concatenate([ends, share * ends[:, :1] + (1 - share) * ends[:, 1:]], axis=1)
+    corners = corners[orient2d(*corners.transpose(1, 0, 2)) > 0]
+    d, e = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    assert (d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0] < 0).any()
+    equations = Paraboloid(1.0, 0.0).equations(corners)
+    assert np.isfinite(equations).all()
+    assert (equations[:, 2] <= 0).all()
 
 
 def test_transforms_of_any_size():

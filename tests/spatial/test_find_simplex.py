@@ -1,5 +1,7 @@
 """`Delaunay.find_simplex`: exact inside, SciPy's tolerance at the hull and around triangles without a transform."""
 
+import itertools
+
 import numpy as np
 import pytest
 import scipy.spatial
@@ -89,6 +91,33 @@ def test_points_of_triangles_without_transform_are_given_to_a_neighbor_with_one(
     assert (hull.find_simplex(hull_queries(hull)) >= 0).all()
 
 
+def test_leeway_towards_a_triangle_without_transform():
+    tri = Delaunay([[0, 0], [2, 0], [1, 1.5e-13], [1, 1]])
+    thin = int(np.flatnonzero(np.isnan(tri.transform[:, 0, 0]))[0])
+    inside = tri.points[tri.simplices[thin]].mean(axis=0)
+    assert [tri.find_simplex(inside, tol=tol) for tol in (0, 1e-30)] == [thin, thin]
+    other = tri.find_simplex(inside, tol=1e-15)
+    assert other in tri.neighbors[thin]
+    assert -3e-8 < barycentric.coordinates(tri.transform[other], inside).min() < -1e-15
+
+
+def test_brute_force_asks_every_triangle_at_the_hull():
+    side = np.linspace(0, 1, 20)
+    tri = Delaunay(np.column_stack([axis.ravel() for axis in np.meshgrid(side, side)]))
+    corners = tri.points[tri.convex_hull[:, 0]]
+    queries = np.repeat(corners, 20, axis=0) + 1e-15 * np.random.default_rng(0).normal(size=(20 * len(corners), 2))
+    quick, found = tri.find_simplex(queries), tri.find_simplex(queries, True)
+    assert ((found >= 0) & (quick < 0)).any()
+    assert not ((found < 0) & (quick >= 0)).any()
+    assert coordinates(tri, found[found >= 0], queries[found >= 0]).min() > -3e-14
+
+
+def test_centroid_of_the_hull():
+    corners = [[0, 0], [3, 0], [3, 1], [0, 1]]
+    tri = Delaunay(np.concatenate([corners, [2.9, 0.9] + 0.05 * random_points()]))
+    np.testing.assert_allclose(tri._near_misses._centroid, [1.5, 0.5], rtol=1e-14)
+
+
 def test_the_only_triangles_are_degenerate():
     tri = Delaunay([[0, 0], [1, 1e-14], [2, 0]])
     assert tri.find_simplex([[1, 1e-15], [1, 1]]).tolist() == [0, -1]
@@ -100,7 +129,7 @@ def test_a_larger_tolerance_loses_nothing(corners):
     tri = Delaunay(np.column_stack([np.cos(turn), np.sin(turn)]))
     queries = hull_queries(tri)
     inside = [tri.find_simplex(queries, tol=tol) >= 0 for tol in (0, 1e-16, None, 1e-12, 1e-9, 1e-6, 1e-3, 1)]
-    for less, more in zip(inside[:-1], inside[1:], strict=True):
+    for less, more in itertools.pairwise(inside):
         assert not (less & ~more).any()
     assert inside[-1].all()
 
