@@ -11,6 +11,7 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_floats, locked
 from stereodel._double_double import unit
 from stereodel.sphere import SphereArc, SphereCircle, solid_angle
+from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.bisectors import bisector_normals
 from stereodel.triangulation.cells import Diagram, Indices, circle_cells
 from stereodel.triangulation.circle_order import circle_axis, circle_order
@@ -87,6 +88,40 @@ class SphericalVoronoi(Diagram):
             self._set_diagram(triangulation)
         else:
             self._set_circle()
+
+    @classmethod
+    def from_lonlat(
+        cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None
+    ) -> SphericalVoronoi:
+        """The diagram of points given by longitude and latitude.
+
+        Parameters
+        ----------
+        lonlat : (n, 2) array_like
+            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
+        latitude : {"spherical", "geodetic", "authalic"}, optional
+            As for `lonlat_to_xyz`. With "authalic", ``areas(radius=stereodel.earth.AUTHALIC_RADIUS_KM)`` are areas on
+            the WGS84 ellipsoid in km².
+        workers : int, optional
+            As for the constructor.
+
+        Returns
+        -------
+        SphericalVoronoi
+            Of the unit vectors that `lonlat_to_xyz` gives, which are exact from then on.
+
+        Raises
+        ------
+        ValueError, TypeError
+            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
+
+        Examples
+        --------
+        >>> diagram = SphericalVoronoi.from_lonlat([(0, 60), (120, 60), (-120, 60), (0, -60)], latitude="geodetic")
+        >>> [len(region) for region in diagram.regions]
+        [3, 3, 3, 3]
+        """
+        return cls(SphericalDelaunay.from_lonlat(lonlat, latitude=latitude, workers=workers), workers=workers)
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
