@@ -22,17 +22,18 @@ def transforms(corners: FloatArray) -> FloatArray:
 
     Row 2 is the last corner r, rows 0 and 1 are the inverse of T = [a − r, b − r] (columns): the coordinates of x for
     a and b are T⁻¹(x − r). A triangle is degenerate when the reciprocal condition number of T in the maximum norm,
-    |det T| / (‖T‖·‖adj T‖), is below `TRANSFORM_CONDITION`.
+    |det T| / (‖T‖·‖adj T‖), is below `TRANSFORM_CONDITION`, or when its sides or their inverses exceed doubles.
     """
-    sides = corners[:, :2] - corners[:, 2:]
-    shift = -np.frexp(np.abs(sides).max(axis=(1, 2), initial=0.0))[1]
-    (ax, ay), (bx, by) = np.ldexp(sides, shift[:, None, None]).transpose(1, 2, 0)
-    determinant = ax * by - ay * bx
-    norms = _larger(ax, bx, ay, by) * _larger(by, bx, ay, ax)
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        sides = corners[:, :2] - corners[:, 2:]
+        shift = -np.frexp(np.abs(sides).max(axis=(1, 2), initial=0.0))[1]
+        (ax, ay), (bx, by) = np.ldexp(sides, shift[:, None, None]).transpose(1, 2, 0)
+        determinant = ax * by - ay * bx
+        norms = _larger(ax, bx, ay, by) * _larger(by, bx, ay, ax)
         inverse = np.stack([by, -bx, -ay, ax], axis=-1).reshape(-1, 2, 2) / determinant[:, None, None]
-    result = np.concatenate([np.ldexp(inverse, shift[:, None, None]), corners[:, 2:]], axis=1)
-    result[~(np.abs(determinant) >= TRANSFORM_CONDITION * norms)] = np.nan
+        result = np.concatenate([np.ldexp(inverse, shift[:, None, None]), corners[:, 2:]], axis=1)
+        sound = (np.abs(determinant) >= TRANSFORM_CONDITION * norms) & np.isfinite(result).all(axis=(1, 2))
+    result[~sound] = np.nan
     return result
 
 
@@ -97,7 +98,7 @@ class NearMisses:
 
     def _moved(self, queries: FloatArray, share: float) -> IntArray:
         """Triangles of queries that are moved a share of their way to the centroid, all of it at most."""
-        moved = queries + min(share, 1.0) * (self._centroid - queries)
+        moved = (1.0 - min(share, 1.0)) * queries + min(share, 1.0) * self._centroid
         return np.asarray(self._triangulation.find_simplex(moved))
 
     def _with_neighbors(self, near: list[IntArray]) -> IntArray:
@@ -118,10 +119,12 @@ class NearMisses:
     @cached_property
     def _centroid(self) -> FloatArray:
         """Of the hull's area, (2,)."""
-        corners = self._triangulation.points[self._triangulation.simplices]
+        points = self._triangulation.points
+        size = np.frexp(np.abs(points).max())[1] + 1
+        corners = np.ldexp(points, -size)[self._triangulation.simplices]
         d, e = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         areas = np.abs(d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0])
-        return np.asarray(areas / areas.sum() @ corners.mean(axis=1))
+        return np.asarray(np.ldexp(areas / areas.sum() @ corners.mean(axis=1), size))
 
     @cached_property
     def _beside_degenerate(self) -> BoolArray:
@@ -139,5 +142,6 @@ class NearMisses:
 
 def coordinates(transform: FloatArray, points: FloatArray) -> FloatArray:
     """Barycentric coordinates (..., 3) of points (..., 2) by maps (..., 3, 2)."""
-    first = np.einsum("...ij,...j->...i", transform[..., :2, :], points - transform[..., 2, :])
+    with np.errstate(over="ignore", invalid="ignore"):  # what is that far away is in no triangle
+        first = np.einsum("...ij,...j->...i", transform[..., :2, :], points - transform[..., 2, :])
     return np.concatenate([first, 1.0 - first.sum(axis=-1, keepdims=True)], axis=-1)

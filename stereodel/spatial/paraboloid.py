@@ -22,11 +22,12 @@ class Paraboloid(NamedTuple):
     @classmethod
     def over(cls, points: FloatArray, options: Options) -> Paraboloid:
         """Qhull's paraboloid: with "Qbb", heights run from 0 to the largest absolute coordinate."""
-        heights = (points**2).sum(axis=1)
         if not options.scaled or len(points) == 0:
             return cls(1.0, 0.0)
+        with np.errstate(over="ignore"):
+            heights = (points**2).sum(axis=1)
         low, high = float(heights.min()), float(heights.max()) * (_INFINITY_ABOVE if options.at_infinity else 1.0)
-        if not low < high:
+        if not low < high < np.inf:
             return cls(1.0, 0.0)
         scale = float(np.abs(points).max()) / (high - low)
         return cls(scale, -low * scale)

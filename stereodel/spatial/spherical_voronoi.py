@@ -91,11 +91,9 @@ class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
     def _set_cells(self, triangles: exact.SphericalDelaunay) -> None:
         """Two poles, one vertex for each triangle, or nothing."""
         units = self._diagram.vertices
-        self.regions: list[list[int]] = self._diagram.regions
-        if len(units) > 2:
-            units = units[self._diagram.simplex_vertex]
-            self.regions = _fans(triangles)
-        self.vertices = self.radius * units + self.center
+        several = len(units) > 2
+        self.regions: list[list[int]] = _fans(triangles) if several else self._diagram.regions
+        self.vertices = self.radius * (units[self._diagram.simplex_vertex] if several else units) + self.center
 
     def sort_vertices_of_regions(self) -> None:
         """Nothing to do: regions are counterclockwise from the start."""

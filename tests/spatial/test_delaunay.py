@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from scipy.spatial._qhull import _get_barycentric_transforms
 
 from stereodel import PlanarDelaunay, check_delaunay, orient2d
+from stereodel.data import airports
 from stereodel.spatial import Delaunay
 from stereodel.spatial.barycentric import transforms
 from stereodel.spatial.paraboloid import Paraboloid
@@ -170,6 +171,7 @@ def test_planes_of_slivers_point_down():
 def test_transforms_of_any_size():
     for size in (1e-300, 1e-150, 1e150, 1e300):
         tri = Delaunay(np.array([[0, 0], [1, 0], [0, 1]]) * size)
+        assert np.isfinite([tri.paraboloid_scale, tri.paraboloid_shift]).all()
         inverse = tri.transform[0, :2]
         corners = tri.points[tri.simplices[0]]
         np.testing.assert_allclose(inverse @ (corners[:2] - corners[2]).T, np.eye(2), atol=1e-12)
@@ -293,6 +295,16 @@ def test_every_point_is_a_vertex_where_qhull_drops_some():
     assert len(scipy.spatial.Delaunay(points).coplanar) > 0
     assert tri.coplanar.shape == (0, 3)
     check_delaunay(points, tri.simplices)
+
+
+def test_airports_as_if_the_earth_were_flat():
+    """28 298 places, five of them twice, many on common parallels: the same triangles and answers."""
+    points = airports().lonlat
+    ours, theirs = Delaunay(points), scipy.spatial.Delaunay(points)
+    assert as_sets(ours.simplices) == as_sets(theirs.simplices)
+    np.testing.assert_array_equal(ours.coplanar[:, [0, 2]], theirs.coplanar[theirs.coplanar[:, 0].argsort()][:, [0, 2]])
+    queries = np.random.default_rng(0).uniform([-180, -90], [180, 90], (2000, 2))
+    np.testing.assert_array_equal(ours.find_simplex(queries) < 0, theirs.find_simplex(queries) < 0)
 
 
 @pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda tri: pickle.loads(pickle.dumps(tri))])

@@ -150,6 +150,16 @@ def test_shape_and_type(shape):
     assert found.dtype == np.int32
 
 
+@pytest.mark.parametrize("size", [1e-310, 1e-200, 1e-20, 1e150, 1e300])
+def test_any_size(size):
+    tri = Delaunay(random_points() * size)
+    queries = np.concatenate([random_points(50, 1) * size, [[-3 * size, size], [1.7e308, -1.7e308], [-1e-320, 0]]])
+    exact = PlanarDelaunay(tri.points).find_simplex(queries)
+    np.testing.assert_array_equal(tri.find_simplex(queries, tol=0), exact)
+    np.testing.assert_array_equal(tri.find_simplex(queries, True), exact)
+    assert (tri.find_simplex(tri.points) >= 0).all()
+
+
 def test_what_is_not_finite_is_outside():
     tri = Delaunay(random_points())
     queries = [[0.5, 0.5], [np.nan, 0.5], [0.5, np.inf], [-np.inf, np.nan]]
