@@ -87,30 +87,41 @@ def _fit(sites: Places, values: FloatArray, block: Indices, owners: Indices, oth
     starts = np.flatnonzero(np.diff(owners, prepend=-1))
     fitted = owners[starts]
     columns, weights, scale = _columns(sites, block, owners, others, axes, starts)
-    rises = (values[others] - values[block[owners]]) * weights[:, None]
-    normal = np.add.reduceat(columns[:, :, None] * columns[:, None, :], starts, axis=0)
-    right = np.add.reduceat(columns[:, :, None] * rises[:, None, :], starts, axis=0)
-    slopes = _solve(normal, right)[:, :2] / scale[:, None, None]
+    rises = (values[others] - values[block[owners]]).T * weights
+    slopes = _solve(*_normal_equations(columns, np.ascontiguousarray(rises), starts))[:, :2] / scale[:, None, None]
     gradients[fitted] = np.einsum("bij,bik->bjk", axes[fitted], slopes)
     return gradients
+
+
+def _normal_equations(columns: FloatArray, rises: FloatArray, starts: Indices) -> tuple[FloatArray, FloatArray]:
+    """Systems (b, 5, 5) and right sides (b, 5, k) of columns (5, p) and (k, p), summed from each start to the next."""
+    normal = np.empty((len(starts), _UNKNOWNS, _UNKNOWNS))
+    right = np.empty((len(starts), _UNKNOWNS, len(rises)))
+    for i, column in enumerate(columns):
+        for j in range(i + 1):
+            normal[:, i, j] = normal[:, j, i] = np.add.reduceat(column * columns[j], starts)
+        for j, rise in enumerate(rises):
+            right[:, i, j] = np.add.reduceat(column * rise, starts)
+    return normal, right
 
 
 def _columns(
     sites: Places, block: Indices, owners: Indices, others: Indices, axes: FloatArray, starts: Indices
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (p, 5), its weight, and the scale of each point in units."""
+    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the scale of each point in units."""
     differences = sites.minus(others, sites, block[owners])
     size = np.sqrt(dot(differences, differences))[:, 0]
     counts = np.diff(starts, append=len(owners))
     scale = 1.1 * np.maximum.reduceat(size, starts)
     of_pair = np.repeat(scale, counts)
-    third = size[np.lexsort((size, owners))[starts + np.minimum(2, counts - 1)]]
     d = differences / of_pair[:, None]
     r = size / of_pair
+    # By owner, then distance; r < 1, and its last digits, which the sum loses, do not matter here.
+    third = r[np.argsort(owners + r)[starts + np.minimum(2, counts - 1)]]
     xi, eta = np.einsum("pij,pj->ip", axes[owners], d)
-    weights = ((1.0 - r) / np.maximum(r, np.repeat(third / scale, counts))) ** 2
-    columns = np.stack([xi, eta, r * r, xi * xi - eta * eta, 2.0 * xi * eta], axis=1)
-    return columns * weights[:, None], weights, scale
+    weights = ((1.0 - r) / np.maximum(r, np.repeat(third, counts))) ** 2
+    columns = np.stack([xi, eta, r * r, xi * xi - eta * eta, 2.0 * xi * eta])
+    return columns * weights, weights, scale
 
 
 def _axes(sites: Places, block: Indices) -> FloatArray:
