@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mpmath import mp, mpf, workdps
 from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
@@ -335,17 +336,33 @@ def test_poles_and_the_antimeridian_are_places_like_others(method, rng, known):
     assert np.isfinite(function.gradient(special[2:])).all()
 
 
-@pytest.mark.parametrize("aspect", [1e-3, 1e-9, 1e-15])
-def test_thin_triangles(aspect, rng):
-    """Linear functions of the plane in triangles as thin as rounding allows."""
-    points = rng.random((40, 2)) * [1.0, aspect]
-    values = points[:, 0] + points[:, 1] / aspect
-    function = LinearInterpolator(points, values)
-    corners = points[function.triangulation.simplices]
-    queries = np.einsum("i,tij->tj", [0.3, 0.5, 0.2], corners)
-    expected = queries[:, 0] + queries[:, 1] / aspect
-    held = function.triangulation.find_simplex(queries) >= 0
-    assert np.allclose(function(queries)[held], expected[held], rtol=0, atol=1e-11)
+def exact_weights(corners, query):
+    """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points, in 60 digits."""
+    with workdps(60):
+        rows = [[mpf(float(x)) for x in p] for p in (*corners, query)]
+        if len(rows[0]) == 3:
+            rows = [[x / mp.sqrt(sum(y * y for y in p)) for x in p] for p in rows]
+        else:
+            rows = [[*p, mpf(1)] for p in rows]
+        *triangle, q = rows
+        areas = [mp.det(mp.matrix([q if j == k else triangle[j] for j in range(3)])) for k in range(3)]
+        return [float(area / sum(areas)) for area in areas]
+
+
+@pytest.mark.parametrize("aspect", [1e-3, 1e-9, 1e-14])
+def test_weights_in_thin_triangles(aspect, make_points, rng):
+    """Corners near an oblique line or great circle, where areas cancel: as accurate as in any triangle."""
+    held = 0
+    for _ in range(40):
+        ends = make_points(rng, 2)
+        across = make_points(rng, 1)[0] - ends[0]
+        corners = np.array([ends[0], ends[1], ends.mean(axis=0) + aspect * across])
+        function = LinearInterpolator(corners, np.eye(3))
+        query = rng.dirichlet([3, 3, 3]) @ corners
+        if np.all(np.asarray(function.triangulation.find_simplex(query)) >= 0):
+            held += 1
+            assert np.allclose(function(query), exact_weights(corners, query), rtol=0, atol=1e-10)
+    assert held > 10
 
 
 @settings(max_examples=60)
