@@ -61,6 +61,7 @@ html_sidebars = {
         "conventions",
         "earth",
         "exactness",
+        "spatial",
         "degenerate",
         "paper",
         "flat_regions",
