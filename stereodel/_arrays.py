@@ -220,10 +220,19 @@ def as_choice(value: Any, choices: tuple[_Word, ...], name: str) -> _Word:
 
 def as_lengths(values: npt.ArrayLike, name: str) -> FloatArray:
     """Finite numbers that are not negative, of any shape."""
+    return _not_negative(values, name, "length")
+
+
+def as_weights(values: npt.ArrayLike, name: str) -> FloatArray:
+    """Finite numbers that are not negative, of any shape."""
+    return _not_negative(values, name, "weight")
+
+
+def _not_negative(values: npt.ArrayLike, name: str, what: str) -> FloatArray:
     array = as_floats(values, name)
     if (array < 0).any():
         index = tuple(int(i) for i in np.argwhere(array < 0)[0])
-        raise ValueError(f"{_entry(name, index)} is {array[index]}; a length cannot be negative")
+        raise ValueError(f"{_entry(name, index)} is {array[index]}; a {what} cannot be negative")
     return array
 
 

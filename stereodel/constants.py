@@ -97,3 +97,21 @@ UNDETERMINED: Final = 1e-12
 
 In fits of gradients: neighbours within 1e-6 rad of a line tell nothing of the slope across it. Rounding leaves 1e-15.
 """
+
+QUADRATURE_CHORD: Final = 0.2
+"""Longest side of a spherical triangle over which a rule of degree five is used, as a chord: 11.5°.
+
+The whole sphere, cut into such triangles, has its area within 1e-8 of itself.
+"""
+
+CLOSE_SITES: Final = 1e-4
+"""Distance of two unit vectors below which their difference is formed in twice the precision.
+
+Lengths differ from one by 2⁻⁵², so above it a bisecting plane is turned by less than 1e-11 rad.
+"""
+
+BALANCED: Final = 1e-6
+"""Length of the mean of unit vectors over a cell below which it has no direction to move its site to.
+
+Quadrature leaves less than 1e-7 for the whole sphere. In a hemisphere the mean is 1/2, in a smaller cell more.
+"""

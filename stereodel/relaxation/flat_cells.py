@@ -1,0 +1,105 @@
+"""Voronoi cells of the plane within a convex polygon, as triangles."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import _kernel
+from stereodel._arrays import FloatArray, as_floats
+from stereodel.triangulation import PlanarVoronoi
+
+Indices = npt.NDArray[np.integer]
+
+
+def as_polygon(extent: npt.ArrayLike | None) -> FloatArray:
+    """Corners (k, 2), counterclockwise, of (xmin, xmax, ymin, ymax) or of a convex polygon."""
+    if extent is None:
+        raise ValueError("extent is needed in the plane: (xmin, xmax, ymin, ymax), or the corners of a convex polygon")
+    values = as_floats(extent, "extent")
+    if values.shape == (4,):
+        (left, right, bottom, top) = values
+        values = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
+    if values.ndim != 2 or values.shape[1] != 2 or len(values) < 3:
+        raise ValueError(f"extent must be (xmin, xmax, ymin, ymax) or corners (k, 2), k >= 3, got shape {values.shape}")
+    turns = _kernel.orient2d(values, np.roll(values, -1, axis=0), np.roll(values, -2, axis=0))
+    if (turns <= 0).any() or not _turns_once(values):
+        raise ValueError(
+            "extent must be a rectangle with xmin < xmax and ymin < ymax, or a convex counterclockwise polygon"
+        )
+    return values
+
+
+def _turns_once(polygon: FloatArray) -> bool:
+    """Whether all corners lie left of all sides: left turns alone could go around more than once."""
+    return all(bool((sides >= 0).all()) for sides in _sides(polygon, polygon))
+
+
+def _sides(points: FloatArray, polygon: FloatArray) -> list[npt.NDArray[np.int8]]:
+    """For each side of the polygon the signs (n,) of the points, 1 inside."""
+    starts, ends = (np.repeat(p[:, None], len(points), axis=1) for p in (polygon, np.roll(polygon, -1, axis=0)))
+    return [_kernel.orient2d(start, end, points) for start, end in zip(starts, ends, strict=True)]
+
+
+def check_inside(points: FloatArray, polygon: FloatArray) -> None:
+    """Refuse points outside the polygon."""
+    outside = np.any([sides < 0 for sides in _sides(points, polygon)], axis=0)
+    if outside.any():
+        k = int(np.argmax(outside))
+        raise ValueError(f"points[{k}] is {points[k].tolist()}, outside extent")
+
+
+def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> tuple[FloatArray, Indices]:
+    """Triangles (t, 3, 2) relative to their sites, counterclockwise, that make up the cells, and the sites (t,)."""
+    diagram = PlanarVoronoi(np.concatenate([points, _far_points(polygon)]), workers=workers)
+    site: Indices = np.repeat(np.arange(len(diagram.points)), np.diff(diagram.region_offsets))
+    following = np.arange(1, len(site) + 1)
+    filled = np.flatnonzero(np.diff(diagram.region_offsets))
+    following[diagram.region_offsets[filled + 1] - 1] = diagram.region_offsets[filled]
+    own = site < len(points)
+    corners = diagram.region_indices[own], diagram.region_indices[following[own]]
+    site = site[own]
+    here, there = (diagram.vertices[vertex] - points[site] for vertex in corners)
+    triangles = np.stack([np.zeros_like(here), here, there], axis=1)
+    for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        triangles, site = _clipped(triangles, site, _heights(triangles, points[site], start, end))
+    return triangles, site
+
+
+def _far_points(polygon: FloatArray) -> FloatArray:
+    """Four points so far around a polygon that they bound all cells and take nothing of it.
+
+    Within the polygon every site is at most 2r away, r the radius of a circle around it; these are at least 7r away.
+    """
+    low, high = polygon.min(axis=0), polygon.max(axis=0)
+    middle, radius = low + (high - low) / 2, float(np.hypot(*(high - low))) / 2
+    return cast(FloatArray, middle + 8 * radius * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]))
+
+
+def _heights(triangles: FloatArray, sites: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """Heights (t, 3) of corners relative to sites (t, 2) above the line from start to end, times its length."""
+    x, y = end - start
+    inside = sites - start
+    over, along = triangles[..., 1] + inside[:, None, 1], triangles[..., 0] + inside[:, None, 0]
+    return cast(FloatArray, x * over - y * along)
+
+
+def _clipped(triangles: FloatArray, site: Indices, heights: FloatArray) -> tuple[FloatArray, Indices]:
+    """The parts of triangles with heights above zero: none, one or two triangles each."""
+    count = (heights > 0).sum(axis=1)
+    (one,), (two,) = np.nonzero(count == 1), np.nonzero(count == 2)
+    a, ab, ac, _, _ = _cut(triangles[one], heights[one], np.argmax(heights[one] > 0, axis=1))
+    _, db, dc, b, c = _cut(triangles[two], heights[two], np.argmin(heights[two] > 0, axis=1))
+    whole = count == 3
+    corners = [triangles[whole]] + [np.stack(t, axis=1) for t in ((a, ab, ac), (db, b, c), (db, c, dc))]
+    return np.concatenate(corners), np.concatenate([site[whole], site[one], site[two], site[two]])
+
+
+def _cut(triangles: FloatArray, heights: FloatArray, alone: Indices) -> list[FloatArray]:
+    """Triangles (t, 3, 2) cut at height zero between one corner a and the others, b and c: a, ab, ac, b, c."""
+    turn = (alone[:, None] + np.arange(3)) % 3
+    a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
+    at_a, at_b, at_c = np.take_along_axis(heights, turn, axis=1).T[:, :, None]
+    return [a, a + (b - a) * (at_a / (at_a - at_b)), a + (c - a) * (at_a / (at_a - at_c)), b, c]

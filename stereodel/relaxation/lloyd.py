@@ -1,0 +1,217 @@
+"""Lloyd's method."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import (
+    FloatArray,
+    as_count,
+    as_plane_or_sphere,
+    as_scalar,
+    as_weights,
+    as_workers,
+    locked,
+)
+from stereodel._double_double import unit
+from stereodel.constants import BALANCED
+from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells
+from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes, spherical_nodes
+from stereodel.relaxation.round_cells import RoundCells
+from stereodel.triangulation.given import Triangulation
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+
+Density = Callable[[FloatArray], npt.ArrayLike]
+
+
+class Step(NamedTuple):
+    """The energy of a set of points, and the centroids of their cells."""
+
+    energy: float
+    centroids: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Relaxation:
+    """What `lloyd` returns; arrays are read-only.
+
+    Attributes
+    ----------
+    points : (n, 2) or (n, 3) array
+        The relaxed points, on the sphere unit vectors, in the order given.
+    energies : (steps + 1,) array
+        Energy before the first step and after each.
+    moves : (steps,) array
+        The longest way of a point in each step: in units of the plane, on the sphere in degrees.
+    converged : bool
+        Whether the last step moved no point farther than the tolerance.
+
+    Examples
+    --------
+    >>> from stereodel.relaxation import lloyd
+    >>> lloyd([[0.1, 0.5], [0.3, 0.5]], extent=(0, 1, 0, 1), steps=99, tolerance=1e-9).converged
+    True
+    """
+
+    points: FloatArray
+    energies: FloatArray
+    moves: FloatArray
+    converged: bool
+
+
+def lloyd(
+    points: npt.ArrayLike | Triangulation,
+    *,
+    steps: int = 20,
+    density: Density | None = None,
+    extent: npt.ArrayLike | None = None,
+    tolerance: float = 0.0,
+    workers: int | None = None,
+) -> Relaxation:
+    """Move points to the centroids of their Voronoi cells, again and again.
+
+    Parameters
+    ----------
+    points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
+        Points of the plane, directions, or a triangulation of them.
+    steps : int, optional
+        How many times at most, 0 or more.
+    density : callable, optional
+        The weight of places: takes points (m, 2), or unit vectors (m, 3), and returns m finite numbers, 0 or more. By
+        default all places weigh the same.
+    extent : array_like, (4,) or (k, 2)
+        In the plane the part that the cells divide: (xmin, xmax, ymin, ymax), or the corners of a convex polygon,
+        counterclockwise. On the sphere none: the cells divide it all.
+    tolerance : float, optional
+        Stop after a step that moves no point farther: in units of the plane, on the sphere in degrees.
+    workers : int, optional
+        Threads; -1 for all processors. Never changes the result.
+
+    Returns
+    -------
+    Relaxation
+        `points`, `energies`, `moves` and `converged`.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For points that are not finite real numbers, or outside `extent`; for an `extent` that is missing, or given on
+        the sphere, or not convex; for a density with other values; for other options out of range.
+
+    Notes
+    -----
+    The energy is the sum over the cells of ∫ ρ(x) |x − p|² dx, on the sphere with the chord |x − p|. A step takes p
+    to the mass centroid of its cell, on the sphere projected to it from the centre: where this integral is least. The
+    new cells are at least as good, so the energy never grows, up to rounding and, with a density, quadrature.
+
+    Without a density the integrals are exact up to rounding. With one they are sums over triangles of a site and two
+    corners of its cell by Radon's rule of degree five; on the sphere triangles are first halved until no side is longer
+    than 11.5°. A density that varies within a cell is seen at seven places in each of its triangles.
+
+    A dropped duplicate has no cell and stays for a step, in which the kept one mostly moves away; so does a point whose
+    cell weighs nothing, or is the whole sphere. Points that are symmetric stay so, on a great circle for example: such
+    a state may be a saddle of the energy.
+
+    Source: S. Lloyd, "Least squares quantization in PCM" (1957, 1982); Q. Du, V. Faber, M. Gunzburger, "Centroidal
+    Voronoi tessellations: applications and algorithms", SIAM Review 41 (1999); on surfaces Q. Du, M. Gunzburger, L. Ju,
+    "Constrained centroidal Voronoi tessellations for surfaces" (2003).
+
+    Examples
+    --------
+    >>> from stereodel.relaxation import lloyd
+    >>> relaxed = lloyd([[0.1, 0.5], [0.3, 0.5]], extent=(0, 1, 0, 1), steps=60)
+    >>> print(relaxed.points.round(6))
+    [[0.25 0.5 ]
+     [0.75 0.5 ]]
+    >>> print(lloyd([[1, 0, 0], [0, 1, 0]], steps=1).points.round(3))
+    [[ 0.707 -0.707  0.   ]
+     [-0.707  0.707  0.   ]]
+    """
+    given = points.points if isinstance(points, PlanarDelaunay | SphericalDelaunay) else as_plane_or_sphere(points)
+    limit, threads = as_scalar(tolerance, "tolerance", low=0.0), as_workers(workers)
+    if given.shape[1] == 3:
+        if extent is not None:
+            raise ValueError("extent is for points of the plane; on the sphere leave it out")
+        return _relax(unit(given).hi, lambda p: _step_on_sphere(p, density, threads), steps, limit, _ways_on_sphere)
+    polygon = as_polygon(extent)
+    check_inside(given, polygon)
+    return _relax(given, lambda p: _step_in_plane(p, polygon, density, threads), steps, limit, _ways_in_plane)
+
+
+def _relax(
+    points: FloatArray,
+    step: Callable[[FloatArray], Step],
+    steps: int,
+    tolerance: float,
+    ways: Callable[[FloatArray, FloatArray], FloatArray],
+) -> Relaxation:
+    here = step(points)
+    energies, moves, converged = [here.energy], [], False
+    for _ in range(as_count(steps, "steps", low=0)):
+        moves.append(float(ways(points, here.centroids).max(initial=0.0)))
+        points = here.centroids
+        here = step(points)
+        energies.append(here.energy)
+        if converged := moves[-1] <= tolerance:
+            break
+    return Relaxation(locked(points.copy()), locked(np.array(energies)), locked(np.array(moves)), converged)
+
+
+def _ways_in_plane(one: FloatArray, other: FloatArray) -> FloatArray:
+    return np.asarray(np.hypot(*(other - one).T))
+
+
+def _ways_on_sphere(one: FloatArray, other: FloatArray) -> FloatArray:
+    return np.asarray(np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0))))
+
+
+def _step_in_plane(points: FloatArray, polygon: FloatArray, density: Density | None, workers: int | None) -> Step:
+    triangles, site = flat_cells(points, polygon, workers)
+    nodes, weights = flat_nodes(triangles, MIDPOINTS if density is None else RADON)
+    weights = weights * _values(density, nodes + points[site][:, None])
+    mass, moments = _sums(nodes, weights, site, len(points))
+    energy = float((weights * (nodes**2).sum(axis=-1)).sum())
+    return Step(energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None])
+
+
+def _step_on_sphere(points: FloatArray, density: Density | None, workers: int | None) -> Step:
+    cells = RoundCells(points, workers)
+    if density is None:
+        mass, moments = cells.areas(), cells.moments()
+        # |x − p|² = 2 (1 − x·p) for unit vectors
+        energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
+    else:
+        triangles, site = cells.triangles()
+        nodes, weights = spherical_nodes(triangles, RADON)
+        weights = weights * _values(density, nodes)
+        mass, moments = _sums(nodes, weights, site, len(points))
+        energy = float((weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1)).sum())
+    moves = np.linalg.norm(moments, axis=1) > BALANCED * mass
+    centroids = points.copy()
+    centroids[moves] = moments[moves] / np.linalg.norm(moments[moves], axis=1)[:, None]
+    return Step(energy, centroids)
+
+
+def _sums(
+    nodes: FloatArray, weights: FloatArray, site: npt.NDArray[np.integer], count: int
+) -> tuple[FloatArray, FloatArray]:
+    """Mass (n,) and first moments (n, d) of each site's triangles."""
+    mass: FloatArray = np.bincount(site, weights.sum(axis=1), count).astype(np.float64)
+    first = np.einsum("tk,tkd->td", weights, nodes)
+    return mass, np.column_stack([np.bincount(site, column, count) for column in first.T])
+
+
+def _values(density: Density | None, nodes: FloatArray) -> FloatArray:
+    if density is None:
+        return np.ones(nodes.shape[:2])
+    flat = nodes.reshape(-1, nodes.shape[-1])
+    values = as_weights(density(flat), "density(points)")
+    if values.shape != (len(flat),):
+        raise ValueError(f"density(points) must return one number a point, shape {(len(flat),)}, got {values.shape}")
+    return values.reshape(nodes.shape[:2])

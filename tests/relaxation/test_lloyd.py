@@ -1,0 +1,232 @@
+"""Lloyd relaxation against exact polygons, known states, and what must never happen."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
+from stereodel.relaxation import lloyd
+
+SQUARE = (0, 8, 0, 8)
+ROUNDING = 1e-12
+GRID_POINT = st.tuples(st.integers(0, 8), st.integers(0, 8))
+DIRECTION = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
+
+
+def clip(polygon, normal, offset):
+    """The part of a convex polygon with normal · x <= offset, in fractions."""
+    heights = [offset - normal[0] * x - normal[1] * y for x, y in polygon]
+    result = []
+    for k, (p, h) in enumerate(zip(polygon, heights, strict=True)):
+        q, g = polygon[k - 1], heights[k - 1]
+        if h * g < 0:
+            t = g / (g - h)
+            result.append((q[0] + t * (p[0] - q[0]), q[1] + t * (p[1] - q[1])))
+        if h >= 0:
+            result.append(p)
+    return result
+
+
+def exact_step(points, polygon):
+    """Energy and centroids by cutting the polygon with all bisectors; the first of equal points has the cell."""
+    places = [tuple(map(Fraction, p)) for p in points]
+    energy, centroids = Fraction(0), []
+    for k, p in enumerate(places):
+        cell = [] if p in places[:k] else [tuple(map(Fraction, corner)) for corner in polygon]
+        for q in set(places) - {p}:
+            normal = q[0] - p[0], q[1] - p[1]
+            cell = clip(cell, normal, (q[0] ** 2 + q[1] ** 2 - p[0] ** 2 - p[1] ** 2) / 2)
+        area, first = Fraction(0), [Fraction(0), Fraction(0)]
+        around = [(x - p[0], y - p[1]) for x, y in cell]
+        for (x, y), (u, v) in zip(around, around[1:] + around[:1], strict=True):
+            double = x * v - y * u
+            area += double / 2
+            first = [first[0] + double * (x + u) / 6, first[1] + double * (y + v) / 6]
+            energy += double * (x * x + y * y + u * u + v * v + x * u + y * v) / 12
+        centroids.append([float(p[i] + (first[i] / area if area else 0)) for i in range(2)])
+    return float(energy), centroids
+
+
+def never_grows(relaxed):
+    return (np.diff(relaxed.energies) <= ROUNDING * relaxed.energies[0]).all()
+
+
+@given(st.lists(GRID_POINT, min_size=1, max_size=9))
+def test_step_in_a_square(points):
+    relaxed = lloyd(points, steps=1, extent=SQUARE)
+    energy, centroids = exact_step(points, [(0, 0), (8, 0), (8, 8), (0, 8)])
+    assert relaxed.energies[0] == pytest.approx(energy, rel=ROUNDING)
+    assert relaxed.points == pytest.approx(np.array(centroids), abs=1e-11)
+    assert relaxed.moves[0] == pytest.approx(np.hypot(*(np.array(centroids) - points).T).max(), abs=1e-11)
+
+
+def test_step_in_a_triangle():
+    triangle = [(0, 0), (9, 1), (2, 8)]
+    points = [(0, 0), (2, 2), (2.5, 2.25), (2, 8), (4, 3)]
+    relaxed = lloyd(points, steps=1, extent=triangle)
+    energy, centroids = exact_step(points, triangle)
+    assert relaxed.energies[0] == pytest.approx(energy, rel=ROUNDING)
+    assert relaxed.points == pytest.approx(np.array(centroids), abs=1e-12)
+
+
+@given(st.lists(GRID_POINT, min_size=1, max_size=12))
+@settings(max_examples=30)
+def test_energy_never_grows_in_the_plane(points):
+    relaxed = lloyd(points, steps=12, extent=SQUARE)
+    assert never_grows(relaxed)
+    check_delaunay(PlanarDelaunay(relaxed.points))
+
+
+@given(st.lists(DIRECTION, min_size=1, max_size=12))
+@settings(max_examples=30)
+def test_energy_never_grows_on_the_sphere(points):
+    relaxed = lloyd(points, steps=12)
+    assert never_grows(relaxed)
+    assert np.linalg.norm(relaxed.points, axis=1) == pytest.approx(1.0)
+    check_delaunay(SphericalDelaunay(relaxed.points))
+
+
+@pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-9, 1e-12])
+def test_clusters_spread_over_the_sphere(spread):
+    rng = np.random.default_rng(1)
+    relaxed = lloyd(np.array([0.6, 0.0, 0.8]) + spread * rng.normal(size=(40, 3)), steps=60)
+    assert never_grows(relaxed)
+    # Forty caps of equal area have this energy; no cells have less.
+    height = 2 / 40
+    least = 40 * 2 * np.pi * height**2
+    assert least < relaxed.energies[-1] < 1.2 * least < relaxed.energies[0]
+
+
+@pytest.mark.parametrize(
+    ("points", "energy"),
+    [
+        ([[0, 0, 2]], 8 * np.pi),
+        ([[0, 0, 1], [0, 0, -1]], 4 * np.pi),
+        (np.vstack([np.eye(3), -np.eye(3)]), 8 * np.pi - 2 * 6 * 4 * np.arctan(np.sqrt(0.5)) / np.sqrt(2)),
+    ],
+)
+def test_states_that_stay(points, energy):
+    """On the sphere ∫ x over a face of the cube is half the sum of four arcs' lengths times normals."""
+    relaxed = lloyd(points, steps=3)
+    assert relaxed.points == pytest.approx(np.array(points) / np.linalg.norm(points, axis=1)[:, None])
+    assert relaxed.energies == pytest.approx(energy)
+
+
+def test_any_two_points_become_opposite():
+    relaxed = lloyd([[1, 0, 0], [1, 0.1, 0]], steps=4)
+    assert relaxed.points[0] == pytest.approx(-relaxed.points[1])
+    assert relaxed.energies[-1] == pytest.approx(4 * np.pi)
+
+
+def test_turning_the_sphere_turns_the_result():
+    points = np.random.default_rng(2).normal(size=(30, 3))
+    turn = Rotation.about([1, 2, 3], 77.0)
+    one, other = lloyd(points, steps=5), lloyd(turn(points), steps=5)
+    assert other.points == pytest.approx(turn(one.points), abs=1e-11)
+    assert other.energies == pytest.approx(one.energies)
+
+
+def test_order_changes_nothing():
+    rng = np.random.default_rng(4)
+    points, order = rng.random((50, 2)), rng.permutation(50)
+    one, other = lloyd(points, steps=5, extent=(0, 1, 0, 1)), lloyd(points[order], steps=5, extent=(0, 1, 0, 1))
+    assert other.points == pytest.approx(one.points[order], abs=1e-12)
+
+
+def test_density_in_the_plane():
+    """One cell of weight x: the mean of x is 2/3."""
+    relaxed = lloyd([[0.1, 0.9]], steps=2, density=lambda xy: xy[:, 0], extent=(0, 1, 0, 1))
+    assert relaxed.points == pytest.approx(np.array([[2 / 3, 1 / 2]]))
+    assert relaxed.energies[-1] == pytest.approx((1 / 4 - 2 / 9) + 1 / 24)
+
+
+def test_density_on_the_sphere():
+    relaxed = lloyd([[1, 2, 0]], steps=2, density=lambda xyz: 1 + xyz[:, 2])
+    assert relaxed.points == pytest.approx(np.array([[0, 0, 1]]), abs=1e-6)
+    # ∫ (1 + z) 2 (1 − z) = 8π − 2 · 4π/3
+    assert relaxed.energies[-1] == pytest.approx(8 * np.pi - 8 * np.pi / 3, rel=1e-6)
+
+
+@pytest.mark.parametrize("extent", [None, (0, 1, 0, 1)])
+def test_constant_density_is_that_of_none(extent):
+    rng = np.random.default_rng(5)
+    points = rng.random((60, 2)) if extent else rng.normal(size=(60, 3))
+    one = lloyd(points, steps=4, extent=extent)
+    other = lloyd(points, steps=4, extent=extent, density=lambda places: np.full(len(places), 3.0))
+    assert other.points == pytest.approx(one.points, abs=1e-6)
+    assert other.energies == pytest.approx(3 * one.energies, rel=1e-6)
+
+
+def test_points_gather_where_the_density_is_large():
+    points = np.random.default_rng(6).random((300, 2))
+    relaxed = lloyd(points, steps=40, density=lambda xy: np.exp(4 * xy[:, 0]), extent=(0, 1, 0, 1))
+    assert (np.diff(relaxed.energies) <= 1e-6 * relaxed.energies[0]).all()
+    assert points[:, 0].mean() + 0.02 < relaxed.points[:, 0].mean() < 0.8
+
+
+def test_cells_without_weight_stay():
+    points = [[0.25, 0.5], [0.75, 0.5]]
+    relaxed = lloyd(points, steps=3, density=lambda xy: np.where(xy[:, 0] < 0.25, 1.0, 0.0), extent=(0, 1, 0, 1))
+    assert relaxed.points[1].tolist() == points[1]
+    nothing = lloyd([[0, 0, 1], [1, 0, 0]], steps=1, density=lambda xyz: 0 * xyz[:, 0])
+    assert nothing.moves.tolist() == [0]
+
+
+@pytest.mark.parametrize("width", [2, 3])
+def test_no_points_and_no_steps(width):
+    extent = SQUARE if width == 2 else None
+    none = lloyd(np.zeros((0, width)), steps=2, extent=extent)
+    assert none.points.shape == (0, width)
+    assert none.energies.tolist() == [0, 0]  # the first step moves nothing
+    points = np.full((1, width), 2.0)
+    still = lloyd(points, steps=0, extent=extent)
+    assert still.points == pytest.approx(points if width == 2 else points / np.sqrt(12))
+    assert (len(still.energies), len(still.moves), still.converged) == (1, 0, False)
+
+
+def test_stops_when_nothing_moves_far():
+    points = np.random.default_rng(7).random((5, 2))
+    relaxed = lloyd(points, steps=1000, extent=(0, 1, 0, 1), tolerance=1e-5)
+    assert relaxed.converged
+    assert len(relaxed.moves) < 1000
+    assert relaxed.moves[-1] <= 1e-5 < relaxed.moves[-2]
+    assert len(relaxed.energies) == len(relaxed.moves) + 1
+
+
+def test_takes_triangulations_and_changes_nothing():
+    points = np.random.default_rng(8).random((9, 2))
+    before = points.copy()
+    relaxed = lloyd(PlanarDelaunay(points), extent=(0, 1, 0, 1))
+    assert np.array_equal(relaxed.points, lloyd(points, extent=(0, 1, 0, 1)).points)
+    assert np.array_equal(points, before)
+    assert not any(array.flags.writeable for array in (relaxed.points, relaxed.energies, relaxed.moves))
+
+
+@pytest.mark.parametrize(
+    ("points", "options", "error", "message"),
+    [
+        ([[0, 0]], {}, ValueError, "extent is needed"),
+        ([[0, 0, 1]], {"extent": SQUARE}, ValueError, "leave it out"),
+        ([[0, 0], [9, 1]], {"extent": SQUARE}, ValueError, r"points\[1\] is \[9.0, 1.0\], outside extent"),
+        ([[0, 0]], {"extent": (8, 0, 0, 8)}, ValueError, "xmin < xmax"),
+        ([[0, 0]], {"extent": [(0, 0), (0, 1), (1, 0)]}, ValueError, "counterclockwise"),
+        ([[0, 0]], {"extent": [(0, 0), (1, 1)]}, ValueError, "shape"),
+        ([[0, 0]], {"extent": SQUARE, "steps": -1}, ValueError, "steps is -1"),
+        ([[0, 0]], {"extent": SQUARE, "tolerance": -1}, ValueError, "tolerance"),
+        ([[0, 0]], {"extent": SQUARE, "density": lambda x: -x[:, 0]}, ValueError, "weight cannot be negative"),
+        ([[0, 0]], {"extent": SQUARE, "density": lambda x: x}, ValueError, "one number a point"),
+        ([[0, 0, 1]], {"density": lambda x: x[:, 0] * np.nan}, ValueError, "must be a finite number"),
+    ],
+)
+def test_wrong_input(points, options, error, message):
+    with pytest.raises(error, match=message):
+        lloyd(points, **options)
+
+
+def test_a_star_is_not_convex_though_it_always_turns_left():
+    angles = np.arange(5) * 4 * np.pi / 5
+    with pytest.raises(ValueError, match="convex"):
+        lloyd([[0, 0]], extent=np.column_stack([np.cos(angles), np.sin(angles)]))
