@@ -12,6 +12,7 @@ import stereodel.data
 import stereodel.earth
 import stereodel.graphs
 import stereodel.interpolation
+import stereodel.relaxation
 import stereodel.render
 import stereodel.spatial
 import stereodel.sphere
@@ -75,6 +76,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.earth") == {name for name in vars(stereodel.earth) if name.isupper() and name[0] != "_"}
     assert reference("stereodel.data") == set(stereodel.data.__all__)
     assert reference("stereodel.graphs") == set(stereodel.graphs.__all__)
+    assert reference("stereodel.relaxation") == set(stereodel.relaxation.__all__)
     assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)
     assert reference("stereodel.spatial") | {"QhullError"} == set(stereodel.spatial.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)

@@ -30,6 +30,7 @@ MAY_IMPORT = {
     "interpolation": KERNEL | {"sphere", "triangulation"},
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"triangulation"},
+    "relaxation": KERNEL | {"triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "render"},
