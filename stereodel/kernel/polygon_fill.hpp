@@ -62,8 +62,8 @@ class PolygonFill {
 
     static std::size_t at(Index k) { return static_cast<std::size_t>(k); }
 
-    // Order the places, and take out all but the first three, the last one first. Afterwards each remembers between which
-    // two it stood.
+    // Order the places, and take out all but the first three, the last one first. Afterwards each remembers between
+    // which two it stood.
     void take_out(std::size_t size) {
         put_in_order(size);
         before_.resize(size);
@@ -80,8 +80,9 @@ class PolygonFill {
     }
 
     // A biased random order, the same every time (N. Amenta, S. Choi, G. Rote, "Incremental constructions con BRIO",
-    // 2003): each place belongs with probability 1/2 to the last round, else with probability 1/2 to the one before, and
-    // so on. Rounds are random, which is enough; within one neighbours follow one another, and memory is read in order.
+    // 2003): each place belongs with probability 1/2 to the last round, else with probability 1/2 to the one before,
+    // and so on. Rounds are random, which is enough; within one, neighbours follow one another, and memory is read in
+    // order.
     void put_in_order(std::size_t size) {
         round_.resize(size);
         std::array<std::size_t, rounds_ + 1> begin{};  // of each round

@@ -15,9 +15,9 @@ int compare_component(const double* a, const double* b, int k, bool unit);
 Sign compare_component_filter(const double* a, const double* b, int k);  // lengths within 2^-49 of 1
 Sign compare_component_double_double(const double* a, const double* b, int k);
 
-// Whether four different directions lie on one circle by symmetry: with one component in common, or two pairs of mirror
-// images in one of the nine planes x = 0, x = y, x = -y and so on. So most exact ties of lattices, graticules and solids
-// are known without arithmetic; false says nothing.
+// Whether four different directions lie on one circle by symmetry: with one component in common, or two pairs of
+// mirror images in one of the nine planes x = 0, x = y, x = -y and so on. So most exact ties of lattices, graticules
+// and solids are known without arithmetic; false says nothing.
 bool cocircular_by_symmetry(const double* a, const double* b, const double* c, const double* p);
 
 // Whether three directions lie on one great circle by symmetry, in one of the nine planes; false says nothing.
