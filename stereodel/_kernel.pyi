@@ -497,6 +497,46 @@ def delaunay_of_sphere(
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
     """The same for directions."""
 
+def cell_areas_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """Areas of the cells; infinite where unbounded."""
+
+def cell_areas_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """Areas of the cells, steradians."""
+
+def cell_centroids_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
+    """Centroids of the cells; NaN where there is none."""
+
+def cell_centroids_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """Unit vectors; NaN for empty cells."""
+
 def circumcenters_plane(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

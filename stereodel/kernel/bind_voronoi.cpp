@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bind_support.hpp"
+#include "cell_integrals.hpp"
 #include "circumcenters.hpp"
 #include "diagram_parts.hpp"
 #include "voronoi.hpp"
@@ -110,6 +111,45 @@ RowsOut<Index, 3> delaunay_of_sphere(RowsIn<double, 3> points, Offsets offsets, 
     });
 }
 
+// `per_site` numbers for each site.
+template <class Fill>
+Buffer<double> for_sites(const Cells& cells, std::size_t points, std::size_t per_site, Fill&& fill) {
+    check_sites(cells, points);
+    return filled<double>(per_site * points, points > long_work, fill);
+}
+
+ValuesOut<double> areas_in_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
+                                 std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    return to_values(for_sites(cells, points.shape(0), 1, [&](double* areas, Stop stop) {
+        cell_areas_plane(points.data(), cells, areas, workers, stop);
+    }));
+}
+
+ValuesOut<double> areas_on_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
+                                  std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    return to_values(for_sites(cells, points.shape(0), 1, [&](double* areas, Stop stop) {
+        cell_areas_sphere(points.data(), cells, areas, workers, stop);
+    }));
+}
+
+RowsOut<double, 2> centroids_in_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
+                                      std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    return to_rows<2>(for_sites(cells, points.shape(0), 2, [&](double* centroids, Stop stop) {
+        cell_centroids_plane(points.data(), cells, centroids, workers, stop);
+    }));
+}
+
+RowsOut<double, 3> centroids_on_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
+                                       std::size_t vertex_count, int workers) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    return to_rows<3>(for_sites(cells, points.shape(0), 3, [&](double* centroids, Stop stop) {
+        cell_centroids_sphere(points.data(), cells, centroids, workers, stop);
+    }));
+}
+
 void check_numbers(const RowsIn<Index, 3>& triangles, std::size_t size) {
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         if (static_cast<std::uint32_t>(triangles.data()[k]) >= size) {
@@ -166,6 +206,14 @@ void bind_voronoi(nb::module_& module) {
                "vertex_count"_a, "workers"_a = 1, "Triangles of a diagram's sites, vertex by vertex.");
     module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "workers"_a = 1, "The same for directions.");
+    module.def("cell_areas_plane", areas_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+               "vertex_count"_a, "workers"_a = 1, "Areas of the cells; infinite where unbounded.");
+    module.def("cell_areas_sphere", areas_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+               "vertex_count"_a, "workers"_a = 1, "Areas of the cells, steradians.");
+    module.def("cell_centroids_plane", centroids_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+               "vertex_count"_a, "workers"_a = 1, "Centroids of the cells; NaN where there is none.");
+    module.def("cell_centroids_sphere", centroids_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+               "vertex_count"_a, "workers"_a = 1, "Unit vectors; NaN for empty cells.");
     module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "workers"_a = 1,
                "Centres of triangles by number, and the rows that are too flat for twice the precision.");
     module.def("circumcenters_sphere", centers_on_sphere, "points"_a, "triangles"_a, "workers"_a = 1,

@@ -41,23 +41,6 @@ bool planar_center(const double* a, const double* b, const double* c, double* ce
     return true;
 }
 
-// v/|v| rounded once, for v of length between 2^-300 and 2^300, known to twice the precision.
-void round_unit(const Pair* v, double* result) {
-    const double factor = 1.0 / std::sqrt(v[0].h * v[0].h + v[1].h * v[1].h + v[2].h * v[2].h);
-    Pair w[3];
-    for (int k = 0; k < 3; ++k) {
-        w[k] = factor * v[k];
-    }
-    const double correction = inverse_root_less_one(excess(w));
-    for (int k = 0; k < 3; ++k) {
-        result[k] = w[k].h + (w[k].l + correction * w[k].h) + 0.0;  // no negative zero
-    }
-}
-
-double length_squared(const Pair* v) {
-    return v[0].h * v[0].h + v[1].h * v[1].h + v[2].h * v[2].h;
-}
-
 // d x e of unit vectors' differences. They are off by 2^-100 each, the product by sqrt(3) 2^-100 (|d| + |e|) and some
 // 2^-99 |d||e|: at 2^-44 (|d| + |e|), less than 2^-55 of it.
 bool spherical_center(const UnitVector& a, const UnitVector& b, const UnitVector& c, double* center) {

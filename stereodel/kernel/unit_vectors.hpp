@@ -5,6 +5,8 @@
 // relative error, for what is closer together than that allows.
 #pragma once
 
+#include <cmath>
+
 #include "double_double.hpp"
 #include "pair_arithmetic.hpp"
 #include "ray_forms.hpp"
@@ -111,5 +113,22 @@ struct RayEdge {
         }
     }
 };
+
+inline double length_squared(const Pair* v) {
+    return v[0].h * v[0].h + v[1].h * v[1].h + v[2].h * v[2].h;
+}
+
+// v/|v| rounded once, for v of length between 2^-300 and 2^300, known to twice the precision.
+inline void round_unit(const Pair* v, double* result) {
+    const double factor = 1.0 / std::sqrt(length_squared(v));
+    Pair w[3];
+    for (int k = 0; k < 3; ++k) {
+        w[k] = factor * v[k];
+    }
+    const double correction = inverse_root_less_one(excess(w));
+    for (int k = 0; k < 3; ++k) {
+        result[k] = w[k].h + (w[k].l + correction * w[k].h) + 0.0;  // no negative zero
+    }
+}
 
 }  // namespace stereodel

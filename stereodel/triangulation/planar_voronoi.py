@@ -100,21 +100,35 @@ class PlanarVoronoi(Diagram):
         ----------
         radius : float
             Length of the unit of the coordinates: areas are multiplied by its square.
+
+        Notes
+        -----
+        The sum over the neighbours q of a site p and the two vertices of their ridge of |D|² E·F / (8 D×E), with r the
+        third site of the vertex, D = q − p, E = r − p, F = r − q: the triangle of p, the middle of p and q, and the
+        vertex (half of |D|/2 times |D|/2 cot of the angle at r). No rounded vertex enters, so that the areas of tiny
+        cells far from the origin are as accurate as others, to some 1e-14 and never worse than 1e-11.
         """
         scale = float(as_floats(radius, "radius"))
-        site = np.repeat(np.arange(len(self.points)), np.diff(self.region_offsets))
-        corners = self.vertices[self.region_indices] if len(self.vertices) else np.zeros((len(site), 2))
-        following = np.arange(1, len(site) + 1)
-        filled = np.flatnonzero(np.diff(self.region_offsets))
-        following[self.region_offsets[filled + 1] - 1] = self.region_offsets[filled]
-        with np.errstate(over="ignore", invalid="ignore"):
-            here = corners - self.points[site]
-            there = here[following]
-            pieces = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
-        doubled = np.bincount(site, pieces, minlength=len(self.points)).astype(np.float64)
-        unbounded = (self.region_indices < 0) | ~np.isfinite(pieces)
-        doubled[site[unbounded]] = np.inf
-        return doubled * (scale * scale / 2)
+        if len(self.vertices) == 0:
+            return np.where(np.diff(self.region_offsets) > 0, np.inf, 0.0) * scale**2
+        areas: FloatArray = _kernel.cell_areas_plane(self.points, *self._cells(), self._threads)
+        return areas * scale**2
+
+    def centroids(self) -> FloatArray:
+        """Centroid of each point's cell, (n, 2); NaN for unbounded cells and for duplicates.
+
+        Notes
+        -----
+        From the sites' differences, as `areas`.
+
+        Examples
+        --------
+        >>> print(PlanarVoronoi([[0, 0], [2, 0], [0, 2], [-2, 0], [0, -4]]).centroids()[0])
+        [ 0.  -0.5]
+        """
+        if len(self.vertices) == 0:
+            return np.full((len(self.points), 2), np.nan)
+        return _kernel.cell_centroids_plane(self.points, *self._cells(), self._threads)
 
     def segments(self, extent: npt.ArrayLike) -> tuple[FloatArray, Indices]:
         """The ridges as far as they lie in a rectangle, for drawing.

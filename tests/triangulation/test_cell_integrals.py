@@ -1,0 +1,249 @@
+"""Areas and centroids of cells: against exact arithmetic and many digits, by what they add up to, and by symmetry."""
+
+from fractions import Fraction
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy import spatial
+
+from stereodel.triangulation import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, check_delaunay
+
+GENERAL = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3  # an orthogonal matrix: no axis is special
+SIZES = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15]
+
+
+def units(points):
+    return points / np.linalg.norm(points, axis=-1, keepdims=True)
+
+
+def cluster(size, n=25, seed=0):
+    """Points about (0.6, 0, 0.8), with coordinates that are doubles like any others."""
+    spread = np.random.default_rng(seed).normal(size=(n, 3))
+    return np.array([0.6, 0.0, 0.8]) + size * spread
+
+
+def as_matrix(vector):
+    return mpmath.matrix([mpmath.mpf(float(x)) for x in vector])
+
+
+def mp_cross(a, b):
+    return mpmath.matrix([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+
+
+def mp_dot(a, b):
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def mp_unit(vector):
+    return vector / mpmath.sqrt(mp_dot(vector, vector))
+
+
+def angle_between(a, b, about):
+    """From a to b, counterclockwise, in [0, 2π)."""
+    angle = mpmath.atan2(mp_dot(about, mp_cross(a, b)), mp_dot(a, b))
+    return angle if angle >= 0 else angle + 2 * mpmath.pi
+
+
+def cell_in_many_digits(points, diagram, site):
+    """Area by the turns of the boundary, and the integral of x by its sides, both of the exact ridges."""
+    start, end = diagram.region_offsets[site : site + 2]
+    p = mp_unit(as_matrix(points[site]))
+    others = [mp_unit(as_matrix(points[j])) for j in diagram.region_neighbors[start:end]]
+    inside = [mp_unit(p - q) for q in others]
+    corners = [mp_unit(mp_cross(others[k - 1] - p, others[k] - p)) for k in range(len(others))]
+    turned = mpmath.mpf(0)
+    total = mpmath.matrix(3, 1)
+    for k in range(len(others)):
+        m, n = inside[k - 1], inside[k]
+        turned += mpmath.atan2(mpmath.norm(mp_cross(m, n)), mp_dot(m, n))
+        total += angle_between(corners[k], corners[(k + 1) % len(others)], inside[k]) * inside[k] / 2
+    return 2 * mpmath.pi - turned, total
+
+
+@pytest.mark.parametrize("size", SIZES)
+def test_cells_of_the_sphere_against_many_digits(size):
+    """Inner cells of the cluster and the outer ones, which reach round the sphere."""
+    points = cluster(size)
+    diagram = SphericalVoronoi(points)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    with mpmath.workdps(150):
+        for site in range(len(points)):
+            if len(diagram.regions[site]) == 0:
+                continue
+            area, total = cell_in_many_digits(points, diagram, site)
+            assert abs(areas[site] / area - 1) < 2e-13
+            exact = np.array([float(x) for x in mp_unit(total)])
+            assert centroids[site] == pytest.approx(exact, abs=1e-12)
+
+
+def test_sizes_of_every_kind_in_one_diagram():
+    """Clusters of clusters, and single sites: neighbours from 1e-14 to 1 apart."""
+    rng = np.random.default_rng(5)
+    points = [rng.normal(size=3) for _ in range(4)]
+    for size in (1e-2, 1e-5, 1e-8, 1e-11, 1e-14):
+        points += [units(points[-1]) + size * rng.normal(size=3) for _ in range(5)]
+    points = np.array(points)
+    diagram = SphericalVoronoi(points)
+    check_delaunay(diagram.delaunay())
+    with mpmath.workdps(150):
+        for site in range(len(points)):
+            area, total = cell_in_many_digits(points, diagram, site)
+            assert abs(diagram.areas()[site] / area - 1) < 2e-13
+            assert diagram.centroids()[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-12)
+
+
+def exact_planar_cell(points, diagram, site):
+    """Area and centroid as fractions, from circumcentres as fractions."""
+    start, end = diagram.region_offsets[site : site + 2]
+    p = [Fraction(x) for x in points[site].tolist()]
+    others = [
+        [Fraction(x) - y for x, y in zip(points[j].tolist(), p, strict=True)]
+        for j in diagram.region_neighbors[start:end]
+    ]
+    corners = []
+    for k in range(len(others)):
+        (ax, ay), (bx, by) = others[k - 1], others[k]
+        aa, bb, twice = ax * ax + ay * ay, bx * bx + by * by, 2 * (ax * by - ay * bx)
+        corners.append(((by * aa - ay * bb) / twice, (ax * bb - bx * aa) / twice))
+    pieces = [(a, b, a[0] * b[1] - a[1] * b[0]) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+    doubled = sum(piece[2] for piece in pieces)
+    centroid = [p[i] + sum((a[i] + b[i]) * w for a, b, w in pieces) / (3 * doubled) for i in (0, 1)]
+    return doubled / 2, centroid
+
+
+@pytest.mark.parametrize(
+    ("size", "flat"),
+)
+def test_cells_of_the_plane_against_fractions(size, flat):
+    rng = np.random.default_rng(2)
+    points = np.array([0.6, 0.8]) + size * rng.normal(size=(40, 2)) * [1, flat]
+    diagram = PlanarVoronoi(points)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    bounded = 0
+    for site in range(len(points)):
+        if not diagram.regions[site] or diagram.regions[site][0] < 0:
+            continue
+        area, centroid = exact_planar_cell(points, diagram, site)
+        assert areas[site] == pytest.approx(float(area), rel=1e-13, abs=0)
+        scale = np.abs(points - points[site]).max()
+        assert centroids[site] == pytest.approx([float(x) for x in centroid], rel=4e-16, abs=1e-13 * scale)
+        bounded += 1
+    assert bounded > 5
+
+
+@pytest.mark.parametrize("exponent", [-520, -400, 400, 500])
+def test_cells_of_the_plane_of_any_size(exponent):
+    points = np.array([[0, 0], [2, 0], [0, 2], [-2, 0], [0, -4]])
+    diagram = PlanarVoronoi(np.ldexp(points.astype(float), exponent))
+    assert diagram.areas()[0] == np.ldexp(6.0, 2 * exponent)
+    assert diagram.centroids()[0].tolist() == [0, np.ldexp(-0.5, exponent)]
+
+
+def test_what_has_no_centroid():
+    square = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 1], [1, 1]]
+    centroids = PlanarVoronoi(square).centroids()
+    assert np.isnan(centroids[[0, 1, 2, 3, 5]]).all()
+    assert centroids[4].tolist() == [1, 1]
+    assert np.isnan(PlanarVoronoi([[0, 0], [1, 1], [3, 3]]).centroids()).all()
+    assert PlanarVoronoi(np.zeros((0, 2))).centroids().shape == (0, 2)
+    assert SphericalVoronoi(np.zeros((0, 3))).centroids().shape == (0, 3)
+    one = SphericalVoronoi([[0, 3, 4], [0, 6, 8]]).centroids()
+    assert one[0].tolist() == pytest.approx([0, 0.6, 0.8])
+    assert np.isnan(one[1]).all()
+
+
+@pytest.mark.parametrize("n", [2000, 50_000])
+@pytest.mark.parametrize("spread", [np.inf, 0.5, 1e-6, 1e-12])
+def test_areas_add_up(n, spread):
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(n, 3)) * min(spread, 1.0) + (np.isfinite(spread) * np.array([0.6, 0, 0.8]))
+    areas = SphericalVoronoi(points).areas()
+    assert abs(np.sum(areas) - 4 * np.pi) < 1e-12
+    assert (areas[areas != 0] > 0).all()
+
+
+SMALL = st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=1, max_size=20)
+
+
+@settings(deadline=None, max_examples=150)
+@given(SMALL)
+def test_cells_of_small_integer_directions(vectors):
+    """Ties, hemispheres, great circles, antipodes: areas add up, and so do the integrals of x, to zero."""
+    diagram = SphericalVoronoi(vectors)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    kept = np.flatnonzero(diagram.point_region == np.arange(len(vectors)))
+    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-14)
+    assert (areas[kept] > 0).all()
+    assert np.linalg.norm(centroids[kept], axis=1) == pytest.approx(1, abs=4e-16)
+    if len(kept) == 1:
+        return
+    with mpmath.workdps(40):
+        points = np.array(vectors, dtype=float)
+        for site in kept.tolist():
+            area, total = (cell_in_many_digits if diagram._dimension == 2 else lune)(points, diagram, site)
+            assert float(area) == pytest.approx(areas[site], rel=1e-14)
+            if mpmath.norm(total) > 1e-9:
+                assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-14)
+
+
+def lune(points, diagram, site):
+    """The cell of a site on a great circle: half the angles to both neighbours, from pole to pole."""
+    north = mp_unit(as_matrix(diagram.vertices[0]))
+    p = mp_unit(as_matrix(points[site]))
+    start = diagram.region_offsets[site]
+    before, after = (mp_unit(as_matrix(points[j])) for j in diagram.region_neighbors[start : start + 2])
+    west, east = angle_between(before, p, north), angle_between(p, after, north)
+    turn = (east - west) / 4
+    return west + east, p * mpmath.cos(turn) + mp_cross(north, p) * mpmath.sin(turn)
+
+
+NEARLY_ANTIPODAL = [1e-3, 1e-6, 1e-12, 1e-14, 1e-15, 3e-16, 1e-17, 1e-30, 0.0]
+
+
+@pytest.mark.parametrize("off", NEARLY_ANTIPODAL)
+@pytest.mark.parametrize("turn", [np.eye(3), GENERAL])
+def test_nearly_antipodal_neighbours(off, turn):
+    """Two sites at the ends of an axis, bent by `off`, and others on one side of it: a ridge in the far half."""
+    points = np.array([[1, 0, 0], [-1, off, 0], [0, 1, 0.1], [0.1, 0.2, -1], [0, 1, 0.2]]) @ turn
+    diagram = SphericalVoronoi(points)
+    assert [0, 1] in diagram.ridge_points.tolist()
+    areas, centroids = diagram.areas(), diagram.centroids()
+    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-14)
+    with mpmath.workdps(150):
+        for site in range(len(points)):
+            area, total = cell_in_many_digits(points, diagram, site)
+            assert float(area) == pytest.approx(areas[site], rel=1e-14)
+            assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-14)
+
+
+def test_regular_solids():
+    octahedron = np.vstack([np.eye(3), -np.eye(3)])
+    diagram = SphericalVoronoi(octahedron)
+    assert diagram.areas() == pytest.approx(2 * np.pi / 3, rel=1e-15)
+    assert diagram.centroids() == pytest.approx(octahedron, abs=1e-16)
+
+
+def test_centroids_of_many_sites_agree_with_sampling():
+    points = units(np.random.default_rng(3).normal(size=(40, 3)))
+    samples = units(np.random.default_rng(4).normal(size=(200_000, 3)))
+    owner = spatial.cKDTree(points).query(samples)[1]
+    means = np.array([units(samples[owner == k].mean(axis=0)) for k in range(40)])
+    assert SphericalVoronoi(points).centroids() == pytest.approx(means, abs=0.03)
+
+
+@pytest.mark.parametrize("shift", [0.0, 1e3, 2.0**30])
+def test_translated_cells_keep_their_areas(shift):
+    points = np.random.default_rng(0).integers(0, 2**20, size=(300, 2)) / 2.0**20
+    still, moved = PlanarVoronoi(points), PlanarVoronoi(points + shift)
+    finite = np.isfinite(still.areas())
+    assert moved.areas()[finite] == pytest.approx(still.areas()[finite], rel=1e-13)
+
+
+def test_the_way_a_triangulation_is_made_does_not_change_areas():
+    points = np.random.default_rng(0).normal(size=(400, 3))
+    triangulation = SphericalDelaunay(points[:300])
+    triangulation.insert(points[300:])
+    assert np.array_equal(SphericalVoronoi(triangulation).areas(), SphericalVoronoi(points).areas())
