@@ -446,7 +446,7 @@ def voronoi_plane(
     workers: int = 1,
 ) -> tuple:
     """
-    Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle, three sites of each vertex.
+    Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle; if triangles share vertices, rows of three sites and the vertex of each row.
     """
 
 def voronoi_sphere(
@@ -540,15 +540,17 @@ def cell_centroids_sphere(
 def circumcenters_plane(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
 ) -> tuple:
     """
-    Centres of triangles by number, and the rows that are too flat for twice the precision.
+    Centres of triangles by number, that of row k at place[k], and the rows that are too flat for this.
     """
 
 def circumcenters_sphere(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
 ) -> tuple:
     """

@@ -1,7 +1,9 @@
 #include <nanobind/nanobind.h>
+#include <nanobind/stl/optional.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -20,9 +22,14 @@ using namespace nb::literals;
 constexpr std::size_t long_work = 20000;  // rows: some milliseconds
 
 nb::tuple to_python(Diagram&& diagram) {
+    nb::object sites = nb::none(), vertex = nb::none();
+    if (diagram.row_vertex.size() != 0) {
+        sites = nb::cast(to_rows<3>(std::move(diagram.vertex_sites)));
+        vertex = nb::cast(to_values(std::move(diagram.row_vertex)));
+    }
     return nb::make_tuple(to_values(std::move(diagram.offsets)), to_values(std::move(diagram.vertices)),
-                          to_values(std::move(diagram.neighbors)), to_values(std::move(diagram.simplex_vertex)),
-                          to_rows<3>(std::move(diagram.vertex_sites)));
+                          to_values(std::move(diagram.neighbors)), to_values(std::move(diagram.simplex_vertex)), sites,
+                          vertex);
 }
 
 template <std::size_t Width, class Make>
@@ -150,12 +157,34 @@ RowsOut<double, 3> centroids_on_sphere(RowsIn<double, 3> points, Offsets offsets
     }));
 }
 
-void check_numbers(const RowsIn<Index, 3>& triangles, std::size_t size) {
+using Places = std::optional<ValuesIn<Index>>;
+
+// Each place below the number of triangles, and so that no two threads write the same.
+void check_places(const ValuesIn<Index>& place, std::size_t count) {
+    std::vector<bool> taken(count);
+    bool valid = place.shape(0) == count;
+    for (std::size_t k = 0; valid && k < count; ++k) {
+        const auto to = static_cast<std::uint32_t>(place.data()[k]);
+        valid = to < count && !taken[to];
+        if (valid) {
+            taken[to] = true;
+        }
+    }
+    if (!valid) {
+        throw std::invalid_argument("place must be a permutation of the rows of triangles");
+    }
+}
+
+TriangleRows to_rows_of(const RowsIn<Index, 3>& triangles, const Places& place, std::size_t size) {
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         if (static_cast<std::uint32_t>(triangles.data()[k]) >= size) {
             throw std::invalid_argument("triangles: no such point");
         }
     }
+    if (place) {
+        check_places(*place, triangles.shape(0));
+    }
+    return {triangles.data(), place ? place->data() : nullptr, triangles.shape(0)};
 }
 
 struct Centers {
@@ -164,11 +193,9 @@ struct Centers {
 };
 
 template <std::size_t Width, class Fill>
-nb::tuple centers(const RowsIn<double, Width>& points, const RowsIn<Index, 3>& triangles, Fill&& fill) {
-    const std::size_t count = triangles.shape(0);
-    check_numbers(triangles, points.shape(0));
-    Centers result = run_without_lock(count > long_work, [&](Stop stop) {
-        Centers made{Buffer<double>(Width * count), {}};
+nb::tuple centers(const TriangleRows& rows, Fill&& fill) {
+    Centers result = run_without_lock(rows.count > long_work, [&](Stop stop) {
+        Centers made{Buffer<double>(Width * rows.count), {}};
         made.open = fill(made.coordinates.data(), stop);
         return made;
     });
@@ -177,16 +204,17 @@ nb::tuple centers(const RowsIn<double, Width>& points, const RowsIn<Index, 3>& t
     return nb::make_tuple(to_rows<Width>(std::move(result.coordinates)), to_values(std::move(open)));
 }
 
-nb::tuple centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, int workers) {
-    return centers<2>(points, triangles, [&](double* out, Stop stop) {
-        return circumcenters_plane(points.data(), triangles.data(), triangles.shape(0), out, workers, stop);
+nb::tuple centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers) {
+    const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
+    return centers<2>(rows, [&](double* out, Stop stop) {
+        return circumcenters_plane(points.data(), rows, out, workers, stop);
     });
 }
 
-nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, int workers) {
-    return centers<3>(points, triangles, [&](double* out, Stop stop) {
-        return circumcenters_sphere(points.data(), points.shape(0), triangles.data(), triangles.shape(0), out, workers,
-                                    stop);
+nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, Places place, int workers) {
+    const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
+    return centers<3>(rows, [&](double* out, Stop stop) {
+        return circumcenters_sphere(points.data(), points.shape(0), rows, out, workers, stop);
     });
 }
 
@@ -194,8 +222,8 @@ nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles
 
 void bind_voronoi(nb::module_& module) {
     module.def("voronoi_plane", of_plane, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
-               "Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle, three "
-               "sites of each vertex.");
+               "Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle; if "
+               "triangles share vertices, rows of three sites and the vertex of each row.");
     module.def("voronoi_sphere", of_sphere, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
                "The same for directions.");
     module.def("voronoi_ridges", ridges, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a, "workers"_a = 1,
@@ -203,21 +231,28 @@ void bind_voronoi(nb::module_& module) {
     module.def("voronoi_polygons", polygons, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a,
                "workers"_a = 1, "Offsets and sites of the polygons around the vertices of a diagram.");
     module.def("delaunay_of_plane", delaunay_of_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1, "Triangles of a diagram's sites, vertex by vertex.");
+               "vertex_count"_a, "workers"_a = 1,
+               "Triangles of a diagram's sites, vertex by vertex.");
     module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1, "The same for directions.");
+               "vertex_count"_a, "workers"_a = 1,
+               "The same for directions.");
     module.def("cell_areas_plane", areas_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1, "Areas of the cells; infinite where unbounded.");
+               "vertex_count"_a, "workers"_a = 1,
+               "Areas of the cells; infinite where unbounded.");
     module.def("cell_areas_sphere", areas_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1, "Areas of the cells, steradians.");
+               "vertex_count"_a, "workers"_a = 1,
+               "Areas of the cells, steradians.");
     module.def("cell_centroids_plane", centroids_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1, "Centroids of the cells; NaN where there is none.");
+               "vertex_count"_a, "workers"_a = 1,
+               "Centroids of the cells; NaN where there is none.");
     module.def("cell_centroids_sphere", centroids_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1, "Unit vectors; NaN for empty cells.");
-    module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "workers"_a = 1,
-               "Centres of triangles by number, and the rows that are too flat for twice the precision.");
-    module.def("circumcenters_sphere", centers_on_sphere, "points"_a, "triangles"_a, "workers"_a = 1,
-               "The same for directions: unit normals on the side seen counterclockwise.");
+               "vertex_count"_a, "workers"_a = 1,
+               "Unit vectors; NaN for empty cells.");
+    module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "place"_a = nb::none(),
+               "workers"_a = 1,
+               "Centres of triangles by number, that of row k at place[k], and the rows that are too flat for this.");
+    module.def("circumcenters_sphere", centers_on_sphere, "points"_a, "triangles"_a, "place"_a = nb::none(),
+               "workers"_a = 1, "The same for directions: unit normals on the side seen counterclockwise.");
 }
 
 }  // namespace stereodel

@@ -108,26 +108,26 @@ std::vector<Index> open_rows(std::size_t count, Crew& crew, Stop stop, Center&& 
 
 }  // namespace
 
-std::vector<Index> circumcenters_plane(const double* points, const Index* triangles, std::size_t count, double* centers,
-                                       int workers, Stop stop) {
-    Crew crew(useful_workers(workers, count));
+std::vector<Index> circumcenters_plane(const double* points, const TriangleRows& rows, double* centers, int workers,
+                                       Stop stop) {
+    Crew crew(useful_workers(workers, rows.count));
     const auto at = [points](Index a) { return points + 2 * static_cast<std::ptrdiff_t>(a); };
-    return open_rows(count, crew, stop, [&](std::size_t k) {
-        const Index* t = triangles + 3 * k;
-        return planar_center(at(t[0]), at(t[1]), at(t[2]), centers + 2 * k);
+    return open_rows(rows.count, crew, stop, [&](std::size_t k) {
+        const Index* t = rows.corners + 3 * k;
+        return planar_center(at(t[0]), at(t[1]), at(t[2]), centers + 2 * rows.to(k));
     });
 }
 
-std::vector<Index> circumcenters_sphere(const double* points, std::size_t size, const Index* triangles,
-                                        std::size_t count, double* centers, int workers, Stop stop) {
-    Crew crew(useful_workers(workers, count));
+std::vector<Index> circumcenters_sphere(const double* points, std::size_t size, const TriangleRows& rows,
+                                        double* centers, int workers, Stop stop) {
+    Crew crew(useful_workers(workers, rows.count));
     Buffer<UnitVector> units(size);
     for_all(size, crew, stop, [&](std::size_t k) { units[k] = unit_vector(points + 3 * k); });
     const auto at = [points](Index a) { return points + 3 * static_cast<std::ptrdiff_t>(a); };
     const auto unit = [&](Index a) -> const UnitVector& { return units[static_cast<std::size_t>(a)]; };
-    return open_rows(count, crew, stop, [&](std::size_t k) {
-        const Index* t = triangles + 3 * k;
-        double* const center = centers + 3 * k;
+    return open_rows(rows.count, crew, stop, [&](std::size_t k) {
+        const Index* t = rows.corners + 3 * k;
+        double* const center = centers + 3 * rows.to(k);
         return spherical_center(unit(t[0]), unit(t[1]), unit(t[2]), center) ||
                close_center(at(t[0]), at(t[1]), at(t[2]), center);
     });

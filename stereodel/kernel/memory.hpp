@@ -13,6 +13,15 @@
 
 namespace stereodel {
 
+// Asks for memory that will be used soon; any address will do.
+inline void prefetch(const void* address) {
+#if defined(__GNUC__)
+    __builtin_prefetch(address);
+#else
+    (void)address;
+#endif
+}
+
 // An uninitialised array of plain values. Large ones ask for huge pages: random reads in an array of 100 MB miss the
 // translation cache on nearly every access otherwise.
 template <class T>

@@ -57,6 +57,7 @@ class SphereCell {
         begin_ = cells_.begin(site);
         sides.resize(cells_.end(site) - begin_);
         bound_ = 0.0;
+        fetch_ahead();
         const UnitVector& p = units_[site];
         for (std::size_t k = 0; k < sides.size(); ++k) {
             Side<double>& side = sides[k];
@@ -146,6 +147,15 @@ class SphereCell {
     Index other(std::size_t k) const { return cells_.neighbors[begin_ + k]; }
     const UnitVector& unit(std::size_t k) const { return units_[static_cast<std::size_t>(other(k))]; }
     const double* at(Index a) const { return points_ + 3 * static_cast<std::ptrdiff_t>(a); }
+
+    // The neighbours of sites a few cells ahead.
+    void fetch_ahead() const {
+        constexpr std::size_t distance = 32;
+        const std::size_t end = cells_.begin(cells_.sites);
+        for (std::size_t k = begin_ + distance; k < std::min(end, begin_ + sides.size() + distance); ++k) {
+            prefetch(units_ + cells_.neighbors[k]);
+        }
+    }
 
     // The vertex between two neighbours, and the errors of its legs.
     //

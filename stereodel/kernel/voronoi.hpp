@@ -20,7 +20,9 @@ struct Diagram {
     Buffer<std::int64_t> offsets;       // sites + 1
     Buffer<Index> vertices, neighbors;  // of each entry
     Buffer<Index> simplex_vertex;       // of each triangle
-    Buffer<Index> vertex_sites;         // three of each vertex, counterclockwise, a third of the way apart
+    // Three sites of each vertex, counterclockwise and a third of the way apart, and the vertex of each such row, in
+    // the order of the triangles. Empty where each triangle has a vertex of its own, and so is such a row.
+    Buffer<Index> vertex_sites, row_vertex;
 };
 
 Diagram voronoi_plane(const double* points, std::size_t sites, const Index* simplices, const Index* neighbors,

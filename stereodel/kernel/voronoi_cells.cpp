@@ -59,7 +59,10 @@ class CellBuilder {
         diagram_.neighbors = Buffer<Index>(entries_);
         in_grains(dual_.count(), grain, crew_, [&](Size begin, Size end) {
             std::vector<Index> room;
-            for_range(begin, end, stop_, [&](Size t) { write_cells_from(static_cast<Index>(t), room); });
+            for_range(begin, end, stop_, [&](Size t) {
+                fetch_ahead(t);
+                write_cells_from(static_cast<Index>(t), room);
+            });
         });
         return std::move(diagram_);
     }
@@ -133,32 +136,42 @@ class CellBuilder {
         each_root([&](const LowestSites& sites) { keys[at(end[at(sites.first)]++)] = sites.key; });
         // Now end[site] is where the list of the next site begins.
         number_ = Buffer<Index>(dual_.count());
-        diagram_.vertex_sites = Buffer<Index>(3 * vertices);
         in_grains(sites_, grain, crew_, [&](Size first, Size last) {
-            std::vector<Index> room;
             for_range(first, last, stop_, [&](Size site) {
                 VertexKey* const begin = keys.data() + (site == 0 ? 0 : end[site - 1]);
                 std::sort(begin, keys.data() + end[site]);
                 for (VertexKey* key = begin; key < keys.data() + end[site]; ++key) {
-                    name(static_cast<Index>(key - keys.data()), static_cast<Index>(site), *key, room);
+                    number_[at(key->root)] = static_cast<Index>(key - keys.data());
                 }
             });
         });
+        if (dual_.has_ties()) {
+            list_sites(vertices);
+        }
         name_triangles();
     }
 
-    void name(Index number, Index lowest, const VertexKey& key, std::vector<Index>& polygon) {
-        Index* const sites = diagram_.vertex_sites.data() + 3 * at(number);
-        number_[at(key.root)] = number;
-        sites[0] = lowest;
-        if (is_triangle(key.root)) {
-            sites[1] = key.clockwise ? key.third : key.second;
-            sites[2] = key.clockwise ? key.second : key.third;
-        } else {
-            polygon_of(key.root, polygon);
-            sites[1] = polygon[polygon.size() / 3];
-            sites[2] = polygon[2 * polygon.size() / 3];
-        }
+    void list_sites(Size vertices) {
+        diagram_.vertex_sites = Buffer<Index>(3 * vertices);
+        diagram_.row_vertex = Buffer<Index>(vertices);
+        Index* sites = diagram_.vertex_sites.data();
+        Index* vertex = diagram_.row_vertex.data();
+        std::vector<Index> polygon;
+        for_range(0, dual_.count(), stop_, [&](Size k) {
+            const Index t = static_cast<Index>(k);
+            if (dual_.root(t) != t) {
+                return;
+            }
+            if (is_triangle(t)) {
+                polygon.assign(dual_.corners(t), dual_.corners(t) + 3);
+            } else {
+                polygon_of(t, polygon);
+            }
+            for (Size third = 0; third < 3; ++third) {
+                *sites++ = polygon[third * polygon.size() / 3];
+            }
+            *vertex++ = number_[k];
+        });
     }
 
     void name_triangles() {
@@ -195,6 +208,24 @@ class CellBuilder {
             count[site + 1] += count[site];
         }
         entries_ = static_cast<Size>(count[sites_]);
+    }
+
+    // Sites come in any order: what is kept of them is asked for some triangles before it is needed.
+    void fetch_ahead(Size t) const {
+        constexpr Size far = 24, near = 12;
+        if (t + far >= dual_.count()) {
+            return;
+        }
+        for (Size place = 0; place < 3; ++place) {
+            const Size site = at(dual_.corners(static_cast<Index>(t + far))[place]);
+            prefetch(start_.data() + site);
+            prefetch(diagram_.offsets.data() + site);
+        }
+        for (Size place = 0; place < 3; ++place) {
+            const Size site = at(dual_.corners(static_cast<Index>(t + near))[place]);
+            prefetch(diagram_.vertices.data() + diagram_.offsets[site]);
+            prefetch(diagram_.neighbors.data() + diagram_.offsets[site]);
+        }
     }
 
     // The cells of the sites around which to turn from triangle t.

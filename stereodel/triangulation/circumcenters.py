@@ -14,7 +14,9 @@ from stereodel._arrays import FloatArray, IntArray
 from stereodel.predicates.integers import primitive
 
 
-def planar_circumcenters(points: FloatArray, triangles: IntArray, *, workers: int = 1) -> FloatArray:
+def planar_circumcenters(
+    points: FloatArray, triangles: IntArray, place: IntArray | None = None, *, workers: int = 1
+) -> FloatArray:
     """Circumcentres (k, 2) of triangles of the plane; infinite where they exceed the range of doubles.
 
     Parameters
@@ -22,15 +24,17 @@ def planar_circumcenters(points: FloatArray, triangles: IntArray, *, workers: in
     points : (n, 2) array
     triangles : (k, 3) array of int32
         Their corners.
+    place : (k,) array of int32, optional
+        Row of the result for each triangle, a permutation.
 
     Notes
     -----
     With d = b − a, e = c − a: a + (e_y|d|² − d_y|e|², d_x|e|² − e_x|d|²) / (2 d×e).
     """
     centers: FloatArray
-    centers, flat = _kernel.circumcenters_plane(points, triangles, workers)
+    centers, flat = _kernel.circumcenters_plane(points, triangles, place, workers)
     for k in flat.tolist():
-        centers[k] = _planar_exactly(points[triangles[k]])
+        centers[k if place is None else place[k]] = _planar_exactly(points[triangles[k]])
     return centers
 
 
@@ -48,7 +52,9 @@ def _nearest(number: Fraction) -> float:
         return inf if number > 0 else -inf
 
 
-def spherical_circumcenters(points: FloatArray, triangles: IntArray, *, workers: int = 1) -> FloatArray:
+def spherical_circumcenters(
+    points: FloatArray, triangles: IntArray, place: IntArray | None = None, *, workers: int = 1
+) -> FloatArray:
     """Unit outward normals (k, 3) of counterclockwise hull facets: circumcentres of their outer bubbles.
 
     Parameters
@@ -57,15 +63,17 @@ def spherical_circumcenters(points: FloatArray, triangles: IntArray, *, workers:
         Directions.
     triangles : (k, 3) array of int32
         Their corners.
+    place : (k,) array of int32, optional
+        Row of the result for each triangle, a permutation.
 
     Notes
     -----
     The direction of (b̂ − â) × (ĉ − â). For facets that close a set within a hemisphere it points away from the set.
     """
     centers: FloatArray
-    centers, flat = _kernel.circumcenters_sphere(points, triangles, workers)
+    centers, flat = _kernel.circumcenters_sphere(points, triangles, place, workers)
     for k in flat.tolist():
-        centers[k] = _normal_exactly(points[triangles[k]])
+        centers[k if place is None else place[k]] = _normal_exactly(points[triangles[k]])
     return centers
 
 

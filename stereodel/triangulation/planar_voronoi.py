@@ -76,10 +76,11 @@ class PlanarVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, simplex_vertex, sites = _kernel.voronoi_plane(*arrays, self._threads)
+        *cells, simplex_vertex, sites, vertex = _kernel.voronoi_plane(*arrays, self._threads)
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
-        self.vertices = locked(planar_circumcenters(self.points, sites, workers=self._threads))
+        rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
+        self.vertices = locked(planar_circumcenters(self.points, *rows, workers=self._threads))
 
     def _set_strips(self) -> None:
         """Points on one line, in lexicographic order along it."""

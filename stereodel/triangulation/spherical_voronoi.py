@@ -123,10 +123,11 @@ class SphericalVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, simplex_vertex, sites = _kernel.voronoi_sphere(*arrays, self._threads)
+        *cells, simplex_vertex, sites, vertex = _kernel.voronoi_sphere(*arrays, self._threads)
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
-        self._set_vertices(spherical_circumcenters(self.points, sites, workers=self._threads))
+        rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
+        self._set_vertices(spherical_circumcenters(self.points, *rows, workers=self._threads))
 
     def _set_circle(self) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""
@@ -215,7 +216,8 @@ class SphericalVoronoi(Diagram):
         p = unit(self.points[order])
         q = unit(self.points[np.roll(order, -1)])
         angles = np.arctan2(cross(p, q).round() @ self.vertices[0], dot(p, q).round())
-        return np.where(angles > 0, angles, angles + 2 * np.pi)
+        gaps: FloatArray = np.where(angles > 0, angles, angles + 2 * np.pi)
+        return gaps
 
     def ridge_normals(self) -> FloatArray:
         """Directions of p̂ᵢ − p̂ⱼ, (r, 3): the unit normal of each ridge's plane, on the side of site i."""

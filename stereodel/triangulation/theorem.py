@@ -123,8 +123,8 @@ def merged_polygons(
     if len(chosen) == 0:
         return frozenset()
     voronoi = _kernel.voronoi_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.voronoi_sphere
-    offsets, vertices, across, _, sites = voronoi(triangulation.points, chosen, neighbors_of(chosen))
-    return frozenset(map(tuple, polygons(offsets, vertices, across, len(sites))))
+    offsets, vertices, across, vertex, *_ = voronoi(triangulation.points, chosen, neighbors_of(chosen))
+    return frozenset(map(tuple, polygons(offsets, vertices, across, int(vertex.max()) + 1)))
 
 
 def theorem_1_holds(points: npt.ArrayLike) -> bool:

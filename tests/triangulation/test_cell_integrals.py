@@ -115,7 +115,7 @@ def exact_planar_cell(points, diagram, site):
 
 
 @pytest.mark.parametrize(
-    ("size", "flat"),
+    ("size", "flat"), [(1e150, 1), (1.0, 1), (1e-6, 1), (1e-12, 1), (1e-14, 1), (1.0, 1e-9), (1e-6, 1e-6)]
 )
 def test_cells_of_the_plane_against_fractions(size, flat):
     rng = np.random.default_rng(2)

@@ -30,13 +30,14 @@ def rotated(cycle):
 def test_a_square_is_one_vertex_whatever_its_diagonal(simplices):
     rows = np.array(simplices, dtype=np.int32)
     across = {0: [[-1, 1, -1], [-1, -1, 0]], 1: [[1, -1, -1], [-1, 0, -1]]}[simplices[0][2] == 3]
-    offsets, vertices, neighbors, simplex_vertex, sites = _kernel.voronoi_plane(
+    offsets, vertices, neighbors, simplex_vertex, sites, row_vertex = _kernel.voronoi_plane(
         SQUARE_POINTS, rows, np.array(across, dtype=np.int32)
     )
     assert listed(offsets, vertices) == [[-1, 0]] * 4
     assert listed(offsets, neighbors) == [[1, 3], [2, 0], [3, 1], [0, 2]]
     assert simplex_vertex.tolist() == [0, 0]
     assert sites.tolist() == [[0, 1, 2]]
+    assert row_vertex.tolist() == [0]
     points, ends = _kernel.voronoi_ridges(offsets, vertices, neighbors, 1)
     assert points.tolist() == [[0, 1], [0, 3], [1, 2], [2, 3]]
     # The ridge between 0 and 1 comes in from below, that between 0 and 3 leaves to the left: site 0 is on the left.
@@ -137,5 +138,9 @@ def test_wrong_arrays_are_refused():
         _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
     with pytest.raises(ValueError, match="same length"):
         _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), np.zeros((0, 3), dtype=np.int32))
+    rows = np.array([[0, 1, 2], [0, 2, 1]], dtype=np.int32)
+    for place in ([0, 0], [0, 2], [0], [-1, 0]):
+        with pytest.raises(ValueError, match="must be a permutation"):
+            _kernel.circumcenters_sphere(np.eye(3), rows, np.array(place, dtype=np.int32))
     with pytest.raises(ValueError, match="no such point"):
         _kernel.circumcenters_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32))
