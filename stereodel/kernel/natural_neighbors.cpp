@@ -160,7 +160,7 @@ class Interpolation {
         shares_.resize(size);
         total_ = 0.0;
         for (Share& share : shares_) {
-            share.area = std::max(Around::total(share.area), 0.0);
+            share.area = std::max(share.area, 0.0);
             total_ += share.area;
         }
     }

@@ -71,8 +71,6 @@ class PlaneAround {
         return {(a.x + b.x) * half, (a.y + b.y) * half, 0.0};
     }
 
-    static double total(double sum) { return sum; }
-
     void put_gradient(const Local& g, double* out, std::size_t stride) const {
         out[0] = g.x * scale_;
         out[stride] = g.y * scale_;
@@ -130,7 +128,9 @@ class SphereAround {
         return {h.x / length, h.y / length, h.z / length};
     }
 
-    // Of unit vectors; with the query as third axis, by the formula of Van Oosterom and Strackee.
+    // Of unit vectors; with the query as third axis, by the formula of Van Oosterom and Strackee. All corners lie in
+    // the query's cell, which is convex and does not hold its antipode: so sectors add up to areas, without 4 pi more
+    // or less.
     static double sector(const Local& a, const Local& b) {
         return 2 * std::atan2(outer(a, b), 1 + a.z + b.z + inner(a, b));
     }
@@ -140,12 +140,6 @@ class SphereAround {
         const Local sum = a + b, chord = b - a;
         const double factor = std::sqrt(inner(chord, chord) / inner(sum, sum));
         return {sum.x * factor, sum.y * factor, 0.0};
-    }
-
-    // Sectors add up to an area below 2 pi, or to 4 pi less or more if they go round the far side.
-    static double total(double sum) {
-        constexpr double sphere = 12.566370614359172;
-        return sum - sphere * std::round((sum - sphere / 4) / sphere);
     }
 
     void put_gradient(const Local& g, double* out, std::size_t stride) const {
