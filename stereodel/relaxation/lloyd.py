@@ -186,16 +186,21 @@ def _step_on_sphere(points: FloatArray, density: Density | None, workers: int | 
         mass, moments = cells.areas(), cells.moments()
         # |x − p|² = 2 (1 − x·p) for unit vectors
         energy = 2 * float((mass - np.einsum("ni,ni->n", moments, points)).sum())
-    else:
-        triangles, site = cells.triangles()
-        nodes, weights = spherical_nodes(triangles, RADON)
-        weights = weights * _values(density, nodes)
-        mass, moments = _sums(nodes, weights, site, len(points))
-        energy = float((weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1)).sum())
-    moves = np.linalg.norm(moments, axis=1) > BALANCED * mass
-    centroids = points.copy()
-    centroids[moves] = moments[moves] / np.linalg.norm(moments[moves], axis=1)[:, None]
-    return Step(energy, centroids)
+        return Step(energy, _where_pulled(points, mass, moments, cells.centroids()))
+    triangles, site = cells.triangles()
+    nodes, weights = spherical_nodes(triangles, RADON)
+    weights = weights * _values(density, nodes)
+    mass, moments = _sums(nodes, weights, site, len(points))
+    energy = float((weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1)).sum())
+    lengths = np.linalg.norm(moments, axis=1, keepdims=True)
+    return Step(energy, _where_pulled(points, mass, moments, moments / np.where(lengths > 0, lengths, 1.0)))
+
+
+def _where_pulled(points: FloatArray, mass: FloatArray, moments: FloatArray, centroids: FloatArray) -> FloatArray:
+    """The centroids of cells whose mass has a middle, the points of the others."""
+    return np.where(
+        (np.linalg.norm(moments, axis=1) > BALANCED * mass)[:, None] & (mass > 0)[:, None], centroids, points
+    )
 
 
 def _sums(

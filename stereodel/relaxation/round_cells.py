@@ -44,6 +44,10 @@ class RoundCells:
         """Solid angles (n,)."""
         return self._diagram.areas()
 
+    def centroids(self) -> FloatArray:
+        """Directions (n, 3) of the moments, unit vectors, accurate in tiny cells too; NaN without a cell."""
+        return self._diagram.centroids()
+
     def moments(self) -> FloatArray:
         """Integrals (n, 3) of the unit vectors over the cells.
 
