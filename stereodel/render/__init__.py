@@ -1,6 +1,7 @@
 """Pictures: views, scenes and their pages; vector files through matplotlib, pixels through OpenGL."""
 
 from stereodel.render.animate import Animation
+from stereodel.render.colors import ColorScale
 from stereodel.render.curves import CircleArc, Segment
 from stereodel.render.figure import Figure
 from stereodel.render.page import Label, Page
@@ -13,6 +14,7 @@ from stereodel.render.view import View
 __all__ = [
     "Animation",
     "CircleArc",
+    "ColorScale",
     "DotStyle",
     "Figure",
     "Label",

@@ -35,6 +35,7 @@ from stereodel.render.image import (
     pixel_hash,
     read_picture,
     save_arrays,
+    summarised,
 )
 from stereodel.render.page import Page
 from stereodel.render.report import Failure
@@ -58,7 +59,9 @@ class Case:
     @cached_property
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """What T0 compares: the arrays of the page, and the geometry under names that begin with "geometry"."""
-        return {**self.page.arrays(), **{f"geometry_{key}": np.asarray(a) for key, a in self.geometry.items()}}
+        return summarised(
+            {**self.page.arrays(), **{f"geometry_{key}": np.asarray(a) for key, a in self.geometry.items()}}
+        )
 
     @cached_property
     def picture(self) -> Pixels:

@@ -1,6 +1,6 @@
 """Draw what is out of date: the figure scripts run in parallel, and `manifest.json` says what was drawn with what.
 
-Each script `fig*.py` defines `FIGURE`, each `anim_*.py` defines `ANIMATION`; both have `save(out) -> dict`. Whether a
+Each script defines `FIGURE`, or `ANIMATION` if its name begins with `anim_`; both have `save(out) -> dict`. Whether a
 script must run again is decided by the contents of everything that its picture depends on and of the files that it
 wrote, before a script is started: when there is nothing to do, that takes a fraction of a second.
 
@@ -31,6 +31,9 @@ from typing import Any
 
 from stereodel import _kernel
 from stereodel._files import replacing
+
+SCRIPTS = ("fig", "earth_", "sky_", "anim_")
+"""Beginnings of the names of scripts: the paper's figures, pictures of real data, animations."""
 
 LIBRARIES = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
@@ -104,7 +107,7 @@ def build(
 
 def find_scripts(folder: Path, names: Iterable[str] = ()) -> list[Path]:
     """The scripts of a folder in order, those whose name begins with one of `names` when there are any."""
-    found = sorted([*folder.glob("fig*.py"), *folder.glob("anim_*.py")])
+    found = sorted(script for kind in SCRIPTS for script in folder.glob(f"{kind}*.py"))
     if not found:
         raise BuildError(f"no figure scripts in {folder}; give the folder that holds fig*.py with --scripts")
     chosen = set()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._files import replacing
-from stereodel.render.page import Page
+from stereodel.render.page import Mosaic, Page
 from stereodel.render.script import run_script
 from stereodel.render.style import PRINT_DPI
 
@@ -107,7 +107,8 @@ class Figure:
         picture = with_labels(bare, page) if text else bare
         shown = page if text else page.without_labels()
         files = [save_png(picture, folder / f"{self.name}.png", page_width=page.width)]
-        files += [save_vector(shown, folder / f"{self.name}.{kind}") for kind in ("svg", "pdf")]
+        mosaics = self._mosaics(page, picture.shape[1])
+        files += [save_vector(shown, folder / f"{self.name}.{kind}", mosaics=mosaics) for kind in ("svg", "pdf")]
         WRITTEN.append(files[0])
         return {
             "figure": self.name,
@@ -132,6 +133,16 @@ class Figure:
         from stereodel.render.raster import render
 
         return render(page, size=width, text=False)
+
+    @staticmethod
+    def _mosaics(page: Page, width: int) -> list[Pixels]:
+        """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
+        mosaics = [item for item in page.items if isinstance(item, Mosaic)]
+        if not mosaics:
+            return []
+        from stereodel.render.raster import render
+
+        return [render(replace(page, items=(mosaic,)), size=width, text=False) for mosaic in mosaics]
 
 
 def save_png(picture: Pixels, path: str | os.PathLike[str], *, page_width: float) -> Path:

@@ -27,6 +27,12 @@ from stereodel.constants import GOLDEN_ERROR, PIXEL_LEVELS, PIXEL_SHARE_ANY, PIX
 Pixels = npt.NDArray[np.uint8]
 Arrays = Mapping[str, npt.NDArray[Any]]
 
+LARGE: Final = 500_000
+"""Numbers in the arrays of one picture beyond which only a summary is stored."""
+
+SAMPLES: Final = 1000
+"""Numbers kept of each row of a summary."""
+
 MISSING: Final = "missing"
 """The difference of a name that only one side has."""
 
@@ -132,6 +138,34 @@ def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GO
             found[name] = "not expected"
         elif wrong := _array_difference(expected[name], actual[name], tolerance):
             found[name] = wrong
+    return found
+
+
+def summarised(arrays: Arrays) -> dict[str, npt.NDArray[Any]]:
+    """Named arrays as they are if they are small together; else what a few numbers tell of them.
+
+    Numbers of items of one kind and role (whose names begin with a number each) are joined. Of each such row are kept:
+    how many they are, their sum, the sum of their squares, and every so many-th of them in the order of their size, so
+    that another order of rows does not count. Texts are kept as they are.
+
+    Examples
+    --------
+    >>> large = {f"{k:04d}_stroke_coast_path": np.full((2000, 4, 2), k / 8) for k in range(40)}
+    >>> {name: array.shape for name, array in summarised(large).items()}
+    {'stroke_coast_path_totals': (3,), 'stroke_coast_path_samples': (1000,)}
+    """
+    if sum(array.size for array in arrays.values()) <= LARGE:
+        return dict(arrays)
+    found = {name: array for name, array in arrays.items() if array.dtype.kind not in "biuf"}
+    rows: dict[str, list[npt.NDArray[Any]]] = {}
+    for name, array in arrays.items():
+        if name not in found:
+            number, _, rest = name.partition("_")
+            rows.setdefault(rest if number.isdigit() else name, []).append(array.ravel().astype(np.float64))
+    for name, parts in rows.items():
+        row = np.sort(np.concatenate(parts))
+        found[f"{name}_totals"] = np.array([row.size, math.fsum(row), math.fsum(row**2)])
+        found[f"{name}_samples"] = row[:: -(-row.size // SAMPLES) or 1]
     return found
 
 

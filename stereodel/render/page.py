@@ -78,6 +78,21 @@ class Surface:
 
 
 @dataclass(frozen=True, eq=False)
+class Mosaic:
+    """Triangles of a lit ball, each of its own colour, which do not overlap: so many that only pixels hold them.
+
+    `corners` (n, 3, 2) on the page, `normals` (n, 3, 3) in view axes, `colors` (n, 3), sRGB. The vector backend puts
+    the picture of the raster backend into `outline`.
+    """
+
+    corners: FloatArray
+    normals: FloatArray
+    colors: FloatArray
+    outline: tuple[Beziers, ...]
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
 class Label:
     """Text in matplotlib's mathtext, anchored at a page point and moved by `offset` points."""
 
@@ -92,7 +107,7 @@ class Label:
     role: str = "label"
 
 
-Item = Stroke | Fill | Dots | Surface | Label
+Item = Stroke | Fill | Dots | Surface | Mosaic | Label
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,6 +186,8 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
                 "faces": item.faces,
                 "style": np.array(item.color),
             }
+        case Mosaic():
+            return {"outline": np.concatenate(item.outline), "corners": item.corners, "colors": item.colors}
         case Label():
             numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation]
             return {"place": np.array(numbers), "text": np.array([item.text, item.align, item.valign])}

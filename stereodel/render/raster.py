@@ -13,7 +13,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, IntArray
 from stereodel.render import gl
-from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Page, Stroke, Surface
+from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Mosaic, Page, Stroke, Surface
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon
 from stereodel.render.style import PRINT_DPI
 from stereodel.render.vector import pixel_height, with_labels
@@ -107,6 +107,8 @@ class _Canvas:
                 return self._dots(item)
             case Surface():
                 return [self._lit(item)]
+            case Mosaic():
+                return [self._mosaic(item)]
         return []
 
     def _place(self, points: FloatArray) -> FloatArray:
@@ -131,11 +133,20 @@ class _Canvas:
         return pieces
 
     def _lit(self, surface: Surface) -> _Piece:
-        # Smooth from the lit point to the opposite one: Lambert's law would show its terminator as an edge.
-        brightness = 1 - SHADE * ((1 - surface.normals @ LIGHT) / 2) ** 2
         colors = np.repeat([surface.color], len(surface.vertices), axis=0)
-        colors[:, :3] *= brightness[:, None]
+        colors[:, :3] *= _brightness(surface.normals)[:, None]
         return _Piece(self._place(surface.vertices[:, :2])[surface.faces], colors[surface.faces])
+
+    def _mosaic(self, mosaic: Mosaic) -> _Piece:
+        colors = np.ones((len(mosaic.corners), 3, 4))
+        colors[..., :3] = mosaic.colors[:, None] * _brightness(mosaic.normals)[..., None]
+        return _Piece(self._place(mosaic.corners), colors)
+
+
+def _brightness(normals: FloatArray) -> FloatArray:
+    """Smooth from the lit point to the opposite one: Lambert's law would show its terminator as an edge."""
+    brightness: FloatArray = 1 - SHADE * ((1 - normals @ LIGHT) / 2) ** 2
+    return brightness
 
 
 def _flat(corners: Corners, color: Color) -> _Piece:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import replace
 from itertools import groupby
@@ -22,13 +22,14 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure as Canvas
+from matplotlib.image import AxesImage
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from matplotlib.transforms import ScaledTranslation
 
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
-from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Page, Stroke, Surface
+from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Mosaic, Page, Stroke, Surface
 from stereodel.render.style import TYPE
 
 CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
@@ -37,7 +38,10 @@ CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
 METADATA = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
 
-def save_vector(page: Page, path: str | os.PathLike[str]) -> Path:
+Pictures = Sequence[npt.NDArray[np.uint8]]
+
+
+def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures = ()) -> Path:
     """Write a page as SVG or PDF, as the ending of `path` says.
 
     Parameters
@@ -45,6 +49,8 @@ def save_vector(page: Page, path: str | os.PathLike[str]) -> Path:
     page : Page
     path : path-like
         Written under a temporary name in the same folder first; an existing file is replaced.
+    mosaics : sequence of (h, w, 3) uint8 arrays
+        A picture of the whole page for each `Mosaic` on it, of which the part in the mosaic's outline is shown.
 
     Returns
     -------
@@ -54,7 +60,7 @@ def save_vector(page: Page, path: str | os.PathLike[str]) -> Path:
     Raises
     ------
     ValueError
-        For an ending other than .svg and .pdf.
+        For an ending other than .svg and .pdf, and for another number of pictures than mosaics.
     OSError
         Where the file cannot be written.
     """
@@ -63,7 +69,7 @@ def save_vector(page: Page, path: str | os.PathLike[str]) -> Path:
     if kind not in METADATA:
         raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
     with _settings():
-        canvas = _drawn(page, dpi=72.0)
+        canvas = _drawn(page, dpi=72.0, mosaics=mosaics)
         with replacing(target) as temporary:
             canvas.savefig(temporary, format=kind, metadata=METADATA[kind], facecolor=page.background)
     return target
@@ -121,7 +127,7 @@ def _pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
     return 72.0 * width_px / page.width, (width_px, pixel_height(page, width_px))
 
 
-def _drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canvas:
+def _drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics: Pictures = ()) -> Canvas:
     """The page on a canvas of its own size, or of whole pixels."""
     # A millionth of a pixel more, because Agg cuts a size such as 2007.9999999 to 2007.
     width, height = (page.width, page.height) if pixels is None else ((side + 1e-6) * 72 / dpi for side in pixels)
@@ -130,12 +136,12 @@ def _drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Can
     axes = canvas.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(left, right), ylim=(bottom, top))
     axes.set_axis_off()
     names: Counter[str] = Counter()
-    for number, patch in enumerate(_patches(page)):
-        role = patch.get_gid() or "item"
+    for number, artist in enumerate(_artists(page, axes, mosaics)):
+        role = artist.get_gid() or "item"
         names[role] += 1
-        patch.set(gid=role if names[role] == 1 else f"{role}-{names[role]}", zorder=1 + number, snap=False)
-        patch.set_clip_on(False)
-        axes.add_artist(patch)
+        artist.set(gid=role if names[role] == 1 else f"{role}-{names[role]}", zorder=1 + number, snap=False)
+        artist.set_clip_on(isinstance(artist, AxesImage))
+        axes.add_artist(artist)
     for label in page.labels:
         # FreeType refuses type much smaller than a pixel, and nobody could read it.
         if pixels is None or label.size * dpi / 72 >= 1:
@@ -150,8 +156,14 @@ def _pixels(canvas: Canvas, background: Color) -> npt.NDArray[np.uint8]:
     return np.array(agg.buffer_rgba(), dtype=np.uint8)
 
 
-def _patches(page: Page) -> Iterator[PathPatch]:
+def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | AxesImage]:
     """Page items as patches; neighbours of one look share one, so that a role is a group and files stay small."""
+    count = sum(isinstance(item, Mosaic) for item in page.items)
+    if len(mosaics) != count:
+        raise ValueError(
+            f"mosaics has {len(mosaics)} pictures, but there are {count} mosaics on the page; give each one"
+        )
+    pictures = iter(mosaics)
     for _, group in groupby(page.without_labels().items, key=_look):
         items = list(group)
         match items[0]:
@@ -161,6 +173,8 @@ def _patches(page: Page) -> Iterator[PathPatch]:
                 yield from (_fill_patch(item.paths, item) for item in items if isinstance(item, Fill))
             case Surface():
                 yield from (_fill_patch(item.outline, item) for item in items if isinstance(item, Surface))
+            case Mosaic() as mosaic:
+                yield _mosaic_image(mosaic, next(pictures), page, axes)
             case Dots():
                 scale = page.points_per_unit
                 yield from (patch for item in items if isinstance(item, Dots) for patch in _dot_patches(item, scale))
@@ -191,6 +205,15 @@ def _stroke_patch(strokes: list[Stroke], look: Stroke) -> PathPatch:
 def _fill_patch(paths: Iterable[Beziers], item: Fill | Surface) -> PathPatch:
     outline = _outline((path, True) for path in _oriented(list(paths)))
     return PathPatch(outline, facecolor=item.color, linewidth=0.0, edgecolor="none", gid=item.role)
+
+
+def _mosaic_image(mosaic: Mosaic, picture: npt.NDArray[np.uint8], page: Page, axes: Axes) -> AxesImage:
+    """The part of a picture of the whole page that lies in the outline of a mosaic."""
+    image = AxesImage(axes, extent=page.extent, origin="upper", interpolation="none")
+    image.set_data(picture)
+    image.set(gid=mosaic.role, transform=axes.transData)
+    image.set_clip_path(_outline((path, True) for path in mosaic.outline), axes.transData)
+    return image
 
 
 def _dot_patches(dots: Dots, points_per_unit: float) -> Iterator[PathPatch]:
@@ -248,8 +271,9 @@ def _outline(runs: Iterable[tuple[Beziers, bool]]) -> Outline:
     for path, closed in runs:
         vertices.append(path[:1, 0])
         codes.append(Outline.MOVETO)
-        for piece in path:
-            straight = np.allclose(piece[1:3], piece[0] + np.outer([1 / 3, 2 / 3], piece[3] - piece[0]), atol=0)
+        thirds = path[:, :1] + np.array([[[1 / 3], [2 / 3]]]) * (path[:, 3:] - path[:, :1])
+        close: npt.NDArray[np.bool_] = np.isclose(path[:, 1:3], thirds, atol=0)
+        for piece, straight in zip(path, np.logical_and.reduce(close, axis=(1, 2)), strict=True):
             vertices.append(piece[3:] if straight else piece[1:])
             codes += [Outline.LINETO] if straight else [Outline.CURVE4] * 3
         if closed:

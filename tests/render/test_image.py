@@ -14,6 +14,7 @@ from stereodel.render.image import (
     pixel_hash,
     read_picture,
     save_arrays,
+    summarised,
 )
 from stereodel.render.report import Failure, report_failure, withdraw_failure
 
@@ -165,3 +166,37 @@ def test_pictures_are_read_without_opacity(tmp_path):
 
     iio.imwrite(tmp_path / "a.png", np.full((3, 2, 4), 9, dtype=np.uint8))
     assert read_picture(tmp_path / "a.png").shape == (3, 2, 3)
+
+
+def large_page(change=lambda paths: paths):
+    """Arrays of a page as many lines make them: too many numbers to store."""
+    paths = change(np.random.default_rng(2).random((100, 700, 4, 2)))
+    named = {f"{k:04d}_stroke_coast_path": path for k, path in enumerate(paths)}
+    return {**named, "0100_label_label_text": np.array(["a"]), "geometry_sites": np.arange(9.0)}
+
+
+def moved_by(amount):
+    def change(paths):
+        paths[57, 433, 2, 1] += amount
+        return paths
+
+    return change
+
+
+def test_a_small_picture_is_kept_whole():
+    arrays = {"0000_stroke_limb_path": np.ones((5, 4, 2)), "0001_label_label_text": np.array(["a"])}
+    assert summarised(arrays) == arrays
+
+
+def test_a_summary_is_small_and_does_not_depend_on_the_order_of_the_lines():
+    found = summarised(large_page())
+    assert sum(array.size for array in found.values()) < 2100
+    assert found["0100_label_label_text"] == ["a"]
+    assert array_differences(found, summarised(large_page(lambda paths: paths[::-1]))) == {}
+
+
+@pytest.mark.parametrize(
+    "change", [moved_by(1e-5), lambda paths: paths[:-1], lambda paths: 1.0001 * paths, lambda paths: paths + 1e-9]
+)
+def test_a_summary_tells_of_one_moved_number_a_missing_line_another_scale_and_a_shift(change):
+    assert "stroke_coast_path_totals" in array_differences(summarised(large_page()), summarised(large_page(change)))
