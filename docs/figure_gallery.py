@@ -18,7 +18,7 @@ def script_arguments(gallery_conf, script_vars):
     """What a script is told on its command line."""
     script = Path(script_vars["src_file"])
     arguments = ["--out", os.path.relpath(WRITE_TO, script.parent)]  # scripts run in their own folder
-    if script.name.startswith("fig"):
+    if not script.name.startswith("anim_"):
         arguments += ["--size", str(WIDTH)]
     return arguments
 
@@ -35,11 +35,11 @@ def written_pictures(block, block_vars, gallery_conf):
 
 
 class FiguresFirst:
-    """Order of the gallery: the figures by number, then the animations."""
+    """Order of the gallery: the figures by number, then real data, then the animations."""
 
     def __init__(self, src_dir):
         self.src_dir = src_dir
 
     def __call__(self, filename):
         """Sort key of a script."""
-        return not filename.startswith("fig"), filename
+        return [not filename.startswith(kind) for kind in ("fig", "earth_", "sky_")], filename

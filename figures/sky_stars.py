@@ -1,0 +1,97 @@
+"""
+Every star its own sky
+======================
+
+The Voronoi cells of the 117 955 stars of the Hipparcos catalogue, on the half of the sky about the galactic anticentre,
+seen from inside, the galactic equator across the middle. Where cells are small, the picture is light: the Milky Way and
+Orion show by the number of their stars alone. The colour is the mean area of a cell and its neighbours. The stars
+brighter than magnitude 4.5 are drawn in their own colours.
+"""
+
+import numpy as np
+from _poster import add_cells, diagram_arrays, legend, poster, spaced
+
+from stereodel import SphericalVoronoi, data, lonlat_to_xyz
+from stereodel.render import ColorScale, Figure, Page, Scene, View
+from stereodel.render.style import DotStyle, LineStyle
+
+CENTER, POLE = (266.40499, -28.93617), (192.85948, 27.12825)  # of the galaxy, ICRS
+VIEW = View(180, 0)
+SCALE = ColorScale("bone_r", 0.06, 0.9, log=True)  # square degrees
+TICKS = {0.1: "0.1", 0.2: "0.2", 0.4: "0.4", 0.8: "0.8"}
+BRIGHT, SMOOTHED = 4.5, 1
+NIGHT, INK = (0.02, 0.022, 0.035, 1.0), (0.9, 0.9, 0.92, 1.0)
+NAMES = {
+    "above": {24608: "Capella", 21421: "Aldebaran", 37279: "Procyon", 37826: "Pollux"},
+    "right": {32349: "Sirius", 27989: "Betelgeuse", 30438: "Canopus", 17702: "Pleiades"},
+    "below": {24436: "Rigel"},
+}
+PLACES = {
+    "above": {"offset": (0.0, 5.0), "valign": "bottom"},
+    "right": {"offset": (5.0, 0.0), "align": "left"},
+    "below": {"offset": (0.0, -5.0), "valign": "top"},
+}
+
+
+def galactic() -> np.ndarray:
+    """Rows: centre, galactic longitude 90° reversed, because the sky is seen from inside, and pole."""
+    pole, center = lonlat_to_xyz(POLE), lonlat_to_xyz(CENTER)
+    across = np.cross(pole, center)
+    across /= np.linalg.norm(across)
+    return np.stack([np.cross(across, pole), -across, pole])
+
+
+def geometry() -> dict:
+    """Cells and areas in square degrees, places, magnitudes and colours of the stars."""
+    table = data.stars()
+    voronoi = SphericalVoronoi(lonlat_to_xyz(table.lonlat))
+    turn = galactic().T
+    arrays = diagram_arrays(voronoi)
+    seen = {key: arrays[key] @ turn for key in ("points", "vertices")}
+    areas = np.degrees(np.degrees(voronoi.areas()))
+    for _ in range(SMOOTHED):
+        areas = mean_with_neighbors(areas, voronoi.ridge_points)
+    return {**arrays, **seen, "areas": areas, "magnitude": table.magnitude, "color_index": table.color_index}
+
+
+def mean_with_neighbors(values: np.ndarray, pairs: np.ndarray) -> np.ndarray:
+    """Of each cell and those that share a ridge with it."""
+    total, count = values.copy(), np.ones(len(values))
+    for own, other in (pairs.T, pairs.T[::-1]):
+        total += np.bincount(own, values[other], minlength=len(values))
+        count += np.bincount(own, minlength=len(values))
+    return total / count
+
+
+def star_color(index: float) -> tuple:
+    """A tint after the colour index B − V: blue below 0, white, orange above 1.5."""
+    stops = np.array([(0.66, 0.76, 1.0), (0.95, 0.96, 1.0), (1.0, 0.93, 0.8), (1.0, 0.72, 0.45)])
+    return (*(float(np.interp(index, (-0.2, 0.25, 0.7, 1.6), channel)) for channel in stops.T), 1.0)
+
+
+def draw(g: dict) -> Page:
+    """Cells by area, bright stars by magnitude and colour, the names of the brightest."""
+    scene = Scene(limb=LineStyle((0.4, 0.42, 0.5, 1.0), 0.6))
+    add_cells(scene, g, SCALE(g["areas"]))
+    for star in np.flatnonzero(g["magnitude"] < BRIGHT):
+        radius = 0.55 + 0.5 * (BRIGHT - g["magnitude"][star])
+        style = DotStyle(star_color(g["color_index"][star]), radius, rim=NIGHT, rim_width=0.3)
+        scene.add_points(g["points"][star, None], style=style)
+    for place, names in NAMES.items():
+        for hip, name in names.items():
+            (star,) = np.flatnonzero(data.stars().hip == hip)
+            scene.add_label(name, g["points"][star], size=8.0, color=INK, **PLACES[place])
+    count = spaced(len(g["areas"]))
+    subtitle = f"{count} stars of the Hipparcos catalogue, each with the part of the sky that is nearest to it"
+    items = scene.layout(VIEW) + legend(SCALE, TICKS, "area, square degrees", INK)
+    credit = (
+        "Stars: Hipparcos, the new reduction (ESA; F. van Leeuwen, 2007). "
+        "Seen from inside, the galactic anticentre in the middle, galactic north up."
+    )
+    return poster(items, "Every star its own sky", subtitle, credit, ink=INK, background=NIGHT, views=(VIEW.matrix,))
+
+
+FIGURE = Figure("sky_stars", geometry, draw)
+
+if __name__ == "__main__":
+    FIGURE.main()
