@@ -1,0 +1,221 @@
+"""Great-circle arcs as chains of points that a map can join by straight lines.
+
+Each arc is sampled once, whatever borders on it, so that neighbours share every point. The poles and the crossings of
+the 180th meridian are points of the chains; cutting a ring there is bookkeeping (`rings`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from stereodel._arrays import BoolArray, FloatArray
+from stereodel.constants import AT_POLE, CHORD_CLEARANCE, DEGREE_ROUNDING
+from stereodel.io.faces import Indices, spans
+from stereodel.sphere import xyz_to_lonlat
+from stereodel.sphere.latitudes import Latitude
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Arcs of at most half a great circle, counterclockwise about their normals.
+
+    Attributes
+    ----------
+    start, end : (k, 3) arrays
+        Unit vectors.
+    normal : (k, 3) array
+        Unit normals, which tell antipodal ends apart; zero where the ends are not antipodal for certain.
+    sites : (k, 3) array, optional
+        Unit vectors of points that must stay on their side of the arc.
+    """
+
+    start: FloatArray
+    end: FloatArray
+    normal: FloatArray
+    sites: FloatArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Chains:
+    """Points along arcs, one arc after the other, both ends included.
+
+    Attributes
+    ----------
+    xyz : (p, 3) array
+        Unit vectors.
+    lonlat : (p, 2) array
+        Degrees; the longitudes of poles and of points of the 180th meridian mean nothing.
+    owner : (p,) array of int
+        The arc of each point, in order.
+    latitude : str
+        What kind of latitude `lonlat` has.
+    """
+
+    xyz: FloatArray
+    lonlat: FloatArray
+    owner: Indices
+    latitude: Latitude
+
+    @classmethod
+    def of(cls, points: FloatArray, owner: Indices, latitude: Latitude) -> Chains:
+        """With longitude and latitude computed."""
+        return cls(points, xyz_to_lonlat(points, latitude=latitude), owner, latitude)
+
+    @cached_property
+    def pole(self) -> BoolArray:
+        """Points at the poles, (p,)."""
+        return np.asarray((self.xyz[:, :2] == 0).all(axis=1))
+
+    @cached_property
+    def seam(self) -> BoolArray:
+        """Points on the 180th meridian, without the poles, (p,)."""
+        return np.asarray((self.xyz[:, 1] == 0) & (self.xyz[:, 0] < 0))
+
+    @cached_property
+    def offsets(self) -> Indices:
+        """Where each arc begins, up to the last one's end."""
+        return np.concatenate([[0], np.flatnonzero(np.diff(self.owner)) + 1, [len(self.owner)]])
+
+    def steps(self) -> Indices:
+        """The points that are not the last ones of their arcs."""
+        return np.flatnonzero(self.owner[:-1] == self.owner[1:])
+
+    def on_map(self, step: Indices) -> FloatArray:
+        """Longitude and latitude of both ends of steps, (s, 2, 2).
+
+        An end on the 180th meridian is on the other end's side of the map, one at a pole at the other end's longitude.
+        """
+        return self.between(step, step + 1)
+
+    def between(self, point: Indices, following: Indices) -> FloatArray:
+        """The same for steps between any points that follow each other, in either direction."""
+        return np.stack([self._seen(point, following), self._seen(following, point)], axis=1)
+
+    def _seen(self, point: Indices, other: Indices) -> FloatArray:
+        lonlat = self.lonlat[point].copy()
+        lonlat[:, 0] = np.where(self.seam[point], np.copysign(180.0, self.xyz[other, 1]), lonlat[:, 0])
+        lonlat[:, 0] = np.where(self.pole[point], self.lonlat[other, 0], lonlat[:, 0])
+        return lonlat
+
+    def straying(self, step: Indices, middle: Chains) -> FloatArray:
+        """How far the chords' middles are off the arcs', (s, 2), in longitude and latitude."""
+        special = self.pole | self.seam
+        along = special[step] & special[step + 1]
+        return np.where(along[:, None], 0.0, np.abs(middle.lonlat - self.on_map(step).mean(axis=1)))
+
+    def middles(self, steps: Indices) -> Chains:
+        """The middles of the steps from the given points to the next ones."""
+        middles = _unit(self.xyz[steps] + self.xyz[steps + 1])
+        return Chains.of(middles, self.owner[steps], self.latitude)
+
+    def with_middles(self, steps: Indices) -> Chains:
+        """The same arcs with further points in the middles of some steps."""
+        new = self.middles(steps)
+        return Chains(
+            np.insert(self.xyz, steps + 1, new.xyz, axis=0),
+            np.insert(self.lonlat, steps + 1, new.lonlat, axis=0),
+            np.insert(self.owner, steps + 1, new.owner),
+            self.latitude,
+        )
+
+
+def sample(arcs: Arcs, max_segment: float, latitude: Latitude) -> Chains:
+    """Chains with chords of at most `max_segment` degrees, also in longitude."""
+    step_rad = float(np.radians(max_segment))
+    points, owner = _with_crossings(*_equal_steps(arcs, step_rad))
+    chains = Chains.of(*_with_longitudes(points, owner, step_rad), latitude)
+    while len(steps := _too_near(arcs, chains)):
+        chains = chains.with_middles(steps)
+    return chains
+
+
+def _too_near(arcs: Arcs, chains: Chains) -> Indices:
+    """Steps whose chord strays from the arc by too large a part of its distance from the site."""
+    if arcs.sites is None:
+        return np.zeros(0, dtype=np.intp)
+    step = chains.steps()
+    arc, middle, chord = chains.owner[step], chains.middles(step), chains.xyz[step + 1] - chains.xyz[step]
+    site = arcs.sites[arc]
+    foot = np.abs(np.sum(site * arcs.normal[arc], axis=1))
+    away = np.maximum(foot, _length(site - middle.xyz) - _length(chord) / 2)
+    off = chains.straying(step, middle)
+    off[:, 0] *= np.hypot(middle.xyz[:, 0], middle.xyz[:, 1])
+    return step[_length(off) > np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)]
+
+
+def _equal_steps(arcs: Arcs, step_rad: float) -> tuple[FloatArray, Indices]:
+    """Points at equal angles, and the arc of each.
+
+    The middle of an arc of angle 2h is along a + b, of length 2 cos h, and along (b − a) × n, of length 2 sin h: the
+    sum of both is never short.
+    """
+    chord = arcs.end - arcs.start
+    half = np.arctan2(_length(chord), _length(arcs.start + arcs.end))
+    middle = _unit(arcs.start + arcs.end + np.cross(chord, arcs.normal))
+    along = _unit(chord - np.sum(chord * middle, axis=1, keepdims=True) * middle)
+    counts = np.maximum(np.ceil(2 * half / step_rad), 1).astype(np.intp)
+    owner = np.repeat(np.arange(len(chord)), counts + 1)
+    place = spans(np.zeros_like(counts), counts + 1)
+    angle = ((2 * place / counts[owner] - 1) * half[owner])[:, None]
+    points = np.cos(angle) * middle[owner] + np.sin(angle) * along[owner]
+    points[place == 0], points[place == counts[owner]] = arcs.start, arcs.end
+    return _snapped(points), owner
+
+
+def _with_crossings(points: FloatArray, owner: Indices) -> tuple[FloatArray, Indices]:
+    """The same chains with a point wherever they cross the 180th meridian or a pole.
+
+    Where a chord meets the plane y = 0, or x = 0 if it lies in that plane, is a point of its great circle as well.
+    """
+    p, q = points[:-1], points[1:]
+    within = (p[:, 1] == 0) & (q[:, 1] == 0)
+    crossed = (owner[:-1] == owner[1:]) & np.where(within, p[:, 0] * q[:, 0] < 0, p[:, 1] * q[:, 1] < 0)
+    place = np.flatnonzero(crossed)
+    p, q, axis = p[place], q[place], np.where(within[place], 0, 1)[:, None]
+    meeting = p * np.abs(np.take_along_axis(q, axis, 1)) + q * np.abs(np.take_along_axis(p, axis, 1))
+    np.put_along_axis(meeting, axis, 0.0, 1)
+    meeting = _snapped(_unit(meeting))
+    wanted = meeting[:, 0] <= 0
+    return _inserted(points, owner, place[wanted], meeting[wanted])
+
+
+def _with_longitudes(points: FloatArray, owner: Indices, step_rad: float) -> tuple[FloatArray, Indices]:
+    """The same chains with points between those that are too far apart in longitude, at the middle longitude."""
+    while True:
+        reach = np.hypot(points[:, 0], points[:, 1])
+        horizontal = points / np.where(reach == 0, 1.0, reach)[:, None]
+        p, q = horizontal[:-1], horizontal[1:]
+        turn = np.abs(np.arctan2(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0], p[:, 0] * q[:, 0] + p[:, 1] * q[:, 1]))
+        apart = (owner[:-1] == owner[1:]) & (reach[:-1] > 0) & (reach[1:] > 0) & (turn > step_rad)
+        place = np.flatnonzero(apart)
+        if not len(place):
+            return points, owner
+        points, owner = _inserted(points, owner, place, _unit(p[place] + q[place]))
+
+
+def _inserted(points: FloatArray, owner: Indices, place: Indices, new: FloatArray) -> tuple[FloatArray, Indices]:
+    return np.insert(points, place + 1, new, axis=0), np.insert(owner, place + 1, owner[place])
+
+
+def _snapped(points: FloatArray) -> FloatArray:
+    """Points within rounding of the poles, or of the plane y = 0, exactly there."""
+    near = np.abs(points) <= AT_POLE
+    points[near[:, 1], 1] = 0.0
+    at_pole = near[:, 0] & near[:, 1]
+    points[at_pole, 0] = 0.0
+    points[at_pole, 2] = np.sign(points[at_pole, 2])
+    return points
+
+
+def _length(vectors: FloatArray) -> FloatArray:
+    length: FloatArray = np.sqrt(np.sum(vectors * vectors, axis=-1))
+    return length
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    """Unit vectors; a zero vector stays."""
+    length = _length(vectors)[:, None]
+    return vectors / np.where(length == 0, 1.0, length)

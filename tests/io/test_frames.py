@@ -1,0 +1,217 @@
+"""GeoDataFrames: rows, columns, options, the plane, lines; and the way back from points."""
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import (
+    PlanarDelaunay,
+    PlanarVoronoi,
+    SphericalDelaunay,
+    SphericalVoronoi,
+    angular_distance,
+    check_delaunay,
+    lonlat_to_xyz,
+)
+from stereodel.earth import AUTHALIC_RADIUS_KM
+from stereodel.io import from_geodataframe, to_geodataframe
+
+SPHERE = np.random.default_rng(5).normal(size=(40, 3))
+PLANE = np.random.default_rng(6).uniform(size=(40, 2)) * (3, 2)
+EXTENT = (0.5, 2.5, 0.25, 1.5)
+PLANES = {
+    "random": PLANE,
+    "one": PLANE[:1],
+    "two": PLANE[:2],
+    "line": np.column_stack([np.arange(5.0), np.zeros(5)]),
+    "oblique line": np.column_stack([np.arange(5.0), 2 * np.arange(5.0)]),
+    "square": [[0, 0], [1, 0], [1, 1], [0, 1]],
+    "grid": np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0)), axis=-1).reshape(-1, 2),
+    "duplicates": np.vstack([PLANE, PLANE[:5]]),
+    "cluster": 1 + 1e-12 * np.random.default_rng(7).normal(size=(20, 2)),
+    "far vertices": [[0, 0], [1, 1e-13], [2, 0], [3, 1e-13]],
+}
+
+
+def test_columns_of_each_kind():
+    diagram = SphericalVoronoi(SPHERE)
+    kinds = {
+        what: list(to_geodataframe(diagram, what=what)) for what in ("cells", "triangles", "edges", "ridges", "sites")
+    }
+    assert kinds == {
+        "cells": ["point", "area", "geometry"],
+        "triangles": ["triangle", "a", "b", "c", "area", "geometry"],
+        "edges": ["a", "b", "length", "geometry"],
+        "ridges": ["a", "b", "length", "geometry"],
+        "sites": ["point", "geometry"],
+    }
+
+
+def test_usual_kinds():
+    assert "point" in to_geodataframe(SphericalVoronoi(SPHERE))
+    assert "triangle" in to_geodataframe(SphericalDelaunay(SPHERE))
+    assert "point" in to_geodataframe(PlanarVoronoi(PLANE))
+    assert "triangle" in to_geodataframe(PlanarDelaunay(PLANE))
+
+
+def test_own_columns_follow_their_points():
+    points = np.vstack([SPHERE[:4], SPHERE[:2], SPHERE[4:]])
+    names = np.array([f"site {k}" for k in range(len(points))])
+    frame = to_geodataframe(SphericalVoronoi(points), columns={"name": names})
+    assert len(frame) == len(SPHERE)
+    assert (frame["name"] == names[frame["point"]]).all()
+    assert not set(frame["point"]) & {4, 5}
+
+
+def test_crs_and_units():
+    frame = to_geodataframe(SphericalVoronoi(SPHERE), radius=AUTHALIC_RADIUS_KM)
+    assert frame.crs == "EPSG:4326"
+    assert frame["area"].sum() == pytest.approx(510065621.7, abs=1)
+    assert to_geodataframe(PlanarVoronoi(PLANE), crs="EPSG:3035").crs == "EPSG:3035"
+    assert to_geodataframe(PlanarVoronoi(PLANE)).crs is None
+
+
+def test_lengths():
+    frame = to_geodataframe(SphericalDelaunay(SPHERE), what="edges", radius=AUTHALIC_RADIUS_KM)
+    a, b = SPHERE[frame["a"]], SPHERE[frame["b"]]
+    assert np.allclose(frame["length"], np.radians(angular_distance(a, b)) * AUTHALIC_RADIUS_KM, rtol=1e-14)
+    ridges = to_geodataframe(SphericalVoronoi([[0, 0, 1], [0, 0, -1]]), what="ridges")
+    assert ridges["length"].tolist() == pytest.approx([np.pi, np.pi])
+
+
+def test_lines_are_short_steps_along_great_circles():
+    triangulation = SphericalDelaunay(SPHERE)
+    edges = to_geodataframe(triangulation, what="edges")
+    assert edges.is_valid.all()
+    assert {"LineString", "MultiLineString"} == set(edges.geom_type)
+    for a, b, line in zip(edges["a"], edges["b"], edges.geometry, strict=True):
+        normal = np.cross(SPHERE[a], SPHERE[b])
+        ends = []
+        for part in shapely.get_parts(line):
+            xyz = lonlat_to_xyz(shapely.get_coordinates(part))
+            assert np.abs(xyz @ normal).max() < 1e-14 * np.linalg.norm(normal) + 1e-15
+            assert angular_distance(xyz[:-1], xyz[1:]).max() < 1 + 1e-9
+            ends += [xyz[0], xyz[-1]]
+        assert angular_distance(ends[0], SPHERE[a]) < 1e-13
+        assert angular_distance(ends[-1], SPHERE[b]) < 1e-13
+        assert all(angular_distance(*pair) < 1e-13 for pair in zip(ends[1:-1:2], ends[2::2], strict=True))
+
+
+def test_ridges_are_as_far_from_both_points():
+    ridges = to_geodataframe(SphericalVoronoi(SPHERE), what="ridges")
+    for a, b, line in zip(ridges["a"], ridges["b"], ridges.geometry, strict=True):
+        xyz = lonlat_to_xyz(shapely.get_coordinates(line))
+        assert np.abs(angular_distance(xyz, SPHERE[a]) - angular_distance(xyz, SPHERE[b])).max() < 1e-12
+
+
+def test_a_line_over_the_pole_and_along_the_180th_meridian():
+    diagram = SphericalVoronoi([[0, 1, 0], [0, -1, 0]])
+    lines = to_geodataframe(diagram, what="ridges").geometry
+    coordinates = shapely.get_coordinates(lines.values)
+    assert set(np.round(coordinates[:, 0], 12)) == {0.0, 180.0}
+    assert sum(line.length for line in lines) == pytest.approx(360)
+
+
+def assert_fills(frame, box):
+    area = (box[1] - box[0]) * (box[3] - box[2])
+    assert frame.is_valid.all()
+    assert frame.geometry.area.sum() == pytest.approx(area, rel=1e-9)
+    assert shapely.area(shapely.union_all(frame.geometry.values)) == pytest.approx(area, rel=1e-9)
+    assert shapely.is_ccw(shapely.get_exterior_ring(shapely.get_parts(frame.geometry.values))).all()
+
+
+@pytest.mark.parametrize("name", PLANES)
+def test_cells_of_the_plane_fill_the_extent(name):
+    frame = to_geodataframe(PlanarVoronoi(PLANES[name]), extent=EXTENT)
+    assert_fills(frame, EXTENT)
+    for point, cell in zip(frame["point"], frame.geometry, strict=True):
+        corners = shapely.get_coordinates(cell)
+        gaps = np.hypot(*(corners[:, None] - np.asarray(PLANES[name])[None]).T).T
+        assert (gaps[:, point] <= gaps.min(axis=1) + 1e-9).all()
+
+
+@pytest.mark.parametrize("name", PLANES)
+def test_usual_extent_holds_all_points(name):
+    points = np.asarray(PLANES[name], dtype=float)
+    diagram = PlanarVoronoi(points)
+    frame = to_geodataframe(diagram)
+    left, bottom, right, top = frame.total_bounds
+    assert_fills(frame, (left, right, bottom, top))
+    assert left < points[:, 0].min() <= points[:, 0].max() < right
+    assert len(frame) == len(np.unique(points, axis=0))
+
+
+@settings(max_examples=60)
+@given(st.lists(st.tuples(st.integers(-3, 6), st.integers(-3, 6)), min_size=1, max_size=12))
+def test_cells_of_grid_points_fill_the_extent(points):
+    """Vertices and ridges on the border of the extent, cells that it misses, cells that fill it."""
+    assert_fills(to_geodataframe(PlanarVoronoi(points), extent=(0, 3, 0, 2)), (0, 3, 0, 2))
+
+
+def test_cells_of_the_plane_share_points():
+    frame = to_geodataframe(PlanarVoronoi(PLANE), extent=EXTENT)
+    assert shapely.coverage_is_valid(frame.geometry.values)
+
+
+def test_triangles_and_lines_of_the_plane():
+    triangulation = PlanarDelaunay(PLANE)
+    check_delaunay(triangulation.points, triangulation.simplices)
+    triangles = to_geodataframe(triangulation)
+    assert np.allclose(triangles["area"], triangles.geometry.area, rtol=1e-12)
+    hull = shapely.convex_hull(shapely.multipoints(PLANE))
+    assert triangles["area"].sum() == pytest.approx(hull.area)
+    edges = to_geodataframe(triangulation, what="edges")
+    assert (edges[["a", "b"]].to_numpy() == triangulation.edges).all()
+    assert np.allclose(edges["length"], edges.geometry.length)
+    ridges = to_geodataframe(triangulation, what="ridges", extent=EXTENT)
+    assert np.allclose(ridges["length"], ridges.geometry.length)
+
+
+def test_nothing_of_no_points():
+    for mesh in (SphericalVoronoi([]), SphericalDelaunay(np.zeros((0, 3))), PlanarVoronoi([]), PlanarDelaunay([])):
+        for what in ("cells", "triangles", "edges", "ridges", "sites"):
+            assert len(to_geodataframe(mesh, what=what)) == 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"what": "faces"}, "what is 'faces'"),
+        ({"max_segment": 0}, "max_segment"),
+        ({"max_segment": 91}, "max_segment"),
+        ({"radius": -1}, "radius"),
+        ({"latitude": "north"}, "latitude"),
+        ({"columns": {"name": ["a"]}}, "columns\\['name'\\] has shape"),
+        ({"columns": {"name": ["a"] * 40}, "what": "edges"}, "columns belong to points"),
+    ],
+)
+def test_wrong_options(options, message):
+    with pytest.raises(ValueError, match=message):
+        to_geodataframe(SphericalVoronoi(SPHERE), **options)
+    with pytest.raises(TypeError, match="mesh must be"):
+        to_geodataframe(SPHERE)
+
+
+def test_back_from_sites():
+    diagram = SphericalVoronoi(SPHERE)
+    for latitude in ("spherical", "geodetic", "authalic"):
+        sites = to_geodataframe(diagram, what="sites", latitude=latitude)
+        table = from_geodataframe(sites.to_crs(3857))
+        assert angular_distance(lonlat_to_xyz(table.lonlat, latitude=latitude), SPHERE).max() < 1e-11
+        assert table.columns["point"].tolist() == list(range(len(SPHERE)))
+
+
+def test_points_without_a_coordinate_system_are_degrees():
+    series = geopandas.GeoSeries(geopandas.points_from_xy([5, 7], [50, 51]))
+    assert from_geodataframe(series).lonlat.tolist() == [[5, 50], [7, 51]]
+    with pytest.raises(ValueError, match="row 2: latitude 91"):
+        from_geodataframe(geopandas.GeoSeries(geopandas.points_from_xy([5, 7], [50, 91])))
+
+
+@pytest.mark.parametrize("wrong", [None, shapely.Point(), shapely.LineString([(0, 0), (1, 1)])])
+def test_rows_that_are_no_points(wrong):
+    with pytest.raises(ValueError, match="row 2: a Point is needed"):
+        from_geodataframe(geopandas.GeoSeries([shapely.Point(0, 0), wrong]))

@@ -1,0 +1,201 @@
+"""Reading tables of points: separators, names of columns, what is said of wrong rows, and every format."""
+
+import io
+import json
+
+import geopandas
+import numpy as np
+import pandas as pd
+import pytest
+
+from stereodel.io import PointTable, read_points
+from stereodel.io.columns import find_lonlat
+
+CITIES = [("Quito", -78.5, -0.2, 1763000), ("Ulm", 10.0, 48.4, 129000), ("Perth", 115.9, -32.0, 2309000)]
+LONLAT = [[lon, lat] for _, lon, lat, _ in CITIES]
+
+
+def frame():
+    table = pd.DataFrame(CITIES, columns=["name", "lon", "lat", "people"])
+    return geopandas.GeoDataFrame(
+        table[["name", "people"]], geometry=geopandas.points_from_xy(table["lon"], table["lat"]), crs=4326
+    )
+
+
+def assert_cities(table):
+    assert np.allclose(table.lonlat, LONLAT, atol=1e-12)
+    assert table.columns["name"].tolist() == [name for name, *_ in CITIES]
+    assert table.columns["people"].tolist() == [people for *_, people in CITIES]
+    assert table.columns["people"].dtype == np.int64
+    assert table.rows.tolist() == [1, 2, 3]
+
+
+@pytest.mark.parametrize("separator", [",", ";", "\t", "|", " "])
+@pytest.mark.parametrize("decimal", [".", ","])
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_separators_and_decimal_signs(separator, decimal, end):
+    if separator == decimal:
+        return
+    lines = [separator.join(["name", "lon", "lat", "people"])]
+    lines += [separator.join(map(str, row)).replace(".", decimal) for row in CITIES]
+    assert_cities(read_points(io.StringIO(end.join(lines) + end)))
+
+
+def test_a_separator_inside_quotes_is_text():
+    text = 'name;lon;lat\n"Ulm; Donau, Germany";10,0;48,4\n"two\nlines";1,0;2,0\n'
+    table = read_points(io.StringIO(text))
+    assert table.columns["name"].tolist() == ["Ulm; Donau, Germany", "two\nlines"]
+    assert table.lonlat.tolist() == [[10, 48.4], [1, 2]]
+
+
+def test_columns_become_what_all_their_values_are():
+    text = "lon,lat,whole,real,gaps,code,text\n1,2,3,4.5,,007,a\n5,6,7,8,9,010,\n"
+    columns = read_points(io.StringIO(text)).columns
+    assert {name: values.dtype.kind for name, values in columns.items()} == {
+        "whole": "i",
+        "real": "f",
+        "gaps": "f",
+        "code": "U",
+        "text": "U",
+    }
+    assert columns["code"].tolist() == ["007", "010"]
+    assert np.isnan(columns["gaps"][0])
+
+
+def test_no_names_of_columns():
+    assert read_points(io.StringIO("10 48.4\n2 51\n")).lonlat.tolist() == [[10, 48.4], [2, 51]]
+    with pytest.raises(ValueError, match="column_1', 'column_2', 'column_3"):
+        read_points(io.StringIO("a,10,48.4\nb,2,51\n"))
+    table = read_points(io.StringIO("a,10,48.4\nb,2,51\n"), lon="column_2", lat="column_3")
+    assert table.columns["column_1"].tolist() == ["a", "b"]
+
+
+def test_blank_lines_and_a_mark_of_the_byte_order():
+    table = read_points(io.BytesIO("\ufefflon,lat\n1,2\n\n3,4\n".encode()))
+    assert table.lonlat.tolist() == [[1, 2], [3, 4]]
+    assert table.rows.tolist() == [1, 2]
+
+
+@pytest.mark.parametrize(
+    ("names", "found"),
+    [
+        (["lon", "lat"], ("lon", "lat")),
+        (["LATITUDE", "Longitude", "x", "y"], ("Longitude", "LATITUDE")),
+        (["decimalLatitude", "decimalLongitude", "elevation"], ("decimalLongitude", "decimalLatitude")),
+        (["latitude_deg", "longitude_deg"], ("longitude_deg", "latitude_deg")),
+        (["lon", "start_lon", "lat", "start_lat"], ("lon", "lat")),
+        (["x", "y", "platform", "belongs"], ("x", "y")),
+        ([" lng ", "Lat "], (" lng ", "Lat ")),
+    ],
+)
+def test_columns_are_found_by_name(names, found):
+    assert find_lonlat(names) == found
+
+
+@pytest.mark.parametrize(
+    ("names", "options", "message"),
+    [
+        (["a", "b"], {}, "no column looks like the longitude; say which with lon=, the columns are 'a', 'b'"),
+        (["start_lon", "end_lon", "lat"], {}, "'start_lon', 'end_lon' may all be the longitude; say which with lon="),
+        (["lon", "a"], {}, "no column looks like the latitude"),
+        (["lon", "lat"], {"lon": "x"}, "lon is 'x', which is not one of the columns 'lon', 'lat'"),
+        (["lon", "lat"], {"lon": "lat"}, "lon and lat are both the column 'lat'"),
+        (["lon_lat"], {}, "lon and lat are both the column 'lon_lat'"),
+    ],
+)
+def test_columns_that_cannot_be_told(names, options, message):
+    with pytest.raises(ValueError, match=message):
+        read_points(io.StringIO(",".join(names) + "\n" + ",".join("1" * len(names)) + "\n"), **options)
+
+
+def test_named_columns_in_any_case():
+    assert read_points(io.StringIO("A,B\n1,2\n"), lon="b", lat="A").lonlat.tolist() == [[2, 1]]
+
+
+@pytest.mark.parametrize(
+    ("rows", "message"),
+    [
+        (["1,2", "3,95.2"], r"row 2: latitude 95.2 is outside \[-90, 90\]"),
+        (["1,2", ",4"], "row 2: the longitude is missing"),
+        (["1,", "1,n/a"], r"row 1: the latitude is missing \(and 1 more rows like it\)"),
+        (["1,2", "3,north"], "row 2: the latitude 'north' is not a number"),
+        (["1,2", "inf,4"], "row 2: the longitude is inf, but must be finite"),
+        (["1,2", "3"], "row 2 has 1 fields, but there are 2 columns"),
+    ],
+)
+def test_wrong_rows_are_named(rows, message):
+    with pytest.raises(ValueError, match=message):
+        read_points(io.StringIO("\n".join(["lon,lat", *rows])))
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "the table is empty"),
+        (b"name,lon,lat,lon\n", "several columns with the name 'lon'"),
+        (b"name,lon,lat\nUlm,1,2\nK\xf6ln,3,4\n", "line 3 is not text in UTF-8"),
+        (b"{]", "not JSON"),
+        (b'{"type": "Point"}', "not a GeoJSON FeatureCollection"),
+    ],
+)
+def test_wrong_files(content, message):
+    with pytest.raises(ValueError, match=message):
+        read_points(io.BytesIO(content))
+
+
+def test_only_a_header():
+    assert len(read_points(io.StringIO("lon,lat,name\n"))) == 0
+
+
+@pytest.mark.parametrize("ending", ["geojson", "gpkg", "parquet"])
+@pytest.mark.parametrize("crs", [4326, 3857])
+def test_files_of_geopandas(tmp_path, ending, crs):
+    path = tmp_path / f"cities.{ending}"
+    points = frame() if ending == "geojson" else frame().to_crs(crs)
+    points.to_parquet(path) if ending == "parquet" else points.to_file(path)
+    assert_cities(read_points(path))
+    with path.open("rb") as stream:
+        assert_cities(read_points(stream))
+
+
+def test_parquet_without_geometry(tmp_path):
+    pd.DataFrame(CITIES, columns=["name", "Lng", "Lat", "people"]).to_parquet(tmp_path / "cities.parquet")
+    assert_cities(read_points(tmp_path / "cities.parquet"))
+    gaps = pd.DataFrame({"lon": [1.0, None], "lat": [2.0, 3.0]})
+    gaps.to_parquet(tmp_path / "gaps.parquet")
+    with pytest.raises(ValueError, match="row 2: the longitude is missing"):
+        read_points(tmp_path / "gaps.parquet")
+
+
+@pytest.mark.parametrize(
+    ("geometry", "message"),
+    [
+        (None, "row 2: a Point is needed, not no geometry"),
+        ({"type": "LineString", "coordinates": [[0, 0], [1, 1]]}, "row 2: a Point is needed, not LineString"),
+        ({"type": "Point", "coordinates": []}, "row 2: the longitude is missing"),
+        ({"type": "Point", "coordinates": [0, 100]}, "row 2: latitude 100"),
+    ],
+)
+def test_wrong_features(geometry, message):
+    first = {"type": "Feature", "properties": None, "geometry": {"type": "Point", "coordinates": [1, 2, 3]}}
+    features = [first, {"type": "Feature", "properties": {}, "geometry": geometry}]
+    with pytest.raises(ValueError, match=message):
+        read_points(io.StringIO(json.dumps({"type": "FeatureCollection", "features": features})))
+
+
+def test_unknown_format():
+    with pytest.raises(ValueError, match="format is 'xlsx'"):
+        read_points(io.BytesIO(b""), format="xlsx")
+
+
+def test_tables_are_values():
+    lonlat = np.array([[1.0, 2.0]])
+    table = PointTable(lonlat, {"name": ["a"]})
+    lonlat[:] = 0
+    assert table.lonlat.tolist() == [[1, 2]]
+    with pytest.raises(ValueError, match="read-only"):
+        table.lonlat[0, 0] = 5
+    with pytest.raises(TypeError):
+        table.columns["name"] = []
+    with pytest.raises(ValueError, match="column 'name' has shape"):
+        PointTable(lonlat, {"name": ["a", "b"]})

@@ -1,0 +1,212 @@
+"""Cells and triangles of the sphere on the map: valid, counterclockwise, and a tiling whatever the points are."""
+
+import antimeridian
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import SphericalDelaunay, SphericalVoronoi, angular_distance, check_delaunay, lonlat_to_xyz
+from stereodel.data import airports
+from stereodel.io import to_geodataframe
+
+WORLD = 360.0 * 180.0
+AXES = np.eye(3)
+
+
+def circle(count, axis, shift=0.0):
+    """Points of the great circle around a coordinate axis."""
+    t = 2 * np.pi * np.arange(count) / count + shift
+    return np.insert(np.column_stack([np.cos(t), np.sin(t)]), axis, 0.0, axis=1)
+
+
+def graticule(step, shift=0.0, poles=False):
+    lon, lat = np.meshgrid(np.arange(-180, 180, step) + shift, np.arange(-90 + step, 90, step))
+    rows = np.column_stack([lon.ravel(), lat.ravel()])
+    return lonlat_to_xyz(np.vstack([rows, [[0, 90], [0, -90]]]) if poles else rows)
+
+
+def cluster(center, size, count=20):
+    return np.asarray(center) + size * np.random.default_rng(3).normal(size=(count, 3))
+
+
+RANDOM = np.random.default_rng(1).normal(size=(100, 3))
+STATION = lonlat_to_xyz([[60 * k, -89.99] for k in range(6)] + [[0, -90]])
+SETS = {
+    "one": RANDOM[:1],
+    "two": RANDOM[:2],
+    "three": RANDOM[:3],
+    "antipodal along x": [AXES[0], -AXES[0]],
+    "antipodal along y": [AXES[1], -AXES[1]],
+    "antipodal along z": [AXES[2], -AXES[2]],
+    "equator": circle(6, 2),
+    "meridians 0 and 180": circle(7, 1, 0.1),
+    "meridians 90 and -90": circle(6, 0),
+    "oblique great circle": circle(6, 2) @ np.linalg.qr(RANDOM[:3])[0],
+    "octahedron": np.vstack([AXES, -AXES]),
+    "cube, vertices at the poles": [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)],
+    "random": RANDOM,
+    "hemisphere": np.abs(RANDOM[:30]),
+    "graticule": graticule(15),
+    "graticule with poles": graticule(15, poles=True),
+    "graticule beside the 180th meridian": graticule(15, 7.5),
+    "duplicates": np.vstack([RANDOM[:10], 2 * RANDOM[:10]]),
+    "cluster": cluster([0.3, -0.5, 0.2], 1e-12),
+    "cluster at the 180th meridian": cluster([-1, 0, 0], 1e-12),
+    "cluster at a pole": cluster([0, 0, 1], 1e-12),
+    "cluster at the limit of rounding": cluster([0.3, -0.5, 0.2], 1e-15),
+    "station at the south pole": np.vstack([STATION, RANDOM[:30]]),
+    "narrow strips": np.vstack([lonlat_to_xyz([[10, 50 + 1e-5 * k] for k in range(12)]), RANDOM[:5]]),
+}
+
+
+def assert_tiles(geometry, cells=True):
+    """Valid, with outer rings counterclockwise, as large as the map and covering it."""
+    parts = shapely.get_parts(geometry)
+    assert shapely.is_valid(geometry).all()
+    assert shapely.is_ccw(shapely.get_exterior_ring(parts)).all()
+    assert shapely.area(geometry).sum() == pytest.approx(WORLD, abs=1e-6)
+    assert shapely.area(shapely.union_all(geometry)) == pytest.approx(WORLD, abs=1e-6)
+    assert shapely.total_bounds(geometry).tolist() == [-180, -90, 180, 90]
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_cells_tile_the_map(name):
+    diagram = SphericalVoronoi(SETS[name])
+    frame = to_geodataframe(diagram)
+    assert_tiles(frame.geometry.values)
+    kept = diagram.point_region[frame["point"]] == frame["point"]
+    assert kept.all()
+    assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
+
+
+@pytest.mark.parametrize("name", SETS)
+def test_each_cell_holds_its_point(name):
+    if "cluster" in name:
+        return  # points and cells coincide on the map
+    diagram = SphericalVoronoi(SETS[name])
+    cells, sites = to_geodataframe(diagram), to_geodataframe(diagram, what="sites")
+    place = np.asarray(sites.geometry)[cells["point"]]
+    assert (shapely.distance(np.asarray(cells.geometry), place) < 1e-9).all()
+
+
+@pytest.mark.parametrize(
+    "name", ["octahedron", "random", "graticule", "graticule with poles", "station at the south pole"]
+)
+def test_triangles_tile_the_map(name):
+    triangulation = SphericalDelaunay(SETS[name])
+    check_delaunay(triangulation.points, triangulation.simplices)
+    frame = to_geodataframe(triangulation)
+    assert_tiles(frame.geometry.values)
+    assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
+    assert (frame[["a", "b", "c"]].to_numpy() == triangulation.simplices[frame["triangle"]]).all()
+
+
+def test_closing_triangles_have_no_row():
+    triangulation = SphericalDelaunay(SETS["hemisphere"])
+    check_delaunay(triangulation.points, triangulation.simplices)
+    frame = to_geodataframe(triangulation)
+    assert len(frame) == np.count_nonzero(~triangulation.closing)
+    assert frame.is_valid.all()
+
+
+@pytest.mark.parametrize("name", ["random", "two", "graticule", "station at the south pole", "narrow strips"])
+def test_neighbours_share_points(name):
+    """A coverage: no gaps, no overlaps, no vertex in the middle of a neighbour's side."""
+    parts = shapely.get_parts(to_geodataframe(SphericalVoronoi(SETS[name])).geometry.values)
+    assert shapely.coverage_is_valid(parts)
+
+
+def chords(geometry):
+    """Both ends of every chord of outer rings that does not run along the border of the map, as unit vectors."""
+    rings = [shapely.get_coordinates(ring) for ring in shapely.get_exterior_ring(shapely.get_parts(geometry))]
+    steps = np.concatenate([np.stack([ring[:-1], ring[1:]], axis=1) for ring in rings])
+    border = (np.abs(steps[:, :, 0]) == 180).all(axis=1) | (np.abs(steps[:, :, 1]) == 90).all(axis=1)
+    return steps[~border]
+
+
+@pytest.mark.parametrize("max_segment", [0.5, 2.0, 90.0])
+def test_chords_are_short(max_segment):
+    steps = chords(to_geodataframe(SphericalVoronoi(RANDOM), max_segment=max_segment).geometry.values)
+    xyz = lonlat_to_xyz(steps)
+    assert angular_distance(xyz[:, 0], xyz[:, 1]).max() <= max_segment * (1 + 1e-12)
+    assert np.abs(steps[:, 1, 0] - steps[:, 0, 0]).max() <= max_segment * (1 + 1e-12)
+
+
+def test_chords_follow_great_circles():
+    """Every point of a cell's border is as far from the cell's site as from the nearest other one."""
+    diagram = SphericalVoronoi(RANDOM)
+    frame = to_geodataframe(diagram)
+    for point, cell in zip(frame["point"], frame.geometry, strict=True):
+        corners = chords(np.array([cell]))[:, 0]
+        gaps = np.sort(angular_distance(lonlat_to_xyz(corners)[:, None], RANDOM[None]), axis=1)
+        own = angular_distance(lonlat_to_xyz(corners), RANDOM[point])
+        assert np.abs(own - gaps[:, 0]).max() < 1e-11
+        on_map_border = (np.abs(corners[:, 0]) == 180) | (np.abs(corners[:, 1]) == 90)
+        assert (gaps[~on_map_border, 1] - gaps[~on_map_border, 0]).max() < 1e-11
+
+
+@pytest.mark.parametrize("latitude", ["spherical", "geodetic", "authalic"])
+def test_areas_in_an_equal_area_projection(latitude):
+    """Lambert's cylinder (λ, sin φ) keeps areas; chords of 0.1° are near enough to great circles."""
+    diagram = SphericalVoronoi.from_lonlat(np.column_stack([RANDOM[:, 0] * 100, RANDOM[:, 1] * 25]), latitude=latitude)
+    frame = to_geodataframe(diagram, max_segment=0.1, latitude=latitude)
+    back = {"spherical": lambda lat: lat}.get(latitude) or (
+        lambda lat: np.degrees(np.arcsin(lonlat_to_xyz(np.column_stack([0 * lat, lat]), latitude=latitude)[:, 2]))
+    )
+    flat = shapely.transform(
+        frame.geometry.values,
+        lambda c: np.column_stack([np.radians(c[:, 0]), np.sin(np.radians(back(c[:, 1])))]),
+    )
+    assert np.abs(shapely.area(flat) / frame["area"] - 1).max() < 1e-5
+
+
+@settings(max_examples=25)
+@given(
+    st.lists(
+        st.tuples(st.sampled_from([-180.0, -90.0, 0.0, 90.0, 179.0]) | st.floats(-180, 180), st.floats(-90, 90)),
+        min_size=1,
+        max_size=12,
+    )
+)
+def test_any_points_give_a_tiling(lonlat):
+    assert_tiles(to_geodataframe(SphericalVoronoi.from_lonlat(lonlat), max_segment=15).geometry.values)
+
+
+def unwrapped(ring):
+    """A ring on the sphere as the package antimeridian takes it: longitudes in [−180, 180), nothing cut."""
+    return [(float(lon), float(lat)) for lon, lat in ring]
+
+
+def test_cuts_are_those_of_antimeridian():
+    """Where that package has an answer: no vertex at a pole or on the 180th meridian itself."""
+    from stereodel.io.arcs import sample
+    from stereodel.io.faces import voronoi_faces
+    from stereodel.io.frames import ridge_arcs
+    from stereodel.io.rings import around
+
+    diagram = SphericalVoronoi(RANDOM)
+    frame = to_geodataframe(diagram)
+    chains, faces = sample(ridge_arcs(diagram), 1.0, "spherical"), voronoi_faces(diagram)
+    index, face, _ = around(faces, chains)
+    for point, cell in zip(frame["point"], frame.geometry, strict=True):
+        ring = index[(face == point) & ~chains.seam[index]]
+        theirs = antimeridian.fix_polygon(
+            shapely.Polygon(unwrapped(chains.lonlat[ring])), fix_winding=False, great_circle=True
+        )
+        assert shapely.symmetric_difference(theirs, cell).area < 1e-6  # that package rounds crossings to 1e-7 degrees
+
+
+def test_airports():
+    """28 298 airports, some of them at the same place, some metres apart."""
+    places = airports()
+    diagram = SphericalVoronoi.from_lonlat(places.lonlat)
+    frame = to_geodataframe(diagram)
+    parts = shapely.get_parts(frame.geometry.values)
+    assert len(frame) == len(places.lonlat) - np.count_nonzero(diagram.point_region != np.arange(len(places.lonlat)))
+    assert shapely.is_valid(frame.geometry.values).all()
+    assert shapely.is_ccw(shapely.get_exterior_ring(parts)).all()
+    assert shapely.area(parts).sum() == pytest.approx(WORLD, abs=1e-6)
+    assert (shapely.distance(frame.geometry.values, shapely.points(places.lonlat[frame["point"]])) < 1e-9).all()
+    assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
