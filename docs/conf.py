@@ -61,6 +61,7 @@ html_sidebars = {
         "conventions",
         "earth",
         "exactness",
+        "files",
         "spatial",
         "degenerate",
         "paper",

@@ -115,3 +115,29 @@ BALANCED: Final = 1e-6
 
 Quadrature leaves less than 1e-7 for the whole sphere. In a hemisphere the mean is 1/2, in a smaller cell more.
 """
+
+AT_POLE: Final = 2.0**-50
+"""Largest |x|, |y| of a point of a map's border, a unit vector, at which it counts as lying at a pole.
+
+So too |y| of a point on the meridians 0 and 180. A few roundings of a computed point, 6 nanometres on Earth; without it
+the rounding noise of an arc along the 180th meridian would cut its cells into hundreds of pieces without width.
+"""
+
+BORDER_HALVINGS: Final = 8
+"""How often the chords of a border are halved where straight lines on a map cross each other.
+
+A chord of 1° strays from its arc by a hundred metres, one of 1/256° by two millimetres. Cells that are narrower still
+are hardly ever there for more than rounding.
+"""
+
+DEGREE_ROUNDING: Final = 2.0**-43
+"""Straying of a chord from its arc, in degrees, that may be rounding alone: four units in the last place of 180°.
+
+Three numbers that are rounded to half a unit, and their mean, make less than two.
+"""
+
+CHORD_CLEARANCE: Final = 0.125
+"""How far a chord of a cell's border may stray, in terms of its distance from the two sites that the border divides.
+
+Well below 1, so that every point lies in its own cell on a map, however close it is to the next one.
+"""

@@ -12,6 +12,7 @@ import stereodel.data
 import stereodel.earth
 import stereodel.graphs
 import stereodel.interpolation
+import stereodel.io
 import stereodel.relaxation
 import stereodel.render
 import stereodel.spatial
@@ -78,6 +79,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.graphs") == set(stereodel.graphs.__all__)
     assert reference("stereodel.relaxation") == set(stereodel.relaxation.__all__)
     assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)
+    assert reference("stereodel.io") == set(stereodel.io.__all__)
     assert reference("stereodel.spatial") | {"QhullError"} == set(stereodel.spatial.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}

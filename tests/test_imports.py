@@ -31,12 +31,25 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"triangulation"},
     "relaxation": KERNEL | {"triangulation"},
+    "io": BASE | {"_files", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
-NOT_IN_CORE = GRAPHICS | {"scipy", "pandas", "xarray", "shapely", "typer", "rich", "mpmath", "pyproj"}
+NEIGHBOURS = {
+    "antimeridian",
+    "geopandas",
+    "netCDF4",
+    "pandas",
+    "pyarrow",
+    "pyproj",
+    "pyvista",
+    "shapely",
+    "uxarray",
+    "xarray",
+}
+NOT_IN_CORE = GRAPHICS | NEIGHBOURS | {"scipy", "typer", "rich", "mpmath"}
 
 
 def module_names():
@@ -151,3 +164,14 @@ def test_help_loads_nothing_heavy():
 def test_import_adds_few_modules_to_numpy():
     """A cheap stand-in for the import time, which benchmarks/import_time.py measures."""
     assert len(loaded_by("import stereodel") - loaded_by("import numpy")) < 60
+
+
+def test_import_of_io_loads_no_other_library():
+    assert not loaded_by("import stereodel.io") & NOT_IN_CORE
+
+
+def test_points_are_read_from_csv_and_geojson_without_other_libraries():
+    csv = "io.StringIO('lon,lat\\n1,2')"
+    json = """io.StringIO('{"type": "FeatureCollection", "features": []}')"""
+    for stream in (csv, json):
+        assert not loaded_by(f"import io, stereodel.io; stereodel.io.read_points({stream})") & NOT_IN_CORE

@@ -143,7 +143,8 @@ def _too_near(arcs: Arcs, chains: Chains) -> Indices:
     away = np.maximum(foot, _length(site - middle.xyz) - _length(chord) / 2)
     off = chains.straying(step, middle)
     off[:, 0] *= np.hypot(middle.xyz[:, 0], middle.xyz[:, 1])
-    return step[_length(off) > np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)]
+    near: Indices = step[_length(off) > np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)]
+    return near
 
 
 def _equal_steps(arcs: Arcs, step_rad: float) -> tuple[FloatArray, Indices]:
