@@ -109,3 +109,11 @@ def test_nearly_right_angles():
 def test_opposite_directions_have_every_point_on_their_circle():
     points = np.array([[1.0, 2, 3], [-2, -4, -6], [0, 1, 5], [7, 0, 0]])
     assert _kernel.diametral_sphere(points, np.array([[0, 1, 2], [0, 1, 3]], dtype=np.int32)).tolist() == [0, 0]
+
+
+@pytest.mark.parametrize("size", [1e-14, 1e-16, 1e-40, 1e-200])
+def test_beside_an_axis(size):
+    """Directions far closer than 1e-16, many of them mirror images: chords in doubles tell nothing."""
+    steps = np.array([[i, j] for i in range(-2, 3) for j in range(-2, 3)])
+    prove(np.column_stack([size * steps, np.ones(25)]))
+    prove(np.column_stack([size * steps, np.full(25, 3.0)]), seed=1)
