@@ -8,6 +8,7 @@ import re
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+import numpy.typing as npt
 
 from stereodel.io.columns import find_lonlat
 from stereodel.io.tables import MISSING, Column, PointTable, table_of
@@ -21,6 +22,14 @@ Rows = list[list[str]]
 
 def read_csv(text: str, *, lon: str | None = None, lat: str | None = None) -> PointTable:
     """Points of a table as text, its columns separated by commas, semicolons, tabs, bars or blanks."""
+    table, numbers = split_columns(text)
+    where = find_lonlat(list(table), lon, lat)
+    columns = {name: typed(values) for name, values in table.items() if name not in where}
+    return table_of(table[where[0]], table[where[1]], columns, numbers)
+
+
+def split_columns(text: str) -> tuple[dict[str, Column], npt.NDArray[np.intp]]:
+    """Columns of a table as text by name, and the numbers of its rows."""
     rows = [row for row in _split(text) if any(field.strip() for field in row)]
     if not rows:
         raise ValueError("the table is empty: there is not even a line with the names of the columns")
@@ -30,10 +39,7 @@ def read_csv(text: str, *, lon: str | None = None, lat: str | None = None) -> Po
     if wrong is not None:
         raise ValueError(f"row {numbers[wrong]} has {len(rows[wrong])} fields, but there are {len(names)} columns")
     fields = map(np.array, zip(*rows, strict=True)) if rows else (np.zeros(0) for _ in names)
-    table = dict(zip(names, fields, strict=True))
-    where = find_lonlat(names, lon, lat)
-    columns = {name: typed(values) for name, values in table.items() if name not in where}
-    return table_of(table[where[0]], table[where[1]], columns, numbers)
+    return dict(zip(names, fields, strict=True)), numbers
 
 
 def _split(text: str) -> Iterable[list[str]]:

@@ -11,13 +11,15 @@ from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Literal, TextIO
 
 import numpy as np
+import numpy.typing as npt
 
-from stereodel._arrays import as_choice
-from stereodel.io.columns import find_lonlat
-from stereodel.io.csv_text import read_csv
+from stereodel._arrays import FloatArray, as_choice
+from stereodel.io.columns import find_lonlat, listed
+from stereodel.io.csv_text import read_csv, split_columns, typed
 from stereodel.io.extras import optional
-from stereodel.io.tables import Column, PointTable, table_of
+from stereodel.io.tables import Column, PointTable, numbers, table_of
 
+Source = str | os.PathLike[str] | BinaryIO | TextIO
 Format = Literal["csv", "geojson", "parquet", "gpkg"]
 ENDINGS: dict[str, Format] = {
     ".csv": "csv",
@@ -32,7 +34,7 @@ ENDINGS: dict[str, Format] = {
 
 
 def read_points(
-    source: str | os.PathLike[str] | BinaryIO | TextIO,
+    source: Source,
     *,
     lon: str | None = None,
     lat: str | None = None,
@@ -86,12 +88,51 @@ def read_points(
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
     content = _content(source)
-    ending = Path(source).suffix.lower() if isinstance(source, str | os.PathLike) else ""
-    kind = ENDINGS.get(ending) or _by_content(content)
+    kind = _kind(source, content)
     return READERS[as_choice(format or kind, tuple(READERS), "format")](content, lon, lat)
 
 
-def _content(source: str | os.PathLike[str] | BinaryIO | TextIO) -> bytes:
+def read_plane_points(source: Source, x: str, y: str) -> tuple[FloatArray, dict[str, Column], npt.NDArray[np.intp]]:
+    r"""Points of a plane by the names of two columns of a CSV or Parquet table: (n, 2), other columns, row numbers.
+
+    Raises
+    ------
+    ValueError
+        For other files, columns that are not there, and rows without finite numbers, by number.
+
+    Examples
+    --------
+    >>> import io
+    >>> text = "site,east,north\nA,3500,5400\nB,3600,5410"
+    >>> points, others, rows = read_plane_points(io.StringIO(text), "east", "north")
+    >>> points.tolist(), others["site"].tolist()
+    ([[3500.0, 5400.0], [3600.0, 5410.0]], ['A', 'B'])
+    """
+    content = _content(source)
+    kind = _kind(source, content)
+    if kind == "csv":
+        table, rows = split_columns(_text(content))
+    elif kind == "parquet":
+        read = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(content))
+        table = {name: read[name].to_numpy() for name in read.column_names if name != "geometry"}
+        rows = np.arange(1, read.num_rows + 1)
+    else:
+        raise ValueError(f"columns of coordinates are those of CSV and Parquet, not of {kind}")
+    missing = [name for name in (x, y) if name not in table]
+    if missing:
+        raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(list(table))}")
+    places = np.column_stack([numbers(table[name], name, rows) for name in (x, y)])
+    others = {name: typed(values) if kind == "csv" else _plain(values) for name, values in table.items()}
+    return places, {name: values for name, values in others.items() if name not in (x, y)}, rows
+
+
+def _kind(source: Source, content: bytes) -> Format:
+    """By the ending of a path, else by the first bytes."""
+    ending = Path(source).suffix.lower() if isinstance(source, str | os.PathLike) else ""
+    return ENDINGS.get(ending) or _by_content(content)
+
+
+def _content(source: Source) -> bytes:
     if isinstance(source, str | os.PathLike):
         return Path(source).read_bytes()
     content = source.read()
