@@ -70,6 +70,12 @@ LARGEST_MAGNIFICATION: Final = 1e100
 FLATNESS: Final = 0.05
 """How far a chord may stray from its curve in a picture made of triangles, pixels: a fifth of a sample's distance."""
 
+SHORT_ARC: Final = 1e-4
+"""Length of an arc on the unit sphere whose curvature no picture shows: it leaves its great circle by 1e-8 at most.
+
+Longer ones keep their circle to 1e-7 when it is taken through three points in plain doubles.
+"""
+
 GOLDEN_ERROR: Final = 1e-12
 """How far a drawn number may be from the stored one, relative to the largest of its array, or to 1 if that is larger.
 

@@ -34,7 +34,7 @@ MAY_IMPORT = {
     "io": BASE | {"_files", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
-    "cli": MATHEMATICS | {"__init__", "render"},
+    "cli": MATHEMATICS | {"__init__", "_files", "data", "earth", "interpolation", "io", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
 NEIGHBOURS = {

@@ -10,11 +10,16 @@ from typing import Final
 
 import typer
 
+NOTHING_TO_DO: Final = 1
 WRONG_INPUT: Final = 2
 INTERRUPTED: Final = 128 + 2
 """As a shell reports a program that SIGINT ended."""
 BROKEN_PIPE: Final = 1
 """As rich and Python's own documentation have it."""
+
+
+class NothingToDoError(Exception):
+    """The input is right, but there is nothing to write."""
 
 
 @contextmanager
@@ -29,6 +34,9 @@ def told_plainly() -> Iterator[None]:
     except KeyboardInterrupt:
         typer.echo("interrupted; nothing was written", err=True)
         raise typer.Exit(INTERRUPTED) from None
+    except NothingToDoError as reason:
+        typer.echo(str(reason), err=True)
+        raise typer.Exit(NOTHING_TO_DO) from None
     except MemoryError:
         typer.echo("error: not enough memory for so many points", err=True)
         raise typer.Exit(WRONG_INPUT) from None

@@ -1,0 +1,121 @@
+"""`stereodel interpolate`: values between points, at other points or on a grid."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stereodel.cli import options
+
+if TYPE_CHECKING:
+    from stereodel._arrays import FloatArray
+    from stereodel.cli.sources import Table
+
+EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
+
+
+class Method(StrEnum):
+    """How values are found between the points."""
+
+    nearest = "nearest"
+    linear = "linear"
+    smooth = "smooth"
+    natural = "natural"
+
+
+def command(
+    points: options.Points,
+    value: Annotated[
+        list[str], typer.Option(metavar="COLUMN", help="Column of the values; repeatable for several at once.")
+    ],
+    out: options.Out,
+    at: Annotated[
+        str | None, typer.Option(metavar="FILE", help="Table of the points where values are wanted; - for stdin.")
+    ] = None,
+    grid: Annotated[float | None, typer.Option(metavar="DEGREES", help="Spacing of a grid of values instead.")] = None,
+    box: Annotated[
+        str | None, typer.Option(metavar="W,S,E,N", help="Borders of the grid in degrees; the whole Earth by default.")
+    ] = None,
+    method: Annotated[Method, typer.Option(help="How values are found between the points.")] = Method.linear,
+    skip_missing: Annotated[
+        bool, typer.Option("--skip-missing", help="Leave out points without a value instead of refusing them.")
+    ] = False,
+    lon: options.Lon = None,
+    lat: options.Lat = None,
+    plane: options.Plane = None,
+    latitude: options.LatitudeKind = options.Latitude.spherical,
+    format: options.Format = None,
+) -> None:
+    """Interpolate values at other points, or on a grid of longitude and latitude.
+
+    Give either --at or --grid. Where the points do not reach, linear, smooth and natural leave the value empty.
+    """
+    from stereodel.cli.destinations import Destination
+    from stereodel.cli.grids import GRIDS, Grid, save_grid
+    from stereodel.cli.sources import read
+    from stereodel.cli.tables import TABLES, save_table
+
+    if (at is None) == (grid is None):
+        raise ValueError("give either --at, a table of points, or --grid, a spacing in degrees")
+    if at is None and plane is not None:
+        raise ValueError("--grid is one of longitudes and latitudes; give the points of a plane with --at")
+    if at == points == "-":
+        raise ValueError("POINTS and --at cannot both be stdin")
+    destination = Destination.of(out, format, TABLES if grid is None else GRIDS)
+    wanted = None if grid is None else Grid.of(grid, box)
+    table = read(points, lon=lon, lat=lat, plane=plane)
+    interpolated = _interpolator(table, value, method, latitude, skip_missing)
+    if wanted is not None:
+        values = interpolated(wanted.points(latitude))
+        destination.write(lambda path: save_grid(path, wanted, dict(zip(value, values.T, strict=True))))
+        return
+    asking = read(str(at), lon=lon, lat=lat, plane=plane)
+    columns = asking.all_columns()
+    for name, found in zip(value, interpolated(asking.points(latitude)).T, strict=True):
+        columns[f"{name}_interpolated" if name in columns else name] = found
+    destination.write(lambda path: save_table(path, asking.axes, columns))
+
+
+def _interpolator(
+    table: Table, names: list[str], method: Method, latitude: options.Latitude, skip_missing: bool
+) -> Callable[[FloatArray], FloatArray]:
+    """A function from points to values, (n, number of columns), that shows how far it is."""
+    import numpy as np
+
+    from stereodel import interpolation
+    from stereodel.cli.progress import in_pieces, stage
+
+    values, table = _values(table, names, skip_missing)
+    kinds = {
+        Method.nearest: interpolation.NearestInterpolator,
+        Method.linear: interpolation.LinearInterpolator,
+        Method.smooth: interpolation.SmoothInterpolator,
+        Method.natural: interpolation.NaturalNeighborInterpolator,
+    }
+    with stage("triangulating"):
+        interpolator = kinds[method](table.points(latitude), values)
+
+    def interpolated(queries: FloatArray) -> FloatArray:
+        pieces = in_pieces(len(queries), "interpolating")
+        return np.concatenate([np.zeros((0, len(names))), *(interpolator(queries[piece]) for piece in pieces)])
+
+    return interpolated
+
+
+def _values(table: Table, names: list[str], skip_missing: bool) -> tuple[FloatArray, Table]:
+    """Values (n, number of columns) and their points, without those that lack one if they may be left out."""
+    import numpy as np
+
+    values = np.column_stack([table.numbers(name) for name in names])
+    missing = np.argwhere(~np.isfinite(values))
+    if len(missing) and not skip_missing:
+        row, column = missing[0]
+        raise ValueError(
+            f"{table.name}: row {table.rows[row]}: {names[column]} is missing; leave such rows out with --skip-missing"
+        )
+    kept = np.ones(len(values), dtype=np.bool_)
+    kept[missing[:, 0]] = False
+    return values[kept], table.subset(kept)

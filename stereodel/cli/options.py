@@ -1,0 +1,53 @@
+"""Options that several commands have, with one wording."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+
+class Latitude(StrEnum):
+    """Which latitude a table holds."""
+
+    spherical = "spherical"
+    geodetic = "geodetic"
+    authalic = "authalic"
+
+
+Points = Annotated[
+    str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin.")
+]
+Out = Annotated[str, typer.Option("--out", "-o", metavar="FILE", help="File to write, by its extension; - for stdout.")]
+Format = Annotated[
+    str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is - (default: csv).")
+]
+Lon = Annotated[
+    str | None, typer.Option("--lon", metavar="COLUMN", help="Column of the longitudes; guessed by default.")
+]
+Lat = Annotated[
+    str | None, typer.Option("--lat", metavar="COLUMN", help="Column of the latitudes; guessed by default.")
+]
+MaxSegment = Annotated[
+    float, typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc in map formats.")
+]
+LatitudeKind = Annotated[
+    Latitude,
+    typer.Option("--latitude", help="What the latitudes are: as on a globe, as GPS and maps have them, or equal-area."),
+]
+Plane = Annotated[
+    tuple[str, str] | None,
+    typer.Option(
+        "--plane", metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."
+    ),
+]
+
+
+def pair(text: str, option: str, meaning: str) -> tuple[float, float]:
+    """Two numbers with a comma between them, such as ``10.5,48``."""
+    try:
+        first, second = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ValueError(f"{option} is {text!r}, but must be {meaning}, e.g. {option}=10.5,48") from None
+    return first, second

@@ -1,0 +1,120 @@
+"""Where points come from: a table in a file or on stdin, of longitudes and latitudes or of a plane."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import lonlat_to_xyz
+from stereodel._arrays import FloatArray
+from stereodel.cli.failures import NothingToDoError
+from stereodel.cli.options import Latitude
+from stereodel.cli.progress import stage
+from stereodel.io import read_points
+from stereodel.io.reading import read_plane_points
+
+Column = npt.NDArray[Any]
+Columns = dict[str, Column]
+
+LONLAT = ("lon", "lat")
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Points with what else their table says of them.
+
+    Attributes
+    ----------
+    name : str
+        Of the file, as messages give it.
+    places : (n, 2) array
+        Longitude and latitude in degrees, or coordinates of a plane.
+    axes : tuple of str
+        What the two are called.
+    columns : dict
+        The other columns by name, (n,) each.
+    rows : (n,) array of int
+        Number of each point's row in the table, from 1.
+    """
+
+    name: str
+    places: FloatArray
+    axes: tuple[str, str]
+    columns: Columns
+    rows: npt.NDArray[np.intp]
+
+    def __len__(self) -> int:
+        return len(self.places)
+
+    @property
+    def planar(self) -> bool:
+        """Whether these are coordinates of a plane."""
+        return self.axes != LONLAT
+
+    def points(self, latitude: Latitude) -> FloatArray:
+        """Points of the plane (n, 2), or unit vectors (n, 3)."""
+        return self.places if self.planar else lonlat_to_xyz(self.places, latitude=latitude.value)
+
+    def column(self, name: str) -> Column:
+        """A column by name, or an error that lists those that are there."""
+        if name not in self.columns:
+            known = ", ".join(self.columns) or "none besides the coordinates"
+            raise ValueError(f"{self.name}: there is no column {name!r}; the columns are {known}")
+        return self.columns[name]
+
+    def numbers(self, name: str) -> FloatArray:
+        """A column of numbers, NaN where it is empty; for words an error that names the row of the first."""
+        column = self.column(name)
+        if column.dtype.kind in "iuf":
+            return column.astype(np.float64)
+        for row, cell in zip(self.rows.tolist(), column.tolist(), strict=True):
+            if isinstance(cell, str):
+                raise ValueError(f"{self.name}: row {row}: {name} is {cell!r}, not a number")
+        return np.array([np.nan if cell is None else cell for cell in column.tolist()], dtype=np.float64)
+
+    def all_columns(self) -> Columns:
+        """The two of the places, then the others."""
+        places: Columns = dict(zip(self.axes, self.places.T, strict=True))
+        return places | self.columns
+
+    def subset(self, kept: npt.NDArray[np.bool_]) -> Table:
+        """Some of the points."""
+        columns = {name: values[kept] for name, values in self.columns.items()}
+        return Table(self.name, self.places[kept], self.axes, columns, self.rows[kept])
+
+
+def read(
+    name: str,
+    *,
+    lon: str | None = None,
+    lat: str | None = None,
+    plane: tuple[str, str] | None = None,
+) -> Table:
+    """The table in a file, or on stdin when `name` is "-"; a table without points is nothing to do."""
+    shown = "stdin" if name == "-" else name
+    source = sys.stdin.buffer if name == "-" else name
+    with stage(f"reading {shown}"), naming(shown):
+        if plane is not None:
+            places, columns, rows = read_plane_points(source, *plane)
+            table = Table(shown, places, plane, columns, rows)
+        else:
+            found = read_points(source, lon=lon, lat=lat)
+            table = Table(shown, found.lonlat, LONLAT, dict(found.columns), found.rows)
+    if len(table) == 0:
+        raise NothingToDoError(f"{shown}: there are no points")
+    return table
+
+
+@contextmanager
+def naming(name: str) -> Iterator[None]:
+    """Put the name of a file before what is wrong in it."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from error

@@ -1,0 +1,87 @@
+"""`stereodel interpolate` at points and on grids."""
+
+import numpy as np
+import pytest
+from scipy.io import netcdf_file
+
+from stereodel import lonlat_to_xyz
+
+METHODS = ["nearest", "linear", "smooth", "natural"]
+
+
+@pytest.fixture
+def values(folder):
+    """The height z of 400 points of the unit sphere, linear in space."""
+    rng = np.random.default_rng(3)
+    lonlat = np.column_stack([rng.uniform(-180, 180, 400), np.degrees(np.arcsin(rng.uniform(-1, 1, 400)))])
+    table = np.column_stack([lonlat, lonlat_to_xyz(lonlat)[:, 2]])
+    np.savetxt(folder / "values.csv", table, delimiter=",", header="lon,lat,z", comments="", fmt="%.12g")
+    return folder
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_values_at_the_points_themselves(values, method, run, rows):
+    text = run("interpolate", "values.csv", "--value", "z", "--at", "values.csv", "--method", method, "-o", "-")
+    for row in rows(text):
+        assert float(row["z_interpolated"]) == pytest.approx(float(row["z"]), abs=1e-9)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_grid(values, method, run, rows):
+    run("interpolate", "values.csv", "--value", "z", "--grid", 15, "--method", method, "-o", "grid.csv")
+    table = rows((values / "grid.csv").read_text())
+    lonlat = np.array([[float(row["lon"]), float(row["lat"])] for row in table])
+    assert lonlat.shape == (24 * 13, 2)
+    assert lonlat[0].tolist() == [-180, -90]
+    assert lonlat[-1].tolist() == [165, 90]
+    error = np.array([float(row["z"]) for row in table]) - np.sin(np.radians(lonlat[:, 1]))
+    assert np.abs(error).max() < (0.35 if method == "nearest" else 0.05)
+
+
+def test_netcdf(values, run, rows):
+    options = ("interpolate", "values.csv", "--value", "z", "--grid", 5, "--box=170,-10,-170,10")
+    run(*options, "-o", "grid.nc")
+    with netcdf_file(values / "grid.nc", mmap=False) as file:
+        assert file.variables["lon"].data.tolist() == [170, 175, 180, 185, 190]
+        assert file.variables["lat"].units == b"degrees_north"
+        text = rows(run(*options, "-o", "-"))
+        assert [float(row["z"]) for row in text] == file.variables["z"].data.ravel().tolist()
+
+
+def test_missing_values(folder, run, rows):
+    (folder / "holes.csv").write_text("lon,lat,t\n0,0,1\n90,0,\n0,90,3\n", encoding="utf-8")
+    options = ("interpolate", "holes.csv", "--value", "t", "--at", "holes.csv", "--method", "nearest", "-o", "-")
+    message = run(*options, code=2)
+    assert "holes.csv: row 2: t is missing" in message
+    assert "--skip-missing" in message
+    assert [row["t_interpolated"] for row in rows(run(*options, "--skip-missing"))] == ["1", "1", "3"]
+
+
+def test_outside_is_empty(folder, run, rows):
+    (folder / "three.csv").write_text("lon,lat,t\n0,0,1\n10,0,2\n0,10,3\n", encoding="utf-8")
+    (folder / "at.csv").write_text("lon,lat\n2,2\n-170,2\n", encoding="utf-8")
+    inside, outside = rows(run("interpolate", "three.csv", "--value", "t", "--at", "at.csv", "-o", "-"))
+    assert 1 < float(inside["t"]) < 3
+    assert outside["t"] == ""
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ([], "either --at"),
+        (["--grid", 1, "--at", "values.csv"], "either --at"),
+        (["--grid", 7], "--grid is 7, but 180 must be a whole multiple"),
+        (["--grid", 1, "--box", "1,2,3"], "--box is '1,2,3'"),
+        (["--grid", 1, "--box", "0,50,10,40"], "south border"),
+        (["--grid", 1, "--plane", "lon", "lat"], "--at"),
+        (["--grid", 90, "--value", "q"], "there is no column 'q'"),
+    ],
+)
+def test_wrong_options(values, options, message, run):
+    assert message in run("interpolate", "values.csv", "--value", "z", "-o", "out.csv", *options, code=2)
+    assert not (values / "out.csv").exists()
+
+
+def test_words_are_no_values(folder, run):
+    message = run("interpolate", "cities.csv", "--value", "name", "--grid", 90, "-o", "-", code=2)
+    assert "cities.csv: row 1: name is 'Quito', not a number" in message

@@ -1,0 +1,89 @@
+"""Files, pipes and interruptions: results arrive whole or not at all."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+COMMAND = [sys.executable, "-c", "from stereodel.cli import app; app()"]
+
+
+def start(*arguments, **streams):
+    return subprocess.Popen([*COMMAND, *arguments], stderr=subprocess.PIPE, **streams)
+
+
+def test_stdin_to_stdout(folder, run, rows):
+    text = (folder / "cities.csv").read_text(encoding="utf-8")
+    from_file = run("nearest", "cities.csv", "--of", "cities.csv", "-o", "-")
+    assert run("nearest", "-", "--of", "cities.csv", "-o", "-", stdin=text) == from_file
+    assert run("nearest", "cities.csv", "--of", "-", "-o", "-", stdin=text) == from_file
+    assert [row["distance_km"] for row in rows(from_file)] == ["0"] * 5
+
+
+def test_a_closed_pipe_is_quiet(folder):
+    arguments = ["interpolate", "cities.csv", "--value", "people", "--grid", "0.5", "--method", "nearest", "-o", "-"]
+    with start(*arguments, stdout=subprocess.PIPE) as writer:
+        assert writer.stdout.readline() == b"lon,lat,people\n"
+        writer.stdout.close()
+        assert writer.stderr.read() == b""
+        assert writer.wait() == 1
+
+
+def opened_for_writing(fifo, reader):
+    """The writing end, as soon as the process has opened the other one; an error if it ends before that."""
+    while reader.poll() is None:
+        with contextlib.suppress(OSError):
+            return os.fdopen(os.open(fifo, os.O_WRONLY | os.O_NONBLOCK), "wb")
+        time.sleep(0.01)
+    raise AssertionError(reader.stderr.read().decode())
+
+
+def test_interruption_leaves_nothing(folder):
+    os.mkfifo(folder / "asking.csv")
+    with start("nearest", "cities.csv", "--of", "asking.csv", "-o", "out.csv") as waiting:
+        with opened_for_writing(folder / "asking.csv", waiting):
+            waiting.send_signal(signal.SIGINT)
+            assert waiting.stderr.read() == b"interrupted; nothing was written\n"
+        assert waiting.wait() == 130
+    assert sorted(path.name for path in folder.iterdir()) == ["asking.csv", "cities.csv"]
+
+
+def test_a_failure_keeps_the_old_file(folder, run):
+    (folder / "old.csv").write_text("kept", encoding="utf-8")
+    (folder / "wrong.csv").write_text("lon,lat\n1,2\n3,95.2\n", encoding="utf-8")
+    message = run("nearest", "wrong.csv", "--of", "cities.csv", "-o", "old.csv", code=2)
+    assert message.startswith("error: wrong.csv: row 2: latitude 95.2")
+    assert message.count("\n") == 1
+    assert (folder / "old.csv").read_text(encoding="utf-8") == "kept"
+    assert len(list(folder.iterdir())) == 3
+
+
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("out.xyz", "out.xyz: cannot write xyz; choose .csv"),
+        ("out", "out: cannot write a file without extension"),
+        ("none/out.csv", "there is no folder none"),
+        (".", "cannot write"),
+    ],
+)
+def test_destinations_are_refused_before_the_work(run, name, message):
+    assert message in run("nearest", "not-there.csv", "--of", "cities.csv", "-o", name, code=2)
+
+
+def test_format_is_for_stdout(run):
+    assert "--format is for stdout" in run("globe", "cities.csv", "-o", "a.svg", "--format", "svg", code=2)
+
+
+def test_a_file_that_is_not_there(run):
+    assert "not-there.csv: No such file or directory" in run("globe", "not-there.csv", "-o", "a.svg", code=2)
+
+
+def test_no_points_are_nothing_to_do(folder, run):
+    (folder / "empty.csv").write_text("lon,lat\n", encoding="utf-8")
+    assert run("globe", "empty.csv", "-o", "a.svg", code=1) == "empty.csv: there are no points\n"
+    assert not (folder / "a.svg").exists()

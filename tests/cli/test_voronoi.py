@@ -1,0 +1,48 @@
+"""`stereodel voronoi`: areas of the cells."""
+
+import geopandas
+import numpy as np
+import pytest
+
+from stereodel.earth import AUTHALIC_RADIUS_KM
+from stereodel.io import read_points
+
+
+@pytest.mark.parametrize(("unit", "whole"), [("km2", 4 * np.pi * AUTHALIC_RADIUS_KM**2), ("sr", 4 * np.pi)])
+def test_areas_add_up_to_the_sphere(run, rows, unit, whole):
+    table = rows(run("voronoi", "cities.csv", "-o", "-", "--area-unit", unit))
+    assert [row["name"] for row in table] == ["Quito", "Lagos", "Ulm", "Kyoto", "Perth"]
+    assert sum(float(row[f"area_{unit}"]) for row in table) == pytest.approx(whole, rel=1e-12)
+
+
+def test_one_point_has_the_whole_earth_and_a_duplicate_nothing(folder, run, rows):
+    (folder / "same.csv").write_text("lon,lat\n180,10\n-180,10\n", encoding="utf-8")
+    areas = [float(row["area_sr"]) for row in rows(run("voronoi", "same.csv", "-o", "-", "--area-unit", "sr"))]
+    assert areas == [pytest.approx(4 * np.pi), 0.0]
+
+
+def test_plane(folder, run, rows):
+    (folder / "plane.csv").write_text("x,y\n0,0\n-2,0\n2,0\n0,2\n0,-2\n", encoding="utf-8")
+    areas = [row["area"] for row in rows(run("voronoi", "plane.csv", "--plane", "x", "y", "-o", "-"))]
+    assert areas == ["4", "", "", "", ""]
+
+
+@pytest.mark.parametrize("kind", ["geojson", "parquet", "gpkg"])
+def test_shapes_tile_the_map(folder, run, kind):
+    run("voronoi", "cities.csv", "-o", f"cells.{kind}", "--max-segment", 10)
+    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
+    cells = read(folder / f"cells.{kind}")
+    assert list(cells.columns) == ["row", "name", "people", "area_km2", "geometry"]
+    assert cells["name"].tolist() == ["Quito", "Lagos", "Ulm", "Kyoto", "Perth"]
+    assert cells.is_valid.all()
+    assert sum(shape.area for shape in cells.geometry) == pytest.approx(360 * 180)
+    places = read_points("cities.csv").lonlat
+    assert cells.contains(geopandas.GeoSeries(geopandas.points_from_xy(*places.T), crs="EPSG:4326")).all()
+
+
+def test_shapes_of_the_plane(folder, run):
+    (folder / "plane.csv").write_text("x,y,n\n0,0,a\n-2,0,b\n2,0,c\n0,2,d\n0,-2,e\n", encoding="utf-8")
+    run("voronoi", "plane.csv", "--plane", "x", "y", "-o", "cells.parquet")
+    cells = geopandas.read_parquet(folder / "cells.parquet")
+    assert cells.crs is None
+    assert cells.geometry[0].area == pytest.approx(4)
