@@ -70,7 +70,8 @@ def _write_frame(temporary: Path, frame: Any, path: Path) -> None:
         return
     with tempfile.TemporaryDirectory(dir=temporary.parent) as folder:
         whole = Path(folder, path.name)
-        frame.to_file(whole)
+        on_earth_as_geojson = path.suffix.lower() == ".geojson" and frame.crs is not None
+        frame.to_file(whole, **({"RFC7946": "YES"} if on_earth_as_geojson else {}))
         os.replace(whole, temporary)
 
 

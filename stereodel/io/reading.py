@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gzip
 import io
 import json
 import os
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -70,10 +72,10 @@ def read_points(
 
     Notes
     -----
-    CSV: text in UTF-8; commas, semicolons, tabs, bars or blanks; a decimal comma beside another separator; a line of
-    names unless the first line has numbers. Columns become numbers where all their values are, but not where digits
-    follow a leading zero. Geometries in another coordinate system are transformed to EPSG:4326; those without any are
-    taken for longitude and latitude in degrees.
+    Text is UTF-8, or UTF-16 with its mark, compressed by gzip or not. CSV: commas, semicolons, tabs, bars or blanks; a
+    decimal comma beside another separator; a line of names unless the first line has numbers. Columns become numbers
+    where all their values are, but not where digits follow a leading zero. Geometries in another coordinate system are
+    transformed to EPSG:4326; those without any are taken for longitude and latitude in degrees.
 
     Examples
     --------
@@ -133,10 +135,15 @@ def _kind(source: Source, content: bytes) -> Format:
 
 
 def _content(source: Source) -> bytes:
-    if isinstance(source, str | os.PathLike):
-        return Path(source).read_bytes()
-    content = source.read()
-    return content.encode() if isinstance(content, str) else content
+    content = Path(source).read_bytes() if isinstance(source, str | os.PathLike) else source.read()
+    if isinstance(content, str):
+        return content.encode()
+    if not content.startswith(b"\x1f\x8b"):
+        return content
+    try:
+        return gzip.decompress(content)
+    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        raise ValueError(f"the compressed file is damaged: {error}") from error
 
 
 def _by_content(content: bytes) -> Format:
@@ -148,8 +155,9 @@ def _by_content(content: bytes) -> Format:
 
 
 def _text(content: bytes) -> str:
+    marked = content.startswith((b"\xff\xfe", b"\xfe\xff"))
     try:
-        return content.decode("utf-8-sig")
+        return content.decode("utf-16" if marked else "utf-8-sig")
     except UnicodeDecodeError as error:
         line = content[: error.start].count(b"\n") + 1
         raise ValueError(f"line {line} is not text in UTF-8; save the file in that encoding") from error

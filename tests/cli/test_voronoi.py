@@ -1,5 +1,7 @@
 """`stereodel voronoi`: areas of the cells."""
 
+import json
+
 import geopandas
 import numpy as np
 import pytest
@@ -46,3 +48,12 @@ def test_shapes_of_the_plane(folder, run):
     cells = geopandas.read_parquet(folder / "cells.parquet")
     assert cells.crs is None
     assert cells.geometry[0].area == pytest.approx(4)
+
+
+def test_geojson_keeps_to_its_rfc(folder, run):
+    """Longitude and latitude on WGS84 without a member "crs", outer rings counterclockwise."""
+    run("voronoi", "cities.csv", "-o", "cells.geojson")
+    data = json.loads((folder / "cells.geojson").read_text())
+    assert "crs" not in data
+    for shape in geopandas.read_file(folder / "cells.geojson").explode().geometry:
+        assert shape.exterior.is_ccw

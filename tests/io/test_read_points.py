@@ -1,5 +1,6 @@
 """Reading tables of points: separators, names of columns, what is said of wrong rows, and every format."""
 
+import gzip
 import io
 import json
 
@@ -199,3 +200,14 @@ def test_tables_are_values():
         table.columns["name"] = []
     with pytest.raises(ValueError, match="column 'name' has shape"):
         PointTable(lonlat, {"name": ["a", "b"]})
+
+
+@pytest.mark.parametrize("packed", [lambda text: text.encode("utf-16"), lambda text: gzip.compress(text.encode())])
+def test_other_encodings(packed):
+    table = read_points(io.BytesIO(packed("name,lon,lat\nKöln,7,51\n")))
+    assert (table.columns["name"].tolist(), table.lonlat.tolist()) == (["Köln"], [[7, 51]])
+
+
+def test_damaged_compression():
+    with pytest.raises(ValueError, match="the compressed file is damaged"):
+        read_points(io.BytesIO(gzip.compress(b"name,lon,lat\n" * 1000)[:-9]))
