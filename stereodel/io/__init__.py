@@ -4,7 +4,22 @@ Every other library is imported when a function needs it; the extras ``geo``, ``
 """
 
 from stereodel.io.frames import to_geodataframe
+from stereodel.io.geojson import to_geojson
+from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe, read_points
 from stereodel.io.tables import PointTable
+from stereodel.io.ugrid import from_ugrid, to_ugrid
+from stereodel.io.writing import write
 
-__all__ = ["PointTable", "from_geodataframe", "read_points", "to_geodataframe"]
+__all__ = [
+    "PointTable",
+    "from_geodataframe",
+    "from_ugrid",
+    "read_points",
+    "to_geodataframe",
+    "to_geojson",
+    "to_polydata",
+    "to_trimesh",
+    "to_ugrid",
+    "write",
+]

@@ -37,6 +37,14 @@ class Arcs:
     normal: FloatArray
     sites: FloatArray | None = None
 
+    def middles(self) -> FloatArray:
+        """The middles of the arcs, (k, 3).
+
+        The middle of an arc of angle 2h is along a + b, of length 2 cos h, and along (b − a) × n, of length 2 sin h:
+        the sum of both is never short.
+        """
+        return _unit(self.start + self.end + np.cross(self.end - self.start, self.normal))
+
 
 @dataclass(frozen=True, eq=False)
 class Chains:
@@ -148,14 +156,9 @@ def _too_near(arcs: Arcs, chains: Chains) -> Indices:
 
 
 def _equal_steps(arcs: Arcs, step_rad: float) -> tuple[FloatArray, Indices]:
-    """Points at equal angles, and the arc of each.
-
-    The middle of an arc of angle 2h is along a + b, of length 2 cos h, and along (b − a) × n, of length 2 sin h: the
-    sum of both is never short.
-    """
-    chord = arcs.end - arcs.start
+    """Points at equal angles, and the arc of each."""
+    chord, middle = arcs.end - arcs.start, arcs.middles()
     half = np.arctan2(_length(chord), _length(arcs.start + arcs.end))
-    middle = _unit(arcs.start + arcs.end + np.cross(chord, arcs.normal))
     along = _unit(chord - np.sum(chord * middle, axis=1, keepdims=True) * middle)
     counts = np.maximum(np.ceil(2 * half / step_rad), 1).astype(np.intp)
     owner = np.repeat(np.arange(len(chord)), counts + 1)

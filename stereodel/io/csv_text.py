@@ -5,7 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TextIO
 
 import numpy as np
 import numpy.typing as npt
@@ -95,9 +96,8 @@ def typed(values: Sequence[str] | Column) -> Column:
         return text
 
 
-def write_csv(table: PointTable, stream: io.TextIOBase) -> None:
-    """Longitude, latitude and the other columns, numbers with as many digits as it takes to read them back."""
+def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
+    """Columns with a line of their names, numbers with as many digits as it takes to read the same ones back."""
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(["lon", "lat", *table.columns])
-    columns = [*table.lonlat.T.tolist(), *(np.asarray(values).tolist() for values in table.columns.values())]
-    writer.writerows(zip(*columns, strict=True))
+    writer.writerow(columns)
+    writer.writerows(zip(*(np.asarray(values).tolist() for values in columns.values()), strict=True))

@@ -110,37 +110,43 @@ def to_geodataframe(
     5      5    S  2.094       Polygon
     """
     geopandas = optional("geopandas", "geo")
-    spherical, wanted = _asked(mesh, what)
+    wanted = as_choice(what or usual_kind(mesh), tuple(SPHERE), "what")
     drawing = Drawing(
         as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True),
         as_choice(latitude, KINDS, "latitude"),
         as_scalar(radius, "radius", low=0.0, open_low=True),
         extent,
     )
-    found, geometry = (SPHERE if spherical else PLANE)[wanted](mesh, drawing)
-    given = {name: _column(name, values, len(mesh.points)) for name, values in (columns or {}).items()}
+    found, geometry = (SPHERE if is_spherical(mesh) else PLANE)[wanted](mesh, drawing)
+    given = point_columns(columns, len(mesh.points))
     if "point" in found:
         found |= {name: values[found["point"]] for name, values in given.items()}
     elif given:
         raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
     kept = ~optional("shapely", "geo").is_empty(geometry)
     table = {name: values[kept] for name, values in found.items()}
-    return geopandas.GeoDataFrame(table, geometry=geometry[kept], crs="EPSG:4326" if spherical else crs)
+    return geopandas.GeoDataFrame(table, geometry=geometry[kept], crs="EPSG:4326" if is_spherical(mesh) else crs)
 
 
-def _asked(mesh: Mesh, what: str | None) -> tuple[bool, str]:
-    """Whether the mesh is on the sphere, and what is wanted of it."""
+def usual_kind(mesh: Mesh) -> str:
+    """Cells of a diagram, triangles of a triangulation; a TypeError for anything else."""
     if not isinstance(mesh, Mesh):
         raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
-    usual = "cells" if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else "triangles"
-    return isinstance(mesh, SphericalDelaunay | SphericalVoronoi), as_choice(what or usual, tuple(SPHERE), "what")
+    return "cells" if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else "triangles"
 
 
-def _column(name: str, values: npt.ArrayLike, count: int) -> npt.NDArray[Any]:
-    array = np.asarray(values)
-    if array.ndim < 1 or len(array) != count:
-        raise ValueError(f"columns[{name!r}] has shape {array.shape}, but there are {count} points")
-    return array
+def is_spherical(mesh: Mesh) -> bool:
+    """Whether the mesh is on the sphere."""
+    return isinstance(mesh, SphericalDelaunay | SphericalVoronoi)
+
+
+def point_columns(columns: Mapping[str, npt.ArrayLike] | None, count: int) -> Columns:
+    """A caller's columns as arrays with a value for each of `count` points."""
+    given = {name: np.asarray(values) for name, values in (columns or {}).items()}
+    for name, values in given.items():
+        if values.ndim < 1 or len(values) != count:
+            raise ValueError(f"columns[{name!r}] has shape {values.shape}, but there are {count} points")
+    return given
 
 
 def diagram_of(mesh: Mesh) -> Any:

@@ -1,0 +1,193 @@
+"""Meshes in space: trimesh, which writes GLB and PLY, and PyVista."""
+
+from __future__ import annotations
+
+import colorsys
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_choice, as_floats, as_scalar
+from stereodel.io.arcs import sample
+from stereodel.io.extras import optional
+from stereodel.io.faces import Indices, spans, voronoi_faces
+from stereodel.io.frames import (
+    LARGEST_SEGMENT,
+    Mesh,
+    diagram_of,
+    is_spherical,
+    ridge_arcs,
+    triangulation_of,
+    unit_vectors,
+    usual_kind,
+)
+from stereodel.io.rings import around
+from stereodel.io.surfaces import surface_of
+from stereodel.triangulation import SphericalVoronoi
+
+GOLDEN = (np.sqrt(5.0) - 1) / 2
+Colors = npt.NDArray[np.uint8]
+
+
+def to_trimesh(
+    mesh: Mesh, *, what: str | None = None, colors: npt.ArrayLike | None = None, max_segment: float = 5.0
+) -> Any:
+    """Triangles or coloured cells as a trimesh.Trimesh, for GLB, PLY and everything else that trimesh writes.
+
+    Parameters
+    ----------
+    mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
+    what : {"triangles", "cells"}, optional
+        By default triangles of a triangulation and cells of a diagram.
+    colors : (n, 3) or (n, 4) array_like, optional
+        Of each triangle, or of the cell of each point: integers from 0 to 255, or floats from 0 to 1. By default cells
+        have pale colours that differ from number to number, and triangles none.
+    max_segment : float, optional
+        Longest side of the pieces of a cell in degrees, in (0, 90]. Sphere only.
+
+    Returns
+    -------
+    trimesh.Trimesh
+        Made with ``process=False``: vertices are as they stand. Triangles are flat, those of the sphere all facets of
+        the hull, and share the points as vertices unless they have colours. Cells do not share vertices, so that
+        colours end at their borders; ``vertex_attributes["point"]`` holds the number of each vertex's point. Unbounded
+        cells are left out. The plane is z = 0.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For colours of another shape, options out of range, or another mesh.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalDelaunay
+    >>> globe = to_trimesh(SphericalDelaunay([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
+    >>> globe.is_watertight, round(float(globe.volume), 6)
+    (True, 1.333333)
+    """
+    step = as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+    trimesh = optional("trimesh", "mesh")
+    if as_choice(what or usual_kind(mesh), ("cells", "triangles"), "what") == "cells":
+        vertices, faces, owner = _sphere_fans(diagram_of(mesh), step) if is_spherical(mesh) else _plane_fans(mesh)
+        paint = _pale(len(mesh.points)) if colors is None else _as_colors(colors, len(mesh.points))
+        result = trimesh.Trimesh(_space(vertices), faces, process=False, vertex_colors=paint[owner])
+        result.vertex_attributes["point"] = owner.astype(np.float32)  # glTF has no larger integers here
+        return result
+    simplices = triangulation_of(mesh).simplices
+    points = _space(unit_vectors(mesh.points) if is_spherical(mesh) else mesh.points)
+    if colors is None:
+        return trimesh.Trimesh(points, simplices, process=False)
+    paint = np.repeat(_as_colors(colors, len(simplices)), 3, axis=0)
+    apart = np.arange(simplices.size).reshape(-1, 3)
+    return trimesh.Trimesh(points[simplices.ravel()], apart, process=False, vertex_colors=paint)
+
+
+def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
+    """Triangles or cells as a pyvista.PolyData.
+
+    Parameters
+    ----------
+    mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
+    what : {"triangles", "cells"}, optional
+        By default triangles of a triangulation and cells of a diagram.
+
+    Returns
+    -------
+    pyvista.PolyData
+        Flat polygons between unit vectors, or in the plane z = 0, with ``cell_data["point"]`` or
+        ``cell_data["triangle"]``, the number of each polygon's point or triangle, and for cells ``cell_data["area"]``,
+        that on the sphere in steradians. Points of a triangulation are the points as given, so that values go into
+        ``point_data`` as they are. Closing triangles, unbounded cells and duplicates' cells are left out.
+
+    Raises
+    ------
+    ImportError
+        Without PyVista (``pip install stereodel[mesh]``).
+
+    Examples
+    --------
+    >>> from stereodel import SphericalVoronoi
+    >>> cells = to_polydata(SphericalVoronoi([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
+    >>> cells.n_cells, cells.n_points, round(float(cells["area"].sum() / 3.141592653589793), 6)
+    (6, 8, 4.0)
+    """
+    surface = surface_of(mesh, what)
+    faces = np.insert(surface.corners, surface.offsets[:-1], np.diff(surface.offsets))
+    result = optional("pyvista", "mesh").PolyData(_space(surface.nodes), faces=faces)
+    result.cell_data["point" if surface.cells else "triangle"] = surface.number
+    if surface.cells:
+        result.cell_data["area"] = diagram_of(mesh).areas()[surface.number]
+    return result
+
+
+def _space(points: FloatArray) -> FloatArray:
+    """Points of the plane as points of space."""
+    return points if points.shape[1] == 3 else np.column_stack([points, np.zeros(len(points))])
+
+
+def _sphere_fans(diagram: SphericalVoronoi, max_segment: float) -> tuple[FloatArray, Indices, Indices]:
+    """Triangles around each site in rings no further apart than `max_segment`; the point of each vertex."""
+    chains = sample(ridge_arcs(diagram), max_segment, "spherical")
+    index, owner, _ = around(voronoi_faces(diagram), chains)
+    border, center = chains.xyz[index], unit_vectors(diagram.points)
+    reach = np.zeros(len(center))
+    np.maximum.at(reach, owner, np.degrees(np.arccos(np.clip(np.sum(border * center[owner], axis=1), -1, 1))))
+    levels = np.maximum(np.ceil(reach / max_segment), 1).astype(np.intp)
+    return _rings(border, owner, center, levels)
+
+
+def _plane_fans(mesh: Mesh) -> tuple[FloatArray, Indices, Indices]:
+    surface = surface_of(mesh, "cells")
+    owner = np.repeat(surface.number, np.diff(surface.offsets))
+    return _rings(surface.nodes[surface.corners], owner, mesh.points, np.ones(len(mesh.points), dtype=np.intp))
+
+
+def _rings(
+    border: FloatArray, owner: Indices, center: FloatArray, levels: Indices
+) -> tuple[FloatArray, Indices, Indices]:
+    """Vertices level by level from the centre outwards, and the triangles between neighbours on two levels.
+
+    Border point b of a cell with k levels has the vertices first[b] … first[b] + k; at level 0 it is the centre.
+    """
+    count = levels[owner] + 1
+    first = np.cumsum(count) - count
+    source, level = np.repeat(np.arange(len(owner)), count), spans(np.zeros_like(count), count)
+    share = (level / levels[owner[source]])[:, None]
+    vertices = center[owner[source]] * (1 - share) + border[source] * share
+    if border.shape[1] == 3:
+        vertices = unit_vectors(vertices)
+    after = np.arange(1, len(owner) + 1)
+    last = np.append(np.flatnonzero(np.diff(owner)), len(owner) - 1) if len(owner) else after
+    after[last] = np.concatenate([[0], last[:-1] + 1]) if len(owner) else after
+    here, there = first[source] + level, first[after[source]] + level
+    outer, inner = level > 0, level > 1
+    return (
+        vertices,
+        np.concatenate(
+            [
+                np.column_stack([here[outer] - 1, here[outer], there[outer]]),
+                np.column_stack([here[inner] - 1, there[inner], there[inner] - 1]),
+            ]
+        ),
+        owner[source],
+    )
+
+
+def _as_colors(colors: npt.ArrayLike, count: int) -> Colors:
+    """Red, green, blue and opacity from 0 to 255, (count, 4)."""
+    given = np.asarray(colors)
+    values = as_floats(colors, "colors") * (1 if given.dtype.kind in "iu" else 255)
+    if values.shape not in ((count, 3), (count, 4)):
+        raise ValueError(f"colors must have shape ({count}, 3) or ({count}, 4), got {values.shape}")
+    if values.size and (values.min() < 0 or values.max() > 255):
+        raise ValueError("colors must be integers from 0 to 255 or floats from 0 to 1")
+    opaque = np.full((count, 4), 255, dtype=np.uint8)
+    opaque[:, : values.shape[1]] = np.round(values)
+    return opaque
+
+
+def _pale(count: int) -> Colors:
+    """Hues a golden section of the circle apart, which keeps successive ones far from each other."""
+    wheel = np.array([colorsys.hsv_to_rgb(k / 360, 0.35, 0.95) for k in range(360)])
+    return _as_colors(wheel[(360 * (GOLDEN * np.arange(count) % 1.0)).astype(np.intp)], count)

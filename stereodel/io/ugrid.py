@@ -1,0 +1,170 @@
+"""UGRID: meshes as xarray datasets, after the conventions for unstructured grids in netCDF, version 1.0."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray
+from stereodel.io.extras import optional
+from stereodel.io.frames import Mesh, diagram_of, is_spherical
+from stereodel.io.surfaces import Surface, surface_of
+from stereodel.sphere import lonlat_to_xyz, solid_angle, xyz_to_lonlat
+from stereodel.sphere.latitudes import Latitude
+
+FILL = -1
+_NAMES = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
+
+
+def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude = "spherical") -> Any:
+    """Triangles or cells as an xarray Dataset with a UGRID mesh topology.
+
+    Parameters
+    ----------
+    mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
+    what : {"triangles", "cells"}, optional
+        By default triangles of a triangulation and cells of a diagram.
+    latitude : {"spherical", "geodetic", "authalic"}, optional
+        What the points were made with, as in `xyz_to_lonlat`.
+
+    Returns
+    -------
+    xarray.Dataset
+        ``mesh`` with the topology; ``node_lon`` and ``node_lat`` in degrees and ``node_x``, ``node_y``, ``node_z``, the
+        unit vectors (in the plane ``node_x`` and ``node_y`` alone); ``face_node_connectivity``, counterclockwise from
+        0, short rows filled with -1; ``edge_node_connectivity``. On faces ``face_point`` or ``face_triangle``, the
+        number of the point or triangle, and on the sphere ``face_area`` in steradians.
+
+    Raises
+    ------
+    ImportError
+        Without xarray (``pip install stereodel[grid]``).
+
+    Notes ----- Triangles that are `closing`, unbounded cells and duplicates' cells are left out. Cells between two
+    opposite vertices have the middles of their ridges as further nodes. ``uxarray.open_grid`` takes the dataset.
+    Source: UGRID Conventions 1.0, https://ugrid-conventions.github.io/ugrid-conventions.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalDelaunay
+    >>> dataset = to_ugrid(SphericalDelaunay([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
+    >>> dict(dataset.sizes)
+    {'node': 6, 'face': 8, 'three': 3, 'edge': 12, 'two': 2}
+    """
+    surface, spherical = surface_of(mesh, what), is_spherical(mesh)
+    table, edges = surface.table, surface.edges
+    width = "three" if table.shape[1] == 3 else "max_corners"
+    variables = _nodes(surface.nodes, spherical, latitude) | {
+        "face_node_connectivity": (("face", width), table, _links("face")),
+        "edge_node_connectivity": (("edge", "two"), edges, _links("edge")),
+    }
+    name = "face_point" if surface.cells else "face_triangle"
+    variables[name] = (
+        "face",
+        surface.number,
+        {"mesh": "mesh", "location": "face", "long_name": f"number of the {name[5:]}"},
+    )
+    if spherical:
+        variables["face_area"] = ("face", _areas(mesh, surface), {"mesh": "mesh", "location": "face", "units": "sr"})
+    variables["mesh"] = ((), np.int32(0), _topology([n for n in variables if n in ("node_lon", "node_lat")]))
+    return optional("xarray", "grid").Dataset(variables, attrs={"Conventions": "CF-1.11 UGRID-1.0"})
+
+
+def _nodes(nodes: FloatArray, spherical: bool, latitude: Latitude) -> dict[str, Any]:
+    variables: dict[str, Any] = {}
+    if spherical:
+        for (name, (standard, units)), column in zip(
+            _NAMES.items(), xyz_to_lonlat(nodes, latitude=latitude).T, strict=True
+        ):
+            variables[f"node_{name}"] = ("node", column, {"standard_name": standard, "units": units})
+    for name, column in zip("xyz", nodes.T, strict=False):
+        variables[f"node_{name}"] = ("node", column, {"long_name": f"Cartesian {name}", "units": "1"})
+    return variables
+
+
+def _links(kind: str) -> dict[str, Any]:
+    return {"cf_role": f"{kind}_node_connectivity", "start_index": np.int32(0), "_FillValue": np.int32(FILL)}
+
+
+def _topology(coordinates: list[str]) -> dict[str, Any]:
+    return {
+        "cf_role": "mesh_topology",
+        "topology_dimension": np.int32(2),
+        "node_coordinates": " ".join(coordinates or ["node_x", "node_y"]),
+        "face_node_connectivity": "face_node_connectivity",
+        "edge_node_connectivity": "edge_node_connectivity",
+        "face_dimension": "face",
+        "edge_dimension": "edge",
+    }
+
+
+def _areas(mesh: Mesh, surface: Surface) -> FloatArray:
+    if surface.cells:
+        areas: FloatArray = diagram_of(mesh).areas()[surface.number]
+        return areas
+    corners = surface.nodes[surface.corners.reshape(-1, 3)]
+    return solid_angle(corners[:, 0], corners[:, 1], corners[:, 2])
+
+
+def from_ugrid(dataset: Any) -> tuple[FloatArray, npt.NDArray[np.int32]]:
+    """Nodes and faces of a UGRID mesh.
+
+    Parameters
+    ----------
+    dataset : xarray.Dataset
+        With a mesh topology of dimension 2, of this library or another.
+
+    Returns
+    -------
+    nodes : (n, 3) or (n, 2) ndarray
+        Directions, of ``node_x``, ``node_y``, ``node_z`` where they are there, else of longitude and latitude; for a
+        mesh of the plane its coordinates.
+    faces : (f, k) ndarray of int32
+        Nodes of each face counted from 0; -1 fills short rows.
+
+    Raises
+    ------
+    ValueError
+        Where there is no such mesh, or its variables are missing.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalDelaunay, check_delaunay
+    >>> points, faces = from_ugrid(to_ugrid(SphericalDelaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])))
+    >>> check_delaunay(points, faces).ties
+    0
+    """
+    meshes = [name for name in dataset.variables if dataset[name].attrs.get("cf_role") == "mesh_topology"]
+    if len(meshes) != 1:
+        raise ValueError(
+            f"the dataset must have one mesh topology, it has {len(meshes)}: {', '.join(meshes) or 'none'}"
+        )
+    topology = dataset[meshes[0]].attrs
+    links = _variable(dataset, topology.get("face_node_connectivity", ""))
+    rows = np.asarray(links)
+    fill = {links.attrs.get("_FillValue"), links.encoding.get("_FillValue")} - {None}
+    missing = np.isnan(rows) | np.isin(rows, list(fill))
+    start = int(links.attrs.get("start_index", 0))
+    faces = np.where(missing, FILL, np.where(missing, 0, rows).astype(np.int64) - start).astype(np.int32)
+    return _coordinates(dataset, str(topology.get("node_coordinates", "")).split()), faces
+
+
+def _coordinates(dataset: Any, names: list[str]) -> FloatArray:
+    cartesian = [f"node_{axis}" for axis in "xyz"]
+    if all(name in dataset for name in cartesian):
+        return np.column_stack([_variable(dataset, name) for name in cartesian]).astype(np.float64)
+    columns = [_variable(dataset, name) for name in names]
+    kinds = [column.attrs.get("standard_name") for column in columns]
+    if set(kinds) == {"longitude", "latitude"}:
+        return lonlat_to_xyz(np.column_stack([columns[kinds.index(kind)] for kind in ("longitude", "latitude")]))
+    if len(columns) != 2:
+        raise ValueError(f"node_coordinates must name two variables, it names {names}")
+    return np.column_stack(columns).astype(np.float64)
+
+
+def _variable(dataset: Any, name: str) -> Any:
+    if name not in dataset:
+        raise ValueError(f"the mesh topology names {name!r}, which is not in the dataset")
+    return dataset[name]

@@ -1,0 +1,205 @@
+"""Writing anything to a file, by its ending."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, BinaryIO
+
+import numpy.typing as npt
+
+from stereodel._arrays import as_choice
+from stereodel._files import replacing
+from stereodel.io.csv_text import write_csv
+from stereodel.io.extras import optional
+from stereodel.io.frames import (
+    Columns,
+    Mesh,
+    diagram_of,
+    is_spherical,
+    point_columns,
+    to_geodataframe,
+    triangulation_of,
+    usual_kind,
+)
+from stereodel.io.geojson import to_geojson
+from stereodel.io.meshes import to_polydata, to_trimesh
+from stereodel.io.pictures import page_of
+from stereodel.io.reading import from_geodataframe
+from stereodel.io.tables import PointTable
+from stereodel.io.ugrid import to_ugrid
+from stereodel.sphere import xyz_to_lonlat
+from stereodel.sphere.latitudes import Latitude
+
+ENDINGS = {
+    ".csv": "csv",
+    ".geojson": "geojson",
+    ".json": "geojson",
+    ".parquet": "parquet",
+    ".geoparquet": "parquet",
+    ".gpkg": "gpkg",
+    ".nc": "nc",
+    ".glb": "glb",
+    ".ply": "ply",
+    ".vtp": "vtp",
+    ".svg": "svg",
+    ".pdf": "pdf",
+}
+
+
+def write(
+    target: str | os.PathLike[str] | BinaryIO,
+    content: Mesh | PointTable | Any,
+    *,
+    format: str | None = None,
+    **options: Any,
+) -> None:
+    """Write a triangulation, a diagram, a table of points or a GeoDataFrame.
+
+    Parameters
+    ----------
+    target : path-like or binary stream
+        A file is written whole or not at all; an existing one is replaced.
+    content : Mesh, PointTable or geopandas.GeoDataFrame
+        A triangulation or diagram of plane or sphere; a table or frame where the format holds tables.
+    format : str, optional
+        By default what the ending of the path says. For a stream it is needed.
+    **options
+        Of the function that makes the content of the file: `to_geodataframe` for csv, geojson (and ``decimals`` of
+        `to_geojson`), parquet and gpkg; `to_ugrid` for nc; `to_trimesh` for glb and ply; `to_polydata` for vtp; for svg
+        and pdf ``what`` ("cells" or "triangles"), ``view`` (lon, lat) of a globe and ``extent`` of the plane.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For another ending or format, content that the format cannot hold, or options that it does not have.
+    ImportError
+        Where the library for the format is missing, naming the extra that brings it.
+    OSError
+        Where the file cannot be written.
+
+    Notes ----- CSV: for cells and sites a row for each point, duplicates too, with lon and lat (x and y in the plane),
+    the area of its cell and `columns`; for triangles and edges the indices of their corners, from 0. `what`, `columns`,
+    `latitude` and `radius` are options. It needs no other library.
+
+    Examples
+    --------
+    >>> import io
+    >>> from stereodel import SphericalVoronoi
+    >>> diagram = SphericalVoronoi.from_lonlat([[10, 50], [10, -50], [190, 0]])
+    >>> stream = io.BytesIO()
+    >>> write(stream, diagram, format="csv", columns={"name": ["A", "B", "C"]}, radius=2.0)
+    >>> print(stream.getvalue().decode().splitlines()[:2])
+    ['lon,lat,area,name', '10.0,50.0,16.05702911834783,A']
+    """
+    kind = format
+    if isinstance(target, str | os.PathLike):
+        kind = format or ENDINGS.get(Path(target).suffix.lower(), Path(target).suffix)
+    writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
+    with TemporaryDirectory() as folder:
+        made = Path(folder, f"made.{kind}")  # libraries look at the ending
+        writer(content, made, options)
+        data = made.read_bytes()
+    if not isinstance(target, str | os.PathLike):
+        target.write(data)
+        return
+    with replacing(target) as temporary:
+        temporary.write_bytes(data)
+
+
+def _frame(content: Any, options: dict[str, Any]) -> Any:
+    """A GeoDataFrame of whatever was given."""
+    if isinstance(content, Mesh):
+        return to_geodataframe(content, **options)
+    _no_options(options)
+    if isinstance(content, PointTable):
+        geometry = optional("shapely", "geo").points(content.lonlat)
+        return optional("geopandas", "geo").GeoDataFrame(dict(content.columns), geometry=geometry, crs="EPSG:4326")
+    if not hasattr(content, "geometry"):
+        raise TypeError(f"content must be a mesh, a PointTable or a GeoDataFrame, not {type(content).__name__}")
+    return content
+
+
+def _no_options(options: dict[str, Any]) -> None:
+    if options:
+        raise TypeError(f"{', '.join(options)} is no option where tables are written")
+
+
+def _write_csv(content: Any, path: Path, options: dict[str, Any]) -> None:
+    if isinstance(content, Mesh):
+        columns = _mesh_columns(content, **options)
+    else:
+        _no_options(options)
+        table = content if isinstance(content, PointTable) else from_geodataframe(_frame(content, {}))
+        columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True)) | dict(table.columns)
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        write_csv(columns, stream)
+
+
+def _mesh_columns(
+    mesh: Mesh,
+    *,
+    what: str | None = None,
+    columns: Mapping[str, npt.ArrayLike] | None = None,
+    latitude: Latitude = "spherical",
+    radius: float = 1.0,
+) -> Columns:
+    kind = as_choice(what or usual_kind(mesh), ("cells", "sites", "triangles", "edges"), "what")
+    if kind in ("triangles", "edges"):
+        triangulation = triangulation_of(mesh)
+        rows = triangulation.edges if kind == "edges" else triangulation.simplices
+        return {name: rows[:, k] for k, name in enumerate("abc"[: rows.shape[1]])}
+    places = xyz_to_lonlat(mesh.points, latitude=latitude) if is_spherical(mesh) else mesh.points
+    found = dict(zip(("lon", "lat") if is_spherical(mesh) else ("x", "y"), places.T, strict=True))
+    if kind == "cells":
+        found["area"] = diagram_of(mesh).areas(radius=radius)
+    return found | point_columns(columns, len(places))
+
+
+def _write_geojson(content: Any, path: Path, options: dict[str, Any]) -> None:
+    decimals = options.pop("decimals", None)
+    path.write_text(to_geojson(_frame(content, options), decimals=decimals) + "\n", encoding="utf-8")
+
+
+def _write_parquet(content: Any, path: Path, options: dict[str, Any]) -> None:
+    optional("pyarrow", "geo")
+    _frame(content, options).to_parquet(path)
+
+
+def _write_gpkg(content: Any, path: Path, options: dict[str, Any]) -> None:
+    _frame(content, options).to_file(path, driver="GPKG")
+
+
+def _write_nc(content: Any, path: Path, options: dict[str, Any]) -> None:
+    optional("netCDF4", "grid")
+    to_ugrid(content, **options).to_netcdf(path, engine="netcdf4")
+
+
+def _write_trimesh(content: Any, path: Path, options: dict[str, Any]) -> None:
+    path.write_bytes(to_trimesh(content, **options).export(file_type=path.suffix[1:]))
+
+
+def _write_polydata(content: Any, path: Path, options: dict[str, Any]) -> None:
+    to_polydata(content, **options).save(path)
+
+
+def _write_picture(content: Any, path: Path, options: dict[str, Any]) -> None:
+    from stereodel.render.vector import save_vector
+
+    save_vector(page_of(content, **options), path)
+
+
+WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {
+    "csv": _write_csv,
+    "geojson": _write_geojson,
+    "parquet": _write_parquet,
+    "gpkg": _write_gpkg,
+    "nc": _write_nc,
+    "glb": _write_trimesh,
+    "ply": _write_trimesh,
+    "vtp": _write_polydata,
+    "svg": _write_picture,
+    "pdf": _write_picture,
+}

@@ -1,0 +1,317 @@
+"""Files: every format read back with the library that it is for; wrong requests; nothing half-written."""
+
+import io
+import json
+import os
+
+import geopandas
+import numpy as np
+import pytest
+import pyvista
+import shapely
+import trimesh
+import uxarray
+import xarray as xr
+
+from stereodel import (
+    PlanarDelaunay,
+    PlanarVoronoi,
+    SphericalDelaunay,
+    SphericalVoronoi,
+    angular_distance,
+    check_delaunay,
+    lonlat_to_xyz,
+)
+from stereodel.io import (
+    PointTable,
+    from_ugrid,
+    read_points,
+    to_geodataframe,
+    to_geojson,
+    to_polydata,
+    to_trimesh,
+    to_ugrid,
+    write,
+)
+
+SPHERE = np.random.default_rng(11).normal(size=(60, 3))
+UNIT = SPHERE / np.linalg.norm(SPHERE, axis=1, keepdims=True)
+PLANE = np.random.default_rng(12).uniform(size=(50, 2))
+NAMES = np.array([f"Ort „{k}“, ä" for k in range(60)])
+GREAT_CIRCLE = [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+TABLES = ["csv", "geojson", "parquet", "gpkg"]
+
+
+@pytest.fixture
+def diagram():
+    return SphericalVoronoi(SPHERE)
+
+
+@pytest.mark.parametrize("ending", TABLES)
+def test_tables_of_points_come_back(tmp_path, ending):
+    lonlat = np.column_stack([np.linspace(-180, 179, 60), np.linspace(-90, 90, 60)])
+    table = PointTable(lonlat, {"name": NAMES, "height": np.linspace(0, 1, 60), "count": np.arange(60)})
+    write(tmp_path / f"points.{ending}", table)
+    back = read_points(tmp_path / f"points.{ending}")
+    assert (back.lonlat == lonlat).all()
+    assert {name: values.tolist() for name, values in back.columns.items()} == {
+        name: values.tolist() for name, values in table.columns.items()
+    }
+
+
+@pytest.mark.parametrize("ending", TABLES)
+@pytest.mark.parametrize("latitude", ["spherical", "geodetic"])
+def test_sites_come_back(tmp_path, ending, latitude, diagram):
+    path = tmp_path / f"sites.{ending}"
+    write(path, diagram, what="sites", columns={"name": NAMES}, latitude=latitude)
+    table = read_points(path)
+    assert angular_distance(lonlat_to_xyz(table.lonlat, latitude=latitude), SPHERE).max() < 1e-13
+    assert table.columns["name"].tolist() == NAMES.tolist()
+
+
+@pytest.mark.parametrize("ending", ["geojson", "parquet", "gpkg"])
+@pytest.mark.parametrize("what", ["cells", "triangles", "edges", "ridges"])
+def test_geometries_come_back(tmp_path, ending, what, diagram):
+    frame = to_geodataframe(diagram, what=what)
+    write(tmp_path / f"a.{ending}", diagram, what=what)
+    write(tmp_path / f"b.{ending}", frame)
+    for path in sorted(tmp_path.iterdir()):
+        back = geopandas.read_parquet(path) if ending == "parquet" else geopandas.read_file(path)
+        assert back.crs == "EPSG:4326"
+        # A GeoPackage has one type in a layer: a Polygon comes back as a MultiPolygon of one part.
+        theirs, ours = (shapely.get_parts(table.geometry.values, return_index=True) for table in (back, frame))
+        assert shapely.equals_exact(theirs[0], ours[0], tolerance=0).all()
+        assert (theirs[1] == ours[1]).all()
+        assert back.drop(columns="geometry").to_numpy().tolist() == frame.drop(columns="geometry").to_numpy().tolist()
+
+
+def test_geojson_is_as_the_standard_wants_it(diagram):
+    collection = json.loads(to_geojson(to_geodataframe(diagram, columns={"name": NAMES})))
+    assert set(collection) == {"type", "features"}
+    kinds = {"Polygon", "MultiPolygon"}
+    for feature in collection["features"]:
+        assert set(feature) == {"type", "properties", "geometry"}
+        assert feature["geometry"]["type"] in kinds
+        geometry = shapely.geometry.shape(feature["geometry"])
+        for ring in shapely.get_exterior_ring(shapely.get_parts(geometry)):
+            assert ring.is_ccw
+            assert ring.coords[0] == ring.coords[-1]
+        assert geometry.bounds[0] >= -180
+        assert geometry.bounds[2] <= 180
+    assert [feature["properties"]["name"] for feature in collection["features"]] == NAMES.tolist()
+
+
+def test_geojson_rounds_transforms_and_turns_rings():
+    clockwise = shapely.Polygon([(0, 0), (0, 1e5), (1e5, 1e5), (1e5, 0)])
+    frame = geopandas.GeoDataFrame({"value": [np.nan]}, geometry=[clockwise], crs=3857)
+    feature = json.loads(to_geojson(frame, decimals=3))["features"][0]
+    assert feature["properties"] == {"value": None}
+    assert feature["geometry"]["coordinates"] == [[[0, 0], [0.898, 0], [0.898, 0.898], [0, 0.898], [0, 0]]]
+
+
+def test_unbounded_cells_have_no_area_in_geojson():
+    collection = json.loads(to_geojson(to_geodataframe(PlanarVoronoi(PLANE[:3]))))
+    assert [feature["properties"]["area"] for feature in collection["features"]] == [None] * 3
+
+
+def test_triangles_as_csv(tmp_path):
+    triangulation = PlanarDelaunay(PLANE)
+    write(tmp_path / "triangles.csv", triangulation)
+    rows = np.loadtxt(tmp_path / "triangles.csv", delimiter=",", skiprows=1, dtype=int)
+    check_delaunay(PLANE, rows)
+    write(tmp_path / "cells.csv", PlanarVoronoi(triangulation))
+    assert (tmp_path / "cells.csv").read_text().startswith("x,y,area\n")
+
+
+def canonical(faces):
+    return sorted(tuple(np.roll(face, -int(np.argmin(face)))) for face in (row[row >= 0] for row in np.asarray(faces)))
+
+
+@pytest.mark.parametrize("what", ["triangles", "cells"])
+def test_ugrid_comes_back(tmp_path, what):
+    triangulation = SphericalDelaunay(SPHERE)
+    dataset = to_ugrid(triangulation, what=what)
+    write(tmp_path / "mesh.nc", triangulation, what=what)
+    with (
+        xr.open_dataset(tmp_path / "mesh.nc") as decoded,
+        xr.open_dataset(tmp_path / "mesh.nc", mask_and_scale=False) as raw,
+    ):
+        for read in (dataset, decoded, raw):
+            nodes, faces = from_ugrid(read)
+            if what == "triangles":
+                assert (nodes == np.column_stack([dataset[f"node_{k}"] for k in "xyz"])).all()
+                assert angular_distance(nodes, SPHERE).max() < 1e-13
+                check_delaunay(SPHERE, faces)
+                assert canonical(faces) == canonical(triangulation.simplices)
+            else:
+                regions = SphericalVoronoi(triangulation).regions
+                assert [[int(k) for k in row[row >= 0]] for row in faces] == regions
+            assert float(read["face_area"].sum()) == pytest.approx(4 * np.pi)
+
+
+def test_ugrid_without_cartesian_nodes_and_counted_from_one():
+    dataset = to_ugrid(SphericalDelaunay(SPHERE)).drop_vars(["node_x", "node_y", "node_z"])
+    links = dataset["face_node_connectivity"]
+    dataset["face_node_connectivity"] = (links.dims, links.values + 1, links.attrs | {"start_index": 1})
+    nodes, faces = from_ugrid(dataset)
+    assert angular_distance(nodes, SPHERE).max() < 1e-13
+    check_delaunay(SPHERE, faces)
+
+
+def test_ugrid_of_the_plane():
+    nodes, faces = from_ugrid(to_ugrid(PlanarDelaunay(PLANE)))
+    assert (nodes == PLANE).all()
+    check_delaunay(nodes, faces)
+
+
+@pytest.mark.parametrize("points", [SPHERE, SPHERE[:2], GREAT_CIRCLE], ids=["random", "two", "great circle"])
+@pytest.mark.parametrize("what", ["triangles", "cells"])
+def test_uxarray_opens_the_grid(tmp_path, points, what):
+    if what == "triangles" and len(points) < 60:
+        return  # there are none
+    diagram = SphericalVoronoi(points)
+    write(tmp_path / "mesh.nc", diagram, what=what)
+    grid = uxarray.open_grid(tmp_path / "mesh.nc")
+    ours = to_ugrid(diagram, what=what)
+    assert grid.n_face == ours.sizes["face"]
+    assert grid.n_node == ours.sizes["node"]
+    assert grid.n_edge == ours.sizes["edge"]
+    if len(points) == 60:
+        assert (grid.face_node_connectivity.values[:, :3] == ours["face_node_connectivity"].values[:, :3]).all()
+        assert grid.n_node - grid.n_edge + grid.n_face == 2
+
+
+def test_datasets_that_are_no_mesh():
+    with pytest.raises(ValueError, match="one mesh topology, it has 0: none"):
+        from_ugrid(xr.Dataset())
+    dataset = to_ugrid(SphericalDelaunay(SPHERE)).drop_vars("face_node_connectivity")
+    with pytest.raises(ValueError, match="names 'face_node_connectivity', which is not in the dataset"):
+        from_ugrid(dataset)
+
+
+@pytest.mark.parametrize("ending", ["glb", "ply"])
+def test_globe_comes_back(tmp_path, ending):
+    write(tmp_path / f"globe.{ending}", SphericalDelaunay(SPHERE))
+    mesh = trimesh.load(tmp_path / f"globe.{ending}", force="mesh", process=False)
+    assert np.allclose(mesh.vertices, UNIT, atol=1e-6)
+    assert mesh.is_watertight
+    assert mesh.volume == pytest.approx(
+        trimesh.Trimesh(UNIT, SphericalDelaunay(SPHERE).simplices, process=False).volume
+    )
+    check_delaunay(SPHERE, mesh.faces)
+
+
+@pytest.mark.parametrize("ending", ["glb", "ply"])
+def test_coloured_cells_come_back(tmp_path, ending, diagram):
+    colors = np.random.default_rng(13).integers(0, 256, size=(60, 3))
+    made = to_trimesh(diagram, colors=colors)
+    write(tmp_path / f"cells.{ending}", diagram, colors=colors)
+    mesh = trimesh.load(tmp_path / f"cells.{ending}", force="mesh", process=False)
+    assert np.allclose(mesh.vertices, made.vertices, atol=1e-6)
+    assert (mesh.faces == made.faces).all()
+    assert (mesh.visual.vertex_colors[:, :3] == colors[made.vertex_attributes["point"].astype(int)]).all()
+
+
+@pytest.mark.parametrize("points", [SPHERE, SPHERE[:2], GREAT_CIRCLE], ids=["random", "two", "great circle"])
+def test_facets_of_cells_cover_the_sphere(points):
+    diagram = SphericalVoronoi(points)
+    mesh = to_trimesh(diagram, max_segment=2)
+    owner = mesh.vertex_attributes["point"].astype(int)
+    assert np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1, rtol=1e-14)
+    assert (owner[mesh.faces] == owner[mesh.faces[:, :1]]).all()
+    assert (np.einsum("ij,ij->i", mesh.face_normals, mesh.triangles_center) > 0)[mesh.area_faces > 1e-12].all()
+    areas = np.bincount(owner[mesh.faces[:, 0]], mesh.area_faces, minlength=len(points))
+    assert np.allclose(areas, diagram.areas(), rtol=2e-3)
+
+
+def test_meshes_of_the_plane():
+    triangles, cells = to_trimesh(PlanarDelaunay(PLANE)), to_trimesh(PlanarVoronoi(PLANE))
+    assert (triangles.vertices == np.column_stack([PLANE, np.zeros(50)])).all()
+    bounded = np.isfinite(PlanarVoronoi(PLANE).areas())
+    assert cells.area == pytest.approx(PlanarVoronoi(PLANE).areas()[bounded].sum())
+    assert to_polydata(PlanarDelaunay(PLANE)).area == pytest.approx(triangles.area)
+    assert to_polydata(PlanarVoronoi(PLANE)).n_cells == bounded.sum()
+
+
+@pytest.mark.parametrize(
+    ("colors", "message"),
+    [
+        (np.zeros((3, 3)), r"colors must have shape \(60, 3\) or \(60, 4\)"),
+        (np.full((60, 3), 2.0), "from 0 to 1"),
+        (np.full((60, 3), 256), "from 0 to 255"),
+    ],
+)
+def test_wrong_colours(colors, message, diagram):
+    with pytest.raises(ValueError, match=message):
+        to_trimesh(diagram, colors=colors)
+
+
+def test_coloured_triangles():
+    triangulation = SphericalDelaunay(SPHERE)
+    colors = np.random.default_rng(14).uniform(size=(len(triangulation.simplices), 4))
+    mesh = to_trimesh(triangulation, colors=colors)
+    assert np.allclose(mesh.triangles, UNIT[triangulation.simplices], atol=1e-15)
+    assert (mesh.visual.vertex_colors[mesh.faces] == np.round(255 * colors)[:, None]).all()
+
+
+def test_polydata_comes_back(tmp_path, diagram):
+    write(tmp_path / "cells.vtp", diagram)
+    mesh = pyvista.read(tmp_path / "cells.vtp")
+    assert mesh.n_cells == 60
+    assert mesh["area"].sum() == pytest.approx(4 * np.pi)
+    assert [mesh.get_cell(k).point_ids for k in range(60)] == diagram.regions
+    triangles = to_polydata(SphericalDelaunay(SPHERE))
+    assert (triangles.regular_faces == SphericalDelaunay(SPHERE).simplices).all()
+    assert triangles.is_manifold
+
+
+@pytest.mark.parametrize("ending", ["svg", "pdf"])
+@pytest.mark.parametrize("mesh", [SphericalVoronoi, SphericalDelaunay, PlanarVoronoi, PlanarDelaunay])
+def test_pictures(tmp_path, ending, mesh):
+    points = SPHERE if mesh.__name__.startswith("S") else PLANE
+    write(tmp_path / f"picture.{ending}", mesh(points))
+    data = (tmp_path / f"picture.{ending}").read_bytes()
+    assert data.startswith({"svg": b"<?xml", "pdf": b"%PDF"}[ending])
+    if ending == "svg":
+        role = "voronoi" if "Voronoi" in mesh.__name__ else "delaunay"
+        assert f'id="{role}"' in data.decode()
+
+
+def test_streams():
+    stream = io.BytesIO()
+    write(stream, PointTable([[1.5, 2.0]], {"name": ["a"]}), format="csv")
+    assert stream.getvalue() == b"lon,lat,name\n1.5,2.0,a\n"
+    with pytest.raises(ValueError, match="format is None"):
+        write(stream, PointTable([[1.5, 2.0]]))
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "options", "error", "message"),
+    [
+        ("a.xlsx", PointTable([[1, 2]]), {}, ValueError, "format is '.xlsx'"),
+        ("a.csv", [[1, 2]], {}, TypeError, "content must be a mesh, a PointTable or a GeoDataFrame, not list"),
+        ("a.csv", PointTable([[1, 2]]), {"what": "cells"}, TypeError, "what is no option"),
+        ("a.glb", PointTable([[1, 2]]), {}, TypeError, "mesh must be a triangulation"),
+        ("a.geojson", SphericalVoronoi(SPHERE), {"radius": -1}, ValueError, "radius"),
+        ("a.nc", SphericalVoronoi(SPHERE), {"what": "edges"}, ValueError, "what is 'edges'"),
+    ],
+)
+def test_a_failed_run_leaves_what_was_there(tmp_path, name, content, options, error, message):
+    path = tmp_path / name
+    path.write_text("before")
+    with pytest.raises(error, match=message):
+        write(path, content, **options)
+    assert path.read_text() == "before"
+    assert os.listdir(tmp_path) == [name]
+
+
+def test_missing_libraries_are_named(monkeypatch):
+    from stereodel.io import extras
+
+    monkeypatch.setattr(extras, "import_module", lambda name: (_ for _ in ()).throw(ModuleNotFoundError(name=name)))
+    with pytest.raises(ImportError, match=r"pip install 'stereodel\[geo\]'"):
+        to_geodataframe(SphericalVoronoi(SPHERE))
+    with pytest.raises(ImportError, match=r"pip install 'stereodel\[grid\]'"):
+        to_ugrid(SphericalVoronoi(SPHERE))
+    with pytest.raises(ImportError, match=r"pip install 'stereodel\[mesh\]'"):
+        to_polydata(SphericalVoronoi(SPHERE))
