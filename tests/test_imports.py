@@ -31,7 +31,7 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"triangulation"},
     "relaxation": KERNEL | {"triangulation"},
-    "io": BASE | {"_files", "sphere", "triangulation"},
+    "io": BASE | {"_files", "sphere", "triangulation", "render"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
     "cli": MATHEMATICS | {"__init__", "_files", "data", "earth", "interpolation", "io", "render"},
