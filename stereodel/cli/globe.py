@@ -46,7 +46,9 @@ def command(
     lon: options.Lon = None,
     lat: options.Lat = None,
     latitude: options.LatitudeKind = options.Latitude.spherical,
-    format: options.Format = None,
+    format: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Format of stdout, when --out is -: png (default), svg, pdf.")
+    ] = None,
 ) -> None:
     """Draw points on a globe, with their Voronoi cells or Delaunay triangles, under a conformal fisheye if wanted."""
     from stereodel.cli.destinations import Destination

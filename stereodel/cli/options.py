@@ -21,7 +21,7 @@ Points = Annotated[
 ]
 Out = Annotated[str, typer.Option("--out", "-o", metavar="FILE", help="File to write, by its extension; - for stdout.")]
 Format = Annotated[
-    str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is - (default: csv).")
+    str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; csv by default.")
 ]
 Lon = Annotated[
     str | None, typer.Option("--lon", metavar="COLUMN", help="Column of the longitudes; guessed by default.")

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stereodel import SphereArc, SphericalDelaunay, SphericalVoronoi, fisheye, lonlat_to_xyz
@@ -22,6 +22,7 @@ def same_curve(curve, exact, tolerance=1e-9):
     return np.allclose(*steps, atol=tolerance)
 
 
+@settings(max_examples=30)
 @given(st.integers(0, 10**6), st.sampled_from([0.05, 0.5, 1.0, 4.0, 50.0]))
 def test_images_are_those_of_the_map(seed, magnification):
     points = on_sphere(12, seed)
