@@ -1,4 +1,4 @@
-"""Cells, triangles and edges as files: what is known of each as a table, with its shape in map formats."""
+"""Cells, triangles and edges as files: what is known of each as a table, with its shape in map formats; meshes."""
 
 from __future__ import annotations
 
@@ -8,12 +8,13 @@ from typing import Literal
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude
 from stereodel.cli.sources import Columns, Table
-from stereodel.cli.tables import TABLES, save_frame, save_table
-from stereodel.io import to_geodataframe
+from stereodel.cli.tables import TABLES, save_table
+from stereodel.io import to_geodataframe, write
 from stereodel.io.extras import optional
 from stereodel.triangulation.topology import edges_of
 
-SHAPES = TABLES
+MESHES = ("nc", "glb", "ply", "vtp", "svg", "pdf")
+SHAPES = TABLES + MESHES
 
 
 def save_cells(
@@ -29,10 +30,12 @@ def save_cells(
     if path.suffix.lower() == ".csv":
         save_table(path, table.axes, table.all_columns() | areas)
         return
+    if save_mesh(path, diagram, latitude):
+        return
     cells = to_geodataframe(diagram, what="cells", latitude=latitude.value, max_segment=max_segment)
     point = cells["point"].to_numpy()
     columns = {name: values[point] for name, values in ({"row": table.rows} | table.columns | areas).items()}
-    save_frame(path, optional("geopandas", "geo").GeoDataFrame(columns, geometry=cells.geometry, crs=cells.crs))
+    write(path, optional("geopandas", "geo").GeoDataFrame(columns, geometry=cells.geometry, crs=cells.crs))
 
 
 def save_simplices(
@@ -48,9 +51,28 @@ def save_simplices(
     if path.suffix.lower() == ".csv":
         save_table(path, ("a", "b"), corner_rows(triangulation, what, table))
         return
+    if save_mesh(path, triangulation, latitude, faces=what == "triangles"):
+        return
     frame = to_geodataframe(triangulation, what=what, latitude=latitude.value, max_segment=max_segment)
     corners = [name for name in "abc" if name in frame]
-    save_frame(path, frame[[*corners, "geometry"]].assign(**{name: table.rows[frame[name]] for name in corners}))
+    write(path, frame[[*corners, "geometry"]].assign(**{name: table.rows[frame[name]] for name in corners}))
+
+
+def save_mesh(
+    path: Path,
+    mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi,
+    latitude: Latitude,
+    *,
+    faces: bool = True,
+) -> bool:
+    """Write cells or triangles alone where the format is one of meshes or pictures; whether it is."""
+    kind = path.suffix.lower().removeprefix(".")
+    if kind not in MESHES:
+        return False
+    if not faces:
+        raise ValueError(f"{path.name}: holds faces, not edges; leave out --edges or choose {', '.join(TABLES)}")
+    write(path, mesh, **({"latitude": latitude.value} if kind == "nc" else {}))
+    return True
 
 
 def corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: Table) -> Columns:

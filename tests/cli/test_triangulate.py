@@ -3,8 +3,10 @@
 import geopandas
 import numpy as np
 import pytest
+import trimesh
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
+from stereodel.cli.shapes import MESHES
 
 
 def corners(rows, text):
@@ -50,3 +52,18 @@ def test_shapes(folder, run, rows, kind, options, what):
     assert frame.is_valid.all()
     assert set(frame.geom_type) <= {what, f"Multi{what}"}
     assert frame.crs.to_epsg() == 4326
+
+
+@pytest.mark.parametrize("kind", MESHES)
+def test_meshes_and_pictures(folder, run, kind):
+    run("triangulate", "cities.csv", "-o", f"out.{kind}", "--latitude", "geodetic")
+    assert (folder / f"out.{kind}").stat().st_size > 0
+    assert "holds faces, not edges" in run("triangulate", "cities.csv", "--edges", "-o", f"edges.{kind}", code=2)
+    assert not (folder / f"edges.{kind}").exists()
+
+
+def test_glb_holds_the_triangles(folder, run, rows):
+    run("triangulate", "cities.csv", "-o", "out.glb")
+    mesh = trimesh.load(folder / "out.glb", force="mesh", process=False)
+    assert len(mesh.faces) >= len(rows(run("triangulate", "cities.csv", "-o", "-")))
+    assert np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1, atol=1e-6)
