@@ -80,9 +80,11 @@ def write(
     OSError
         Where the file cannot be written.
 
-    Notes ----- CSV: for cells and sites a row for each point, duplicates too, with lon and lat (x and y in the plane),
-    the area of its cell and `columns`; for triangles and edges the indices of their corners, from 0. `what`, `columns`,
-    `latitude` and `radius` are options. It needs no other library.
+    Notes
+    -----
+    CSV: for cells and sites a row for each point, duplicates too, with lon and lat (x and y in the plane), the area of
+    its cell and `columns`; for triangles and edges the indices of their corners, from 0. `what`, `columns`, `latitude`
+    and `radius` are options. It needs no other library.
 
     Examples
     --------
