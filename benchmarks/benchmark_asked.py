@@ -144,6 +144,17 @@ def of_changes(results: Results) -> Iterator[Figure]:
             yield Figure(f"{space}, {power(n)} points: {what}", limit, values, " µs")
 
 
+def of_diagrams(results: Results) -> Iterator[Figure]:
+    """Sorted regions and areas on the sphere: time and memory beside SciPy's."""
+    record = results["voronoi"].get("1000000", {})
+    what = "sphere, 10⁶, Voronoi regions in order and areas"
+    values = faster(record, "scipy", "voronoi 2")
+    yield Figure(f"{what}, two threads: times as fast as SciPy", 25, values, "×", at_least=True)
+    peaks = [record.get(key, {}).get("peak") for key in ("voronoi 2", "scipy")]
+    values = [100 * peaks[0] / peaks[1]] if all(peaks) else []
+    yield Figure(f"{what}: peak memory beside SciPy's", 33, values, " %")
+
+
 def power(n: int) -> str:
     """10⁵ for 100000."""
     exponent = len(str(n)) - 1
@@ -152,6 +163,6 @@ def power(n: int) -> str:
 
 def figures(results: Results) -> list[Figure]:
     """All of them."""
-    kinds = (against_cgal, against_others, over_uniform, of_growth, of_memory, of_small_sets, of_changes)
-    needed = {over_uniform: "distributions", of_growth: "growth", of_changes: "changes"}
+    kinds = (against_cgal, against_others, over_uniform, of_growth, of_memory, of_small_sets, of_changes, of_diagrams)
+    needed = {over_uniform: "distributions", of_growth: "growth", of_changes: "changes", of_diagrams: "voronoi"}
     return [figure for kind in kinds if needed.get(kind, "sizes") in results for figure in kind(results)]

@@ -6,10 +6,11 @@ python -m benchmarks.benchmark_page     (without measuring again)
 from __future__ import annotations
 
 import json
+import statistics
 from typing import Any
 
 from benchmarks import benchmark_plots, pages
-from benchmarks.benchmark_asked import digits, figures, power
+from benchmarks.benchmark_asked import digits, faster, figures, power
 from benchmarks.engines import CONTENDERS, PEERS, Contender
 from benchmarks.experiments import RESULTS, SPACES
 
@@ -123,6 +124,30 @@ def changes(results: Results) -> str:
     return pages.table(head, rows, "lrrrr")
 
 
+def diagrams(results: Results) -> str:
+    """Seconds, ratios and memory of Voronoi diagrams."""
+    rows = []
+    labels = {
+        "voronoi 1": "stereodel, one thread",
+        "voronoi 2": "stereodel, two threads",
+        "lists 2": "the same with regions as lists",
+        "scipy": "SciPy, regions as lists",
+    }
+    for key, label in labels.items():
+        cells = []
+        for record in results["voronoi"].values():
+            ours = record[key]
+            over = faster(record, "scipy", key) if key != "scipy" else []
+            cells.append(ours.get("stopped") or digits(ours["seconds"]))
+            cells.append(f"{digits(statistics.median(over))}×" if over else "")
+            cells.append(digits(ours["peak"] / 1e6) if "peak" in ours else "")
+        rows.append([label, *cells])
+    head = [""]
+    for n in results["voronoi"]:
+        head += [f"{power(int(n))}: s", "times as fast as SciPy", "peak MB"]
+    return pages.table(head, rows, "l" + "r" * (len(head) - 1))
+
+
 def taking_part(results: Results) -> str:
     """Version, exactness and result of every engine."""
     rows = []
@@ -171,6 +196,8 @@ def write(results: Results) -> None:
             blocks |= {f"{space} {n}": distributions(results, space, n) for n in ("100000", "1000000")}
     if "changes" in results:
         blocks["changes"] = changes(results)
+    if "voronoi" in results:
+        blocks["voronoi"] = diagrams(results)
     pages.fill("benchmarks.md", blocks)
 
 

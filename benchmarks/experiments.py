@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, REAL_SETS, SPHERE, make
-from benchmarks.engines import Contender, contenders, stereodel
+from benchmarks.engines import HERE, Contender, contenders, stereodel
 from benchmarks.rounds import SLOW, Entry, Result, ratios, take_turns
 from stereodel._arrays import FloatArray
 
@@ -141,10 +142,29 @@ def _changes(space: str, workers: int, files: list[str]) -> Records:
     return found
 
 
+def voronoi(largest: int) -> Records:
+    """Regions in order and areas of uniform points of the sphere, from the points, beside SciPy's."""
+    found: Records = {}
+    peer = [sys.executable, str(HERE / "peers" / "python_peer.py"), "scipy_voronoi"]
+    for n in (100_000, 1_000_000):
+        if n > largest:
+            continue
+        with on_disk(make("sphere", "uniform", n)) as (file,):
+            ours = [
+                Entry(f"{word} {workers}", stereodel("sphere", workers)(file), word)
+                for word in ("voronoi", "lists")
+                for workers in (1, 2)
+            ]
+            results = take_turns([*ours, Entry("scipy", [*peer, file])], 3, say(f"sphere voronoi {n}"))
+        found[str(n)] = {key: result.record() for key, result in results.items()}
+    return found
+
+
 EXPERIMENTS: dict[str, Callable[[int], Records]] = {
     "sizes": sizes,
     "distributions": distributions,
     "growth": growth,
     "changes": changes,
+    "voronoi": voronoi,
 }
 RESULTS = Path(__file__).resolve().parent / "results.json"

@@ -446,7 +446,7 @@ def voronoi_plane(
     workers: int = 1,
 ) -> tuple:
     """
-    Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle; if triangles share vertices, rows of three sites and the vertex of each row.
+    Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of each triangle; if triangles share vertices, rows of three sites and the vertex of each row.
     """
 
 def voronoi_sphere(
@@ -503,6 +503,7 @@ def cell_areas_plane(
     vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     vertex_count: int,
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of the cells; infinite where unbounded."""
@@ -513,6 +514,7 @@ def cell_areas_sphere(
     vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     vertex_count: int,
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of the cells, steradians."""
@@ -523,6 +525,7 @@ def cell_centroids_plane(
     vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     vertex_count: int,
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
     """Centroids of the cells; NaN where there is none."""
@@ -533,6 +536,7 @@ def cell_centroids_sphere(
     vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     vertex_count: int,
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
     """Unit vectors; NaN for empty cells."""

@@ -37,6 +37,21 @@ def scipy_hull(values: np.ndarray) -> Call:
     return lambda: ConvexHull(points).simplices
 
 
+def scipy_voronoi(values: np.ndarray) -> Call:
+    """The diagram with its regions sorted, as lists, and their areas."""
+    from scipy.spatial import SphericalVoronoi
+
+    points = values.reshape(-1, 3) / np.linalg.norm(values.reshape(-1, 3), axis=1)[:, None]
+
+    def call() -> np.ndarray:
+        diagram = SphericalVoronoi(points)
+        diagram.sort_vertices_of_regions()
+        diagram.calculate_areas()
+        return diagram._simplices
+
+    return call
+
+
 def triangle(values: np.ndarray) -> Call:
     """Triangles and neighbours (option n)."""
     import triangle
@@ -65,11 +80,12 @@ def stripy(values: np.ndarray) -> Call:
 PEERS = {
     "scipy": scipy_delaunay,
     "scipy_hull": scipy_hull,
+    "scipy_voronoi": scipy_voronoi,
     "triangle": triangle,
     "triangular": triangular,
     "stripy": stripy,
 }
-DISTRIBUTION = {"scipy_hull": "scipy"}
+DISTRIBUTION = {"scipy_hull": "scipy", "scipy_voronoi": "scipy"}
 
 
 def high_water() -> int:

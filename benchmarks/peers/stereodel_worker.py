@@ -2,7 +2,8 @@
 
     python stereodel_worker.py plane|sphere WORKERS FILE [MORE]
 
-"run K": K triangulations, `simplices` and `neighbors` included; "bare K": the same without neighbors. On one
+"run K": K triangulations, `simplices` and `neighbors` included; "bare K": the same without neighbors; "voronoi K":
+K Voronoi diagrams, from the points to the arrays of regions and areas; "lists K": and the regions as lists. On one
 triangulation of FILE with the points of MORE: "insert K", "remove K": K batches of BATCH points; "changed K": batches
 of insertions, after each of which the arrays are read; "find K", "nearest K": K calls with all of MORE as queries.
 """
@@ -19,7 +20,7 @@ import numpy as np
 from python_peer import high_water, lower_high_water
 
 import stereodel
-from stereodel import PlanarDelaunay, SphericalDelaunay
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 
 BATCH = 1000
 Step = Callable[[], object]
@@ -45,6 +46,8 @@ class Worker:
         """What is timed next; its preparation is not."""
         if word in ("run", "bare"):
             return lambda: self._build(neighbors=word == "run")
+        if word in ("voronoi", "lists"):
+            return lambda: self._diagram(lists=word == "lists")
         if word in ("find", "nearest"):
             query = {"find": self.built.find_simplex, "nearest": self.built.nearest}[word]
             return lambda: query(self._more)
@@ -64,6 +67,14 @@ class Worker:
         if neighbors:
             _ = self._last.neighbors
 
+    def _diagram(self, *, lists: bool) -> None:
+        self._last = None
+        self._last = self._class(self._points, workers=self._workers)
+        diagram = {2: PlanarVoronoi, 3: SphericalVoronoi}[self._points.shape[1]](self._last)
+        diagram.areas()
+        if lists:
+            _ = diagram.regions
+
     def _insert(self, batch: np.ndarray, *, read: bool) -> None:
         self.built.insert(batch)
         if read:
@@ -71,7 +82,8 @@ class Worker:
 
     def answer(self, word: str, repetitions: int) -> dict[str, object]:
         """Seconds of each step, the state after the last, growth of peak memory."""
-        if word not in ("run", "bare"):
+        alone = word in ("run", "bare", "voronoi", "lists")
+        if not alone:
             _ = self.built
         lower_high_water()
         before = high_water()
@@ -81,7 +93,7 @@ class Worker:
             begin = time.perf_counter()
             step()
             seconds.append(time.perf_counter() - begin)
-        last = self._last if word in ("run", "bare") else self.built
+        last = self._last if alone else self.built
         return {
             "seconds": seconds,
             "points": len(last.points) - len(last.duplicates),

@@ -28,8 +28,8 @@ nb::tuple to_python(Diagram&& diagram) {
         vertex = nb::cast(to_values(std::move(diagram.row_vertex)));
     }
     return nb::make_tuple(to_values(std::move(diagram.offsets)), to_values(std::move(diagram.vertices)),
-                          to_values(std::move(diagram.neighbors)), to_values(std::move(diagram.simplex_vertex)), sites,
-                          vertex);
+                          to_values(std::move(diagram.neighbors)), to_values(std::move(diagram.order)),
+                          to_values(std::move(diagram.simplex_vertex)), sites, vertex);
 }
 
 template <std::size_t Width, class Make>
@@ -72,6 +72,30 @@ Cells to_cells(const Offsets& offsets, const Entries& vertices, const Entries& n
     return {offsets.data(), vertices.data(), neighbors.data(), sites, vertex_count};
 }
 
+void check_sites(const Cells& cells, std::size_t points) {
+    if (cells.sites != points) {
+        throw std::invalid_argument("points and cells must have the same number");
+    }
+}
+
+// With the sites that have entries in an order for areas and centroids, each once.
+Cells to_ordered_cells(const Offsets& offsets, const Entries& vertices, const Entries& neighbors,
+                       std::size_t vertex_count, const ValuesIn<Index>& order, std::size_t points) {
+    Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    check_sites(cells, points);
+    std::vector<bool> taken(cells.sites);
+    for (std::size_t k = 0; k < order.shape(0); ++k) {
+        const auto site = static_cast<std::size_t>(static_cast<std::uint32_t>(order.data()[k]));
+        if (site >= cells.sites || taken[site] || cells.begin(site) == cells.end(site)) {
+            throw std::invalid_argument("order must hold each site with entries once");
+        }
+        taken[site] = true;
+    }
+    cells.order = order.data();
+    cells.filled = order.shape(0);
+    return cells;
+}
+
 nb::tuple ridges(Offsets offsets, Entries vertices, Entries neighbors, std::size_t vertex_count, int workers) {
     const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
     Ridges made = run_without_lock(cells.sites > long_work, [&](Stop stop) { return ridges_of(cells, workers, stop); });
@@ -94,12 +118,6 @@ RowsOut<Index, 3> triangulated(const Cells& cells, int workers, TrianglesOf&& tr
     }));
 }
 
-void check_sites(const Cells& cells, std::size_t points) {
-    if (cells.sites != points) {
-        throw std::invalid_argument("points and cells must have the same number");
-    }
-}
-
 RowsOut<Index, 3> delaunay_of_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
                                     std::size_t vertex_count, int workers) {
     const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
@@ -120,39 +138,38 @@ RowsOut<Index, 3> delaunay_of_sphere(RowsIn<double, 3> points, Offsets offsets, 
 
 // `per_site` numbers for each site.
 template <class Fill>
-Buffer<double> for_sites(const Cells& cells, std::size_t points, std::size_t per_site, Fill&& fill) {
-    check_sites(cells, points);
-    return filled<double>(per_site * points, points > long_work, fill);
+Buffer<double> for_sites(const Cells& cells, std::size_t per_site, Fill&& fill) {
+    return filled<double>(per_site * cells.sites, cells.sites > long_work, fill);
 }
 
 ValuesOut<double> areas_in_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                 std::size_t vertex_count, int workers) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    return to_values(for_sites(cells, points.shape(0), 1, [&](double* areas, Stop stop) {
+                                 std::size_t vertex_count, ValuesIn<Index> order, int workers) {
+    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    return to_values(for_sites(cells, 1, [&](double* areas, Stop stop) {
         cell_areas_plane(points.data(), cells, areas, workers, stop);
     }));
 }
 
 ValuesOut<double> areas_on_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                  std::size_t vertex_count, int workers) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    return to_values(for_sites(cells, points.shape(0), 1, [&](double* areas, Stop stop) {
+                                  std::size_t vertex_count, ValuesIn<Index> order, int workers) {
+    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    return to_values(for_sites(cells, 1, [&](double* areas, Stop stop) {
         cell_areas_sphere(points.data(), cells, areas, workers, stop);
     }));
 }
 
 RowsOut<double, 2> centroids_in_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                      std::size_t vertex_count, int workers) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    return to_rows<2>(for_sites(cells, points.shape(0), 2, [&](double* centroids, Stop stop) {
+                                      std::size_t vertex_count, ValuesIn<Index> order, int workers) {
+    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    return to_rows<2>(for_sites(cells, 2, [&](double* centroids, Stop stop) {
         cell_centroids_plane(points.data(), cells, centroids, workers, stop);
     }));
 }
 
 RowsOut<double, 3> centroids_on_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                       std::size_t vertex_count, int workers) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    return to_rows<3>(for_sites(cells, points.shape(0), 3, [&](double* centroids, Stop stop) {
+                                       std::size_t vertex_count, ValuesIn<Index> order, int workers) {
+    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    return to_rows<3>(for_sites(cells, 3, [&](double* centroids, Stop stop) {
         cell_centroids_sphere(points.data(), cells, centroids, workers, stop);
     }));
 }
@@ -222,8 +239,8 @@ nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles
 
 void bind_voronoi(nb::module_& module) {
     module.def("voronoi_plane", of_plane, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
-               "Offsets of the cells, vertices and neighbours of their entries, the vertex of each triangle; if "
-               "triangles share vertices, rows of three sites and the vertex of each row.");
+               "Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of "
+               "each triangle; if triangles share vertices, rows of three sites and the vertex of each row.");
     module.def("voronoi_sphere", of_sphere, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
                "The same for directions.");
     module.def("voronoi_ridges", ridges, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a, "workers"_a = 1,
@@ -237,16 +254,16 @@ void bind_voronoi(nb::module_& module) {
                "vertex_count"_a, "workers"_a = 1,
                "The same for directions.");
     module.def("cell_areas_plane", areas_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1,
+               "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Areas of the cells; infinite where unbounded.");
     module.def("cell_areas_sphere", areas_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1,
+               "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Areas of the cells, steradians.");
     module.def("cell_centroids_plane", centroids_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1,
+               "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Centroids of the cells; NaN where there is none.");
     module.def("cell_centroids_sphere", centroids_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1,
+               "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Unit vectors; NaN for empty cells.");
     module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "place"_a = nb::none(),
                "workers"_a = 1,

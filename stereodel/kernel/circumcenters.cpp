@@ -127,6 +127,14 @@ std::vector<Index> circumcenters_sphere(const double* points, std::size_t size, 
     const auto unit = [&](Index a) -> const UnitVector& { return units[static_cast<std::size_t>(a)]; };
     return open_rows(rows.count, crew, stop, [&](std::size_t k) {
         const Index* t = rows.corners + 3 * k;
+        if (constexpr std::size_t ahead = 16; k + ahead < rows.count) {
+            for (std::size_t place = 0; place < 3; ++place) {
+                const UnitVector& corner = unit(t[3 * ahead + place]);
+                prefetch(&corner);
+                prefetch(corner.lo + 2);
+            }
+            prefetch(centers + 3 * rows.to(k + ahead));
+        }
         double* const center = centers + 3 * rows.to(k);
         return spherical_center(unit(t[0]), unit(t[1]), unit(t[2]), center) ||
                close_center(at(t[0]), at(t[1]), at(t[2]), center);

@@ -15,6 +15,8 @@ struct Cells {
     const std::int64_t* offsets;
     const Index *vertices, *neighbors;
     std::size_t sites, vertex_count;
+    const Index* order = nullptr;  // the sites with entries, near ones soon after one another; for areas and centroids
+    std::size_t filled = 0;        // how many these are
 
     std::size_t begin(std::size_t site) const { return static_cast<std::size_t>(offsets[site]); }
     std::size_t end(std::size_t site) const { return static_cast<std::size_t>(offsets[site + 1]); }

@@ -39,24 +39,28 @@ class DualTriangles {
         return {across, place_opposite(corners(across), origin(e), target(e))};
     }
 
-    bool is_tied(HalfEdge e) const { return !tied_.empty() && ((tied_[static_cast<std::size_t>(e.t)] >> e.place) & 1); }
+    bool is_tied(HalfEdge e) const {
+        return !tied_.empty() && ((tied_[static_cast<std::size_t>(e.t)] >> e.place) & 1) != 0;
+    }
     bool has_ties() const { return !tied_.empty(); }
 
     // The lowest triangle with the same vertex.
     Index root(Index t) const { return root_.size() == 0 ? t : root_[static_cast<std::size_t>(t)]; }
 
-    // Ask for each edge inside, once, from the triangle of lower number: tie(e, twin).
-    template <class MakeTie>
-    void find_ties(Crew& crew, Stop stop, MakeTie&& make_tie) {
+    // Ask for each edge inside, once, from the triangle of lower number: view.is_tied(dual, e, twin), with a view of
+    // the points for each thread; view.fetch(site) comes some time before.
+    template <class MakeView>
+    void find_ties(Crew& crew, Stop stop, MakeView&& make_view) {
         constexpr std::size_t grain = std::size_t{1} << 14;
         std::vector<std::vector<HalfEdge>> found((count_ + grain - 1) / grain);
         in_grains(count_, grain, crew, [&](std::size_t begin, std::size_t end) {
-            auto tie = make_tie();
+            auto view = make_view();
             std::vector<HalfEdge>& here = found[begin / grain];
             for_range(begin, end, stop, [&](std::size_t t) {
+                for_corners_ahead(t, 16, [&view](Index site) { view.fetch(site); });
                 for (std::size_t place = 0; place < 3; ++place) {
                     const HalfEdge e{static_cast<Index>(t), place};
-                    if (neighbor(e) > e.t && tie(e, twin(e))) {
+                    if (neighbor(e) > e.t && view.is_tied(*this, e, twin(e))) {
                         here.push_back(e);
                     }
                 }
@@ -70,6 +74,18 @@ class DualTriangles {
         }
         for (std::size_t t = 0; t < root_.size(); ++t) {
             root_[t] = root(root_[t]);  // whose root is known: it is lower
+        }
+    }
+
+    // Calls visit(corner) for the triangle `distance` after t, if there is one. Sites come in any order, triangles
+    // along a curve: what is kept of a site is asked for when its first triangle draws near.
+    template <class Visit>
+    void for_corners_ahead(std::size_t t, std::size_t distance, Visit&& visit) const {
+        if (t + distance < count_) {
+            const Index* const corner = corners(static_cast<Index>(t + distance));
+            visit(corner[0]);
+            visit(corner[1]);
+            visit(corner[2]);
         }
     }
 

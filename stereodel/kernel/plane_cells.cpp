@@ -101,12 +101,18 @@ Measured measure_carefully(const double* points, const Index* neighbors, std::si
 template <class Put>
 void for_cells(const double* points, const Cells& cells, int workers, Stop stop, Put&& put) {
     Crew crew(useful_workers(workers, cells.sites));
-    in_grains(cells.sites, grain, crew, [&](std::size_t first, std::size_t last) {
-        for_range(first, last, stop, [&](std::size_t site) {
+    constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
+    for_range(0, cells.sites, stop, [&](std::size_t site) {
+        if (cells.begin(site) == cells.end(site)) {
+            put(site, Measured{0.0, {nowhere, nowhere}, true});
+        }
+    });
+    in_grains(cells.filled, grain, crew, [&](std::size_t first, std::size_t last) {
+        for_range(first, last, stop, [&](std::size_t k) {
+            const auto site = static_cast<std::size_t>(cells.order[k]);
             const std::size_t begin = cells.begin(site), size = cells.end(site) - begin;
-            if (size == 0 || cells.vertices[begin] < 0) {
-                constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
-                put(site, Measured{size == 0 ? 0.0 : HUGE_VAL, {nowhere, nowhere}, true});
+            if (cells.vertices[begin] < 0) {
+                put(site, Measured{HUGE_VAL, {nowhere, nowhere}, true});
                 return;
             }
             Measured measured = measure<double>(points, cells.neighbors + begin, size, site, 1.0);

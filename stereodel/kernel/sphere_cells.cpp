@@ -57,7 +57,6 @@ class SphereCell {
         begin_ = cells_.begin(site);
         sides.resize(cells_.end(site) - begin_);
         bound_ = 0.0;
-        fetch_ahead();
         const UnitVector& p = units_[site];
         for (std::size_t k = 0; k < sides.size(); ++k) {
             Side<double>& side = sides[k];
@@ -147,15 +146,6 @@ class SphereCell {
     Index other(std::size_t k) const { return cells_.neighbors[begin_ + k]; }
     const UnitVector& unit(std::size_t k) const { return units_[static_cast<std::size_t>(other(k))]; }
     const double* at(Index a) const { return points_ + 3 * static_cast<std::ptrdiff_t>(a); }
-
-    // The neighbours of sites a few cells ahead.
-    void fetch_ahead() const {
-        constexpr std::size_t distance = 32;
-        const std::size_t end = cells_.begin(cells_.sites);
-        for (std::size_t k = begin_ + distance; k < std::min(end, begin_ + sides.size() + distance); ++k) {
-            prefetch(units_ + cells_.neighbors[k]);
-        }
-    }
 
     // The vertex between two neighbours, and the errors of its legs.
     //
@@ -303,6 +293,22 @@ CellMoment moment_of(const SphereCell& cell, const UnitVector& p) {
     return moment;
 }
 
+// Sites come in any order in memory, their neighbours in the order of `cells` soon after one another.
+void fetch_ahead(const Cells& cells, const Buffer<UnitVector>& units, std::size_t k) {
+    if (constexpr std::size_t far = 24, near = 12; k + far < cells.filled) {
+        prefetch(cells.offsets + cells.order[k + far]);
+        const auto site = static_cast<std::size_t>(cells.order[k + near]);
+        const std::size_t begin = cells.begin(site);
+        prefetch(cells.neighbors + begin);
+        prefetch(cells.neighbors + begin + 5);
+        const auto next = static_cast<std::size_t>(cells.order[k + near / 2]);
+        for (std::size_t entry = cells.begin(next); entry < cells.end(next); ++entry) {
+            prefetch(units.data() + cells.neighbors[entry]);
+            prefetch(units[static_cast<std::size_t>(cells.neighbors[entry])].lo + 2);
+        }
+    }
+}
+
 // Calls visit(cell, site) with cells that are taken, visit_empty(site) for sites without entries.
 template <class Visit, class VisitEmpty>
 void for_cells(const double* points, const Cells& cells, int workers, Stop stop, Visit&& visit,
@@ -310,13 +316,16 @@ void for_cells(const double* points, const Cells& cells, int workers, Stop stop,
     Crew crew(useful_workers(workers, cells.sites));
     Buffer<UnitVector> units(cells.sites);
     for_all(cells.sites, crew, stop, [&](std::size_t k) { units[k] = unit_vector(points + 3 * k); });
-    in_grains(cells.sites, std::size_t{1} << 12, crew, [&](std::size_t first, std::size_t last) {
+    for_range(0, cells.sites, stop, [&](std::size_t site) {
+        if (cells.begin(site) == cells.end(site)) {
+            visit_empty(site);
+        }
+    });
+    in_grains(cells.filled, std::size_t{1} << 12, crew, [&](std::size_t first, std::size_t last) {
         SphereCell cell(points, cells, units.data());
-        for_range(first, last, stop, [&](std::size_t site) {
-            if (cells.begin(site) == cells.end(site)) {
-                visit_empty(site);
-                return;
-            }
+        for_range(first, last, stop, [&](std::size_t k) {
+            fetch_ahead(cells, units, k);
+            const auto site = static_cast<std::size_t>(cells.order[k]);
             double area = HUGE_VAL;
             if (!cell.take(site) || !cell.is_good(area = cell.area())) {
                 cell.take_carefully(site);

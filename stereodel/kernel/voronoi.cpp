@@ -25,21 +25,21 @@ void check_rows(std::size_t sites, const Index* simplices, const Index* neighbor
     }
 }
 
-// `make_view()`: a view of the points with is_tied(dual, edge, twin), for the use of one thread.
+// `make_view()`: a view of the points for one thread; see DualTriangles::find_ties.
 template <class MakeView>
 Diagram voronoi(std::size_t sites, const Index* simplices, const Index* neighbors, std::size_t count, int workers,
                 Stop stop, MakeView&& make_view) {
     check_rows(sites, simplices, neighbors, count);
     DualTriangles dual(simplices, neighbors, count);
     Crew crew(useful_workers(workers, count));
-    dual.find_ties(crew, stop, [&] {
-        return [view = make_view(), &dual](HalfEdge e, HalfEdge twin) mutable { return view.is_tied(dual, e, twin); };
-    });
+    dual.find_ties(crew, stop, make_view);
     return cells_of(dual, sites, crew, stop);
 }
 
 struct PlaneView {
     PlanePoints points;
+
+    void fetch(Index site) const { prefetch(points.at(site)); }
 
     bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
         const Index* c = dual.corners(e.t);
@@ -51,6 +51,11 @@ struct PlaneView {
 // but the triangles face different ways.
 struct SphereView {
     Rays rays;
+
+    void fetch(Index site) const {
+        prefetch(rays.at(site));
+        prefetch(rays.at(site) + 2);  // it may begin at the end of a cache line
+    }
 
     bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
         const Index *c = dual.corners(e.t), *d = dual.corners(twin.t);

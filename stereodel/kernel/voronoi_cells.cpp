@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <tuple>
 
 namespace stereodel {
@@ -53,8 +52,9 @@ class CellBuilder {
 
     Diagram build() {
         find_sides();
+        // Neither can be divided; they can go side by side.
+        crew_.run(2, [this](Size task) { task == 0 ? list_vertices() : count_entries(); });
         number_vertices();
-        count_entries();
         diagram_.vertices = Buffer<Index>(entries_);
         diagram_.neighbors = Buffer<Index>(entries_);
         in_grains(dual_.count(), grain, crew_, [&](Size begin, Size end) {
@@ -111,15 +111,17 @@ class CellBuilder {
         return of_polygon(polygon, root);
     }
 
-    // Sorted into one list for each lowest site, the lists one after the other.
-    void number_vertices() {
+    // Into one list for each lowest site, the lists one after the other; list_end_[site] is where one ends.
+    void list_vertices() {
         std::vector<Index> polygon;
-        Buffer<Index> end(sites_ + 1);
-        std::fill_n(end.data(), end.size(), 0);
+        list_end_ = Buffer<Index>(sites_ + 1);
+        Index* const end = list_end_.data();
+        std::fill_n(end, sites_ + 1, 0);
         Size vertices = 0;
         const auto each_root = [&](auto&& visit) {
             for_range(0, dual_.count(), stop_, [&](Size k) {
                 const Index t = static_cast<Index>(k);
+                dual_.for_corners_ahead(k, 16, [end](Index site) { prefetch(end + site); });
                 if (dual_.root(t) == t) {
                     visit(lowest_sites(t, polygon));
                 }
@@ -132,19 +134,28 @@ class CellBuilder {
         for (Size site = 0; site < sites_; ++site) {
             end[site + 1] += end[site];
         }
-        Buffer<VertexKey> keys(vertices);
-        each_root([&](const LowestSites& sites) { keys[at(end[at(sites.first)]++)] = sites.key; });
-        // Now end[site] is where the list of the next site begins.
+        keys_ = Buffer<VertexKey>(vertices);
+        each_root([&](const LowestSites& sites) {
+            dual_.for_corners_ahead(at(sites.key.root), 8, [&](Index site) { prefetch(keys_.data() + end[at(site)]); });
+            keys_[at(end[at(sites.first)]++)] = sites.key;
+        });
+    }
+
+    // Each list sorted.
+    void number_vertices() {
         number_ = Buffer<Index>(dual_.count());
         in_grains(sites_, grain, crew_, [&](Size first, Size last) {
             for_range(first, last, stop_, [&](Size site) {
-                VertexKey* const begin = keys.data() + (site == 0 ? 0 : end[site - 1]);
-                std::sort(begin, keys.data() + end[site]);
-                for (VertexKey* key = begin; key < keys.data() + end[site]; ++key) {
-                    number_[at(key->root)] = static_cast<Index>(key - keys.data());
+                VertexKey* const begin = keys_.data() + (site == 0 ? 0 : list_end_[site - 1]);
+                VertexKey* const end = keys_.data() + list_end_[site];
+                std::sort(begin, end);
+                for (VertexKey* key = begin; key < end; ++key) {
+                    number_[at(key->root)] = static_cast<Index>(key - keys_.data());
                 }
             });
         });
+        const Size vertices = keys_.size();
+        keys_ = {};
         if (dual_.has_ties()) {
             list_sites(vertices);
         }
@@ -193,12 +204,20 @@ class CellBuilder {
         diagram_.offsets = Buffer<std::int64_t>(sites_ + 1);
         std::int64_t* const count = diagram_.offsets.data();
         std::fill_n(count, sites_ + 1, 0);
+        order_.reserve(sites_);
         for_range(0, dual_.count(), stop_, [&](Size k) {
             const Index t = static_cast<Index>(k);
+            dual_.for_corners_ahead(k, 16, [&](Index site) {
+                prefetch(start_.data() + site);
+                prefetch(count + site);
+            });
             for (Size place = 0; place < 3; ++place) {
                 const Size site = at(dual_.corners(t)[place]);
                 const bool at_border = dual_.neighbor({t, (place + 2) % 3}) < 0;
                 count[site + 1] += std::int64_t{!dual_.is_tied({t, (place + 1) % 3})} + std::int64_t{at_border};
+                if (start_[site] < 0) {
+                    order_.push_back(static_cast<Index>(site));
+                }
                 if (at_border || start_[site] < 0) {
                     start_[site] = static_cast<Index>(3 * k + place);
                 }
@@ -208,24 +227,19 @@ class CellBuilder {
             count[site + 1] += count[site];
         }
         entries_ = static_cast<Size>(count[sites_]);
+        diagram_.order = Buffer<Index>(order_.size());
+        std::copy(order_.begin(), order_.end(), diagram_.order.data());
     }
 
-    // Sites come in any order: what is kept of them is asked for some triangles before it is needed.
     void fetch_ahead(Size t) const {
-        constexpr Size far = 24, near = 12;
-        if (t + far >= dual_.count()) {
-            return;
-        }
-        for (Size place = 0; place < 3; ++place) {
-            const Size site = at(dual_.corners(static_cast<Index>(t + far))[place]);
+        dual_.for_corners_ahead(t, 24, [this](Index site) {
             prefetch(start_.data() + site);
             prefetch(diagram_.offsets.data() + site);
-        }
-        for (Size place = 0; place < 3; ++place) {
-            const Size site = at(dual_.corners(static_cast<Index>(t + near))[place]);
-            prefetch(diagram_.vertices.data() + diagram_.offsets[site]);
-            prefetch(diagram_.neighbors.data() + diagram_.offsets[site]);
-        }
+        });
+        dual_.for_corners_ahead(t, 12, [this](Index site) {
+            prefetch(diagram_.vertices.data() + diagram_.offsets[at(site)]);
+            prefetch(diagram_.neighbors.data() + diagram_.offsets[at(site)]);
+        });
     }
 
     // The cells of the sites around which to turn from triangle t.
@@ -251,10 +265,13 @@ class CellBuilder {
             entries.push_back(dual_.corners(t)[(place + 1) % 3]);
         }
         const Size size = entries.size() / 2;
-        Size lowest = 0;
-        for (Size k = 1; k < size; ++k) {
-            lowest = entries[2 * k] < entries[2 * lowest] ? k : lowest;
+        // Vertex and place in one number: no branch that would be guessed wrong in half of the cells.
+        std::int64_t least = std::numeric_limits<std::int64_t>::max();
+        for (Size k = 0; k < size; ++k) {
+            least = std::min(least, static_cast<std::int64_t>(entries[2 * k]) * (std::int64_t{1} << 32) +
+                                        static_cast<std::int64_t>(k));
         }
+        const Size lowest = static_cast<Size>(least & 0xFFFFFFFF);
         const Size offset = static_cast<Size>(diagram_.offsets[at(dual_.corners(t)[place])]);
         for (Size k = 0; k < size; ++k) {
             const Size from = lowest + k < size ? lowest + k : lowest + k - size;
@@ -268,9 +285,12 @@ class CellBuilder {
     Crew& crew_;
     Stop stop_;
     Diagram diagram_;
+    Buffer<VertexKey> keys_;
+    Buffer<Index> list_end_;
     Buffer<Index> side_;    // of each root of several triangles: 3 t + place of a side of its polygon
     Buffer<Index> number_;  // of each root: its vertex
     Buffer<Index> start_;   // of each site: 3 t + place
+    std::vector<Index> order_;
 };
 
 }  // namespace

@@ -43,6 +43,7 @@ class Diagram:
     region_neighbors: IntArray
     point_region: IntArray
     simplex_vertex: IntArray
+    _order: IntArray  # of sites with cells, along the curve of the triangles
     _threads: int
 
     @cached_property

@@ -76,7 +76,7 @@ class PlanarVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, simplex_vertex, sites, vertex = _kernel.voronoi_plane(*arrays, self._threads)
+        *cells, self._order, simplex_vertex, sites, vertex = _kernel.voronoi_plane(*arrays, self._threads)
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
@@ -112,7 +112,7 @@ class PlanarVoronoi(Diagram):
         scale = float(as_floats(radius, "radius"))
         if len(self.vertices) == 0:
             return np.where(np.diff(self.region_offsets) > 0, np.inf, 0.0) * scale**2
-        areas: FloatArray = _kernel.cell_areas_plane(self.points, *self._cells(), self._threads)
+        areas: FloatArray = _kernel.cell_areas_plane(self.points, *self._cells(), self._order, self._threads)
         return areas * scale**2
 
     def centroids(self) -> FloatArray:
@@ -129,7 +129,7 @@ class PlanarVoronoi(Diagram):
         """
         if len(self.vertices) == 0:
             return np.full((len(self.points), 2), np.nan)
-        return _kernel.cell_centroids_plane(self.points, *self._cells(), self._threads)
+        return _kernel.cell_centroids_plane(self.points, *self._cells(), self._order, self._threads)
 
     def segments(self, extent: npt.ArrayLike) -> tuple[FloatArray, Indices]:
         """The ridges as far as they lie in a rectangle, for drawing.

@@ -123,7 +123,7 @@ class SphericalVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, simplex_vertex, sites, vertex = _kernel.voronoi_sphere(*arrays, self._threads)
+        *cells, self._order, simplex_vertex, sites, vertex = _kernel.voronoi_sphere(*arrays, self._threads)
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
@@ -173,7 +173,7 @@ class SphericalVoronoi(Diagram):
         """
         scale = float(as_floats(radius, "radius"))
         if self._dimension == 2:
-            areas: FloatArray = _kernel.cell_areas_sphere(self.points, *self._cells(), self._threads)
+            areas: FloatArray = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
             return areas * scale**2
         areas = np.where(self.point_region == np.arange(len(self.points)), 4 * np.pi, 0.0)
         order = self._around_circle()
@@ -200,7 +200,7 @@ class SphericalVoronoi(Diagram):
          [ 0.          0.70710678 -0.70710678]]
         """
         if self._dimension == 2:
-            return _kernel.cell_centroids_sphere(self.points, *self._cells(), self._threads)
+            return _kernel.cell_centroids_sphere(self.points, *self._cells(), self._order, self._threads)
         centroids = np.full((len(self.points), 3), np.nan)
         order = self._around_circle()
         centroids[order] = unit(self.points[order]).hi

@@ -123,7 +123,7 @@ def merged_polygons(
     if len(chosen) == 0:
         return frozenset()
     voronoi = _kernel.voronoi_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.voronoi_sphere
-    offsets, vertices, across, vertex, *_ = voronoi(triangulation.points, chosen, neighbors_of(chosen))
+    offsets, vertices, across, _, vertex, *_ = voronoi(triangulation.points, chosen, neighbors_of(chosen))
     return frozenset(map(tuple, polygons(offsets, vertices, across, int(vertex.max()) + 1)))
 
 

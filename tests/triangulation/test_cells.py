@@ -30,11 +30,12 @@ def rotated(cycle):
 def test_a_square_is_one_vertex_whatever_its_diagonal(simplices):
     rows = np.array(simplices, dtype=np.int32)
     across = {0: [[-1, 1, -1], [-1, -1, 0]], 1: [[1, -1, -1], [-1, 0, -1]]}[simplices[0][2] == 3]
-    offsets, vertices, neighbors, simplex_vertex, sites, row_vertex = _kernel.voronoi_plane(
+    offsets, vertices, neighbors, order, simplex_vertex, sites, row_vertex = _kernel.voronoi_plane(
         SQUARE_POINTS, rows, np.array(across, dtype=np.int32)
     )
     assert listed(offsets, vertices) == [[-1, 0]] * 4
     assert listed(offsets, neighbors) == [[1, 3], [2, 0], [3, 1], [0, 2]]
+    assert sorted(order.tolist()) == [0, 1, 2, 3]
     assert simplex_vertex.tolist() == [0, 0]
     assert sites.tolist() == [[0, 1, 2]]
     assert row_vertex.tolist() == [0]
@@ -134,6 +135,9 @@ def test_wrong_arrays_are_refused():
     ):
         with pytest.raises(ValueError, match="not those of a Voronoi diagram"):
             _kernel.delaunay_of_sphere(diagram.points, *wrong)
+    for order in ([0, 1, 2, 3, 4, 4], [0, 6], [-1]):
+        with pytest.raises(ValueError, match="each site with entries once"):
+            _kernel.cell_areas_sphere(diagram.points, *diagram._cells(), np.array(order, dtype=np.int32))
     with pytest.raises(ValueError, match="out of range"):
         _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
     with pytest.raises(ValueError, match="same length"):
