@@ -40,13 +40,15 @@ class Gnomonic(TangentPlane):
     """
 
     def forward(self, xyz: npt.ArrayLike) -> FloatArray:
-        """Plane points (..., 2) of directions (..., 3); NaN from 90° from the centre on."""
+        """Plane points (..., 2) of directions (..., 3); NaN from 90° from the centre on, or where no double reaches."""
         return by_blocks(self._forward, as_directions(xyz, "xyz"))
 
     def _forward(self, rows: FloatArray) -> FloatArray:
         local = self.local(rows)
         far, height = _guarded(local[..., 2])
-        return nan_where(far, (local[..., :2] / height[..., None]).round() * self.radius + 0.0)
+        with np.errstate(over="ignore", invalid="ignore"):
+            image = (local[..., :2] / height[..., None]).round() * self.radius + 0.0
+        return nan_where(far | ~np.isfinite(image).all(axis=-1), image)
 
     def inverse(self, xy: npt.ArrayLike) -> FloatArray:
         """Unit vectors (..., 3) of plane points (..., 2)."""

@@ -13,7 +13,12 @@ DIRECTIONS = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.abs(v).max()
 VIEWS = st.sampled_from([Gnomonic, Orthographic])
 
 
+def test_gnomonic_images_beyond_all_doubles():
+    assert np.isnan(Gnomonic((0.0, 0.0)).forward([[5e-324, 0.0, 0.5], [5e-324, 0.5, 0.5]])).all()
+
+
 @given(VIEWS, CENTERS, DIRECTIONS, st.floats(0.1, 10))
+@example(Gnomonic, (0.0, 0.0), (5e-324, 0.0, 0.5), 1.0)
 def test_radial_distance_and_round_trip(view, center, vector, radius):
     projection = view(center, radius=radius)
     chi = np.radians(angular_distance(vector, lonlat_to_xyz(center)))

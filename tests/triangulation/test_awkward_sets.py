@@ -124,3 +124,21 @@ def test_the_cells_of_three_points_are_lunes_however_close_they_are(size):
     # Lunes between the bisectors: the angles at the axis are what the sides of the triangle leave, twice each.
     angles = np.array([np.pi - np.arctan(2.0), np.pi - np.arctan(2.0), 2 * np.arctan(2.0)])
     assert np.allclose(areas, 2 * angles, rtol=1e-5 if size > 1e-4 else 1e-13)
+
+
+@pytest.mark.parametrize("size", [1e-14, 1e-120, 1e-200, 5e-324])
+def test_two_points_share_a_cell_evenly_however_close_they_are(size):
+    wide = [[1.0, 1e-6, 1e-6], [1.0, -1e-6, 1e-6], [1.0, 0.0, -1e-6], [-1.0, 0.0, 0.0]]
+    diagram = SphericalVoronoi([[1.0, size, 0.0], [1.0, -size, 0.0], *wide])
+    areas = diagram.areas()
+    assert np.allclose(areas[:2], 1.125e-12, rtol=1e-7)  # the triangle of the bisectors, cut in half
+    assert np.isclose(areas.sum(), 4 * np.pi, rtol=1e-14)
+    middle = diagram.centroids()[:2]
+    assert np.allclose(middle[:, 1], [5e-7, -5e-7], rtol=1e-7)
+
+
+def test_three_points_of_no_distance_have_centroids():
+    points = np.array([[1.0, 1e-300, 0.0], [1.0, -1e-300, 0.0], [1.0, 0.0, 2e-300]])
+    near = SphericalVoronoi(points).centroids()
+    far = SphericalVoronoi(np.where(np.abs(points) < 1e-200, points * 1e290, points)).centroids()
+    assert np.allclose(near, far, atol=1e-9)
