@@ -58,30 +58,16 @@ bool spherical_center(const UnitVector& a, const UnitVector& b, const UnitVector
     return true;
 }
 
-// Brought to length 1 or so; returns what it was multiplied with, 0 if that leaves the range.
-double scale_up(RayEdge& edge) {
-    const double size = std::max({std::fabs(edge.v[0].hi), std::fabs(edge.v[1].hi), std::fabs(edge.v[2].hi)});
-    int exponent = 0;
-    std::frexp(size, &exponent);
-    const double scale = exponent > -1000 ? std::ldexp(1.0, -exponent) : 0.0;
-    for (DoubleDouble& x : edge.v) {
-        x = {x.hi * scale, x.lo * scale};
-    }
-    return scale;
-}
-
-// The same for points that are closer together, by differences that are off by 2^-99 (|d| + 2^-48): with them brought
-// to lengths up to 2, by 2^-98 (1 + 2^-48 scale). Their product is off by four times that at most, and by less than
-// 2^-54 of itself if it is 2^56 times as long.
+// The same for points that are closer together, by differences of relative accuracy: the product of two of length up to
+// 2 is off by less than 2^-95 of the larger loss, and by less than 2^-54 of itself if it is 2^41 times as long.
 bool close_center(const double* a, const double* b, const double* c, double* center) {
     const Ray ra(a), rb(b), rc(c);
-    RayEdge d(ra, rb), e(ra, rc);
-    const double scale = std::max(scale_up(d), scale_up(e));
+    const RayEdge d(ra, rb), e(ra, rc);
     DoubleDouble product[3];
     cross(d.v, e.v, product);
     const Pair normal[3] = {
         {product[0].hi, product[0].lo}, {product[1].hi, product[1].lo}, {product[2].hi, product[2].lo}};
-    if (!(std::sqrt(length_squared(normal)) > 0x1p-42 + 0x1p-90 * scale)) {
+    if (!(std::sqrt(length_squared(normal)) > 0x1p-41 * std::max(d.loss, e.loss))) {
         return false;
     }
     round_unit(normal, center);

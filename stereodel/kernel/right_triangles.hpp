@@ -17,15 +17,15 @@ namespace stereodel {
 
 constexpr double PI = 3.14159265358979323846;
 
-// A leg l as l = atan2(|D| dot, volume), for |D| = 2 sin h.
+// A leg as l = atan2(across, along), of a vector of any length.
 template <class Number>
 struct Leg {
-    Number dot{}, volume{};
+    Number across{}, along{};
 };
 
 // l of a leg, in [-pi, pi): at the very antipode of m it is -pi.
-inline double leg_angle(double length, const Leg<double>& leg) {
-    return leg.dot == 0.0 && leg.volume < 0.0 ? -PI : std::atan2(length * leg.dot, leg.volume);
+inline double leg_angle(const Leg<double>& leg) {
+    return leg.across == 0.0 && leg.along < 0.0 ? -PI : std::atan2(leg.across, leg.along);
 }
 
 // Half the area as the angle of a vector with m >= 0.
@@ -33,22 +33,32 @@ struct HalfArea {
     DoubleDouble m, n;
 };
 
-// tan(l/2) = Y/(X + H) = (H - X)/Y with X = volume, Y = |D| dot, H their length, and tan(h/2) = |D|/2/(1 + cos h).
-inline HalfArea half_area(DoubleDouble square, DoubleDouble cosine, const Leg<DoubleDouble>& leg) {
-    const DoubleDouble length = sqrt(leg.volume * leg.volume + square * leg.dot * leg.dot);
-    const DoubleDouble both = DoubleDouble{1.0, 0.0} + cosine;
-    if (leg.volume.hi >= 0.0) {
-        return {both * (leg.volume + length), square * leg.dot * DoubleDouble{0.5, 0.0}};
+// tan(l/2) = Y/(X + H) = (H - X)/Y with X = along, Y = across, H their length, and tan(h/2) = |D|/2/(1 + cos h), where
+// |D| = 2 sin h.
+inline HalfArea half_area(DoubleDouble length, DoubleDouble cosine, const Leg<DoubleDouble>& leg) {
+    const DoubleDouble hypotenuse = sqrt(leg.along * leg.along + leg.across * leg.across);
+    const DoubleDouble both = DoubleDouble{2.0, 0.0} + cosine + cosine;
+    DoubleDouble m = both * leg.across, n = length * (hypotenuse - leg.along);
+    if (leg.along.hi >= 0.0) {
+        m = both * (leg.along + hypotenuse);
+        n = length * leg.across;
+    } else if (leg.across.hi <= 0.0) {
+        m = -m;
+        n = -n;
     }
-    const DoubleDouble m = both * leg.dot * DoubleDouble{2.0, 0.0}, n = length - leg.volume;
-    return leg.dot.hi > 0.0 ? HalfArea{m, n} : HalfArea{-m, -n};
+    // Both may be as short as D.
+    int exponent = 0;
+    std::frexp(std::fmax(std::fabs(m.hi), std::fabs(n.hi)), &exponent);
+    const auto scaled = [exponent](DoubleDouble x) {
+        return DoubleDouble{std::ldexp(x.hi, -exponent), std::ldexp(x.lo, -exponent)};
+    };
+    return {scaled(m), scaled(n)};
 }
 
 // Both legs of a ridge have angles in [-pi, pi), and their sum should be its length, in (0, pi]: if the antipode of m
 // lies on the ridge it is 2 pi less.
-inline bool is_turned(double length, const Leg<double>& left, const Leg<double>& right) {
-    return (left.volume < 0.0 || right.volume < 0.0) &&
-           leg_angle(length, left) + leg_angle(length, right) < -PI / 2;
+inline bool is_turned(const Leg<double>& left, const Leg<double>& right) {
+    return (left.along < 0.0 || right.along < 0.0) && leg_angle(left) + leg_angle(right) < -PI / 2;
 }
 
 // atan t; for |t| < 2^-8 by its series, whose first term left out is t^9/9 < 2^-67 t.
@@ -105,14 +115,14 @@ inline TriangleMoment large_moment(double sin_h, double cos_h, double sin_l, dou
     return {0.5 * l * sin_h, l < 0.0 ? -towards : towards, 0.5 * (h - over * cos_l * sin_h)};
 }
 
-inline TriangleMoment moment(double square, double cosine, const Leg<double>& leg) {
-    const double length = std::sqrt(square), across = length * leg.dot;
-    const double hypotenuse = std::sqrt(leg.volume * leg.volume + across * across);
-    const double sin_l = across / hypotenuse, cos_l = leg.volume / hypotenuse, sin_h = length / 2;
-    if (leg.volume > 0.0 && sin_l * sin_l < 0x1p-7 && square < 0x1p-5) {
+// length: |D|.
+inline TriangleMoment moment(double length, double cosine, const Leg<double>& leg) {
+    const double hypotenuse = std::sqrt(leg.along * leg.along + leg.across * leg.across);
+    const double sin_l = leg.across / hypotenuse, cos_l = leg.along / hypotenuse, sin_h = length / 2;
+    if (leg.along > 0.0 && sin_l * sin_l < 0x1p-7 && sin_h * sin_h < 0x1p-7) {
         return small_moment(sin_h, cosine, sin_l, cos_l);
     }
-    return large_moment(sin_h, cosine, sin_l, cos_l, leg_angle(length, leg));
+    return large_moment(sin_h, cosine, sin_l, cos_l, leg_angle(leg));
 }
 
 }  // namespace stereodel

@@ -25,6 +25,10 @@ struct CellMoment {
         Pair v[3];
         double size = std::max({radial, std::fabs(rest[0]), std::fabs(rest[1]), std::fabs(rest[2])});
         size = radial > 0.5 * size ? radial : size;
+        if (!(size > 0.0)) {  // its area is below the least of doubles
+            std::copy(p.hi, p.hi + 3, result);
+            return;
+        }
         for (int k = 0; k < 3; ++k) {
             const DoubleDouble sum = two_sum(radial == size ? p.hi[k] : radial / size * p.hi[k], rest[k] / size);
             v[k] = {sum.hi, sum.lo};
@@ -36,15 +40,14 @@ struct CellMoment {
 // Both triangles of a ridge, in the frame of the site, the direction to the neighbour and their normal.
 void add_ridge(const double* p, const SphereCell& cell, std::size_t place, CellMoment& moment) {
     const Side<double>& side = cell.sides[place];
-    const TriangleMoment left = stereodel::moment(side.square, side.cosine, side.left);
-    const TriangleMoment right = stereodel::moment(side.square, side.cosine, side.right);
-    const double length = std::sqrt(side.square);
-    const double turned = is_turned(length, side.left, side.right) ? PI : 0.0;
-    moment.radial += left.radial + right.radial + turned * length / 2;
-    // The part of q - p across p. Beyond a right angle the sum cancels; there all cells are careful.
+    const TriangleMoment left = stereodel::moment(side.length, side.cosine, side.left);
+    const TriangleMoment right = stereodel::moment(side.length, side.cosine, side.right);
+    const double turned = is_turned(side.left, side.right) ? PI : 0.0;
+    moment.radial += left.radial + right.radial + turned * side.length / 2;
+    // The part of q - p across p. Beyond a right angle the sum cancels, near p it is too short for squares.
     double towards[3];
     for (int k = 0; k < 3; ++k) {
-        towards[k] = side.square < 2.0 ? side.edge[k] + 0.5 * side.square * p[k] : cell.towards(place)[k];
+        towards[k] = cell.is_careful() ? cell.towards(place)[k] : side.edge[k] + 0.5 * side.length * side.length * p[k];
     }
     const double across = std::sqrt(rays::dot_form(towards, towards));
     for (double& x : towards) {
@@ -72,23 +75,7 @@ void add_opposite_ridge(const double* p, const SphereCell& cell, std::size_t k, 
     add_arc(p, cell.right_vertex(k), moment);
 }
 
-// Half of angle times normal of every side; the site itself for cells that are nothing beside their distance from it.
-CellMoment moment_by_angles(const SphereCell& cell) {
-    CellMoment moment;
-    if (cell.angular_area() < WIDE) {
-        moment.radial = 1.0;
-        return moment;
-    }
-    for (std::size_t k = 0; k < cell.sides.size(); ++k) {
-        moment.add(-0.25 * cell.ridge_length(k), cell.sides[k].edge);
-    }
-    return moment;
-}
-
 CellMoment moment_of(const SphereCell& cell, const UnitVector& p) {
-    if (cell.by_angles()) {
-        return moment_by_angles(cell);
-    }
     CellMoment moment;
     for (std::size_t k = 0; k < cell.sides.size(); ++k) {
         if (cell.sides[k].cosine < OPPOSITE) {

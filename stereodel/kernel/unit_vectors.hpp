@@ -5,6 +5,7 @@
 // relative error, for what is closer together than that allows.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "double_double.hpp"
@@ -95,11 +96,15 @@ struct Ray {
     }
 };
 
-// q/|q| - p/|p| = E = (G - q (|q| - |p|)/|q|) / |p| with G = q - p and |q| - |p| = G.(q + p)/(|q| + |p|). Sums and
-// differences in double-double are relatively right even where they cancel, so all errors are relative to |G|, and that
-// is at most 1.1 |E| and what the lengths differ by, 2^-48: off by less than 2^-99 (|E| + 2^-48), however short E is.
+// A difference of unit vectors, v 2^exponent with v of length 1 or so:
+//     q/|q| - p/|p| = E = (G - q (|q| - |p|)/|q|) / |p|,  G = q - p,  |q| - |p| = G.(q + p)/(|q| + |p|).
+// Sums and differences in double-double are relatively right even where they cancel, and G is brought to length 1
+// first: off by less than 2^-98 |G|, `loss` = |G|/|E| times that of itself. That is 1 or so but where the directions
+// differ by less than the lengths, 2^-48.
 struct RayEdge {
     DoubleDouble v[3];
+    int exponent;
+    double loss;
 
     RayEdge(const Ray& p, const Ray& q) {
         DoubleDouble difference[3], sum[3];
@@ -107,10 +112,24 @@ struct RayEdge {
             difference[k] = q.v[k] - p.v[k];
             sum[k] = q.v[k] + p.v[k];
         }
+        exponent = normalize(difference);
         const DoubleDouble growth = dot(difference, sum) / (q.length * (q.length + p.length));
         for (int k = 0; k < 3; ++k) {
             v[k] = (difference[k] - q.v[k] * growth) / p.length;
         }
+        const int more = normalize(v);
+        exponent += more;
+        loss = std::ldexp(2.0, -more);
+    }
+
+    // Brings the longest component to [1/2, 1); returns the exponent that was taken out.
+    static int normalize(DoubleDouble* vector) {
+        int taken = 0;
+        std::frexp(std::max({std::fabs(vector[0].hi), std::fabs(vector[1].hi), std::fabs(vector[2].hi)}), &taken);
+        for (int k = 0; k < 3; ++k) {
+            vector[k] = {std::ldexp(vector[k].hi, -taken), std::ldexp(vector[k].lo, -taken)};
+        }
+        return taken;
     }
 };
 

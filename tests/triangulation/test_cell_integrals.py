@@ -5,7 +5,7 @@ from fractions import Fraction
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy import spatial
 
@@ -13,6 +13,18 @@ from stereodel.triangulation import PlanarVoronoi, SphericalDelaunay, SphericalV
 
 GENERAL = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3  # an orthogonal matrix: no axis is special
 SIZES = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15]
+# The angle between the first and the sixth is a right one.
+RIGHT_ANGLE = [
+    (2, -1, 0),
+    (-1, -2, 2),
+    (0, 0, 1),
+    (0, 2, 2),
+    (2, 1, -2),
+    (1, 2, -1),
+    (1, -2, 0),
+    (-2, 0, 0),
+    (-1, 2, 0),
+]
 
 
 def units(points):
@@ -95,6 +107,20 @@ def test_sizes_of_every_kind_in_one_diagram():
             assert diagram.centroids()[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-12)
 
 
+@pytest.mark.parametrize("size", [1e-30, 1e-100, 1e-250])
+def test_clusters_beside_an_axis(size):
+    """Directions (1, y, z) are as close as doubles allow: differences of any size, not only those of unit vectors."""
+    yz = np.random.default_rng(7).normal(size=(12, 2)) * size
+    points = np.vstack([np.column_stack([np.ones(12), yz]), [[-1, 0, 0.1], [0, 1, 0]]])
+    diagram = SphericalVoronoi(points)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    with mpmath.workdps(800):
+        for site in range(len(points)):
+            area, total = cell_in_many_digits(points, diagram, site)
+            assert float(area) == pytest.approx(areas[site], rel=2e-13, abs=0)
+            assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-12)
+
+
 def exact_planar_cell(points, diagram, site):
     """Area and centroid as fractions, from circumcentres as fractions."""
     start, end = diagram.region_offsets[site : site + 2]
@@ -170,6 +196,7 @@ SMALL = st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=1, m
 
 @settings(deadline=None, max_examples=150)
 @given(SMALL)
+@example(RIGHT_ANGLE)
 def test_cells_of_small_integer_directions(vectors):
     """Ties, hemispheres, great circles, antipodes: areas add up, and so do the integrals of x, to zero."""
     diagram = SphericalVoronoi(vectors)
