@@ -6,6 +6,7 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import islice
 from typing import TextIO
 
 import numpy as np
@@ -17,6 +18,8 @@ from stereodel.io.tables import MISSING, Column, PointTable, table_of
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50
 """Lines from which the separator is found."""
+BLOCK = 20_000
+"""Rows that are taken apart at once."""
 
 Rows = list[list[str]]
 
@@ -31,16 +34,25 @@ def read_csv(text: str, *, lon: str | None = None, lat: str | None = None) -> Po
 
 def split_columns(text: str) -> tuple[dict[str, Column], npt.NDArray[np.intp]]:
     """Columns of a table as text by name, and the numbers of its rows."""
-    rows = [row for row in _split(text) if any(field.strip() for field in row)]
-    if not rows:
+    rows = (row for row in _split(text) if any(row) and (len(row) > 1 or row[0].strip()))
+    first = next(rows, None)
+    if first is None:
         raise ValueError("the table is empty: there is not even a line with the names of the columns")
-    names, rows = _header(rows)
-    numbers = np.arange(1, len(rows) + 1)
-    wrong = next((k for k, row in enumerate(rows) if len(row) != len(names)), None)
-    if wrong is not None:
-        raise ValueError(f"row {numbers[wrong]} has {len(rows[wrong])} fields, but there are {len(names)} columns")
-    fields = map(np.array, zip(*rows, strict=True)) if rows else (np.zeros(0) for _ in names)
-    return dict(zip(names, fields, strict=True)), numbers
+    names, data = _header(first)
+    # In blocks: a million lists at once keep the interpreter's collector of garbage busy.
+    blocks = [_columns(data, len(names), 0)]
+    while block := list(islice(rows, BLOCK)):
+        blocks.append(_columns(block, len(names), sum(len(columns[0]) for columns in blocks)))
+    table = {name: np.concatenate(parts) for name, parts in zip(names, zip(*blocks, strict=True), strict=True)}
+    return table, np.arange(1, len(table[names[0]]) + 1)
+
+
+def _columns(rows: Rows, width: int, before: int) -> list[Column]:
+    """Rows of text as columns; `before` is how many rows of data came earlier."""
+    for number, row in enumerate(rows, before + 1):
+        if len(row) != width:
+            raise ValueError(f"row {number} has {len(row)} fields, but there are {width} columns")
+    return [np.array(column) for column in zip(*rows, strict=True)] or [np.zeros(0, dtype="<U1")] * width
 
 
 def _split(text: str) -> Iterable[list[str]]:
@@ -62,20 +74,19 @@ def _lengths(lines: list[str], mark: str) -> set[int]:
     return set(lengths[:-1] or lengths)
 
 
-def _header(rows: Rows) -> tuple[list[str], Rows]:
-    """Names of the columns and the rows of data; two columns of numbers without names are longitude and latitude."""
-    first = [field.strip() for field in rows[0]]
+def _header(row: list[str]) -> tuple[list[str], Rows]:
+    """Names of the columns, and the row if it is data; two columns without names are longitude and latitude."""
+    first = [field.strip() for field in row]
     if any(_NUMBER.fullmatch(field) for field in first):
         names = [f"column_{k}" for k in range(1, len(first) + 1)]
-        return (["lon", "lat"] if len(first) == 2 else names), rows
+        return (["lon", "lat"] if len(first) == 2 else names), [row]
     repeated = sorted({name for name in first if first.count(name) > 1})
     if repeated:
         raise ValueError(f"there are several columns with the name {', '.join(map(repr, repeated))}")
-    return first, rows[1:]
+    return first, []
 
 
 _NUMBER = re.compile(r"[-+]?(\d+[.,]?\d*|[.,]\d+)([eE][-+]?\d+)?")
-_CODE = re.compile(r"[-+]?0\d")
 
 
 def typed(values: Sequence[str] | Column) -> Column:
@@ -83,17 +94,31 @@ def typed(values: Sequence[str] | Column) -> Column:
 
     Digits after a leading zero are a code, not a number.
     """
-    text = np.char.strip(np.asarray(values, dtype=np.str_))
-    if any(map(_CODE.match, text.tolist())):
+    text = np.asarray(values, dtype=np.str_)
+    if not _has_codes(text):
+        for kind in (np.int64, np.float64):
+            try:
+                return text.astype(kind)
+            except (ValueError, OverflowError):
+                continue
+    text = np.char.strip(text)
+    if _has_codes(text):
         return text
-    try:
-        return text.astype(np.int64)
-    except (ValueError, OverflowError):
-        pass
     try:
         return np.where(np.isin(np.char.lower(text), MISSING), "nan", text).astype(np.float64)
     except ValueError:
         return text
+
+
+def _has_codes(text: Column) -> bool:
+    """Whether a value begins with a zero and another digit, a sign before them or not."""
+    if not text.size or text.dtype.itemsize < 8:
+        return False
+    letters = np.ascontiguousarray(text).view("<U1").reshape(len(text), -1)
+    signed = np.isin(letters[:, 0], ["+", "-"])
+    first = np.where(signed, letters[:, 1], letters[:, 0])
+    second = np.where(signed, letters[:, min(2, letters.shape[1] - 1)], letters[:, 1])
+    return bool(((first == "0") & (second >= "0") & (second <= "9")).any())
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
@@ -98,6 +99,9 @@ def numbers(values: Column, name: str, rows: npt.NDArray[np.intp]) -> FloatArray
 
 def _parsed(array: Column, name: str, rows: npt.NDArray[np.intp]) -> FloatArray:
     """Text as numbers, NaN where it is empty; a comma may be the decimal sign."""
+    if array.dtype.kind == "U":
+        with suppress(ValueError):
+            return array.astype(np.float64)
     text = np.array(["" if value is None else str(value).strip() for value in array.tolist()], dtype=np.str_)
     text = np.where(np.isin(np.char.lower(text), MISSING), "nan", text)
     for form in (text, np.char.replace(text, ",", ".")):

@@ -144,6 +144,16 @@ def test_wrong_files(content, message):
         read_points(io.BytesIO(content))
 
 
+def test_long_tables_are_read_in_blocks(monkeypatch):
+    monkeypatch.setattr("stereodel.io.csv_text.BLOCK", 2)
+    rows = [f"{k},{k / 2},name {k}" for k in range(7)]
+    table = read_points(io.StringIO("\n".join(["lon,lat,name", *rows, ",,", "", " "])))
+    assert table.lonlat.tolist() == [[k, k / 2] for k in range(7)]
+    assert table.columns["name"][6] == "name 6"
+    with pytest.raises(ValueError, match="row 6 has 1 fields"):
+        read_points(io.StringIO("\n".join(["lon,lat,name", *rows[:5], "7", *rows[5:]])))
+
+
 def test_only_a_header():
     assert len(read_points(io.StringIO("lon,lat,name\n"))) == 0
 
