@@ -123,17 +123,22 @@ Quadrature leaves less than 1e-7 for the whole sphere. In a hemisphere the mean 
 """
 
 AT_POLE: Final = 2.0**-50
-"""Largest |x|, |y| of a point of a map's border, a unit vector, at which it counts as lying at a pole.
+"""Components of a point of a map's border, a unit vector, that count as zero; distance from the axis at a pole.
 
-So too |y| of a point on the meridians 0 and 180. A few roundings of a computed point, 6 nanometres on Earth; without it
-the rounding noise of an arc along the 180th meridian would cut its cells into hundreds of pieces without width.
+A few roundings of a computed point, 6 nanometres on Earth. Without it the rounding noise of an arc along the 180th
+meridian would cut its cells into hundreds of pieces without width.
 """
 
-BORDER_HALVINGS: Final = 8
-"""How often the chords of a border are halved where straight lines on a map cross each other.
+THIN_CELL: Final = 1e-13
+"""Width of a cell, radians, below which its chords are not halved to keep its sides apart on a map: 0.6 micrometres.
 
-A chord of 1° strays from its arc by a hundred metres, one of 1/256° by two millimetres. Cells that are narrower still
-are hardly ever there for more than rounding.
+Points on a map are rounded to 2e-16 rad, and the two sides of such a cell are arcs between rounded points.
+"""
+
+BORDER_STEPS: Final = 2**14
+"""Most chords of one cell's border that are halved at once where straight lines on a map cross each other.
+
+A cell 90° long and 0.1 m wide takes 2¹² of them. A cell that takes more is hardly there for more than rounding.
 """
 
 DEGREE_ROUNDING: Final = 2.0**-43

@@ -133,7 +133,7 @@ class Chains:
 def sample(arcs: Arcs, max_segment: float, latitude: Latitude) -> Chains:
     """Chains with chords of at most `max_segment` degrees, also in longitude."""
     step_rad = float(np.radians(max_segment))
-    points, owner = _with_crossings(*_equal_steps(arcs, step_rad))
+    points, owner = _with_seam(*_with_poles(*_equal_steps(arcs, step_rad)))
     chains = Chains.of(*_with_longitudes(points, owner, step_rad), latitude)
     while len(steps := _too_near(arcs, chains)):
         chains = chains.with_middles(steps)
@@ -169,21 +169,30 @@ def _equal_steps(arcs: Arcs, step_rad: float) -> tuple[FloatArray, Indices]:
     return _snapped(points), owner
 
 
-def _with_crossings(points: FloatArray, owner: Indices) -> tuple[FloatArray, Indices]:
-    """The same chains with a point wherever they cross the 180th meridian or a pole.
+def _with_poles(points: FloatArray, owner: Indices) -> tuple[FloatArray, Indices]:
+    """The same chains with the poles where they pass within rounding."""
+    p, q = points[:-1, :2], points[1:, :2]
+    chord = q - p
+    along, across = -np.sum(p * chord, axis=1), p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    length = _length(chord)
+    passed = (owner[:-1] == owner[1:]) & (along > 0) & (along < length**2) & (np.abs(across) <= AT_POLE * length)
+    place = np.flatnonzero(passed)
+    poles = np.zeros((len(place), 3))
+    poles[:, 2] = np.sign(points[place, 2])
+    return _inserted(points, owner, place, poles)
 
-    Where a chord meets the plane y = 0, or x = 0 if it lies in that plane, is a point of its great circle as well.
+
+def _with_seam(points: FloatArray, owner: Indices) -> tuple[FloatArray, Indices]:
+    """The same chains with a point wherever they cross the 180th meridian.
+
+    Where a chord meets the plane y = 0 is a point of its great circle as well.
     """
     p, q = points[:-1], points[1:]
-    within = (p[:, 1] == 0) & (q[:, 1] == 0)
-    crossed = (owner[:-1] == owner[1:]) & np.where(within, p[:, 0] * q[:, 0] < 0, p[:, 1] * q[:, 1] < 0)
-    place = np.flatnonzero(crossed)
-    p, q, axis = p[place], q[place], np.where(within[place], 0, 1)[:, None]
-    meeting = p * np.abs(np.take_along_axis(q, axis, 1)) + q * np.abs(np.take_along_axis(p, axis, 1))
-    np.put_along_axis(meeting, axis, 0.0, 1)
-    meeting = _snapped(_unit(meeting))
-    wanted = meeting[:, 0] <= 0
-    return _inserted(points, owner, place[wanted], meeting[wanted])
+    place = np.flatnonzero((owner[:-1] == owner[1:]) & (p[:, 1] * q[:, 1] < 0))
+    meeting = p[place] * np.abs(q[place, 1:2]) + q[place] * np.abs(p[place, 1:2])
+    meeting[:, 1] = 0.0
+    wanted = meeting[:, 0] < 0
+    return _inserted(points, owner, place[wanted], _unit(meeting[wanted]))
 
 
 def _with_longitudes(points: FloatArray, owner: Indices, step_rad: float) -> tuple[FloatArray, Indices]:
@@ -205,11 +214,9 @@ def _inserted(points: FloatArray, owner: Indices, place: Indices, new: FloatArra
 
 
 def _snapped(points: FloatArray) -> FloatArray:
-    """Points within rounding of the poles, or of the plane y = 0, exactly there."""
-    near = np.abs(points) <= AT_POLE
-    points[near[:, 1], 1] = 0.0
-    at_pole = near[:, 0] & near[:, 1]
-    points[at_pole, 0] = 0.0
+    """Points within rounding of a plane of two axes exactly there, those near a pole at the pole."""
+    points[np.abs(points) <= AT_POLE] = 0.0
+    at_pole = (points[:, 0] == 0) & (points[:, 1] == 0)
     points[at_pole, 2] = np.sign(points[at_pole, 2])
     return points
 

@@ -40,10 +40,19 @@ class Box:
         inside: BoolArray = (self.left < x) & (x < self.right) & (self.bottom < y) & (y < self.top)
         return inside
 
+    def clipped(self, points: FloatArray) -> FloatArray:
+        """Points (..., 2), those outside moved onto the border."""
+        return np.clip(points, [self.left, self.bottom], [self.right, self.top])
+
+    def same_side(self, a: FloatArray, b: FloatArray) -> BoolArray:
+        """Whether pairs of points (k, 2) lie on one side of the border."""
+        low, high = np.array([self.left, self.bottom]), np.array([self.right, self.top])
+        return np.asarray((((a == low) & (b == low)) | ((a == high) & (b == high))).any(axis=1))
+
     def nearest(self, points: FloatArray) -> FloatArray:
         """Points (k, 2) moved onto the nearest side."""
         low, high = np.array([self.left, self.bottom]), np.array([self.right, self.top])
-        moved = np.clip(points, low, high)
+        moved = self.clipped(points)
         gaps = np.concatenate([moved - low, high - moved], axis=1)
         side, row = np.argmin(gaps, axis=1), np.arange(len(moved))
         moved[row, side % 2] = np.concatenate([low, high])[side]
@@ -74,7 +83,8 @@ class Box:
 def close_along(box: Box, chains: list[FloatArray]) -> list[FloatArray]:
     """Closed rings of chains (k, 2) that run from border to border, the region on the left of each.
 
-    From the end of a chain the ring follows the border counterclockwise to the nearest beginning of a chain.
+    From the end of a chain the ring follows the border counterclockwise to the nearest beginning of a chain. Chains
+    that do not close so, as of a region narrower than rounding, make no ring.
     """
     begins = np.array([box.place(chain[0]) for chain in chains])
     around = 2 * (box.width + box.height)
@@ -89,6 +99,6 @@ def close_along(box: Box, chains: list[FloatArray]) -> list[FloatArray]:
             following = int(np.argmin((begins - end) % around))
             pieces += [chains[current], box.between(end, float(begins[following]))]
             current = following
-        assert current == first, "chains of a region end where they do not begin"
-        rings.append(np.concatenate(pieces))
+        if current == first:
+            rings.append(np.concatenate(pieces))
     return rings

@@ -88,11 +88,11 @@ def to_geodataframe(
 
     Notes
     -----
-    Polygons are valid, counterclockwise, cut at ±180° and led along ±90° around the poles; those of the sphere tile
-    [−180, 180] × [−90, 90] without gaps or overlaps, since every arc is sampled once for both of its sides and chords
-    are halved where straight lines on the map would cross. Cells narrower than the spacing of degrees as doubles
-    (10⁻⁸ m) are the exception: they are made valid, or empty. Triangles that are `closing` are no part of the sphere's
-    surface and have no row; nor have edges that only they have.
+    Polygons are valid, counterclockwise, cut at ±180° and led along ±90° around the poles; those of the
+    sphere tile [−180, 180] × [−90, 90] without gaps or overlaps, since every arc is sampled once for both of its sides
+    and chords are halved where straight lines on the map would cross. Cells and triangles narrower than a micrometre
+    are the exception: they are valid or empty, and may overlap others as far as chords stray from arcs. Triangles that
+    are `closing` are no part of the sphere's surface and have no row; nor have edges that only they have.
 
     Examples
     --------

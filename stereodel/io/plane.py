@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_floats
+from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.io.boxes import Box, close_along
 from stereodel.io.faces import Indices, voronoi_faces
 from stereodel.io.polygons import Geometries, assembled, repaired
@@ -64,13 +65,19 @@ def _cut_cells(diagram: PlanarVoronoi, box: Box, cells: Indices) -> Iterator[tup
 
 
 def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:
-    """The ridges' parts in the rectangle, with ends that are vertices or lie on its border exactly."""
+    """The ridges' parts in the rectangle, with ends that are vertices or lie on its border exactly.
+
+    A vertex within rounding of the border is on it, for all its ridges alike; parts along the border are left out.
+    """
     pieces, ridge = diagram.segments((box.left, box.right, box.bottom, box.top))
     ends = diagram.ridge_vertices[ridge]
     vertices = diagram.vertices[ends] if len(diagram.vertices) else np.full_like(pieces, np.nan)
-    loose = (ends < 0) | (vertices != pieces).any(axis=-1)
-    pieces[loose] = box.nearest(pieces[loose])
-    return pieces, ridge
+    size = max(map(abs, (box.left, box.right, box.bottom, box.top)))
+    at_vertex = (ends >= 0) & (np.abs(pieces - vertices).max(axis=-1) <= 8 * UNIT_ROUNDOFF * size)
+    pieces[at_vertex] = box.clipped(vertices[at_vertex])
+    pieces[~at_vertex] = box.nearest(pieces[~at_vertex])
+    inward = ~box.same_side(pieces[:, 0], pieces[:, 1]) & (pieces[:, 0] != pieces[:, 1]).any(axis=1)
+    return pieces[inward], ridge[inward]
 
 
 def _chained(sides: FloatArray) -> list[FloatArray]:

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray
-from stereodel.constants import BORDER_HALVINGS, DEGREE_ROUNDING
+from stereodel._arrays import BoolArray, FloatArray
+from stereodel.constants import BORDER_STEPS, DEGREE_ROUNDING, THIN_CELL
 from stereodel.io.arcs import Arcs, Chains, sample
 from stereodel.io.extras import optional
 from stereodel.io.faces import Faces, Indices
-from stereodel.io.rings import Rings, around, rings_of
+from stereodel.io.rings import WORLD, Rings, around, rings_of
 from stereodel.sphere.latitudes import Latitude
 
 Geometries = npt.NDArray[np.object_]
@@ -22,35 +22,56 @@ def sphere_polygons(arcs: Arcs, faces: Faces, max_segment: float, latitude: Lati
     """A Polygon or MultiPolygon for each face, empty for one without sides.
 
     Straight lines on a map between points of neighbouring arcs may cross where a face is narrow. If all rings are
-    simple and counterclockwise they tile the map, as each side is shared by two; so chords that cross are halved.
+    simple and counterclockwise they tile the map, as each side is shared by two; so chords of the others are halved.
     """
     chains = sample(arcs, max_segment, latitude)
     result, wrong = assembled(rings_of(faces, chains), len(faces.offsets) - 1)
-    for _ in range(BORDER_HALVINGS):
-        places = _crossing_steps(faces.subset(np.flatnonzero(wrong)), chains)
-        if not len(places):
-            break
+    while len(places := _straying_steps(faces.subset(np.flatnonzero(wrong)), chains)):
         finer = np.unique(chains.owner[places])
         chains = chains.with_middles(places)
         changed = np.unique(faces.owner[np.isin(faces.arcs, finer)])
         result[changed], wrong[changed] = assembled(rings_of(faces.subset(changed), chains), len(changed))
+    shapely = optional("shapely", "geo")
+    # A border that runs round a pole the other way by rounding has the rest of the map inside.
+    inverted = (_widths(faces, chains) < THIN_CELL) & (shapely.area(result) > WORLD.width * WORLD.height / 10)
+    result[inverted] = shapely.Polygon()
     return repaired(result, wrong)
 
 
-def _crossing_steps(faces: Faces, chains: Chains) -> Indices:
-    """Steps that meet another one of the same face, or all steps of a face in which none do."""
+def _straying_steps(faces: Faces, chains: Chains) -> Indices:
+    """Steps whose chords stray as far as to another step of the same face, or all of a face without such steps."""
     shapely = optional("shapely", "geo")
     index, face, step = around(faces, chains)
     if not len(index):
         return step
-    ends = chains.on_map(step)
+    ends, off = chains.on_map(step), chains.straying(step, chains.middles(step)).max(axis=1)
     lines = shapely.linestrings(ends)
-    i, j = shapely.STRtree(lines).query(lines, predicate="intersects")
-    meeting = np.zeros(len(index), dtype=np.bool_)
-    meeting[i[(face[i] == face[j]) & (ends[i][:, :, None] != ends[j][:, None]).any(axis=-1).all(axis=(1, 2))]] = True
-    strays = chains.straying(step, chains.middles(step)).max(axis=1) > DEGREE_ROUNDING
-    found = np.bincount(face, meeting, minlength=len(faces.offsets) - 1) > 0
-    return np.unique(step[(meeting | ~found[face]) & strays])
+    i, j = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=2 * off)
+    apart = (ends[i][:, :, None] != ends[j][:, None]).any(axis=-1).all(axis=(1, 2))
+    near = np.zeros(len(index), dtype=np.bool_)
+    near[i[(face[i] == face[j]) & apart]] = True
+    count = len(faces.offsets) - 1
+    chosen = (near | (np.bincount(face, near, minlength=count) == 0)[face]) & (off > DEGREE_ROUNDING)
+    useful = (np.bincount(face, chosen, minlength=count) <= BORDER_STEPS) & (_widths(faces, chains) > THIN_CELL)
+    return np.unique(step[chosen & useful[face]])
+
+
+def _widths(faces: Faces, chains: Chains) -> FloatArray:
+    """About how wide faces are, (f,): area over length of the border; infinite for those that are not narrow at all.
+
+    The area as seen from the middle of the border, where chords of one great circle cancel however they are cut. A
+    narrow face is no longer than half a great circle, whose points have a mean of length 2/π.
+    """
+    index, face, step = around(faces, chains)
+    start, chord, count = chains.xyz[step], chains.xyz[step + 1] - chains.xyz[step], len(faces.offsets) - 1
+    lengths = np.sqrt(np.sum(chord**2, axis=1))
+    length = np.bincount(face, lengths, minlength=count)
+    sums = np.column_stack([np.bincount(face, start[:, k] * lengths, minlength=count) for k in range(3)])
+    middle = sums / np.where(length > 0, length, 1.0)[:, None]
+    seen = np.sum(middle[face] * np.cross(start, chord), axis=1) * np.where(index == step, 1.0, -1.0)
+    area = np.abs(np.bincount(face, seen, minlength=count))
+    narrow = np.sum(middle**2, axis=1) > 1 / 4
+    return np.where(narrow, area / np.where(length > 0, length, 1.0), np.inf)
 
 
 def assembled(rings: Rings, count: int) -> tuple[Geometries, BoolArray]:

@@ -42,7 +42,9 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude = "spher
     ImportError
         Without xarray (``pip install stereodel[grid]``).
 
-    Notes ----- Triangles that are `closing`, unbounded cells and duplicates' cells are left out. Cells between two
+    Notes
+    -----
+    Triangles that are `closing`, unbounded cells and duplicates' cells are left out. Cells between two
     opposite vertices have the middles of their ridges as further nodes. ``uxarray.open_grid`` takes the dataset.
     Source: UGRID Conventions 1.0, https://ugrid-conventions.github.io/ugrid-conventions.
 

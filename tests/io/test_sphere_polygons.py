@@ -44,6 +44,7 @@ SETS = {
     "meridians 0 and 180": circle(7, 1, 0.1),
     "meridians 90 and -90": circle(6, 0),
     "oblique great circle": circle(6, 2) @ np.linalg.qr(RANDOM[:3])[0],
+    "border over both poles": lonlat_to_xyz([[0, 1], [1, 1]]),
     "octahedron": np.vstack([AXES, -AXES]),
     "cube, vertices at the poles": [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)],
     "random": RANDOM,
@@ -59,6 +60,18 @@ SETS = {
     "station at the south pole": np.vstack([STATION, RANDOM[:30]]),
     "narrow strips": np.vstack([lonlat_to_xyz([[10, 50 + 1e-5 * k] for k in range(12)]), RANDOM[:5]]),
 }
+
+
+@pytest.mark.parametrize("step", [1e-6, 1e-12, 1e-14, 3e-16])
+@pytest.mark.parametrize("what", ["cells", "triangles"])
+def test_points_on_a_great_circle_but_for_rounding(step, what):
+    """Triangles and cells without a width to speak of: nothing fails, nothing is invalid, nothing covers the map."""
+    frame_of_axes = np.linalg.qr(np.random.default_rng(4).normal(size=(3, 3)))[0]
+    angle = np.array([0, step, 2 * step, 1, 2, 2 + step, 4])
+    points = np.cos(angle)[:, None] * frame_of_axes[0] + np.sin(angle)[:, None] * frame_of_axes[1]
+    frame = to_geodataframe(SphericalVoronoi(points), what=what)
+    assert frame.is_valid.all()
+    assert shapely.area(frame.geometry.values).sum() == pytest.approx(frame["area"].sum() * WORLD / (4 * np.pi), abs=1)
 
 
 def assert_tiles(geometry, cells=True):
@@ -101,6 +114,23 @@ def test_triangles_tile_the_map(name):
     assert_tiles(frame.geometry.values)
     assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
     assert (frame[["a", "b", "c"]].to_numpy() == triangulation.simplices[frame["triangle"]]).all()
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+@pytest.mark.parametrize("height", [1e-2, 1e-5, 1e-7])
+def test_a_thin_triangle_keeps_its_orientation(side, height):
+    """The third corner is 0.6 m to 60 km from the longest side, whose chords of 10° stray by more."""
+    a, b = lonlat_to_xyz([[0, 60], [40, 60]])
+    normal = np.cross(a, b) / np.linalg.norm(np.cross(a, b))
+    triangulation = SphericalDelaunay([a, b, 0.6 * a + 0.4 * b + side * height * normal])
+    check_delaunay(triangulation.points, triangulation.simplices)
+    frame = to_geodataframe(triangulation, max_segment=10)
+    ring = shapely.get_exterior_ring(frame.geometry.values)
+    assert frame.is_valid.all()
+    assert shapely.is_ccw(ring).tolist() == [True]
+    fine = shapely.segmentize(ring[0], 0.01)
+    lambert = np.radians(shapely.get_coordinates(fine))
+    assert shapely.Polygon(np.column_stack([lambert[:, 0], np.sin(lambert[:, 1])])).area > 0
 
 
 def test_closing_triangles_have_no_row():
