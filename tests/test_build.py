@@ -17,7 +17,7 @@ from _shared import INK
 
 class Drawing:
     def save(self, out, *, size=None, text=True):
-        temporary = Path(out) / ".part"
+        temporary = Path(out) / ".{name}.part"  # scripts run at the same time
         temporary.write_text(INK + str(os.getpid()))
         os.replace(temporary, Path(out) / "{name}.txt")
         return {{"pixel_hash": "abc", "renderer": "none"}}
