@@ -19,6 +19,8 @@ constexpr Index outside = -1;  // no triangle
 // Triangles, counterclockwise, smallest point first; `neighbors` opposite each corner, or nothing.
 struct Triangles {
     Buffer<Index> corners, neighbors;  // three a triangle
+
+    std::size_t count() const { return corners.size() / 3; }
 };
 
 // Writes the triangles of a subdivision in the order of its edges: that of the curve, but for edges across wide cuts. A
