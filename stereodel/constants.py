@@ -152,3 +152,9 @@ CHORD_CLEARANCE: Final = 0.125
 
 Well below 1, so that every point lies in its own cell on a map, however close it is to the next one.
 """
+
+LARGEST_EXTENT: Final = 170.0
+"""Angular radius of the largest cap that a stereographic view shows, degrees.
+
+The scale at its edge is 132 times that of the middle; a view of everything would be a point in an empty disc.
+"""

@@ -9,7 +9,7 @@ from stereodel.render.scene import Scene
 from stereodel.render.sketch import Sketch
 from stereodel.render.style import DotStyle, LineStyle
 from stereodel.render.things import Layer
-from stereodel.render.view import View
+from stereodel.render.view import StereographicView, View
 
 __all__ = [
     "Animation",
@@ -24,5 +24,6 @@ __all__ = [
     "Scene",
     "Segment",
     "Sketch",
+    "StereographicView",
     "View",
 ]

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import BoolArray, FloatArray, IntArray
 
 Color = tuple[float, float, float, float]
 """Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
@@ -93,6 +93,44 @@ class Mosaic:
 
 
 @dataclass(frozen=True, eq=False)
+class Polylines:
+    """Many lines of straight pieces, of one look: coastlines, borders.
+
+    Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; joins and ends are round.
+    """
+
+    points: FloatArray
+    """(n, 2)."""
+    offsets: IntArray
+    """(m + 1,)."""
+    color: Color
+    width: float
+    """In points."""
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A region of any shape as triangles, each counterclockwise, which share their corners where they meet.
+
+    The raster backend draws the triangles, lit where `normals` (n, 3) in view axes are given; the vector backend fills
+    the loops of sides that have a triangle on one side only. Sides between two corners of `rim` are arcs of the circle
+    about `middle`: there the region goes on, out of sight.
+    """
+
+    points: FloatArray
+    """(n, 2)."""
+    faces: npt.NDArray[np.int32]
+    """(m, 3)."""
+    color: Color
+    rim: BoolArray
+    """(n,): whether a corner lies on the edge of what is seen."""
+    middle: tuple[float, float] = (0.0, 0.0)
+    normals: FloatArray | None = None
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
 class Label:
     """Text in matplotlib's mathtext, anchored at a page point and moved by `offset` points."""
 
@@ -107,7 +145,7 @@ class Label:
     role: str = "label"
 
 
-Item = Stroke | Fill | Dots | Surface | Mosaic | Label
+Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Label
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,6 +208,11 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             dash = item.dash or (0.0, 0.0)
             style = np.array([*item.color, item.width, *dash, item.cap == "round", item.closed])
             return {"path": item.path, "style": style}
+        case Polylines():
+            return {"points": item.points, "offsets": item.offsets, "style": np.array([*item.color, item.width])}
+        case Patch():
+            style = np.array([*item.color, *item.middle, item.normals is not None])
+            return {"points": item.points, "faces": item.faces, "rim": item.rim, "style": style}
         case Fill():
             return {
                 "path": np.concatenate(item.paths),

@@ -13,7 +13,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, IntArray
 from stereodel.render import gl
-from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Mosaic, Page, Stroke, Surface
+from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Mosaic, Page, Patch, Polylines, Stroke, Surface
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon
 from stereodel.render.style import PRINT_DPI
 from stereodel.render.vector import pixel_height, with_labels
@@ -101,6 +101,10 @@ class _Canvas:
         match item:
             case Stroke():
                 return [_flat(self._stroke(item), item.color)]
+            case Polylines():
+                return [_flat(self._polylines(item), item.color)]
+            case Patch():
+                return [self._patch(item)]
             case Fill():
                 return [_flat(region(self._outlines(item.paths)), item.color)]
             case Dots():
@@ -123,6 +127,20 @@ class _Canvas:
         dash = stroke.dash and (stroke.dash[0] * self.pixels_per_point, stroke.dash[1] * self.pixels_per_point)
         width = stroke.width * self.pixels_per_point
         return ribbon(points, width, closed=stroke.closed, round_caps=stroke.cap == "round", dash=dash or None)
+
+    def _polylines(self, lines: Polylines) -> Corners:
+        width = lines.width * self.pixels_per_point
+        runs = np.split(self._place(lines.points), lines.offsets[1:-1])
+        ribbons = [ribbon(run, width, closed=len(run) > 3 and bool((run[0] == run[-1]).all())) for run in runs]
+        return np.concatenate([np.zeros((0, 3, 2)), *ribbons])
+
+    def _patch(self, patch: Patch) -> _Piece:
+        corners = self._place(patch.points)[patch.faces]
+        if patch.normals is None:
+            return _flat(corners, patch.color)
+        colors = np.repeat([patch.color], len(patch.points), axis=0)
+        colors[:, :3] *= _brightness(patch.normals)[:, None]
+        return _Piece(corners, colors[patch.faces])
 
     def _dots(self, dots: Dots) -> list[_Piece]:
         centers = self._place(dots.centers)

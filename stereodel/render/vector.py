@@ -29,7 +29,21 @@ from matplotlib.transforms import ScaledTranslation
 
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
-from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Mosaic, Page, Stroke, Surface
+from stereodel.render.outlines import patch_outline
+from stereodel.render.page import (
+    Beziers,
+    Color,
+    Dots,
+    Fill,
+    Item,
+    Label,
+    Mosaic,
+    Page,
+    Patch,
+    Polylines,
+    Stroke,
+    Surface,
+)
 from stereodel.render.style import TYPE
 
 CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
@@ -169,6 +183,12 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
         match items[0]:
             case Stroke() as first:
                 yield _stroke_patch([item for item in items if isinstance(item, Stroke)], first)
+            case Polylines() as lines:
+                yield _polylines_patch(lines)
+            case Patch() as patch:
+                yield PathPatch(
+                    patch_outline(patch), facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.role
+                )
             case Fill():
                 yield from (_fill_patch(item.paths, item) for item in items if isinstance(item, Fill))
             case Surface():
@@ -199,6 +219,23 @@ def _stroke_patch(strokes: list[Stroke], look: Stroke) -> PathPatch:
         capstyle=look.cap,
         joinstyle="round",
         gid=look.role,
+    )
+
+
+def _polylines_patch(lines: Polylines) -> PathPatch:
+    codes = np.full(len(lines.points), Outline.LINETO)
+    codes[lines.offsets[:-1]] = Outline.MOVETO
+    starts, ends = lines.offsets[:-1], lines.offsets[1:] - 1
+    closed = (lines.points[starts] == lines.points[ends]).all(axis=1) & (ends - starts > 2)
+    codes[ends[closed]] = Outline.CLOSEPOLY
+    return PathPatch(
+        Outline(lines.points, codes),
+        fill=False,
+        edgecolor=lines.color,
+        linewidth=lines.width,
+        capstyle="round",
+        joinstyle="round",
+        gid=lines.role,
     )
 
 

@@ -1,19 +1,50 @@
-"""Orthographic views: which way the picture looks at the sphere."""
+"""Views: which way a picture looks at the sphere, and how what is seen becomes flat.
+
+Every view shows a cap of the sphere, {x : toward·x ≥ edge}, and maps it onto the unit disc of the page.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar, as_vectors
+from stereodel.constants import LARGEST_EXTENT
 from stereodel.sphere import lonlat_to_xyz
+
+
+class MapView(Protocol):
+    """What maps a cap of the sphere onto the unit disc of the page."""
+
+    @property
+    def matrix(self) -> FloatArray:
+        """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
+
+    @property
+    def edge(self) -> float:
+        """Cosine of the angular radius of the cap."""
+
+    @property
+    def stretch(self) -> float:
+        """How far a curve strays from its chords on the page, at most, over how far it strays from them in space."""
+
+    @property
+    def round(self) -> bool:
+        """Whether the page shows a ball, which is lit, and not a map."""
+
+    def flattened(self, axes: FloatArray) -> FloatArray:
+        """Page coordinates (..., 2) of unit vectors (..., 3) of the cap in view axes."""
+
+    def raised(self, xy: FloatArray) -> FloatArray:
+        """Unit vectors in view axes (..., 3) of points (..., 2) of the unit disc; NaN outside it."""
 
 
 @dataclass(frozen=True)
 class View:
-    """An orthographic view from above a point of the sphere, north up.
+    """An orthographic view from above a point of the sphere, north up: the near hemisphere, as a ball is seen.
 
     Parameters
     ----------
@@ -45,13 +76,38 @@ class View:
     @property
     def matrix(self) -> FloatArray:
         """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-        toward = lonlat_to_xyz((self.lon, self.lat))
-        right = lonlat_to_xyz((self.lon + 90.0, 0.0))
-        north = (self.lon + 180.0, 90.0 - self.lat) if self.lat >= 0 else (self.lon, 90.0 + self.lat)
-        up = lonlat_to_xyz(north)
-        cos, sin, _ = lonlat_to_xyz((self.roll, 0.0))
-        # + 0.0 turns −0 into 0, so that symmetric views give identical files.
-        return np.array([cos * right - sin * up, sin * right + cos * up, toward]) + 0.0
+        return _frame(self.lon, self.lat, self.roll)
+
+    @property
+    def edge(self) -> float:
+        """Cosine of the angular radius of what is seen: 0."""
+        return 0.0
+
+    @property
+    def stretch(self) -> float:
+        """1: what is straight in space is straight on the page, and nothing grows."""
+        return 1.0
+
+    @property
+    def round(self) -> bool:
+        """Whether the page shows a ball: True."""
+        return True
+
+    def flattened(self, axes: FloatArray) -> FloatArray:
+        """Page coordinates (..., 2) of unit vectors (..., 3) in view axes."""
+        return axes[..., :2]
+
+    def raised(self, xy: FloatArray) -> FloatArray:
+        """Unit vectors in view axes (..., 3) of the near side over points (..., 2); NaN outside the unit disc.
+
+        Examples
+        --------
+        >>> View(0, 0).raised(np.array([0.6, 0.0])).tolist()
+        [0.6, 0.0, 0.8]
+        """
+        with np.errstate(invalid="ignore"):
+            height = np.sqrt(1 - np.sum(xy**2, axis=-1, keepdims=True))
+        return np.concatenate([np.where(np.isnan(height), np.nan, xy), height], axis=-1)
 
     def axes(self, xyz: npt.ArrayLike) -> FloatArray:
         """Vectors (..., 3) in view axes (right, up, toward the viewer)."""
@@ -64,6 +120,96 @@ class View:
     def depth(self, xyz: npt.ArrayLike) -> FloatArray:
         """Height of points (..., 3) toward the viewer, (...); on a sphere about the origin ≥ 0 is the near side."""
         return self.axes(xyz)[..., 2]
+
+
+@dataclass(frozen=True)
+class StereographicView:
+    """A flat conformal map about a point of the sphere, north up: stereographic, from the antipode of that point.
+
+    Parameters
+    ----------
+    lon, lat : float
+        The point in the middle, degrees; at a pole `up` is the limit along `lon`.
+    roll : float, optional
+        Degrees by which the picture is then turned counterclockwise on the page.
+    extent : float
+        Angular radius of the cap that is shown, degrees, above 0 and at most `LARGEST_EXTENT`: 90 is a hemisphere.
+
+    Notes
+    -----
+    A point at angular distance χ from the middle is tan(χ/2)/tan(extent/2) from the middle of the unit disc.
+
+    Examples
+    --------
+    >>> view = StereographicView(0, 0, extent=120)
+    >>> axes = view.raised(np.array([0.5, 0.0]))
+    >>> view.flattened(axes).round(15).tolist()
+    [0.5, 0.0]
+    """
+
+    lon: float
+    lat: float
+    roll: float = 0.0
+    _: KW_ONLY
+    extent: float = 90.0
+
+    def __post_init__(self) -> None:
+        as_lonlat((self.lon, self.lat), "(lon, lat)")
+        as_scalar(self.roll, "roll")
+        as_scalar(self.extent, "extent", low=0.0, high=LARGEST_EXTENT, open_low=True)
+
+    @property
+    def matrix(self) -> FloatArray:
+        """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
+        return _frame(self.lon, self.lat, self.roll)
+
+    @property
+    def edge(self) -> float:
+        """Cosine of the angular radius of the cap."""
+        return float(np.cos(np.radians(self.extent)))
+
+    @property
+    def stretch(self) -> float:
+        """Largest scale times what the change of scale adds to the curvature of an image.
+
+        The scale 1/(2 τ cos²(χ/2)), τ = tan(extent/2), is largest at the edge; a curve of geodesic curvature k has an
+        image whose curvature, times the scale, is at most k + tan(χ/2), while in space its curvature is √(1 + k²).
+        """
+        reach = self._reach
+        return (1 + reach**2) / (2 * reach) * (1 + reach)
+
+    @property
+    def round(self) -> bool:
+        """Whether the page shows a ball: False."""
+        return False
+
+    @property
+    def _reach(self) -> float:
+        return float(np.tan(np.radians(self.extent) / 2))
+
+    def flattened(self, axes: FloatArray) -> FloatArray:
+        """Page coordinates (..., 2) of unit vectors (..., 3) in view axes."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            page: FloatArray = axes[..., :2] / ((1 + axes[..., 2:]) * self._reach)
+        return page
+
+    def raised(self, xy: FloatArray) -> FloatArray:
+        """Unit vectors in view axes (..., 3) of points (..., 2) of the unit disc; NaN outside it."""
+        inside = np.sum(xy**2, axis=-1, keepdims=True) <= 1
+        wide = np.where(inside, xy, np.nan) * self._reach
+        square = np.sum(wide**2, axis=-1, keepdims=True)
+        axes: FloatArray = np.concatenate([2 * wide, 1 - square], axis=-1) / (1 + square)
+        return axes
+
+
+def _frame(lon: float, lat: float, roll: float) -> FloatArray:
+    """Right, up and toward the viewer above a point, as rows."""
+    toward = lonlat_to_xyz((lon, lat))
+    right = lonlat_to_xyz((lon + 90.0, 0.0))
+    up = lonlat_to_xyz((lon + 180.0, 90.0 - lat) if lat >= 0 else (lon, 90.0 + lat))
+    cos, sin, _ = lonlat_to_xyz((roll, 0.0))
+    # + 0.0 turns −0 into 0, so that symmetric views give identical files.
+    return np.array([cos * right - sin * up, sin * right + cos * up, toward]) + 0.0
 
 
 def turned(vectors: FloatArray, matrix: FloatArray) -> FloatArray:

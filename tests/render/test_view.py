@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from stereodel.render.view import View
-from stereodel.sphere import lonlat_to_xyz
+from stereodel.render.view import StereographicView, View
+from stereodel.sphere import SphereArc, SphereCircle, lonlat_to_xyz
 
 views = st.builds(View, st.floats(-360, 360), st.floats(-90, 90), st.floats(-180, 180))
 
@@ -67,3 +67,50 @@ def test_depth_is_positive_on_the_near_side():
 def test_bad_views_are_refused(arguments):
     with pytest.raises((ValueError, TypeError)):
         View(*arguments)
+
+
+@given(
+    extent=st.floats(1.0, 170.0),
+    bearing=st.floats(0.0, 2 * np.pi),
+    share=st.floats(0.0, 0.999),
+)
+def test_flat_maps_are_stereographic_projections_of_their_cap(extent, bearing, share):
+    """Distances from the middle are tan(χ/2) over that of the edge, bearings stay, and the way back is the inverse."""
+    chi = np.radians(share * extent)
+    axes = np.array([np.sin(chi) * np.cos(bearing), np.sin(chi) * np.sin(bearing), np.cos(chi)])
+    view = StereographicView(20.0, -35.0, extent=extent)
+    page = view.flattened(axes)
+    reach = np.tan(chi / 2) / np.tan(np.radians(extent) / 2)
+    np.testing.assert_allclose(page, reach * np.array([np.cos(bearing), np.sin(bearing)]), rtol=1e-9, atol=1e-12)
+    np.testing.assert_allclose(view.raised(page), axes, atol=1e-12)
+    assert axes[2] >= view.edge
+
+
+@pytest.mark.parametrize("view", [View(10.0, 50.0, 20.0), StereographicView(10.0, 50.0, 20.0, extent=120.0)])
+def test_what_is_outside_the_disc_has_no_place_on_the_sphere(view):
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [1.001, 0.0], [-0.8, -0.7]])
+    axes = view.raised(points)
+    assert np.isnan(axes).all(axis=1).tolist() == [False, False, True, True]
+    np.testing.assert_allclose(axes[1, 2], view.edge, atol=1e-12)
+
+
+@given(
+    normal=st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.hypot(np.hypot(v[0], v[1]), v[2]) > 0.1),
+    offset=st.floats(-0.95, 0.95),
+    begin=st.floats(0, 2 * np.pi),
+    sweep=st.floats(0.01, 0.3),
+    extent=st.floats(10.0, 160.0),
+)
+def test_the_stretch_bounds_how_far_curves_stray_from_chords_on_the_page(normal, offset, begin, sweep, extent):
+    circle = SphereCircle(np.array(normal) / np.linalg.norm(normal), offset)
+    center, u, v, _ = SphereArc.whole(circle).frame()
+    t = begin + np.array([0.0, sweep / 2, sweep])[:, None]
+    start, middle, end = center + np.cos(t) * u + np.sin(t) * v
+    view = StereographicView(0.0, 90.0, extent=extent)
+    axes = np.stack([start, middle, end])
+    assume((axes[:, 2] >= view.edge).all())
+    a, m, b = view.flattened(axes)
+    in_space = np.linalg.norm(middle - (start + end) / 2)
+    side, way = b - a, m - a
+    strayed = abs(side[0] * way[1] - side[1] * way[0]) / np.linalg.norm(side)
+    assert strayed <= 1.2 * view.stretch * in_space

@@ -1,0 +1,122 @@
+"""The outlines of patches: loops round triangles that share their corners, for paper.
+
+A side that two triangles share runs both ways and falls out; what is left are the loops that bound the region, with it
+on their left: counterclockwise round the outside, clockwise round holes, as the nonzero rule wants them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+from matplotlib.path import Path as Outline
+
+from stereodel._arrays import FloatArray
+from stereodel.render.page import Patch
+
+Indices = npt.NDArray[np.intp]
+
+ARC_STEP_RAD = np.pi / 4
+"""Longest arc that one cubic stands for: it is off by 4e-6 of the radius."""
+
+
+def patch_outline(patch: Patch) -> Outline:
+    """The loops of a patch as one compound path, its rim as arcs of the circle."""
+    vertices: list[FloatArray] = []
+    codes: list[npt.NDArray[np.uint8]] = []
+    for loop in loops(boundary_sides(patch.faces)):
+        points, kinds = _loop_path(patch, loop)
+        vertices.append(points)
+        codes.append(kinds)
+    if not vertices:
+        return Outline(np.zeros((0, 2)))
+    return Outline(np.concatenate(vertices), np.concatenate(codes))
+
+
+def boundary_sides(faces: npt.NDArray[np.integer]) -> Indices:
+    """Directed sides (k, 2) that no triangle has the other way round; a side that comes twice each way falls out."""
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.intp)
+    if len(sides) == 0:
+        return sides
+    size = int(sides.max()) + 1
+    low, high = sides.min(axis=1), sides.max(axis=1)
+    forward = np.where(sides[:, 0] < sides[:, 1], 1, -1)
+    codes, where = np.unique(low * size + high, return_inverse=True)
+    excess = np.bincount(where, weights=forward, minlength=len(codes)).astype(np.intp)
+    kept = np.repeat(np.arange(len(codes)), np.abs(excess))
+    ends = np.stack([codes[kept] // size, codes[kept] % size], axis=1)
+    ends = ends[ends[:, 0] != ends[:, 1]]
+    turned: Indices = np.where((excess[kept] > 0)[:, None], ends, ends[:, ::-1])
+    return turned
+
+
+def loops(sides: Indices) -> list[Indices]:
+    """Closed loops of vertices that directed sides (k, 2) make; at each vertex as many begin as end."""
+    order = np.argsort(sides[:, 0], kind="stable")
+    begins, ends = sides[order].T
+    # The side that follows each: at a vertex where several begin, each is taken by one that ends there.
+    arrivals = np.argsort(ends, kind="stable")
+    following = np.empty(len(order), dtype=np.intp)
+    following[arrivals] = np.arange(len(order))
+    unused = np.ones(len(order), dtype=bool)
+    found = []
+    for first in range(len(order)):
+        loop = []
+        side = first
+        while unused[side]:
+            unused[side] = False
+            loop.append(begins[side])
+            side = following[side]
+        if loop:
+            found.append(np.array(loop, dtype=np.intp))
+    return found
+
+
+def _loop_path(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
+    """One loop, closed; runs along the rim as cubics, all else as straight lines."""
+    on_rim = patch.rim[loop] & patch.rim[np.roll(loop, -1)]
+    if on_rim.all():
+        return _whole_circle(patch, loop)
+    # Begins where a side that is not on the rim ends, so that no run along the rim is cut.
+    loop = np.roll(loop, -int(np.flatnonzero(~on_rim)[0]) - 1)
+    on_rim = patch.rim[loop] & patch.rim[np.roll(loop, -1)]
+    points = patch.points[loop]
+    following = np.roll(points, -1, axis=0)
+    vertices: list[FloatArray] = [points[:1]]
+    codes: list[npt.NDArray[np.uint8]] = [np.array([Outline.MOVETO])]
+    cuts = np.flatnonzero(on_rim[1:] != on_rim[:-1]) + 1
+    for run in np.split(np.arange(len(loop)), cuts):
+        if on_rim[run[0]]:
+            added = _arc(points[run[0]], following[run[-1]], np.array(patch.middle))
+            kind = Outline.CURVE4
+        else:
+            added, kind = following[run], Outline.LINETO
+        vertices.append(added)
+        codes.append(np.full(len(added), kind))
+    vertices.append(points[:1])
+    codes.append(np.array([Outline.CLOSEPOLY]))
+    return np.concatenate(vertices), np.concatenate(codes).astype(np.uint8)
+
+
+def _whole_circle(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
+    start = patch.points[loop[:1]]
+    half = 2 * np.array(patch.middle) - start[0]
+    arcs = [_arc(start[0], half, np.array(patch.middle)), _arc(half, start[0], np.array(patch.middle))]
+    vertices = np.concatenate([start, *arcs, start])
+    codes = [Outline.MOVETO, *[Outline.CURVE4] * (len(vertices) - 2), Outline.CLOSEPOLY]
+    return vertices, np.array(codes, dtype=np.uint8)
+
+
+def _arc(start: FloatArray, end: FloatArray, middle: FloatArray) -> FloatArray:
+    """Control points, three to a cubic, of the counterclockwise arc about a middle from start to end."""
+    u, w = start - middle, end - middle
+    sweep = float(np.arctan2(u[0] * w[1] - u[1] * w[0], u @ w)) % (2 * np.pi)
+    pieces = max(1, int(np.ceil(sweep / ARC_STEP_RAD)))
+    t = np.linspace(0.0, sweep, pieces + 1)[:, None]
+    side = np.array([-u[1], u[0]])
+    ends = np.cos(t) * u + np.sin(t) * side
+    ends[-1] = w
+    reach = 4 / 3 * np.tan(sweep / pieces / 4)
+    tangents = reach * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
+    cubics = np.stack([ends[:-1] + tangents[:-1], ends[1:] - tangents[1:], ends[1:]], axis=1)
+    path: FloatArray = middle + cubics.reshape(-1, 2)
+    return path
