@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from stereodel.render import build
+from stereodel.render import build, provenance
 
 SCRIPT = """
 import os
@@ -76,7 +76,7 @@ def test_library_and_renderer_count_as_inputs(scripts, tmp_path, monkeypatch):
     assert build._shared_digest(scripts) != before
     monkeypatch.setenv("STEREODEL_GL", "osmesa")
     assert build._shared_digest(scripts) == before
-    monkeypatch.setattr(build, "library_versions", lambda: {"numpy": "0"})
+    monkeypatch.setattr(provenance, "library_versions", lambda: {"numpy": "0"})
     assert build._shared_digest(scripts) != before
 
 
@@ -91,7 +91,7 @@ def test_manifest_says_what_was_drawn_with_what(scripts, tmp_path):
     assert record["pixel_hash"] == "abc"
     assert record["renderer"] == "none"
     assert record["seconds"] >= 0
-    assert set(record["versions"]) == {"python", *build.LIBRARIES}
+    assert set(record["versions"]) == {"python", *provenance.LIBRARIES}
     assert list(record["files"]) == ["fig01_one.txt"]
     assert not list(out.glob(".manifest-*"))
 

@@ -20,7 +20,7 @@ def command() -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from stereodel.render import build, gl
+    from stereodel.render import gl, provenance
 
     console = Console(highlight=False, soft_wrap=True)
     found = gl.describe()
@@ -29,7 +29,7 @@ def command() -> None:
         for row in rows:
             table.add_row(*row)
         console.print(table)
-    missing = [name for name, version in build.library_versions().items() if version == "not installed"]
+    missing = [name for name, version in provenance.library_versions().items() if version == "not installed"]
     if missing:
         console.print(f"Missing: {', '.join(missing)}. Install with: pip install {' '.join(missing)}")
     if found.problem:
@@ -58,7 +58,7 @@ def _rendering_rows(found: gl.Description) -> list[tuple[str, str]]:
 
 def _version_rows() -> list[tuple[str, str]]:
     """The library, the system, and the libraries that pictures and files depend on."""
-    from stereodel.render import build
+    from stereodel.render import provenance
 
     rows = [("stereodel", stereodel.__version__), ("system", platform.platform())]
-    return rows + list(build.library_versions().items())
+    return rows + list(provenance.library_versions().items())

@@ -15,7 +15,6 @@ import importlib.util
 import json
 import multiprocessing
 import os
-import platform
 import sys
 import tempfile
 import time
@@ -25,21 +24,14 @@ from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from stereodel import _kernel
 from stereodel._files import replacing
+from stereodel.render.provenance import library_digest, library_versions
 
 SCRIPTS = ("fig", "earth_", "sky_", "anim_")
 """Beginnings of the names of scripts: the paper's figures, pictures of real data, animations."""
-
-LIBRARIES = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
-"""Distributions whose version can change a picture."""
-
-NOT_DRAWN_WITH = ("cli", "render/build.py", "render/baselines.py", "render/report.py")
-"""Modules and packages of the library that no picture depends on."""
 
 Record = dict[str, Any]
 
@@ -126,19 +118,6 @@ def usable_cores() -> int:
     return os.cpu_count() or 1
 
 
-def library_versions() -> dict[str, str]:
-    """Version of Python and of every library that a picture depends on."""
-    return {"python": platform.python_version(), **{name: library_version(name) for name in LIBRARIES}}
-
-
-def library_version(name: str) -> str:
-    """Version of an installed distribution, or that it is missing."""
-    try:
-        return version(name)
-    except PackageNotFoundError:
-        return "not installed"
-
-
 # What a picture depends on
 
 
@@ -153,14 +132,8 @@ def read_manifest(out: Path) -> dict[str, Record]:
 
 def _shared_digest(scripts: Path) -> str:
     """Of all that every script depends on: shared modules, library, kernel, versions, the renderer asked for."""
-    library = Path(__file__).resolve().parent.parent
-    skipped = {library / name for name in NOT_DRAWN_WITH}
-    modules = (path for path in sorted(library.rglob("*.py")) if skipped.isdisjoint((path, *path.parents)))
-    files = [*sorted(scripts.glob("_*.py")), *modules]
-    files += [Path(_kernel.__file__), library / "data" / "sources.json"]  # with the checksums of the real data
-    digest = hashlib.sha256(json.dumps(library_versions()).encode())
-    digest.update(f"{os.environ.get('STEREODEL_GL', '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())
-    for path in files:
+    digest = hashlib.sha256(library_digest())
+    for path in sorted(scripts.glob("_*.py")):
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()
 

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import stereodel
 from stereodel.cli import app
-from stereodel.render import build, gl
+from stereodel.render import gl, provenance
 
 run = CliRunner().invoke
 
@@ -33,7 +33,7 @@ def test_doctor_tells_what_draws(platform):
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert f"{platform} (STEREODEL_GL)" in ran.stdout
     assert "Mesa" in ran.stdout
-    for name, version in build.library_versions().items():
+    for name, version in provenance.library_versions().items():
         assert any(line.split() == [name, version] for line in ran.stdout.splitlines())
     assert ran.stdout.splitlines()[-1] == "Ready: globes can be drawn."
 
@@ -54,7 +54,7 @@ def test_doctor_without_opengl_names_the_packages():
 
 
 def test_doctor_names_missing_libraries(monkeypatch):
-    monkeypatch.setattr(build, "LIBRARIES", ("numpy", "no-such-library"))
+    monkeypatch.setattr(provenance, "LIBRARIES", ("numpy", "no-such-library"))
     monkeypatch.setattr(gl, "describe", lambda: gl.Description("osmesa", "found", "4.5 Mesa 22.3.6", "llvmpipe"))
     ran = run(app, ["doctor"])
     assert ran.exit_code == 1
