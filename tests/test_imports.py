@@ -18,6 +18,7 @@ MAY_IMPORT = {
     "constants": set(),
     "earth": set(),
     "_files": set(),
+    "_extras": set(),
     "_kernel": set(),
     "_arrays": BASE,
     "_double_double": BASE,
@@ -31,10 +32,10 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"triangulation"},
     "relaxation": KERNEL | {"triangulation"},
-    "io": BASE | {"_files", "sphere", "triangulation", "render"},
+    "io": BASE | {"_extras", "_files", "sphere", "triangulation", "render"},
     "__init__": MATHEMATICS,
-    "render": MATHEMATICS | {"__init__", "_files", "_kernel"},
-    "cli": MATHEMATICS | {"__init__", "_files", "data", "earth", "interpolation", "io", "render"},
+    "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel"},
+    "cli": MATHEMATICS | {"__init__", "_extras", "_files", "data", "earth", "interpolation", "io", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
 NEIGHBOURS = {

@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Literal
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel._extras import optional
 from stereodel.cli.options import Latitude
 from stereodel.cli.sources import Columns, Table
 from stereodel.cli.tables import TABLES, save_table
 from stereodel.io import to_geodataframe, write
-from stereodel.io.extras import optional
 from stereodel.triangulation.topology import edges_of
 
 MESHES = ("nc", "glb", "ply", "vtp", "svg", "pdf")

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.cli.sources import LONLAT, Column, Columns
 from stereodel.io import write
-from stereodel.io.extras import optional
 
 EXACT_INTEGERS = 2.0**53  # larger ones would be written with digits that doubles do not have
 

@@ -10,8 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_scalar
+from stereodel._extras import optional
 from stereodel.io.arcs import Arcs
-from stereodel.io.extras import optional
 from stereodel.io.faces import triangle_faces, voronoi_faces
 from stereodel.io.lines import sphere_lines
 from stereodel.io.plane import frame_of, plane_cells

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_count
-from stereodel.io.extras import optional
+from stereodel._extras import optional
 
 
 def to_geojson(frame: Any, *, decimals: int | None = None) -> str:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel._extras import optional
 from stereodel.io.arcs import Arcs, Chains, sample
-from stereodel.io.extras import optional
 from stereodel.io.faces import Indices
 from stereodel.io.polygons import Geometries, grouped
 from stereodel.sphere.latitudes import Latitude

@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_floats, as_scalar
+from stereodel._extras import optional
 from stereodel.io.arcs import sample
-from stereodel.io.extras import optional
 from stereodel.io.faces import Indices, spans, voronoi_faces
 from stereodel.io.frames import (
     LARGEST_SEGMENT,

@@ -8,9 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray
+from stereodel._extras import optional
 from stereodel.constants import BORDER_STEPS, DEGREE_ROUNDING, THIN_CELL
 from stereodel.io.arcs import Arcs, Chains, sample
-from stereodel.io.extras import optional
 from stereodel.io.faces import Faces, Indices
 from stereodel.io.rings import WORLD, Rings, around, rings_of
 from stereodel.sphere.latitudes import Latitude

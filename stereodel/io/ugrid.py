@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
-from stereodel.io.extras import optional
+from stereodel._extras import optional
 from stereodel.io.frames import Mesh, diagram_of, is_spherical
 from stereodel.io.surfaces import Surface, surface_of
 from stereodel.sphere import lonlat_to_xyz, solid_angle, xyz_to_lonlat

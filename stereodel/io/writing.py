@@ -11,9 +11,9 @@ from typing import Any, BinaryIO
 import numpy.typing as npt
 
 from stereodel._arrays import as_choice
+from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.io.csv_text import write_csv
-from stereodel.io.extras import optional
 from stereodel.io.frames import (
     Columns,
     Mesh,

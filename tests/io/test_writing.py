@@ -306,9 +306,9 @@ def test_a_failed_run_leaves_what_was_there(tmp_path, name, content, options, er
 
 
 def test_missing_libraries_are_named(monkeypatch):
-    from stereodel.io import extras
+    from stereodel import _extras
 
-    monkeypatch.setattr(extras, "import_module", lambda name: (_ for _ in ()).throw(ModuleNotFoundError(name=name)))
+    monkeypatch.setattr(_extras, "import_module", lambda name: (_ for _ in ()).throw(ModuleNotFoundError(name=name)))
     with pytest.raises(ImportError, match=r"pip install 'stereodel\[geo\]'"):
         to_geodataframe(SphericalVoronoi(SPHERE))
     with pytest.raises(ImportError, match=r"pip install 'stereodel\[grid\]'"):
