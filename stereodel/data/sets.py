@@ -1,4 +1,4 @@
-"""The sets and what their columns mean."""
+"""Tables of points and what their columns mean; where every set is from."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, IntArray, as_choice, locked
+from stereodel._arrays import FloatArray, IntArray, locked
 from stereodel.data import stored
 from stereodel.data.stored import Texts
 
-DEGREE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5, "coastlines": 4}
+DEGREE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5}
 """Digits behind the point of the stored degrees: for airports and cities all that the sources have."""
 
 MAGNITUDE_DIGITS: Final = 2
@@ -58,20 +58,6 @@ class Stars:
     """(n,): magnitude Hp, smaller is brighter."""
     color_index: FloatArray
     """(n,): B − V, magnitudes; blue stars are below 0, red ones above 1."""
-
-
-@dataclass(frozen=True, eq=False)
-class Coastlines:
-    """Coastlines as polylines: line i is ``lonlat[offsets[i]:offsets[i + 1]]``, closed where its ends are equal."""
-
-    lonlat: FloatArray
-    """(n, 2): longitude and geodetic latitude in degrees."""
-    offsets: IntArray
-    """(m + 1,)."""
-
-    def lines(self) -> list[FloatArray]:
-        """The polylines, each (k, 2)."""
-        return np.split(self.lonlat, self.offsets[1:-1])
 
 
 def sources() -> dict[str, MappingProxyType[str, Any]]:
@@ -131,31 +117,6 @@ def stars() -> Stars:
     columns = stored.load("stars")
     fractions = (locked(stored.decimals(columns[key], MAGNITUDE_DIGITS)) for key in ("magnitude", "color_index"))
     return Stars(_lonlat(columns, "stars"), locked(stored.integers(columns["hip"])), *fractions)
-
-
-@cache
-def coastlines(resolution: str = "50m") -> Coastlines:
-    """Coastlines of Natural Earth (public domain).
-
-    Parameters
-    ----------
-    resolution : {"50m", "110m"}, optional
-        Made for maps of 1 : 50 or 1 : 110 million.
-
-    Raises
-    ------
-    ValueError
-        For another resolution.
-
-    Examples
-    --------
-    >>> [len(coastlines(resolution).lines()) for resolution in ("50m", "110m")]
-    [1422, 128]
-    """
-    name = f"coastlines_{as_choice(resolution, ('50m', '110m'), 'resolution')}"
-    columns = stored.load(name)
-    offsets = np.concatenate([[0], np.cumsum(stored.integers(columns["sizes"]))]).astype(np.int32)
-    return Coastlines(_lonlat(columns, "coastlines"), locked(offsets))
 
 
 def _lonlat(columns: dict[str, stored.Bytes], kind: str) -> FloatArray:
