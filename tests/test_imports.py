@@ -41,6 +41,7 @@ GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "py
 NEIGHBOURS = {
     "antimeridian",
     "geopandas",
+    "imageio_ffmpeg",
     "netCDF4",
     "pandas",
     "pyarrow",

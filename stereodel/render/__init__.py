@@ -4,6 +4,9 @@ from stereodel.render.animate import Animation
 from stereodel.render.colors import ColorScale
 from stereodel.render.curves import CircleArc, Segment
 from stereodel.render.figure import Figure
+from stereodel.render.motion.film import Film
+from stereodel.render.motion.formats import save_pictures
+from stereodel.render.motion.workers import FrameError
 from stereodel.render.page import Label, Page
 from stereodel.render.scene import Scene
 from stereodel.render.sketch import Sketch
@@ -17,6 +20,8 @@ __all__ = [
     "ColorScale",
     "DotStyle",
     "Figure",
+    "Film",
+    "FrameError",
     "Label",
     "Layer",
     "LineStyle",
@@ -26,4 +31,5 @@ __all__ = [
     "Sketch",
     "StereographicView",
     "View",
+    "save_pictures",
 ]

@@ -1,7 +1,8 @@
-"""Animations: pages one after another as a looping GIF."""
+"""Animations of the gallery: pages one after another as a looping GIF small enough for a page of the web."""
 
 from __future__ import annotations
 
+import io
 import os
 import time
 from collections.abc import Callable, Iterable, Sequence
@@ -9,14 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-import imageio.v3 as iio
 import numpy as np
-import numpy.typing as npt
-from PIL import Image
 
 from stereodel._files import replacing
 from stereodel.render.figure import WRITTEN, Pixels
 from stereodel.render.image import pixel_hash
+from stereodel.render.motion.gif import write_gif
+from stereodel.render.motion.reels import frame_seconds
 from stereodel.render.page import Page
 from stereodel.render.script import run_script
 
@@ -24,16 +24,10 @@ SIZE: Final = 480
 """Width of an animation in pixels."""
 
 LARGEST_FILE: Final = 3_000_000
-"""Bytes that a file may have."""
+"""Bytes that a file of the gallery may have; `save_pictures` and `Film` know no limit."""
 
 COLORS: Final = (255, 128, 64, 32)
 """Sizes of the palette that all frames share, of which the first is taken that makes the file small enough."""
-
-EXACT_COLORS: Final = 16
-"""The most frequent colours, ground and fills among them, which the palette holds as they are."""
-
-SAMPLED: Final = 12
-"""Frames of which the palette is made."""
 
 
 @dataclass(frozen=True)
@@ -133,56 +127,21 @@ def drawn_page(frame: Page | Callable[[], Page]) -> Page:
 
 
 def save_gif(pictures: Sequence[Pixels], path: str | os.PathLike[str], seconds: Sequence[float]) -> Path:
-    """Write pictures of one size as a GIF that loops for ever; never half a file.
-
-    All frames share one palette and none is dithered: still parts stay still, and only what changed is stored.
+    """Write pictures of one size as a GIF of at most `LARGEST_FILE` bytes that loops for ever; never half a file.
 
     Raises
     ------
     ValueError
-        If the file would be larger than `LARGEST_FILE` with the smallest palette.
+        If the file would be larger with the smallest palette.
     """
     target = Path(path)
-    milliseconds = [round(1000 * second) for second in seconds]
     for colors in COLORS:
-        frames = _reduced(pictures, _palette(pictures, colors))
-        data = iio.imwrite("<bytes>", frames, extension=".gif", plugin="pillow", duration=milliseconds, loop=0)
-        if len(data) <= LARGEST_FILE:
+        data = io.BytesIO()
+        write_gif(pictures, data, frame_seconds(seconds, len(pictures)), colors=colors)
+        if data.tell() <= LARGEST_FILE:
             break
     else:
-        raise ValueError(f"{target.name} would have {len(data)} bytes; give fewer frames or a smaller size")
+        raise ValueError(f"{target.name} would have {data.tell()} bytes; give fewer frames or a smaller size")
     with replacing(target) as temporary:
-        temporary.write_bytes(data)
+        temporary.write_bytes(data.getvalue())
     return target
-
-
-def _palette(pictures: Sequence[Pixels], size: int) -> npt.NDArray[np.int64]:
-    """At most `size` colours that serve frames spread over the whole animation, (n, 3)."""
-    chosen = np.linspace(0, len(pictures) - 1, min(len(pictures), SAMPLED)).round().astype(int)
-    sheet = np.concatenate([pictures[i] for i in chosen])
-    # Medians, refined by k-means: a tenth of the mean error of a palette that covers the range evenly, which shows as
-    # bands on a softly lit ball.
-    found = Image.fromarray(sheet).quantize(size, method=Image.Quantize.MEDIANCUT, kmeans=3)
-    colors: npt.NDArray[np.int64] = np.array(found.getpalette(), dtype=np.int64).reshape(-1, 3)[:size]
-    values, _, times = _distinct(sheet)
-    for exact in values[np.argsort(times, kind="stable")[-EXACT_COLORS:]]:
-        colors[np.argmin(np.sum((colors - exact) ** 2, axis=1))] = exact
-    return colors
-
-
-def _reduced(pictures: Sequence[Pixels], colors: npt.NDArray[np.int64]) -> Pixels:
-    """Frames in the nearest of some colours, (n, h, w, 3)."""
-    # Pillow's own mapping to a palette rounds to coarse cells first and turns white into gray.
-    frames = np.empty((len(pictures), *pictures[0].shape), dtype=np.uint8)
-    for number, picture in enumerate(pictures):
-        values, where, _ = _distinct(picture)
-        nearest = np.argmin(np.sum((values[:, None] - colors) ** 2, axis=-1), axis=1)
-        frames[number] = colors[nearest][where].reshape(picture.shape)
-    return frames
-
-
-def _distinct(picture: Pixels) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """The colours of a picture (n, 3), which of them each pixel has, and how often each occurs."""
-    codes = picture.reshape(-1, 3).astype(np.int64) @ np.array([1 << 16, 1 << 8, 1])
-    values, where, times = np.unique(codes, return_inverse=True, return_counts=True)
-    return np.stack([values >> 16, values >> 8 & 255, values & 255], axis=1), where, times

@@ -1,0 +1,67 @@
+"""What is said while a film is made: a bar on a terminal, a line now and then elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Final
+
+PAUSE: Final = 10.0
+"""Seconds between two lines."""
+
+
+@contextmanager
+def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], None]]:
+    """A function that counts one more of `total` steps done, and tells on the standard error stream.
+
+    Parameters
+    ----------
+    what : str
+        What is done, "drawing" for instance.
+    total : int
+        The number of steps.
+    shown : bool
+        Whether anything is said.
+    """
+    if not shown or total == 0:
+        yield lambda: None
+    elif sys.stderr.isatty():
+        with _bar(what, total) as count:
+            yield count
+    else:
+        yield _Lines(what, total)
+
+
+@contextmanager
+def _bar(what: str, total: int) -> Iterator[Callable[[], None]]:
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(what, total=total)
+        yield lambda: progress.advance(task)
+
+
+class _Lines:
+    """Counts steps and prints a line now and then, and at the end."""
+
+    def __init__(self, what: str, total: int) -> None:
+        self.what, self.total, self.done = what, total, 0
+        self.begin = self.said = time.monotonic()
+
+    def __call__(self) -> None:
+        self.done += 1
+        now = time.monotonic()
+        if self.done == self.total or now - self.said >= PAUSE:
+            self.said = now
+            print(f"{self.what} {self.done}/{self.total} ({now - self.begin:.0f} s)", file=sys.stderr, flush=True)
