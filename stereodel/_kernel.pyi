@@ -8,6 +8,26 @@ from typing import Annotated
 import numpy
 from numpy.typing import NDArray
 
+def moebius_images(
+    xyz: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    left: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    magnification: float,
+    right: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")], bool]:
+    """
+    Images of directions as unit vectors, and whether all were finite and not zero.
+    """
+
+def moebius_scales(
+    xyz: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    left: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    magnification: float,
+    right: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")], bool]:
+    """Local scales at directions, and whether all were finite and not zero."""
+
 def sin_cos_degrees(
     angles: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 4), order="C")]:

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
-BASE = {"constants", "earth", "_arrays", "_double_double"}
+BASE = {"constants", "earth", "_arrays", "_double_double", "_threads"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel"}
 MAY_IMPORT = {
@@ -22,10 +22,11 @@ MAY_IMPORT = {
     "_kernel": set(),
     "_arrays": BASE,
     "_double_double": BASE,
+    "_threads": BASE,
     "data": BASE,
     "sphere": KERNEL,
     "projections": BASE | {"sphere"},
-    "conformal": BASE | {"sphere", "projections"},
+    "conformal": KERNEL | {"sphere", "projections"},
     "predicates": KERNEL,
     "triangulation": KERNEL | {"sphere", "projections", "predicates"},
     "interpolation": KERNEL | {"sphere", "triangulation"},

@@ -16,22 +16,11 @@ Circle = tuple[DoubleDouble, DoubleDouble, DoubleDouble]
 
 def boost_points(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDouble:
     """Images of unit vectors (..., 3) under the fisheye of magnification S at +z."""
-    lower, upper = _light_cone_points(points, magnification)
-    total = lower + upper
-    return stack([points[..., 0] * 2.0 / total, points[..., 1] * 2.0 / total, (lower - upper) / total])
-
-
-def boost_scale(points: DoubleDouble, magnification: DoubleDouble) -> DoubleDouble:
-    """Local scale S / (cos²(χ/2) + S² sin²(χ/2)) at unit vectors (..., 3)."""
-    lower, upper = _light_cone_points(points, magnification)
-    return 2.0 / (lower + upper)
-
-
-def _light_cone_points(points: DoubleDouble, magnification: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
-    """(1 + z)/S and S (1 − z)."""
     x, y = points[..., 0], points[..., 1]
     u, w = one_plus_minus(points[..., 2], x * x + y * y)
-    return u / magnification, w * magnification
+    lower, upper = u / magnification, w * magnification
+    total = lower + upper
+    return stack([points[..., 0] * 2.0 / total, points[..., 1] * 2.0 / total, (lower - upper) / total])
 
 
 def boost_circle(circle: Circle, magnification: DoubleDouble) -> Circle:

@@ -3,6 +3,7 @@
 
 namespace stereodel {
 
+void bind_conformal(nanobind::module_& module);
 void bind_degrees(nanobind::module_& module);
 void bind_delaunay(nanobind::module_& module);
 void bind_graphs(nanobind::module_& module);
@@ -18,6 +19,7 @@ NB_MODULE(_kernel, module) {
     module.doc() =
         "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location, Voronoi "
         "diagrams.";
+    stereodel::bind_conformal(module);
     stereodel::bind_degrees(module);
     stereodel::bind_delaunay(module);
     stereodel::bind_graphs(module);

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from functools import cached_property
@@ -13,7 +12,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, IntArray, as_count, as_indices, as_workers, locked, private
 from stereodel._kernel import PlaneMesh, SphereMesh
-from stereodel.constants import POINTS_WORTH_THREADS, REBUILD_INSERTING, REBUILD_REMOVING
+from stereodel._threads import thread_count
+from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
 
 Mesh = PlaneMesh | SphereMesh
@@ -52,7 +52,7 @@ class Delaunay(ABC):
 
     def _build(self, points: FloatArray) -> None:
         """Triangulate from scratch; arrays handed out before stay as they are."""
-        self._take(points, self._triangulate(points, _threads(self._workers, len(points)), self._eager))
+        self._take(points, self._triangulate(points, thread_count(self._workers, len(points)), self._eager))
 
     def _take(self, points: FloatArray, built: Built) -> None:
         self._chunks = [points]
@@ -283,8 +283,8 @@ class Delaunay(ABC):
 
     def _thread_count(self, workers: int | None = None, size: int | None = None) -> int:
         """How many threads a task of `size` points takes, by default of all points."""
-        chosen = self._workers if workers is None else as_workers(workers)
-        return _threads(chosen, len(self.points) if size is None else size)
+        chosen = self._workers if workers is None else workers
+        return thread_count(chosen, len(self.points) if size is None else size)
 
     def _change(self, change: Callable[[Mesh], object]) -> None:
         """Change the mesh; if that fails or is interrupted, the triangulation stays that of before."""
@@ -357,12 +357,3 @@ class Delaunay(ABC):
 def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:
     """One number for each query, in the queries' leading shape."""
     return found.reshape(queries.shape[:-1]) if queries.ndim > 1 else int(found[0])
-
-
-def _threads(workers: int | None, size: int) -> int:
-    """How many threads a task of `size` points takes."""
-    if workers is None and size < POINTS_WORTH_THREADS:
-        return 1
-    if workers is None or workers == -1:
-        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return workers

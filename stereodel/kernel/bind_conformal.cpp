@@ -1,0 +1,60 @@
+// Python: conformal maps of the sphere at many points.
+#include <nanobind/stl/pair.h>
+
+#include <utility>
+
+#include "bind_support.hpp"
+#include "moebius.hpp"
+
+namespace stereodel {
+namespace {
+
+using namespace nb::literals;
+using Matrix = RowsIn<double, 3>;
+
+constexpr std::size_t long_work = 100000;  // points: some milliseconds
+
+// Six rows: a matrix and what it leaves of a more exact one.
+SplitRotation split(const Matrix& matrix) {
+    if (matrix.shape(0) != 6) {
+        throw std::invalid_argument("a rotation is given by six rows");
+    }
+    return {matrix.data(), matrix.data() + 9};
+}
+
+MoebiusParts to_parts(const Matrix& left, double magnification, const Matrix& right) {
+    return {split(left), magnification, split(right)};
+}
+
+std::pair<RowsOut<double, 3>, bool> images(const RowsIn<double, 3>& xyz, const Matrix& left, double magnification,
+                                           const Matrix& right, int workers) {
+    const MoebiusParts parts = to_parts(left, magnification, right);
+    const std::size_t count = xyz.shape(0);
+    bool sound = true;
+    Buffer<double> rows = filled<double>(3 * count, count > long_work, [&](double* out, Stop stop) {
+        sound = moebius_images(parts, xyz.data(), count, out, workers, stop);
+    });
+    return {to_rows<3>(std::move(rows)), sound};
+}
+
+std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Matrix& left, double magnification,
+                                          const Matrix& right, int workers) {
+    const MoebiusParts parts = to_parts(left, magnification, right);
+    const std::size_t count = xyz.shape(0);
+    bool sound = true;
+    Buffer<double> values = filled<double>(count, count > long_work, [&](double* out, Stop stop) {
+        sound = moebius_scales(parts, xyz.data(), count, out, workers, stop);
+    });
+    return {to_values(std::move(values)), sound};
+}
+
+}  // namespace
+
+void bind_conformal(nb::module_& module) {
+    module.def("moebius_images", images, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
+               "Images of directions as unit vectors, and whether all were finite and not zero.");
+    module.def("moebius_scales", scales, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
+               "Local scales at directions, and whether all were finite and not zero.");
+}
+
+}  // namespace stereodel
