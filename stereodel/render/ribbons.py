@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray
+from stereodel._arrays import BoolArray, FloatArray, IntArray
 from stereodel.constants import FLATNESS
 from stereodel.render.page import Beziers
 
@@ -88,7 +88,47 @@ def ribbon(
     drawn = np.ones(len(points) - 1, dtype=bool)
     if dash is not None:
         points, drawn = _dashed(points, *dash)
-    return np.concatenate([_rectangles(points, drawn, width / 2), _bends(points, drawn, width / 2, closed, round_caps)])
+    rings = np.array([[0, len(points) - 1]] if closed else np.zeros((0, 2)), dtype=np.intp)
+    return np.concatenate([_rectangles(points, drawn, width / 2), _bends(points, drawn, width / 2, rings, round_caps)])
+
+
+def ribbons(points: FloatArray, offsets: IntArray, width: float) -> Corners:
+    """Polylines of one constant width, all at once, with round joins and ends.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+        In pixels, as `width`.
+    offsets : (m + 1,) int array
+        Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; a point alone is a disc.
+    width : float
+
+    Returns
+    -------
+    (k, 3, 2) array
+        Triangles, which overlap.
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]])
+    >>> both = ribbons(np.concatenate([square, square + 20]), np.array([0, 5, 10]), 1.0)
+    >>> len(both) == 2 * len(ribbon(square[:-1], 1.0, closed=True))
+    True
+    """
+    line = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    kept = np.ones(len(points), dtype=bool)
+    kept[1:] = np.any(points[1:] != points[:-1], axis=1) | (line[1:] != line[:-1])
+    points, line = points[kept], line[kept]
+    drawn = line[1:] == line[:-1]
+    first = np.flatnonzero(np.concatenate([[True], ~drawn])[: len(points)])
+    last = np.append(first[1:], len(points)) - 1 if len(points) else first
+    alone = first == last
+    ring = np.all(points[first] == points[last], axis=1) & ~alone
+    rings = np.stack([first[ring], last[ring]], axis=1)
+    if not drawn.any():
+        return discs(points, width / 2)
+    bends = _bends(points, drawn, width / 2, rings, round_caps=True)
+    return np.concatenate([_rectangles(points, drawn, width / 2), bends, discs(points[first[alone]], width / 2)])
 
 
 def discs(centers: FloatArray, radius: float) -> Corners:
@@ -155,16 +195,20 @@ def _rectangles(points: FloatArray, drawn: BoolArray, radius: float) -> Corners:
     return _halved(np.stack([start - side, end - side, end + side, start + side], axis=1))
 
 
-def _bends(points: FloatArray, drawn: BoolArray, radius: float, closed: bool, round_caps: bool) -> Corners:
-    """The outer side of each bend, and half a disc at each end."""
+def _bends(
+    points: FloatArray, drawn: BoolArray, radius: float, rings: npt.NDArray[np.intp], round_caps: bool
+) -> Corners:
+    """The outer side of each bend, and half a disc at each end; `rings` are first and last points of closed lines."""
     steps = np.diff(points, axis=0)
     angle = np.arctan2(steps[:, 1], steps[:, 0])
-    before = np.concatenate([[drawn[-1] and closed], drawn])
-    after = np.concatenate([drawn, [drawn[0] and closed]])
-    angle_in, angle_out = np.concatenate([angle[-1:], angle]), np.concatenate([angle, angle[:1]])
+    before, after = np.concatenate([[False], drawn]), np.concatenate([drawn, [False]])
+    angle_in, angle_out = np.concatenate([angle[:1], angle]), np.concatenate([angle, angle[-1:]])
+    first, last = rings.T
+    before[first], angle_in[first] = drawn[last - 1], angle[last - 1]
+    after[last] = drawn[first]
     turn = (angle_out - angle_in + np.pi) % (2 * np.pi) - np.pi
     joins = before & after
-    joins[-1] = False  # where a closed line ends it begins, and has its bend there
+    joins[last] = False  # where a closed line ends it begins, and has its bend there
     # Turning left (turn > 0) opens the right side, a quarter turn clockwise from the direction of travel.
     wedges = [_wedges(points[joins], (angle_in - np.copysign(np.pi / 2, turn))[joins], turn[joins], radius)]
     if round_caps:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stereodel.render.image import compare
-from stereodel.render.page import Dots, Fill, Label, Page, Stroke, Surface
+from stereodel.render.page import Dots, Fill, Label, Page, Polylines, Stroke, Surface
 from stereodel.render.raster import LIGHT, SHADE, SUPERSAMPLING, render, triangulate
 from stereodel.render.vector import rasterize
 
@@ -41,6 +41,18 @@ def mixed_page():
         Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, (0.8, 0.0, 0.0, 1.0), rim_width=1.0),
     )
     return Page(EXTENT, items)
+
+
+def test_many_lines_in_one_item_look_like_strokes():
+    corners = np.array([(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)])
+    ink = (0.0, 0.0, 0.0, 0.5)
+    together = Polylines(corners, np.array([0, 3, 7, 8], dtype=np.int32), ink, 8.0)
+    strokes = (
+        Stroke(lines(*corners[:3]), ink, 8.0),
+        Stroke(lines(*corners[3:7]), ink, 8.0, closed=True),
+        Stroke(lines(corners[7], corners[7]), ink, 8.0),
+    )
+    assert np.array_equal(render(Page(EXTENT, (together,)), size=200), render(Page(EXTENT, strokes), size=200))
 
 
 def test_the_default_is_print_at_300_dpi():

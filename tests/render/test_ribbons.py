@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from stereodel.render.ribbons import FLATNESS, discs, flatten, region, ribbon
+from stereodel.render.ribbons import FLATNESS, discs, flatten, region, ribbon, ribbons
 
 POINTS = arrays(np.float64, st.tuples(st.integers(3, 12), st.just(2)), elements=st.floats(0, 100, width=32))
 
@@ -127,6 +127,26 @@ def test_a_point_alone_is_a_disc_or_nothing():
     point = np.array([[3.0, 3.0], [3.0, 3.0]])
     assert areas(ribbon(point, 10.0)).sum() == pytest.approx(np.pi * 25, rel=2e-2)
     assert len(ribbon(point, 10.0, round_caps=False)) == 0
+
+
+def triangle_set(triangles):
+    return sorted(map(tuple, triangles.reshape(-1, 6).round(9).tolist()))
+
+
+# Few places, so that neighbours repeat, lines close and lines meet others.
+LINES = st.lists(st.lists(st.tuples(st.integers(0, 3), st.integers(0, 3)), max_size=7), max_size=6)
+
+
+@given(LINES, st.floats(0.1, 2))
+def test_many_ribbons_are_the_ribbons_of_each(lines, width):
+    runs = [np.array(line, dtype=float).reshape(-1, 2) for line in lines]
+    offsets = np.cumsum([0, *map(len, runs)])
+    each = [np.zeros((0, 3, 2))]
+    for run in runs:
+        moves = len(run) > 1 and bool((run != run[0]).any())
+        each.append(ribbon(run, width, closed=moves and bool((run[0] == run[-1]).all())))
+    together = ribbons(np.concatenate([np.zeros((0, 2)), *runs]), offsets, width)
+    assert triangle_set(together) == triangle_set(np.concatenate(each))
 
 
 def test_turning_back_is_rounded():
