@@ -62,6 +62,7 @@ html_sidebars = {
         "earth",
         "exactness",
         "files",
+        "map_libraries",
         "spatial",
         "degenerate",
         "paper",

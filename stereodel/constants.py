@@ -158,3 +158,9 @@ LARGEST_EXTENT: Final = 170.0
 
 The scale at its edge is 132 times that of the middle; a view of everything would be a point in an empty disc.
 """
+
+PAGE_TOLERANCE: Final = 5e-5
+"""How far a chord may stray from its curve on a globe drawn by matplotlib, in terms of the radius of what is shown.
+
+A twentieth of a pixel at a radius of 1000 pixels, as `FLATNESS`; matplotlib draws one path at any resolution.
+"""

@@ -15,6 +15,7 @@ import stereodel.interpolation
 import stereodel.io
 import stereodel.relaxation
 import stereodel.render
+import stereodel.render.mpl
 import stereodel.spatial
 import stereodel.sphere
 import stereodel.triangulation
@@ -82,6 +83,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.io") == set(stereodel.io.__all__)
     assert reference("stereodel.spatial") | {"QhullError"} == set(stereodel.spatial.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)
+    assert reference("stereodel.render.mpl") == set(stereodel.render.mpl.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}
 
 

@@ -35,7 +35,7 @@ MAY_IMPORT = {
     "relaxation": KERNEL | {"triangulation"},
     "io": BASE | {"_extras", "_files", "sphere", "triangulation", "render"},
     "__init__": MATHEMATICS,
-    "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel"},
+    "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data"},
     "cli": MATHEMATICS | {"__init__", "_extras", "_files", "data", "earth", "interpolation", "io", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
