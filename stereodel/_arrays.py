@@ -291,3 +291,46 @@ def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArra
     if array.size and (array.ndim != 2 or array.shape[1] != 2):
         raise ValueError(f"{name} must have shape (n, 2) or (n, 3), got {array.shape}")
     return as_points(array, 2, name)
+
+
+def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> npt.NDArray[np.uint8]:
+    """A picture of at most `most` pixels, (h, w), (h, w, 3) or (h, w, 4) uint8, as a copy with four channels."""
+    _refuse_masked(values, name)
+    array = np.asarray(values)
+    if array.dtype != np.uint8:
+        raise TypeError(f"{name} must be of uint8, not {array.dtype}; scale the numbers to 0 to 255 and cast them")
+    if array.ndim not in (2, 3) or array.shape[2:] not in ((), (3,), (4,)) or array.size == 0:
+        raise ValueError(f"{name} must have shape (h, w), (h, w, 3) or (h, w, 4) and be not empty, got {array.shape}")
+    height, width = array.shape[:2]
+    if height * width > most:
+        raise ValueError(f"{name} has {width} × {height} pixels, more than {most}; make the picture smaller")
+    pixels = np.full((height, width, 4), 255, dtype=np.uint8)
+    channels = array.reshape(height, width, -1)
+    pixels[..., : max(3, channels.shape[2])] = channels
+    return pixels
+
+
+def as_edges(values: npt.ArrayLike, name: str) -> tuple[float, float, float, float]:
+    """(west, south, east, north) in degrees: not empty, at most once round, latitudes in [-90, 90]."""
+    array = as_floats(values, name)
+    if array.shape != (4,):
+        raise ValueError(f"{name} must be (west, south, east, north) in degrees, got shape {array.shape}")
+    west, south, east, north = array.tolist()
+    if not 0 < east - west <= 360:
+        raise ValueError(f"{name} runs from longitude {west:g} to {east:g}; east must be up to 360 more than west")
+    if not -90 <= south < north <= 90:
+        raise ValueError(f"{name} runs from latitude {south:g} to {north:g}; -90 <= south < north <= 90 is needed")
+    return west, south, east, north
+
+
+def as_window(value: Any, size: int, name: str) -> tuple[int, int, int, int]:
+    """(left, top, width, height) of a part of a square picture, in its pixels; None stands for all of it."""
+    if value is None:
+        return 0, 0, size, size
+    array = np.asarray(value)
+    if array.shape != (4,) or array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be four integers (left, top, width, height), got {value!r}")
+    left, top, width, height = array.tolist()
+    if not (0 <= left < left + width <= size and 0 <= top < top + height <= size):
+        raise ValueError(f"{name} is {(left, top, width, height)}, which is not a part of {size} × {size} pixels")
+    return left, top, width, height

@@ -1,5 +1,5 @@
 """
-The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location, Voronoi diagrams.
+The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location, Voronoi diagrams, rasters on a globe.
 """
 
 from collections.abc import Sequence
@@ -459,6 +459,44 @@ def compare_to_line(
     lo: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
     stage: str = "all",
 ) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
+def raster_levels(
+    raster: Annotated[NDArray[numpy.uint8], dict(shape=(None, None, 4), order="C", device="cpu", writable=False)],
+    edges: Annotated[NDArray[numpy.float64], dict(shape=(4), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.uint8], dict(shape=(None,), order="C")]:
+    """
+    Means of a raster (h, w, 4), colour premultiplied, with edges (west, south, east, north) in radians.
+    """
+
+def trace_page(
+    first: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
+    size: float,
+    last: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
+    reach: float,
+    place: Sequence[float],
+    count: int,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order="C")]:
+    """
+    Of page points from (x, y), a step apart: lon, lat, their changes over a step right and up, the bend.
+    """
+
+def warp_raster(
+    raster: Annotated[NDArray[numpy.uint8], dict(shape=(None, None, 4), order="C", device="cpu", writable=False)],
+    levels: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    edges: Annotated[NDArray[numpy.float64], dict(shape=(4), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
+    size: float,
+    last: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
+    reach: float,
+    place: Sequence[float],
+    pixels: Sequence[int],
+    covered: bool = True,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.uint8], dict(shape=(None, None, 4), order="C")]:
+    """
+    Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; place (left, top, step) in radii, pixels (width, height).
+    """
+
 def voronoi_plane(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

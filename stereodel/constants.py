@@ -164,3 +164,12 @@ PAGE_TOLERANCE: Final = 5e-5
 
 A twentieth of a pixel at a radius of 1000 pixels, as `FLATNESS`; matplotlib draws one path at any resolution.
 """
+
+MOST_TEXELS: Final = 2**27
+"""Pixels of the largest picture that is read or warped, 16384 × 8192: with its smaller copies it takes 1.4 GB.
+
+Pillow has the same kind of limit, somewhat above.
+"""
+
+MOST_PIXELS_ACROSS: Final = 2**20
+"""Largest globe in pixels across: columns and rows of a window of it stay whole in single precision."""

@@ -10,6 +10,7 @@ import pytest
 import stereodel
 import stereodel.data
 import stereodel.earth
+import stereodel.globe
 import stereodel.graphs
 import stereodel.interpolation
 import stereodel.io
@@ -82,6 +83,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)
     assert reference("stereodel.io") == set(stereodel.io.__all__)
     assert reference("stereodel.spatial") | {"QhullError"} == set(stereodel.spatial.__all__)
+    assert reference("stereodel.globe") == set(stereodel.globe.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)
     assert reference("stereodel.render.mpl") == set(stereodel.render.mpl.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}

@@ -36,6 +36,7 @@ MAY_IMPORT = {
     "io": BASE | {"_extras", "_files", "sphere", "triangulation", "render"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data"},
+    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data", "render"},
     "cli": MATHEMATICS | {"__init__", "_extras", "_files", "data", "earth", "interpolation", "io", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
@@ -124,12 +125,12 @@ def test_no_cycles():
         pytest.fail("imports in a circle: " + " → ".join(error.args[1]))
 
 
-def test_only_render_and_cli_use_more_than_numpy_and_scipy():
+def test_only_pictures_and_cli_use_more_than_numpy_and_scipy():
     """SciPy is imported inside the functions that need it: `test_import_loads_no_graphics` sees it elsewhere."""
     foreign = {
         f"{name} imports {target}"
         for name, path in MODULES.items()
-        if part(name) not in {"render", "cli"}
+        if part(name) not in {"render", "globe", "cli"}
         for target in imported(path)
         if target.split(".")[0] not in {"stereodel", "numpy", "scipy", *sys.stdlib_module_names}
     }

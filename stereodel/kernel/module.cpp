@@ -11,6 +11,7 @@ void bind_interpolation(nanobind::module_& module);
 void bind_location(nanobind::module_& module);
 void bind_mesh(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
+void bind_raster(nanobind::module_& module);
 void bind_voronoi(nanobind::module_& module);
 
 }  // namespace stereodel
@@ -18,7 +19,7 @@ void bind_voronoi(nanobind::module_& module);
 NB_MODULE(_kernel, module) {
     module.doc() =
         "The compiled part of stereodel: predicates, divide and conquer, insertion and removal, location, Voronoi "
-        "diagrams.";
+        "diagrams, rasters on a globe.";
     stereodel::bind_conformal(module);
     stereodel::bind_degrees(module);
     stereodel::bind_delaunay(module);
@@ -27,5 +28,6 @@ NB_MODULE(_kernel, module) {
     stereodel::bind_location(module);
     stereodel::bind_mesh(module);
     stereodel::bind_predicates(module);
+    stereodel::bind_raster(module);
     stereodel::bind_voronoi(module);
 }

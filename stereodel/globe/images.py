@@ -1,0 +1,71 @@
+"""Picture files as pixels: any kind that Pillow reads, with limits that hold before anything is decoded."""
+
+from __future__ import annotations
+
+import os
+import struct
+import warnings
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel.constants import MOST_TEXELS
+
+Pixels = npt.NDArray[np.uint8]
+
+SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
+"""Modes of Pillow for gray of 16 bits."""
+
+DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, IndexError, TypeError)
+"""What the decoders of Pillow raise on a file that is cut off or garbled."""
+
+
+def read_image(path: str | os.PathLike[str]) -> Pixels:
+    """The first picture of a file, (h, w, 4): sRGB and opacity, not premultiplied.
+
+    Raises
+    ------
+    OSError
+        Where the file is missing or cannot be read.
+    ValueError
+        When it is no picture, has more than `MOST_TEXELS` pixels, is damaged, or holds floating-point numbers.
+    """
+    from PIL import Image, UnidentifiedImageError
+
+    name = os.fspath(path)
+    # Pillow warns of half of what it refuses, which is more than our own limit.
+    with open(name, "rb") as file, warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        try:
+            with Image.open(file) as image:
+                _check_size(name, image.size)
+                return _converted(name, image)
+        except UnidentifiedImageError as error:
+            raise ValueError(f"{name} is no picture that Pillow can read") from error
+        except Image.DecompressionBombError as error:
+            raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller") from error
+
+
+def _check_size(name: str, size: tuple[int, int]) -> None:
+    width, height = size
+    if width * height > MOST_TEXELS:
+        raise ValueError(
+            f"{name} has {width} × {height} pixels, more than the {MOST_TEXELS} that are read; make it smaller"
+        )
+
+
+def _converted(name: str, image: Any) -> Pixels:
+    try:
+        image.load()
+    except DAMAGED as error:
+        raise ValueError(f"{name} is damaged or cut off: {error}") from error
+    if image.mode == "F":
+        raise ValueError(f"{name} holds floating-point numbers; scale them to 0 to 255 and give them as an array")
+    if image.mode not in SIXTEEN_BITS:
+        return np.asarray(image.convert("RGBA"))
+    gray = np.asarray(image)
+    if gray.max(initial=0) > 65535 or gray.min(initial=0) < 0:
+        raise ValueError(f"{name} holds numbers beyond 16 bits; scale them to 0 to 255 and give them as an array")
+    levels = ((gray.astype(np.uint32) + 128) // 257).astype(np.uint8)
+    return np.dstack([levels, levels, levels, np.full_like(levels, 255)])

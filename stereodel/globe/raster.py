@@ -1,0 +1,206 @@
+"""Equirectangular pictures of the globe, and how a lens and a view show them."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import _kernel
+from stereodel._arrays import FloatArray, as_count, as_edges, as_pixels, as_window, locked
+from stereodel._threads import thread_count
+from stereodel.conformal import MoebiusMap
+from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
+from stereodel.globe.images import read_image
+from stereodel.render.view import StereographicView, View, turned
+
+Pixels = npt.NDArray[np.uint8]
+
+WHOLE = (-180.0, -90.0, 180.0, 90.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Raster:
+    """A picture of the Earth, or of a part of it, in which longitude and latitude run evenly.
+
+    Parameters
+    ----------
+    pixels : array_like of uint8, shape (h, w), (h, w, 3) or (h, w, 4)
+        Gray, sRGB, or sRGB and opacity (not premultiplied); rows from the north, columns from the west. At most
+        `MOST_TEXELS` pixels.
+    extent : tuple of float, optional
+        (west, south, east, north) of the outer edges in degrees, 0 < east − west ≤ 360. Without it the picture shows
+        the whole globe from −180 to 180 and must be twice as wide as high.
+
+    Raises
+    ------
+    TypeError
+        For numbers that are not uint8.
+    ValueError
+        For another shape, more pixels, a picture that is not 2:1 without an extent, or an extent out of range.
+
+    Notes
+    -----
+    Row i is centred at latitude north − (i + 1/2)·(north − south)/h, and columns likewise. A raster that goes all the
+    way round has no seam, and one that reaches a pole goes on beyond it along the opposite meridian.
+
+    `warp` takes for each pixel the mean of the raster over the pixel's image: what shrinks does not flicker. What grows
+    is the surface through the texels of cubic convolution (Catmull and Rom: sharp, at an edge at most a fourteenth
+    beyond it, and never beyond 0 and 255). Means are taken of sRGB values as they stand, as everywhere in
+    `stereodel.render`.
+
+    Examples
+    --------
+    >>> stripes = Raster(np.arange(0, 240, 20, dtype=np.uint8)[None, :].repeat(6, axis=0))
+    >>> picture = stripes.warp(MoebiusMap.identity(), View(0.0, 0.0), 101)
+    >>> picture.shape, picture[50, 50].tolist(), picture[0, 0].tolist()
+    ((101, 101, 4), [110, 110, 110, 255], [0, 0, 0, 0])
+    """
+
+    pixels: Pixels
+    extent: tuple[float, float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        pixels = as_pixels(self.pixels, "pixels", most=MOST_TEXELS)
+        height, width = pixels.shape[:2]
+        if self.extent is None and width != 2 * height:
+            raise ValueError(
+                f"pixels is {width} wide and {height} high; a picture of the whole globe is twice as wide as high: "
+                "say what this one shows, extent=(west, south, east, north) in degrees"
+            )
+        object.__setattr__(self, "pixels", locked(pixels))
+        object.__setattr__(self, "extent", as_edges(WHOLE if self.extent is None else self.extent, "extent"))
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str], *, extent: tuple[float, float, float, float] | None = None) -> Raster:
+        """Read a picture file of any kind that Pillow reads; palettes, gray, 16 bits and opacity are understood.
+
+        Parameters
+        ----------
+        path : path-like
+            Of a file with several pictures the first is read.
+        extent : tuple of float, optional
+            As for `Raster`.
+
+        Raises
+        ------
+        OSError
+            Where the file is missing or cannot be read.
+        ValueError
+            When it is no picture, is damaged, or has more than `MOST_TEXELS` pixels, which is seen before they are
+            decoded; for a picture that is not 2:1 without an extent.
+        """
+        pixels = read_image(path)
+        try:
+            return cls(pixels, extent)
+        except ValueError as error:
+            raise ValueError(f"{os.fspath(path)}: {error}") from error
+
+    def warp(
+        self,
+        lens: MoebiusMap,
+        view: View | StereographicView,
+        size: int,
+        *,
+        window: tuple[int, int, int, int] | None = None,
+        workers: int | None = None,
+    ) -> Pixels:
+        """The globe as it looks through a lens.
+
+        Parameters
+        ----------
+        lens : MoebiusMap
+            Where each point of the globe is shown.
+        view : View or StereographicView
+        size : int
+            Pixels across the globe, which touches all four sides of the picture.
+        window : tuple of int, optional
+            (left, top, width, height) in pixels of that picture: the part that is wanted; by default all of it.
+        workers : int, optional
+            Threads; −1 for all processors. By default all for more than a few pixels. Never changes the result.
+
+        Returns
+        -------
+        (height, width, 4) uint8 array
+            sRGB and opacity, not premultiplied, rows from the top. Opacity is that of the raster, times the part of the
+            pixel that the globe covers.
+
+        Raises
+        ------
+        ValueError
+            For a size or a window out of range.
+        """
+        across = as_count(size, "size", high=MOST_PIXELS_ACROSS)
+        left, top, width, height = as_window(window, across, "window")
+        step = 2.0 / across
+        place = (left * step - 1.0, 1.0 - top * step, step)
+        return self.painted(lens, view, place, (width, height), workers=workers)
+
+    def painted(
+        self,
+        lens: MoebiusMap,
+        view: View | StereographicView,
+        place: tuple[float, float, float],
+        pixels: tuple[int, int],
+        *,
+        covered: bool = True,
+        workers: int | None = None,
+    ) -> Pixels:
+        """As `warp`, for pixels anywhere on the page.
+
+        Parameters
+        ----------
+        lens, view, workers
+            As for `warp`.
+        place : tuple of float
+            Left and upper edge, and the side of a pixel, in radii of the disc about its centre, y up.
+        pixels : tuple of int
+            Columns and rows.
+        covered : bool
+            Whether the opacity of pixels on the limb says how much of them the disc covers. Without, they are as opaque
+            as the raster: for a picture that is then cut along the disc.
+        """
+        back = lens.inverse()
+        reach = 0.0 if isinstance(view, View) else float(np.tan(np.radians(view.extent) / 2))
+        return _kernel.warp_raster(
+            self._texels,
+            self._levels,
+            self._edges,
+            turned(back.right.matrix, view.matrix),
+            back.magnification,
+            back.left.matrix,
+            reach,
+            place,
+            pixels,
+            covered,
+            thread_count(workers, pixels[0] * pixels[1]),
+        )
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of shape and pixels, for tests that must notice another picture."""
+        return hashlib.sha256(f"{self.pixels.shape}\n".encode() + self.pixels.tobytes()).hexdigest()
+
+    @cached_property
+    def _texels(self) -> Pixels:
+        """Colour premultiplied, which is what means are taken of."""
+        opacity = self.pixels[..., 3:]
+        if opacity.min() == 255:
+            return self.pixels
+        texels = self.pixels.copy()
+        # At most 255² + 127, which fits into 16 bits.
+        texels[..., :3] = (self.pixels[..., :3] * opacity.astype(np.uint16) + 127) // 255
+        return texels
+
+    @cached_property
+    def _levels(self) -> Pixels:
+        return _kernel.raster_levels(self._texels, self._edges, thread_count(None, self.pixels.size))
+
+    @property
+    def _edges(self) -> FloatArray:
+        edges: FloatArray = np.radians(np.array(self.extent))
+        return edges

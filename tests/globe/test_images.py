@@ -1,0 +1,104 @@
+"""Picture files: every mode that Pillow knows, and what is wrong with the others."""
+
+import struct
+import warnings
+import zlib
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from stereodel.globe import Raster
+
+GRAY = np.arange(0, 256, 8, dtype=np.uint8).reshape(4, 8)
+COLOUR = np.dstack([GRAY, 255 - GRAY, GRAY // 2])
+OPACITY = np.where(GRAY > 100, 255, 0).astype(np.uint8)
+
+
+def with_opacity(colour, opacity=255):
+    return np.dstack([colour, np.broadcast_to(np.uint8(opacity), colour.shape[:2])])
+
+
+@pytest.mark.parametrize(
+    ("picture", "expected"),
+    [
+        (Image.fromarray(GRAY), with_opacity(np.dstack([GRAY] * 3))),
+        (Image.fromarray(COLOUR), with_opacity(COLOUR)),
+        (Image.fromarray(with_opacity(COLOUR, OPACITY)), with_opacity(COLOUR, OPACITY)),
+        (Image.fromarray(np.dstack([GRAY, OPACITY])), with_opacity(np.dstack([GRAY] * 3), OPACITY)),
+        (Image.fromarray(COLOUR).quantize(32, method=Image.Quantize.FASTOCTREE), None),
+        (Image.fromarray(GRAY.astype(np.uint16) * 257), with_opacity(np.dstack([GRAY] * 3))),
+        (Image.fromarray(GRAY > 100), with_opacity(np.dstack([OPACITY] * 3))),
+    ],
+    ids=["gray", "colour", "opacity", "gray with opacity", "palette", "16 bits", "1 bit"],
+)
+def test_modes(tmp_path, picture, expected):
+    path = tmp_path / "map.png"
+    picture.save(path)
+    expected = np.asarray(picture.convert("RGBA")) if expected is None else expected
+    assert np.array_equal(Raster.open(path).pixels, expected)
+
+
+def test_palette_with_a_transparent_colour(tmp_path):
+    picture = Image.new("P", (8, 4), 1)
+    picture.putpalette([0, 0, 0, 10, 20, 30])
+    picture.paste(0, (0, 0, 4, 4))
+    picture.save(tmp_path / "map.png", transparency=0)
+    found = Raster.open(tmp_path / "map.png").pixels
+    assert found[0, 0, 3] == 0
+    assert found[0, 7].tolist() == [10, 20, 30, 255]
+
+
+@pytest.mark.parametrize("kind", ["jpg", "webp", "tif", "bmp", "gif"])
+def test_kinds_of_files(tmp_path, kind):
+    Image.new("RGB", (8, 4), (50, 100, 150)).save(tmp_path / f"map.{kind}")
+    found = Raster.open(tmp_path / f"map.{kind}").pixels.astype(int)
+    assert np.abs(found - [50, 100, 150, 255]).max() <= 4
+
+
+def test_a_part_of_the_globe(tmp_path):
+    Image.new("L", (30, 30)).save(tmp_path / "part.png")
+    assert Raster.open(tmp_path / "part.png", extent=(0, 10, 30, 40)).extent == (0, 10, 30, 40)
+    with pytest.raises(ValueError, match=r"part\.png: pixels is 30 wide and 30 high; .*extent="):
+        Raster.open(tmp_path / "part.png")
+
+
+def png_of(width, height):
+    """A PNG file that says how large it is and holds nothing."""
+
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+    return b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(b"")) + chunk(b"IEND", b"")
+
+
+@pytest.mark.parametrize("size", [(16386, 8193), (19000, 9000), (200_000, 100_000)])
+def test_too_large_files_are_refused_before_they_are_decoded(tmp_path, size):
+    (tmp_path / "huge.png").write_bytes(png_of(*size))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ValueError, match=r"huge\.png has .*134217728.* read; make it smaller"):
+            Raster.open(tmp_path / "huge.png")
+
+
+def test_damaged_files_are_named(tmp_path):
+    path = tmp_path / "map.jpg"
+    Image.fromarray(np.random.default_rng(1).integers(0, 256, (100, 200, 3), dtype=np.uint8)).save(path)
+    path.write_bytes(path.read_bytes()[:3000])
+    with pytest.raises(ValueError, match=r"map\.jpg is damaged or cut off"):
+        Raster.open(path)
+    (tmp_path / "empty.png").write_bytes(png_of(8, 4))
+    with pytest.raises(ValueError, match=r"empty\.png is damaged or cut off"):
+        Raster.open(tmp_path / "empty.png")
+
+
+def test_what_is_no_picture(tmp_path):
+    (tmp_path / "note.txt").write_text("lon,lat\n")
+    with pytest.raises(ValueError, match=r"note\.txt is no picture that Pillow can read"):
+        Raster.open(tmp_path / "note.txt")
+    with pytest.raises(FileNotFoundError, match=r"missing\.png"):
+        Raster.open(tmp_path / "missing.png")
+    Image.fromarray(np.zeros((4, 8), np.float32)).save(tmp_path / "heights.tif")
+    with pytest.raises(ValueError, match=r"heights\.tif holds floating-point numbers"):
+        Raster.open(tmp_path / "heights.tif")

@@ -1,0 +1,244 @@
+"""Rasters through lenses: against many samples a pixel, at seams, poles and limb, and the rules of the interface."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import MoebiusMap, Rotation, _kernel, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.globe import Raster
+from stereodel.render.view import StereographicView, View
+from tests.globe.supersampling import checkerboard, grid, noise, psnr, reference, zone_plate
+
+PLAIN = MoebiusMap.identity()
+STRONG = fisheye((20.0, 40.0), magnification=20.0)
+LEAST_PSNR = 35.0
+PLACES = {
+    "grown": (PLAIN, View(20, 40), 1024, (500, 480, 12, 12)),
+    "as large": (PLAIN, View(20, 40), 256, (120, 120, 14, 14)),
+    "limb above": (PLAIN, View(20, 40), 256, (120, 0, 14, 6)),
+    "limb beside": (PLAIN, View(20, 40), 256, (250, 120, 6, 14)),
+    "limb aslant": (PLAIN, View(20, 40), 256, (206, 30, 12, 12)),
+    "pole": (PLAIN, View(20, 80), 128, (56, 46, 14, 14)),
+    "pole in the middle": (PLAIN, View(20, -90), 128, (57, 57, 14, 14)),
+    "pole at the limb": (PLAIN, View(20, 1), 128, (58, 0, 12, 6)),
+    "shrunk": (PLAIN, View(20, 40), 32, (0, 0, 14, 14)),
+    "antipode": (STRONG, View(200, -40), 128, (57, 57, 14, 14)),
+    "flat": (fisheye((20.0, 40.0), magnification=4.0), StereographicView(20, 40, extent=150), 128, (2, 60, 12, 8)),
+}
+
+
+@pytest.mark.parametrize("place", PLACES)
+@pytest.mark.parametrize(
+    "raster", [checkerboard(256, 32), zone_plate(256), noise(256)], ids=["squares", "rings", "noise"]
+)
+def test_no_aliasing(raster, place):
+    lens, view, size, window = PLACES[place]
+    expected, covered = reference(raster, lens, view, size, window)
+    found = Raster(raster).warp(lens, view, size, window=window).astype(np.float64)
+    assert psnr(expected, found[..., 0] * found[..., 3] / 255) > LEAST_PSNR
+    # The reference counts samples; those in a pixel are off by the straightness of the limb and their number.
+    assert np.abs(found[..., 3] / 255 - covered).max() < 0.05
+
+
+def test_smooth_functions_are_met_exactly():
+    """The mean of a smooth function over a pixel is nearly its value in the middle: within the rounding of both."""
+    lon, lat = grid(512)
+    raster = Raster(np.round(127.5 + 100 * np.cos(lat) * np.cos(lon) * np.sin(lat)).astype(np.uint8))
+    size, view = 301, View(50, 35)
+    middle = (np.arange(size) + 0.5) * 2 / size - 1
+    xy = np.stack(np.meshgrid(middle, -middle), axis=-1)
+    inside = np.sum(xy**2, axis=-1) < 0.97
+    x, _, z = (STRONG.inverse()(view.raised(xy[inside]) @ view.matrix)).T
+    found = raster.warp(STRONG, view, size)[inside][:, 0]
+    assert np.abs(found - (127.5 + 100 * x * z)).max() < 1.6
+
+
+@given(st.integers(0, 511), st.floats(-90, 90), st.sampled_from([1.0, 5.0]))
+@settings(deadline=None, max_examples=15)
+def test_no_seam(columns, lat, magnification):
+    """Turning the raster about the axis and looking from as much farther east is the same picture."""
+    raster, turn = noise(256), columns * 360 / 512
+    there = Raster(raster).warp(fisheye((0.0, 30.0), magnification=magnification), View(0.0, lat), 90)
+    moved = fisheye((turn, 30.0), magnification=magnification)
+    turned = Raster(np.roll(raster, columns, axis=1)).warp(moved, View(turn, lat), 90)
+    # At odd columns the means of pairs are others; what they stand for is the same.
+    assert psnr(there.astype(float), turned.astype(float)) > (60 if columns % 16 == 0 else 32)
+
+
+@pytest.mark.parametrize("pole", [90.0, -90.0])
+def test_poles_are_smooth(pole):
+    """A function smooth at a pole, with all meridians meeting, and magnified there 50 times: no pinch, no seam."""
+    lon, lat = grid(180)
+    raster = Raster(np.round(127.5 + 120 * np.cos(lat) * np.cos(lon - 1)).astype(np.uint8))
+    lens, size, view = fisheye((0.0, pole), magnification=50.0), 101, View(0.0, pole)
+    middle = (np.arange(size) + 0.5) * 2 / size - 1
+    xy = np.stack(np.meshgrid(middle, -middle), axis=-1)
+    inside = np.sum(xy**2, axis=-1) < 1
+    x, y, _ = (lens.inverse()(view.raised(xy[inside]) @ view.matrix)).T
+    found = raster.warp(lens, view, size)[inside][:, 0]
+    assert np.abs(found - (127.5 + 120 * (x * np.cos(1) + y * np.sin(1)))).max() < 1.6
+
+
+@given(st.integers(0, 255), st.floats(-3, 3), st.floats(-180, 180), st.floats(-90, 90))
+@settings(deadline=None, max_examples=25)
+def test_one_colour_stays_one_colour(level, exponent, lon, lat):
+    raster = Raster(np.full((9, 18, 3), level, dtype=np.uint8))
+    found = raster.warp(fisheye((lon, lat), magnification=10.0**exponent), View(0, 0), 40)
+    assert set(found[found[..., 3] > 0][:, :3].ravel().tolist()) == {level}
+
+
+def lens_parts(lens, view):
+    back = lens.inverse()
+    return back.right.matrix @ view.matrix.T, back.magnification, back.left.matrix
+
+
+@pytest.mark.parametrize("view", [View(17, 33, 20), StereographicView(17, 33, 20, extent=170)])
+@pytest.mark.parametrize("magnification", [1.0, 20.0, 1e3, 1e6, 1e-3])
+def test_traced_points_are_those_of_the_exact_map(view, magnification):
+    """Within a thousandth of a pixel on the page, of a globe of 2000 pixels, however strong the lens."""
+    lens = fisheye((17.5, 33.2), magnification=magnification) @ MoebiusMap.rotation(Rotation.about((50, 60), 70))
+    reach = 0.0 if isinstance(view, View) else np.tan(np.radians(view.extent / 2))
+    x = np.linspace(-0.9, 0.9, 401)
+    traced = _kernel.trace_page(*lens_parts(lens, view), reach, (-0.9, 0.31, 1.8 / 400), 401)
+    exact = lens.inverse()(view.raised(np.stack([x, np.full(401, 0.31)], axis=-1)) @ view.matrix)
+    found = lonlat_to_xyz(np.degrees(traced[:, :2]))
+    scale = np.maximum(lens.scale_factor(exact), 1.0)
+    assert (np.linalg.norm(found - exact, axis=-1) * scale).max() < 0.001 * 2 / 2000 * max(1, magnification / 1e3)
+
+
+@pytest.mark.parametrize("view", [View(17, 33, 20), StereographicView(17, 33, 20, extent=170)])
+def test_traced_changes_are_derivatives(view):
+    lens, step, reach = fisheye((40.0, 10.0), magnification=3.0), 1e-6, 0.0
+    if isinstance(view, StereographicView):
+        reach = np.tan(np.radians(view.extent / 2))
+    for x, y in np.random.default_rng(3).uniform(-0.6, 0.6, (20, 2)):
+        row = _kernel.trace_page(*lens_parts(lens, view), reach, (x, y, step), 1)[0]
+        ends = np.array([[x + step, y], [x - step, y], [x, y + step], [x, y - step]])
+        east, west, north, south = np.radians(xyz_to_lonlat(lens.inverse()(view.raised(ends) @ view.matrix)))
+        expected = np.concatenate([east - west, north - south]) / 2
+        assert row[[2, 4, 3, 5]] == pytest.approx(expected, rel=1e-4, abs=1e-12)
+
+
+def test_threads_and_windows_change_nothing():
+    raster = Raster(np.dstack([noise(128), checkerboard(128, 8), zone_plate(128)]))
+    whole = raster.warp(STRONG, View(30, 30), 200, workers=1)
+    assert np.array_equal(raster.warp(STRONG, View(30, 30), 200, workers=3), whole)
+    left, top, width, height = 37, 81, 120, 50
+    window = raster.warp(STRONG, View(30, 30), 200, window=(left, top, width, height))
+    # A window's corner is rounded, so that a pixel may be rounded the other way.
+    apart = window.astype(int) - whole[top : top + height, left : left + width]
+    assert np.abs(apart).max() <= 1
+
+
+@pytest.mark.parametrize("shape", [(7, 14), (45, 90), (64, 128), (100, 200), (1, 2)])
+def test_levels_are_means_over_the_sphere(shape):
+    height, width = shape
+    texels = np.random.default_rng(2).integers(0, 256, (height, width, 4), dtype=np.uint8)
+    levels = _kernel.raster_levels(texels, np.radians([-180.0, -90.0, 180.0, 90.0]), 2)
+    edges = np.sin(np.pi / 2 - np.arange(height + 1) * np.pi / height)
+    mean = np.average(texels.astype(float).mean(axis=1), axis=0, weights=-np.diff(edges))
+    # One level of rounding in each of the last means.
+    assert levels[-4:] == pytest.approx(mean, abs=1.5)
+
+
+def test_part_of_the_globe():
+    """A cut-out looks as the whole does there, has soft edges, and is transparent beyond them."""
+    whole = zone_plate(180)
+    part = Raster(whole[30:90, 200:300], (20.0, 0.0, 120.0, 60.0))
+    view, size = View(60, 20), 200
+    found, expected = (r.warp(PLAIN, view, size).astype(int) for r in (part, Raster(whole)))
+    inside = found[..., 3] == 255
+    assert np.abs(found - expected)[inside].max(axis=-1).mean() < 0.5
+    middle = (np.arange(size) + 0.5) * 2 / size - 1
+    xy = np.stack(np.meshgrid(middle, -middle), axis=-1)
+    disc = np.sum(xy**2, axis=-1) < 0.98
+    lon, lat = xyz_to_lonlat(view.raised(xy[disc]) @ view.matrix).T
+    clear = np.min([lon - 20, 120 - lon, lat, 60 - lat], axis=0)
+    assert (found[disc][clear > 1.5][:, 3] == 255).all()
+    assert (found[disc][clear < -1.5] == 0).all()
+    soft = found[disc][np.abs(clear) < 1.5][:, 3]
+    assert ((soft > 20) & (soft < 235)).mean() > 0.2
+
+
+def test_a_part_across_the_date_line():
+    part = Raster(np.full((10, 20), 99, dtype=np.uint8), (170.0, -10.0, 190.0, 10.0))
+    found = part.warp(PLAIN, View(180, 0), 101)
+    assert found[50, 50].tolist() == [99, 99, 99, 255]
+    assert found[50, 20].tolist() == [0, 0, 0, 0]
+
+
+def test_opacity_carries_no_colour_of_its_own():
+    """Beside transparent texels, whatever their colour, the visible ones keep theirs."""
+    texels = np.zeros((90, 180, 4), dtype=np.uint8)
+    texels[:, 90:] = 200, 100, 50, 255
+    texels[:, :90] = 0, 255, 0, 0
+    for size in (40, 300):
+        found = Raster(texels).warp(PLAIN, View(0, 20), size)
+        shown = found[found[..., 3] > 40][:, :3]
+        assert np.abs(shown - np.array([200, 100, 50])).max() <= 2
+
+
+def test_gray_and_colour_agree():
+    gray = noise(32)
+    views = [
+        Raster(a).warp(STRONG, View(0, 0), 60)
+        for a in (gray, np.dstack([gray] * 3), np.dstack([gray] * 3 + [0 * gray + 255]))
+    ]
+    assert np.array_equal(views[0], views[1])
+    assert np.array_equal(views[0], views[2])
+
+
+def test_input_is_not_modified_and_not_shared():
+    given = noise(16)
+    raster = Raster(given)
+    given[:] = 0
+    assert raster.pixels.max() > 0
+    with pytest.raises(ValueError, match="read-only"):
+        raster.pixels[0, 0] = 1
+
+
+@pytest.mark.parametrize(
+    ("pixels", "extent", "error", "words"),
+    [
+        (np.zeros((4, 8)), None, TypeError, "pixels must be of uint8, not float64"),
+        (np.zeros((4, 8, 2), np.uint8), None, ValueError, r"pixels must have shape \(h, w\), \(h, w, 3\) or"),
+        (np.zeros((0, 8), np.uint8), None, ValueError, "not empty"),
+        (np.zeros((4, 9), np.uint8), None, ValueError, r"9 wide and 4 high; .* extent=\(west, south, east, north\)"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 361, 9), ValueError, "extent runs from longitude 0 to 361"),
+        (np.zeros((4, 9), np.uint8), (5, 0, 5, 9), ValueError, "extent runs from longitude 5 to 5"),
+        (np.zeros((4, 9), np.uint8), (0, 9, 5, 0), ValueError, "extent runs from latitude 9 to 0"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 5, 91), ValueError, "extent runs from latitude 0 to 91"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 5), ValueError, r"extent must be \(west, south, east, north\)"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 5, np.nan), ValueError, "extent"),
+        (np.broadcast_to(np.uint8(0), (2**14, 2**14)), (0, 0, 1, 1), ValueError, "make the picture smaller"),
+    ],
+)  # fmt: skip
+def test_bad_rasters_are_refused(pixels, extent, error, words):
+    with pytest.raises(error, match=words):
+        Raster(pixels, extent)
+
+
+@pytest.mark.parametrize(
+    ("size", "window", "error", "words"),
+    [
+        (0, None, ValueError, "size is 0"),
+        (2.5, None, TypeError, "size must be one integer"),
+        (2**21, None, ValueError, "size is 2097152"),
+        (10, (0, 0, 11, 5), ValueError, "window is .* not a part of 10 × 10"),
+        (10, (0, 0, 0, 5), ValueError, "window is"),
+        (10, (-1, 0, 5, 5), ValueError, "window is"),
+        (10, (0.0, 0, 5, 5), TypeError, "window must be four integers"),
+        (10, (0, 5), TypeError, "window must be four integers"),
+    ],
+)
+def test_bad_windows_are_refused(size, window, error, words):
+    with pytest.raises(error, match=words):
+        Raster(noise(4)).warp(PLAIN, View(0, 0), size, window=window)
+
+
+@pytest.mark.parametrize("magnification", [1e-100, 1e-9, 1e9, 1e100])
+def test_lenses_beyond_all_reason_give_a_picture(magnification):
+    found = Raster(noise(32)).warp(fisheye((10.0, 20.0), magnification=magnification), View(-170, -20), 31)
+    assert found.shape == (31, 31, 4)
+    assert found[15, 15, 3] == 255
