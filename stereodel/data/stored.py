@@ -36,19 +36,24 @@ def table() -> dict[str, dict[str, Any]]:
     return dict(json.loads(text))
 
 
-def load(name: str) -> dict[str, Bytes]:
-    """The stored arrays of a set.
+def read(name: str) -> bytes:
+    """The file of a set.
 
     Raises
     ------
     OSError
-        If the file is not the one that the table names.
+        If it is not the one that the table names.
     """
     entry = table()[name]
     packed = resources.files("stereodel.data").joinpath(entry["file"]).read_bytes()
     if hashlib.sha256(packed).hexdigest() != entry["sha256"]:
         raise OSError(f"stereodel/data/{entry['file']} is not what its SHA-256 says; install stereodel again")
-    with np.load(io.BytesIO(lzma.decompress(packed))) as archive:
+    return packed
+
+
+def load(name: str) -> dict[str, Bytes]:
+    """The stored arrays of a set."""
+    with np.load(io.BytesIO(lzma.decompress(read(name)))) as archive:
         return dict(archive)
 
 

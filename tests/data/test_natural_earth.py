@@ -9,6 +9,12 @@ import shapely
 from stereodel import angular_distance, data, lonlat_to_xyz, solid_angle
 
 RESOLUTIONS = ["50m", "110m"]
+ALL = [
+    (kind, r)
+    for kind in ("land", "countries", "lakes")
+    for r in ("10m", "50m", "110m")
+    if (kind, r) != ("countries", "10m")
+]
 WORLD_LAND_KM2 = 149e6
 INVALID = {"50m": set(), "110m": {"Sudan"}}
 """A knot of the border in the source."""
@@ -44,11 +50,10 @@ def country(table, name):
     return shapely.MultiPolygon([(p[0], p[1:]) for p in table.polygons()[start:end]])
 
 
-@both
-@pytest.mark.parametrize("kind", ["land", "countries"])
+@pytest.mark.parametrize(("kind", "resolution"), ALL)
 def test_polygons_are_those_of_geojson(kind, resolution):
     table = getattr(data, kind)(resolution)
-    assert np.abs(table.lonlat).max(axis=0).tolist() == [180, 90]
+    assert (np.abs(table.lonlat).max(axis=0) == [180, 90]).all() == (kind != "lakes")
     assert table.polygon_offsets[-1] == len(table.ring_offsets) - 1
     assert table.ring_offsets[-1] == len(table.lonlat)
     for outline, *holes in table.polygons():
@@ -71,6 +76,11 @@ def test_polygons_are_valid(resolution):
     shapes = [shapely.geometry.shape(feature["geometry"]) for feature in features]
     assert {name for name, shape in zip(names, shapes, strict=True) if not shape.is_valid} == INVALID[resolution]
     assert shapely.geometry.shape(data.land(resolution)).is_valid
+
+
+@pytest.mark.parametrize(("kind", "resolution"), [case for case in ALL if case[0] != "countries"])
+def test_each_polygon_is_valid(kind, resolution):
+    assert all(shapely.Polygon(p[0], p[1:]).is_valid for p in getattr(data, kind)(resolution).polygons())
 
 
 @both
@@ -106,7 +116,7 @@ def square_kilometres(shape):
     return shapely.transform(shape, lambda p: np.c_[np.radians(p[:, 0]), np.sin(np.radians(p[:, 1]))]).area * 6371.0**2
 
 
-@both
+@pytest.mark.parametrize("resolution", ["10m", "50m", "110m"])
 def test_area_of_the_land(resolution):
     assert square_kilometres(shapely.geometry.shape(data.land(resolution))) == pytest.approx(WORLD_LAND_KM2, rel=0.02)
 
@@ -144,13 +154,55 @@ def test_coastlines_are_the_outlines_of_the_land(resolution):
     assert len(coasts - outlines) < {"50m": 0.01, "110m": 0.06}[resolution] * len(coasts)
 
 
-@pytest.mark.parametrize("function", [data.coastlines, data.land, data.countries, data.borders])
+def test_the_finest_coastlines_are_the_outlines_of_the_land_without_the_edges_of_the_map():
+    coasts, outlines = data.coastlines("10m"), rings(data.land("10m"))
+    assert sum(len(line) - 1 for line in coasts.lines()) == sum(int((~on_map_edge(ring)).sum()) for ring in outlines)
+    assert not any(on_map_edge(line).any() for line in coasts.lines())
+
+
+def test_the_finest_borders_follow_the_others():
+    """Most of their points are within 0.1° of borders at 1 : 50 million; the countries at their sides are not known."""
+    fine, coarse = data.borders("10m"), shapely.geometry.shape(data.borders("50m"))
+    assert (fine.sides == -1).all()
+    shapely.prepare(coarse)
+    assert shapely.dwithin(coarse, shapely.points(fine.lonlat[::50]), 0.1).mean() > 0.9
+
+
+@pytest.mark.parametrize("resolution", ["10m", "50m", "110m"])
+def test_rivers(resolution):
+    table = data.rivers(resolution)
+    lines = table.lines()
+    assert len(lines) == len(table.name) == len(table.rank) == len(table.in_lake)
+    assert (np.diff(table.rank) >= 0).all()
+    assert min(len(line) for line in lines) >= 2
+    assert all(np.diff(line, axis=0).any(axis=1).all() for line in lines)
+    danube = shapely.MultiLineString([line for line, name in zip(lines, table.name, strict=True) if name == "Donau"])
+    assert table.in_lake.any() == (resolution != "110m")
+    lena = shapely.MultiLineString([line for line, name in zip(lines, table.name, strict=True) if name == "Lena"])
+    assert lena.distance(shapely.Point(129.7, 62.1)) < 0.6  # Yakutsk
+    assert danube.is_empty or danube.distance(shapely.Point(16.4, 48.2)) < 0.1  # Vienna
+
+
+@pytest.mark.parametrize(("resolution", "tolerance"), [("10m", 0.04), ("50m", 0.05)])
+def test_lakes(resolution, tolerance):
+    """Areas in 1000 km², as surveyed, of Superior, Victoria, Michigan and Baikal."""
+    surveyed = {(-87.5, 47.7): 82.1, (33.0, -1.0): 68.9, (-87.0, 44.0): 58.0, (108.2, 53.7): 31.7}
+    shapes = np.array([shapely.Polygon(p[0], p[1:]) for p in data.lakes(resolution).polygons()])
+    for place, area in surveyed.items():
+        (lake,) = shapes[shapely.contains_xy(shapes, *place)]
+        assert square_kilometres(lake) / 1000 == pytest.approx(area, rel=tolerance)
+
+
+@pytest.mark.parametrize(
+    "function", [data.coastlines, data.land, data.borders, data.rivers, data.lakes, data.countries]
+)
 def test_another_resolution(function):
-    with pytest.raises(ValueError, match=r"resolution is '10km', but must be one of '50m', '110m'"):
+    choices = "'50m', '110m'" if function is data.countries else "'10m', '50m', '110m'"
+    with pytest.raises(ValueError, match=f"resolution is '10km', but must be one of {choices}"):
         function("10km")
 
 
-@pytest.mark.parametrize("function", [data.land, data.countries, data.borders])
+@pytest.mark.parametrize("function", [data.land, data.countries, data.borders, data.rivers, data.lakes])
 def test_nobody_can_change_them(function):
     table = function("110m")
     assert function("110m") is table
