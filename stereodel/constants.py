@@ -64,8 +64,17 @@ ON_BALL: Final = 1e-9
 Far below a pixel, far above the rounding of arcs that were computed through a conformal map.
 """
 
+KIND_TOLERANCE: Final = 2.0**-40
+"""How far a `MoebiusMap` may be from one of its `kind`: radians in the points and images, relatively in S.
+
+A product of some thousand maps with rounded parameters is that near to the exact one.
+"""
+
 LARGEST_MAGNIFICATION: Final = 1e100
 """Largest S (and largest 1/S) of a `MoebiusMap`: S·|t|² of any point stays in the range of double-double arithmetic."""
+
+LARGEST_EXPONENT: Final = 1e6
+"""Largest exponent (and its negative) of `MoebiusMap.power`: the angle of a rotation's power is known to 1e-9 rad."""
 
 FLATNESS: Final = 0.05
 """How far a chord may stray from its curve in a picture made of triangles, pixels: a fifth of a sample's distance."""

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import stereodel
+import stereodel.conformal
 import stereodel.data
 import stereodel.earth
 import stereodel.globe
@@ -78,6 +79,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.triangulation") | set(PUBLIC) >= set(stereodel.triangulation.__all__)
     assert reference("stereodel.earth") == {name for name in vars(stereodel.earth) if name.isupper() and name[0] != "_"}
     assert reference("stereodel.data") == set(stereodel.data.__all__)
+    assert reference("stereodel.conformal") == set(stereodel.conformal.__all__) - set(PUBLIC)
     assert reference("stereodel.graphs") == set(stereodel.graphs.__all__)
     assert reference("stereodel.relaxation") == set(stereodel.relaxation.__all__)
     assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from stereodel._double_double import DoubleDouble, dot, stack
+from stereodel.conformal.complex_pairs import Complex
 from stereodel.sphere import Rotation
 from stereodel.sphere.quaternions import between, conjugate, multiply, normalized
 
@@ -35,9 +36,19 @@ class Biquaternion(NamedTuple):
         """The inverse of an element of determinant 1."""
         return Biquaternion(conjugate(self.real), conjugate(self.imag))
 
-    def determinant(self) -> tuple[DoubleDouble, DoubleDouble]:
-        """Real and imaginary part of a complex number, 1 in SL(2, C)."""
-        return dot(self.real, self.real) - dot(self.imag, self.imag), dot(self.real, self.imag) * 2.0
+    @property
+    def scalar(self) -> Complex:
+        """The part without a direction, half the trace of the matrix."""
+        return Complex(self.real[0], self.imag[0])
+
+    @property
+    def vector(self) -> Complex:
+        """The other three components, (3,)."""
+        return Complex(self.real[1:], self.imag[1:])
+
+    def determinant(self) -> Complex:
+        """1 in SL(2, C)."""
+        return Complex(dot(self.real, self.real) - dot(self.imag, self.imag), dot(self.real, self.imag) * 2.0)
 
     def norm(self) -> DoubleDouble:
         """|a|² + |b|², which is cosh η = (S + 1/S)/2 for determinant 1."""
@@ -45,16 +56,8 @@ class Biquaternion(NamedTuple):
 
     def normalized(self) -> Biquaternion:
         """Over a square root of the determinant, which must not be zero."""
-        re, im = self.determinant()
-        size = (re * re + im * im).sqrt()
-        # (p + i q)² = re + i im; of |p| and |q| the larger comes from the root, without cancellation.
-        if float(re.hi) >= 0:
-            p = ((size + re) * 0.5).sqrt()
-            q = im / (p * 2.0)
-        else:
-            q = ((size - re) * 0.5).sqrt()
-            p = im / (q * 2.0)
-        return Biquaternion((self.real * p + self.imag * q) / size, (self.imag * p - self.real * q) / size)
+        element = Complex(self.real, self.imag) / self.determinant().sqrt()
+        return Biquaternion(element.re, element.im)
 
     def decomposed(self) -> tuple[Rotation, float, Rotation]:
         """Left rotation, magnification S ≥ 1 along z and right rotation, each rounded once."""
@@ -80,3 +83,28 @@ def boost(axis: DoubleDouble, magnification: DoubleDouble) -> Biquaternion:
     zero = DoubleDouble(0.0)
     vector = axis * -sinh
     return Biquaternion(stack([cosh, zero, zero, zero]), stack([zero, vector[0], vector[1], vector[2]]))
+
+
+def from_parts(scalar: Complex, vector: Complex) -> Biquaternion:
+    """The element with a scalar and a vector (3,)."""
+    return Biquaternion(_join(scalar.re, vector.re), _join(scalar.im, vector.im))
+
+
+def _join(scalar: DoubleDouble, vector: DoubleDouble) -> DoubleDouble:
+    return stack([scalar, vector[0], vector[1], vector[2]])
+
+
+Spinors = tuple[tuple[Complex, Complex], tuple[Complex, Complex]]
+"""A 2×2 matrix on spinors (ξ₁, ξ₂), where 1 + z : x + iy : 1 − z = |ξ₁|² : ξ₁* ξ₂ : |ξ₂|²."""
+
+
+def from_spinors(matrix: Spinors) -> Biquaternion:
+    """The element of a matrix on spinors, of the same determinant.
+
+    Over the Pauli matrices it is α₀ + α·σ, and that is the biquaternion α₀ + i α.
+    """
+    (a, b), (c, d) = matrix
+    scalar, along_z = (a + d) * 0.5, (a - d) * 0.5
+    along_x, along_y = (b + c) * 0.5, ((b - c) * 0.5).times_i()
+    parts = [part.times_i() for part in (along_x, along_y, along_z)]
+    return from_parts(scalar, Complex(stack([part.re for part in parts]), stack([part.im for part in parts])))

@@ -12,7 +12,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
-from stereodel.conformal.biquaternions import Biquaternion
+from stereodel.conformal.biquaternions import from_spinors
+from stereodel.conformal.complex_pairs import Complex
 from stereodel.constants import MATRIX_ERROR, MATRIX_MAGNIFICATION
 from stereodel.sphere import Rotation
 
@@ -79,22 +80,15 @@ def from_lorentz(matrix: FloatArray) -> Parts:
 def from_moebius(matrix: npt.NDArray[np.complex128]) -> Parts:
     """The parts of ζ ↦ (aζ + b)/(cζ + d), ζ = (x + iy)/(1 − z).
 
-    A point with spinor (ξ₁, ξ₂), where 1 + z : x + iy : 1 − z = |ξ₁|² : ξ₁* ξ₂ : |ξ₂|², has ζ* = ξ₁/ξ₂: the conjugate
-    matrix acts on it. Its coefficients α₀ + α·σ over the Pauli matrices are the biquaternion α₀ + i α.
+    The spinor (ξ₁, ξ₂) of a point has ζ* = ξ₁/ξ₂: the conjugate matrix acts on it.
     """
     size = np.abs(matrix.view(np.float64)).max()
-    m = np.conj(matrix) * 2.0 ** -float(np.frexp(size)[1])
-    re, im = m.real, m.imag
-    a0, az = _half_sum(re[0, 0], re[1, 1]), _half_sum(re[0, 0], -re[1, 1])
-    b0, bz = _half_sum(im[0, 0], im[1, 1]), _half_sum(im[0, 0], -im[1, 1])
-    ax, bx = _half_sum(re[0, 1], re[1, 0]), _half_sum(im[0, 1], im[1, 0])
-    ay, by = _half_sum(-im[0, 1], im[1, 0]), _half_sum(re[0, 1], -re[1, 0])
-    element = Biquaternion(_vector(a0, -bx, -by, -bz), _vector(b0, ax, ay, az))
-    real, imag = element.determinant()
-    size_of_determinant = float(np.hypot(real.hi, imag.hi))
-    if size_of_determinant == 0:
+    (a, b), (c, d) = np.conj(matrix) * 2.0 ** -float(np.frexp(size)[1])
+    element = from_spinors(((Complex.of(a), Complex.of(b)), (Complex.of(c), Complex.of(d))))
+    determinant = abs(complex(element.determinant()))
+    if determinant == 0:
         raise ValueError("matrix is singular: its determinant ad − bc is 0")
-    _check_magnification(2 * float(element.norm().hi) / size_of_determinant)
+    _check_magnification(2 * float(element.norm().hi) / determinant)
     return element.normalized().decomposed()
 
 
@@ -105,11 +99,3 @@ def _check_magnification(magnification: float) -> None:
             f"matrix has magnification {magnification:g}, above {MATRIX_MAGNIFICATION:g}: its doubles do not hold "
             "the map; build it from fisheye and rotation with @"
         )
-
-
-def _half_sum(a: float, b: float) -> DoubleDouble:
-    return DoubleDouble.difference(np.float64(a), np.float64(-b)) * 0.5
-
-
-def _vector(*parts: DoubleDouble) -> DoubleDouble:
-    return DoubleDouble(np.array([float(p.hi) for p in parts]), np.array([float(p.lo) for p in parts]))

@@ -16,12 +16,15 @@ from stereodel._double_double import DoubleDouble, dot, unit
 from stereodel._threads import thread_count
 from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, boost, rotation
 from stereodel.conformal.boosts import Circle, boost_circle, boost_points
+from stereodel.conformal.fixed_points import Kind, fixed_points_of, kind_of, multiplier_of
 from stereodel.conformal.lorentz import from_lorentz, from_moebius, lorentz_matrix
 from stereodel.conformal.pipelines import stereographic_pipeline
-from stereodel.constants import LARGEST_MAGNIFICATION, STORED_ERROR
+from stereodel.conformal.powers import power
+from stereodel.constants import LARGEST_EXPONENT, LARGEST_MAGNIFICATION, STORED_ERROR
 from stereodel.sphere import Rotation, SphereArc, SphereCircle
 from stereodel.sphere.arcs import swept_angle
 from stereodel.sphere.circles import on_circle
+from stereodel.sphere.coordinates import as_sphere_points
 
 _AtRows = Callable[[FloatArray, FloatArray, float, FloatArray, int], tuple[FloatArray, bool]]
 
@@ -199,6 +202,76 @@ class MoebiusMap:
         """The map as an element of SL(2, C) in double-double."""
         left, right = (rotation(DoubleDouble(part.quaternion)) for part in (self.left, self.right))
         return left @ boost(Z_AXIS, self._size) @ right
+
+    def power(self, exponent: float) -> MoebiusMap:
+        """The map applied t times, for any real t: a one-parameter group through the map.
+
+        Parameters
+        ----------
+        exponent : float
+            t, at most `LARGEST_EXPONENT` in size; −1 gives the inverse, ½ the map that done twice is this one.
+
+        Returns
+        -------
+        MoebiusMap
+            Fixed points stay fixed. The map magnifies |k|ᵗ times and turns by t arg k at the first of them, k being the
+            `multiplier` and arg k in (−180°, 180°]: powers are unique but for maps that turn by half a turn, which go
+            counterclockwise about that end of the axis whose last coordinate other than 0 is positive. They jump where
+            arg k passes 180°.
+
+        Raises
+        ------
+        ValueError
+            For an exponent out of range, or when the power has a magnification that cannot be evaluated.
+
+        Examples
+        --------
+        >>> from stereodel.conformal import fisheye
+        >>> lens = fisheye((0.0, 40.0), magnification=9.0)
+        >>> lens.power(0.5).is_close(fisheye((0.0, 40.0), magnification=3.0))
+        True
+        """
+        t = as_scalar(exponent, "exponent", low=-LARGEST_EXPONENT, high=LARGEST_EXPONENT)
+        return MoebiusMap(*power(self.biquaternion, t).decomposed())
+
+    @property
+    def kind(self) -> Kind:
+        """One of "identity", "rotation", "boost", "parabolic" and "loxodromic", up to `KIND_TOLERANCE`.
+
+        A rotation (elliptic) turns about two fixed points, which need not be opposite; a boost (hyperbolic) moves
+        everything from one to the other; a loxodromic map does both; a parabolic one has a single fixed point. The
+        fisheye is a boost.
+        """
+        return kind_of(self.biquaternion)
+
+    @property
+    def fixed_points(self) -> FloatArray:
+        """The points that stay, unit vectors (2, 3), or (1, 3) of a parabolic map; a ValueError for the identity.
+
+        The map magnifies at the first and shrinks at the second; a rotation turns counterclockwise at the first, by at
+        most 180°, seen from outside.
+        """
+        return fixed_points_of(self.biquaternion)
+
+    @property
+    def multiplier(self) -> complex:
+        """k: at the first fixed point the map magnifies |k| ≥ 1 times and turns by arg k counterclockwise.
+
+        At the second it does the inverse. k is 1 for the identity and for parabolic maps.
+        """
+        return multiplier_of(self.biquaternion)
+
+    def tissot(self, points: npt.ArrayLike, radius: float) -> list[SphereCircle]:
+        """Images of circles of equal size: exact, as all circles stay circles.
+
+        Parameters
+        ----------
+        points : array_like, shape (n, 2) or (n, 3)
+            The centres: rows (lon, lat) in degrees, or directions.
+        radius : float
+            Angular radius in degrees, in (0, 180).
+        """
+        return [self.image_of(SphereCircle.around(point, radius)) for point in as_sphere_points(points)]
 
     def is_close(self, other: MoebiusMap, *, tolerance: float = 4 * STORED_ERROR) -> bool:
         """Whether two maps agree: up to `tolerance` rad in the points, in the images, and relatively in S."""

@@ -11,7 +11,15 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, IntArray, as_choice, as_direction_or_lonlat, as_directions, as_lonlat
+from stereodel._arrays import (
+    FloatArray,
+    IntArray,
+    as_choice,
+    as_direction_or_lonlat,
+    as_directions,
+    as_lonlat,
+    as_plane_or_sphere,
+)
 from stereodel._double_double import DoubleDouble, stack
 from stereodel.sphere.chunks import by_blocks
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
@@ -139,3 +147,23 @@ def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
     """
     values = as_direction_or_lonlat(point, name)
     return lonlat_to_xyz(values) if values.shape == (2,) else values
+
+
+def as_sphere_points(points: npt.ArrayLike, name: str = "points") -> FloatArray:
+    """Points of the sphere as directions, (n, 3).
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 2) or (n, 3)
+        Rows (lon, lat) in degrees, or non-zero vectors.
+    name : str
+        What error messages call them.
+
+    Examples
+    --------
+    >>> print(as_sphere_points([(90.0, 0.0), (0.0, -90.0)]))
+    [[ 0.  1.  0.]
+     [ 0.  0. -1.]]
+    """
+    rows = as_plane_or_sphere(points, name)
+    return rows if rows.shape[1] == 3 else lonlat_to_xyz(as_lonlat(rows, name))
