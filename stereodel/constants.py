@@ -182,3 +182,15 @@ Pillow has the same kind of limit, somewhat above.
 
 MOST_PIXELS_ACROSS: Final = 2**20
 """Largest globe in pixels across: columns and rows of a window of it stay whole in single precision."""
+
+LONGEST_EDGE: Final = 30.0
+"""Longest piece of a map's edge that one great-circle arc follows, degrees: far from 180, where none does."""
+
+SHORTEST_SIDE: Final = 1e-14
+"""Length of a side, radians, below which it is not halved: its middle would be one of its ends, rounded."""
+
+INNER_TOLERANCE: Final = 0.005
+"""How far sides of triangles inside a region may stray from their images, radii: where nothing shows but the light.
+
+Sides are then up to 11° long, along which the light on a ball changes evenly up to 0.1 %.
+"""

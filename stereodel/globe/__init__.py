@@ -1,5 +1,7 @@
 """Globes that bend: maps of the sphere in layers, through a conformal lens, as balls and flat maps."""
 
+from stereodel.globe.globe import Globe
+from stereodel.globe.pages import Panel, hemispheres, panels
 from stereodel.globe.raster import Raster
 
-__all__ = ["Raster"]
+__all__ = ["Globe", "Panel", "Raster", "hemispheres", "panels"]

@@ -16,7 +16,8 @@ from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.globe.images import read_image
-from stereodel.render.view import StereographicView, View, turned
+from stereodel.render.view import StereographicView, View
+from stereodel.sphere.frames import turned
 
 Pixels = npt.NDArray[np.uint8]
 

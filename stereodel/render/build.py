@@ -14,7 +14,6 @@ import hashlib
 import importlib.util
 import json
 import multiprocessing
-import os
 import sys
 import tempfile
 import time
@@ -28,6 +27,7 @@ from pathlib import Path
 from typing import Any
 
 from stereodel._files import replacing
+from stereodel.render.cores import usable_cores
 from stereodel.render.provenance import library_digest, library_versions
 
 SCRIPTS = ("fig", "earth_", "sky_", "anim_")
@@ -109,13 +109,6 @@ def find_scripts(folder: Path, names: Iterable[str] = ()) -> list[Path]:
             raise BuildError(f"no script's name begins with {name!r}; there are {', '.join(s.stem for s in found)}")
         chosen |= matching
     return sorted(chosen) or found
-
-
-def usable_cores() -> int:
-    """Cores that this process may use."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1
 
 
 # What a picture depends on

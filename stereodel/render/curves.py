@@ -27,8 +27,8 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_directions, as_vectors
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.render.page import Beziers
-from stereodel.render.view import turned
 from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere.frames import turned
 
 LONGEST_PIECE_RAD = np.pi / 6
 

@@ -107,7 +107,7 @@ class Figure:
         picture = with_labels(bare, page) if text else bare
         shown = page if text else page.without_labels()
         files = [save_png(picture, folder / f"{self.name}.png", page_width=page.width)]
-        mosaics = self._mosaics(page, picture.shape[1])
+        mosaics = mosaic_pictures(page, picture.shape[1])
         files += [save_vector(shown, folder / f"{self.name}.{kind}", mosaics=mosaics) for kind in ("svg", "pdf")]
         WRITTEN.append(files[0])
         return {
@@ -134,15 +134,15 @@ class Figure:
 
         return render(page, size=width, text=False)
 
-    @staticmethod
-    def _mosaics(page: Page, width: int) -> list[Pixels]:
-        """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
-        mosaics = [item for item in page.items if isinstance(item, Mosaic)]
-        if not mosaics:
-            return []
-        from stereodel.render.raster import render
 
-        return [render(replace(page, items=(mosaic,)), size=width, text=False) for mosaic in mosaics]
+def mosaic_pictures(page: Page, width: int) -> list[Pixels]:
+    """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
+    mosaics = [item for item in page.items if isinstance(item, Mosaic)]
+    if not mosaics:
+        return []
+    from stereodel.render.raster import render
+
+    return [render(replace(page, items=(mosaic,)), size=width, text=False) for mosaic in mosaics]
 
 
 def save_png(picture: Pixels, path: str | os.PathLike[str], *, page_width: float) -> Path:

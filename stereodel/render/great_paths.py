@@ -16,7 +16,8 @@ import numpy.typing as npt
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import LIMB_DEPTH, SHORT_ARC
-from stereodel.render.view import MapView, turned
+from stereodel.render.view import MapView
+from stereodel.sphere.frames import turned
 
 Indices = npt.NDArray[np.intp]
 

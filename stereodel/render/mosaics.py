@@ -18,7 +18,7 @@ from stereodel.render.page import Beziers, Mosaic, Stroke
 from stereodel.render.regions import limb
 from stereodel.render.style import LineStyle
 from stereodel.render.things import Laid, Layer, Layout
-from stereodel.render.view import turned
+from stereodel.sphere.frames import turned
 
 STEP_RAD = np.radians(1.0)
 """Longest side of a triangle, and longest step of a polyline."""

@@ -35,8 +35,9 @@ def patch_outline(patch: Patch) -> Outline:
 def boundary_sides(faces: npt.NDArray[np.integer]) -> Indices:
     """Directed sides (k, 2) that no triangle has the other way round; a side that comes twice each way falls out."""
     sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]).astype(np.intp)
+    sides = sides[sides[:, 0] != sides[:, 1]]
     if len(sides) == 0:
-        return sides
+        return np.zeros((0, 2), dtype=np.intp)
     size = int(sides.max()) + 1
     low, high = sides.min(axis=1), sides.max(axis=1)
     forward = np.where(sides[:, 0] < sides[:, 1], 1, -1)
@@ -44,9 +45,9 @@ def boundary_sides(faces: npt.NDArray[np.integer]) -> Indices:
     excess = np.bincount(where, weights=forward, minlength=len(codes)).astype(np.intp)
     kept = np.repeat(np.arange(len(codes)), np.abs(excess))
     ends = np.stack([codes[kept] // size, codes[kept] % size], axis=1)
-    ends = ends[ends[:, 0] != ends[:, 1]]
-    turned: Indices = np.where((excess[kept] > 0)[:, None], ends, ends[:, ::-1])
-    return turned
+    forward_only = (excess[kept] > 0)[:, None]
+    directed: Indices = np.where(forward_only, ends, ends[:, ::-1])
+    return directed
 
 
 def loops(sides: Indices) -> list[Indices]:

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray
+from stereodel._arrays import BoolArray, FloatArray
 
 Color = tuple[float, float, float, float]
 """Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
@@ -79,14 +79,14 @@ class Surface:
 
 @dataclass(frozen=True, eq=False)
 class Mosaic:
-    """Triangles of a lit ball, each of its own colour, which do not overlap: so many that only pixels hold them.
+    """Triangles, each of its own colour, which do not overlap: so many that only pixels hold them.
 
-    `corners` (n, 3, 2) on the page, `normals` (n, 3, 3) in view axes, `colors` (n, 3), sRGB. The vector backend puts
-    the picture of the raster backend into `outline`.
+    `corners` (n, 3, 2) on the page, `normals` (n, 3, 3) in view axes where they are lit, `colors` (n, 3), sRGB. The
+    vector backend puts the picture of the raster backend into `outline`.
     """
 
     corners: FloatArray
-    normals: FloatArray
+    normals: FloatArray | None
     colors: FloatArray
     outline: tuple[Beziers, ...]
     role: str = ""
@@ -101,7 +101,7 @@ class Polylines:
 
     points: FloatArray
     """(n, 2)."""
-    offsets: IntArray
+    offsets: npt.NDArray[np.intp]
     """(m + 1,)."""
     color: Color
     width: float
@@ -143,6 +143,8 @@ class Label:
     color: Color = (0.0, 0.0, 0.0, 1.0)
     rotation: float = 0.0
     role: str = "label"
+    halo: float = 0.0
+    """Width of a white line round the letters, points."""
 
 
 Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Label
@@ -232,5 +234,6 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
         case Mosaic():
             return {"outline": np.concatenate(item.outline), "corners": item.corners, "colors": item.colors}
         case Label():
-            numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation]
+            halo = [item.halo] if item.halo else []
+            numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo]
             return {"place": np.array(numbers), "text": np.array([item.text, item.align, item.valign])}

@@ -154,7 +154,9 @@ class _Canvas:
 
     def _mosaic(self, mosaic: Mosaic) -> _Piece:
         colors = np.ones((len(mosaic.corners), 3, 4))
-        colors[..., :3] = mosaic.colors[:, None] * _brightness(mosaic.normals)[..., None]
+        colors[..., :3] = mosaic.colors[:, None]
+        if mosaic.normals is not None:
+            colors[..., :3] *= _brightness(mosaic.normals)[..., None]
         return _Piece(self._place(mosaic.corners), colors)
 
 

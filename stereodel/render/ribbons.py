@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray
+from stereodel._arrays import BoolArray, FloatArray
 from stereodel.constants import FLATNESS
 from stereodel.render.page import Beziers
 
@@ -92,7 +92,7 @@ def ribbon(
     return np.concatenate([_rectangles(points, drawn, width / 2), _bends(points, drawn, width / 2, rings, round_caps)])
 
 
-def ribbons(points: FloatArray, offsets: IntArray, width: float) -> Corners:
+def ribbons(points: FloatArray, offsets: npt.NDArray[np.intp], width: float) -> Corners:
     """Polylines of one constant width, all at once, with round joins and ends.
 
     Parameters

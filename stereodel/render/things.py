@@ -17,8 +17,8 @@ from stereodel.render.curves import Curve, Segment, page_path
 from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Stroke, Surface
 from stereodel.render.regions import SphereRegion, limb, near_hemisphere
 from stereodel.render.style import DotStyle, LineStyle
-from stereodel.render.view import turned
 from stereodel.render.visibility import TOWARD, Place, cut, lies_on_ball, place_of, split_by_ball
+from stereodel.sphere.frames import turned
 
 Look = Literal["solid", "glass", "none"]
 

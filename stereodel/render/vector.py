@@ -25,6 +25,7 @@ from matplotlib.figure import Figure as Canvas
 from matplotlib.image import AxesImage
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
+from matplotlib.patheffects import withStroke
 from matplotlib.transforms import ScaledTranslation
 
 from stereodel._arrays import FloatArray
@@ -334,4 +335,5 @@ def _draw_label(axes: Axes, label: Label) -> None:
         zorder=1e6,
         gid=label.role,
         clip_on=False,
+        path_effects=[withStroke(linewidth=2 * label.halo, foreground="white")] if label.halo else None,
     )

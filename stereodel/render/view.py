@@ -14,6 +14,7 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar, as_vectors
 from stereodel.constants import LARGEST_EXTENT
 from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere.frames import turned
 
 
 class MapView(Protocol):
@@ -210,12 +211,3 @@ def _frame(lon: float, lat: float, roll: float) -> FloatArray:
     cos, sin, _ = lonlat_to_xyz((roll, 0.0))
     # + 0.0 turns −0 into 0, so that symmetric views give identical files.
     return np.array([cos * right - sin * up, sin * right + cos * up, toward]) + 0.0
-
-
-def turned(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Apply the rows of a matrix (3, 3) to vectors (..., 3).
-
-    Written out, because a matrix product may fuse or reorder its sums from one machine to the next.
-    """
-    x, y, z = vectors[..., :1], vectors[..., 1:2], vectors[..., 2:]
-    return x * matrix[:, 0] + y * matrix[:, 1] + z * matrix[:, 2]

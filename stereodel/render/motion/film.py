@@ -11,7 +11,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 from stereodel._arrays import as_count, as_scalar
-from stereodel.render.build import usable_cores
+from stereodel.render.cores import usable_cores
 from stereodel.render.motion.formats import format_of
 from stereodel.render.motion.kept_frames import KeptFrames, store_frame
 from stereodel.render.motion.keys import frame_names

@@ -1,0 +1,348 @@
+"""Globes: maps of the sphere, layer upon layer, that can be bent by a lens and seen from anywhere."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_choice, as_count, as_lonlat, as_scalar, as_steps
+from stereodel.conformal import MoebiusMap
+from stereodel.globe import features, looks
+from stereodel.globe.chart import Chart
+from stereodel.globe.geodata import shapes_of
+from stereodel.globe.layers import Areas, Circles, Ground, Lines, MapLayer, Names, Points, Rim
+from stereodel.globe.lettering import placed_label
+from stereodel.globe.lines import SphereLines
+from stereodel.globe.pages import Panel, default_view, panels, save_page
+from stereodel.globe.polygons import Polygons, Rings
+from stereodel.render.colors import ColorScale
+from stereodel.render.page import Color, Item, Page
+from stereodel.render.style import BLACK, LABEL_SIZE, PRINT_WIDTH, DotStyle, LineStyle
+from stereodel.render.view import MapView
+from stereodel.sphere import SphereCircle, lonlat_to_xyz
+from stereodel.sphere.latitudes import KINDS, Latitude
+from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
+
+
+class Globe:
+    """A map of the sphere in layers, the first at the bottom, drawn through a conformal lens from any side.
+
+    What is on the globe is said once; every picture of it has a lens, by default none, and a view.
+
+    Parameters
+    ----------
+    ocean : Color
+        Red, green, blue and opacity of the ground, in [0, 1].
+    latitude : {"spherical", "geodetic", "authalic"}
+        What all latitudes given to this globe are; see `stereodel.lonlat_to_xyz`. "spherical" takes them as they stand,
+        as map projections of a sphere do.
+    limb : LineStyle, optional
+        Another look of the edge.
+
+    Examples
+    --------
+    >>> from stereodel import fisheye
+    >>> globe = Globe()
+    >>> globe.add_land(resolution="110m")
+    >>> globe.add_graticule(30)
+    >>> page = globe.page(fisheye((2.35, 48.86), magnification=20.0))
+    >>> [type(item).__name__ for item in page.items]
+    ['Surface', 'Patch', 'Polylines', 'Stroke']
+    """
+
+    def __init__(
+        self,
+        *,
+        ocean: Color = looks.OCEAN,
+        latitude: Latitude = "spherical",
+        limb: LineStyle = looks.LIMB,
+    ) -> None:
+        self.latitude: Latitude = as_choice(latitude, KINDS, "latitude")
+        self.layers: list[MapLayer] = [Ground(ocean)]
+        self.limb = Rim(limb)
+
+    def add(self, layer: MapLayer) -> None:
+        """Put any layer on top: an object with ``lay(chart)``, which gives page items."""
+        self.layers.append(layer)
+
+    def add_land(self, *, color: Color = looks.LAND, outline: LineStyle | None = None, resolution: str = "50m") -> None:
+        """Fill the land of the Earth (Natural Earth), and draw its outline where a look is given."""
+        self._add_polygons(features.land(resolution, self.latitude), color, outline, "land")
+
+    def add_lakes(
+        self, *, color: Color = looks.OCEAN, outline: LineStyle | None = None, resolution: str = "50m"
+    ) -> None:
+        """Fill the lakes of the Earth (Natural Earth)."""
+        self._add_polygons(features.lakes(resolution, self.latitude), color, outline, "lakes")
+
+    def add_rivers(self, *, look: LineStyle = looks.RIVER, resolution: str = "50m") -> None:
+        """Draw the large rivers of the Earth (Natural Earth)."""
+        self.add(Lines(features.rivers(resolution, self.latitude), look, "rivers"))
+
+    def add_coastlines(self, *, look: LineStyle = looks.COAST, resolution: str = "50m") -> None:
+        """Draw the coastlines of the Earth (Natural Earth)."""
+        self.add(Lines(features.coastlines(resolution, self.latitude), look, "coast"))
+
+    def add_borders(self, *, look: LineStyle = looks.BORDER, resolution: str = "50m") -> None:
+        """Draw the borders between the countries of the Earth (Natural Earth)."""
+        self.add(Lines(features.borders(resolution, self.latitude), look, "borders"))
+
+    def add_graticule(self, spacing: float = 15.0, *, look: LineStyle = looks.GRATICULE) -> None:
+        """Draw meridians from pole to pole and parallels, `spacing` degrees apart, of which 180 must be a multiple."""
+        steps = as_steps(180.0, spacing, "spacing")
+        lines = [np.array([(k * 180.0 / steps, -90.0), (k * 180.0 / steps, 90.0)]) for k in range(-steps, steps)]
+        half = (steps - 1) // 2
+        lines += [np.array([(-180.0, y), (0.0, y), (180.0, y)]) for y in np.arange(-half, half + 1) * (180.0 / steps)]
+        self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), look, "graticule"))
+
+    def add_lines(self, lines: Iterable[npt.ArrayLike], *, look: LineStyle = looks.LINE, role: str = "lines") -> None:
+        """Draw lines, (k, 2) each, degrees, whose pieces are straight in longitude and latitude.
+
+        A piece that spans more than 180° of longitude goes the other, shorter way, across ±180°.
+        """
+        self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), look, role))
+
+    def add_great_circles(
+        self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, look: LineStyle = looks.LINE, role: str = "arcs"
+    ) -> None:
+        """Draw the shorter great-circle arcs between places (n, 2), degrees; one start goes with all ends."""
+        first, last = np.broadcast_arrays(self._xyz(starts, "starts"), self._xyz(ends, "ends"))
+        self.add(Lines(SphereLines.great(first, last), look, role))
+
+    def add_polygons(
+        self,
+        polygons: Iterable[Rings],
+        *,
+        color: Color | FloatArray = looks.AREA,
+        outline: LineStyle | None = looks.OUTLINE,
+        role: str = "areas",
+    ) -> None:
+        """Fill polygons given by rings in degrees, the outer one first.
+
+        Parameters
+        ----------
+        polygons : iterable of sequences of (k, 2) array_like
+            Rings of each polygon; sides are straight in longitude and latitude, as in GeoJSON. A ring may cross ±180°,
+            be cut there, or go round a pole.
+        color : Color or (n, 4) array
+            Of all of them, or of each.
+        outline : LineStyle, optional
+            None: no outlines.
+        role : str
+            Names the group in vector files.
+        """
+        self._add_polygons(Polygons.of_lonlat(polygons, latitude=self.latitude), color, outline, role)
+
+    def add_points(self, lonlat: npt.ArrayLike, *, look: DotStyle = looks.DOT, role: str = "points") -> None:
+        """Draw dots at places (n, 2), degrees."""
+        self.add(Points(self._xyz(lonlat, "lonlat"), look, role))
+
+    def add_labels(
+        self,
+        texts: Iterable[str],
+        lonlat: npt.ArrayLike,
+        *,
+        offset: tuple[float, float] = (4.0, 0.0),
+        size: float = LABEL_SIZE,
+        color: Color = BLACK,
+        halo: float = looks.HALO,
+    ) -> None:
+        """Write at places (n, 2), degrees, moved by `offset` points, with a white halo; the first matter most.
+
+        A label that would cover one that matters more is left out, and so is one whose place is out of sight.
+        """
+        places = self._xyz(lonlat, "lonlat")
+        labels = tuple(placed_label(text, offset, size, color, halo) for text in texts)
+        if len(labels) != len(places):
+            raise ValueError(f"texts has {len(labels)} entries, but lonlat has {len(places)} places")
+        self.add(Names(places, labels))
+
+    def add_cells(
+        self,
+        voronoi: SphericalVoronoi,
+        *,
+        colors: npt.ArrayLike | None = None,
+        look: LineStyle | None = looks.LINE,
+        role: str = "cells",
+    ) -> None:
+        """Draw the ridges of a Voronoi diagram; fill its cells where colours (n, 3) or (n, 4) are given."""
+        if colors is not None:
+            mesh = features.cells_mesh(voronoi)
+            self.add(Areas(mesh, features.as_tints(colors, len(voronoi.points)), role))
+        if look is not None:
+            self.add(Lines(features.ridges(voronoi), look, role))
+
+    def add_triangulation(
+        self,
+        triangulation: SphericalDelaunay,
+        *,
+        colors: npt.ArrayLike | None = None,
+        look: LineStyle | None = looks.LINE,
+        role: str = "triangles",
+    ) -> None:
+        """Draw the edges of a triangulation; fill its triangles but the closing ones where colours (m, 3 or 4) are."""
+        if colors is not None:
+            tints = features.as_tints(colors, len(triangulation.simplices))
+            self.add(Areas(features.triangles_mesh(triangulation), tints, role))
+        if look is not None:
+            self.add(Lines(features.edges(triangulation), look, role))
+
+    def add_circles(
+        self,
+        circles: Iterable[SphereCircle],
+        *,
+        color: Color | None = looks.CIRCLE,
+        look: LineStyle = looks.OUTLINE,
+        role: str = "circles",
+    ) -> None:
+        """Draw circles of the sphere and fill their interiors; their images are circles, exactly."""
+        self.add(Circles(tuple(circles), color, look, role))
+
+    def add_tissot(
+        self,
+        spacing: float = 30.0,
+        radius: float = 4.0,
+        *,
+        color: Color | None = looks.CIRCLE,
+        look: LineStyle = looks.OUTLINE,
+    ) -> None:
+        """Draw Tissot's indicatrices: equal circles, `radius` degrees, about places `spacing` degrees apart.
+
+        On each parallel, those at multiples of `spacing`, there are as many as keep about that distance.
+        """
+        steps = as_steps(180.0, spacing, "spacing")
+        size = as_scalar(radius, "radius", low=0.0, high=90.0, open_low=True)
+        places = []
+        for lat in np.arange(steps + 1) * (180.0 / steps) - 90.0:
+            count = max(1, round(2 * steps * float(np.cos(np.radians(lat)))))
+            places += [(360.0 * k / count - 180.0, lat) for k in range(count)]
+        xyz = lonlat_to_xyz(places, latitude=self.latitude)
+        self.add_circles([SphereCircle.around(place, size) for place in xyz], color=color, look=look, role="tissot")
+
+    def add_layer(
+        self,
+        source: Any,
+        *,
+        color: Color = looks.AREA,
+        column: str | None = None,
+        scale: ColorScale | None = None,
+        outline: LineStyle | None = looks.OUTLINE,
+        look: LineStyle = looks.LINE,
+        dots: DotStyle = looks.DOT,
+        role: str = "layer",
+    ) -> None:
+        """Draw what a file or a table of shapes holds: polygons, lines on them, points on top.
+
+        Parameters
+        ----------
+        source : path-like, mapping, or object with __geo_interface__
+            A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or a shape of shapely.
+        color : Color
+            Of polygons.
+        column : str, optional
+            A property of numbers that colours the polygons instead; those without it keep `color`.
+        scale : ColorScale, optional
+            From these numbers to colours; by default viridis from the least to the largest.
+        outline, look, dots : LineStyle, LineStyle, DotStyle
+            Of the polygons' outlines (None: none), the lines and the points.
+        role : str
+            Names the groups in vector files.
+
+        Raises
+        ------
+        OSError
+            When a file cannot be read.
+        ValueError
+            For what is no GeoJSON, a latitude outside [−90, 90], a column that is not there or holds no numbers.
+        """
+        shapes = shapes_of(source)
+        if shapes.polygons:
+            tints = np.tile(np.array(color), (len(shapes.properties), 1))
+            if column is not None:
+                values = shapes.column(column)
+                tints[np.isfinite(values), :3] = features.scaled_colors(values[np.isfinite(values)], scale)
+                tints[np.isfinite(values), 3] = 1.0
+            owners = np.array(shapes.polygon_features)
+            polygons = Polygons.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
+            self._add_polygons(polygons, tints, outline, role)
+        if shapes.lines:
+            self.add_lines(shapes.lines, look=look, role=role)
+        if shapes.points:
+            self.add_points(np.concatenate(shapes.points), look=dots, role=role)
+
+    def items(self, chart: Chart) -> tuple[Item, ...]:
+        """What a chart shows, in painter's order; `panels` leaves out labels that would cover others."""
+        return tuple(item for layer in (*self.layers, self.limb) for item in layer.lay(chart))
+
+    def page(
+        self,
+        lens: MoebiusMap | None = None,
+        view: MapView | Sequence[MapView] | None = None,
+        *,
+        width: float = PRINT_WIDTH,
+        tolerance: float = 0.02,
+    ) -> Page:
+        """A picture of the globe, ready to be written as pixels or paths.
+
+        Parameters
+        ----------
+        lens : MoebiusMap, optional
+            By default none.
+        view : View, StereographicView or a sequence of them, optional
+            By default orthographic from above the focus of the lens; several are set side by side, as `hemispheres`.
+        width : float
+            Of the page in points; lines and type keep their size in points.
+        tolerance : float
+            How far what is drawn may be from what it stands for, in points.
+        """
+        bend = MoebiusMap.identity() if lens is None else lens
+        views = view if isinstance(view, Sequence) else [default_view(bend) if view is None else view]
+        return panels([Panel(self, bend, each) for each in views], width=width, tolerance=tolerance)
+
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        lens: MoebiusMap | None = None,
+        view: MapView | Sequence[MapView] | None = None,
+        *,
+        size: int = 2000,
+        width: float = PRINT_WIDTH,
+    ) -> Path:
+        """Write a picture as PNG, SVG or PDF, as the ending says; see `page`.
+
+        Parameters
+        ----------
+        path : path-like
+            Written under a temporary name first; an existing file is replaced.
+        lens, view, width
+            As for `page`.
+        size : int
+            Width of a PNG in pixels; curves are as fine as a fifth of a pixel.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be written, or there is no OpenGL for a PNG.
+        ValueError
+            For another ending.
+        """
+        pixels = as_count(size, "size")
+        page = self.page(lens, view, width=width, tolerance=min(0.02, 0.2 * width / pixels))
+        return save_page(page, path, size=pixels)
+
+    def _xyz(self, lonlat: npt.ArrayLike, name: str) -> FloatArray:
+        return lonlat_to_xyz(np.atleast_2d(as_lonlat(lonlat, name)), latitude=self.latitude)
+
+    def _add_polygons(
+        self, polygons: Polygons, color: Color | FloatArray, outline: LineStyle | None, role: str
+    ) -> None:
+        count = int(polygons.mesh.owners.max()) + 1 if len(polygons.mesh.owners) else 0
+        tints = np.asarray(color, dtype=np.float64)
+        self.add(Areas(polygons.mesh, np.tile(tints, (count, 1)) if tints.ndim == 1 else tints, role))
+        if outline is not None:
+            self.add(Lines(polygons.outlines, outline, f"{role}-outline"))

@@ -1,0 +1,139 @@
+"""Pages of globes: one disc, or several side by side; and their files."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+from stereodel._arrays import as_count, as_scalar
+from stereodel.conformal import MoebiusMap
+from stereodel.globe.chart import Chart
+from stereodel.globe.lettering import with_room
+from stereodel.render.page import Item, Label, Page
+from stereodel.render.style import BLACK, PRINT_WIDTH
+from stereodel.render.view import MapView, StereographicView, View
+from stereodel.sphere import xyz_to_lonlat
+
+MARGIN = 0.03
+"""Round a disc, in its radii."""
+
+TITLE_HEIGHT = 14.0
+"""Of type above a panel, with its margin, points."""
+
+
+class Drawable(Protocol):
+    """What a panel shows: a `Globe`."""
+
+    def items(self, chart: Chart) -> tuple[Item, ...]:
+        """What a chart shows, in painter's order."""
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """One disc of a page.
+
+    Parameters
+    ----------
+    globe : Globe
+    lens : MoebiusMap, optional
+    view : View or StereographicView, optional
+        By default from above the focus.
+    title : str
+        Written above the disc, in matplotlib's mathtext.
+    """
+
+    globe: Drawable
+    lens: MoebiusMap | None = None
+    view: MapView | None = None
+    title: str = ""
+
+
+def hemispheres(lon: float, lat: float = 0.0, *, flat: bool = False) -> tuple[MapView, MapView]:
+    """The views of the hemisphere about a point, degrees, and of the other one, to be set side by side.
+
+    Parameters
+    ----------
+    lon, lat : float
+    flat : bool
+        Stereographic, not orthographic.
+
+    Examples
+    --------
+    >>> hemispheres(-20.0)
+    (View(lon=-20.0, lat=0.0, roll=0.0), View(lon=160.0, lat=0.0, roll=0.0))
+    """
+    kind: type[View] | type[StereographicView] = StereographicView if flat else View
+    return kind(lon, lat), kind(lon + 180.0 if lon <= 0 else lon - 180.0, -lat + 0.0)
+
+
+def default_view(lens: MoebiusMap) -> View:
+    """From above the image of the focus, or of (0, 0) where nothing is magnified."""
+    if lens.magnification == 1:
+        return View(0.0, 0.0)
+    lon, lat = xyz_to_lonlat(lens(lens.focus))
+    return View(float(lon), float(lat))
+
+
+def panels(
+    contents: Sequence[Panel], *, columns: int | None = None, width: float = PRINT_WIDTH, tolerance: float = 0.02
+) -> Page:
+    """Globes side by side, row by row.
+
+    Parameters
+    ----------
+    contents : sequence of Panel
+    columns : int, optional
+        By default all in one row.
+    width : float
+        Of the page in points.
+    tolerance : float
+        How far what is drawn may be from what it stands for, in points.
+
+    Raises
+    ------
+    ValueError
+        For no panels, or a width or tolerance that is not positive.
+    """
+    if not contents:
+        raise ValueError("contents must have a panel or more")
+    across = len(contents) if columns is None else min(as_count(columns, "columns"), len(contents))
+    size = as_scalar(width, "width", low=0.0, open_low=True)
+    fine = as_scalar(tolerance, "tolerance", low=0.0, open_low=True)
+    pitch = 2 * (1 + MARGIN)
+    unit = size / (across * pitch)  # points for a radius of a disc
+    head = TITLE_HEIGHT / unit if any(panel.title for panel in contents) else 0.0
+    rows = -(-len(contents) // across)
+    items: list[Item] = []
+    views = []
+    for number, panel in enumerate(contents):
+        row, column = divmod(number, across)
+        at = ((column + 0.5) * pitch, (rows - row) * pitch + (rows - row - 1) * head - pitch / 2)
+        lens = MoebiusMap.identity() if panel.lens is None else panel.lens
+        view = default_view(lens) if panel.view is None else panel.view
+        items += with_room(panel.globe.items(Chart(lens, view, at, 1.0, fine / unit)), unit)
+        views.append(view.matrix)
+        if panel.title:
+            items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))
+    extent = (0.0, across * pitch, 0.0, rows * (pitch + head))
+    return Page(extent, tuple(items), width=size, views=tuple(views))
+
+
+def save_page(page: Page, path: str | os.PathLike[str], *, size: int) -> Path:
+    """Write a page as PNG through OpenGL, as SVG or as PDF, as the ending says; an OSError where there is no OpenGL."""
+    from stereodel.render import gl, raster
+    from stereodel.render.figure import mosaic_pictures, save_png
+    from stereodel.render.vector import save_vector
+
+    target = Path(path)
+    kind = target.suffix.lower()
+    if kind not in (".png", ".svg", ".pdf"):
+        raise ValueError(f"path must end in .png, .svg or .pdf, got {target.name!r}")
+    try:
+        if kind == ".png":
+            return save_png(raster.render(page, size=size), target, page_width=page.width)
+        return save_vector(page, target, mosaics=mosaic_pictures(page, size))
+    except gl.OpenGLError as error:
+        raise OSError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
