@@ -18,7 +18,7 @@ from stereodel.graphs import (
 )
 from stereodel.relaxation import lloyd
 from stereodel.render import Figure, LineStyle, Page, Scene, View
-from stereodel.render.figure import save_png
+from stereodel.render.saving import save_png
 from stereodel.render.style import BLUE, LIGHT_GRAY
 
 SITES, SEED, STEPS = 450, 11, 40

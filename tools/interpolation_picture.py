@@ -13,7 +13,7 @@ from stereodel import SphericalDelaunay
 from stereodel._arrays import FloatArray
 from stereodel.interpolation import Contour, SmoothInterpolator, contours
 from stereodel.render import Figure, LineStyle, Page, Scene, View
-from stereodel.render.figure import save_png
+from stereodel.render.saving import save_png
 from stereodel.render.style import BLUE, LIGHT_GRAY, VERMILION
 
 SITES, FINE, SEED = 500, 40_000, 6

@@ -8,7 +8,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from stereodel.render.build import load_drawing
-from stereodel.render.figure import save_png
+from stereodel.render.saving import save_png
 
 ROOT = Path(__file__).resolve().parent.parent
 WIDTHS = {"fig11_fisheye4": 1200, "fig01_sphere": 480, "fig08_hemisphere": 480, "fig02_plane": 480}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -11,7 +10,7 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
-    from stereodel.render import Page
+    pass
 
 EXAMPLE = "stereodel globe cities.csv --focus=10,48 --magnify 3 -o globe.png"
 
@@ -42,7 +41,7 @@ def command(
         float, typer.Option(metavar="S", help="How many times the surroundings of the focus are enlarged.")
     ] = 1.0,
     coastlines: Annotated[bool, typer.Option(help="Draw the coasts.")] = True,
-    size: Annotated[int, typer.Option(min=1, max=20_000, help="Width of a PNG in pixels.")] = 1600,
+    size: Annotated[int, typer.Option(min=1, max=65_535, help="Width of a PNG in pixels.")] = 1600,
     lon: options.Lon = None,
     lat: options.Lat = None,
     latitude: options.LatitudeKind = options.Latitude.spherical,
@@ -55,7 +54,7 @@ def command(
     from stereodel.cli.globe_page import GlobePicture, lens_at, middle_of, shores
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
-    from stereodel.render import View
+    from stereodel.render import View, save_page
 
     destination = Destination.of(out, format, PICTURES)
     given = {"--view": view, "--focus": focus}
@@ -72,20 +71,4 @@ def command(
     )
     with stage("drawing"):
         page = picture.page()
-        destination.write(lambda path: _save(page, path, size))
-
-
-def _save(page: Page, path: Path, size: int) -> None:
-    """Write a page as the extension says."""
-    from stereodel.render import gl, raster
-    from stereodel.render.figure import save_png
-    from stereodel.render.vector import save_vector
-
-    if path.suffix.lower() != ".png":
-        save_vector(page, path)
-        return
-    try:
-        pixels = raster.render(page, size=size)
-    except gl.OpenGLError as error:
-        raise OSError(f"{error}; .svg and .pdf need no OpenGL") from error
-    save_png(pixels, path, page_width=page.width)
+        destination.write(lambda path: save_page(page, path, size=size))

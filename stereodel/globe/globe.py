@@ -18,10 +18,12 @@ from stereodel.globe.geodata import shapes_of
 from stereodel.globe.layers import Areas, Circles, Ground, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lettering import placed_label
 from stereodel.globe.lines import SphereLines
-from stereodel.globe.pages import Panel, default_view, panels, save_page
+from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.polygons import Polygons, Rings
 from stereodel.render.colors import ColorScale
 from stereodel.render.page import Color, Item, Page
+from stereodel.render.saving import save_page
+from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.render.style import BLACK, LABEL_SIZE, PRINT_WIDTH, DotStyle, LineStyle
 from stereodel.render.view import MapView
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
@@ -322,7 +324,7 @@ class Globe:
         lens, view, width
             As for `page`.
         size : int
-            Width of a PNG in pixels; curves are as fine as a fifth of a pixel.
+            Width of a PNG in pixels, at most 65 535; curves are as fine as a fifth of a pixel.
 
         Raises
         ------
@@ -331,7 +333,7 @@ class Globe:
         ValueError
             For another ending.
         """
-        pixels = as_count(size, "size")
+        pixels = as_count(size, "size", high=LARGEST_SIZE)
         page = self.page(lens, view, width=width, tolerance=min(0.02, 0.2 * width / pixels))
         return save_page(page, path, size=pixels)
 

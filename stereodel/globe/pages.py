@@ -1,11 +1,9 @@
-"""Pages of globes: one disc, or several side by side; and their files."""
+"""Pages of globes: one disc, or several side by side."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Protocol
 
 from stereodel._arrays import as_count, as_scalar
@@ -119,21 +117,3 @@ def panels(
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))
     extent = (0.0, across * pitch, 0.0, rows * (pitch + head))
     return Page(extent, tuple(items), width=size, views=tuple(views))
-
-
-def save_page(page: Page, path: str | os.PathLike[str], *, size: int) -> Path:
-    """Write a page as PNG through OpenGL, as SVG or as PDF, as the ending says; an OSError where there is no OpenGL."""
-    from stereodel.render import gl, raster
-    from stereodel.render.figure import mosaic_pictures, save_png
-    from stereodel.render.vector import save_vector
-
-    target = Path(path)
-    kind = target.suffix.lower()
-    if kind not in (".png", ".svg", ".pdf"):
-        raise ValueError(f"path must end in .png, .svg or .pdf, got {target.name!r}")
-    try:
-        if kind == ".png":
-            return save_png(raster.render(page, size=size), target, page_width=page.width)
-        return save_vector(page, target, mosaics=mosaic_pictures(page, size))
-    except gl.OpenGLError as error:
-        raise OSError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error

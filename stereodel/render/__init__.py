@@ -8,6 +8,7 @@ from stereodel.render.motion.film import Film
 from stereodel.render.motion.formats import save_pictures
 from stereodel.render.motion.workers import FrameError
 from stereodel.render.page import Label, Page
+from stereodel.render.saving import save_page
 from stereodel.render.scene import Scene
 from stereodel.render.sketch import Sketch
 from stereodel.render.style import DotStyle, LineStyle
@@ -31,5 +32,6 @@ __all__ = [
     "Sketch",
     "StereographicView",
     "View",
+    "save_page",
     "save_pictures",
 ]

@@ -5,18 +5,17 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._files import replacing
-from stereodel.render.page import Mosaic, Page
+from stereodel.render.page import Page
+from stereodel.render.saving import bare_rows, mosaic_pictures, write_png
 from stereodel.render.script import run_script
-from stereodel.render.style import PRINT_DPI
+from stereodel.render.sizes import as_width, pixel_height
 
 Geometry = Mapping[str, Any]
 Pixels = npt.NDArray[np.uint8]
@@ -66,14 +65,17 @@ class Figure:
         Parameters
         ----------
         size : int, optional
-            Width in pixels; by default that of print at 300 dpi, 2008 for 17 cm.
+            Width in pixels; by default that of print at 300 dpi, 2008 for 17 cm. Large ones are better saved.
         text : bool
             Whether labels are drawn.
         """
-        from stereodel.render.vector import with_labels
+        from stereodel.render.labels import with_labels
 
         page = self.page()
-        bare = self._bare(page, size)
+        width = as_width(page, size)
+        bare = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
+        for top, rows in bare_rows(page, width, renderer=self.renderer):
+            bare[top : top + len(rows)] = rows
         return with_labels(bare, page) if text else bare
 
     def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
@@ -96,59 +98,29 @@ class Figure:
         OSError
             When the folder cannot be made or written to.
         """
-        from stereodel.render.image import pixel_hash
-        from stereodel.render.vector import save_vector, with_labels
+        from stereodel.render.vector import save_vector
 
         begun = time.perf_counter()
+        page = self.page()
+        width = as_width(page, size)
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
-        page = self.page()
-        bare = self._bare(page, size)
-        picture = with_labels(bare, page) if text else bare
         shown = page if text else page.without_labels()
-        files = [save_png(picture, folder / f"{self.name}.png", page_width=page.width)]
-        mosaics = mosaic_pictures(page, picture.shape[1])
-        files += [save_vector(shown, folder / f"{self.name}.{kind}", mosaics=mosaics) for kind in ("svg", "pdf")]
+        files = [folder / f"{self.name}.{kind}" for kind in ("png", "svg", "pdf")]
+        digest = write_png(page, files[0], width=width, text=text, renderer=self.renderer)
+        mosaics = mosaic_pictures(page, width)
+        for file in files[1:]:
+            save_vector(shown, file, mosaics=mosaics)
         WRITTEN.append(files[0])
         return {
             "figure": self.name,
             "files": [file.name for file in files],
             "renderer": self.renderer,
-            "size": picture.shape[1],
-            "pixel_hash": pixel_hash(bare),
+            "size": width,
+            "pixel_hash": digest,
             "seconds": round(time.perf_counter() - begun, 3),
         }
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files, say where; what goes wrong becomes a message and exit code 1."""
         run_script(self, argv, source=self.draw, kind="PNG, SVG and PDF", usual_size="17 cm at 300 dpi")
-
-    def _bare(self, page: Page, size: int | None) -> Pixels:
-        """The picture without text, which is what its hash is taken of; labels are laid over it."""
-        width = round(page.width / 72 * PRINT_DPI) if size is None else size
-        if self.renderer == "agg":
-            from stereodel.render.vector import rasterize
-
-            return rasterize(page, size=width, text=False)
-        from stereodel.render.raster import render
-
-        return render(page, size=width, text=False)
-
-
-def mosaic_pictures(page: Page, width: int) -> list[Pixels]:
-    """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
-    mosaics = [item for item in page.items if isinstance(item, Mosaic)]
-    if not mosaics:
-        return []
-    from stereodel.render.raster import render
-
-    return [render(replace(page, items=(mosaic,)), size=width, text=False) for mosaic in mosaics]
-
-
-def save_png(picture: Pixels, path: str | os.PathLike[str], *, page_width: float) -> Path:
-    """Write pixels (h, w, 3) as a PNG that knows its print width, `page_width` points; never half a file."""
-    target = Path(path)
-    dpi = picture.shape[1] / (page_width / 72)
-    with replacing(target) as temporary:
-        iio.imwrite(temporary, picture, extension=".png", plugin="pillow", dpi=(dpi, dpi))
-    return target

@@ -4,7 +4,11 @@ Everything goes through pyrender (the distribution pyrender2) on a software rend
 EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
 when it is first imported, so this module chooses before that, once per process.
 
-All triangles of a picture go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
+A picture is drawn in windows, so that memory does not grow with it. They lie on one grid, counted from its upper left
+corner, whatever part is asked for: where OpenGL cuts a triangle at the edge of a window it rounds the new corners, and
+so a picture drawn at once and one written row by row are the same bits.
+
+All triangles of a window go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
 OpenGL draws the triangles of a mesh in their order, so see-through items blend back to front; and since a fragment at
 the depth of what is already there is refused, an item whose triangles overlap blends once, as the union of them.
 """
@@ -16,16 +20,14 @@ import ctypes
 import os
 import sys
 import types
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, Final, cast
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, IntArray
 from stereodel.render.page import Color
-
-Pixels = npt.NDArray[np.uint8]
+from stereodel.render.triangles import Pixels, Triangles, Window
 
 VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""
@@ -43,13 +45,16 @@ SLOTS: Final = 2**18
 """Items that a picture may have: neighbours are 64 steps of a 24-bit depth buffer apart, and 16 of float32."""
 
 BAND: Final = 1024
-"""Rows drawn at once: the multisampled buffers of a band take 32 bytes a pixel."""
+"""Rows drawn at once."""
+
+COLUMNS: Final = 4096
+"""Pixels across that are drawn at once; even. The multisampled buffers of a window take 32 bytes a pixel, 134 MB."""
 
 SUBPIXELS: Final = 256
 """Parts of a pixel to which llvmpipe rounds corners."""
 
-MAX_WIDTH: Final = 16384
-"""Pixels across; llvmpipe has no larger buffers."""
+STRIDE: Final = 8192
+"""Coordinates lose whole multiples of it, pixels, so that those in a window keep `SUBPIXELS` as float32 of 24 bits."""
 
 EGL_EXTENSIONS: Final = 0x3055
 """Name of the extension string in EGL's C header."""
@@ -57,28 +62,6 @@ EGL_EXTENSIONS: Final = 0x3055
 
 class OpenGLError(RuntimeError):
     """There is no usable OpenGL, or it was set up before in another way; the message says what to do."""
-
-
-@dataclass(frozen=True, eq=False)
-class Triangles:
-    """Coloured triangles in painter's order.
-
-    Parameters
-    ----------
-    points : (n, 2) array
-        Pixels from the lower left corner, x right, y up.
-    colors : (n, 4) array
-        sRGB and opacity in [0, 1].
-    slots : (n,) int array
-        Number of the item that a vertex belongs to; must not decrease along `faces`.
-    faces : (m, 3) int array
-        Either orientation.
-    """
-
-    points: FloatArray
-    colors: FloatArray
-    slots: IntArray
-    faces: IntArray
 
 
 @dataclass(frozen=True)
@@ -171,19 +154,46 @@ def draw(
     OpenGLError
         If there is no usable OpenGL; if this process draws on another platform already.
     ValueError
-        For a picture that is too wide or too large for the depth buffer.
+        For a picture without pixels, or with too many items for the depth buffer.
     """
-    if not 1 <= width <= MAX_WIDTH:
-        raise ValueError(f"width must be 1 to {MAX_WIDTH} pixels, got {width}")
-    if triangles.slots.size and int(triangles.slots.max()) >= SLOTS:
-        raise ValueError(f"a picture has at most {SLOTS} items, got {int(triangles.slots.max()) + 1}")
+    return np.concatenate(
+        list(bands(lambda window: triangles, width, height, background=background, platform=platform))
+    )
+
+
+def bands(
+    part: Callable[[Window], Triangles],
+    width: int,
+    height: int,
+    *,
+    background: Color = (1.0, 1.0, 1.0, 1.0),
+    platform: str | None = None,
+    finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
+) -> Iterator[Pixels]:
+    """Draw a picture from the top, `BAND` rows at a time; memory is that of a band and of the triangles of a window.
+
+    Parameters
+    ----------
+    part : callable
+        (window) → at least those triangles of the picture that touch a window, in their order. Others change nothing.
+    width, height, background, platform
+        As for `draw`, which raises the same errors.
+    finish : callable, optional
+        (pixels of a window) → those that are kept of them.
+
+    Yields
+    ------
+    (rows, width, 3) uint8 array
+        Or what `finish` makes of it.
+    """
+    if min(width, height) < 1:
+        raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
     renderer = _renderer(platform)
-    scene, camera = _scene(renderer.pyrender, triangles, width, background)
-    picture = np.empty((height, width, 3), dtype=np.uint8)
     for top in range(0, height, BAND):
         rows = min(BAND, height - top)
-        picture[top : top + rows] = renderer.band(scene, camera, width, rows, height - top - rows)
-    return picture
+        lefts = range(0, width, COLUMNS)
+        windows = [Window(left, height - top - rows, min(COLUMNS, width - left), rows) for left in lefts]
+        yield np.concatenate([finish(renderer.draw(part(w), w, background)) for w in windows], axis=1)
 
 
 def describe(platform: str | None = None) -> Description:
@@ -221,6 +231,8 @@ class _Renderer:
             if platform == "egl":
                 os.environ["EGL_DEVICE_ID"] = str(_software_device())
             self.offscreen = self.pyrender.OffscreenRenderer(16, 16)
+            # pyrender would also read the depths and turn them into lengths, which takes longer than drawing.
+            self.offscreen._renderer._read_main_framebuffer = self._read_colors
         except OpenGLError:
             raise
         except Exception as error:
@@ -229,16 +241,27 @@ class _Renderer:
                 _missing(f"{platform} gives no OpenGL context ({type(error).__name__}: {error})", platform)
             ) from error
 
-    def band(self, scene: Any, camera: Any, width: int, rows: int, bottom: int) -> Pixels:
-        """Rows `bottom` to `bottom + rows` (from below) of the scene."""
-        camera.camera.ymag = rows / 2
-        pose = np.eye(4)
-        pose[:2, 3] = width / 2, bottom + rows / 2
-        scene.set_pose(camera, pose)
-        self.offscreen.viewport_width, self.offscreen.viewport_height = width, rows
+    def draw(self, triangles: Triangles, window: Window, background: Color) -> Pixels:
+        """What a window shows of triangles, rows from the top."""
+        scene = _scene(self.pyrender, triangles, window, background)
+        self.offscreen.viewport_width, self.offscreen.viewport_height = window.width, window.height
         flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
         color, _ = self.offscreen.render(scene, flags=flags)
         return cast(Pixels, color)
+
+    def _read_colors(self, scene: Any, flags: int) -> tuple[Pixels, None]:
+        """The colours of the window that was drawn, the samples of each pixel averaged; no depths."""
+        from OpenGL import GL
+
+        renderer = self.offscreen._renderer
+        width, height = renderer._main_fb_dims
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, renderer._main_fb_ms)
+        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, renderer._main_fb)
+        box = (0, 0, width, height)
+        GL.glBlitFramebuffer(*box, *box, GL.GL_COLOR_BUFFER_BIT, GL.GL_LINEAR)
+        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, renderer._main_fb)
+        data = GL.glReadPixels(*box, GL.GL_RGB, GL.GL_UNSIGNED_BYTE)
+        return np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3)[::-1], None
 
     def strings(self) -> tuple[str, str]:
         """GL_VERSION and GL_RENDERER."""
@@ -269,24 +292,30 @@ def _renderer(platform: str | None) -> _Renderer:
     return _open
 
 
-def _scene(pyrender: Any, triangles: Triangles, width: int, background: Color) -> tuple[Any, Any]:
+def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Color) -> Any:
     """All triangles as one mesh before an orthographic camera, a unit of the scene being a pixel."""
+    if triangles.slots.size and int(triangles.slots.max()) >= SLOTS:
+        raise ValueError(f"a picture has at most {SLOTS} items, got {int(triangles.slots.max()) + 1}")
     scene = pyrender.Scene(bg_color=[*map(float, background[:3]), 1.0])
+    origin = np.array([window.left, window.bottom]) // STRIDE * STRIDE
     # The camera sees depths from -1 to -3 and the last item is nearest.
-    camera = scene.add(pyrender.OrthographicCamera(xmag=width / 2, ymag=1.0, znear=1.0, zfar=3.0))
+    camera = pyrender.OrthographicCamera(xmag=window.width / 2, ymag=window.height / 2, znear=1.0, zfar=3.0)
+    pose = np.eye(4)
+    pose[:2, 3] = window.left + window.width / 2, window.bottom + window.height / 2
+    pose[:2, 3] -= origin
+    scene.add(camera, pose=pose)
     if len(triangles.faces):
-        depth = -3 + 2 * (triangles.slots + 0.5) / SLOTS
+        # Without indices, which pyrender would pass through float32.
+        corners = triangles.faces.ravel()
+        depth = -3 + 2 * (triangles.slots[corners] + 0.5) / SLOTS
         material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
         # Rounded here as llvmpipe would, so that the rounding of its transformations has nothing to decide.
-        points = np.round(SUBPIXELS * triangles.points) / SUBPIXELS
+        points = np.round(SUBPIXELS * triangles.points[corners]) / SUBPIXELS - origin
         primitive = pyrender.Primitive(
-            np.column_stack([points, depth]),
-            color_0=triangles.colors,
-            indices=triangles.faces,
-            material=material,
+            np.column_stack([points, depth]), color_0=triangles.colors[corners], material=material
         )
         scene.add(pyrender.Mesh([primitive]))
-    return scene, camera
+    return scene
 
 
 def _import_pyrender(platform: str) -> Any:

@@ -6,19 +6,20 @@ sRGB values as they stand, as OpenGL's own multisampling and matplotlib do, so t
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, IntArray
+from stereodel._arrays import FloatArray
 from stereodel.render import gl
+from stereodel.render.labels import LabelLayer
 from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Mosaic, Page, Patch, Polylines, Stroke, Surface
+from stereodel.render.pieces import Piece, Pieces
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon, ribbons
-from stereodel.render.style import PRINT_DPI
-from stereodel.render.vector import pixel_height, with_labels
-
-Pixels = gl.Pixels
+from stereodel.render.sizes import as_width, pixel_height
+from stereodel.render.triangles import Pixels
 
 SUPERSAMPLING: Final = 2
 """Pixels drawn per pixel of the picture, each way."""
@@ -53,39 +54,30 @@ def render(page: Page, *, size: int | None = None, text: bool = True, platform: 
     stereodel.render.gl.OpenGLError
         If there is no usable OpenGL.
     """
-    width = round(page.width / 72 * PRINT_DPI) if size is None else size
-    height = pixel_height(page, width)
-    triangles = triangulate(page, SUPERSAMPLING * width, SUPERSAMPLING * height)
-    large = gl.draw(
-        triangles,
-        SUPERSAMPLING * width,
-        SUPERSAMPLING * height,
-        background=_over_white(page.background),
-        platform=platform,
-    )
-    picture = _averaged(large)
-    return with_labels(picture, page) if text else picture
+    width = as_width(page, size)
+    layer = LabelLayer(page if text else page.without_labels(), width)
+    picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
+    top = 0
+    for rows in bands(page, width, platform=platform):
+        picture[top : top + len(rows)] = layer.over(rows, top)
+        top += len(rows)
+    return picture
 
 
-def triangulate(page: Page, width: int, height: int) -> gl.Triangles:
+def bands(page: Page, width: int, *, platform: str | None = None) -> Iterator[Pixels]:
+    """Draw a page without its labels, rows (k, width, 3) after rows from the top."""
+    large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
+    pieces = triangulate(page, *large)
+    background = _over_white(page.background)
+    return gl.bands(pieces.within, *large, background=background, platform=platform, finish=_averaged)
+
+
+def triangulate(page: Page, width: int, height: int) -> Pieces:
     """Everything on a page but its labels as triangles of a picture of `width` by `height` pixels."""
     left, right, bottom, top = page.extent
     scale = np.array([width / (right - left), height / (top - bottom)])
     canvas = _Canvas(np.array([left, bottom]), scale, width / page.width)
-    parts = [(number, piece) for number, item in enumerate(page.items) for piece in canvas.pieces(item)]
-    corners = np.concatenate([np.zeros((0, 3, 2)), *(piece.corners for _, piece in parts)])
-    colors = np.concatenate([np.zeros((0, 3, 4)), *(piece.colors for _, piece in parts)])
-    slots: IntArray = np.repeat([n for n, _ in parts], [3 * len(piece.corners) for _, piece in parts]).astype(np.int32)
-    faces: IntArray = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
-    return gl.Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces)
-
-
-@dataclass(frozen=True, eq=False)
-class _Piece:
-    """Triangles by their corners (n, 3, 2), and a colour at each corner (n, 3, 4)."""
-
-    corners: Corners
-    colors: FloatArray
+    return Pieces((number, piece) for number, item in enumerate(page.items) for piece in canvas.pieces(item))
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +88,7 @@ class _Canvas:
     scale: FloatArray
     pixels_per_point: float
 
-    def pieces(self, item: Item) -> list[_Piece]:
+    def pieces(self, item: Item) -> list[Piece]:
         """What an item is made of; where pieces overlap, the first is seen."""
         match item:
             case Stroke():
@@ -131,15 +123,15 @@ class _Canvas:
     def _polylines(self, lines: Polylines) -> Corners:
         return ribbons(self._place(lines.points), lines.offsets, lines.width * self.pixels_per_point)
 
-    def _patch(self, patch: Patch) -> _Piece:
+    def _patch(self, patch: Patch) -> Piece:
         corners = self._place(patch.points)[patch.faces]
         if patch.normals is None:
             return _flat(corners, patch.color)
         colors = np.repeat([patch.color], len(patch.points), axis=0)
         colors[:, :3] *= _brightness(patch.normals)[:, None]
-        return _Piece(corners, colors[patch.faces])
+        return Piece(corners, colors[patch.faces])
 
-    def _dots(self, dots: Dots) -> list[_Piece]:
+    def _dots(self, dots: Dots) -> list[Piece]:
         centers = self._place(dots.centers)
         inner, outer = (r * self.pixels_per_point for r in (dots.radius - dots.rim_width, dots.radius))
         pieces = [_flat(discs(centers, inner), dots.color)]
@@ -147,17 +139,17 @@ class _Canvas:
             pieces.append(_flat(discs(centers, outer), dots.rim))
         return pieces
 
-    def _lit(self, surface: Surface) -> _Piece:
+    def _lit(self, surface: Surface) -> Piece:
         colors = np.repeat([surface.color], len(surface.vertices), axis=0)
         colors[:, :3] *= _brightness(surface.normals)[:, None]
-        return _Piece(self._place(surface.vertices[:, :2])[surface.faces], colors[surface.faces])
+        return Piece(self._place(surface.vertices[:, :2])[surface.faces], colors[surface.faces])
 
-    def _mosaic(self, mosaic: Mosaic) -> _Piece:
+    def _mosaic(self, mosaic: Mosaic) -> Piece:
         colors = np.ones((len(mosaic.corners), 3, 4))
         colors[..., :3] = mosaic.colors[:, None]
         if mosaic.normals is not None:
             colors[..., :3] *= _brightness(mosaic.normals)[..., None]
-        return _Piece(self._place(mosaic.corners), colors)
+        return Piece(self._place(mosaic.corners), colors)
 
 
 def _brightness(normals: FloatArray) -> FloatArray:
@@ -166,10 +158,10 @@ def _brightness(normals: FloatArray) -> FloatArray:
     return brightness
 
 
-def _flat(corners: Corners, color: Color) -> _Piece:
+def _flat(corners: Corners, color: Color) -> Piece:
     # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
     levels = np.floor(255 * np.array(color) + 0.5) / 255
-    return _Piece(corners, np.broadcast_to(levels, (len(corners), 3, 4)))
+    return Piece(corners, np.broadcast_to(levels, (len(corners), 3, 4)))
 
 
 def _over_white(color: Color) -> Color:

@@ -9,10 +9,9 @@ import sys
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Final, Protocol
+from typing import Any, Protocol
 
-LARGEST_SIZE: Final = 20_000
-"""Pixels across beyond which a picture is surely a mistake."""
+from stereodel.render.sizes import LARGEST_SIZE
 
 
 class Drawing(Protocol):

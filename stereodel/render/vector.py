@@ -14,7 +14,7 @@ from contextlib import AbstractContextManager
 from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import matplotlib as mpl
 import numpy as np
@@ -45,10 +45,14 @@ from stereodel.render.page import (
     Stroke,
     Surface,
 )
+from stereodel.render.sizes import pixel_height
 from stereodel.render.style import TYPE
 
 CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
 """Reach of the controls of a circle drawn as eight cubics, in radii."""
+
+AT_ONCE: Final = 2**25
+"""Pixels that Agg draws at once: with a copy they take 256 MB."""
 
 METADATA = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
@@ -83,8 +87,8 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures =
     kind = target.suffix.lower().lstrip(".")
     if kind not in METADATA:
         raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
-    with _settings():
-        canvas = _drawn(page, dpi=72.0, mosaics=mosaics)
+    with matplotlib_settings():
+        canvas = drawn(page, dpi=72.0, mosaics=mosaics)
         with replacing(target) as temporary:
             canvas.savefig(temporary, format=kind, metadata=METADATA[kind], facecolor=page.background)
     return target
@@ -101,36 +105,24 @@ def rasterize(page: Page, *, size: int, text: bool = True) -> npt.NDArray[np.uin
     text : bool
         Whether labels are drawn.
     """
-    shown = page if text else page.without_labels()
-    with _settings():
-        return _pixels(_drawn(shown, *_pixel_grid(page, size)), shown.background)[..., :3]
+    return np.concatenate(list(bands(page if text else page.without_labels(), size)))
 
 
-def label_layer(page: Page, width_px: int) -> npt.NDArray[np.uint8]:
-    """The labels alone on a transparent ground, (height, width, 4), colours not premultiplied, rows from the top."""
-    labels = replace(page, items=page.labels)
-    with _settings():
-        return _pixels(_drawn(labels, *_pixel_grid(page, width_px)), (1.0, 1.0, 1.0, 0.0))
+def bands(page: Page, size: int) -> Iterator[npt.NDArray[np.uint8]]:
+    """Draw a page through Agg as `rasterize` does, from the top: arrays (k, size, 3) of about `AT_ONCE` pixels."""
+    dpi, (width, height) = pixel_grid(page, size)
+    left, right, low, high = page.extent
+    rows = max(1, AT_ONCE // width)
+    for top in range(0, height, rows):
+        bottom = min(height, top + rows)
+        # Written so that a page drawn at once keeps its numbers.
+        lower, upper = (low * (row / height) + high * (1 - row / height) for row in (bottom, top))
+        part = replace(page, extent=(left, right, lower, upper))
+        with matplotlib_settings():
+            yield _pixels(drawn(part, dpi, (width, bottom - top)), page.background)[..., :3]
 
 
-def with_labels(picture: npt.NDArray[np.uint8], page: Page) -> npt.NDArray[np.uint8]:
-    """The labels of a page over a picture of it without text, (height, width, 3); rounded half up."""
-    if not page.labels:
-        return picture
-    layer = label_layer(page, picture.shape[1])
-    opacity = layer[..., 3:].astype(np.uint16)
-    # At most 255² + 127, which fits into 16 bits.
-    mixed = layer[..., :3] * opacity + picture * (255 - opacity)
-    composed: npt.NDArray[np.uint8] = ((mixed + 127) // 255).astype(np.uint8)
-    return composed
-
-
-def pixel_height(page: Page, width_px: int) -> int:
-    """Height of a picture of a page that is `width_px` pixels wide."""
-    return max(1, round(width_px * page.height / page.width))
-
-
-def _settings() -> AbstractContextManager[None]:
+def matplotlib_settings() -> AbstractContextManager[None]:
     """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
     # rc_context does not give the backend back, so it stays out.
     settings: dict[Any, Any] = {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"}
@@ -138,11 +130,12 @@ def _settings() -> AbstractContextManager[None]:
     return mpl.rc_context(settings)
 
 
-def _pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
+def pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
+    """Pixels per inch of a picture of a page, and its width and height in pixels."""
     return 72.0 * width_px / page.width, (width_px, pixel_height(page, width_px))
 
 
-def _drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics: Pictures = ()) -> Canvas:
+def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics: Pictures = ()) -> Canvas:
     """The page on a canvas of its own size, or of whole pixels."""
     # A millionth of a pixel more, because Agg cuts a size such as 2007.9999999 to 2007.
     width, height = (page.width, page.height) if pixels is None else ((side + 1e-6) * 72 / dpi for side in pixels)

@@ -12,8 +12,8 @@ import pytest
 
 from stereodel.render.baselines import SIZE, Store, case_names, cases_of
 from stereodel.render.build import find_scripts
+from stereodel.render.labels import label_layer
 from stereodel.render.report import report_failure, withdraw_failure
-from stereodel.render.vector import label_layer
 
 pytestmark = pytest.mark.images
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from stereodel.render import gl
-from stereodel.render.gl import OpenGLError, Triangles, choose, describe, draw
+from stereodel.render.gl import OpenGLError, choose, describe, draw
+from stereodel.render.triangles import Triangles
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 
@@ -140,10 +141,10 @@ def test_no_triangles_give_the_ground():
     assert (draw(nothing, 5, 3) == 255).all()
 
 
-@pytest.mark.parametrize("width", [0, gl.MAX_WIDTH + 1])
-def test_impossible_widths_are_refused(width):
-    with pytest.raises(ValueError, match="width must be 1 to 16384"):
-        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [0]), width, 4)
+@pytest.mark.parametrize("size", [(0, 4), (4, 0), (-1, 4)])
+def test_pictures_without_pixels_are_refused(size):
+    with pytest.raises(ValueError, match=f"at least one pixel each way, got {size[0]} by {size[1]}"):
+        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [0]), *size)
 
 
 def test_too_many_items_are_refused():
@@ -175,7 +176,8 @@ def test_closing_makes_room_for_a_new_context():
 
 SCRIPT = """
 import numpy as np
-from stereodel.render.gl import Triangles, describe, draw
+from stereodel.render.gl import describe, draw
+from stereodel.render.triangles import Triangles
 from stereodel.render.image import pixel_hash
 rng = np.random.default_rng(1)
 colors = np.repeat(rng.uniform(0, 1, (300, 4)), 3, axis=0)

@@ -7,10 +7,12 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
+from stereodel.render.labels import label_layer, with_labels
 from stereodel.render.page import Dots, Fill, Label, Page, Stroke
 from stereodel.render.scene import Scene
+from stereodel.render.sizes import pixel_height
 from stereodel.render.style import BLACK
-from stereodel.render.vector import label_layer, pixel_height, rasterize, save_vector, with_labels
+from stereodel.render.vector import rasterize, save_vector
 from stereodel.render.view import View
 from stereodel.sphere import SphereCircle, graticule
 

@@ -19,7 +19,7 @@ from stereodel.render.motion.progress import counting
 from stereodel.render.motion.reels import Pixels, Reel
 from stereodel.render.motion.workers import draw_all, refuse_in_worker
 from stereodel.render.page import Page
-from stereodel.render.script import LARGEST_SIZE
+from stereodel.render.sizes import LARGEST_SIZE
 
 Shot = TypeVar("Shot")
 

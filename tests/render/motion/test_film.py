@@ -244,7 +244,7 @@ def test_bad_films_are_refused_before_anything_is_drawn(balls, out):
     for fps in (0.0, -25.0, np.nan, np.inf):
         with pytest.raises(ValueError, match="fps"):
             Film(balls.ball, [1.0], fps=fps)
-    for size in (0, 20001, 99.5):
+    for size in (0, 65_536, 99.5):
         with pytest.raises((ValueError, TypeError), match="size"):
             Film(balls.ball, [1.0], size=size)
     film = Film(balls.ball, [1.0], size=80)

@@ -1,0 +1,81 @@
+"""A page as triangles for OpenGL, and those of them that a window of the picture needs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray
+from stereodel.render.ribbons import Corners
+from stereodel.render.triangles import Triangles, Window
+
+Boxes = npt.NDArray[np.float32]
+"""Left, bottom, right, top in pixels, a row each; rounded to float32, of which `MARGIN` takes care."""
+
+MARGIN = 1.0
+"""Pixels by which a window is widened when it is asked what lies in it: coordinates to 2²⁴ are rounded by 1/2."""
+
+
+@dataclass(frozen=True, eq=False)
+class Piece:
+    """Triangles of one item by their corners (n, 3, 2), pixels, and a colour at each corner (n, 3, 4)."""
+
+    corners: Corners
+    colors: FloatArray
+
+    @cached_property
+    def boxes(self) -> Boxes:
+        """Of each triangle, (n, 4)."""
+        a, b, c = (self.corners[:, i] for i in range(3))
+        low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
+        return np.concatenate([low, high], axis=1, dtype=np.float32)
+
+
+class Pieces:
+    """The triangles of a picture in painter's order, piece by piece.
+
+    Parameters
+    ----------
+    numbered : iterable of (int, Piece)
+        Number of the item that a piece belongs to, which does not decrease, and the piece.
+
+    Examples
+    --------
+    >>> corners = np.array([[[0.0, 0.0], [9.0, 0.0], [0.0, 9.0]], [[90.0, 90.0], [99.0, 90.0], [90.0, 99.0]]])
+    >>> pieces = Pieces([(0, Piece(corners, np.ones((2, 3, 4))))])
+    >>> len(pieces.within(Window(0, 0, 50, 50)).faces), len(pieces.within(Window(0, 0, 100, 100)).faces)
+    (1, 2)
+    """
+
+    def __init__(self, numbered: Iterable[tuple[int, Piece]]) -> None:
+        kept = [(number, piece) for number, piece in numbered if len(piece.corners)]
+        self._numbers = np.array([number for number, _ in kept], dtype=np.int32)
+        self._pieces = [piece for _, piece in kept]
+        self._boxes = np.array([_around(piece.boxes) for piece in self._pieces], dtype=np.float32).reshape(-1, 4)
+
+    def within(self, window: Window) -> Triangles:
+        """At least those triangles that touch a window, in their order."""
+        hit = np.flatnonzero(_touching(self._boxes, window))
+        chosen = [(self._pieces[i], np.flatnonzero(_touching(self._pieces[i].boxes, window))) for i in hit]
+        corners = np.concatenate([np.zeros((0, 3, 2)), *(piece.corners[rows] for piece, rows in chosen)])
+        colors = np.concatenate([np.zeros((0, 3, 4)), *(piece.colors[rows] for piece, rows in chosen)])
+        slots = np.repeat(self._numbers[hit], [3 * len(rows) for _, rows in chosen])
+        faces = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
+        return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces)
+
+
+def _around(boxes: Boxes) -> Boxes:
+    return np.concatenate([boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)])
+
+
+def _touching(boxes: Boxes, window: Window) -> npt.NDArray[np.bool_]:
+    left, bottom, right, top = boxes.T
+    across = (left < window.left + window.width + MARGIN) & (right > window.left - MARGIN)
+    touching: npt.NDArray[np.bool_] = (
+        across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
+    )
+    return touching

@@ -1,0 +1,27 @@
+"""How many pixels a picture of a page has."""
+
+from __future__ import annotations
+
+from typing import Final
+
+from stereodel._arrays import as_count
+from stereodel.render.page import Page
+from stereodel.render.style import PRINT_DPI
+
+LARGEST_SIZE: Final = 2**16 - 1
+"""Pixels across; Agg, which draws the labels, has no wider canvas. A square of it has 4.3 thousand million pixels."""
+
+
+def print_pixels(page: Page, dpi: float = PRINT_DPI) -> int:
+    """Width in pixels of a page in print."""
+    return round(page.width / 72 * dpi)
+
+
+def pixel_height(page: Page, width_px: int) -> int:
+    """Height of a picture of a page that is `width_px` pixels wide."""
+    return max(1, round(width_px * page.height / page.width))
+
+
+def as_width(page: Page, size: int | None) -> int:
+    """A width in pixels, by default that of print; a ValueError for one that cannot be drawn."""
+    return print_pixels(page) if size is None else as_count(size, "size", high=LARGEST_SIZE)

@@ -1,0 +1,44 @@
+"""What goes into OpenGL and comes out: coloured triangles, windows, pixels."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, IntArray
+
+Pixels = npt.NDArray[np.uint8]
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Coloured triangles in painter's order.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+        Pixels from the lower left corner, x right, y up.
+    colors : (n, 4) array
+        sRGB and opacity in [0, 1].
+    slots : (n,) int array
+        Number of the item that a vertex belongs to; must not decrease along `faces`.
+    faces : (m, 3) int array
+        Either orientation.
+    """
+
+    points: FloatArray
+    colors: FloatArray
+    slots: IntArray
+    faces: IntArray
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of a picture, in pixels from its lower left corner, x right, y up."""
+
+    left: int
+    bottom: int
+    width: int
+    height: int

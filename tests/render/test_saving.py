@@ -1,0 +1,218 @@
+"""Pictures written some rows at a time: the same bits as drawn at once, any size, whole or not at all."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from stereodel.render import Label, Page, Scene, View, gl, labels, raster, save_page, saving, vector
+from stereodel.render.curves import CircleArc
+from stereodel.render.figure import Figure
+from stereodel.render.image import PixelDigest, pixel_hash
+from stereodel.render.labels import LabelLayer, label_layer
+from stereodel.render.page import Dots, Fill, Polylines, Stroke
+from stereodel.render.raster import render, triangulate
+from stereodel.render.style import BLACK, BLUE, VERMILION, with_opacity
+from stereodel.render.triangles import Window
+from stereodel.sphere import SphereCircle
+
+
+def decoded(path):
+    with Image.open(path) as image:
+        return np.asarray(image)
+
+
+def globe_page():
+    """A lit ball with see-through regions and lines, type in several sizes, also beyond the edge."""
+    rng = np.random.default_rng(5)
+    scene = Scene()
+    scene.add_cap(SphereCircle([0.9, 0.2, 0.4], 0.7), role="accent1", tint=with_opacity(BLUE, 0.4))
+    scene.add_arcs([CircleArc.great(*pair) for pair in rng.normal(size=(30, 2, 3))], role="delaunay")
+    lines = Polylines(rng.uniform(-1.4, 1.4, (300, 2)), np.array([0, 100, 300]), with_opacity(VERMILION, 0.3), 2.0, "x")
+    texts = (
+        Label(r"$\frac{a}{b}\,S = 4$", (0.0, 0.3), size=30.0),
+        Label("upside down", (0.1, -0.4), rotation=150.0, size=20.0, color=with_opacity(BLUE, 0.5)),
+        Label("over the edge", (1.2, 1.19), size=25.0),
+        Label("small", (-0.5, -0.7), size=4.0, offset=(0.3, 0.7)),
+    )
+    dots = Dots(rng.uniform(-1.2, 1.2, (20, 2)), 5.0, BLACK, rim_width=1.0)
+    return Page((-1.2, 1.2, -1.2, 1.2), (*scene.layout(View(0, 10)), lines, dots, *texts), width=300.0)
+
+
+@pytest.fixture(params=[(64, 32), (256, 1024), (4096, 64)])
+def small_windows(request, monkeypatch):
+    monkeypatch.setattr(gl, "COLUMNS", request.param[0])
+    monkeypatch.setattr(gl, "BAND", request.param[1])
+
+
+@pytest.mark.parametrize("size", [1, 33, 200, 301])
+def test_a_file_has_the_bits_of_the_picture_drawn_at_once(small_windows, tmp_path, size):
+    page = globe_page()
+    path = save_page(page, tmp_path / "globe.png", size=size)
+    assert np.array_equal(decoded(path), render(page, size=size))
+    bare = save_page(page, tmp_path / "bare.png", size=size, text=False)
+    assert np.array_equal(decoded(bare), render(page, size=size, text=False))
+
+
+def test_a_window_needs_the_triangles_that_touch_it_and_no_other(small_windows):
+    page, size = globe_page(), (600, 600)
+    pieces = triangulate(page, *size)
+    everything = pieces.within(Window(-9999, -9999, 29999, 29999))
+    chosen, all_of_them = (
+        np.concatenate(list(gl.bands(part, *size))) for part in (pieces.within, lambda window: everything)
+    )
+    assert np.array_equal(chosen, all_of_them)
+    assert len(pieces.within(Window(0, 0, 64, 64)).faces) < len(everything.faces) / 10
+
+
+def test_windows_leave_no_seam(monkeypatch):
+    page = globe_page()
+    whole = render(page, size=300)
+    ground = Page(page.extent, (Fill((_box(page.extent),), with_opacity(BLUE, 0.5)),))
+    even = render(ground, size=100)
+    monkeypatch.setattr(gl, "COLUMNS", 64)
+    monkeypatch.setattr(gl, "BAND", 32)
+    assert np.array_equal(render(ground, size=100), even)
+    # OpenGL cuts triangles at the edges of windows and rounds the new corners: one sample here and there.
+    apart = np.abs(render(page, size=300).astype(int) - whole)
+    assert (apart.max(axis=-1) > 0).mean() < 0.01
+    assert (apart.max(axis=-1) > 48).mean() < 1e-4
+
+
+def _box(extent):
+    left, right, low, high = extent
+    ends = np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
+    return np.stack([ends[:-1] + (ends[1:] - ends[:-1]) * t / 3 for t in range(4)], axis=1)
+
+
+@pytest.mark.parametrize("far", [(8192, 0), (12000, 30), (3 * 8192 + 5, 8192), (90_001, 60_007)])
+def test_pixels_far_from_the_corner_are_those_near_it(far):
+    rng = np.random.default_rng(6)
+    corners, colors = rng.uniform(2, 38, (60, 3, 2)), np.repeat(rng.integers(0, 256, (60, 1, 4)) / 255, 3, axis=1)
+    pieces, moved = (
+        raster.Pieces(enumerate(raster.Piece(c[None] + move, k[None]) for c, k in zip(corners, colors, strict=True)))
+        for move in ((0, 0), far)
+    )
+    near, away = Window(0, 0, 40, 40), Window(*far, 40, 40)
+    door = gl._renderer(None)
+    expected = door.draw(pieces.within(near), near, (1.0, 1.0, 1.0, 1.0))
+    assert len(np.unique(expected)) > 50
+    assert np.array_equal(door.draw(moved.within(away), away, (1.0, 1.0, 1.0, 1.0)), expected)
+
+
+@pytest.mark.parametrize("cuts", [(1,), (100, 101, 150), (64, 128, 192, 256)])
+def test_labels_are_the_same_in_any_rows(cuts):
+    page = globe_page()
+    layer = LabelLayer(page, 297)
+    whole = layer.rows(0, layer.height)
+    ends = [0, *cuts, layer.height]
+    assert np.array_equal(np.concatenate([layer.rows(*pair) for pair in itertools.pairwise(ends)]), whole)
+    assert (whole[..., 3] > 0).mean() > 0.01
+
+
+def test_labels_are_those_of_matplotlib():
+    page = globe_page()
+    with vector.matplotlib_settings():
+        canvas = vector.drawn(replace(page, items=page.labels), *vector.pixel_grid(page, 297))
+        expected = vector._pixels(canvas, (1.0, 1.0, 1.0, 0.0))
+    assert np.array_equal(label_layer(page, 297), expected)
+
+
+def test_rows_without_labels_are_left_alone():
+    layer = LabelLayer(globe_page(), 300)
+    rows = np.zeros((5, 300, 3), dtype=np.uint8)
+    assert layer.over(rows, 220) is not None
+    assert layer.over(rows, 47) is rows
+
+
+def test_agg_draws_large_pictures_in_parts(monkeypatch):
+    page = replace(globe_page(), items=tuple(i for i in globe_page().items if isinstance(i, (Stroke, Polylines, Dots))))
+    whole = vector.rasterize(page, size=300)
+    monkeypatch.setattr(vector, "AT_ONCE", 300 * 70)
+    assert [len(rows) for rows in vector.bands(page, 300)] == [70, 70, 70, 70, 20]
+    apart = np.abs(vector.rasterize(page, size=300).astype(int) - whole)
+    # Agg cuts lines at the edge of its canvas and rounds the new corners to a 256th of a pixel.
+    assert (apart > 0).mean() < 0.01
+    assert (apart > 32).mean() < 1e-4
+
+
+@pytest.mark.parametrize("renderer", ["gl", "agg"])
+def test_a_figure_is_written_in_rows_and_knows_its_hash(small_windows, monkeypatch, tmp_path, renderer):
+    monkeypatch.setattr(vector, "AT_ONCE", 150 * 40)
+    figure = Figure("globe", dict, lambda g: globe_page(), renderer=renderer)
+    record = figure.save(tmp_path, size=150)
+    assert np.array_equal(decoded(tmp_path / "globe.png"), figure.pixels(size=150))
+    assert record["pixel_hash"] == pixel_hash(figure.pixels(size=150, text=False))
+    assert record["size"] == 150
+
+
+def test_the_hash_of_rows_is_that_of_the_picture():
+    picture = np.random.default_rng(0).integers(0, 256, (9, 4, 3)).astype(np.uint8)
+    digest = PixelDigest(picture.shape)
+    for rows in (picture[:4], picture[4:5], picture[5:]):
+        digest.add(rows)
+    assert str(digest) == pixel_hash(picture)
+
+
+@pytest.mark.parametrize("error", [KeyboardInterrupt, OSError])
+def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monkeypatch, error):
+    path = tmp_path / "globe.png"
+    path.write_bytes(b"the picture of yesterday")
+    calls = []
+
+    def fails(layer, rows, top=0):
+        calls.append(top)
+        if top:
+            raise error
+        return rows
+
+    monkeypatch.setattr(labels.LabelLayer, "over", fails)
+    monkeypatch.setattr(gl, "BAND", 64)
+    with pytest.raises(error):
+        save_page(globe_page(), path, size=100)
+    assert calls == [0, 32]
+    assert path.read_bytes() == b"the picture of yesterday"
+    assert [file.name for file in tmp_path.iterdir()] == ["globe.png"]
+
+
+def test_vector_files_by_their_endings(tmp_path):
+    page = globe_page()
+    for kind in ("svg", "PDF"):
+        path = save_page(page, tmp_path / f"globe.{kind}")
+        assert path.read_bytes()[:5] in (b"<?xml", b"%PDF-")
+    bare = save_page(page, tmp_path / "bare.svg", text=False).read_bytes()
+    assert b'id="label"' in (tmp_path / "globe.svg").read_bytes()
+    assert b'id="label"' not in bare
+
+
+def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
+    scene = Scene()
+    octahedron = np.concatenate([np.eye(3), -np.eye(3)])
+    from stereodel import SphericalVoronoi
+
+    voronoi = SphericalVoronoi(octahedron)
+    names = ("points", "vertices", "region_indices", "region_offsets")
+    scene.add_cells(*(getattr(voronoi, name) for name in names), colors=np.zeros((6, 3)))
+    page = Page((-1.0, 1.0, -1.0, 1.0), scene.layout(View(0, 0)), width=7.2)
+    assert [picture.shape for picture in saving.mosaic_pictures(page, 20)] == [(20, 20, 3)]
+    assert [picture.shape for picture in saving.mosaic_pictures(page, 9000)] == [(60, 60, 3)]
+
+
+@pytest.mark.parametrize(
+    ("name", "size", "error", "message"),
+    [
+        ("globe.jpg", 100, ValueError, "path must end in .png, .svg or .pdf, got 'globe.jpg'"),
+        ("globe", 100, ValueError, "path must end in"),
+        ("globe.png", 0, ValueError, "size is 0, but must be at least 1"),
+        ("globe.png", 65_536, ValueError, "size is 65536, but must be at most 65535"),
+        ("globe.svg", -4, ValueError, "size is -4"),
+        ("globe.png", 10.5, TypeError, "size must be one integer"),
+        ("no/folder/globe.png", 10, FileNotFoundError, "folder"),
+    ],
+)
+def test_what_cannot_be_written_is_explained(tmp_path, name, size, error, message):
+    with pytest.raises(error, match=message):
+        save_page(globe_page(), tmp_path / name, size=size)
+    assert list(tmp_path.iterdir()) == []
