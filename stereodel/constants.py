@@ -150,6 +150,13 @@ BORDER_STEPS: Final = 2**14
 A cell 90° long and 0.1 m wide takes 2¹² of them. A cell that takes more is hardly there for more than rounding.
 """
 
+FINER_WARPS: Final = (2.0**-4, 2.0**-8, 2.0**-12, 2.0**-16)
+"""Shares of the tolerance with which polygons are warped anew whose chords cross on the map.
+
+Chords must stray less than a polygon is wide; with the last share they are 256 times as many. Beyond, what crosses is
+cut off.
+"""
+
 DEGREE_ROUNDING: Final = 2.0**-43
 """Straying of a chord from its arc, in degrees, that may be rounding alone: four units in the last place of 180°.
 

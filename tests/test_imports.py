@@ -33,7 +33,7 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"triangulation"},
     "relaxation": KERNEL | {"triangulation"},
-    "io": BASE | {"_extras", "_files", "sphere", "triangulation", "render"},
+    "io": BASE | {"_extras", "_files", "conformal", "globe", "render", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data"},
     "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data", "render"},

@@ -9,6 +9,7 @@ from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe, read_points
 from stereodel.io.tables import PointTable
 from stereodel.io.ugrid import from_ugrid, to_ugrid
+from stereodel.io.warping import warp
 from stereodel.io.writing import write
 
 __all__ = [
@@ -21,5 +22,6 @@ __all__ = [
     "to_polydata",
     "to_trimesh",
     "to_ugrid",
+    "warp",
     "write",
 ]

@@ -133,11 +133,16 @@ class Chains:
 def sample(arcs: Arcs, max_segment: float, latitude: Latitude) -> Chains:
     """Chains with chords of at most `max_segment` degrees, also in longitude."""
     step_rad = float(np.radians(max_segment))
-    points, owner = _with_seam(*_with_poles(*_equal_steps(arcs, step_rad)))
-    chains = Chains.of(*_with_longitudes(points, owner, step_rad), latitude)
+    chains = chains_along(*_equal_steps(arcs, step_rad), step_rad, latitude)
     while len(steps := _too_near(arcs, chains)):
         chains = chains.with_middles(steps)
     return chains
+
+
+def chains_along(points: FloatArray, owner: Indices, step_rad: float, latitude: Latitude) -> Chains:
+    """Chains through unit vectors, which get points at the poles, on the 180th meridian and between far longitudes."""
+    points, owner = _with_seam(*_with_poles(_snapped(points), owner))
+    return Chains.of(*_with_longitudes(points, owner, step_rad), latitude)
 
 
 def _too_near(arcs: Arcs, chains: Chains) -> Indices:
@@ -166,7 +171,7 @@ def _equal_steps(arcs: Arcs, step_rad: float) -> tuple[FloatArray, Indices]:
     angle = ((2 * place / counts[owner] - 1) * half[owner])[:, None]
     points = np.cos(angle) * middle[owner] + np.sin(angle) * along[owner]
     points[place == 0], points[place == counts[owner]] = arcs.start, arcs.end
-    return _snapped(points), owner
+    return points, owner
 
 
 def _with_poles(points: FloatArray, owner: Indices) -> tuple[FloatArray, Indices]:

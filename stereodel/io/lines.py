@@ -14,9 +14,14 @@ from stereodel.sphere.latitudes import Latitude
 
 def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude) -> Geometries:
     """A LineString for each arc, a MultiLineString for one that crosses the 180th meridian or a pole."""
+    return lines_on_map(sample(arcs, max_segment, latitude), len(arcs.start))
+
+
+def lines_on_map(chains: Chains, count: int) -> Geometries:
+    """The same for each of `count` chains."""
     shapely = optional("shapely", "geo")
-    ends, owner, line = _pieces(sample(arcs, max_segment, latitude))
-    empty = np.full(len(arcs.start), shapely.LineString())
+    ends, owner, line = _pieces(chains)
+    empty = np.full(count, shapely.LineString())
     if not len(line):
         return empty
     _, begins = np.unique(line, return_index=True)

@@ -42,7 +42,8 @@ def rings_of(faces: Faces, chains: Chains) -> Rings:
     owners = [face[whole]]
     rings = [owners[0]]
     for number, owner in enumerate(np.flatnonzero(touched).tolist()):
-        for piece, loop in enumerate(_cut(chains, index[slice(*np.searchsorted(face, [owner, owner + 1]))])):
+        cut = border_pieces(chains, index[slice(*np.searchsorted(face, [owner, owner + 1]))])
+        for piece, loop in enumerate(close_along(WORLD, cut)):
             points.append(loop)
             owners.append(np.full(len(loop), owner))
             rings.append(np.full(len(loop), len(touched) + 2 * number + piece))
@@ -63,8 +64,8 @@ def around(faces: Faces, chains: Chains) -> tuple[Indices, Indices, Indices]:
     return index, np.repeat(faces.owner, lengths), index - reverse
 
 
-def _cut(chains: Chains, ring: Indices) -> list[FloatArray]:
-    """The rings on the map of one ring on the sphere."""
+def border_pieces(chains: Chains, ring: Indices) -> list[FloatArray]:
+    """The pieces on the map, from border to border, of one ring on the sphere that touches its border."""
     following = np.roll(ring, -1)
     special = chains.pole[ring] | chains.seam[ring]
     kept = ~(special & np.roll(special, -1))
@@ -75,7 +76,7 @@ def _cut(chains: Chains, ring: Indices) -> list[FloatArray]:
         length = int(np.argmax(np.roll(special, -begin - 1))) + 1
         steps = (begin + np.arange(length)) % len(ring)
         pieces.append(np.concatenate([ends[steps, 0], ends[steps[-1:], 1]]))
-    return close_along(WORLD, pieces)
+    return pieces
 
 
 def gathered(points: FloatArray, owner: Indices, ring: Indices) -> Rings:

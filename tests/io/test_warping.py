@@ -1,0 +1,236 @@
+"""Geometries through conformal maps: against PROJ, against places inside and outside, there and back."""
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pyproj import Transformer
+
+from stereodel import (
+    MoebiusMap,
+    SphereCircle,
+    angular_distance,
+    bubble_to_bubble,
+    data,
+    fisheye,
+    lonlat_to_xyz,
+    xyz_to_lonlat,
+)
+from stereodel.io import warp
+
+PARIS = (2.35, 48.86)
+WORLD = shapely.box(-180, -90, 180, 90)
+LENSES = [
+    MoebiusMap.identity(),
+    fisheye(PARIS, magnification=5.0),
+    fisheye((-170.0, -80.0), magnification=0.2),
+    MoebiusMap.rotation((30.0, 20.0), 130.0),
+    bubble_to_bubble(SphereCircle.around((20.0, 50.0), 20.0), SphereCircle.around((-120.0, -60.0), 100.0), turn=70),
+]
+PLACES = xyz_to_lonlat(np.random.default_rng(3).normal(size=(400, 3)))
+
+
+def land(resolution="110m"):
+    return shapely.geometry.shape(data.land(resolution).__geo_interface__)
+
+
+def far_from(lonlat, geometry, degrees):
+    """Whether places between 85° S and 85° N are farther from a border than some degrees of the sphere."""
+    gaps = shapely.distance(shapely.points(lonlat), shapely.boundary(geometry))
+    return (gaps > degrees / np.cos(np.radians(85))) & (np.abs(lonlat[:, 1]) < 85)
+
+
+def same_places(source, image, lens, tolerance=0.01):
+    """Whether the images of the places inside are the places inside the image, but close to the borders."""
+    moved = xyz_to_lonlat(lens(lonlat_to_xyz(PLACES)))
+    clear = far_from(moved, image, 3 * tolerance) & far_from(PLACES, source, 1e-6)
+    inside = shapely.contains_xy(source, *PLACES.T)
+    return np.array_equal(inside[clear], shapely.contains_xy(image, *moved.T)[clear])
+
+
+@pytest.mark.parametrize("lens", LENSES)
+def test_the_land_of_the_earth(lens):
+    source = land()
+    image = warp(source, lens)
+    assert image.is_valid
+    assert shapely.box(*image.bounds).within(WORLD)
+    assert shapely.is_ccw(shapely.get_exterior_ring(shapely.get_parts(image))).all()
+    assert same_places(source, image, lens)
+
+
+@pytest.mark.parametrize("lens", LENSES)
+def test_everything_else_and_everything(lens):
+    source = WORLD.difference(land())
+    image = warp(source, lens)
+    assert image.is_valid
+    assert same_places(source, image, lens)
+    assert warp(land(), lens).intersection(image).area < 30  # of 64800, along all coasts
+    assert warp(WORLD, lens).equals(WORLD)
+    assert warp(shapely.Polygon(), lens).is_empty
+
+
+def test_identity_leaves_areas():
+    for resolution in ("110m", "50m"):
+        source = land(resolution)
+        assert warp(source, MoebiusMap.identity()).symmetric_difference(source).area < 2
+
+
+@settings(max_examples=60)
+@given(st.sampled_from(LENSES), st.integers(0, 10**9), st.floats(0.5, 60))
+def test_stars_with_holes_of_all_sizes(lens, seed, size):
+    rng = np.random.default_rng(seed)
+    middle = rng.uniform((-180, -80), (180, 80))
+    angle = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(3, 12)))[:, None]
+    radius = size * rng.uniform(0.4, 1, (len(angle), 1)) * (1.5, 1)
+    star = shapely.Polygon(middle + radius * np.hstack([np.cos(angle), np.sin(angle)])).buffer(0)
+    hole = star.representative_point().buffer(size / 20)
+    source = shapely.intersection(star.difference(hole), WORLD)
+    if source.is_empty or source.geom_type not in ("Polygon", "MultiPolygon"):
+        return
+    image = warp(source, lens)
+    assert image.is_valid
+    assert same_places(source, image, lens)
+
+
+def test_vertices_are_those_of_proj():
+    lens = LENSES[1]
+    pipeline = Transformer.from_pipeline(lens.to_proj())
+    lonlat = np.array([(0, 40), (10, 45), (-20, 60), (100, -30)], dtype=float)
+    moved = np.column_stack(pipeline.transform(*lonlat.T))
+    assert np.allclose(shapely.get_coordinates(warp(shapely.points(lonlat), lens)), moved, atol=1e-9)
+    line = shapely.get_coordinates(warp(shapely.LineString(lonlat[:3]), lens))
+    gaps = np.abs(line[:, None] - moved[:3]).max(axis=-1).min(axis=0)
+    assert gaps.max() < 1e-9
+
+
+def test_circles_stay_circles():
+    circle = SphereCircle.around((10.0, 60.0), 25.0)
+    image = warp(shapely.Polygon(xyz_to_lonlat(circle.sample(2000))), LENSES[1], tolerance=1e-4)
+    wanted = LENSES[1].image_of(circle)
+    off = lonlat_to_xyz(shapely.get_coordinates(image)) @ wanted.normal - wanted.offset
+    border = np.abs(np.abs(shapely.get_coordinates(image)) - (180, 90)).min(axis=1) > 1e-9
+    assert np.abs(off[border]).max() < 1e-5
+
+
+@pytest.mark.parametrize("tolerance", [0.3, 0.01])
+def test_no_chord_strays_from_the_worlds_coast_at_a_thousand(tolerance):
+    """Middles of straight pieces of the result, taken back, lie beside the coast by no more than the tolerance."""
+    lens = fisheye((-5.0, 48.0), magnification=1000.0)
+    source = shapely.geometry.shape(data.coastlines("110m").__geo_interface__)
+    image = warp(source, lens, tolerance=tolerance)
+    lonlat, line = shapely.get_coordinates(shapely.get_parts(image), return_index=True)
+    middles = ((lonlat[1:] + lonlat[:-1]) / 2)[line[1:] == line[:-1]]
+    back = xyz_to_lonlat(lens.inverse()(lonlat_to_xyz(middles)))
+    nearest = shapely.get_coordinates(
+        shapely.line_interpolate_point(source, shapely.line_locate_point(source, shapely.points(back)))
+    )
+    off = angular_distance(lens(lonlat_to_xyz(nearest)), lonlat_to_xyz(middles))
+    assert np.percentile(off, 99.9) <= tolerance
+    assert off.max() <= 2 * tolerance  # the nearest place in degrees is not the nearest on the sphere
+
+
+@pytest.mark.parametrize("lens", LENSES)
+def test_there_and_back(lens):
+    source = shapely.unary_union([shapely.box(-30, 20, 40, 60), shapely.box(100, -60, 140, -10)])
+    back = warp(warp(source, lens, tolerance=0.001), lens.inverse(), tolerance=0.001)
+    assert back.symmetric_difference(source).area < 1
+
+
+def test_parts_that_met_at_180_degrees_become_one():
+    apart = shapely.MultiPolygon([shapely.box(170, 0, 180, 10), shapely.box(-180, 2, -170, 12)])
+    turned = warp(apart, MoebiusMap.rotation((0, 90), 100))
+    assert turned.geom_type == "Polygon"
+    assert turned.area == pytest.approx(200, rel=1e-3)
+    assert warp(apart, MoebiusMap.identity()).geom_type == "MultiPolygon"
+
+
+def test_a_polygon_over_the_pole():
+    lon = np.linspace(-180, 180, 37)
+    antarctica = shapely.Polygon(
+        [*np.column_stack([lon, -70 + 5 * np.sin(np.radians(3 * lon))]), (180, -90), (-180, -90)]
+    )
+    moved = warp(antarctica, MoebiusMap.rotation((0, 0), 60))
+    assert moved.geom_type == "Polygon"
+    assert len(moved.interiors) == 0
+    assert same_places(antarctica, moved, MoebiusMap.rotation((0, 0), 60))
+    there = warp(shapely.Point(0, -90).buffer(0).union(shapely.box(-40, -20, 40, 20)), MoebiusMap.rotation((90, 0), 90))
+    assert there.is_valid
+    assert there.bounds[1] == -90
+
+
+def test_lines_are_cut_at_180_degrees_and_poles():
+    line = shapely.LineString([(60, 10), (120, 10)])
+    crossing = warp(line, MoebiusMap.rotation((0, 90), 90))
+    assert crossing.geom_type == "MultiLineString"
+    assert sorted(part.bounds[2] for part in crossing.geoms) == pytest.approx([-150, 180])
+    over = warp(shapely.LineString([(0, 60), (0, 89), (180, 89), (180, 60)]), MoebiusMap.identity())
+    assert over.is_valid
+    assert all(np.abs(np.diff(shapely.get_coordinates(part)[:, 0])).max() < 90 for part in shapely.get_parts(over))
+    jumping = warp(shapely.LineString([(170, 0), (-170, 0)]), MoebiusMap.identity())
+    assert jumping.length == pytest.approx(20)
+
+
+def test_every_kind_comes_back_as_it_was():
+    lens = LENSES[1]
+    kinds = [
+        shapely.Point(1, 2),
+        shapely.MultiPoint([(1, 2), (3, 4)]),
+        shapely.LineString([(1, 2), (3, 4)]),
+        shapely.LinearRing([(1, 2), (3, 4), (5, 0)]),
+        shapely.MultiLineString([[(1, 2), (3, 4)], [(10, 2), (3, 40)]]),
+        shapely.box(0, 0, 1, 1),
+        shapely.GeometryCollection([shapely.Point(1, 2), shapely.box(0, 0, 1, 1)]),
+        shapely.Point(),
+        None,
+    ]
+    images = warp(kinds, lens)
+    assert [image if image is None else image.geom_type for image in images] == [
+        "Point",
+        "MultiPoint",
+        "LineString",
+        "LineString",
+        "MultiLineString",
+        "Polygon",
+        "GeometryCollection",
+        "Point",
+        None,
+    ]
+    assert np.array_equal(warp(np.reshape(kinds[:4], (2, 2)), lens)[1, 0], images[2])
+    assert warp(shapely.Point(1, 2, 3), lens).has_z is False
+    assert len(warp([], lens)) == 0
+
+
+def test_frames_keep_their_columns_and_index():
+    frame = geopandas.GeoDataFrame(
+        {"name": ["a", "b"]}, geometry=[shapely.box(0, 0, 1, 1), None], index=[7, 9], crs=4326
+    )
+    image = warp(frame.to_crs(3857), LENSES[1])
+    assert isinstance(image, geopandas.GeoDataFrame)
+    assert image.crs == "EPSG:4326"
+    assert image["name"].to_dict() == {7: "a", 9: "b"}
+    assert image.geometry[9] is None
+    assert shapely.equals_exact(image.geometry[7], warp(frame.geometry[7], LENSES[1]), 1e-6, normalize=True)
+    assert warp(frame.geometry.set_crs(None, allow_override=True), LENSES[1]).crs is None
+
+
+def test_narrow_polygons_are_followed_more_closely():
+    """A strip 1 m wide and 60° long: chords that stray by 0.01° would cross."""
+    strip = shapely.Polygon([(0, 50), (60, 50), (60, 50.00001), (0, 50.00001)])
+    image = warp(strip, fisheye((30.0, 40.0), magnification=2.0))
+    assert image.is_valid
+    assert image.geom_type == "Polygon"
+
+
+@pytest.mark.parametrize(
+    ("shapes", "tolerance", "message"),
+    [
+        (shapely.Point(0, 91), 0.01, "latitude 91"),
+        (shapely.Point(0, 1), 0, "tolerance"),
+        (shapely.Point(0, 1), np.inf, "tolerance"),
+    ],
+)
+def test_wrong_input(shapes, tolerance, message):
+    with pytest.raises(ValueError, match=message):
+        warp(shapes, LENSES[0], tolerance=tolerance)
