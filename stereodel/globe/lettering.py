@@ -21,14 +21,16 @@ def placed_label(text: str, offset: tuple[float, float], size: float, color: Col
     return Label(text, (0.0, 0.0), offset, align, valign, size, color, halo=halo)
 
 
-def with_room(items: Iterable[Item], points_per_unit: float) -> list[Item]:
-    """Page items without labels that would cover a label before them."""
+def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], points_per_unit: float) -> list[Item]:
+    """Page items without labels that would cover a label before them or leave (left, right, bottom, top)."""
+    low, high = points_per_unit * np.array(extent[::2]), points_per_unit * np.array(extent[1::2])
     kept: list[Item] = []
     boxes: list[FloatArray] = []
     for item in items:
         if isinstance(item, Label):
             box = label_box(item, points_per_unit)
-            if any((box[0] < other[1] + GAP).all() and (other[0] < box[1] + GAP).all() for other in boxes):
+            off_page = (box[0] < low).any() or (box[1] > high).any()
+            if off_page or any((box[0] < other[1] + GAP).all() and (other[0] < box[1] + GAP).all() for other in boxes):
                 continue
             boxes.append(box)
         kept.append(item)

@@ -86,9 +86,9 @@ def _loop_path(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.
     codes: list[npt.NDArray[np.uint8]] = [np.array([Outline.MOVETO])]
     cuts = np.flatnonzero(on_rim[1:] != on_rim[:-1]) + 1
     for run in np.split(np.arange(len(loop)), cuts):
-        if on_rim[run[0]]:
-            added = _arc(points[run[0]], following[run[-1]], np.array(patch.middle))
-            kind = Outline.CURVE4
+        sweep = _swept(points[run], following[run], np.array(patch.middle)) if on_rim[run[0]] else 0.0
+        if sweep > 0:
+            added, kind = _arc(points[run[0]], following[run[-1]], np.array(patch.middle), sweep), Outline.CURVE4
         else:
             added, kind = following[run], Outline.LINETO
         vertices.append(added)
@@ -101,16 +101,21 @@ def _loop_path(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.
 def _whole_circle(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
     start = patch.points[loop[:1]]
     half = 2 * np.array(patch.middle) - start[0]
-    arcs = [_arc(start[0], half, np.array(patch.middle)), _arc(half, start[0], np.array(patch.middle))]
+    arcs = [_arc(a, b, np.array(patch.middle), np.pi) for a, b in ((start[0], half), (half, start[0]))]
     vertices = np.concatenate([start, *arcs, start])
     codes = [Outline.MOVETO, *[Outline.CURVE4] * (len(vertices) - 2), Outline.CLOSEPOLY]
     return vertices, np.array(codes, dtype=np.uint8)
 
 
-def _arc(start: FloatArray, end: FloatArray, middle: FloatArray) -> FloatArray:
+def _swept(starts: FloatArray, ends: FloatArray, middle: FloatArray) -> float:
+    """Angle about a middle along sides less than half a turn long; negative where rounding has them turned round."""
+    u, w = starts - middle, ends - middle
+    return float(np.arctan2(u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0], np.sum(u * w, axis=1)).sum())
+
+
+def _arc(start: FloatArray, end: FloatArray, middle: FloatArray, sweep: float) -> FloatArray:
     """Control points, three to a cubic, of the counterclockwise arc about a middle from start to end."""
     u, w = start - middle, end - middle
-    sweep = float(np.arctan2(u[0] * w[1] - u[1] * w[0], u @ w)) % (2 * np.pi)
     pieces = max(1, int(np.ceil(sweep / ARC_STEP_RAD)))
     t = np.linspace(0.0, sweep, pieces + 1)[:, None]
     side = np.array([-u[1], u[0]])

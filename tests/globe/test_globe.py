@@ -1,0 +1,287 @@
+"""Globes: layers, lenses and views on pages and in files."""
+
+import pickle
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.transforms import Affine2D
+
+from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, data, fisheye, lonlat_to_xyz
+from stereodel.globe import Globe, Panel, hemispheres, panels
+from stereodel.render import StereographicView, View
+from stereodel.render.outlines import patch_outline
+from stereodel.render.page import Dots, Label, Mosaic, Patch, Polylines, Stroke
+from stereodel.sphere import SphereCircle
+
+PARIS = (2.35, 48.86)
+FOUR = SphericalVoronoi(np.concatenate([np.eye(3), [[-1.0, -1.0, -1.0]]]))
+
+views = st.one_of(
+    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
+    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), extent=st.floats(20, 150)),
+)
+
+
+def items_of(page, kind):
+    return [item for item in page.items if isinstance(item, kind)]
+
+
+def loop_area(outline):
+    polygons = (polygon.T for polygon in outline.to_polygons(closed_only=True))
+    return sum(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2 for x, y in polygons)
+
+
+@settings(deadline=None, max_examples=25)
+@given(
+    focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)), size=st.floats(-1, 3).map(lambda e: 10.0**e), view=views
+)
+def test_paper_and_pixels_fill_the_same_land(focus, size, view):
+    """What the loops on paper bound, rim and all, is what the triangles cover."""
+    globe = Globe()
+    globe.add_land(resolution="110m")
+    page = globe.page(fisheye(focus, magnification=size), view)
+    for patch in items_of(page, Patch):
+        a, b, c = (patch.points[patch.faces[:, i]] for i in range(3))
+        covered = np.sum((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+        scale = 1e4  # `to_polygons` flattens curves to a hundredth of its unit
+        bounded = loop_area(patch_outline(patch).transformed(Affine2D().scale(scale))) / scale**2
+        assert bounded == pytest.approx(covered, abs=2e-3)
+        assert (np.hypot(*(patch.points - patch.middle).T) <= 1 + 1e-9).all()
+
+
+@pytest.mark.parametrize("size", [1.0, 20.0, 1000.0])
+def test_circles_are_drawn_on_the_exact_circle(size):
+    """Corners of the image of a circle are on the circle that the map's own image is, in space."""
+    lens = fisheye(PARIS, magnification=size)
+    circle = SphereCircle.around((2.40, 48.88), 0.06)
+    view = View(*PARIS)
+    globe = Globe()
+    globe.add_circles([circle])
+    page = globe.page(lens, view)
+    (line,) = items_of(page, Polylines)
+    middle = np.array(page.extent[1::2]) / 2
+    axes = view.raised(line.points - middle)
+    image = lens.image_of(circle)
+    inner = np.hypot(*(line.points - middle).T) < 0.99
+    np.testing.assert_allclose(axes[inner] @ (view.matrix @ image.normal), image.offset, atol=1e-7)
+
+
+def test_nothing_turns_to_chords_at_magnification_1000():
+    """The graticule's turns from piece to piece are small, wherever the lens enlarges it."""
+    globe = Globe()
+    globe.add_graticule(10)
+    (lines,) = items_of(globe.page(fisheye((0.02, 49.98), magnification=1000.0)), Polylines)
+    for a, b in zip(lines.offsets[:-1], lines.offsets[1:], strict=True):
+        steps = np.diff(lines.points[a:b], axis=0)
+        turn = np.angle(np.exp(1j * np.diff(np.arctan2(steps[:, 1], steps[:, 0]))))
+        sagitta = np.abs(turn) * np.hypot(*steps[1:].T) / 8
+        assert sagitta.max(initial=0.0) < 5e-4
+
+
+def test_what_is_out_of_sight_is_not_there():
+    globe = Globe()
+    globe.add_points([(0, 0), (180, 0)])
+    globe.add_labels(["front", "back"], [(0, 0), (180, 0)])
+    globe.add_polygons([[[(170, -5), (190, -5), (190, 5), (170, 5)]]], role="behind")
+    page = globe.page()
+    assert [len(item.centers) for item in items_of(page, Dots)] == [1]
+    assert [label.text for label in page.labels] == ["front"]
+    assert not [item for item in page.items if item.role == "behind"]
+
+
+def test_labels_make_room_for_those_that_matter_more():
+    globe = Globe()
+    globe.add_labels(["first", "second", "far"], [(0, 0), (0.5, 0.2), (40, 40)])
+    assert [label.text for label in globe.page().labels] == ["first", "far"]
+    names = [label.text for label in globe.page(fisheye((0, 0), magnification=50.0)).labels]
+    assert names == ["first", "second"]
+
+
+def test_labels_stay_on_the_page():
+    globe = Globe()
+    globe.add_labels(["a long name at the very edge"], [(89.0, 0.0)])
+    assert globe.page().labels == ()
+
+
+def test_the_view_follows_the_focus():
+    """By default the focus is in the middle, also where the map moves it."""
+    lens = MoebiusMap.rotation((0.0, 90.0), 25.0) @ fisheye(PARIS, magnification=5.0)
+    globe = Globe()
+    globe.add_points([PARIS])
+    page = globe.page(lens)
+    (dots,) = items_of(page, Dots)
+    np.testing.assert_allclose(dots.centers, [np.array(page.extent[1::2]) / 2], atol=1e-12)
+
+
+def test_hemispheres_show_everything_once():
+    rng = np.random.default_rng(4)
+    places = np.stack([rng.uniform(-180, 180, 100), np.degrees(np.arcsin(rng.uniform(-1, 1, 100)))], axis=1)
+    globe = Globe()
+    globe.add_points(places)
+    for flat in (False, True):
+        page = globe.page(view=hemispheres(20.0, 30.0, flat=flat))
+        assert sum(len(item.centers) for item in items_of(page, Dots)) == 100
+        assert len([item for item in page.items if item.role == "limb"]) == 2
+
+
+def test_panels_have_titles_and_rows():
+    globe = Globe()
+    globe.add_graticule(30)
+    page = panels([Panel(globe, fisheye(PARIS, magnification=s), title=f"$S = {s}$") for s in (1, 4, 20)], columns=2)
+    assert [label.text for label in page.labels] == ["$S = 1$", "$S = 4$", "$S = 20$"]
+    left, right, bottom, top = page.extent
+    discs = [item.path.reshape(-1, 2).mean(axis=0) for item in items_of(page, Stroke)]
+    assert len(discs) == 3
+    assert discs[0][1] > discs[2][1]
+    assert all(left < x < right and bottom < y < top for x, y in discs)
+    with pytest.raises(ValueError, match="contents must have a panel"):
+        panels([])
+
+
+def test_few_colours_are_paths_and_many_are_a_picture():
+    sites = data.airports().lonlat[::100]
+    voronoi = SphericalVoronoi.from_lonlat(sites)
+    rng = np.random.default_rng(1)
+    for colors, kind in (
+        (np.tile([0.5, 0.6, 0.7], (len(sites), 1)), Patch),
+        (rng.random((len(sites), 3)), Mosaic),
+        (rng.integers(0, 2, (len(sites), 4)) * [0.5, 0.5, 0.5, 0.0] + [0, 0, 0, 1.0], Patch),
+    ):
+        globe = Globe()
+        globe.add_cells(voronoi, colors=colors)
+        page = globe.page()
+        assert items_of(page, kind)
+        assert items_of(page, Polylines)
+
+
+def test_the_cells_of_a_diagram_cover_the_disc():
+    """The triangles of all cells add up to the disc, under lens and view."""
+    voronoi = SphericalVoronoi(np.random.default_rng(3).normal(size=(200, 3)))
+    globe = Globe()
+    globe.add_cells(voronoi, colors=np.tile([0.2, 0.4, 0.6], (200, 1)), look=None)
+    for view in (View(10, 20), StereographicView(-50, -60, extent=130)):
+        (patch,) = items_of(globe.page(fisheye(PARIS, magnification=10.0), view), Patch)
+        a, b, c = (patch.points[patch.faces[:, i]] for i in range(3))
+        covered = np.sum((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+        assert covered == pytest.approx(np.pi, rel=1e-3)
+
+
+def test_triangulations_are_drawn_without_their_far_side():
+    triangulation = SphericalDelaunay.from_lonlat([(0, 0), (20, 0), (10, 20), (10, 8)])
+    globe = Globe()
+    globe.add_triangulation(triangulation, colors=np.tile([0.2, 0.4, 0.6], (len(triangulation.simplices), 1)))
+    (patch,) = items_of(globe.page(view=View(10, 8)), Patch)
+    assert len(patch.points) < 2000
+    (lines,) = items_of(globe.page(view=View(10, 8)), Polylines)
+    assert len(lines.offsets) - 1 == len(triangulation.edges)
+
+
+def test_layers_of_files_keep_their_colours():
+    collection = {
+        "type": "FeatureCollection",
+        "features": [
+            {
+                "type": "Feature",
+                "properties": {"value": value},
+                "geometry": {"type": "Polygon", "coordinates": [[[x, 0], [x + 5, 0], [x + 5, 5], [x, 5], [x, 0]]]},
+            }
+            for x, value in ((0, 1.0), (10, 2.0), (20, None))
+        ]
+        + [
+            {
+                "type": "Feature",
+                "properties": {},
+                "geometry": {"type": "LineString", "coordinates": [[0, 20], [9, 20]]},
+            },
+            {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, -20]}},
+        ],
+    }
+    globe = Globe()
+    globe.add_layer(collection, column="value", color=(0.1, 0.1, 0.1, 1.0))
+    page = globe.page()
+    assert len({patch.color for patch in items_of(page, Patch)}) == 3
+    assert (0.1, 0.1, 0.1, 1.0) in {patch.color for patch in items_of(page, Patch)}
+    assert len(items_of(page, Polylines)) == 2
+    assert len(items_of(page, Dots)) == 1
+
+
+def test_globes_can_be_pickled():
+    globe = Globe(latitude="geodetic")
+    globe.add_land(resolution="110m")
+    globe.add_coastlines(resolution="110m")
+    globe.add_tissot()
+    globe.add_labels(["Paris"], [PARIS])
+    lens = fisheye(PARIS, magnification=4.0)
+    again = pickle.loads(pickle.dumps(globe))
+    for (name, first), (other, second) in zip(
+        globe.page(lens).arrays().items(), again.page(lens).arrays().items(), strict=True
+    ):
+        assert name == other
+        np.testing.assert_array_equal(first, second)
+
+
+def test_files(tmp_path):
+    globe = Globe()
+    globe.add_land(resolution="110m")
+    globe.add_graticule(30)
+    lens = fisheye(PARIS, magnification=4.0)
+    for ending in ("png", "svg", "pdf"):
+        path = globe.save(tmp_path / f"globe.{ending}", lens, size=200)
+        assert path.stat().st_size > 1000
+    root = ET.parse(tmp_path / "globe.svg").getroot()
+    names = {node.get("id") for node in root.iter()}
+    assert {"ball", "land", "graticule", "limb"} <= names
+    with pytest.raises(ValueError, match=r"must end in \.png, \.svg or \.pdf"):
+        globe.save(tmp_path / "globe.jpeg", lens)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["globe.pdf", "globe.png", "globe.svg"]
+
+
+@pytest.mark.parametrize(
+    ("draw", "message"),
+    [
+        (lambda g: g.add_graticule(7), "spacing"),
+        (lambda g: g.add_tissot(30, 0), "radius"),
+        (lambda g: g.add_points([(0, 91)]), "latitude 91"),
+        (lambda g: g.add_labels(["a"], [(0, 0), (1, 1)]), "texts has 1 entries"),
+        (lambda g: g.add_polygons([[[(0, 0), (1, 1)]]]), "needs three"),
+        (lambda g: g.add_land(resolution="1m"), "resolution"),
+        (lambda g: g.add_cells(FOUR, colors=np.ones((2, 3))), r"shape \(4, 3\) or \(4, 4\)"),
+        (lambda g: g.add_cells(FOUR, colors=255 * np.ones((4, 3))), r"in \[0, 1\]"),
+        (lambda g: g.page(width=0), "width"),
+        (lambda g: g.page(tolerance=-1), "tolerance"),
+        (lambda g: g.save("x.png", size=0), "size"),
+        (lambda g: Globe(latitude="north"), "latitude"),
+    ],
+)
+def test_mistakes_are_named(draw, message):
+    with pytest.raises(ValueError, match=message):
+        draw(Globe())
+
+
+def test_cells_of_sites_on_a_circle_are_refused():
+    voronoi = SphericalVoronoi(lonlat_to_xyz([(0, 0), (90, 0), (180, 0)]))
+    globe = Globe()
+    globe.add_cells(voronoi)
+    with pytest.raises(ValueError, match="draw its ridges"):
+        globe.add_cells(voronoi, colors=np.ones((3, 3)))
+    assert items_of(globe.page(view=View(0, 40)), Polylines)
+
+
+def test_latitudes_are_those_of_the_globe():
+    for latitude in ("spherical", "geodetic", "authalic"):
+        globe = Globe(latitude=latitude)
+        globe.add_points([(0, 45)])
+        (dots,) = items_of(globe.page(view=View(0, 0)), Dots)
+        expected = lonlat_to_xyz((0, 45), latitude=latitude)[2]
+        assert dots.centers[0, 1] - 1.03 == pytest.approx(expected, abs=1e-12)
+
+
+def test_labels_are_what_they_were():
+    globe = Globe()
+    globe.add_labels(["Paris"], [PARIS], offset=(-3.0, 0.0), size=7.0)
+    (label,) = globe.page().labels
+    assert isinstance(label, Label)
+    assert (label.align, label.valign, label.offset, label.size) == ("right", "center", (-3.0, 0.0), 7.0)
