@@ -119,6 +119,12 @@ class MoebiusMap:
         return self.right.inverse()(Z_AXIS.hi)
 
     @property
+    def peak(self) -> tuple[FloatArray, float]:
+        """Where the scale is largest, a unit vector, and that scale: the focus and S, or its antipode and 1/S."""
+        focus, size = self.focus, self.magnification
+        return (focus, size) if size >= 1 else (-focus + 0.0, 1 / size)
+
+    @property
     def matrix(self) -> FloatArray:
         """The 4×4 Lorentz matrix, rounded once; for large S the doubles of it no longer hold the map."""
         return lorentz_matrix(self.left, self.magnification, self.right)
@@ -283,14 +289,11 @@ class MoebiusMap:
         return min(float(gap.hi) for gap in gaps) <= tolerance**2 * float(a.norm().hi)
 
     def to_proj(self) -> str:
-        """The PROJ pipeline `stere` with k_0 = S at the focus, then inverse `stere` at the image of the focus.
+        """The map as a pipeline for PROJ, GDAL, QGIS and pyproj: (lon, lat) in degrees in and out, on a sphere.
 
-        Degrees in and out, (lon, lat), on a sphere (claim P18).
-
-        Raises
-        ------
-        ValueError
-            When the map is none: it turns the directions at the focus against north, as a rotation mostly does.
+        `stere` with k_0 = S at the focus, then inverse `stere` at the image of the focus (claim P18); between the two a
+        turn of the plane, `affine`, where the map does not carry north at the focus to north at its image. PROJ has no
+        answer for the antipode of the focus itself.
 
         Examples
         --------

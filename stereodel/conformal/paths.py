@@ -61,7 +61,7 @@ class GroupPath:
 
         Flights whose durations are as their lengths look equally fast.
         """
-        (f, s), (g, r) = _pole(self.start), _pole(self.end)
+        (f, s), (g, r) = self.start.peak, self.end.peak
         a, b = np.log(s), np.log(r)
         # sinh²(d/2), made of positive terms: nothing cancels where the two are close.
         chord = float(np.linalg.norm(f - g)) / 2
@@ -70,7 +70,7 @@ class GroupPath:
 
     def _fisheye(self, t: float) -> tuple[FloatArray, float]:
         """Focus and magnification at t: the vector part of the point that divides the geodesic."""
-        (f, s), (g, r), d = _pole(self.start), _pole(self.end), self.length
+        (f, s), (g, r), d = self.start.peak, self.end.peak, self.length
         before, after = (np.sinh((1 - t) * d) / np.sinh(d), np.sinh(t * d) / np.sinh(d)) if d > 0 else (1 - t, t)
         vector = before * np.sinh(np.log(s)) * f + after * np.sinh(np.log(r)) * g
         size = float(np.linalg.norm(vector))
@@ -90,12 +90,6 @@ class GroupPath:
 def _rotation(conformal: MoebiusMap) -> Rotation:
     """The rotation that follows the fisheye."""
     return conformal.left @ conformal.right
-
-
-def _pole(conformal: MoebiusMap) -> tuple[FloatArray, float]:
-    """Where the fisheye of a map magnifies, a unit vector, and how much: at least 1."""
-    focus, size = conformal.focus, conformal.magnification
-    return (focus, size) if size >= 1 else (-focus, 1 / size)
 
 
 def path_between(start: MoebiusMap, end: MoebiusMap) -> GroupPath:

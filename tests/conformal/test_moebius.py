@@ -227,10 +227,23 @@ def frame(lonlat):
     return np.array([east, north, lonlat_to_xyz(lonlat)]).T
 
 
-def test_no_proj_pipeline_for_a_twist():
-    twisted = MoebiusMap.rotation((0, 40), 10) @ fisheye((0, 40), magnification=4)
-    with pytest.raises(ValueError, match="no stereographic pipeline"):
-        twisted.to_proj()
+@given(MAPS)
+@settings(deadline=None, max_examples=40)
+def test_every_map_is_a_proj_pipeline(conformal):
+    lonlat = np.random.default_rng(4).uniform([-180, -89], [180, 89], size=(100, 2))
+    xyz = lonlat_to_xyz(lonlat)
+    # Next to the antipode of the focus PROJ's plane is far away from its middle.
+    gap = angular_distance(lonlat_to_xyz(proj_image(conformal, lonlat)), conformal(xyz))
+    away = angular_distance(xyz, -conformal.focus) > 1
+    assert (gap < 1e-9 * np.maximum(1, conformal.scale_factor(xyz)))[away].all()
+
+
+def test_a_twist_is_a_turn_of_the_plane():
+    lens = fisheye((0, 40), magnification=4)
+    assert "affine" not in lens.to_proj()
+    twisted = MoebiusMap.rotation((0, 40), 30) @ lens
+    numbers = dict(part.split("=") for part in twisted.to_proj().split() if part.startswith("+s1"))
+    assert [float(numbers[name]) for name in ("+s11", "+s12")] == pytest.approx([np.sqrt(0.75), -0.5], abs=1e-15)
 
 
 def test_equality_and_hash():
