@@ -477,7 +477,7 @@ def trace_page(
     count: int,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 7), order="C")]:
     """
-    Of page points from (x, y), a step apart: lon, lat, their changes over a step right and up, the bend.
+    Of page points in a row, place (x, y, step right, up): lon, lat, their changes over steps, the bend.
     """
 
 def warp_raster(
@@ -494,7 +494,7 @@ def warp_raster(
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.uint8], dict(shape=(None, None, 4), order="C")]:
     """
-    Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; place (left, top, step) in radii, pixels (width, height).
+    Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; place (left, top, pixel's sides) in radii, pixels (width, height).
     """
 
 def voronoi_plane(

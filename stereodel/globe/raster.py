@@ -138,14 +138,14 @@ class Raster:
         across = as_count(size, "size", high=MOST_PIXELS_ACROSS)
         left, top, width, height = as_window(window, across, "window")
         step = 2.0 / across
-        place = (left * step - 1.0, 1.0 - top * step, step)
+        place = (left * step - 1.0, 1.0 - top * step, step, step)
         return self.painted(lens, view, place, (width, height), workers=workers)
 
     def painted(
         self,
         lens: MoebiusMap,
         view: View | StereographicView,
-        place: tuple[float, float, float],
+        place: tuple[float, float, float, float],
         pixels: tuple[int, int],
         *,
         covered: bool = True,
@@ -158,7 +158,7 @@ class Raster:
         lens, view, workers
             As for `warp`.
         place : tuple of float
-            Left and upper edge, and the side of a pixel, in radii of the disc about its centre, y up.
+            Left and upper edge, width and height of a pixel, in radii of the disc about its centre, y up.
         pixels : tuple of int
             Columns and rows.
         covered : bool

@@ -51,10 +51,10 @@ PageMap map_of(const Matrix& first, double size, const Matrix& last, double reac
 }
 
 RowsOut<double, 7> traced(const Matrix& first, double size, const Matrix& last, double reach,
-                          std::array<double, 3> place, std::size_t count) {
+                          std::array<double, 4> place, std::size_t count) {
     const PageMap map = map_of(first, size, last, reach);
     Buffer<Traced> points(count);
-    trace_row(map, place[0], place[1], place[2], count, points.data());
+    trace_row(map, place[0], place[1], {place[2], place[3]}, count, points.data());
     Buffer<double> rows(7 * count);
     for (std::size_t k = 0; k < count; ++k) {
         const Traced& p = points[k];
@@ -65,7 +65,7 @@ RowsOut<double, 7> traced(const Matrix& first, double size, const Matrix& last, 
 }
 
 Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Edges& edges, const Matrix& first,
-            double size, const Matrix& last, double reach, std::array<double, 3> place, std::array<int, 2> pixels,
+            double size, const Matrix& last, double reach, std::array<double, 4> place, std::array<int, 2> pixels,
             bool covered, int workers) {
     const RasterShape shape = shape_of(raster);
     if (levels.shape(0) != shape.size()) {
@@ -73,7 +73,7 @@ Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Ed
     }
     const RasterSampler sampler(shape, raster.data(), levels.data(), edges_of(edges));
     const PageMap map = map_of(first, size, last, reach);
-    const PageWindow window{place[0], place[1], place[2], pixels[0], pixels[1]};
+    const PageWindow window{place[0], place[1], {place[2], place[3]}, pixels[0], pixels[1]};
     const std::size_t width = static_cast<std::size_t>(pixels[0]), height = static_cast<std::size_t>(pixels[1]);
     const bool is_long = width * height > long_work;
     auto buffer = filled<std::uint8_t>(4 * width * height, is_long, [&](std::uint8_t* out, Stop stop) {
@@ -89,11 +89,11 @@ void bind_raster(nb::module_& module) {
     module.def("raster_levels", levels, "raster"_a, "edges"_a, "workers"_a = 1,
                "Means of a raster (h, w, 4), colour premultiplied, with edges (west, south, east, north) in radians.");
     module.def("trace_page", traced, "first"_a, "size"_a, "last"_a, "reach"_a, "place"_a, "count"_a,
-               "Of page points from (x, y), a step apart: lon, lat, their changes over a step right and up, the bend.");
+               "Of page points in a row, place (x, y, step right, up): lon, lat, their changes over steps, the bend.");
     module.def("warp_raster", warp, "raster"_a, "levels"_a, "edges"_a, "first"_a, "size"_a, "last"_a, "reach"_a,
                "place"_a, "pixels"_a, "covered"_a = true, "workers"_a = 1,
                "Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; "
-               "place (left, top, step) in radii, pixels (width, height).");
+               "place (left, top, pixel's sides) in radii, pixels (width, height).");
 }
 
 }  // namespace stereodel

@@ -31,25 +31,27 @@ struct Moving {
 
 // At the limb the derivative 1/z has no bound; over a step it is at most that of a chord of the last step,
 // sqrt(2/step).
-Moving orthographic(double x, double y, double step) {
+Moving orthographic(double x, double y, Step step) {
     const double r2 = x * x + y * y;
     const bool outside = r2 > 1.0;
     const double shrink = outside ? 1.0 / std::sqrt(r2) : 1.0;
-    const double z = outside ? 0.0 : std::sqrt(1.0 - r2), least = std::sqrt(0.5 * step);
+    const double z = outside ? 0.0 : std::sqrt(1.0 - r2), least = std::sqrt(0.5 * step.longer());
     const double slope = z > least ? z : least;
     return {{x * shrink, y * shrink, z},
-            {step, 0.0, -x * step / slope},
-            {0.0, step, -y * step / slope},
-            outside ? std::numeric_limits<double>::infinity() : step / (slope * slope)};
+            {step.right, 0.0, -x * step.right / slope},
+            {0.0, step.up, -y * step.up / slope},
+            outside ? std::numeric_limits<double>::infinity() : step.longer() / (slope * slope)};
 }
 
-Moving stereographic(double x, double y, double reach, double step) {
+Moving stereographic(double x, double y, double reach, Step step) {
     const double a = reach * x, b = reach * y, below = 1.0 + a * a + b * b;
-    const double side = 2.0 * reach * step / below;
+    const double scale = 2.0 * reach / below, right = scale * step.right, up = scale * step.up;
     const Vector at{2.0 * a / below, 2.0 * b / below, 2.0 / below - 1.0};
-    const double bend = x * x + y * y > 1.0 ? std::numeric_limits<double>::infinity() : side;
-    return {at, {side * (1.0 - a * at.x), -side * a * at.y, -side * a * (at.z + 1.0)},
-            {-side * b * at.x, side * (1.0 - b * at.y), -side * b * (at.z + 1.0)}, bend};
+    const double bend = x * x + y * y > 1.0 ? std::numeric_limits<double>::infinity() : scale * step.longer();
+    return {at,
+            {right * (1.0 - a * at.x), -right * a * at.y, -right * a * (at.z + 1.0)},
+            {-up * b * at.x, up * (1.0 - b * at.y), -up * b * (at.z + 1.0)},
+            bend};
 }
 
 Moving through_fisheye(const Moving& from, double size) {
@@ -89,9 +91,9 @@ Traced on_globe(const Moving& seen, const double* last) {
 
 }  // namespace
 
-void trace_row(const PageMap& map, double x, double y, double step, std::size_t count, Traced* out) {
+void trace_row(const PageMap& map, double x, double y, Step step, std::size_t count, Traced* out) {
     for (std::size_t k = 0; k < count; ++k) {
-        const double along = x + static_cast<double>(k) * step;
+        const double along = x + static_cast<double>(k) * step.right;
         const Moving on_page =
             map.reach == 0.0 ? orthographic(along, y, step) : stereographic(along, y, map.reach, step);
         const Moving in_lens{turned(map.first, on_page.at), turned(map.first, on_page.right),

@@ -25,8 +25,15 @@ struct Traced {
     double bend;
 };
 
-// For `count` points of a row, `step` apart, the first at (x, y), and the changes over a step. In double arithmetic:
+// The side of a pixel along x and along y.
+struct Step {
+    double right, up;
+
+    double longer() const { return right > up ? right : up; }
+};
+
+// For `count` points of a row, a step apart, the first at (x, y), and the changes over a step right and up. In double arithmetic:
 // lon and lat are within 1e-9 rad, plus 2^-50 times the magnification there, of those of the given numbers.
-void trace_row(const PageMap& map, double x, double y, double step, std::size_t count, Traced* out);
+void trace_row(const PageMap& map, double x, double y, Step step, std::size_t count, Traced* out);
 
 }  // namespace stereodel

@@ -40,15 +40,17 @@ class RasterSampler {
 
     Footprint footprint(const Traced& traced) const;
     void add_grain(const Footprint& center, const Grain& grain, double x, double y, ColorSum& sum) const;
-    void gather(const RasterLevel& level, int column, int row, std::uint8_t* texels) const;
+    void find_lines(const RasterLevel& level, int column, int row, const std::uint8_t** lines,
+                    std::uint8_t* copies) const;
     int row_of(int row, int height, bool& across) const;
     const std::uint8_t* texel(const RasterLevel& level, int column, int row) const;
     const RasterLevel& level(int i, int j) const { return levels_[static_cast<std::size_t>(j * columns_ + i)]; }
 
     std::vector<RasterLevel> levels_;
+    std::vector<double> across_, down_;  // columns and rows of a level in one of the raster
     int columns_, rows_;
     double width_, height_;  // of the raster
-    RasterEdges edges_;
+    double middle_, north_;  // longitude in [-pi, pi), latitude of the upper edge
     double columns_per_radian_, rows_per_radian_;
     bool around_, north_pole_, south_pole_;
 };

@@ -34,9 +34,9 @@ class Painter {
         : raster_(raster), map_(map), window_(window), covered_(covered) {}
 
     void row(int number, std::uint8_t* pixels) const {
-        const double y = window_.top - (number + 0.5) * window_.step;
+        const double y = window_.top - (number + 0.5) * window_.step.up;
         // Pixels whose centre is farther out than their half diagonal do not touch the disc; half a pixel to spare.
-        const double reach = 1.0 + 1.3 * window_.step, rest = reach * reach - y * y;
+        const double reach = 1.0 + 1.3 * window_.step.longer(), rest = reach * reach - y * y;
         std::fill(pixels, pixels + 4 * std::size_t(window_.width), std::uint8_t{0});
         if (rest <= 0.0) return;
         const double half = std::sqrt(rest);
@@ -48,13 +48,13 @@ class Painter {
 
   private:
     int column_at(double x) const {
-        const double column = std::floor((x - window_.left) / window_.step);
+        const double column = std::floor((x - window_.left) / window_.step.right);
         return static_cast<int>(std::min(std::max(column, 0.0), double(window_.width)));
     }
 
     void block(int first, int count, double y, std::uint8_t* pixels) const {
         Traced traced[BLOCK];
-        const auto x_of = [&](int k) { return window_.left + (first + k + 0.5) * window_.step; };
+        const auto x_of = [&](int k) { return window_.left + (first + k + 0.5) * window_.step.right; };
         trace_row(map_, x_of(0), y, window_.step, static_cast<std::size_t>(count), traced);
         for (int k = 0; k < count; ++k) {
             const double x = x_of(k);
@@ -70,11 +70,11 @@ class Painter {
 
     // The parts of a pixel that lie in the disc; where none has its centre in it, the nearest point of the disc.
     void cut(double x, double y, int parts, ColorSum& sum) const {
-        const double step = window_.step / parts;
-        const double corner = 0.5 * step - 0.5 * window_.step;
+        const Step step{window_.step.right / parts, window_.step.up / parts};
+        const double left = x + 0.5 * (step.right - window_.step.right), low = y + 0.5 * (step.up - window_.step.up);
         Traced traced[FINE];
         for (int r = 0; r < parts; ++r) {
-            trace_row(map_, x + corner, y + corner + r * step, step, static_cast<std::size_t>(parts), traced);
+            trace_row(map_, left, low + r * step.up, step, static_cast<std::size_t>(parts), traced);
             for (int k = 0; k < parts; ++k) {
                 if (traced[k].bend < std::numeric_limits<double>::infinity()) raster_.add(traced[k], sum);
             }
@@ -86,9 +86,8 @@ class Painter {
     }
 
     double share_in_disc(double x, double y) const {
-        const double radius = std::hypot(x, y), distance = (1.0 - radius) / window_.step;
-        if (distance > 1.0) return 1.0;
-        return half_plane_share(distance, x / radius, y / radius);
+        const double radius = std::sqrt(x * x + y * y), distance = (1.0 - radius) / window_.step.longer();
+        return distance > 1.0 ? 1.0 : half_plane_share(distance, x / radius, y / radius);
     }
 
     static void put(const ColorSum& sum, double share, std::uint8_t* pixel) {

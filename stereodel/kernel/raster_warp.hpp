@@ -9,9 +9,10 @@
 
 namespace stereodel {
 
-// Pixels of the page: the upper left corner of the first and the side of one, in radii of the disc.
+// Pixels of the page: the upper left corner of the first and the sides of one, in radii of the disc.
 struct PageWindow {
-    double left, top, step;
+    double left, top;
+    Step step;
     int width, height;
 };
 
