@@ -15,11 +15,12 @@ from stereodel.conformal import MoebiusMap
 from stereodel.globe import features, looks
 from stereodel.globe.chart import Chart
 from stereodel.globe.geodata import shapes_of
-from stereodel.globe.layers import Areas, Circles, Ground, Lines, MapLayer, Names, Points, Rim
+from stereodel.globe.layers import Areas, Circles, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lettering import placed_label
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.polygons import Polygons, Rings
+from stereodel.globe.raster import Raster
 from stereodel.render.colors import ColorScale
 from stereodel.render.page import Color, Item, Page
 from stereodel.render.saving import save_page
@@ -71,6 +72,38 @@ class Globe:
     def add(self, layer: MapLayer) -> None:
         """Put any layer on top: an object with ``lay(chart)``, which gives page items."""
         self.layers.append(layer)
+
+    def add_raster(
+        self,
+        raster: Raster | str | os.PathLike[str],
+        *,
+        extent: tuple[float, float, float, float] | None = None,
+        opacity: float = 1.0,
+        role: str = "raster",
+    ) -> None:
+        """Cover the globe, or a part of it, with a picture in longitude and latitude.
+
+        Parameters
+        ----------
+        raster : Raster or path-like
+            Where it is transparent, the layers below show through. Its latitudes are taken as they stand, whatever
+            those of the globe are.
+        extent : tuple of float, optional
+            (west, south, east, north) of a file's picture in degrees; without it a file is 2:1 and shows everything.
+        opacity : float
+            In [0, 1].
+        role : str
+            Names the picture in vector files.
+
+        Raises
+        ------
+        OSError, ValueError
+            As `Raster.open`; for an opacity out of range, and an extent beside a `Raster`, which has its own.
+        """
+        if isinstance(raster, Raster) and extent is not None:
+            raise ValueError("extent belongs to a file; a Raster has its own")
+        shown = raster if isinstance(raster, Raster) else Raster.open(raster, extent=extent)
+        self.add(Image(shown, as_scalar(opacity, "opacity", low=0.0, high=1.0), role))
 
     def add_land(self, *, color: Color = looks.LAND, outline: LineStyle | None = None, resolution: str = "50m") -> None:
         """Fill the land of the Earth (Natural Earth), and draw its outline where a look is given."""

@@ -12,8 +12,9 @@ from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
+from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.globe.regions import Mesh, SphereMesh
-from stereodel.render.page import Color, Dots, Fill, Item, Label, Mosaic, Patch, Polylines, Stroke, Surface
+from stereodel.render.page import Color, Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
 from stereodel.render.regions import near_hemisphere
 from stereodel.render.style import DotStyle, LineStyle
 from stereodel.sphere import SphereCircle
@@ -84,6 +85,20 @@ class Areas:
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Regions of one colour together, or all of them as one picture."""
         yield from filled(chart, *chart.regions(self.mesh), self.colors, self.role)
+
+
+@dataclass(frozen=True, eq=False)
+class Image:
+    """A raster, as opaque as it is times `opacity`."""
+
+    raster: Raster
+    opacity: float
+    role: str
+
+    def lay(self, chart: Chart) -> Iterator[Item]:
+        """The whole disc as one picture, warped when it is drawn."""
+        painter = RasterOnDisc(self.raster, chart.lens, chart.view, chart.at, chart.scale, self.opacity)
+        yield Picture(chart.outline, painter, self.role)
 
 
 @dataclass(frozen=True, eq=False)

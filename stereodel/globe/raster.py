@@ -16,7 +16,7 @@ from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.globe.images import read_image
-from stereodel.render.view import StereographicView, View
+from stereodel.render.view import MapView
 from stereodel.sphere.frames import turned
 
 Pixels = npt.NDArray[np.uint8]
@@ -56,6 +56,7 @@ class Raster:
 
     Examples
     --------
+    >>> from stereodel.render import View
     >>> stripes = Raster(np.arange(0, 240, 20, dtype=np.uint8)[None, :].repeat(6, axis=0))
     >>> picture = stripes.warp(MoebiusMap.identity(), View(0.0, 0.0), 101)
     >>> picture.shape, picture[50, 50].tolist(), picture[0, 0].tolist()
@@ -104,7 +105,7 @@ class Raster:
     def warp(
         self,
         lens: MoebiusMap,
-        view: View | StereographicView,
+        view: MapView,
         size: int,
         *,
         window: tuple[int, int, int, int] | None = None,
@@ -144,7 +145,7 @@ class Raster:
     def painted(
         self,
         lens: MoebiusMap,
-        view: View | StereographicView,
+        view: MapView,
         place: tuple[float, float, float, float],
         pixels: tuple[int, int],
         *,
@@ -166,7 +167,8 @@ class Raster:
             as the raster: for a picture that is then cut along the disc.
         """
         back = lens.inverse()
-        reach = 0.0 if isinstance(view, View) else float(np.tan(np.radians(view.extent) / 2))
+        # tan(α/2) from the cosine of the radius α of what a flat view shows; 0 stands for a ball seen from afar.
+        reach = 0.0 if view.round else float(np.sqrt((1 - view.edge) / (1 + view.edge)))
         return _kernel.warp_raster(
             self._texels,
             self._levels,
@@ -205,3 +207,48 @@ class Raster:
     def _edges(self) -> FloatArray:
         edges: FloatArray = np.radians(np.array(self.extent))
         return edges
+
+
+@dataclass(frozen=True, eq=False)
+class RasterOnDisc:
+    """A raster through a lens and a view on a disc of a page, for a `stereodel.render.page.Picture`.
+
+    Parameters
+    ----------
+    raster : Raster
+    lens, view
+        As for `Raster.warp`.
+    at : tuple of float
+        Page position of the middle of the disc.
+    scale : float
+        Its radius in page units.
+    opacity : float
+        In [0, 1]; the raster's own is multiplied by it.
+    """
+
+    raster: Raster
+    lens: MoebiusMap
+    view: MapView
+    at: tuple[float, float] = (0.0, 0.0)
+    scale: float = 1.0
+    opacity: float = 1.0
+
+    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
+        """Pixels of the page, (rows, columns, 4); see `stereodel.render.page.Painter`."""
+        left, top, width, height = place
+        in_disc = (left - self.at[0]) / self.scale, (top - self.at[1]) / self.scale
+        sides = width / self.scale, height / self.scale
+        found = self.raster.painted(self.lens, self.view, (*in_disc, *sides), pixels, covered=False)
+        if self.opacity < 1:
+            found[..., 3] = np.floor(found[..., 3] * self.opacity + 0.5)
+        return found
+
+    def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
+        """Lens, view, place, opacity, and a digest of the raster."""
+        parts = self.lens.left.matrix.ravel(), self.lens.right.matrix.ravel(), self.view.matrix.ravel()
+        numbers = [self.lens.magnification, self.view.edge, *self.at, self.scale, self.opacity]
+        return {
+            "map": np.concatenate([*parts, numbers]),
+            "extent": np.array(self.raster.extent),
+            "raster": np.array(self.raster.digest),
+        }

@@ -32,8 +32,8 @@ struct Step {
     double longer() const { return right > up ? right : up; }
 };
 
-// For `count` points of a row, a step apart, the first at (x, y), and the changes over a step right and up. In double arithmetic:
-// lon and lat are within 1e-9 rad, plus 2^-50 times the magnification there, of those of the given numbers.
+// For `count` points of a row, a step apart, the first at (x, y), and the changes over a step right and up. In double
+// arithmetic: lon and lat are within 1e-9 rad, plus 2^-50 times the magnification there, of those of the given numbers.
 void trace_row(const PageMap& map, double x, double y, Step step, std::size_t count, Traced* out);
 
 }  // namespace stereodel

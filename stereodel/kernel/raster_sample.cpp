@@ -38,8 +38,9 @@ struct Taps {
     float across[TAPS], down[TAPS];
 };
 
-// Of the means over `u_side` and `v_side` < 1.73 texels about a place, texel k being centred at k + 1/2. The four places
-// at which cubics are evaluated (left, right, above, below) go through all steps together, as vector instructions do.
+// Of the means over `u_side` and `v_side` < 1.73 texels about a place, texel k being centred at k + 1/2. The four
+// places at which cubics are evaluated (left, right, above, below) go through all steps together, as vector
+// instructions do.
 Taps taps(double u, double v, double u_side, double v_side) {
     const int column = floor_of(u - 0.5), row = floor_of(v - 0.5);
     const float x = static_cast<float>(u - 0.5 - column), y = static_cast<float>(v - 0.5 - row);
@@ -200,9 +201,10 @@ void RasterSampler::add_grain(const Footprint& center, const Grain& grain, doubl
         for (int k = 0; k < 16; ++k) first[k] += height * static_cast<float>(lines[r][k]);
         for (int k = 0; k < 4; ++k) last[k] += height * static_cast<float>(lines[r][16 + k]);
     }
+    const float* across = found.across;
     for (int b = 0; b < 4; ++b) {
-        sum.channels[b] += found.across[0] * first[b] + found.across[1] * first[4 + b] + found.across[2] * first[8 + b] +
-                           found.across[3] * first[12 + b] + found.across[4] * last[b];
+        sum.channels[b] += across[0] * first[b] + across[1] * first[4 + b] + across[2] * first[8 + b] +
+                           across[3] * first[12 + b] + across[4] * last[b];
     }
 }
 

@@ -10,7 +10,8 @@ so a picture drawn at once and one written row by row are the same bits.
 
 All triangles of a window go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
 OpenGL draws the triangles of a mesh in their order, so see-through items blend back to front; and since a fragment at
-the depth of what is already there is refused, an item whose triangles overlap blends once, as the union of them.
+the depth of what is already there is refused, an item whose triangles overlap blends once, as the union of them. An
+item with a texture is a part of the mesh for itself; a texel is a pixel of the window.
 """
 
 from __future__ import annotations
@@ -22,10 +23,12 @@ import sys
 import types
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any, Final, cast
 
 import numpy as np
 
+from stereodel._arrays import IntArray
 from stereodel.render.page import Color
 from stereodel.render.triangles import Pixels, Triangles, Window
 
@@ -55,6 +58,10 @@ SUBPIXELS: Final = 256
 
 STRIDE: Final = 8192
 """Coordinates lose whole multiples of it, pixels, so that those in a window keep `SUBPIXELS` as float32 of 24 bits."""
+
+NEAREST: Final = 0x2600
+CLAMP_TO_EDGE: Final = 0x812F
+"""How texels are looked up: names of OpenGL's C header."""
 
 EGL_EXTENSIONS: Final = 0x3055
 """Name of the extension string in EGL's C header."""
@@ -305,17 +312,29 @@ def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Colo
     pose[:2, 3] -= origin
     scene.add(camera, pose=pose)
     if len(triangles.faces):
-        # Without indices, which pyrender would pass through float32.
-        corners = triangles.faces.ravel()
-        depth = -3 + 2 * (triangles.slots[corners] + 0.5) / SLOTS
-        material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
-        # Rounded here as llvmpipe would, so that the rounding of its transformations has nothing to decide.
-        points = np.round(SUBPIXELS * triangles.points[corners]) / SUBPIXELS - origin
-        primitive = pyrender.Primitive(
-            np.column_stack([points, depth]), color_0=triangles.colors[corners], material=material
-        )
-        scene.add(pyrender.Mesh([primitive]))
+        slots = triangles.slots[triangles.faces[:, 0]]
+        ends = sorted({0, len(slots), *np.searchsorted(slots, [s + k for s in triangles.textures for k in (0, 1)])})
+        runs = [triangles.faces[begin:end] for begin, end in pairwise(ends)]
+        scene.add(pyrender.Mesh([_primitive(pyrender, triangles, run, window, origin) for run in runs]))
     return scene
+
+
+def _primitive(pyrender: Any, triangles: Triangles, faces: IntArray, window: Window, origin: IntArray) -> Any:
+    """Some of the triangles: those of one item with a texture, or of any without."""
+    # Without indices, which pyrender would pass through float32.
+    corners = faces.ravel()
+    depth = -3 + 2 * (triangles.slots[corners] + 0.5) / SLOTS
+    # Rounded here as llvmpipe would, so that the rounding of its transformations has nothing to decide.
+    points = np.round(SUBPIXELS * triangles.points[corners]) / SUBPIXELS
+    material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
+    texture = triangles.textures.get(int(triangles.slots[corners[0]]))
+    texels = None
+    if texture is not None:
+        texels = (points - [window.left, window.bottom]) / [window.width, window.height]
+        sampler = pyrender.Sampler(magFilter=NEAREST, minFilter=NEAREST, wrapS=CLAMP_TO_EDGE, wrapT=CLAMP_TO_EDGE)
+        material.baseColorTexture = pyrender.Texture(sampler=sampler, source=texture, source_channels="RGBA")
+    vertices = np.column_stack([points - origin, depth])
+    return pyrender.Primitive(vertices, texcoord_0=texels, color_0=triangles.colors[corners], material=material)
 
 
 def _import_pyrender(platform: str) -> Any:

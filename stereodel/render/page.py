@@ -9,7 +9,7 @@ unit; `width` says how many points the extent is wide.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -92,6 +92,33 @@ class Mosaic:
     role: str = ""
 
 
+class Painter(Protocol):
+    """What a `Picture` shows: made at the resolution at which it is drawn, and only where it is drawn."""
+
+    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> npt.NDArray[np.uint8]:
+        """Pixels (rows, columns, 4) from the top: sRGB and opacity, not premultiplied.
+
+        `place` is the left and upper edge, and the width and height of a pixel, in page units; `pixels` are columns and
+        rows. What lies beyond the outline by more than a pixel may be anything.
+        """
+
+    def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
+        """What defines it, for the golden tests."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A region that is painted pixel by pixel: a raster on a globe.
+
+    Where it is transparent, what lies below shows through. The raster backend gives each pixel that it draws one of the
+    painter's; the vector backend embeds a picture, cut along `outline`.
+    """
+
+    outline: tuple[Beziers, ...]
+    painter: Painter
+    role: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Polylines:
     """Many lines of straight pieces, of one look: coastlines, borders.
@@ -147,7 +174,7 @@ class Label:
     """Width of a white line round the letters, points."""
 
 
-Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Label
+Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Picture | Label
 
 
 @dataclass(frozen=True, eq=False)
@@ -233,6 +260,8 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             }
         case Mosaic():
             return {"outline": np.concatenate(item.outline), "corners": item.corners, "colors": item.colors}
+        case Picture():
+            return {"outline": np.concatenate(item.outline), **item.painter.arrays()}
         case Label():
             halo = [item.halo] if item.halo else []
             numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo]

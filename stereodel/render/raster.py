@@ -7,7 +7,7 @@ sRGB values as they stand, as OpenGL's own multisampling and matplotlib do, so t
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -15,11 +15,24 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel.render import gl
 from stereodel.render.labels import LabelLayer
-from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Mosaic, Page, Patch, Polylines, Stroke, Surface
+from stereodel.render.page import (
+    Beziers,
+    Color,
+    Dots,
+    Fill,
+    Item,
+    Mosaic,
+    Page,
+    Patch,
+    Picture,
+    Polylines,
+    Stroke,
+    Surface,
+)
 from stereodel.render.pieces import Piece, Pieces
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon, ribbons
 from stereodel.render.sizes import as_width, pixel_height
-from stereodel.render.triangles import Pixels
+from stereodel.render.triangles import Pixels, Window
 
 SUPERSAMPLING: Final = 2
 """Pixels drawn per pixel of the picture, each way."""
@@ -105,6 +118,8 @@ class _Canvas:
                 return [self._lit(item)]
             case Mosaic():
                 return [self._mosaic(item)]
+            case Picture():
+                return [self._picture(item)]
         return []
 
     def _place(self, points: FloatArray) -> FloatArray:
@@ -150,6 +165,16 @@ class _Canvas:
         if mosaic.normals is not None:
             colors[..., :3] *= _brightness(mosaic.normals)[..., None]
         return Piece(self._place(mosaic.corners), colors)
+
+    def _picture(self, picture: Picture) -> Piece:
+        width, height = 1 / self.scale
+
+        def texture(window: Window) -> Pixels:
+            left, bottom = self.origin + np.array([window.left, window.bottom]) / self.scale
+            place = (left, bottom + window.height * height, width, height)
+            return picture.painter.paint(place, (window.width, window.height))
+
+        return replace(_flat(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
 
 
 def _brightness(normals: FloatArray) -> FloatArray:

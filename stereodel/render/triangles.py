@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
@@ -26,12 +27,16 @@ class Triangles:
         Number of the item that a vertex belongs to; must not decrease along `faces`.
     faces : (m, 3) int array
         Either orientation.
+    textures : mapping of int to (height, width, 4) uint8 array
+        Number of an item → the window that is drawn as it alone would look, sRGB and opacity, rows from the top: what
+        the colours of its triangles are multiplied by, pixel for pixel.
     """
 
     points: FloatArray
     colors: FloatArray
     slots: IntArray
     faces: IntArray
+    textures: Mapping[int, Pixels] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -41,15 +41,19 @@ from stereodel.render.page import (
     Mosaic,
     Page,
     Patch,
+    Picture,
     Polylines,
     Stroke,
     Surface,
 )
 from stereodel.render.sizes import pixel_height
-from stereodel.render.style import TYPE
+from stereodel.render.style import PRINT_DPI, TYPE
 
 CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
 """Reach of the controls of a circle drawn as eight cubics, in radii."""
+
+PAPER_DPI: Final = 72.0
+"""Dots per inch of a canvas that is written as paths: points."""
 
 AT_ONCE: Final = 2**25
 """Pixels that Agg draws at once: with a copy they take 256 MB."""
@@ -88,7 +92,7 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures =
     if kind not in METADATA:
         raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
     with matplotlib_settings():
-        canvas = drawn(page, dpi=72.0, mosaics=mosaics)
+        canvas = drawn(page, dpi=PAPER_DPI, mosaics=mosaics)
         with replacing(target) as temporary:
             canvas.savefig(temporary, format=kind, metadata=METADATA[kind], facecolor=page.background)
     return target
@@ -189,6 +193,8 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
                 yield from (_fill_patch(item.outline, item) for item in items if isinstance(item, Surface))
             case Mosaic() as mosaic:
                 yield _mosaic_image(mosaic, next(pictures), page, axes)
+            case Picture() as picture:
+                yield _picture_image(picture, page, axes)
             case Dots():
                 scale = page.points_per_unit
                 yield from (patch for item in items if isinstance(item, Dots) for patch in _dot_patches(item, scale))
@@ -244,6 +250,25 @@ def _mosaic_image(mosaic: Mosaic, picture: npt.NDArray[np.uint8], page: Page, ax
     image.set_data(picture)
     image.set(gid=mosaic.role, transform=axes.transData)
     image.set_clip_path(_outline((path, True) for path in mosaic.outline), axes.transData)
+    return image
+
+
+def _picture_image(picture: Picture, page: Page, axes: Axes) -> AxesImage:
+    """A picture on the pixels of the canvas, or of print where that is paper, as far as its outline goes."""
+    figure = axes.get_figure()
+    dpi = PRINT_DPI if figure is None or figure.dpi == PAPER_DPI else figure.dpi
+    side = PAPER_DPI / (dpi * page.points_per_unit)
+    corner = np.array([page.extent[0], page.extent[3]])
+    points = np.concatenate(picture.outline).reshape(-1, 2)
+    # Whole pixels of the page's own grid, so that those of Agg are met one to one; a millionth of one is rounding.
+    cells = (points - corner) / (side, -side)
+    (left, top), (right, bottom) = np.floor(cells.min(axis=0) + 1e-6), np.ceil(cells.max(axis=0) - 1e-6)
+    place = (corner[0] + left * side, corner[1] - top * side, side, side)
+    extent = (place[0], corner[0] + right * side, corner[1] - bottom * side, place[1])
+    image = AxesImage(axes, extent=extent, origin="upper", interpolation="none")
+    image.set_data(picture.painter.paint(place, (int(right - left), int(bottom - top))))
+    image.set(gid=picture.role, transform=axes.transData)
+    image.set_clip_path(_outline((path, True) for path in picture.outline), axes.transData)
     return image
 
 
