@@ -37,7 +37,7 @@ MAY_IMPORT = {
     "__init__": MATHEMATICS,
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data"},
     "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data", "render"},
-    "cli": MATHEMATICS | {"__init__", "_extras", "_files", "data", "earth", "interpolation", "io", "render"},
+    "cli": MATHEMATICS | {"__init__", "_extras", "_files", "data", "earth", "globe", "interpolation", "io", "render"},
 }
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
 NEIGHBOURS = {

@@ -1,74 +1,53 @@
-"""`stereodel globe`: a picture of points on a globe."""
+"""`stereodel globe`: pictures of globes that bend."""
 
 from __future__ import annotations
 
-from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
-
-import typer
-
+from stereodel.cli import globe_options as globe
 from stereodel.cli import options
 
-if TYPE_CHECKING:
-    pass
-
-EXAMPLE = "stereodel globe cities.csv --focus=10,48 --magnify 3 -o globe.png"
+EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
 PICTURES = ("png", "svg", "pdf")
 
 
-class Show(StrEnum):
-    """What is drawn of the points."""
-
-    points = "points"
-    cells = "cells"
-    triangles = "triangles"
-
-
 def command(
-    points: options.Points,
     out: options.Out,
-    show: Annotated[
-        list[Show] | None, typer.Option(help="What is drawn, repeatable; by default points and cells.")
-    ] = None,
-    view: Annotated[
-        str | None, typer.Option(metavar="LON,LAT", help="Middle of the picture; by default the focus or the data's.")
-    ] = None,
-    focus: Annotated[
-        str | None, typer.Option(metavar="LON,LAT", help="What a fisheye magnifies; by default the middle.")
-    ] = None,
-    magnify: Annotated[
-        float, typer.Option(metavar="S", help="How many times the surroundings of the focus are enlarged.")
-    ] = 1.0,
-    coastlines: Annotated[bool, typer.Option(help="Draw the coasts.")] = True,
-    size: Annotated[int, typer.Option(min=1, max=65_535, help="Width of a PNG in pixels.")] = 1600,
+    points: globe.Points = None,
+    show: globe.Shows = None,
+    focus: globe.Focus = None,
+    magnify: globe.Magnify = 1.0,
+    view: globe.View = None,
+    projection: globe.Flattened = globe.Projection.globe,
+    extent: globe.Extent = 90.0,
+    layer: globe.Layers = None,
+    land: globe.Land = True,
+    coastlines: globe.Coastlines = True,
+    borders: globe.Borders = False,
+    rivers: globe.Rivers = False,
+    lakes: globe.Lakes = False,
+    graticule: globe.Graticule = 15.0,
+    size: globe.Size = 1600,
     lon: options.Lon = None,
     lat: options.Lat = None,
     latitude: options.LatitudeKind = options.Latitude.spherical,
-    format: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Format of stdout, when --out is -: png (default), svg, pdf.")
-    ] = None,
+    format: globe.Format = None,
 ) -> None:
-    """Draw points on a globe, with their Voronoi cells or Delaunay triangles, under a conformal fisheye if wanted."""
+    """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye."""
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.globe_page import GlobePicture, lens_at, middle_of, shores
+    from stereodel.cli.globe_aim import Aim, place
+    from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
-    from stereodel.render import View, save_page
 
     destination = Destination.of(out, format, PICTURES)
-    given = {"--view": view, "--focus": focus}
-    known = {name: options.pair(text, name, "LON,LAT") for name, text in given.items() if text is not None}
-    table = read(points, lon=lon, lat=lat)
-    places = table.points(latitude)
-    middle = known.get("--view") or known.get("--focus") or middle_of(places)
-    picture = GlobePicture(
-        places,
-        frozenset(show or (Show.points, Show.cells)),
-        View(*middle),
-        lens_at(known.get("--focus", middle), magnify),
-        shores(latitude) if coastlines else (),
-    )
+    aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, extent)
+    table = read(points, lon=lon, lat=lat) if points is not None else None
+    with stage("reading maps"):
+        features = Features(land, coastlines, borders, rivers, lakes, graticule)
+        drawing = new_globe(features, latitude)
+        add_files(drawing, layer or ())
+        if table is not None:
+            aim = aim.with_middle_of(table.points(latitude))
+            add_points(drawing, table, frozenset(show or ("points", "cells")))
     with stage("drawing"):
-        page = picture.page()
-        destination.write(lambda path: save_page(page, path, size=size))
+        destination.write(lambda path: drawing.save(path, aim.lens, aim.views, size=size))

@@ -1,11 +1,16 @@
 """`stereodel globe`: pictures that show what was asked for."""
 
+import json
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from stereodel import lonlat_to_xyz
-from stereodel.cli.globe_page import GlobePicture, lens_at, middle_of
-from stereodel.render import View
+from stereodel.cli.globe_aim import Aim, middle_of
+from stereodel.cli.globe_options import Projection
+from stereodel.globe import Globe
+from stereodel.render import StereographicView, View
 from stereodel.render.image import read_picture
 from stereodel.render.page import Dots
 
@@ -24,14 +29,69 @@ def test_svg_shows_what_was_asked_for(folder, shown, groups, run):
 
 def test_the_focus_is_magnified():
     """A point 10° north of the focus is drawn sin 10° above the middle, and sin 2·atan(4·tan 5°) through the lens."""
-    places = lonlat_to_xyz([(10.0, 40.0), (10.0, 50.0)])
+    globe = Globe()
+    globe.add_points([(10.0, 40.0), (10.0, 50.0)])
     heights = []
     for magnification in (1.0, 4.0):
-        picture = GlobePicture(places, frozenset({"points"}), View(10, 40), lens_at((10.0, 40.0), magnification))
-        (dots,) = (item for item in picture.page().items if isinstance(item, Dots))
-        assert dots.centers[0] == pytest.approx([0, 0], abs=1e-12)
-        heights.append(dots.centers[1, 1])
-    assert heights == pytest.approx([np.sin(np.radians(10)), np.sin(2 * np.arctan(4 * np.tan(np.radians(5))))])
+        aim = Aim((10.0, 40.0), magnification, None, Projection.globe, 90.0)
+        (dots,) = (item for item in globe.page(aim.lens, aim.views).items if isinstance(item, Dots))
+        heights.append(dots.centers[1] - dots.centers[0])
+    wanted = np.sin(np.radians(10)), np.sin(2 * np.arctan(4 * np.tan(np.radians(5))))
+    assert np.allclose(heights, [(0, height) for height in wanted], atol=1e-12)
+
+
+def test_the_middle_of_the_picture():
+    points = lonlat_to_xyz([(170, 10), (-170, 10)])
+    free = Aim(None, 1.0, None, Projection.globe, 90.0)
+    assert free.views == (View(0, 0),)
+    assert free.with_middle_of(points).place == pytest.approx((-180, 10), abs=0.2)
+    focused = replace(free, focus=(1.0, 2.0))
+    assert focused.with_middle_of(points).views == (View(1, 2),)
+    assert replace(focused, middle=(3.0, 4.0)).views == (View(3, 4),)
+    flat = replace(focused, projection=Projection.stereographic, extent=120.0)
+    assert flat.views == (StereographicView(1, 2, extent=120),)
+    both = replace(focused, projection=Projection.hemispheres).views
+    assert both == (StereographicView(1, 2), StereographicView(-179, -2))
+    assert middle_of(lonlat_to_xyz([(0, 0), (180, 0)])) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize(("option", "group"), [("borders", "borders"), ("rivers", "rivers"), ("lakes", "lakes")])
+def test_maps_of_the_earth(folder, run, option, group):
+    run("globe", "-o", "plain.svg", "--no-land")
+    run("globe", "-o", "globe.svg", f"--{option}")
+    plain, text = ((folder / name).read_text(encoding="utf-8") for name in ("plain.svg", "globe.svg"))
+    assert f'id="{group}' in text
+    assert 'id="land' in text
+    assert f'id="{group}' not in plain
+    assert 'id="land' not in plain
+    assert 'id="coast' in plain
+    assert 'id="graticule' in plain
+    run("globe", "-o", "bare.svg", "--no-land", "--no-coastlines", "--graticule", 0)
+    assert (folder / "bare.svg").stat().st_size < 20_000
+
+
+def test_layers_of_points_lines_and_polygons(folder, run):
+    for kind, coordinates in [
+        ("Point", [10, 50]),
+        ("LineString", [[0, 40], [20, 60]]),
+        ("Polygon", [[[0, 40], [20, 40], [10, 60], [0, 40]]]),
+    ]:
+        (folder / f"{kind}.geojson").write_text(
+            json.dumps({"type": "Feature", "properties": {}, "geometry": {"type": kind, "coordinates": coordinates}}),
+            encoding="utf-8",
+        )
+    layers = [part for kind in ("Polygon", "LineString", "Point") for part in ("--layer", f"{kind}.geojson")]
+    run("globe", "-o", "globe.svg", "--focus", "10,50", "--magnify", 5, *layers)
+    assert (folder / "globe.svg").read_text(encoding="utf-8").count(
+        'id="layer'
+    ) == 5  # the polygon's outline and the dot's rim, too
+
+
+@pytest.mark.parametrize("projection", list(Projection))
+def test_projections(folder, run, projection):
+    run("globe", "cities.csv", "-o", "globe.png", "--size", 120, "--projection", projection.value)
+    height, width, _ = read_picture(folder / "globe.png").shape
+    assert (width, height) == (120, 60 if projection == Projection.hemispheres else 120)
 
 
 def test_pdf_to_stdout(folder):
@@ -48,17 +108,33 @@ def test_pdf_to_stdout(folder):
     [
         (["--view", "10"], "--view is '10', but must be LON,LAT"),
         (["--focus", "10,95"], "outside [-90, 90]"),
-        (["--magnify", "-1"], "magnification"),
+        (["--magnify", "-1"], "--magnify is -1, but a magnification is positive and finite"),
+        (["--magnify", "0"], "--magnify is 0,"),
+        (["--magnify", "inf"], "--magnify is inf,"),
+        (["--magnify", "nan"], "--magnify is nan,"),
+        (["--magnify", "1e200"], "magnification is 1e+200, outside the range"),
+        (["--projection", "stereographic", "--extent", "180"], "extent"),
+        (["--graticule", "7"], "must be a whole multiple"),
+        (["--graticule", "-5"], "spacing is -5"),
+        (["--layer", "missing.geojson"], "missing.geojson: No such file or directory"),
+        (["--layer", "broken.geojson"], "broken.geojson is no JSON"),
+        (["--layer", "odd.geojson"], "odd.geojson is no GeoJSON"),
+        (["--layer", "far.geojson"], "latitude 100.0, outside [-90, 90]"),
+        (["--layer", "broken.gpkg"], "broken.gpkg"),
     ],
 )
-def test_wrong_options(folder, options, message, run):
-    assert message in run("globe", "cities.csv", "-o", "globe.svg", *options, code=2)
-    assert not (folder / "globe.svg").exists()
-
-
-def test_the_middle_of_points():
-    assert middle_of(lonlat_to_xyz([(170, 10), (-170, 10)])) == pytest.approx((-180, 10), abs=0.2)
-    assert middle_of(lonlat_to_xyz([(0, 0), (180, 0)])) == (0.0, 0.0)
+def test_wrong_input(folder, options, message, run):
+    """One line that says what is wrong, and nothing written."""
+    (folder / "broken.geojson").write_text('{"type": "FeatureCollection", "features": [', encoding="utf-8")
+    (folder / "broken.gpkg").write_text("no database", encoding="utf-8")
+    (folder / "odd.geojson").write_text('{"type": "Map"}', encoding="utf-8")
+    (folder / "far.geojson").write_text('{"type": "Point", "coordinates": [0, 100]}', encoding="utf-8")
+    before = sorted(folder.iterdir())
+    said = run("globe", "-o", "globe.svg", *options, code=2)
+    assert message in said
+    assert said.startswith("error: ")
+    assert said.count("\n") == 1
+    assert sorted(folder.iterdir()) == before
 
 
 def test_clusters_are_drawn(folder, run):

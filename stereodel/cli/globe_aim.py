@@ -1,0 +1,73 @@
+"""What a globe is seen through and from where: the lens and the view that options ask for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from stereodel import MoebiusMap, fisheye, xyz_to_lonlat
+from stereodel._arrays import FloatArray
+from stereodel.cli.globe_options import Projection
+from stereodel.cli.options import pair
+from stereodel.globe import hemispheres
+from stereodel.render import StereographicView, View
+from stereodel.render.view import MapView
+
+Place = tuple[float, float]
+
+
+def place(text: str | None, option: str) -> Place | None:
+    """Longitude and latitude as an option gives them."""
+    return None if text is None else pair(text, option, "LON,LAT")
+
+
+@dataclass(frozen=True)
+class Aim:
+    """Focus, magnification, middle of the view, projection and its extent; what was not given is found out."""
+
+    focus: Place | None
+    magnification: float
+    middle: Place | None
+    projection: Projection
+    extent: float
+
+    def __post_init__(self) -> None:
+        if not 0 < self.magnification < np.inf:
+            raise ValueError(f"--magnify is {self.magnification:g}, but a magnification is positive and finite")
+
+    def with_middle_of(self, points: FloatArray) -> Aim:
+        """Above the middle of unit vectors (n, 3), unless something else was asked for."""
+        return self if self.middle or self.focus else replace(self, middle=middle_of(points))
+
+    @property
+    def place(self) -> Place:
+        """Where the focus is, and the middle of the view where nothing else is said."""
+        return self.focus or self.middle or (0.0, 0.0)
+
+    @property
+    def lens(self) -> MoebiusMap:
+        """The fisheye; the identity for magnification 1, which takes any focus."""
+        return (
+            MoebiusMap.identity() if self.magnification == 1 else fisheye(self.place, magnification=self.magnification)
+        )
+
+    @property
+    def views(self) -> tuple[MapView, ...]:
+        """One view, or two side by side."""
+        lon, lat = self.middle or self.place
+        if self.projection == Projection.hemispheres:
+            return hemispheres(lon, lat, flat=True)
+        if self.projection == Projection.stereographic:
+            return (StereographicView(lon, lat, extent=self.extent),)
+        return (View(lon, lat),)
+
+
+def middle_of(points: FloatArray) -> Place:
+    """Longitude and latitude of the mean of unit vectors (n, 3); (0, 0) if they have none."""
+    mean = points.sum(axis=0)
+    # Sums of n unit vectors are rounded by less than n² / 2 roundoffs; what is below means nothing.
+    if np.sqrt(np.sum(mean**2)) <= 1e-9 * len(points):
+        return (0.0, 0.0)
+    lon, lat = xyz_to_lonlat(mean)
+    return (float(lon), float(lat))

@@ -1,0 +1,70 @@
+"""What is on the globe that `stereodel globe` draws, layer upon layer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from stereodel import SphericalDelaunay, SphericalVoronoi
+from stereodel.cli.options import Latitude
+from stereodel.cli.sources import Table
+from stereodel.globe import Globe
+from stereodel.render.style import DOTS, LINES
+
+CROWDED = 500  # points from which on lines and dots are drawn finer, so that what they bound can still be seen
+FINEST = 0.2  # of the usual widths
+
+
+@dataclass(frozen=True)
+class Features:
+    """Which maps of the Earth are drawn."""
+
+    land: bool
+    coastlines: bool
+    borders: bool
+    rivers: bool
+    lakes: bool
+    graticule: float
+
+
+def new_globe(features: Features, latitude: Latitude) -> Globe:
+    """A globe with maps of the Earth, from the ground up."""
+    globe = Globe(latitude=latitude.value)
+    if features.land:
+        globe.add_land()
+    if features.lakes:
+        globe.add_lakes()
+    if features.graticule:
+        globe.add_graticule(features.graticule)
+    if features.rivers:
+        globe.add_rivers()
+    if features.coastlines:
+        globe.add_coastlines()
+    if features.borders:
+        globe.add_borders()
+    return globe
+
+
+def add_files(globe: Globe, files: Iterable[Path]) -> None:
+    """Draw what is in files; whatever a library says of a damaged one is said with its name."""
+    for path in files:
+        try:
+            globe.add_layer(path)
+        except RuntimeError as error:  # of the libraries that read what is no GeoJSON
+            raise ValueError(f"{path}: {error}") from error
+
+
+def add_points(globe: Globe, table: Table, shown: frozenset[str]) -> None:
+    """Draw points, with the ridges of their cells and the edges of their triangles."""
+    places = table.points(Latitude(globe.latitude))
+    weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
+    triangulation = SphericalDelaunay(places)
+    if "triangles" in shown:
+        globe.add_triangulation(triangulation, look=LINES["delaunay"].scaled(weight), role="delaunay")
+    if "cells" in shown:
+        globe.add_cells(SphericalVoronoi(triangulation), look=LINES["voronoi"].scaled(weight), role="voronoi")
+    if "points" in shown:
+        globe.add_points(table.places, look=DOTS["sites"].scaled(weight), role="sites")
