@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,10 +23,10 @@ from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.polygons import Polygons, Rings
 from stereodel.globe.raster import Raster
 from stereodel.render.colors import ColorScale
-from stereodel.render.page import Color, Item, Page
+from stereodel.render.page import Color, Item, Label, Page
 from stereodel.render.saving import save_page
 from stereodel.render.sizes import LARGEST_SIZE
-from stereodel.render.style import BLACK, LABEL_SIZE, PRINT_WIDTH, DotStyle, LineStyle
+from stereodel.render.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotStyle, LineStyle
 from stereodel.render.view import MapView
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
@@ -186,13 +187,15 @@ class Globe:
         size: float = LABEL_SIZE,
         color: Color = BLACK,
         halo: float = looks.HALO,
+        halo_color: Color = WHITE,
     ) -> None:
-        """Write at places (n, 2), degrees, moved by `offset` points, with a white halo; the first matter most.
+        """Write at places (n, 2), degrees, moved by `offset` points, with a halo; the first matter most.
 
         A label that would cover one that matters more is left out, and so is one whose place is out of sight.
         """
         places = self._xyz(lonlat, "lonlat")
-        labels = tuple(placed_label(text, offset, size, color, halo) for text in texts)
+        look = Label("", (0.0, 0.0), size=size, color=color, halo=halo, halo_color=halo_color)
+        labels = tuple(placed_label(replace(look, text=text), offset) for text in texts)
         if len(labels) != len(places):
             raise ValueError(f"texts has {len(labels)} entries, but lonlat has {len(places)} places")
         self.add(Names(places, labels))

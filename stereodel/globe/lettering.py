@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Literal
 
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.render.page import Color, Item, Label
+from stereodel.render.page import Item, Label
 
 GAP = 1.0
 """Least distance between labels, points."""
 
 
-def placed_label(text: str, offset: tuple[float, float], size: float, color: Color, halo: float) -> Label:
+def placed_label(label: Label, offset: tuple[float, float]) -> Label:
     """A label on the side of its place that an offset in points points to."""
     align: Literal["left", "center", "right"] = "left" if offset[0] > 0 else "right" if offset[0] < 0 else "center"
     valign: Literal["bottom", "center", "top"] = "center" if offset[0] else "bottom" if offset[1] > 0 else "top"
-    return Label(text, (0.0, 0.0), offset, align, valign, size, color, halo=halo)
+    return replace(label, offset=offset, align=align, valign=valign)
 
 
 def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], points_per_unit: float) -> list[Item]:

@@ -62,7 +62,7 @@ class SphereMesh:
         done_faces, done_owners = [faces[:0]], [owners[:0]]
         while len(faces):
             sides, which = sides_of(faces)
-            on_border = np.isin(_codes(sides), border)
+            on_border = _among(_codes(sides), border)
             allowed = np.where(on_border, tolerance, max(tolerance, INNER_TOLERANCE))
             long = self._bends(lens, corners, xyz, sides, allowed)
             pattern = long[which]
@@ -71,7 +71,7 @@ class SphereMesh:
             done_owners.append(owners[whole])
             middle = np.cumsum(long) - 1 + len(xyz)
             halves = np.stack([sides, np.broadcast_to(middle[:, None], sides.shape)], axis=2)[long & on_border]
-            border = np.concatenate([border, _codes(halves.reshape(-1, 2))])
+            border = np.sort(np.concatenate([border, _codes(halves.reshape(-1, 2))]))
             added = self._middles(corners[sides[long, 0]], corners[sides[long, 1]])
             corners, xyz = np.concatenate([corners, added]), np.concatenate([xyz, self._place(added)])
             faces, owners = _halved(np.concatenate([faces, middle[which]], axis=1), pattern, owners)
@@ -80,7 +80,7 @@ class SphereMesh:
 
     @cached_property
     def _border(self) -> npt.NDArray[np.int64]:
-        """Codes of the sides that one triangle alone has, or triangles of two regions."""
+        """Codes, in order, of the sides that one triangle alone has, or triangles of two regions."""
         sides, which = sides_of(self.faces)
         low, high = np.full(len(sides), len(self.owners)), np.full(len(sides), -1)
         owner = np.repeat(self.owners, 3)
@@ -169,6 +169,13 @@ def sides_of(faces: Indices) -> tuple[Indices, Indices]:
     pairs = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
     codes, which = np.unique(_codes(pairs), return_inverse=True)
     return np.stack([codes >> 32, codes & (2**32 - 1)], axis=1), which.reshape(-1, 3)
+
+
+def _among(codes: npt.NDArray[np.int64], known: npt.NDArray[np.int64]) -> npt.NDArray[np.bool_]:
+    """Which codes are among those known, which are in order: `np.isin` would put both in order again."""
+    places = np.searchsorted(known, codes)
+    found: npt.NDArray[np.bool_] = np.append(known, -1)[places] == codes
+    return found
 
 
 def _codes(pairs: Indices) -> npt.NDArray[np.int64]:

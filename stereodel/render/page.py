@@ -171,7 +171,8 @@ class Label:
     rotation: float = 0.0
     role: str = "label"
     halo: float = 0.0
-    """Width of a white line round the letters, points."""
+    """Width of a line round the letters, points."""
+    halo_color: Color = (1.0, 1.0, 1.0, 1.0)
 
 
 Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Picture | Label
@@ -264,5 +265,7 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             return {"outline": np.concatenate(item.outline), **item.painter.arrays()}
         case Label():
             halo = [item.halo] if item.halo else []
+            if item.halo and item.halo_color != Label.halo_color:
+                halo += item.halo_color
             numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo]
             return {"place": np.array(numbers), "text": np.array([item.text, item.align, item.valign])}

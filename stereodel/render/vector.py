@@ -353,5 +353,5 @@ def _draw_label(axes: Axes, label: Label) -> None:
         zorder=1e6,
         gid=label.role,
         clip_on=False,
-        path_effects=[withStroke(linewidth=2 * label.halo, foreground="white")] if label.halo else None,
+        path_effects=[withStroke(linewidth=2 * label.halo, foreground=label.halo_color)] if label.halo else None,
     )

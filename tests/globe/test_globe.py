@@ -1,6 +1,7 @@
 """Globes: layers, lenses and views on pages and in files."""
 
 import pickle
+from dataclasses import replace
 from xml.etree import ElementTree as ET
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.transforms import Affine2D
 from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, data, fisheye, lonlat_to_xyz
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render import StereographicView, View
+from stereodel.render.labels import label_layer
 from stereodel.render.outlines import patch_outline
 from stereodel.render.page import Dots, Label, Mosaic, Patch, Polylines, Stroke
 from stereodel.sphere import SphereCircle
@@ -285,3 +287,16 @@ def test_labels_are_what_they_were():
     (label,) = globe.page().labels
     assert isinstance(label, Label)
     assert (label.align, label.valign, label.offset, label.size) == ("right", "center", (-3.0, 0.0), 7.0)
+
+
+def test_a_halo_has_the_colour_that_is_asked_for():
+    """In pixels, and in what the first net compares; a white one adds nothing there."""
+    globe = Globe()
+    globe.add_labels(["Paris"], [PARIS], halo=3.0, halo_color=(0.0, 0.4, 0.0, 1.0))
+    page = globe.page()
+    letters = label_layer(page, 400)
+    np.testing.assert_array_equal(np.median(letters[letters[..., 3] == 255], axis=0), [0, 102, 0, 255])
+    (label,) = page.labels
+    pages = [replace(page, items=(item,)) for item in (label, replace(label, halo_color=Label.halo_color))]
+    sizes = [sum(array.size for array in each.arrays().values()) for each in pages]
+    assert sizes[0] - sizes[1] == 4
