@@ -33,7 +33,7 @@ system: ## get the offscreen OpenGL libraries, or say how
 	@tools/system_libraries.sh
 
 figures: $(STAMP) system ## draw every figure that is out of date into out/
-	@$(BUILD) fig earth sky
+	@$(BUILD) fig globe earth sky
 
 animations: $(STAMP) system ## draw every animation that is out of date into out/
 	@$(BUILD) anim

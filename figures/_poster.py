@@ -1,5 +1,7 @@
 """What the pictures of real data share: title, credit, the arrays of a diagram, coastlines."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from stereodel import SphericalVoronoi, data, lonlat_to_xyz
@@ -43,6 +45,20 @@ def poster(items: tuple, title: str, subtitle: str, credit: str, *, ink: tuple, 
         Label(credit, (LEFT, EXTENT[2] + 0.025), align="left", valign="baseline", size=6.0, color=faint),
     )
     return Page(EXTENT, (*items, *texts), **options)
+
+
+def captioned(page: Page, title: str, subtitle: str, credit: str, *, ink: tuple, above: float, below: float) -> Page:
+    """A page of globes with a title above and a credit below, in strips of so many points."""
+    left, right, bottom, top = page.extent
+    point = (right - left) / page.width
+    edge, faint = left + 10 * point, (*ink[:3], 0.62)
+    texts = (
+        Label(title, (edge, top + (above - 24) * point), align="left", valign="baseline", size=17.0, color=ink),
+        Label(subtitle, (edge, top + (above - 38) * point), align="left", valign="baseline", size=8.5, color=ink),
+        Label(credit, (edge, bottom - (below - 7) * point), align="left", valign="baseline", size=6.0, color=faint),
+    )
+    extent = (left, right, bottom - below * point, top + above * point)
+    return replace(page, extent=extent, items=(*page.items, *texts))
 
 
 def legend(scale: ColorScale, ticks: dict, title: str, ink: tuple) -> tuple:

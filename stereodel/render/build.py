@@ -30,8 +30,8 @@ from stereodel._files import replacing
 from stereodel.render.cores import usable_cores
 from stereodel.render.provenance import library_digest, library_versions
 
-SCRIPTS = ("fig", "earth_", "sky_", "anim_")
-"""Beginnings of the names of scripts: the paper's figures, pictures of real data, animations."""
+SCRIPTS = ("fig", "globe_", "earth_", "sky_", "anim_")
+"""Beginnings of the names of scripts: the paper's figures, globes through lenses, pictures of real data, animations."""
 
 Record = dict[str, Any]
 

@@ -1,0 +1,67 @@
+"""
+Europe, airport by airport
+==========================
+
+The Voronoi cells of the airports with a code of three letters, through a fisheye over Europe: every place belongs to
+the airport that is nearest on the Earth, whatever the lens does to the picture. The colour is the area of the cell on
+the ellipsoid. The cells' sides are great circles; through the lens they are circles too, and drawn as such.
+Chosen by us: focus and magnification, and which airports are labelled.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from _poster import LATITUDE, captioned
+
+from stereodel import SphericalVoronoi, data, earth, fisheye
+from stereodel.globe import Globe
+from stereodel.render import ColorScale, Figure, Page
+from stereodel.render.style import BLACK, WHITE, DotStyle, LineStyle
+
+FOCUS = (11.0, 49.0)
+MAGNIFICATION = 4.0
+SCALE = ColorScale("YlGnBu", 1e3, 1e6, log=True)  # km²
+TICKS = {1e3: "1000", 1e4: "10 000", 1e5: "100 000", 1e6: "1 million"}
+LABELLED = [
+    *("FRA", "LHR", "CDG", "AMS", "MAD", "FCO", "IST", "ZRH", "VIE", "CPH", "ARN", "OSL", "HEL", "WAW", "PRG", "BUD"),
+    *("ATH", "LIS", "DUB", "KEF", "BCN", "SVO", "MXP", "BEG", "OTP", "SOF", "KBP", "RIX", "EDI", "BGO", "PMI"),
+]
+
+
+def geometry() -> dict:
+    """The airports with a code, and the areas of their cells in km²."""
+    table = data.airports()
+    coded = table.iata != ""
+    voronoi = SphericalVoronoi.from_lonlat(table.lonlat[coded], latitude=LATITUDE)
+    areas = voronoi.areas(radius=earth.AUTHALIC_RADIUS_KM)
+    return {"lonlat": table.lonlat[coded], "iata": table.iata[coded], "areas": areas}
+
+
+def draw(g: dict) -> Page:
+    """Cells by area, coast and borders, and the codes of large airports."""
+    globe = Globe(latitude=LATITUDE)
+    cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
+    globe.add_cells(cells, colors=SCALE(g["areas"]), look=LineStyle(WHITE, 0.3))
+    globe.add_borders(look=LineStyle((0.1, 0.1, 0.1, 0.6), 0.25))
+    globe.add_coastlines(look=LineStyle(BLACK, 0.5))
+    labelled = g["lonlat"][[int(np.flatnonzero(g["iata"] == code)[0]) for code in LABELLED]]
+    globe.add_points(labelled, look=DotStyle(BLACK, 1.5, rim=WHITE, rim_width=0.4))
+    globe.add_labels(LABELLED, labelled, size=7.5, offset=(3.5, 0.0), halo=1.3)
+    page = captioned(
+        globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)),
+        "Europe, airport by airport",
+        "The part of the Earth that is nearest to each airport with a code; the middle of Europe four times as large.",
+        "Airports: airportsdata. Coast and borders: Natural Earth. Areas on WGS84.",
+        ink=BLACK,
+        above=44.0,
+        below=52.0,
+    )
+    _, right, bottom, _ = page.extent
+    bar = ((0.22 * right, bottom + 0.15), (0.56 * right, 0.028))
+    return replace(page, items=(*page.items, *SCALE.legend(*bar, TICKS, title="area, km²", ink=BLACK, type_size=8.0)))
+
+
+FIGURE = Figure("globe_europe", geometry, draw)
+
+if __name__ == "__main__":
+    FIGURE.main()
