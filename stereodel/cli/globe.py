@@ -20,7 +20,9 @@ def command(
     projection: globe.Flattened = globe.Projection.globe,
     extent: globe.Extent = 90.0,
     layer: globe.Layers = None,
-    land: globe.Land = True,
+    texture: globe.Texture = None,
+    texture_box: globe.TextureBox = None,
+    land: globe.Land = None,
     coastlines: globe.Coastlines = True,
     borders: globe.Borders = False,
     rivers: globe.Rivers = False,
@@ -35,7 +37,7 @@ def command(
     """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye."""
     from stereodel.cli.destinations import Destination
     from stereodel.cli.globe_aim import Aim, place
-    from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe
+    from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe, texture_of
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
 
@@ -44,7 +46,7 @@ def command(
     table = read(points, lon=lon, lat=lat) if points is not None else None
     with stage("reading maps"):
         features = Features(land, coastlines, borders, rivers, lakes, graticule)
-        drawing = new_globe(features, latitude)
+        drawing = new_globe(features, latitude, texture_of(texture, texture_box))
         add_files(drawing, layer or ())
         if table is not None:
             aim = aim.with_middle_of(table.points(latitude))

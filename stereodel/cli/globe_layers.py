@@ -9,20 +9,23 @@ from pathlib import Path
 import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
-from stereodel.cli.options import Latitude
+from stereodel.cli.options import Latitude, box_of
 from stereodel.cli.sources import Table
-from stereodel.globe import Globe
+from stereodel.data import blue_marble
+from stereodel.globe import Globe, Raster
 from stereodel.render.style import DOTS, LINES
 
 CROWDED = 500  # points from which on lines and dots are drawn finer, so that what they bound can still be seen
 FINEST = 0.2  # of the usual widths
+OWN_TEXTURE = "blue-marble"
 
 
 @dataclass(frozen=True)
 class Features:
     """Which maps of the Earth are drawn."""
 
-    land: bool
+    land: bool | None
+    """Unless there is a texture, when None."""
     coastlines: bool
     borders: bool
     rivers: bool
@@ -30,10 +33,23 @@ class Features:
     graticule: float
 
 
-def new_globe(features: Features, latitude: Latitude) -> Globe:
+def texture_of(name: str | None, box: str | None) -> Raster | None:
+    """The picture that options ask for."""
+    if name is None:
+        if box is not None:
+            raise ValueError("--texture-box is for a --texture")
+        return None
+    if name == OWN_TEXTURE:
+        return Raster(blue_marble())
+    return Raster.open(name, extent=None if box is None else box_of(box, "--texture-box"))
+
+
+def new_globe(features: Features, latitude: Latitude, texture: Raster | None) -> Globe:
     """A globe with maps of the Earth, from the ground up."""
     globe = Globe(latitude=latitude.value)
-    if features.land:
+    if texture is not None:
+        globe.add_raster(texture)
+    if features.land or (features.land is None and texture is None):
         globe.add_land()
     if features.lakes:
         globe.add_lakes()

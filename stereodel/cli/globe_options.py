@@ -51,7 +51,16 @@ Layers = Annotated[
     list[Path] | None,
     typer.Option("--layer", metavar="FILE", help="Points, lines, polygons to draw: .geojson, .gpkg …; repeatable."),
 ]
-Land = Annotated[bool, typer.Option(help="Fill the land.")]
+Texture = Annotated[
+    str | None,
+    typer.Option(metavar="IMAGE", help="Picture in longitude and latitude, a file, or blue-marble, which is here."),
+]
+TextureBox = Annotated[
+    str | None, typer.Option(metavar="W,S,E,N", help="Borders of the texture in degrees; by default the whole Earth.")
+]
+Land = Annotated[
+    bool | None, typer.Option("--land/--no-land", help="Fill the land; by default, unless there is a texture.")
+]
 Coastlines = Annotated[bool, typer.Option(help="Draw the coasts.")]
 Borders = Annotated[bool, typer.Option(help="Draw the borders between countries.")]
 Rivers = Annotated[bool, typer.Option(help="Draw large rivers.")]

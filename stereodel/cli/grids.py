@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from stereodel import lonlat_to_xyz
-from stereodel._arrays import FloatArray, as_lonlat, as_scalar, as_steps
+from stereodel._arrays import FloatArray, as_scalar, as_steps
 from stereodel._files import replacing
-from stereodel.cli.options import Latitude
+from stereodel.cli.options import Latitude, box_of
 from stereodel.cli.sources import LONLAT
 from stereodel.cli.tables import save_table
 
@@ -30,7 +30,7 @@ class Grid:
         if box is None:
             steps = as_steps(180.0, spacing, "--grid")
             return cls(np.arange(-steps, steps) * 180.0 / steps, np.linspace(-90.0, 90.0, steps + 1))
-        west, south, east, north = _borders(box)
+        west, south, east, north = box_of(box, "--box")
         return cls(_steps(west, east, spacing), _steps(south, north, spacing))
 
     @property
@@ -61,17 +61,6 @@ def save_grid(path: Path, grid: Grid, columns: dict[str, FloatArray]) -> None:
         for name, values in columns.items():
             variable = file.createVariable(name, "f8", ("lat", "lon"))
             variable[:], variable._FillValue = values.reshape(len(grid.lat), len(grid.lon)), np.nan
-
-
-def _borders(box: str) -> tuple[float, float, float, float]:
-    try:
-        west, south, east, north = (float(part) for part in box.split(","))
-    except ValueError:
-        raise ValueError(f"--box is {box!r}, but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72") from None
-    as_lonlat([(west, south), (east, north)], "--box")
-    if not south < north:
-        raise ValueError(f"--box is {box!r}, but its south border must be below its north border")
-    return west, south, east if east > west else east + 360.0, north
 
 
 def _steps(low: float, high: float, spacing: float) -> FloatArray:

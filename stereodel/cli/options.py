@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from stereodel._arrays import as_lonlat
+
 
 class Latitude(StrEnum):
     """Which latitude a table holds."""
@@ -51,3 +53,15 @@ def pair(text: str, option: str, meaning: str) -> tuple[float, float]:
     except ValueError:
         raise ValueError(f"{option} is {text!r}, but must be {meaning}, e.g. {option}=10.5,48") from None
     return first, second
+
+
+def box_of(text: str, option: str) -> tuple[float, float, float, float]:
+    """Borders of a box "W,S,E,N" in degrees; the eastern one is beyond 180 where the box goes over ±180°."""
+    try:
+        west, south, east, north = (float(part) for part in text.split(","))
+    except ValueError:
+        raise ValueError(f"{option} is {text!r}, but must be W,S,E,N in degrees, e.g. {option}=-25,34,45,72") from None
+    as_lonlat([(west, south), (east, north)], option)
+    if not south < north:
+        raise ValueError(f"{option} is {text!r}, but its south border must be below its north border")
+    return west, south, east if east > west else east + 360.0, north

@@ -1,8 +1,11 @@
 """`stereodel globe`: pictures that show what was asked for."""
 
 import json
+import struct
+import zlib
 from dataclasses import replace
 
+import imageio.v3 as iio
 import numpy as np
 import pytest
 
@@ -87,6 +90,21 @@ def test_layers_of_points_lines_and_polygons(folder, run):
     ) == 5  # the polygon's outline and the dot's rim, too
 
 
+def test_textures(folder, run):
+    """A picture of the Earth that is red in the west: seen from 90° W, the globe is red, and from 90° E it is not."""
+    pixels = np.zeros((20, 40, 3), dtype=np.uint8)
+    pixels[:, :20, 0] = 255
+    iio.imwrite(folder / "red.png", pixels)
+    for name, view in (("west.png", "-90,0"), ("east.png", "90,0")):
+        run("globe", "-o", name, "--size", 60, "--texture", "red.png", f"--view={view}", "--no-coastlines")
+    west, east = (read_picture(folder / name)[30, 30].astype(int) for name in ("west.png", "east.png"))
+    assert west[0] > 150 > 50 > west[1]
+    assert east.max() < 50
+    run("globe", "-o", "box.png", "--size", 60, "--texture", "red.png", "--texture-box=-10,-10,10,10")
+    run("globe", "-o", "marble.svg", "--texture", "blue-marble", "--land")
+    assert 'id="land' in (folder / "marble.svg").read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("projection", list(Projection))
 def test_projections(folder, run, projection):
     run("globe", "cities.csv", "-o", "globe.png", "--size", 120, "--projection", projection.value)
@@ -116,6 +134,13 @@ def test_pdf_to_stdout(folder):
         (["--projection", "stereographic", "--extent", "180"], "extent"),
         (["--graticule", "7"], "must be a whole multiple"),
         (["--graticule", "-5"], "spacing is -5"),
+        (["--texture", "missing.png"], "missing.png: No such file or directory"),
+        (["--texture", "broken.gpkg"], "broken.gpkg is no picture"),
+        (["--texture", "cut.png"], "cut.png is damaged or cut off"),
+        (["--texture", "huge.png"], "huge.png has too many pixels: at most 134217728 are read"),
+        (["--texture", "square.png"], "square.png: pixels is 9 wide and 9 high"),
+        (["--texture", "square.png", "--texture-box", "1,2,3"], "--texture-box is '1,2,3', but must be W,S,E,N"),
+        (["--texture-box", "1,2,3,4"], "--texture-box is for a --texture"),
         (["--layer", "missing.geojson"], "missing.geojson: No such file or directory"),
         (["--layer", "broken.geojson"], "broken.geojson is no JSON"),
         (["--layer", "odd.geojson"], "odd.geojson is no GeoJSON"),
@@ -129,6 +154,13 @@ def test_wrong_input(folder, options, message, run):
     (folder / "broken.gpkg").write_text("no database", encoding="utf-8")
     (folder / "odd.geojson").write_text('{"type": "Map"}', encoding="utf-8")
     (folder / "far.geojson").write_text('{"type": "Point", "coordinates": [0, 100]}', encoding="utf-8")
+    square = iio.imwrite("<bytes>", np.zeros((9, 9, 3), dtype=np.uint8), extension=".png")
+    (folder / "square.png").write_bytes(square)
+    noise = np.random.default_rng(0).integers(0, 256, (40, 80, 3), dtype=np.uint8)
+    (folder / "cut.png").write_bytes(iio.imwrite("<bytes>", noise, extension=".png")[:5000])
+    header = struct.pack(">IIBBBBB", 300_000, 150_000, 8, 2, 0, 0, 0)  # of a picture of 135 GB
+    chunk = struct.pack(">I", 13) + b"IHDR" + header + struct.pack(">I", zlib.crc32(b"IHDR" + header))
+    (folder / "huge.png").write_bytes(square[:8] + chunk + square[33:])
     before = sorted(folder.iterdir())
     said = run("globe", "-o", "globe.svg", *options, code=2)
     assert message in said
