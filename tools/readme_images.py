@@ -11,7 +11,13 @@ from stereodel.render.build import load_drawing
 from stereodel.render.saving import save_png
 
 ROOT = Path(__file__).resolve().parent.parent
-WIDTHS = {"fig11_fisheye4": 1200, "fig01_sphere": 480, "fig08_hemisphere": 480, "fig02_plane": 480}
+WIDTHS = {
+    "fig11_fisheye4": 1200,
+    "fig01_sphere": 480,
+    "fig08_hemisphere": 480,
+    "fig02_plane": 480,
+    "globe_new_york": 1200,
+}
 """Pixels across by figure."""
 
 

@@ -76,7 +76,7 @@ class Globe:
 
     def add_raster(
         self,
-        raster: Raster | str | os.PathLike[str],
+        raster: Raster | npt.NDArray[np.uint8] | str | os.PathLike[str],
         *,
         extent: tuple[float, float, float, float] | None = None,
         opacity: float = 1.0,
@@ -86,11 +86,11 @@ class Globe:
 
         Parameters
         ----------
-        raster : Raster or path-like
+        raster : Raster, pixels as for `Raster`, or path-like
             Where it is transparent, the layers below show through. Its latitudes are taken as they stand, whatever
             those of the globe are.
         extent : tuple of float, optional
-            (west, south, east, north) of a file's picture in degrees; without it a file is 2:1 and shows everything.
+            (west, south, east, north) of pixels or a file in degrees; without it they are 2:1 and show everything.
         opacity : float
             In [0, 1].
         role : str
@@ -99,10 +99,12 @@ class Globe:
         Raises
         ------
         OSError, ValueError
-            As `Raster.open`; for an opacity out of range, and an extent beside a `Raster`, which has its own.
+            As `Raster` and `Raster.open`; for an opacity out of range, and an extent beside a `Raster`.
         """
         if isinstance(raster, Raster) and extent is not None:
-            raise ValueError("extent belongs to a file; a Raster has its own")
+            raise ValueError("extent belongs to pixels and files; a Raster has its own")
+        if isinstance(raster, np.ndarray):
+            raster = Raster(raster, extent)
         shown = raster if isinstance(raster, Raster) else Raster.open(raster, extent=extent)
         self.add(Image(shown, as_scalar(opacity, "opacity", low=0.0, high=1.0), role))
 

@@ -148,13 +148,15 @@ def test_painted_where_it_lies_on_the_page():
     assert np.array_equal(found, plain.paint((-1.0, 1.0, 1 / 64, 1 / 64), (128, 128)))
 
 
-def test_globes_take_rasters_and_files(tmp_path):
+def test_globes_take_rasters_files_and_pixels(tmp_path):
     Pillow.fromarray(COLOURED.pixels).save(tmp_path / "map.png")
-    globe, same = Globe(), Globe()
-    globe.add_raster(COLOURED)
-    same.add_raster(tmp_path / "map.png")
-    pages = [g.page(LENS).arrays() for g in (globe, same)]
-    assert [k for k in pages[0] if not np.array_equal(pages[0][k], pages[1][k])] == []
+    pages = []
+    for raster in (COLOURED, tmp_path / "map.png", COLOURED.pixels):
+        globe = Globe()
+        globe.add_raster(raster)
+        pages.append(globe.page(LENS).arrays())
+    for page in pages[1:]:
+        assert [k for k in pages[0] if not np.array_equal(pages[0][k], page[k])] == []
     assert "0001_picture_raster_raster" in pages[0]
 
 
@@ -162,7 +164,7 @@ def test_globes_take_rasters_and_files(tmp_path):
     ("raster", "options", "words"),
     [
         (COLOURED, {"opacity": 1.5}, "opacity is 1.5"),
-        (COLOURED, {"extent": (0, 0, 1, 1)}, "extent belongs to a file"),
+        (COLOURED, {"extent": (0, 0, 1, 1)}, "extent belongs to pixels and files"),
     ],
 )
 def test_bad_options_are_refused(raster, options, words):
