@@ -201,3 +201,9 @@ INNER_TOLERANCE: Final = 0.005
 
 Sides are then up to 11° long, along which the light on a ball changes evenly up to 0.1 %.
 """
+
+OPPOSITE: Final = 1e-9
+"""Distance of a point from another's antipode, radii, below which no great circle is taken to join the two.
+
+Above it rounding turns the circle between them by less than 1e-6 rad, which no picture shows.
+"""

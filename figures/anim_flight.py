@@ -1,0 +1,58 @@
+"""
+Animation: Paris, New York, Tokyo
+=================================
+
+A flight over a globe that bends: each city in turn is magnified eight times, and on the way the lens lets go just as
+far as the distance asks for. Every frame is conformal and shows the whole Earth but for its far side. The way is the
+shortest in hyperbolic space, where a fisheye of magnification S lies at the distance ln S from the globe as it is.
+"""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+
+from stereodel.globe import Flight, Globe, Stop
+from stereodel.globe.flights import Shot
+from stereodel.render import Animation, LineStyle, Page
+from stereodel.render.style import BLACK
+
+CITIES = {"Paris": (2.35, 48.86), "New York": (-74.01, 40.71), "Tokyo": (139.69, 35.69)}
+MAGNIFICATION = 8.0
+SECONDS = 0.12  # of a frame
+SIZE = 440  # pixels
+WIDTH = 165.0  # points: 192 dots per inch
+COAST = LineStyle((0.33, 0.4, 0.47, 1.0), 0.35)
+
+
+def trip() -> Flight:
+    """From city to city, and over the globe as it is back to the first."""
+    paris, new_york, tokyo = CITIES.values()
+    near = [Stop(place, MAGNIFICATION, hold=0.6) for place in (paris, new_york, tokyo)]
+    home = [Stop(tokyo, hold=0.0), Stop(paris, hold=0.3), Stop(paris, MAGNIFICATION, hold=0.0)]
+    return Flight([*near, *home], pace=0.5)
+
+
+def earth() -> Globe:
+    """Land, a graticule and the cities."""
+    globe = Globe()
+    globe.add_land(outline=COAST)
+    globe.add_graticule(15)
+    globe.add_points(list(CITIES.values()))
+    globe.add_labels(list(CITIES), list(CITIES.values()), size=7.0, color=BLACK)
+    return globe
+
+
+def frame(globe: Globe, shot: Shot) -> Page:
+    """The globe as it is seen at one moment."""
+    return globe.page(*shot, width=WIDTH)
+
+
+def frames() -> Iterator[Callable[[], Page]]:
+    """A page for each moment."""
+    globe, flight = earth(), trip()
+    return (partial(frame, globe, flight(SECONDS * k)) for k in range(round(flight.seconds / SECONDS)))
+
+
+ANIMATION = Animation("anim_flight", frames, seconds=SECONDS, size=SIZE)
+
+if __name__ == "__main__":
+    ANIMATION.main()
