@@ -19,7 +19,6 @@ from matplotlib.axes import Axes
 from matplotlib.axis import XAxis, YAxis
 from matplotlib.cbook import normalize_kwargs
 from matplotlib.collections import PathCollection
-from matplotlib.contour import QuadContourSet
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.projections import register_projection
@@ -32,7 +31,7 @@ from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.constants import PAGE_TOLERANCE
 from stereodel.render.mpl_frame import Disc, Limb
 from stereodel.render.mpl_geometries import compound, paths_of
-from stereodel.render.mpl_mesh import mesh_paths
+from stereodel.render.mpl_plots import GlobePlots
 from stereodel.render.mpl_transforms import EDGES, Edges, LonLatToPage
 from stereodel.render.style import LINES, LineStyle
 from stereodel.render.view import MapView, View
@@ -44,7 +43,7 @@ LAND = "0.86"
 """Gray on which coasts, borders and the graticule can be seen."""
 
 
-class FisheyeAxes(Axes):
+class FisheyeAxes(GlobePlots):
     """A globe, or a flat stereographic map, seen through a conformal map.
 
     Made by ``plt.subplot(projection="stereodel.fisheye", focus=…, magnification=…)`` after
@@ -84,11 +83,7 @@ class FisheyeAxes(Axes):
 
     name = "stereodel.fisheye"
 
-    transGlobe: LonLatToPage  # noqa: N815 (matplotlib's way to name transforms)
-    """Degrees to the unit disc."""
-    transPage: Transform  # noqa: N815
-    """The unit disc to pixels."""
-    transGreatCircle: Transform  # noqa: N815
+    transGreatCircle: Transform  # noqa: N815 (matplotlib's way to name transforms)
     """Degrees to pixels, with great circles between vertices."""
     transStraight: Transform  # noqa: N815
     """Degrees to pixels, with what is straight on the map of longitude and latitude between vertices."""
@@ -311,34 +306,6 @@ class FisheyeAxes(Axes):
         transform = kinds[as_choice(edges, EDGES, "edges")]
         return self._collection(paths, transform, {"edgecolor": "black", "linewidth": 0.5} | kwargs)
 
-    def _collection(self, paths: list[Path], transform: Transform, look: dict[str, Any]) -> PathCollection:
-        collection = PathCollection(paths, transform=transform, **look)
-        self.add_collection(collection, autolim=False)
-        return collection
-
-    # What matplotlib would do in another way.
-
-    def contour(self, *args: Any, **kwargs: Any) -> QuadContourSet:
-        """Contour lines, as in matplotlib; those that are closed are no regions, so they end where the view ends."""
-        lines = super().contour(*args, **kwargs)
-        lines.set_paths([_opened(path) for path in lines.get_paths()])
-        return lines
-
-    def pcolormesh(self, *args: Any, **kwargs: Any) -> PathCollection:  # type: ignore[override]
-        """Cells of a grid of longitude and latitude, as in matplotlib but for `shading`, which is never "gouraud".
-
-        Returns a PathCollection with the values as its array, cut where the view ends.
-        """
-        mesh = super().pcolormesh(*args, **kwargs)
-        mesh.remove()
-        paths = mesh_paths(np.asarray(mesh.get_coordinates()), self.transGlobe)
-        look = {"norm": mesh.norm, "cmap": mesh.cmap, "alpha": mesh.get_alpha(), "zorder": mesh.get_zorder()}
-        cells = self._collection(paths, self.transPage, look)
-        cells.set_array(np.ma.ravel(np.ma.asarray(mesh.get_array())))
-        cells.set(edgecolor="face", linewidth=0.0, antialiased=False, rasterized=mesh.get_rasterized())
-        self._sci(cells)
-        return cells
-
 
 def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapView:
     if view is None:
@@ -350,18 +317,6 @@ def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapVie
 
 def _path(lonlat: FloatArray, offsets: IntArray, *, closed: bool = False) -> Path:
     return compound(lonlat, np.repeat(np.arange(len(offsets) - 1), np.diff(offsets)), closed=closed)
-
-
-def _opened(path: Path) -> Path:
-    """The path with closing lines that are lines like others."""
-    if path.codes is None:
-        return path
-    codes, points = np.array(path.codes), np.array(path.vertices)
-    begins = np.flatnonzero(codes == Path.MOVETO)
-    closing = np.flatnonzero(codes == Path.CLOSEPOLY)
-    points[closing] = points[begins[np.searchsorted(begins, closing) - 1]]
-    codes[closing] = Path.LINETO
-    return Path(points, codes)
 
 
 register_projection(FisheyeAxes)

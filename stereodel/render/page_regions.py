@@ -19,6 +19,9 @@ from stereodel.sphere import xyz_to_lonlat
 
 GOLDEN_TURN_RAD = np.pi * (3 - np.sqrt(5))
 
+POLAR_LATITUDE = 80.0
+"""Degrees beyond which a jump in longitude of an edge is not taken for one across ±180°."""
+
 
 @lru_cache(maxsize=32)
 def inverse_of(lens: MoebiusMap) -> MoebiusMap:
@@ -149,17 +152,20 @@ def _covers(rings: Lines, lonlat: FloatArray, point: FloatArray) -> bool:
     """
     edge = _edges_of(rings)
     a, b = rings.vertices[edge], rings.vertices[edge + 1]
-    at_pole = (rings.vertices[:, :2] == 0).all(axis=1)
-    lon = lonlat[:, 0]
+    lon, (meridian, height) = lonlat[:, 0], xyz_to_lonlat(point).tolist()
     given = lon[edge + 1] - lon[edge]
-    step = np.mod(given + 180.0, 360.0) - 180.0
-    along = at_pole[edge] & at_pole[edge + 1] & (a[:, 2] == b[:, 2])
-    step = np.where(along, given, step)
-    meridian = float(xyz_to_lonlat(point)[0])
-    passed = _passed(lon[edge], step, meridian)
-    crossed = _is_south(a, b, step, point) & ~(at_pole[edge] | at_pole[edge + 1])
-    north = (at_pole[edge] & (a[:, 2] > 0)) | (at_pole[edge + 1] & (b[:, 2] > 0))
-    hits = np.count_nonzero(passed & (crossed | north))
+    # Where both ends are nearer to a pole than the point is, either way round the pole has the same outcome there: the
+    # one given is that of maps, on which a ring may go along the border or, as a hull does, close to it.
+    near = np.minimum(np.abs(a[:, 2]), np.abs(b[:, 2])) > np.sin(
+        np.radians(max(POLAR_LATITUDE, (90 + abs(height)) / 2))
+    )
+    polar = near & (a[:, 2] * b[:, 2] > 0)
+    step = np.where(polar, given, np.mod(given + 180.0, 360.0) - 180.0)
+    at_pole = (rings.vertices[:, :2] == 0).all(axis=1)
+    ends_there = at_pole[edge] | at_pole[edge + 1]
+    north = (polar | ends_there) & (a[:, 2] + b[:, 2] > 0)
+    crossed = _is_south(a, b, step, point) & ~(polar | ends_there)
+    hits = np.count_nonzero(_passed(lon[edge], step, meridian) & (crossed | north))
     return bool((hits + _wound_small(rings, edge, step)) % 2)
 
 

@@ -125,6 +125,57 @@ def test_cells_of_a_grid_tile_the_disc(sight):
     assert mesh.get_array()[number] == number
 
 
+def test_contours_of_scattered_points_cover_the_disc():
+    """Their hull has edges that run close by the poles, over more than half of the map."""
+    rng = np.random.default_rng(1)
+    lon, lat = rng.uniform(-180, 180, 3000), np.degrees(np.arcsin(rng.uniform(-1, 1, 3000)))
+    axes = axes_of(focus=(20, 10), magnification=2.5)
+    height = np.sin(np.radians(2 * lon)) * np.cos(np.radians(lat))
+    filled = axes.tricontourf(lon, lat, height, levels=9)
+    assert sum(area(axes.transGlobe.transform_path(path)) for path in filled.get_paths()) == pytest.approx(
+        np.pi, rel=1e-3
+    )
+    assert axes.tricontour(lon, lat, height, levels=9).get_paths()
+
+
+def test_hexagons_tile_the_disc_where_points_are():
+    axes = axes_of(focus=PARIS, magnification=2)
+    lon, lat = (grid.ravel() for grid in np.meshgrid(np.arange(-180, 180, 3), np.arange(-60, 89, 3)))
+    cells = axes.hexbin(lon, lat, gridsize=20, edgecolors="w", linewidths=2)
+    assert cells.get_array().sum() == len(lon)
+    covered = [axes.transGlobe.transform_path(path) for path in cells.get_paths()]
+    assert sum(abs(area(path)) for path in covered) == pytest.approx(np.pi, rel=0.01)
+    assert cells.get_edgecolor().tolist() == [[1, 1, 1, 1]]
+
+
+def test_arrows_point_east_and_north():
+    """Along the images of parallel and meridian, with their lengths; at the north pole, too."""
+    axes = axes_of(focus=PARIS, magnification=3, view=StereographicView(20, 60, extent=120))
+    lon, lat = np.array([0.0, 50, 20, 10]), np.array([40.0, 60, 80, 30])
+    steps = []
+    for east, north, way in ((2.0, 0.0, (1e-3, 0)), (0.0, 3.0, (0, 1e-3))):
+        arrows = axes.quiver(lon, lat, np.full(4, east), np.full(4, north))
+        page = axes.transGlobe.transform(np.column_stack([lon, lat]) + way)
+        page -= axes.transGlobe.transform(np.column_stack([lon, lat]))
+        steps.append(np.column_stack([arrows.U, arrows.V]))
+        wanted = page / np.hypot(*page.T)[:, None] * (east + north)
+        assert np.allclose(steps[-1], wanted, atol=1e-3)
+    assert np.allclose(np.sum(steps[0] * steps[1], axis=1), 0, atol=1e-3)  # conformal
+    axes.quiver([0.0], [90.0], [1.0], [1.0])
+    axes.barbs(lon, lat, lat, lon)
+    pixels(axes)
+    with pytest.raises(TypeError, match="lon, lat, east, north"):
+        axes.quiver([1.0], [2.0])
+
+
+def test_pictures_of_the_page_alone():
+    axes = axes_of()
+    axes.imshow(np.zeros((4, 4)), extent=(-1, 1, -1, 1), transform=axes.transPage)
+    assert axes.get_xlim() == (-1, 1)
+    with pytest.raises(ValueError, match="imshow cannot bend a picture"):
+        axes.imshow(np.zeros((4, 4)))
+
+
 def test_cells_around_values_on_the_poles():
     axes = axes_of(view=(0, 60))
     lon, lat = np.meshgrid(np.linspace(-175, 175, 36), np.linspace(-90, 90, 19))
