@@ -181,6 +181,12 @@ PAGE_TOLERANCE: Final = 5e-5
 A twentieth of a pixel at a radius of 1000 pixels, as `FLATNESS`; matplotlib draws one path at any resolution.
 """
 
+FINEST_POINTS: Final = 0.02
+"""Corners of filled regions in vector files that are closer along an outline, in points, become one.
+
+A dot of a printer at 3600 dots an inch; as far as `Globe.page` lets what it draws stray.
+"""
+
 MOST_TEXELS: Final = 2**27
 """Pixels of the largest picture that is read or warped, 16384 × 8192: with its smaller copies it takes 1.4 GB.
 

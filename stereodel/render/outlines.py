@@ -19,12 +19,18 @@ ARC_STEP_RAD = np.pi / 4
 """Longest arc that one cubic stands for: it is off by 4e-6 of the radius."""
 
 
-def patch_outline(patch: Patch) -> Outline:
-    """The loops of a patch as one compound path, its rim as arcs of the circle."""
+def patch_outline(patch: Patch, *, spacing: float = 0.0) -> Outline:
+    """The loops of a patch as one compound path, its rim as arcs of the circle.
+
+    Corners closer along a loop than `spacing`, in page units, become one, and loops no longer than that fall out: a
+    continent that a lens makes a spot is not written point by point.
+    """
     vertices: list[FloatArray] = []
     codes: list[npt.NDArray[np.uint8]] = []
     for loop in loops(boundary_sides(patch.faces)):
-        points, kinds = _loop_path(patch, loop)
+        points, kinds = _loop_path(patch, loop, spacing)
+        if len(points) == 3:  # there, back and closed
+            continue
         vertices.append(points)
         codes.append(kinds)
     if not vertices:
@@ -72,7 +78,7 @@ def loops(sides: Indices) -> list[Indices]:
     return found
 
 
-def _loop_path(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
+def _loop_path(patch: Patch, loop: Indices, spacing: float) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
     """One loop, closed; runs along the rim as cubics, all else as straight lines."""
     on_rim = patch.rim[loop] & patch.rim[np.roll(loop, -1)]
     if on_rim.all():
@@ -90,12 +96,21 @@ def _loop_path(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.
         if sweep > 0:
             added, kind = _arc(points[run[0]], following[run[-1]], np.array(patch.middle), sweep), Outline.CURVE4
         else:
-            added, kind = following[run], Outline.LINETO
+            added, kind = _spaced(points[run[0]], following[run], spacing), Outline.LINETO
         vertices.append(added)
         codes.append(np.full(len(added), kind))
     vertices.append(points[:1])
     codes.append(np.array([Outline.CLOSEPOLY]))
     return np.concatenate(vertices), np.concatenate(codes).astype(np.uint8)
+
+
+def _spaced(start: FloatArray, points: FloatArray, spacing: float) -> FloatArray:
+    """Points along a line from a start, at most one to each piece of a length; the last one stays where it is."""
+    if spacing == 0.0:
+        return points
+    step = np.hypot(*np.diff(points, axis=0, prepend=start[None]).T)
+    piece = np.floor(np.cumsum(step) / spacing)
+    return points[np.diff(piece, append=np.inf) > 0]
 
 
 def _whole_circle(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.uint8]]:

@@ -30,6 +30,7 @@ from matplotlib.transforms import ScaledTranslation
 
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
+from stereodel.constants import FINEST_POINTS
 from stereodel.render.outlines import patch_outline
 from stereodel.render.page import (
     Beziers,
@@ -184,9 +185,8 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
             case Polylines() as lines:
                 yield _polylines_patch(lines)
             case Patch() as patch:
-                yield PathPatch(
-                    patch_outline(patch), facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.role
-                )
+                outline = patch_outline(patch, spacing=FINEST_POINTS / page.points_per_unit)
+                yield PathPatch(outline, facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.role)
             case Fill():
                 yield from (_fill_patch(item.paths, item) for item in items if isinstance(item, Fill))
             case Surface():

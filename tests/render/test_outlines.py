@@ -73,6 +73,23 @@ def test_a_region_that_is_all_there_is_becomes_the_whole_circle():
     np.testing.assert_allclose([box.x0, box.x1, box.y0, box.y1], [1.0, 5.0, 2.0, 6.0], atol=1e-5)
 
 
+def test_corners_nearer_than_a_spacing_become_one():
+    """A disc and a speck of many corners: of the first no point is farther than that from what is left; no speck is."""
+    angles = np.arange(1000) * 2 * np.pi / 1000
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    points = np.concatenate([[[0.0, 0.0]], ring, [[3.0, 0.0]], [3.0, 0.0] + 1e-3 * ring])
+    fan = np.stack([np.zeros(1000, dtype=np.int32), 1 + np.arange(1000), 1 + (np.arange(1000) + 1) % 1000], axis=1)
+    patch = Patch(points, np.concatenate([fan, fan + 1001]), BLACK, np.zeros(len(points), dtype=bool))
+    whole, thin = patch_outline(patch), patch_outline(patch, spacing=0.05)
+    assert len(whole.vertices) == 2 * 1002
+    assert len(thin.vertices) < 135
+    left = thin.vertices
+    assert np.abs(left[:, 0]).max() < 1.5
+    assert np.hypot(*(ring[:, None] - left[None]).transpose(2, 0, 1)).min(axis=1).max() < 0.05
+    (polygon,) = thin.transformed(Affine2D().scale(1000)).to_polygons(closed_only=True)
+    assert abs(signed_area(polygon) / 1e6 - np.pi) < 0.01
+
+
 def test_no_triangles_have_no_outline():
     nothing = Patch(np.zeros((0, 2)), np.zeros((0, 3), dtype=np.int32), BLACK, np.zeros(0, dtype=bool))
     assert len(patch_outline(nothing).vertices) == 0
