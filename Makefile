@@ -14,7 +14,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/installed
 BUILD := $(BIN)/python -m stereodel.render.build --scripts figures --out $(OUT)
 
-.PHONY: help install system figures animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
+.PHONY: help install system figures poster animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
 	readme-images docs clean
 
 help: ## list the targets
@@ -34,6 +34,10 @@ system: ## get the offscreen OpenGL libraries, or say how
 
 figures: $(STAMP) system ## draw every figure that is out of date into out/
 	@$(BUILD) fig globe earth sky
+
+poster: $(STAMP) system ## draw figures/globe_poster.py 16384 pixels across into out/poster: minutes, and 2 GB of memory
+	@mkdir -p $(OUT)/poster
+	@$(BIN)/python figures/globe_poster.py --out $(OUT)/poster --size 16384
 
 animations: $(STAMP) system ## draw every animation that is out of date into out/
 	@$(BUILD) anim
