@@ -31,8 +31,8 @@ def told_plainly() -> Iterator[None]:
         # Python flushes stdout once more on its way out, and would complain there.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise typer.Exit(BROKEN_PIPE) from None
-    except KeyboardInterrupt:
-        typer.echo("interrupted; nothing was written", err=True)
+    except KeyboardInterrupt as reason:
+        typer.echo(str(reason) or "interrupted; nothing was written", err=True)
         raise typer.Exit(INTERRUPTED) from None
     except NothingToDoError as reason:
         typer.echo(str(reason), err=True)

@@ -1,4 +1,4 @@
-"""`stereodel globe`: pictures of globes that bend."""
+"""`stereodel globe`: pictures and films of globes that bend."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from stereodel.cli import options
 EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
 PICTURES = ("png", "svg", "pdf")
+FILMS = ("gif", "webp", "apng", "mp4")
 
 
 def command(
@@ -28,20 +29,32 @@ def command(
     rivers: globe.Rivers = False,
     lakes: globe.Lakes = False,
     graticule: globe.Graticule = 15.0,
-    size: globe.Size = 1600,
+    spin: globe.Spin = False,
+    fly: globe.Fly = None,
+    seconds: globe.Seconds = 10.0,
+    fps: globe.Fps = 25.0,
+    size: globe.Size = None,
     lon: options.Lon = None,
     lat: options.Lat = None,
     latitude: options.LatitudeKind = options.Latitude.spherical,
     format: globe.Format = None,
 ) -> None:
-    """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye."""
+    """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye.
+
+    A film, .gif, .webp, .apng or .mp4, turns once with --spin, flies to places with --fly; else the focus grows and
+    shrinks again.
+    """
     from stereodel.cli.destinations import Destination
     from stereodel.cli.globe_aim import Aim, place
+    from stereodel.cli.globe_films import motion_of, save_film
     from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe, texture_of
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, PICTURES)
+    destination = Destination.of(out, format, PICTURES + FILMS)
+    filming = destination.kind in FILMS
+    if (spin or fly) and not filming:
+        raise ValueError(f"--spin and --fly are for films, but {out} is none; the endings are .{', .'.join(FILMS)}")
     aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, extent)
     table = read(points, lon=lon, lat=lat) if points is not None else None
     with stage("reading maps"):
@@ -51,5 +64,11 @@ def command(
         if table is not None:
             aim = aim.with_middle_of(table.points(latitude))
             add_points(drawing, table, frozenset(show or ("points", "cells")))
+    if filming:
+        motion = motion_of(
+            aim, spin=spin, stops=[options.pair(text, "--fly", "LON,LAT") for text in fly or ()], seconds=seconds
+        )
+        destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps, kept=out != "-"))
+        return
     with stage("drawing"):
-        destination.write(lambda path: drawing.save(path, aim.lens, aim.views, size=size))
+        destination.write(lambda path: drawing.save(path, aim.lens, aim.views, size=size or 1600))

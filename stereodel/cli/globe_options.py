@@ -66,7 +66,16 @@ Borders = Annotated[bool, typer.Option(help="Draw the borders between countries.
 Rivers = Annotated[bool, typer.Option(help="Draw large rivers.")]
 Lakes = Annotated[bool, typer.Option(help="Fill lakes.")]
 Graticule = Annotated[float, typer.Option(metavar="DEGREES", help="Spacing of meridians and parallels; 0 for none.")]
-Size = Annotated[int, typer.Option(min=1, max=65_535, help="Width of a PNG in pixels.")]
+Spin = Annotated[bool, typer.Option("--spin", help="Of a film: the globe turns once.")]
+Fly = Annotated[
+    list[str] | None,
+    typer.Option(metavar="LON,LAT", help="Of a film: the way from the focus goes there; repeatable."),
+]
+Seconds = Annotated[float, typer.Option(metavar="SECONDS", help="How long a film without --fly is.")]
+Fps = Annotated[float, typer.Option(metavar="RATE", help="Frames of a film in a second.")]
+Size = Annotated[
+    int | None, typer.Option(min=1, max=65_535, help="Width in pixels; by default 1600, and 720 for films.")
+]
 Format = Annotated[
     str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -: png (default), svg …")
 ]

@@ -4,16 +4,19 @@ import json
 import struct
 import zlib
 from dataclasses import replace
+from itertools import pairwise
 
 import imageio.v3 as iio
 import numpy as np
 import pytest
+from PIL import Image, ImageSequence
 
-from stereodel import lonlat_to_xyz
+from stereodel import fisheye, lonlat_to_xyz
 from stereodel.cli.globe_aim import Aim, middle_of
+from stereodel.cli.globe_films import motion_of
 from stereodel.cli.globe_options import Projection
 from stereodel.globe import Globe
-from stereodel.render import StereographicView, View
+from stereodel.render import Film, FrameError, StereographicView, View
 from stereodel.render.image import read_picture
 from stereodel.render.page import Dots
 
@@ -110,6 +113,74 @@ def test_projections(folder, run, projection):
     run("globe", "cities.csv", "-o", "globe.png", "--size", 120, "--projection", projection.value)
     height, width, _ = read_picture(folder / "globe.png").shape
     assert (width, height) == (120, 60 if projection == Projection.hemispheres else 120)
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "frames"),
+    [
+        ("turn.gif", ["--spin", "--seconds", 3, "--fps", 1], 3),
+        ("grow.webp", ["--seconds", 2, "--fps", 2, "--projection", "stereographic"], 4),
+    ],
+)
+def test_films(folder, run, name, options, frames):
+    """Whole files of so many frames, which differ, and nothing beside them."""
+    run("globe", "-o", name, "--focus", "10,50", "--magnify", 5, "--size", 48, *options)
+    with Image.open(folder / name) as film:
+        pictures = [np.asarray(picture.convert("RGB")) for picture in ImageSequence.Iterator(film)]
+    assert len(pictures) == frames
+    assert all((one != other).any() for one, other in pairwise(pictures))
+    assert sorted(path.name for path in folder.iterdir()) == sorted(["cities.csv", name])
+
+
+def test_what_moves():
+    aim = Aim((10.0, 50.0), 8.0, None, Projection.globe, 90.0)
+    lens, view = motion_of(aim, spin=False, stops=[(20.0, 40.0)], seconds=10)(0.0)
+    assert lens.is_close(fisheye((10, 50), magnification=8))
+    assert view == View(10, 50)
+    flight = motion_of(aim, spin=False, stops=[(20.0, 40.0)], seconds=10)
+    assert flight(flight.seconds)[1] == View(20, 40)
+    lens, view = motion_of(aim, spin=True, stops=[], seconds=10)(5.0)
+    assert (lens.magnification, view.lat) == (8, 50)
+    assert view.lon == pytest.approx(-170)
+    grown = [motion_of(aim, spin=False, stops=[], seconds=10)(time)[0].magnification for time in (0.0, 5.0, 10.0)]
+    assert grown == pytest.approx([1, 8, 1])
+    still = motion_of(replace(aim, magnification=1.0), spin=False, stops=[], seconds=10)
+    assert still(2.5)[1].lon == pytest.approx(10 - 90)
+
+
+@pytest.mark.parametrize(
+    ("out", "options", "message"),
+    [
+        ("a.png", ["--spin"], "--spin and --fly are for films, but a.png is none"),
+        ("a.gif", ["--spin", "--fly=1,2"], "choose one"),
+        ("a.gif", ["--fly=1"], "--fly is '1', but must be LON,LAT"),
+        ("a.gif", ["--fly=1,95"], "outside [-90, 90]"),
+        ("a.gif", ["--focus=0,0", "--fly=180,0"], "opposite"),
+        ("a.gif", ["--projection", "hemispheres"], "--projection hemispheres stands still"),
+        ("a.gif", ["--seconds", 0], "seconds is 0"),
+        ("a.gif", ["--fps", 0], "fps is 0"),
+        ("a.gif", ["--fps", 200], "at most 50 frames a second"),
+    ],
+)
+def test_wrong_films(folder, run, out, options, message):
+    before = sorted(folder.iterdir())
+    assert message in run("globe", "-o", out, *options, code=2)
+    assert sorted(folder.iterdir()) == before
+
+
+def test_a_frame_that_fails_is_told_and_an_interrupted_film_goes_on(folder, run, monkeypatch):
+    def failing(error):
+        def save(self, path, *, progress):
+            raise error
+
+        return save
+
+    monkeypatch.setattr(Film, "save", failing(FrameError("frame 3 could not be drawn")))
+    assert run("globe", "-o", "a.gif", "--spin", code=2) == "error: frame 3 could not be drawn\n"
+    monkeypatch.setattr(Film, "save", failing(KeyboardInterrupt()))
+    assert "goes on with the frames that are missing" in run("globe", "-o", "a.gif", "--spin", code=130)
+    said = run("globe", "-o", "-", "--format", "gif", "--spin", code=130)
+    assert said == "interrupted; nothing was written\n"
 
 
 def test_pdf_to_stdout(folder):
