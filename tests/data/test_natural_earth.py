@@ -2,6 +2,7 @@
 
 import dataclasses
 
+import geopandas
 import numpy as np
 import pytest
 import shapely
@@ -218,3 +219,11 @@ def test_lines_and_land_are_geometries():
     xyz = lonlat_to_xyz(shapely.get_coordinates(shapely.geometry.shape(data.land("110m"))))
     assert len(xyz) == len(data.land("110m").lonlat)
     assert angular_distance(xyz[0], xyz[1]) < 10
+
+
+def test_countries_are_a_table_of_geopandas():
+    frame = geopandas.GeoDataFrame.from_features(data.countries())
+    assert frame.geometry.is_valid.all()
+    largest = frame.assign(area=frame.geometry.map(square_kilometres)).nlargest(3, "area")
+    assert largest["name"].tolist() == ["Russia", "Antarctica", "Canada"]
+    assert largest["alpha2"].tolist() == ["RU", "AQ", "CA"]
