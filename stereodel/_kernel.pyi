@@ -19,6 +19,17 @@ def moebius_images(
     Images of directions as unit vectors, and whether all were finite and not zero.
     """
 
+def moebius_lonlat(
+    lonlat: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    left: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    magnification: float,
+    right: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")], bool]:
+    """
+    Images (lon, lat) of (lon, lat) in degrees, and whether all were points of the sphere.
+    """
+
 def moebius_scales(
     xyz: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     left: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

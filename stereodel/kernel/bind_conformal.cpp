@@ -26,15 +26,18 @@ MoebiusParts to_parts(const Matrix& left, double magnification, const Matrix& ri
     return {split(left), magnification, split(right)};
 }
 
-std::pair<RowsOut<double, 3>, bool> images(const RowsIn<double, 3>& xyz, const Matrix& left, double magnification,
-                                           const Matrix& right, int workers) {
+template <std::size_t Width>
+using Images = std::pair<RowsOut<double, Width>, bool>;
+template <auto Evaluate, std::size_t Width>
+Images<Width> images(const RowsIn<double, Width>& points, const Matrix& left, double magnification, const Matrix& right,
+                     int workers) {
     const MoebiusParts parts = to_parts(left, magnification, right);
-    const std::size_t count = xyz.shape(0);
+    const std::size_t count = points.shape(0);
     bool sound = true;
-    Buffer<double> rows = filled<double>(3 * count, count > long_work, [&](double* out, Stop stop) {
-        sound = moebius_images(parts, xyz.data(), count, out, workers, stop);
+    Buffer<double> rows = filled<double>(Width * count, count > long_work, [&](double* out, Stop stop) {
+        sound = Evaluate(parts, points.data(), count, out, workers, stop);
     });
-    return {to_rows<3>(std::move(rows)), sound};
+    return {to_rows<Width>(std::move(rows)), sound};
 }
 
 std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Matrix& left, double magnification,
@@ -51,8 +54,10 @@ std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Ma
 }  // namespace
 
 void bind_conformal(nb::module_& module) {
-    module.def("moebius_images", images, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
+    module.def("moebius_images", images<moebius_images, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
                "Images of directions as unit vectors, and whether all were finite and not zero.");
+    module.def("moebius_lonlat", images<moebius_lonlat, 2>, "lonlat"_a, "left"_a, "magnification"_a, "right"_a,
+               "workers"_a = 1, "Images (lon, lat) of (lon, lat) in degrees, and whether all were points of the sphere.");
     module.def("moebius_scales", scales, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
                "Local scales at directions, and whether all were finite and not zero.");
 }

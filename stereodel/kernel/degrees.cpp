@@ -68,4 +68,13 @@ SineCosine sin_cos_rest(double rest) {
     return {theta * series(SINE_TERMS, SINE_TAIL, minus_square), series(COSINE_TERMS, COSINE_TAIL, minus_square)};
 }
 
+const DegreeTable& degree_table() {
+    static const DegreeTable made = [] {
+        DegreeTable values{};
+        for (int k = 0; k <= DEGREE_STEPS; ++k) values[static_cast<std::size_t>(k)] = sin_cos_rest(k * 45.0 / DEGREE_STEPS);
+        return values;
+    }();
+    return made;
+}
+
 }  // namespace stereodel

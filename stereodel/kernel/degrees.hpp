@@ -4,6 +4,7 @@
 // 90 degrees give 0 and +-1 exactly and mirrored angles give mirrored values. The series and their bound: degrees.cpp.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "double_double.hpp"
@@ -41,6 +42,11 @@ inline SineCosine turn_quarters(const SineCosine& rest, int quarter) {
 
 // |rest| <= 45. Relative errors below 2^-101.
 SineCosine sin_cos_rest(double rest);
+
+// Those of 0, 45/256, ..., 45 degrees, multiples of 45/256 being exact doubles.
+constexpr int DEGREE_STEPS = 256;
+using DegreeTable = std::array<SineCosine, DEGREE_STEPS + 1>;
+const DegreeTable& degree_table();
 
 // Any finite number of degrees. Relative errors below 2^-101 (for tiny angles those of double_double.hpp).
 inline SineCosine sin_cos_degrees(double angle) {

@@ -21,7 +21,6 @@
 
 #include "lonlat.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "degrees.hpp"
@@ -30,19 +29,7 @@ namespace stereodel {
 
 namespace {
 
-constexpr int STEPS = 256;  // of the table, in 45 degrees
 constexpr double DECIDED = 0x1p-64;
-
-using Table = std::array<SineCosine, STEPS + 1>;
-
-const Table& table() {
-    static const Table made = [] {
-        Table values{};
-        for (int k = 0; k <= STEPS; ++k) values[static_cast<std::size_t>(k)] = sin_cos_rest(k * 45.0 / STEPS);
-        return values;
-    }();
-    return made;
-}
 
 // large + product + small, the first two added exactly, |large| >= |product| or large = 0.
 DoubleDouble gather(double large, DoubleDouble product, double small) {
@@ -51,11 +38,11 @@ DoubleDouble gather(double large, DoubleDouble product, double small) {
 }
 
 // Of |rest| <= 45 degrees; 0 < |r| < 2^-400 is left to the second stage by a NaN, which no test decides.
-SineCosine sin_cos_table(double rest, const Table& table) {
+SineCosine sin_cos_table(double rest, const DegreeTable& table) {
     constexpr double ROUNDER = 0x1p52;
     const double size = std::abs(rest);
-    const double k = (size * (STEPS / 45.0) + ROUNDER) - ROUNDER;
-    const double r = size - k * (45.0 / STEPS);
+    const double k = (size * (DEGREE_STEPS / 45.0) + ROUNDER) - ROUNDER;
+    const double r = size - k * (45.0 / DEGREE_STEPS);
     if (std::abs(r) < 0x1p-400 && r != 0.0) return {{NAN, NAN}, {NAN, NAN}};
     const auto& [S, C] = table[static_cast<std::size_t>(k)];
 
@@ -71,7 +58,7 @@ SineCosine sin_cos_table(double rest, const Table& table) {
     return {rest < 0 ? -sine : sine, cosine};
 }
 
-SineCosine sin_cos_fast(double angle, const Table& table) {
+SineCosine sin_cos_fast(double angle, const DegreeTable& table) {
     const Quarters reduced = nearest_quarter(angle);
     return turn_quarters(sin_cos_table(reduced.rest, table), reduced.quarter);
 }
@@ -83,7 +70,7 @@ bool decide(DoubleDouble value, double& rounded) {
     return rounded == value.hi + (value.lo - slack);
 }
 
-bool first_stage(const double* lonlat, double* xyz, const Table& table) {
+bool first_stage(const double* lonlat, double* xyz, const DegreeTable& table) {
     const SineCosine lon = sin_cos_fast(lonlat[0], table), lat = sin_cos_fast(lonlat[1], table);
     const bool x = decide(lat.cosine * lon.cosine, xyz[0]);
     const bool y = decide(lat.cosine * lon.sine, xyz[1]);
@@ -100,7 +87,7 @@ void second_stage(const double* lonlat, double* xyz) {
 }  // namespace
 
 void lonlat_to_xyz(const double* lonlat, std::size_t count, double* xyz) {
-    const Table& values = table();
+    const DegreeTable& values = degree_table();
     for (std::size_t i = 0; i < count; ++i) {
         if (!first_stage(lonlat + 2 * i, xyz + 3 * i, values)) second_stage(lonlat + 2 * i, xyz + 3 * i);
     }

@@ -34,6 +34,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "plain_degrees.hpp"
+
 namespace stereodel {
 
 namespace {
@@ -166,17 +168,40 @@ void store(const Block& p, double* xyz) {
     }
 }
 
-// Calls each(block, first) for the points in blocks, turned by `right`.
-template <class Each>
-bool over_blocks(const SplitRotation& right, const double* xyz, std::size_t count, int workers, Stop stop,
-                 Each&& each) {
+bool load_lonlat(const double* lonlat, std::size_t count, const DegreeTable& table, Block& p) {
+    p.count = count;
+    bool sound = true;
+    for (std::size_t k = 0; k < count; ++k) {
+        const double lon = lonlat[2 * k], lat = lonlat[2 * k + 1];
+        const bool good = std::isfinite(lon) && std::abs(lat) <= 90.0;
+        sound &= good;
+        const PlainSineCosine east = plain_sin_cos(good ? lon : 0.0, table), north = plain_sin_cos(good ? lat : 0.0, table);
+        p.x[k] = north.cosine * east.cosine;
+        p.y[k] = north.cosine * east.sine;
+        p.z[k] = north.sine;
+    }
+    return sound;
+}
+
+void store_lonlat(const Block& p, const DegreeTable& table, double* lonlat) {
+    for (std::size_t k = 0; k < p.count; ++k) {
+        const double x = p.x[k], y = p.y[k];
+        const double lon = plain_angle(y, x, table);
+        lonlat[2 * k] = lon == 180.0 ? -180.0 : lon + 0.0;
+        lonlat[2 * k + 1] = plain_angle(p.z[k], std::sqrt(x * x + y * y), table) + 0.0;
+    }
+}
+
+// Calls fill(block, first, count) and each(block, first) for points in blocks, which are turned by `right` between.
+template <class Fill, class Each>
+bool over_blocks(const SplitRotation& right, std::size_t count, int workers, Stop stop, Fill&& fill, Each&& each) {
     Crew crew(useful_workers(workers, count));
     std::atomic<bool> sound{true};
     in_grains(count, GRAIN, crew, [&](std::size_t begin, std::size_t end) {
         check(stop);
         Block p;
         for (; begin < end; begin += BLOCK) {
-            if (!load(xyz + 3 * begin, std::min(BLOCK, end - begin), p)) sound = false;
+            if (!fill(p, begin, std::min(BLOCK, end - begin))) sound = false;
             rotate(right, p);
             each(p, begin);
         }
@@ -195,22 +220,43 @@ SplitRotation::SplitRotation(const double* hi, const double* lo) {
 
 bool moebius_images(const MoebiusParts& map, const double* xyz, std::size_t count, double* images, int workers,
                     Stop stop) {
-    return over_blocks(map.right, xyz, count, workers, stop, [&](Block& p, std::size_t first) {
-        boost(map.magnification, p);
-        rotate(map.left, p);
-        store(p, images + 3 * first);
-    });
+    return over_blocks(
+        map.right, count, workers, stop,
+        [&](Block& p, std::size_t first, std::size_t n) { return load(xyz + 3 * first, n, p); },
+        [&](Block& p, std::size_t first) {
+            boost(map.magnification, p);
+            rotate(map.left, p);
+            store(p, images + 3 * first);
+        });
 }
 
 bool moebius_scales(const MoebiusParts& map, const double* xyz, std::size_t count, double* scales, int workers,
                     Stop stop) {
-    return over_blocks(map.right, xyz, count, workers, stop, [&](const Block& p, std::size_t first) {
-        for (std::size_t k = 0; k < p.count; ++k) {
-            const LightCone cone = light_cone(p.x[k], p.y[k], p.z[k], map.magnification);
-            const double scale = 2.0 * cone.length / (cone.lower + cone.upper);
-            scales[first + k] = map.magnification == 1.0 ? 1.0 : scale;
-        }
-    });
+    return over_blocks(
+        map.right, count, workers, stop,
+        [&](Block& p, std::size_t first, std::size_t n) { return load(xyz + 3 * first, n, p); },
+        [&](const Block& p, std::size_t first) {
+            for (std::size_t k = 0; k < p.count; ++k) {
+                const LightCone cone = light_cone(p.x[k], p.y[k], p.z[k], map.magnification);
+                const double scale = 2.0 * cone.length / (cone.lower + cone.upper);
+                scales[first + k] = map.magnification == 1.0 ? 1.0 : scale;
+            }
+        });
+}
+
+// The point is off by 5.2u (two factors of 2.1u, a product), the map by 6u (1 + s), the two angles by 6u rad at most each
+// and the square root by 1.5u: below 18u (1 + s).
+bool moebius_lonlat(const MoebiusParts& map, const double* lonlat, std::size_t count, double* images, int workers,
+                    Stop stop) {
+    const DegreeTable& table = degree_table();
+    return over_blocks(
+        map.right, count, workers, stop,
+        [&](Block& p, std::size_t first, std::size_t n) { return load_lonlat(lonlat + 2 * first, n, table, p); },
+        [&](Block& p, std::size_t first) {
+            boost(map.magnification, p);
+            rotate(map.left, p);
+            store_lonlat(p, table, images + 2 * first);
+        });
 }
 
 }  // namespace stereodel

@@ -167,3 +167,66 @@ def test_a_tiny_bubble_onto_a_hemisphere():
     # The focus is stored to an ulp, which is magnified.
     assert abs(image.offset) < 4e-16 * down.magnification
     assert np.abs(image.normal - [0, 0, -1]).max() < 4e-16 * down.magnification
+
+
+@given(MAPS, LONLAT)
+@settings(deadline=None, max_examples=200)
+def test_places_in_degrees(conformal, place):
+    lon, lat = conformal.lonlat(place)
+    assert -180 <= lon < 180
+    assert -90 <= lat <= 90
+    start = direction(*place)
+    scale = exact_scale(conformal, [float(v) for v in start])
+    assert error_mp(direction(lon, lat), exact_map(conformal, start)) <= 18 * UNIT * (1 + scale) * (1 + 2**-20)
+
+
+def direction(lon, lat):
+    lon, lat = (mpmath.radians(mpmath.mpf(float(v))) for v in (lon, lat))
+    return [mpmath.cos(lat) * mpmath.cos(lon), mpmath.cos(lat) * mpmath.sin(lon), mpmath.sin(lat)]
+
+
+def test_places_of_the_identity_stay():
+    identity = MoebiusMap.identity()
+    corners = np.array([(lon, lat) for lon in range(-180, 180, 45) for lat in range(-90, 91, 45)], dtype=float)
+    moved = identity.lonlat(corners)
+    inner = np.abs(corners[:, 1]) < 90
+    assert np.abs(moved - corners)[inner].max() <= 2e-14
+    assert (np.abs(moved[~inner, 1]) == 90).all()
+    assert (moved[np.abs(corners).max(axis=1) == 0] == 0).all()
+    assert (identity.lonlat([(180.0, 0.0), (540.0, 0.0), (-180.0, 0.0)]) == [-180.0, 0.0]).all()
+    tiny = np.array([(1e-300, -1e-300), (1e-9, 1e-12)])
+    assert identity.lonlat(tiny) == pytest.approx(tiny, rel=1e-15)
+    assert (np.signbit(identity.lonlat([(-0.0, -0.0)])) == 0).all()
+
+
+@pytest.mark.parametrize(
+    ("lonlat", "message"),
+    [
+        ([(0, 90.5)], r"lonlat\[0, 1\] is latitude 90.5"),
+        ([(np.inf, 0)], r"lonlat\[0, 0\] is inf"),
+        ([(0, np.nan)], r"lonlat\[0, 1\] is nan"),
+        ([(0, 1, 2)], r"shape \(..., 2\)"),
+    ],
+)
+def test_places_that_are_none(lonlat, message):
+    with pytest.raises(ValueError, match=message):
+        fisheye((0, 0), magnification=2).lonlat(lonlat)
+
+
+@pytest.mark.parametrize("rows", [[[0, 0, 0]], [[1, np.nan, 0]], [[1, 0, -np.inf]], [[np.nan, 0, 1]]])
+def test_directions_that_are_none(rows):
+    lens = fisheye((0, 0), magnification=2)
+    many = np.concatenate([np.ones((300, 3)), rows])
+    for function in (lens, lens.scale_factor):
+        with pytest.raises(ValueError, match=r"xyz\[300"):
+            function(many)
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3, -1])
+def test_threads_change_nothing(workers):
+    lens = fisheye((10, 20), magnification=7)
+    points = np.random.default_rng(8).normal(size=(40_001, 3))
+    places = np.random.default_rng(9).uniform([-180, -90], [180, 90], size=(40_001, 2))
+    assert (lens(points, workers=workers) == np.concatenate([lens(part) for part in np.split(points, [1, 7])])).all()
+    assert (lens.scale_factor(points, workers=workers) == lens.scale_factor(points[::-1])[::-1]).all()
+    assert (lens.lonlat(places, workers=workers) == lens.lonlat(places[::-1])[::-1]).all()
