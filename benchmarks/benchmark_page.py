@@ -148,6 +148,30 @@ def diagrams(results: Results) -> str:
     return pages.table(head, rows, "l" + "r" * (len(head) - 1))
 
 
+def conformal_maps(results: Results) -> str:
+    """Seconds of each call, and how they stand to copying or to PROJ."""
+    labels = {
+        "directions": ("`np.copy` of the vectors", "copy", "images", "lens(xyz)", "scales", "lens.scale_factor(xyz)"),
+        "places": ("pyproj, `lens.to_proj()`", "pyproj", "lonlat", "lens.lonlat(lonlat)"),
+    }
+    rows = []
+    for part, (reference, key, *others) in labels.items():
+        measured = results["conformal maps"][part]
+        points = f"{measured['n']:,}"
+        rows.append([points, reference, digits(measured[key]["seconds"]), ""])
+        for word, call in zip(others[::2], others[1::2], strict=True):
+            for workers in (1, 2):
+                own = measured[f"{word} {workers}"]
+                middle = statistics.median(own["ratios"])
+                ratio = f"{digits(middle)} × as long" if part == "directions" else f"{digits(1 / middle)} × as fast"
+                thread = "two threads" if workers == 2 else "one thread"
+                rows.append([points, f"`{call}`, {thread}", digits(own["seconds"]), ratio])
+    vectors = results["conformal maps"]["places"]["by vectors"]
+    middle = f"{digits(1 / statistics.median(vectors['ratios']))} × as fast"
+    rows.append(["", "`lonlat_to_xyz`, `lens`, `xyz_to_lonlat`", digits(vectors["seconds"]), middle])
+    return pages.table(["points", "call", "s", "median of the rounds"], rows, "rlrr")
+
+
 def taking_part(results: Results) -> str:
     """Version, exactness and result of every engine."""
     rows = []
@@ -198,6 +222,8 @@ def write(results: Results) -> None:
         blocks["changes"] = changes(results)
     if "voronoi" in results:
         blocks["voronoi"] = diagrams(results)
+    if "conformal maps" in results:
+        blocks["conformal maps"] = conformal_maps(results)
     pages.fill("benchmarks.md", blocks)
 
 

@@ -1,0 +1,34 @@
+"""The measurement of conformal maps: every call is made in every round, both sides compute the same map."""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
+
+from benchmarks.benchmark_page import conformal_maps as table
+from benchmarks.conformal_maps import coastline, conformal_maps, in_turns
+
+
+def test_calls_take_turns():
+    made = []
+    found = in_turns({"a": lambda: made.append("a"), "b": lambda: made.append("b")}, "a", rounds=3)
+    assert made == ["a", "b"] * 4
+    assert len(found["b"]["rounds"]) == 3
+    assert found["a"]["ratios"] == [1.0] * 3
+
+
+def test_coastline_points_are_as_many_as_asked_and_different():
+    points = coastline(200_000)
+    assert points.shape == (200_000, 2)
+    assert len(np.unique(points, axis=0)) > 190_000
+    assert np.abs(points[:, 1]).max() <= 90
+
+
+def test_both_sides_compute_the_same_map_and_the_page_tells_it():
+    measured = conformal_maps(1000)
+    assert measured["places"]["largest gap in degrees"] < 1e-9
+    lines = table({"conformal maps": measured}).splitlines()
+    assert len(lines) == 2 + 9
+    assert all("as long" in line or "as fast" in line or "copy" in line or "pyproj" in line for line in lines[2:])
