@@ -27,7 +27,7 @@ def moebius_lonlat(
     workers: int = 1,
 ) -> tuple[Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")], bool]:
     """
-    Images (lon, lat) of (lon, lat) in degrees, and whether all were points of the sphere.
+    Images (lon, lat) of (lon, lat) in degrees, and whether all were points.
     """
 
 def moebius_scales(
@@ -48,9 +48,18 @@ def sin_cos_degrees(
 
 def lonlat_to_xyz(
     lonlat: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
     """
     Unit vectors of rows (lon, lat) in degrees, each component rounded once.
+    """
+
+def xyz_to_lonlat(
+    xyz: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
+    """
+    Rows (lon, lat) in degrees, each within an ulp, of non-zero directions of any length.
     """
 
 def triangulate_plane(

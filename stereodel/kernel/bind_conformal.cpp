@@ -54,10 +54,10 @@ std::pair<ValuesOut<double>, bool> scales(const RowsIn<double, 3>& xyz, const Ma
 }  // namespace
 
 void bind_conformal(nb::module_& module) {
-    module.def("moebius_images", images<moebius_images, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
-               "Images of directions as unit vectors, and whether all were finite and not zero.");
+    module.def("moebius_images", images<moebius_images, 3>, "xyz"_a, "left"_a, "magnification"_a, "right"_a,
+               "workers"_a = 1, "Images of directions as unit vectors, and whether all were finite and not zero.");
     module.def("moebius_lonlat", images<moebius_lonlat, 2>, "lonlat"_a, "left"_a, "magnification"_a, "right"_a,
-               "workers"_a = 1, "Images (lon, lat) of (lon, lat) in degrees, and whether all were points of the sphere.");
+               "workers"_a = 1, "Images (lon, lat) of (lon, lat) in degrees, and whether all were points.");
     module.def("moebius_scales", scales, "xyz"_a, "left"_a, "magnification"_a, "right"_a, "workers"_a = 1,
                "Local scales at directions, and whether all were finite and not zero.");
 }

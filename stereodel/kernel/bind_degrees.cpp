@@ -22,10 +22,15 @@ RowsOut<double, 4> sines_and_cosines(const ValuesIn<double>& angles) {
     }));
 }
 
-RowsOut<double, 3> unit_vectors(const RowsIn<double, 2>& lonlat) {
-    const std::size_t count = lonlat.shape(0);
-    return to_rows<3>(
-        filled<double>(3 * count, false, [&](double* xyz, Stop) { lonlat_to_xyz(lonlat.data(), count, xyz); }));
+constexpr std::size_t long_work = 100000;  // points: some milliseconds
+
+// A conversion of all rows.
+template <auto Convert, std::size_t From, std::size_t To>
+RowsOut<double, To> converted(const RowsIn<double, From>& rows, int workers) {
+    const std::size_t count = rows.shape(0);
+    return to_rows<To>(filled<double>(To * count, count > long_work, [&](double* out, Stop stop) {
+        Convert(rows.data(), count, out, workers, stop);
+    }));
 }
 
 }  // namespace
@@ -33,8 +38,10 @@ RowsOut<double, 3> unit_vectors(const RowsIn<double, 2>& lonlat) {
 void bind_degrees(nb::module_& module) {
     module.def("sin_cos_degrees", sines_and_cosines, "angles"_a,
                "Rows (sine, its low part, cosine, its low part) of angles in degrees; relative errors below 2^-101.");
-    module.def("lonlat_to_xyz", unit_vectors, "lonlat"_a,
+    module.def("lonlat_to_xyz", converted<lonlat_to_xyz, 2, 3>, "lonlat"_a, "workers"_a = 1,
                "Unit vectors of rows (lon, lat) in degrees, each component rounded once.");
+    module.def("xyz_to_lonlat", converted<xyz_to_lonlat, 3, 2>, "xyz"_a, "workers"_a = 1,
+               "Rows (lon, lat) in degrees, each within an ulp, of non-zero directions of any length.");
 }
 
 }  // namespace stereodel

@@ -71,7 +71,9 @@ SineCosine sin_cos_rest(double rest) {
 const DegreeTable& degree_table() {
     static const DegreeTable made = [] {
         DegreeTable values{};
-        for (int k = 0; k <= DEGREE_STEPS; ++k) values[static_cast<std::size_t>(k)] = sin_cos_rest(k * 45.0 / DEGREE_STEPS);
+        for (std::size_t k = 0; k < values.size(); ++k) {
+            values[k] = sin_cos_rest(static_cast<double>(k) * 45.0 / DEGREE_STEPS);
+        }
         return values;
     }();
     return made;

@@ -21,9 +21,11 @@
 
 #include "lonlat.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "degrees.hpp"
+#include "plain_degrees.hpp"
 
 namespace stereodel {
 
@@ -84,13 +86,61 @@ void second_stage(const double* lonlat, double* xyz) {
     for (int k = 0; k < 3; ++k) xyz[k] = vector[k].hi + vector[k].lo + 0.0;
 }
 
+// The angle of (x, y) in degrees: a plain one, corrected by what it leaves of the vector turned back. The turned sine
+// is off by 2^-64 of the length and for small angles of itself, so that the sum is rounded once but for 2^-10 of an ulp.
+double angle_degrees(DoubleDouble y, DoubleDouble x, const DegreeTable& table) {
+    const double guess = plain_angle(y.hi, x.hi, table);
+    SineCosine turn = sin_cos_fast(guess, table);
+    if (std::isnan(turn.sine.hi)) turn = sin_cos_degrees(guess);
+    const DoubleDouble across = y * turn.cosine - x * turn.sine, along = x * turn.cosine + y * turn.sine;
+    if (along.hi == 0.0) return guess;
+    return guess + (across.hi + across.lo) / (along.hi + along.lo) * (1.0 / RADIAN.hi);
+}
+
+// A vector over powers of two: as a whole with components below 1, and its horizontal part on its own, so that a
+// longitude survives one subnormal step away from the pole.
+struct ScaledVector {
+    double x, y, z;
+    int horizontal;  // exponent that x and y have lost beside z
+
+    explicit ScaledVector(const double* v) : x(v[0]), y(v[1]), z(v[2]), horizontal(0) {
+        const double across = std::max(std::abs(x), std::abs(y)), size = std::max(across, std::abs(z));
+        // Squares and their errors are then far from the ends of the range, and a power of two changes no bit.
+        if (across >= 0x1p-200 && size <= 0x1p200) return;
+        int whole = 0, own = 0;
+        std::frexp(size, &whole);
+        std::frexp(across, &own);
+        if (across == 0.0) own = whole;
+        x = std::ldexp(x, -own);
+        y = std::ldexp(y, -own);
+        z = std::ldexp(z, -whole);
+        horizontal = own - whole;
+    }
+};
+
+void place_of(const double* xyz, double* lonlat, const DegreeTable& table) {
+    const ScaledVector v(xyz);
+    const double lon = angle_degrees({v.y, 0.0}, {v.x, 0.0}, table);
+    DoubleDouble rho = sqrt(two_product(v.x, v.x) + two_product(v.y, v.y));
+    if (v.horizontal != 0) rho = {std::ldexp(rho.hi, v.horizontal), std::ldexp(rho.lo, v.horizontal)};
+    lonlat[0] = lon == 180.0 ? -180.0 : lon + 0.0;
+    lonlat[1] = angle_degrees({v.z, 0.0}, rho, table) + 0.0;
+}
+
 }  // namespace
 
-void lonlat_to_xyz(const double* lonlat, std::size_t count, double* xyz) {
+void lonlat_to_xyz(const double* lonlat, std::size_t count, double* xyz, int workers, Stop stop) {
     const DegreeTable& values = degree_table();
-    for (std::size_t i = 0; i < count; ++i) {
+    Crew crew(useful_workers(workers, count));
+    for_all(count, crew, stop, [&](std::size_t i) {
         if (!first_stage(lonlat + 2 * i, xyz + 3 * i, values)) second_stage(lonlat + 2 * i, xyz + 3 * i);
-    }
+    });
+}
+
+void xyz_to_lonlat(const double* xyz, std::size_t count, double* lonlat, int workers, Stop stop) {
+    const DegreeTable& values = degree_table();
+    Crew crew(useful_workers(workers, count));
+    for_all(count, crew, stop, [&](std::size_t i) { place_of(xyz + 3 * i, lonlat + 2 * i, values); });
 }
 
 }  // namespace stereodel

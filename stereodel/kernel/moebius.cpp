@@ -175,7 +175,8 @@ bool load_lonlat(const double* lonlat, std::size_t count, const DegreeTable& tab
         const double lon = lonlat[2 * k], lat = lonlat[2 * k + 1];
         const bool good = std::isfinite(lon) && std::abs(lat) <= 90.0;
         sound &= good;
-        const PlainSineCosine east = plain_sin_cos(good ? lon : 0.0, table), north = plain_sin_cos(good ? lat : 0.0, table);
+        const PlainSineCosine east = plain_sin_cos(good ? lon : 0.0, table);
+        const PlainSineCosine north = plain_sin_cos(good ? lat : 0.0, table);
         p.x[k] = north.cosine * east.cosine;
         p.y[k] = north.cosine * east.sine;
         p.z[k] = north.sine;
@@ -244,8 +245,8 @@ bool moebius_scales(const MoebiusParts& map, const double* xyz, std::size_t coun
         });
 }
 
-// The point is off by 5.2u (two factors of 2.1u, a product), the map by 6u (1 + s), the two angles by 6u rad at most each
-// and the square root by 1.5u: below 18u (1 + s).
+// The point is off by 5.2u (two factors of 2.1u, a product), the map by 6u (1 + s), the two angles by 6u rad at most
+// each, at right angles to each other, and the square root by 1.5u: below 18u (1 + s).
 bool moebius_lonlat(const MoebiusParts& map, const double* lonlat, std::size_t count, double* images, int workers,
                     Stop stop) {
     const DegreeTable& table = degree_table();

@@ -32,8 +32,8 @@ bool moebius_images(const MoebiusParts& map, const double* xyz, std::size_t coun
 bool moebius_scales(const MoebiusParts& map, const double* xyz, std::size_t count, double* scales, int workers,
                     Stop stop);
 
-// Images (lon, lat) in degrees of rows (lon, lat), longitude in [-180, 180): within (1 + scale) 18 2^-53 rad. False if a
-// row is not finite or has a latitude outside [-90, 90].
+// Images (lon, lat) in degrees of rows (lon, lat), longitude in [-180, 180): within (1 + scale) 18 2^-53 rad. False if
+// a row is not finite or has a latitude outside [-90, 90].
 bool moebius_lonlat(const MoebiusParts& map, const double* lonlat, std::size_t count, double* images, int workers,
                     Stop stop);
 

@@ -23,7 +23,8 @@ inline PlainSineCosine plain_sin_cos(double angle, const DegreeTable& table) {
     const double k = (size * (DEGREE_STEPS / 45.0) + ROUNDER) - ROUNDER;
     const SineCosine& step = table[static_cast<std::size_t>(static_cast<int>(k))];
     const double t = (size - k * (45.0 / DEGREE_STEPS)) * RADIAN.hi, q = t * t;
-    const double sine_rest = t + t * q * (q * (1.0 / 120.0) - 1.0 / 6.0), cosine_less_one = q * (q * (1.0 / 24.0) - 0.5);
+    const double sine_rest = t + t * q * (q * (1.0 / 120.0) - 1.0 / 6.0);
+    const double cosine_less_one = q * (q * (1.0 / 24.0) - 0.5);
     const double upper = step.sine.hi + (step.cosine.hi * sine_rest + step.sine.hi * cosine_less_one);
     const double sine = std::copysign(upper, reduced.rest);
     const double cosine = step.cosine.hi - (step.sine.hi * sine_rest - step.cosine.hi * cosine_less_one);
@@ -45,7 +46,7 @@ inline double plain_angle(double y, double x, const DegreeTable& table) {
     const double lesser = std::min(ax, ay), greater = std::max(ax, ay);
     if (greater == 0.0) return 0.0;
     const double t = lesser / greater;
-    const double eighths = t * (1.0 - (t - 1.0) * (0.3116 + 0.0844 * t));  // of a right angle's half: arctan t over pi/4
+    const double eighths = t * (1.0 - (t - 1.0) * (0.3116 + 0.0844 * t));  // arctan t over pi/4
     const double k = (eighths * DEGREE_STEPS + ROUNDER) - ROUNDER;
     const SineCosine& step = table[static_cast<std::size_t>(static_cast<int>(k))];
     const double across = lesser * step.cosine.hi - greater * step.sine.hi;

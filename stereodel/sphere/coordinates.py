@@ -21,12 +21,13 @@ from stereodel._arrays import (
     as_plane_or_sphere,
 )
 from stereodel._double_double import DoubleDouble, stack
+from stereodel._threads import thread_count
 from stereodel.sphere.chunks import by_blocks
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
 
 
-def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical") -> FloatArray:
+def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None) -> FloatArray:
     """Unit vectors of points given by longitude and latitude.
 
     Parameters
@@ -37,6 +38,9 @@ def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical") ->
         "spherical" takes latitudes as they stand. The others take them as geodetic latitudes on WGS84, which is what
         maps and receivers give, and return the direction from the Earth's centre ("geodetic") or the point on the
         sphere of equal area ("authalic").
+    workers : int, optional
+        Threads for spherical latitudes, -1 for all processors; by default all from 20 000 points on. The result is
+        always the same.
 
     Returns
     -------
@@ -61,7 +65,8 @@ def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical") ->
     kind = as_choice(latitude, KINDS, "latitude")
     if kind != "spherical":
         return by_blocks(partial(_from_ellipsoid, kind=kind), rows)
-    return _kernel.lonlat_to_xyz(np.ascontiguousarray(rows).reshape(-1, 2)).reshape(*rows.shape[:-1], 3)
+    flat = np.ascontiguousarray(rows).reshape(-1, 2)
+    return _kernel.lonlat_to_xyz(flat, thread_count(workers, len(flat))).reshape(*rows.shape[:-1], 3)
 
 
 def _from_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
@@ -69,7 +74,7 @@ def _from_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
     return stack([cos_lat * cos_lon, cos_lat * sin_lon, sin_lat]).round() + 0.0
 
 
-def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical") -> FloatArray:
+def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None) -> FloatArray:
     """Longitude and latitude of directions.
 
     Parameters
@@ -78,6 +83,8 @@ def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical") -> Fl
         Non-zero vectors; only their directions count.
     latitude : {"spherical", "geodetic", "authalic"}, optional
         As for `lonlat_to_xyz`: what the vectors were made with. For the last two geodetic latitudes on WGS84 result.
+    workers : int, optional
+        As there.
 
     Returns
     -------
@@ -98,10 +105,14 @@ def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical") -> Fl
      [   0.   90.]]
     """
     kind = as_choice(latitude, KINDS, "latitude")
-    return by_blocks(partial(_lonlat, kind=kind), as_directions(xyz, "xyz"))
+    rows = as_directions(xyz, "xyz")
+    if kind != "spherical":
+        return by_blocks(partial(_on_ellipsoid, kind=kind), rows)
+    flat = rows.reshape(-1, 3)
+    return _kernel.xyz_to_lonlat(flat, thread_count(workers, len(flat))).reshape(*rows.shape[:-1], 2)
 
 
-def _lonlat(rows: FloatArray, kind: Latitude) -> FloatArray:
+def _on_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
     vectors, whole = scaled(rows)
     # The horizontal part is scaled on its own, so that a longitude survives one subnormal step away from the pole.
     horizontal, own = scaled(rows[:, :2])

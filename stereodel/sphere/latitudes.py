@@ -103,13 +103,11 @@ def sin_cos_on_sphere(latitude: FloatArray, kind: Latitude) -> tuple[DoubleDoubl
 def latitude_of(z: DoubleDouble, rho: DoubleDouble, kind: Latitude) -> FloatArray:
     """Latitude in degrees of vectors by their height and their distance from the axis, within an ulp.
 
-    Geocentric and spherical: an angle. Authalic: Newton's method for φ from tan φ ≈ tan β/(1 − e²)^⅔. Both sides agree
+    Geocentric: an angle. Authalic: Newton's method for φ from tan φ ≈ tan β/(1 − e²)^⅔. Both sides agree
     in their terms of order e², and the start is off by less than 6e-7 rad (e⁴/80). A step squares the error times
     |φ''(β)/2| < e²: it is below 3e-15 after the first and below 1e-31 after the second; what remains is the rounding of
     the result. Steps are angles of the sphere, which keep their digits next to the poles.
     """
-    if kind == "spherical":
-        return angle_degrees(z, rho)
     if kind == "geodetic":
         return angle_degrees(z, _POLAR * rho)
     guess = angle_degrees(z, (1 - FLATTENING) ** (4 / 3) * rho)

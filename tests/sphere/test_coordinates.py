@@ -150,3 +150,25 @@ def test_bad_input_is_named(call, message):
 def test_as_direction_takes_both_forms():
     assert (as_direction((0, 90)) == [0, 0, 1]).all()
     assert as_direction((0, -3e-320, 0)).tolist() == [0, -3e-320, 0]
+
+
+@given(st.tuples(*[st.floats(-1, 1)] * 3).filter(any), st.sampled_from([1.0, 1e-9, 1e-30, 1e-200]), st.integers(0, 2))
+def test_places_are_within_an_ulp(vector, small, axis):
+    v = np.array(vector)
+    v[axis] *= small
+    if 0 < np.abs(v[v != 0]).min(initial=1.0) < 1e-250 or not v.any():
+        return
+    x, y, z = (mpmath.mpf(float(c)) for c in v)
+    lon, lat = mpmath.degrees(mpmath.atan2(y, x)), mpmath.degrees(mpmath.atan2(z, mpmath.hypot(x, y)))
+    got = xyz_to_lonlat(v)
+    assert abs(mpmath.mpf(float(got[1])) - lat) <= 0.51 * np.spacing(abs(got[1]))
+    if abs(got[0]) < 180 and (x, y) != (0, 0):
+        assert abs(mpmath.mpf(float(got[0])) - lon) <= 0.51 * np.spacing(abs(got[0]))
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3, -1])
+def test_threads_change_nothing(workers):
+    lonlat = np.random.default_rng(5).uniform([-180, -90], [180, 90], size=(40_001, 2))
+    xyz = lonlat_to_xyz(lonlat, workers=workers)
+    assert (xyz == lonlat_to_xyz(lonlat[::-1])[::-1]).all()
+    assert (xyz_to_lonlat(xyz, workers=workers) == xyz_to_lonlat(xyz[::-1])[::-1]).all()
