@@ -1,34 +1,10 @@
-"""What the pictures of real data share: title, credit, the arrays of a diagram, coastlines."""
+"""What the pictures of real data share: title, credit and legend."""
 
 from dataclasses import replace
 
-import numpy as np
-
-from stereodel import SphericalVoronoi, data, lonlat_to_xyz
-from stereodel.render import ColorScale, Label, Page, Scene
-from stereodel.render.style import LineStyle
+from stereodel.render import ColorScale, Label, Page
 
 LATITUDE = "authalic"  # areas of cells are those on the ellipsoid
-LEFT, TOP = -1.02, 1.2  # page units, radii of the globe
-BAR = (-0.6, -1.17), (1.2, 0.028)
-EXTENT = (-1.06, 1.06, -1.36, 1.28)
-
-
-def diagram_arrays(voronoi: SphericalVoronoi) -> dict:
-    """What a scene needs of a diagram."""
-    names = ("points", "vertices", "region_indices", "region_offsets")
-    return {name: getattr(voronoi, name) for name in names}
-
-
-def add_cells(scene: Scene, g: dict, colors: np.ndarray) -> None:
-    """The cells of `diagram_arrays`."""
-    scene.add_cells(g["points"], g["vertices"], g["region_indices"], g["region_offsets"], colors=colors)
-
-
-def add_coast(scene: Scene, style: LineStyle) -> None:
-    """The coastlines of the world."""
-    lines = [lonlat_to_xyz(line, latitude=LATITUDE) for line in data.coastlines().lines()]
-    scene.add_polylines(lines, role="coast", style=style)
 
 
 def spaced(number: int) -> str:
@@ -36,18 +12,9 @@ def spaced(number: int) -> str:
     return f"{number:,}".replace(",", "\N{NO-BREAK SPACE}")
 
 
-def poster(items: tuple, title: str, subtitle: str, credit: str, *, ink: tuple, **options: object) -> Page:
-    """A page with a title above and a credit below."""
-    faint = (*ink[:3], 0.62)
-    texts = (
-        Label(title, (LEFT, TOP), align="left", valign="baseline", size=17.0, color=ink),
-        Label(subtitle, (LEFT, TOP - 0.07), align="left", valign="baseline", size=8.5, color=ink),
-        Label(credit, (LEFT, EXTENT[2] + 0.025), align="left", valign="baseline", size=6.0, color=faint),
-    )
-    return Page(EXTENT, (*items, *texts), **options)
-
-
-def captioned(page: Page, title: str, subtitle: str, credit: str, *, ink: tuple, above: float, below: float) -> Page:
+def captioned(
+    page: Page, title: str, subtitle: str, credit: str, *, ink: tuple, above: float = 44.0, below: float = 52.0
+) -> Page:
     """A page of globes with a title above and a credit below, in strips of so many points."""
     left, right, bottom, top = page.extent
     point = (right - left) / page.width
@@ -61,6 +28,10 @@ def captioned(page: Page, title: str, subtitle: str, credit: str, *, ink: tuple,
     return replace(page, extent=extent, items=(*page.items, *texts))
 
 
-def legend(scale: ColorScale, ticks: dict, title: str, ink: tuple) -> tuple:
-    """The bar below the globe."""
-    return scale.legend(*BAR, ticks, title=title, ink=ink, type_size=8.0)
+def with_legend(page: Page, scale: ColorScale, ticks: dict, title: str, *, ink: tuple) -> Page:
+    """The same page with a bar of colours below the globe, in the strip below a caption's globe."""
+    left, right, bottom, _ = page.extent
+    width = right - left
+    corner, size = (left + 0.22 * width, bottom + 0.073 * width), (0.56 * width, 0.0136 * width)
+    bar = scale.legend(corner, size, ticks, title=title, ink=ink, type_size=8.0)
+    return replace(page, items=(*page.items, *bar))

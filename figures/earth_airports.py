@@ -8,10 +8,11 @@ States to 13 million km² of the Southern Ocean.
 """
 
 import numpy as np
-from _poster import LATITUDE, add_cells, add_coast, diagram_arrays, legend, poster, spaced
+from _poster import LATITUDE, captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth
-from stereodel.render import ColorScale, Figure, Page, Scene, View
+from stereodel.globe import Globe
+from stereodel.render import ColorScale, Figure, Page, View
 from stereodel.render.style import BLACK, WHITE, LineStyle
 
 VIEW = View(-40, 36)
@@ -20,24 +21,25 @@ TICKS = {1e1: "10", 1e2: "100", 1e3: "1000", 1e4: "10 000", 1e5: "100 000", 1e6:
 
 
 def geometry() -> dict:
-    """The cells and their areas in km²; those of the second airport of a place are empty."""
-    voronoi = SphericalVoronoi.from_lonlat(data.airports().lonlat, latitude=LATITUDE)
-    return {**diagram_arrays(voronoi), "areas": voronoi.areas(radius=earth.AUTHALIC_RADIUS_KM)}
+    """The airports and the areas of their cells in km²; those of the second airport of a place are empty."""
+    lonlat = data.airports().lonlat
+    voronoi = SphericalVoronoi.from_lonlat(lonlat, latitude=LATITUDE)
+    return {"lonlat": lonlat, "areas": voronoi.areas(radius=earth.AUTHALIC_RADIUS_KM)}
 
 
 def draw(g: dict) -> Page:
     """Cells by area, and the coast."""
-    scene = Scene()
-    add_cells(scene, g, SCALE(g["areas"]))
-    add_coast(scene, LineStyle(WHITE, 0.3))
+    globe = Globe(latitude=LATITUDE)
+    globe.add_cells(SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE), colors=SCALE(g["areas"]), look=None)
+    globe.add_coastlines(look=LineStyle(WHITE, 0.3))
     largest = np.argmax(g["areas"])
     subtitle = (
         f"{spaced(len(g['areas']))} airports and the part of the Earth that is nearest to each; the largest, "
         f"{g['areas'][largest] / 1e6:.1f} million km², is that of {data.airports().name[largest]}"
     )
-    items = scene.layout(VIEW) + legend(SCALE, TICKS, "area, km²", BLACK)
     credit = "Airports: airportsdata. Coast: Natural Earth. Areas on WGS84."
-    return poster(items, "The airport next to you", subtitle, credit, ink=BLACK, views=(VIEW.matrix,))
+    page = captioned(globe.page(view=VIEW), "The airport next to you", subtitle, credit, ink=BLACK)
+    return with_legend(page, SCALE, TICKS, "area, km²", ink=BLACK)
 
 
 FIGURE = Figure("earth_airports", geometry, draw)

@@ -6,11 +6,14 @@ The Voronoi cells of all cities and villages of the table whose population is kn
 point count together. The colour is the density: the people of a place per km² of its cell on the ellipsoid.
 """
 
+from dataclasses import replace
+
 import numpy as np
-from _poster import LATITUDE, add_cells, add_coast, diagram_arrays, legend, poster, spaced
+from _poster import LATITUDE, captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth
-from stereodel.render import ColorScale, Figure, Page, Scene, View
+from stereodel.globe import Globe
+from stereodel.render import ColorScale, Figure, Page, View
 from stereodel.render.style import LineStyle
 
 VIEW = View(68, 28)
@@ -20,25 +23,26 @@ NIGHT, INK = (0.03, 0.03, 0.045, 1.0), (0.9, 0.88, 0.84, 1.0)
 
 
 def geometry() -> dict:
-    """The cells and the density of each, people per km²."""
+    """The places and the density about each, people per km²."""
     table = data.cities()
     known = table.population > 0
     voronoi = SphericalVoronoi.from_lonlat(table.lonlat[known], latitude=LATITUDE)
     people = np.bincount(voronoi.point_region, table.population[known])
     areas = voronoi.areas(radius=earth.AUTHALIC_RADIUS_KM)
     density = np.divide(people, areas, out=np.zeros_like(areas), where=areas > 0)
-    return {**diagram_arrays(voronoi), "density": density}
+    return {"lonlat": table.lonlat[known], "density": density}
 
 
 def draw(g: dict) -> Page:
     """Cells by density, and the coast."""
-    scene = Scene(limb=LineStyle((0.35, 0.33, 0.36, 1.0), 0.6))
-    add_cells(scene, g, SCALE(g["density"]))
-    add_coast(scene, LineStyle((0.62, 0.62, 0.66, 1.0), 0.22))
+    globe = Globe(latitude=LATITUDE, limb=LineStyle((0.35, 0.33, 0.36, 1.0), 0.6))
+    cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
+    globe.add_cells(cells, colors=SCALE(g["density"]), look=None)
+    globe.add_coastlines(look=LineStyle((0.62, 0.62, 0.66, 1.0), 0.22))
     subtitle = f"The surroundings of {spaced(len(g['density']))} cities and villages, by the number of their people"
-    items = scene.layout(VIEW) + legend(SCALE, TICKS, "people per km²", INK)
     credit = "Places: GeoNames (CC BY 4.0). Coast: Natural Earth. Areas on WGS84."
-    return poster(items, "Where people live", subtitle, credit, ink=INK, background=NIGHT, views=(VIEW.matrix,))
+    page = captioned(globe.page(view=VIEW), "Where people live", subtitle, credit, ink=INK)
+    return replace(with_legend(page, SCALE, TICKS, "people per km²", ink=INK), background=NIGHT)
 
 
 FIGURE = Figure("earth_cities", geometry, draw)

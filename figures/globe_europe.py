@@ -8,10 +8,8 @@ the ellipsoid. The cells' sides are great circles; through the lens they are cir
 Chosen by us: focus and magnification, and which airports are labelled.
 """
 
-from dataclasses import replace
-
 import numpy as np
-from _poster import LATITUDE, captioned
+from _poster import LATITUDE, captioned, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, fisheye
 from stereodel.globe import Globe
@@ -50,15 +48,12 @@ def draw(g: dict) -> Page:
     page = captioned(
         globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)),
         "Europe, airport by airport",
-        "The part of the Earth that is nearest to each airport with a code; the middle of Europe four times as large.",
+        "The part of the Earth that is nearest to each airport with a code of three letters; the middle of Europe is "
+        "four times as large.",
         "Airports: airportsdata. Coast and borders: Natural Earth. Areas on WGS84.",
         ink=BLACK,
-        above=44.0,
-        below=52.0,
     )
-    _, right, bottom, _ = page.extent
-    bar = ((0.22 * right, bottom + 0.15), (0.56 * right, 0.028))
-    return replace(page, items=(*page.items, *SCALE.legend(*bar, TICKS, title="area, km²", ink=BLACK, type_size=8.0)))
+    return with_legend(page, SCALE, TICKS, "area, km²", ink=BLACK)
 
 
 FIGURE = Figure("globe_europe", geometry, draw)

@@ -8,11 +8,14 @@ Orion show by the number of their stars alone. The colour is the mean area of a 
 brighter than magnitude 4.5 are drawn in their own colours.
 """
 
+from dataclasses import replace
+
 import numpy as np
-from _poster import add_cells, diagram_arrays, legend, poster, spaced
+from _poster import captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, lonlat_to_xyz
-from stereodel.render import ColorScale, Figure, Page, Scene, View
+from stereodel.globe import Globe
+from stereodel.render import ColorScale, Figure, Page, View
 from stereodel.render.style import DotStyle, LineStyle
 
 CENTER, POLE = (266.40499, -28.93617), (192.85948, 27.12825)  # of the galaxy, ICRS
@@ -26,11 +29,7 @@ NAMES = {
     "right": {32349: "Sirius", 27989: "Betelgeuse", 30438: "Canopus", 17702: "Pleiades"},
     "below": {24436: "Rigel"},
 }
-PLACES = {
-    "above": {"offset": (0.0, 5.0), "valign": "bottom"},
-    "right": {"offset": (5.0, 0.0), "align": "left"},
-    "below": {"offset": (0.0, -5.0), "valign": "top"},
-}
+OFFSETS = {"above": (0.0, 5.0), "right": (5.0, 0.0), "below": (0.0, -5.0)}
 
 
 def galactic() -> np.ndarray:
@@ -44,14 +43,16 @@ def galactic() -> np.ndarray:
 def geometry() -> dict:
     """Cells and areas in square degrees, places, magnitudes and colours of the stars."""
     table = data.stars()
-    voronoi = SphericalVoronoi(lonlat_to_xyz(table.lonlat))
-    turn = galactic().T
-    arrays = diagram_arrays(voronoi)
-    seen = {key: arrays[key] @ turn for key in ("points", "vertices")}
+    voronoi = SphericalVoronoi(lonlat_to_xyz(table.lonlat) @ galactic().T)
     areas = np.degrees(np.degrees(voronoi.areas()))
     for _ in range(SMOOTHED):
         areas = mean_with_neighbors(areas, voronoi.ridge_points)
-    return {**arrays, **seen, "areas": areas, "magnitude": table.magnitude, "color_index": table.color_index}
+    return {
+        "points": voronoi.points,
+        "areas": areas,
+        "magnitude": table.magnitude,
+        "color_index": table.color_index,
+    }
 
 
 def mean_with_neighbors(values: np.ndarray, pairs: np.ndarray) -> np.ndarray:
@@ -71,24 +72,23 @@ def star_color(index: float) -> tuple:
 
 def draw(g: dict) -> Page:
     """Cells by area, bright stars by magnitude and colour, the names of the brightest."""
-    scene = Scene(limb=LineStyle((0.4, 0.42, 0.5, 1.0), 0.6))
-    add_cells(scene, g, SCALE(g["areas"]))
+    globe = Globe(limb=LineStyle((0.4, 0.42, 0.5, 1.0), 0.6))
+    globe.add_cells(SphericalVoronoi(g["points"]), colors=SCALE(g["areas"]), look=None)
     for star in np.flatnonzero(g["magnitude"] < BRIGHT):
         radius = 0.55 + 0.5 * (BRIGHT - g["magnitude"][star])
-        style = DotStyle(star_color(g["color_index"][star]), radius, rim=NIGHT, rim_width=0.3)
-        scene.add_points(g["points"][star, None], style=style)
+        look = DotStyle(star_color(g["color_index"][star]), radius, rim=NIGHT, rim_width=0.3)
+        globe.add_points(g["points"][star], look=look)
     for place, names in NAMES.items():
-        for hip, name in names.items():
-            (star,) = np.flatnonzero(data.stars().hip == hip)
-            scene.add_label(name, g["points"][star], size=8.0, color=INK, **PLACES[place])
+        stars = [int(np.flatnonzero(data.stars().hip == hip)[0]) for hip in names]
+        globe.add_labels(names.values(), g["points"][stars], offset=OFFSETS[place], size=8.0, color=INK, halo=0.0)
     count = spaced(len(g["areas"]))
     subtitle = f"{count} stars of the Hipparcos catalogue, each with the part of the sky that is nearest to it"
-    items = scene.layout(VIEW) + legend(SCALE, TICKS, "area, square degrees", INK)
     credit = (
         "Stars: Hipparcos, the new reduction (ESA; F. van Leeuwen, 2007). "
         "Seen from inside, the galactic anticentre in the middle, galactic north up."
     )
-    return poster(items, "Every star its own sky", subtitle, credit, ink=INK, background=NIGHT, views=(VIEW.matrix,))
+    page = captioned(globe.page(view=VIEW), "Every star its own sky", subtitle, credit, ink=INK)
+    return replace(with_legend(page, SCALE, TICKS, "area, square degrees", ink=INK), background=NIGHT)
 
 
 FIGURE = Figure("sky_stars", geometry, draw)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel.conformal.moebius import MoebiusMap
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 Indices = npt.NDArray[np.intp]
 

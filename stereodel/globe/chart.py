@@ -16,7 +16,7 @@ from stereodel.render.curves import page_path
 from stereodel.render.page import Beziers
 from stereodel.render.regions import limb
 from stereodel.render.view import MapView
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 Indices = npt.NDArray[np.intp]
 
@@ -68,7 +68,9 @@ class Chart:
 
     def regions(self, mesh: SphereMesh) -> tuple[Mesh, BoolArray]:
         """What is seen of regions, in view axes, and which corners are on the edge of the disc."""
-        return self.image_regions(mesh.through(self.lens, tolerance=self.slack))
+        return self.image_regions(
+            mesh.through(self.lens, tolerance=self.slack, cap=(self.view.matrix[2], self.view.edge))
+        )
 
     def image_regions(self, mesh: Mesh) -> tuple[Mesh, BoolArray]:
         """The same of triangles that the lens has seen already."""

@@ -13,8 +13,8 @@ from stereodel.globe.lines import SphereLines
 from stereodel.globe.polygons import Polygons
 from stereodel.globe.regions import SphereMesh
 from stereodel.render.colors import ColorScale
-from stereodel.render.mosaics import units
 from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 
 Indices = npt.NDArray[np.intp]

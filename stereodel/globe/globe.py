@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_count, as_lonlat, as_scalar, as_steps
+from stereodel._arrays import FloatArray, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.globe import features, looks
 from stereodel.globe.chart import Chart
@@ -30,6 +30,7 @@ from stereodel.render.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotSty
 from stereodel.render.view import MapView
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
+from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 
 
@@ -148,7 +149,7 @@ class Globe:
     def add_great_circles(
         self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, look: LineStyle = looks.LINE, role: str = "arcs"
     ) -> None:
-        """Draw the shorter great-circle arcs between places (n, 2), degrees; one start goes with all ends."""
+        """Draw the shorter great-circle arcs between places, as for `add_points`; one start goes with all ends."""
         first, last = np.broadcast_arrays(self._xyz(starts, "starts"), self._xyz(ends, "ends"))
         self.add(Lines(SphereLines.great(first, last), look, role))
 
@@ -176,14 +177,14 @@ class Globe:
         """
         self._add_polygons(Polygons.of_lonlat(polygons, latitude=self.latitude), color, outline, role)
 
-    def add_points(self, lonlat: npt.ArrayLike, *, look: DotStyle = looks.DOT, role: str = "points") -> None:
-        """Draw dots at places (n, 2), degrees."""
-        self.add(Points(self._xyz(lonlat, "lonlat"), look, role))
+    def add_points(self, places: npt.ArrayLike, *, look: DotStyle = looks.DOT, role: str = "points") -> None:
+        """Draw dots at places (n, 2), degrees, or directions (n, 3)."""
+        self.add(Points(self._xyz(places, "places"), look, role))
 
     def add_labels(
         self,
         texts: Iterable[str],
-        lonlat: npt.ArrayLike,
+        places: npt.ArrayLike,
         *,
         offset: tuple[float, float] = (4.0, 0.0),
         size: float = LABEL_SIZE,
@@ -191,16 +192,16 @@ class Globe:
         halo: float = looks.HALO,
         halo_color: Color = WHITE,
     ) -> None:
-        """Write at places (n, 2), degrees, moved by `offset` points, with a halo; the first matter most.
+        """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
 
         A label that would cover one that matters more is left out, and so is one whose place is out of sight.
         """
-        places = self._xyz(lonlat, "lonlat")
+        xyz = self._xyz(places, "places")
         look = Label("", (0.0, 0.0), size=size, color=color, halo=halo, halo_color=halo_color)
         labels = tuple(placed_label(replace(look, text=text), offset) for text in texts)
-        if len(labels) != len(places):
-            raise ValueError(f"texts has {len(labels)} entries, but lonlat has {len(places)} places")
-        self.add(Names(places, labels))
+        if len(labels) != len(xyz):
+            raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
+        self.add(Names(xyz, labels))
 
     def add_cells(
         self,
@@ -375,8 +376,12 @@ class Globe:
         page = self.page(lens, view, width=width, tolerance=min(0.02, 0.2 * width / pixels))
         return save_page(page, path, size=pixels)
 
-    def _xyz(self, lonlat: npt.ArrayLike, name: str) -> FloatArray:
-        return lonlat_to_xyz(np.atleast_2d(as_lonlat(lonlat, name)), latitude=self.latitude)
+    def _xyz(self, places: npt.ArrayLike, name: str) -> FloatArray:
+        """Unit vectors of places in degrees, (n, 2), or of directions, (n, 3); one place may come alone."""
+        rows = np.atleast_2d(np.asarray(places))
+        if rows.shape[-1] == 3:
+            return units(as_directions(rows, name, points=True))
+        return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
 
     def _add_polygons(
         self, polygons: Polygons, color: Color | FloatArray, outline: LineStyle | None, role: str

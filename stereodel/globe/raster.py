@@ -17,7 +17,7 @@ from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.globe.images import read_image
 from stereodel.render.view import MapView
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 Pixels = npt.NDArray[np.uint8]
 

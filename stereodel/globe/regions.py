@@ -18,11 +18,26 @@ from stereodel.conformal import MoebiusMap
 from stereodel.conformal.polylines import great_circle_radii, largest_scale
 from stereodel.constants import INNER_TOLERANCE, SHORTEST_SIDE
 from stereodel.globe.lines import measures_in_lonlat, on_rim
-from stereodel.render.mosaics import PIECES, units
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.vectors import units
 
 Indices = npt.NDArray[np.intp]
+
+# Corners 0, 1, 2 and the middles 3, 4, 5 of the sides 01, 12, 20; which sides are cut → the triangles that come of it.
+PIECES = {
+    (True, True, True): [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)],
+    (True, True, False): [(3, 1, 4), (0, 3, 4), (0, 4, 2)],
+    (False, True, True): [(5, 4, 2), (0, 1, 4), (0, 4, 5)],
+    (True, False, True): [(0, 3, 5), (3, 1, 2), (3, 2, 5)],
+    (True, False, False): [(0, 3, 2), (3, 1, 2)],
+    (False, True, False): [(0, 1, 4), (0, 4, 2)],
+    (False, False, True): [(0, 1, 5), (5, 1, 2)],
+}
+
+
+Cap = tuple[FloatArray, float]
+"""The points x of the sphere with toward·x ≥ edge."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,13 +66,17 @@ class SphereMesh:
         for name in ("corners", "faces", "owners"):
             read_only(getattr(self, name))
 
-    def through(self, lens: MoebiusMap, *, tolerance: float) -> Mesh:
+    def through(self, lens: MoebiusMap, *, tolerance: float, cap: Cap | None = None) -> Mesh:
         """The images of the regions as triangles: sides on a border are within `tolerance` radii of their images.
 
-        Sides inside a region, where nothing shows, are so within `INNER_TOLERANCE`.
+        Sides inside a region, where nothing shows, are so within `INNER_TOLERANCE`. Triangles that are wholly outside a
+        cap may be left out.
         """
         corners, faces, owners = self.corners, self.faces, self.owners
         xyz = self._place(corners)
+        if cap is not None:
+            near = self._may_reach(lens, xyz, cap)
+            faces, owners = faces[near], owners[near]
         border = self._border
         done_faces, done_owners = [faces[:0]], [owners[:0]]
         while len(faces):
@@ -88,6 +107,31 @@ class SphereMesh:
         np.maximum.at(high, which.ravel(), owner)
         alone = np.bincount(which.ravel(), minlength=len(sides)) == 1
         return _codes(sides[alone | (low != high)])
+
+    def _may_reach(self, lens: MoebiusMap, xyz: FloatArray, cap: Cap) -> npt.NDArray[np.bool_]:
+        """Which triangles have images that may reach into a cap.
+
+        A triangle lies within its size of its first corner; the largest scale there bounds how far its image goes.
+        """
+        first = self.faces[:, 0]
+        sizes = self._sizes(xyz)
+        toward, edge = cap
+        highest = (lens(xyz[first]) @ toward) + sizes * largest_scale(lens, xyz[first], sizes)
+        near: npt.NDArray[np.bool_] = highest >= edge
+        return near
+
+    def _sizes(self, xyz: FloatArray) -> FloatArray:
+        """Radii of discs about the first corners that hold the triangles, radians."""
+        if self.corners.shape[1] == 3:
+            chords = xyz[self.faces] - xyz[np.roll(self.faces, -1, axis=1)]
+            longest: FloatArray = np.sqrt(np.sum(chords**2, axis=2)).max(axis=1)
+            angles: FloatArray = 2 * np.arcsin(np.minimum(longest / 2, 1.0))
+            return angles
+        width, height = np.radians(np.ptp(self.corners[self.faces], axis=1)).T
+        z = xyz[self.faces, 2]
+        lowest = np.where(z.min(axis=1) * z.max(axis=1) < 0, 0.0, np.abs(z).min(axis=1))
+        sizes: FloatArray = np.hypot(np.sqrt(np.maximum(0.0, 1 - lowest**2)) * width, height)
+        return sizes
 
     def _place(self, corners: FloatArray) -> FloatArray:
         return lonlat_to_xyz(corners, latitude=self.latitude) if corners.shape[1] == 2 else corners

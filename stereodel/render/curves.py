@@ -28,7 +28,7 @@ from stereodel._arrays import FloatArray, as_directions, as_vectors
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.render.page import Beziers
 from stereodel.sphere import SphereArc, SphereCircle
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 LONGEST_PIECE_RAD = np.pi / 6
 

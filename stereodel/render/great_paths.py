@@ -17,7 +17,7 @@ from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import LIMB_DEPTH, SHORT_ARC
 from stereodel.render.view import MapView
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 Indices = npt.NDArray[np.intp]
 

@@ -16,7 +16,7 @@ from stereodel.render.great_paths import Indices, Lines, chains_of
 from stereodel.render.page_regions import inverse_of, region_loops
 from stereodel.render.view import MapView
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 Edges = Literal["great circle", "straight"]
 EDGES: Final[tuple[Edges, ...]] = ("great circle", "straight")

@@ -82,7 +82,10 @@ def _loop_path(patch: Patch, loop: Indices, spacing: float) -> tuple[FloatArray,
     """One loop, closed; runs along the rim as cubics, all else as straight lines."""
     on_rim = patch.rim[loop] & patch.rim[np.roll(loop, -1)]
     if on_rim.all():
-        return _whole_circle(patch, loop)
+        points = patch.points[loop]
+        once_round = _swept(points, np.roll(points, -1, axis=0), np.array(patch.middle)) > np.pi
+        # Otherwise there and back along the rim, as where a pole lies on it.
+        return _whole_circle(patch, loop) if once_round else _polygon(points)
     # Begins where a side that is not on the rim ends, so that no run along the rim is cut.
     loop = np.roll(loop, -int(np.flatnonzero(~on_rim)[0]) - 1)
     on_rim = patch.rim[loop] & patch.rim[np.roll(loop, -1)]
@@ -111,6 +114,11 @@ def _spaced(start: FloatArray, points: FloatArray, spacing: float) -> FloatArray
     step = np.hypot(*np.diff(points, axis=0, prepend=start[None]).T)
     piece = np.floor(np.cumsum(step) / spacing)
     return points[np.diff(piece, append=np.inf) > 0]
+
+
+def _polygon(points: FloatArray) -> tuple[FloatArray, npt.NDArray[np.uint8]]:
+    codes = [Outline.MOVETO, *[Outline.LINETO] * (len(points) - 1), Outline.CLOSEPOLY]
+    return np.concatenate([points, points[:1]]), np.array(codes, dtype=np.uint8)
 
 
 def _whole_circle(patch: Patch, loop: Indices) -> tuple[FloatArray, npt.NDArray[np.uint8]]:

@@ -16,7 +16,6 @@ import numpy.typing as npt
 from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
 from stereodel.render import style as styles
 from stereodel.render.curves import CircleArc, Curve, Segment
-from stereodel.render.mosaics import MosaicThing, PolylinesThing, cell_triangles, stepped, units
 from stereodel.render.page import Color, Item, Label
 from stereodel.render.regions import SphereRegion
 from stereodel.render.style import DotStyle, LineStyle
@@ -192,50 +191,6 @@ class Scene:
     ) -> None:
         """Tint the spherical triangle of three points, counterclockwise seen from outside."""
         self.add_region([CircleArc.great(*pair) for pair in ((a, b), (b, c), (c, a))], role=role, tint=tint)
-
-    def add_cells(
-        self,
-        points: npt.ArrayLike,
-        vertices: npt.ArrayLike,
-        indices: npt.ArrayLike,
-        offsets: npt.ArrayLike,
-        *,
-        colors: npt.ArrayLike,
-        role: str = "cells",
-    ) -> None:
-        """Tint all cells of a Voronoi diagram on the near side, up to millions.
-
-        Parameters
-        ----------
-        points, vertices, indices, offsets : array_like
-            Attributes `points`, `vertices`, `region_indices` and `region_offsets` of a `SphericalVoronoi`, its sites
-            not all on one circle.
-        colors : (n, 3) array_like
-            Of each cell, sRGB in [0, 1].
-        role : str
-            Names the group in vector files, which hold the cells as a picture.
-
-        Raises
-        ------
-        ValueError
-            If there is not one colour for each cell, or a cell has two vertices.
-        """
-        sites, corners, tints = (
-            as_points(a, 3, n) for a, n in ((points, "points"), (vertices, "vertices"), (colors, "colors"))
-        )
-        ends = as_indices(offsets, np.size(indices) + 1, "offsets")
-        if not len(tints) == len(sites) == len(ends) - 1:
-            raise ValueError(f"colors has {len(tints)} rows, but there are {len(sites)} cells; give each its own")
-        if (np.diff(ends) == 2).any():
-            raise ValueError("a cell has two vertices, as where all sites are on one circle; tint it with add_region")
-        triangles, cell = cell_triangles(sites, corners, as_indices(indices, len(corners), "indices"), ends)
-        self._things.append(MosaicThing(triangles, tints[cell], role))
-
-    def add_polylines(self, lines: Iterable[npt.ArrayLike], *, role: str, style: LineStyle | None = None) -> None:
-        """Draw lines along directions (k, 3) each, such as coastlines, on the near side."""
-        look = (styles.line(role) if style is None else style).scaled(self.weight)
-        directions = (as_directions(line, "lines", points=True) for line in lines)
-        self._things.append(PolylinesThing(tuple(stepped(units(line)) for line in directions), look, role))
 
     def add_flat_polygon(self, corners: npt.ArrayLike, *, role: str = "plane", tint: Color | None = None) -> None:
         """Tint a flat polygon of space, corners (n, 3) in order: a plane that touches the ball, a chordal triangle.

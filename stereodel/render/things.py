@@ -18,7 +18,7 @@ from stereodel.render.page import Beziers, Color, Dots, Fill, Item, Label, Strok
 from stereodel.render.regions import SphereRegion, limb, near_hemisphere
 from stereodel.render.style import DotStyle, LineStyle
 from stereodel.render.visibility import TOWARD, Place, cut, lies_on_ball, place_of, split_by_ball
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 Look = Literal["solid", "glass", "none"]
 

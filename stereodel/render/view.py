@@ -14,7 +14,7 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar, as_vectors
 from stereodel.constants import LARGEST_EXTENT
 from stereodel.sphere import lonlat_to_xyz
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 
 class MapView(Protocol):

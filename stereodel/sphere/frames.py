@@ -1,11 +1,11 @@
-"""Axes: east, north and up at a point of the sphere, in double-double; vectors in other axes."""
+"""The axes (east, north, up) at a point of the sphere, in double-double."""
 
 from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_direction_or_lonlat
+from stereodel._arrays import as_direction_or_lonlat
 from stereodel._double_double import DoubleDouble, unit
 from stereodel.sphere.coordinates import scaled
 from stereodel.sphere.degrees import sin_cos_degrees
@@ -46,12 +46,3 @@ def _frame(sin_lon: DoubleDouble, cos_lon: DoubleDouble, sin_lat: DoubleDouble, 
     return DoubleDouble(
         np.array([[float(c.hi) for c in row] for row in rows]), np.array([[float(c.lo) for c in row] for row in rows])
     )
-
-
-def turned(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
-    """Apply the rows of a matrix (3, 3) to vectors (..., 3).
-
-    Written out, because a matrix product may fuse or reorder its sums from one machine to the next.
-    """
-    x, y, z = vectors[..., :1], vectors[..., 1:2], vectors[..., 2:]
-    return x * matrix[:, 0] + y * matrix[:, 1] + z * matrix[:, 2]

@@ -6,7 +6,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from matplotlib.transforms import Affine2D
 
@@ -40,6 +40,7 @@ def loop_area(outline):
 @given(
     focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)), size=st.floats(-1, 3).map(lambda e: 10.0**e), view=views
 )
+@example(focus=(0.0, 2.5), size=1.0, view=View(112.0, 0.0))  # a pole on the rim
 def test_paper_and_pixels_fill_the_same_land(focus, size, view):
     """What the loops on paper bound, rim and all, is what the triangles cover."""
     globe = Globe()

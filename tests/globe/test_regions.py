@@ -13,7 +13,7 @@ from stereodel.globe.polygons import Polygons
 from stereodel.globe.regions import Mesh, SphereMesh
 from stereodel.render.outlines import boundary_sides, loops
 from stereodel.render.view import View
-from stereodel.sphere.frames import turned
+from stereodel.sphere.vectors import turned
 
 NONE = MoebiusMap.identity()
 
@@ -164,3 +164,22 @@ def test_tiny_regions_at_huge_magnification_are_smooth():
     sides = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
     assert np.linalg.norm(mesh.points[sides[:, 0]] - mesh.points[sides[:, 1]], axis=1).max() < 0.25
     np.testing.assert_allclose(mesh.points[:8], lens(lonlat_to_xyz(ring)), atol=1e-15)
+
+
+@given(
+    focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
+    size=st.floats(-2, 4).map(lambda e: 10.0**e),
+    at=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
+    edge=st.floats(-0.9, 0.9),
+    name=st.sampled_from(sorted(BOXES)),
+)
+def test_what_is_left_out_beyond_a_cap_is_out_of_sight(focus, size, at, edge, name):
+    lens = fisheye(focus, magnification=size)
+    matrix = View(*at).matrix
+    mesh = Polygons.of_lonlat([[BOXES[name][0]]]).mesh
+    seen = []
+    for cap in (None, (matrix[2], edge)):
+        image = mesh.through(lens, tolerance=2e-3, cap=cap)
+        part, _ = replace(image, points=turned(image.points, matrix)).clipped(edge, tolerance=2e-3)
+        seen.append(np.sort(part.points[part.faces].reshape(-1, 9), axis=0))
+    np.testing.assert_array_equal(*seen)

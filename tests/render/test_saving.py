@@ -12,7 +12,7 @@ from stereodel.render.curves import CircleArc
 from stereodel.render.figure import Figure
 from stereodel.render.image import PixelDigest, pixel_hash
 from stereodel.render.labels import LabelLayer, label_layer
-from stereodel.render.page import Dots, Fill, Polylines, Stroke
+from stereodel.render.page import Dots, Fill, Mosaic, Polylines, Stroke
 from stereodel.render.raster import render, triangulate
 from stereodel.render.style import BLACK, BLUE, VERMILION, with_opacity
 from stereodel.render.triangles import Window
@@ -188,14 +188,10 @@ def test_vector_files_by_their_endings(tmp_path):
 
 
 def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
-    scene = Scene()
-    octahedron = np.concatenate([np.eye(3), -np.eye(3)])
-    from stereodel import SphericalVoronoi
-
-    voronoi = SphericalVoronoi(octahedron)
-    names = ("points", "vertices", "region_indices", "region_offsets")
-    scene.add_cells(*(getattr(voronoi, name) for name in names), colors=np.zeros((6, 3)))
-    page = Page((-1.0, 1.0, -1.0, 1.0), scene.layout(View(0, 0)), width=7.2)
+    corners = np.array([[[-0.5, -0.5], [0.5, -0.5], [0.0, 0.5]]])
+    outline = (np.array([[[-1.0, -1.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]]]),)
+    mosaic = Mosaic(corners, None, np.zeros((1, 3)), outline)
+    page = Page((-1.0, 1.0, -1.0, 1.0), (mosaic,), width=7.2)
     assert [picture.shape for picture in saving.mosaic_pictures(page, 20)] == [(20, 20, 3)]
     assert [picture.shape for picture in saving.mosaic_pictures(page, 9000)] == [(60, 60, 3)]
 

@@ -1,0 +1,22 @@
+"""Many vectors at once, in plain doubles: of length 1, in other axes."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+
+
+def units(vectors: FloatArray) -> FloatArray:
+    """Directions (..., 3) as unit vectors."""
+    directions: FloatArray = vectors / np.sqrt(np.sum(vectors**2, axis=-1, keepdims=True))
+    return directions
+
+
+def turned(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
+    """Apply the rows of a matrix (3, 3) to vectors (..., 3).
+
+    Written out, because a matrix product may fuse or reorder its sums from one machine to the next.
+    """
+    x, y, z = vectors[..., :1], vectors[..., 1:2], vectors[..., 2:]
+    return x * matrix[:, 0] + y * matrix[:, 1] + z * matrix[:, 2]
