@@ -87,7 +87,7 @@ void second_stage(const double* lonlat, double* xyz) {
 }
 
 // The angle of (x, y) in degrees: a plain one, corrected by what it leaves of the vector turned back. The turned sine
-// is off by 2^-64 of the length and for small angles of itself, so that the sum is rounded once but for 2^-10 of an ulp.
+// is off by 2^-64 of the length and for small angles of itself: the sum is rounded once, but for 2^-10 of an ulp.
 double angle_degrees(DoubleDouble y, DoubleDouble x, const DegreeTable& table) {
     const double guess = plain_angle(y.hi, x.hi, table);
     SineCosine turn = sin_cos_fast(guess, table);
