@@ -11,6 +11,7 @@ from matplotlib.transforms import Transform
 
 from stereodel._arrays import FloatArray
 from stereodel.conformal import MoebiusMap
+from stereodel.conformal.polylines import largest_scale
 from stereodel.constants import LIMB_DEPTH, PAGE_TOLERANCE
 from stereodel.render.great_paths import Indices, Lines, chains_of
 from stereodel.render.page_regions import inverse_of, region_loops
@@ -19,6 +20,9 @@ from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.vectors import turned
 
 Edges = Literal["great circle", "straight"]
+COARSE_STEP: Final = 2.0
+"""Degrees of straight edges over which the largest scale of a lens is asked for."""
+
 EDGES: Final[tuple[Edges, ...]] = ("great circle", "straight")
 
 
@@ -72,7 +76,7 @@ class LonLatToPage(Transform):
         if not len(lonlat):
             return Path(np.zeros((0, 2)))
         if self.edges == "straight":
-            lonlat, offsets = _subdivided(lonlat, offsets, self._longest_step())
+            lonlat, offsets = _followed(lonlat, offsets, self.lens, self.tolerance / self.view.stretch)
         lines = Lines(lonlat_to_xyz(lonlat), offsets)
         if closed.any():
             rings, places = _chosen(lines, lonlat, closed)
@@ -83,15 +87,6 @@ class LonLatToPage(Transform):
     def inverted(self) -> Transform:
         """From the page to longitude and latitude."""
         return PageToLonLat(self)
-
-    def _longest_step(self) -> float:
-        """Degrees on the map over which a great circle strays from a straight line by the tolerance, magnified.
-
-        A point that moves by (a, b) radians in unit time has an acceleration across the great circle of at most
-        √(4a²b² + a⁴/4), which is below 2.1 d² when |a|, |b| ≤ d; over that time it strays by an eighth of it.
-        """
-        scale = max(self.lens.magnification, 1 / self.lens.magnification) * self.view.stretch
-        return float(np.degrees(np.sqrt(8 * self.tolerance / (2.1 * scale))))
 
 
 class PageToLonLat(Transform):
@@ -153,16 +148,42 @@ def _chosen(lines: Lines, lonlat: FloatArray, kept: npt.NDArray[np.bool_]) -> tu
     return Lines(lines.vertices[rows], np.concatenate([[0], np.cumsum(sizes[kept])])), lonlat[rows]
 
 
-def _subdivided(lonlat: FloatArray, offsets: Indices, longest: float) -> tuple[FloatArray, Indices]:
-    """The same lines with further vertices on their straight edges, `longest` degrees apart at most."""
+def _followed(lonlat: FloatArray, offsets: Indices, lens: MoebiusMap, tolerance: float) -> tuple[FloatArray, Indices]:
+    """The same lines with vertices whose great circles, after the lens, stray from the straight edges by a tolerance.
+
+    A point that moves by (a, b) radians in unit time has an acceleration across the great circle of
+    |sin φ|·√((a² cos φ)² + (2ab)²) and strays from it by an eighth of that at most, times the largest scale on the way.
+    """
+    lonlat, offsets = _subdivided(lonlat, offsets, _steps(lonlat, offsets), np.full(len(lonlat), 1 / COARSE_STEP))
+    step, xyz = _steps(lonlat, offsets), lonlat_to_xyz(lonlat)
+    a, b = np.radians(step).T
+    cosine, sine = np.hypot(xyz[:, 0], xyz[:, 1]), np.minimum(np.abs(xyz[:, 2]) + np.abs(b), 1.0)
+    cosine = np.minimum(cosine + np.abs(b), 1.0)  # the largest on the edge, as the sine
+    bend = sine * np.hypot(cosine * a**2, 2 * a * b) / 8
+    scale = largest_scale(lens, xyz, np.hypot(cosine * a, b))
+    size = np.abs(step).max(axis=1)
+    return _subdivided(lonlat, offsets, step, np.sqrt(bend * scale / tolerance) / np.where(size > 0, size, 1.0))
+
+
+def _steps(lonlat: FloatArray, offsets: Indices) -> FloatArray:
+    """From each vertex to the next of its line, (n, 2); zero from the last.
+
+    A jump of more than half the map goes the other way round, as in files that cut nothing at ±180°; at a pole it is a
+    stretch of the upper or lower border.
+    """
     step = np.diff(lonlat, axis=0, append=lonlat[-1:])
-    # A jump of more than half the map goes the other way round, as in files that cut nothing at ±180°; at a pole it is
-    # a stretch of the upper or lower border.
     pole = (np.abs(lonlat[:, 1]) == 90.0) & (step[:, 1] == 0.0)
     jump = (np.abs(step[:, 0]) > 180.0) & (np.abs(step[:, 0]) < 360.0) & ~pole
     step[jump, 0] -= np.copysign(360.0, step[jump, 0])
     step[offsets[1:] - 1] = 0.0
-    counts = np.maximum(1, np.ceil(np.abs(step).max(axis=1) / longest)).astype(np.intp)
+    return step
+
+
+def _subdivided(
+    lonlat: FloatArray, offsets: Indices, step: FloatArray, density: FloatArray
+) -> tuple[FloatArray, Indices]:
+    """The same lines with further vertices on their straight edges: `density` for a degree of the longer coordinate."""
+    counts = np.maximum(1, np.ceil(np.abs(step).max(axis=1) * density)).astype(np.intp)
     before = np.concatenate([[0], np.cumsum(counts)])
     row = np.repeat(np.arange(len(lonlat)), counts)
     share = (np.arange(before[-1]) - before[row]) / counts[row]

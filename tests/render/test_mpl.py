@@ -206,6 +206,19 @@ def test_geometries_of_every_kind():
         axes.add_geometries(shapely.Point(0, 100))
 
 
+@pytest.mark.parametrize("backwards", [False, True])
+def test_a_hole_in_what_covers_the_view_stays_open(backwards):
+    """matplotlib fills by the nonzero rule: the edge of the view must run against the hole."""
+    world = shapely.box(-180, -90, 180, 90).difference(shapely.box(-20, -20, 20, 20))
+    world = shapely.orient_polygons(world, exterior_cw=backwards)
+    axes = axes_of(view=(0, 0))
+    axes.set_position((0, 0, 1, 1))
+    axes.add_geometries(world, facecolor="red", edgecolor="none")
+    picture = pixels(axes)
+    assert picture[200, 200].tolist() == [255, 255, 255]
+    assert picture[200, 60].tolist() == picture[60, 200].tolist() == [255, 0, 0]
+
+
 def test_geopandas_plots_into_it():
     axes = axes_of(focus=(20, 10), magnification=2)
     frame = geopandas.GeoDataFrame(
