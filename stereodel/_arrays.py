@@ -293,6 +293,16 @@ def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArra
     return as_points(array, 2, name)
 
 
+def as_frame(values: npt.ArrayLike, name: str) -> npt.NDArray[np.uint8]:
+    """A picture in three channels of eight bits, (h, w, 3), h and w ≥ 1."""
+    array = np.asarray(values)
+    if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
+        raise ValueError(f"{name} must have shape (h, w, 3), got {array.shape}")
+    if array.dtype != np.uint8:
+        raise TypeError(f"{name} must be of uint8, not {array.dtype}; scale the numbers to 0 to 255 and cast them")
+    return array
+
+
 def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> npt.NDArray[np.uint8]:
     """A picture of at most `most` pixels, (h, w), (h, w, 3) or (h, w, 4) uint8, as a copy with four channels."""
     _refuse_masked(values, name)

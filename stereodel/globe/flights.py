@@ -118,6 +118,7 @@ class Flight:
 
     def __post_init__(self) -> None:
         as_scalar(self.pace, "pace", low=0.0, open_low=True)
+        object.__setattr__(self, "stops", tuple(self.stops))
         if len(self.stops) < 2:
             raise ValueError(f"stops has {len(self.stops)} entries, but a flight has two or more")
         for number, (one, other) in enumerate(zip(self.stops, self.stops[1:], strict=False)):

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, Final
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, as_frame
 from stereodel._files import replacing
 from stereodel.render.motion.apng import write_apng
 from stereodel.render.motion.gif import write_gif
@@ -102,8 +102,9 @@ def save_pictures(reel: Reel, path: str | os.PathLike[str], *, seconds: float | 
 
     Raises
     ------
-    ValueError
-        For another ending, no frames, frames of several sizes, or a size or time that the format cannot hold.
+    ValueError, TypeError
+        For another ending, no frames, frames of several sizes, a size or time that the format cannot hold, or pictures
+        that are no such arrays.
     ImportError
         For an MP4 without ffmpeg, which comes with ``pip install 'stereodel[video]'``.
 
@@ -127,7 +128,7 @@ def save_pictures(reel: Reel, path: str | os.PathLike[str], *, seconds: float | 
     if len(reel) == 0:
         raise ValueError(f"{target.name} would have no frames; give at least one picture")
     times = frame_seconds(seconds, len(reel))
-    kind.check(target.name, reel[0].shape[:2], times)
+    kind.check(target.name, as_frame(reel[0], "reel[0]").shape[:2], times)
     with replacing(target) as temporary:
         kind.write(reel, temporary, times)
     return target

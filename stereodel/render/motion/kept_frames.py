@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import os
-import shutil
+import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from PIL import Image
 
 from stereodel._files import replacing
 from stereodel.render.motion.reels import Pixels
+
+OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")
+"""Names of frames, and of frames that a process which was ended had begun."""
 
 
 @dataclass(frozen=True)
@@ -33,9 +38,11 @@ class KeptFrames:
 
     @classmethod
     def beside(cls, film: Path, names: Sequence[str]) -> KeptFrames:
-        """In the folder FILM.frames, made when it is missing."""
+        """In the folder FILM.frames, made when it is missing; an OSError where that is not possible."""
+        if film.is_dir():
+            raise IsADirectoryError(f"{film} is a folder; give the name of a file")
         folder = film.with_name(f"{film.name}.frames")
-        folder.mkdir(parents=True, exist_ok=True)
+        folder.mkdir(exist_ok=True)
         return cls(folder, names)
 
     def path(self, number: int) -> Path:
@@ -51,12 +58,19 @@ class KeptFrames:
         return len(self.names)
 
     def __getitem__(self, number: int) -> Pixels:
-        with Image.open(self.path(number)) as image:
-            return np.asarray(image)
+        try:
+            with Image.open(self.path(number)) as image:
+                return np.asarray(image)
+        except OSError as error:
+            raise OSError(f"{self.path(number)} cannot be read ({error}); remove it and try again") from error
 
     def remove(self) -> None:
-        """Remove the folder with all that is in it: the film is complete."""
-        shutil.rmtree(self.folder)
+        """Remove all frames, those of other films of the same name too, and the folder if nothing else is in it."""
+        for path in self.folder.iterdir():
+            if OURS.fullmatch(path.name):
+                path.unlink()
+        with suppress(OSError):
+            self.folder.rmdir()
 
 
 def store_frame(picture: Pixels, path: str | os.PathLike[str]) -> None:

@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_floats
+from stereodel._arrays import FloatArray, as_floats, as_frame
 
 Pixels = npt.NDArray[np.uint8]
 
@@ -27,7 +27,7 @@ def frames_of(reel: Reel) -> Iterator[Pixels]:
     """All pictures in order, one in memory at a time; a ValueError where one has another size than the first."""
     shape: tuple[int, ...] = ()
     for number in range(len(reel)):
-        picture = reel[number]
+        picture = as_frame(reel[number], f"reel[{number}]")
         shape = shape or picture.shape
         if picture.shape != shape:
             raise ValueError(

@@ -14,10 +14,13 @@ import traceback
 import types
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, BinaryIO, Final
+from typing import Any, BinaryIO, Final, Literal
 
 DRAWS_FRAMES: Final = "STEREODEL_DRAWS_FRAMES"
 """Environment variable that tells code of the main script that it runs in a worker."""
+
+MainScript = tuple[Literal["module", "path"], str]
+"""The name of the module that `python -m` runs, or the path of a file."""
 
 Answer = tuple[str, str]
 """One line and the whole traceback of what went wrong; both empty when nothing did."""
@@ -55,11 +58,13 @@ def _in_words(error: Exception) -> Answer:
     return f"{type(error).__name__}: {error}", "".join(traceback.format_exception(error))
 
 
-def _import_main(script: str) -> None:
+def _import_main(script: MainScript) -> None:
     """Make what the main script defines known under the names that pickles have for it, as multiprocessing does."""
     main = types.ModuleType("__mp_main__")
     sys.modules["__main__"] = sys.modules["__mp_main__"] = main
-    main.__dict__.update(runpy.run_path(script, run_name="__mp_main__"))
+    kind, name = script
+    run = runpy.run_module if kind == "module" else runpy.run_path
+    main.__dict__.update(run(name, run_name="__mp_main__"))
 
 
 def main() -> None:

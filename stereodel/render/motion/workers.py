@@ -18,7 +18,7 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import IO, Any, cast
 
-from stereodel.render.motion.worker import DRAWS_FRAMES, Answer, attempt, main
+from stereodel.render.motion.worker import DRAWS_FRAMES, Answer, MainScript, attempt, main
 
 Task = tuple[int, Any, Path]
 """Number of the frame, what it shows, and the file to write."""
@@ -48,7 +48,7 @@ def draw_all(store: Callable[[Any, Path], None], tasks: Sequence[Task], jobs: in
         for number, shot, path in tasks:
             yield _done(number, attempt(store, shot, path))
         return
-    orders = _orders(store)
+    orders = _orders(store, tasks)
     workers = [_Worker(orders) for _ in range(min(jobs, len(tasks)))]
     threads = ThreadPoolExecutor(len(workers))
     try:
@@ -117,11 +117,26 @@ class _Worker:
                 stream.close()
 
 
-def _orders(store: Callable[[Any, Path], None]) -> bytes:
+def _orders(store: Callable[[Any, Path], None], tasks: Sequence[Task]) -> bytes:
     """What a worker must know before the first task."""
     drawing = pickle.dumps(store)
-    script = getattr(sys.modules["__main__"], "__file__", None) if b"__main__" in drawing else None
-    return pickle.dumps((sys.argv, script, drawing))
+    # A function or class of the main script is pickled under this name.
+    main_script = _main_script() if any(b"__main__" in data for data in (drawing, pickle.dumps(tasks))) else None
+    return pickle.dumps((sys.argv, main_script, drawing))
+
+
+def _main_script() -> MainScript:
+    """How to import the main script elsewhere."""
+    script = sys.modules["__main__"]
+    if script.__spec__ is not None:
+        return "module", script.__spec__.name
+    path = getattr(script, "__file__", None)
+    if path is None:
+        raise TypeError(
+            "draw or the shots are defined in an interactive session, which other processes cannot import; "
+            "put them into a module, or draw with jobs=1"
+        )
+    return "path", path
 
 
 def refuse_in_worker() -> None:

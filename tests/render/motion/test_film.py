@@ -149,12 +149,12 @@ film = Film(balls.slow_ball, [k / 10 for k in range(10, 30)], size=80)
 """
 
 
-def start(folder, out, *, guard="", code=FILM, slow="0"):
+def start(folder, out, *, guard="", code=FILM, slow="0", how=()):
     script = folder / "film.py"
     script.write_text(code.format(guard=guard))
     paths = [str(Path(stereodel.__file__).parents[1]), str(folder)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "SLOW": slow}
-    command = [sys.executable, str(script), str(out / "balls.gif")]
+    command = [sys.executable, *(how or [str(script)]), str(out / "balls.gif")]
     return subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
@@ -207,10 +207,25 @@ def test_a_script_that_draws_itself_is_told_of_the_guard(balls, out):
     assert process.returncode != 0
     assert re.search("FrameError: frame [01]: RuntimeError: the main script makes a film", said)
     assert 'put the call under `if __name__ == "__main__":`' in said
-    process = start(Path(balls.__file__).parent, out, guard='if __name__ == "__main__": ', code=OWN)
+
+
+@pytest.mark.parametrize("how", [(), ("-m", "film")])
+def test_with_the_guard_it_draws_itself(balls, out, how):
+    process = start(Path(balls.__file__).parent, out, guard='if __name__ == "__main__": ', code=OWN, how=how)
     _, said = process.communicate(timeout=60)
     assert process.returncode == 0, said
     assert len(frames(out / "balls.gif")) == 3
+
+
+def test_an_interactive_session_is_told_of_modules(balls, out):
+    code = OWN.format(guard="")
+    process = start(Path(balls.__file__).parent, out, code=OWN, how=("-c", code))
+    _, said = process.communicate(timeout=60)
+    assert "TypeError: draw or the shots are defined in an interactive session" in said
+    assert "jobs=1" in said
+    one = start(Path(balls.__file__).parent, out, code=OWN, how=("-c", code.replace("jobs=2", "jobs=1")))
+    _, said = one.communicate(timeout=60)
+    assert one.returncode == 0, said
 
 
 @dataclass(frozen=True)
@@ -266,6 +281,37 @@ def test_frames_of_several_sizes_are_named(balls, out):
     film = Film(balls.wide, [2.0, 4.0], size=40)
     with pytest.raises(ValueError, match="frame 1 has 40 by 10 pixels and differs from the first with 40 by 20"):
         film.save(out / "wide.gif", jobs=1, progress=False)
+
+
+def test_what_is_not_of_a_film_stays_in_its_folder(balls, out):
+    kept = out / "balls.gif.frames"
+    kept.mkdir()
+    (kept / "notes.txt").write_text("mine")
+    (kept / f".{'0' * 32}.png.17.tmp").write_text("half a frame")
+    (kept / f"{'0' * 32}.png").write_text("a frame of another film")
+    Film(balls.ball, [1.0], size=40).save(out / "balls.gif", jobs=1, progress=False)
+    assert [path.name for path in kept.iterdir()] == ["notes.txt"]
+
+
+def test_a_kept_frame_that_cannot_be_read_is_named(balls, out):
+    film = Film(balls.ball, [1.0, -1.0], size=40)
+    with pytest.raises(FrameError):
+        film.save(out / "balls.gif", jobs=1, progress=False)
+    (frame,) = (out / "balls.gif.frames").iterdir()
+    frame.write_bytes(frame.read_bytes()[:60])
+    with pytest.raises(OSError, match=rf"{frame.name} cannot be read .*remove it and try again"):
+        replace(film, shots=[1.0]).save(out / "balls.gif", jobs=1, progress=False)
+    assert not (out / "balls.gif").exists()
+
+
+def test_nowhere_to_write_is_noticed_before_drawing(balls, out):
+    film = Film(balls.ball, [1.0], size=40)
+    with pytest.raises(FileNotFoundError):
+        film.save(out / "none" / "balls.gif", jobs=1)
+    (out / "folder.gif").mkdir()
+    with pytest.raises(IsADirectoryError, match=r"folder\.gif is a folder; give the name of a file"):
+        film.save(out / "folder.gif", jobs=1)
+    assert not balls.LOG.exists()
 
 
 def test_films_can_be_pickled(balls):

@@ -174,6 +174,16 @@ def test_bad_reels_and_times_leave_no_file(tmp_path, ending):
     assert list(tmp_path.iterdir()) == []
 
 
+def test_pictures_are_arrays_of_bytes(tmp_path):
+    for wrong in (REEL[0].astype(float), REEL[0] / 255):
+        with pytest.raises(TypeError, match=r"reel\[0\] must be of uint8, not float64; scale"):
+            save_pictures([wrong], tmp_path / "moving.gif")
+    for wrong in (REEL[0][..., 0], np.zeros((4, 4, 4), dtype=np.uint8), np.zeros((0, 4, 3), dtype=np.uint8)):
+        with pytest.raises(ValueError, match=r"reel\[1\] must have shape \(h, w, 3\)"):
+            save_pictures([REEL[0], wrong], tmp_path / "moving.png")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_what_a_format_cannot_hold_is_refused(tmp_path):
     with pytest.raises(ValueError, match=r"fast\.gif would be shown for 0\.0100 s each.*at most 50 frames a second"):
         save_pictures(REEL, tmp_path / "fast.gif", seconds=0.01)
