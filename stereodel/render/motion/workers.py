@@ -16,9 +16,12 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
-from typing import IO, Any, cast
+from typing import IO, Any, Final, cast
 
 from stereodel.render.motion.worker import DRAWS_FRAMES, Answer, MainScript, attempt, main
+
+FRAMES: Final = 32
+"""Frames that a process draws before another takes its place: it grows by some megabytes with each, inside OpenGL."""
 
 Task = tuple[int, Any, Path]
 """Number of the frame, what it shows, and the file to write."""
@@ -60,9 +63,10 @@ def draw_all(store: Callable[[Any, Path], None], tasks: Sequence[Task], jobs: in
             yield _done(futures[future], future.result())
     finally:
         threads.shutdown(wait=False, cancel_futures=True)
-        for worker in workers:
-            worker.stop()
-        threads.shutdown()
+        for _ in range(2):  # again, because a thread may just have begun another process
+            for worker in workers:
+                worker.stop()
+            threads.shutdown()
 
 
 def _in_turn(free: SimpleQueue[_Worker], task: Task) -> Answer:
@@ -87,6 +91,10 @@ class _Worker:
     """A process that draws one frame after another; it ends when this one does, whatever ends it."""
 
     def __init__(self, orders: bytes) -> None:
+        self._orders = orders
+        self._start()
+
+    def _start(self) -> None:
         # A thread of llvmpipe for each core would be as many threads too many as there are other workers.
         environment = {"LP_NUM_THREADS": "1", **os.environ, DRAWS_FRAMES: "1"}
         environment["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
@@ -94,14 +102,17 @@ class _Worker:
         self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment)
         self._requests = cast(IO[bytes], self._process.stdin)
         self._answers = cast(IO[bytes], self._process.stdout)
-        self._orders = orders
+        self._unsent, self._drawn = self._orders, 0
 
     def ask(self, task: Task) -> Answer:
         """Have a frame drawn."""
+        if self._drawn == FRAMES:
+            self.stop()
+            self._start()
         try:
-            self._requests.write(self._orders + pickle.dumps(task[1:]))
+            self._requests.write(self._unsent + pickle.dumps(task[1:]))
             self._requests.flush()
-            self._orders = b""
+            self._unsent, self._drawn = b"", self._drawn + 1
             answer: Answer = pickle.load(self._answers)
         except (EOFError, OSError, pickle.UnpicklingError):
             code = self._process.wait()

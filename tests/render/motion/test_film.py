@@ -16,7 +16,7 @@ from PIL import Image
 
 import stereodel
 from stereodel.render import Film, FrameError
-from stereodel.render.motion import keys
+from stereodel.render.motion import keys, workers
 
 BALLS = """
 import os, time
@@ -110,6 +110,16 @@ def test_several_processes_give_the_same_file_as_one(balls, out):
     processes = {pid for pid, _ in drawn(balls)[6:]}
     assert os.getpid() not in processes
     assert 1 <= len(processes) <= 2
+    wait_until(lambda: all(map(ended, processes)))
+
+
+def test_a_process_draws_so_many_frames_and_then_another_goes_on(balls, out, monkeypatch):
+    monkeypatch.setattr(workers, "FRAMES", 2)
+    film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 3.2), size=80)
+    assert len(frames(film.save(out / "many.png", jobs=2, progress=False))) == 7
+    processes = [pid for pid, _ in drawn(balls)]
+    assert len(processes) == 7
+    assert max(map(processes.count, processes)) == 2
     wait_until(lambda: all(map(ended, processes)))
 
 
