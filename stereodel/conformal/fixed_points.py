@@ -61,6 +61,8 @@ def multiplier_of(element: Biquaternion) -> complex:
     element = principal(element)
     factor = element.scalar + _sine(element, kind).times_i()
     value = complex(factor * factor)
+    if kind == "boost":
+        return complex(abs(value))
     return value / abs(value) if kind == "rotation" else value
 
 

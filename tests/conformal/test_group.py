@@ -147,6 +147,7 @@ def test_parabolic_maps(other):
 def test_known_kinds(conformal, kind, multiplier):
     assert conformal.kind == kind
     assert conformal.multiplier == pytest.approx(multiplier, rel=1e-12, abs=1e-15)
+    assert kind != "boost" or conformal.multiplier.imag == 0
 
 
 def test_fixed_points_come_in_order():
