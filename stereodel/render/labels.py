@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.backends import backend_agg
 from matplotlib.text import Text
+from matplotlib.transforms import Affine2D
 
 from stereodel.render.page import Page
 from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
@@ -96,9 +97,21 @@ def _laid_over(rows: Pixels, layer: Pixels) -> Pixels:
 
 
 def _canvas(width: int, height: int, dpi: float) -> Any:
-    """A canvas of matplotlib, which has no types."""
+    """A canvas of matplotlib, which has no types; its foot is as far above that of the page as it is lower.
+
+    Matplotlib turns the place of type round by the height that a canvas says it has, but paths, which type with a halo
+    is drawn as, by the height that it has.
+    """
     agg: Any = backend_agg
-    return agg.RendererAgg(width, height, dpi)
+    canvas = agg.RendererAgg(width, height, dpi)
+    draw_path = canvas.draw_path
+
+    def lowered(gc: Any, path: Any, transform: Any, face: Any = None) -> None:
+        below = canvas.get_canvas_width_height()[1] - height
+        draw_path(gc, path, transform + Affine2D().translate(0.0, -below), face)
+
+    canvas.draw_path = lowered
+    return canvas
 
 
 def _rows_of(text: Text, ruler: Any, height: int) -> tuple[float, float]:

@@ -112,6 +112,22 @@ def test_labels_are_the_same_in_any_rows(cuts):
     assert (whole[..., 3] > 0).mean() > 0.01
 
 
+@pytest.mark.parametrize("cuts", [(1,), (100, 101, 150), (64, 128, 192, 256)])
+def test_labels_with_halos_are_the_same_in_any_rows(cuts):
+    """Up to the roundings of curves: by one level, in few pixels; type in the wrong rows would be off by 255."""
+    page = globe_page()
+    page = replace(page, items=tuple(replace(label, halo=1.5) for label in page.labels))
+    layer = LabelLayer(page, 297)
+    whole = layer.rows(0, layer.height).astype(int)
+    ends = [0, *cuts, layer.height]
+    parts = np.concatenate([layer.rows(*pair) for pair in itertools.pairwise(ends)])
+    assert np.abs(parts - whole).max() <= 1
+    assert (whole[..., 3] > 0).mean() > 0.01
+    with vector.matplotlib_settings():
+        canvas = vector.drawn(replace(page, items=page.labels), *vector.pixel_grid(page, 297))
+        assert np.array_equal(whole, vector._pixels(canvas, (1.0, 1.0, 1.0, 0.0)))
+
+
 def test_labels_are_those_of_matplotlib():
     page = globe_page()
     with vector.matplotlib_settings():
