@@ -72,6 +72,7 @@ stub: $(STAMP) ## write the kernel's type stub anew
 bench: $(STAMP) ## measure against other libraries, which are installed into benchmarks/.peers
 	benchmarks/install_peers.sh
 	$(BIN)/python -m benchmarks
+	$(BIN)/python -m benchmarks.rasters
 
 dist: $(STAMP) ## source archive and wheel into dist/, the wheel tried in a new environment
 	tools/dist.sh $(VENV)

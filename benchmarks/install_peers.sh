@@ -66,6 +66,7 @@ echo "Installing the peers into benchmarks/$peers" >&2
 attempt cgal cgal
 attempt scipy,triangle python_with python 11 13 scipy==1.17.1 triangle==20250106
 attempt triangular python_with python312 12 13 triangular==0.2.2 numpy
+attempt cartopy python_with cartopy 11 13 cartopy==0.26.0 scipy==1.17.1
 attempt stripy python_with python_numpy1 9 12 stripy==2.3.3 'numpy<2'
 attempt delaunator,d3-geo-voronoi node_packages delaunator@5.1.0 d3-geo-voronoi@2.1.0
 attempt airports,stars real_sets

@@ -504,6 +504,7 @@ def warp_raster(
     raster: Annotated[NDArray[numpy.uint8], dict(shape=(None, None, 4), order="C", device="cpu", writable=False)],
     levels: Annotated[NDArray[numpy.uint8], dict(shape=(None,), order="C", device="cpu", writable=False)],
     edges: Annotated[NDArray[numpy.float64], dict(shape=(4), order="C", device="cpu", writable=False)],
+    shifts: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
     first: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
     size: float,
     last: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],

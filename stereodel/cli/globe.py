@@ -59,7 +59,7 @@ def command(
     table = read(points, lon=lon, lat=lat) if points is not None else None
     with stage("reading maps"):
         features = Features(land, coastlines, borders, rivers, lakes, graticule)
-        drawing = new_globe(features, latitude, texture_of(texture, texture_box))
+        drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude))
         add_files(drawing, layer or ())
         if table is not None:
             aim = aim.with_middle_of(table.points(latitude))

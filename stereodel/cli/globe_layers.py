@@ -33,15 +33,16 @@ class Features:
     graticule: float
 
 
-def texture_of(name: str | None, box: str | None) -> Raster | None:
-    """The picture that options ask for."""
+def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster | None:
+    """The picture that options ask for, with rows of a kind of latitude."""
     if name is None:
         if box is not None:
             raise ValueError("--texture-box is for a --texture")
         return None
     if name == OWN_TEXTURE:
-        return Raster(blue_marble())
-    return Raster.open(name, extent=None if box is None else box_of(box, "--texture-box"))
+        return Raster(blue_marble(), latitude=latitude.value)
+    extent = None if box is None else box_of(box, "--texture-box")
+    return Raster.open(name, extent=extent, latitude=latitude.value)
 
 
 def new_globe(features: Features, latitude: Latitude, texture: Raster | None) -> Globe:

@@ -88,8 +88,8 @@ class Globe:
         Parameters
         ----------
         raster : Raster, pixels as for `Raster`, or path-like
-            Where it is transparent, the layers below show through. Its latitudes are taken as they stand, whatever
-            those of the globe are.
+            Where it is transparent, the layers below show through. Pixels and files have the latitude of this globe, a
+            `Raster` its own.
         extent : tuple of float, optional
             (west, south, east, north) of pixels or a file in degrees; without it they are 2:1 and show everything.
         opacity : float
@@ -105,9 +105,10 @@ class Globe:
         if isinstance(raster, Raster) and extent is not None:
             raise ValueError("extent belongs to pixels and files; a Raster has its own")
         if isinstance(raster, np.ndarray):
-            raster = Raster(raster, extent)
-        shown = raster if isinstance(raster, Raster) else Raster.open(raster, extent=extent)
-        self.add(Image(shown, as_scalar(opacity, "opacity", low=0.0, high=1.0), role))
+            raster = Raster(raster, extent, latitude=self.latitude)
+        if not isinstance(raster, Raster):
+            raster = Raster.open(raster, extent=extent, latitude=self.latitude)
+        self.add(Image(raster, as_scalar(opacity, "opacity", low=0.0, high=1.0), role))
 
     def add_land(self, *, color: Color = looks.LAND, outline: LineStyle | None = None, resolution: str = "50m") -> None:
         """Fill the land of the Earth (Natural Earth), and draw its outline where a look is given."""

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import hashlib
 import os
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import KW_ONLY, dataclass
+from functools import cache, cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_count, as_edges, as_pixels, as_window, locked
+from stereodel._arrays import FloatArray, as_choice, as_count, as_edges, as_pixels, as_window, locked
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
 from stereodel.globe.images import read_image
 from stereodel.render.view import MapView
+from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
+from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
 
 Pixels = npt.NDArray[np.uint8]
@@ -36,6 +38,8 @@ class Raster:
     extent : tuple of float, optional
         (west, south, east, north) of the outer edges in degrees, 0 < east − west ≤ 360. Without it the picture shows
         the whole globe from −180 to 180 and must be twice as wide as high.
+    latitude : {"spherical", "geodetic", "authalic"}
+        What the latitudes of rows and extent are; see `stereodel.lonlat_to_xyz`.
 
     Raises
     ------
@@ -65,8 +69,11 @@ class Raster:
 
     pixels: Pixels
     extent: tuple[float, float, float, float] | None = None
+    _: KW_ONLY
+    latitude: Latitude = "spherical"
 
     def __post_init__(self) -> None:
+        as_choice(self.latitude, KINDS, "latitude")
         pixels = as_pixels(self.pixels, "pixels", most=MOST_TEXELS)
         height, width = pixels.shape[:2]
         if self.extent is None and width != 2 * height:
@@ -78,14 +85,20 @@ class Raster:
         object.__setattr__(self, "extent", as_edges(WHOLE if self.extent is None else self.extent, "extent"))
 
     @classmethod
-    def open(cls, path: str | os.PathLike[str], *, extent: tuple[float, float, float, float] | None = None) -> Raster:
+    def open(
+        cls,
+        path: str | os.PathLike[str],
+        *,
+        extent: tuple[float, float, float, float] | None = None,
+        latitude: Latitude = "spherical",
+    ) -> Raster:
         """Read a picture file of any kind that Pillow reads; palettes, gray, 16 bits and opacity are understood.
 
         Parameters
         ----------
         path : path-like
             Of a file with several pictures the first is read.
-        extent : tuple of float, optional
+        extent, latitude
             As for `Raster`.
 
         Raises
@@ -98,7 +111,7 @@ class Raster:
         """
         pixels = read_image(path)
         try:
-            return cls(pixels, extent)
+            return cls(pixels, extent, latitude=latitude)
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from error
 
@@ -173,6 +186,7 @@ class Raster:
             self._texels,
             self._levels,
             self._edges,
+            _shifts(self.latitude),
             turned(back.right.matrix, view.matrix),
             back.magnification,
             back.left.matrix,
@@ -207,6 +221,21 @@ class Raster:
     def _edges(self) -> FloatArray:
         edges: FloatArray = np.radians(np.array(self.extent))
         return edges
+
+
+@cache
+def _shifts(latitude: Latitude) -> FloatArray:
+    """What is added to latitudes of the sphere, at 1025 of them, to get those of rows; radians.
+
+    Straight between them it is within 2e-8 rad: at most 0.0034 rad · sin 2φ, its second derivative is below 0.0135, and
+    the entries are π/1024 apart.
+    """
+    if latitude == "spherical":
+        return np.zeros(0)
+    degrees = np.linspace(-90.0, 90.0, 1025)
+    at = lonlat_to_xyz(np.column_stack([np.zeros(1025), degrees]))
+    shifts: FloatArray = np.radians(xyz_to_lonlat(at, latitude=latitude)[:, 1] - degrees)
+    return shifts
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,5 +279,6 @@ class RasterOnDisc:
         return {
             "map": np.concatenate([*parts, numbers]),
             "extent": np.array(self.raster.extent),
+            "latitude": np.array(self.raster.latitude),
             "raster": np.array(self.raster.digest),
         }

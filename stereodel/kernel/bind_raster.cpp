@@ -64,14 +64,18 @@ RowsOut<double, 7> traced(const Matrix& first, double size, const Matrix& last, 
     return to_rows<7>(std::move(rows));
 }
 
-Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Edges& edges, const Matrix& first,
-            double size, const Matrix& last, double reach, std::array<double, 4> place, std::array<int, 2> pixels,
-            bool covered, int workers) {
+Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Edges& edges,
+            const ValuesIn<double>& shifts, const Matrix& first, double size, const Matrix& last, double reach,
+            std::array<double, 4> place, std::array<int, 2> pixels, bool covered, int workers) {
     const RasterShape shape = shape_of(raster);
     if (levels.shape(0) != shape.size()) {
         throw std::invalid_argument("levels must be those of the raster");
     }
-    const RasterSampler sampler(shape, raster.data(), levels.data(), edges_of(edges));
+    if (shifts.shape(0) == 1) {
+        throw std::invalid_argument("shifts must be none or at two latitudes or more");
+    }
+    const RasterSampler sampler(shape, raster.data(), levels.data(), edges_of(edges),
+                                {shifts.data(), shifts.data() + shifts.shape(0)});
     const PageMap map = map_of(first, size, last, reach);
     const PageWindow window{place[0], place[1], {place[2], place[3]}, pixels[0], pixels[1]};
     const std::size_t width = static_cast<std::size_t>(pixels[0]), height = static_cast<std::size_t>(pixels[1]);
@@ -90,8 +94,8 @@ void bind_raster(nb::module_& module) {
                "Means of a raster (h, w, 4), colour premultiplied, with edges (west, south, east, north) in radians.");
     module.def("trace_page", traced, "first"_a, "size"_a, "last"_a, "reach"_a, "place"_a, "count"_a,
                "Of page points in a row, place (x, y, step right, up): lon, lat, their changes over steps, the bend.");
-    module.def("warp_raster", warp, "raster"_a, "levels"_a, "edges"_a, "first"_a, "size"_a, "last"_a, "reach"_a,
-               "place"_a, "pixels"_a, "covered"_a = true, "workers"_a = 1,
+    module.def("warp_raster", warp, "raster"_a, "levels"_a, "edges"_a, "shifts"_a, "first"_a, "size"_a, "last"_a,
+               "reach"_a, "place"_a, "pixels"_a, "covered"_a = true, "workers"_a = 1,
                "Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; "
                "place (left, top, pixel's sides) in radii, pixels (width, height).");
 }

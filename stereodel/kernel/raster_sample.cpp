@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "arctangent.hpp"
 
@@ -85,9 +86,7 @@ double share(double place, double length, double size) {
 // The last level whose texels are at most a third of a side.
 int level_of(double side, int count) {
     int level = 0;
-    for (; level + 1 < count && side >= 6.0; side *= 0.5) {
-        ++level;
-    }
+    for (; level + 1 < count && side >= 6.0; side *= 0.5) ++level;
     return level;
 }
 
@@ -101,6 +100,8 @@ int grains_along(double x, double y) {
 // No side of a footprint is longer than the raster; what is no number, opposite a lens beyond all reason, is that long.
 double bounded(double side, double longest) { return side < longest ? (side > -longest ? side : -longest) : longest; }
 
+// What is left of a side beside the spread of means. Five texels reach as far as 1.73; a grain may be longer only along
+// the rows of a raster whose texels are very narrow, or where a side would need more grains than there may be.
 double rest_of(double side, bool is_mean) {
     const double rest = is_mean ? std::sqrt(std::max(0.0, side * side - 1.0)) : side;
     return std::min(rest, 1.7);
@@ -122,11 +123,12 @@ struct RasterSampler::Grain {
 };
 
 RasterSampler::RasterSampler(const RasterShape& shape, const std::uint8_t* raster, const std::uint8_t* levels,
-                             const RasterEdges& edges)
+                             const RasterEdges& edges, std::vector<double> shifts)
     : columns_(shape.columns()),
       rows_(shape.rows()),
       width_(shape.width(0)),
       height_(shape.height(0)),
+      shifts_(std::move(shifts)),
       north_(edges.north),
       columns_per_radian_(width_ / (edges.east - edges.west)),
       rows_per_radian_(height_ / (edges.north - edges.south)) {
@@ -150,11 +152,21 @@ RasterSampler::Footprint RasterSampler::footprint(const Traced& traced) const {
     double east = traced.lon - middle_;  // between -2 pi and 2 pi
     east = east > PI ? east - 2.0 * PI : (east < -PI ? east + 2.0 * PI : east);
     return {0.5 * width_ + east * columns_per_radian_,
-            (north_ - traced.lat) * rows_per_radian_,
+            (north_ - row_latitude(traced.lat)) * rows_per_radian_,
             bounded(traced.lon_x * columns_per_radian_, width_),
             bounded(traced.lon_y * columns_per_radian_, width_),
             bounded(-traced.lat_x * rows_per_radian_, height_),
             bounded(-traced.lat_y * rows_per_radian_, height_)};
+}
+
+// Between two entries a shift runs straight.
+double RasterSampler::row_latitude(double lat) const {
+    if (shifts_.empty()) return lat;
+    const int last = static_cast<int>(shifts_.size()) - 1;
+    const double place = (lat + 0.5 * PI) * (last / PI);
+    const int k = std::min(std::max(static_cast<int>(place), 0), last - 1);
+    const double part = place - k, *shift = shifts_.data() + k;
+    return lat + (1.0 - part) * shift[0] + part * shift[1];
 }
 
 void RasterSampler::add(const Traced& traced, ColorSum& sum) const {

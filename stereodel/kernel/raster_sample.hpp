@@ -28,8 +28,10 @@ struct ColorSum {
 
 class RasterSampler {
   public:
+    // `shifts`: what is added to a latitude of the sphere to get that of the rows, at as many latitudes from -90 to 90
+    // degrees as there are entries; none for 0.
     RasterSampler(const RasterShape& shape, const std::uint8_t* raster, const std::uint8_t* levels,
-                  const RasterEdges& edges);
+                  const RasterEdges& edges, std::vector<double> shifts);
 
     // Adds the mean over the image of a square of one step about a traced point.
     void add(const Traced& traced, ColorSum& sum) const;
@@ -39,6 +41,7 @@ class RasterSampler {
     struct Grain;
 
     Footprint footprint(const Traced& traced) const;
+    double row_latitude(double lat) const;
     void add_grain(const Footprint& center, const Grain& grain, double x, double y, ColorSum& sum) const;
     void find_lines(const RasterLevel& level, int column, int row, const std::uint8_t** lines,
                     std::uint8_t* copies) const;
@@ -50,6 +53,7 @@ class RasterSampler {
     std::vector<double> across_, down_;  // columns and rows of a level in one of the raster
     int columns_, rows_;
     double width_, height_;  // of the raster
+    std::vector<double> shifts_;
     double middle_, north_;  // longitude in [-pi, pi), latitude of the upper edge
     double columns_per_radian_, rows_per_radian_;
     bool around_, north_pole_, south_pole_;

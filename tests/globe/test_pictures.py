@@ -160,6 +160,17 @@ def test_globes_take_rasters_files_and_pixels(tmp_path):
     assert "0001_picture_raster_raster" in pages[0]
 
 
+def test_files_have_the_latitude_of_the_globe(tmp_path):
+    Pillow.fromarray(COLOURED.pixels).save(tmp_path / "map.png")
+    for latitude in ("spherical", "geodetic"):
+        globe = Globe(latitude=latitude)
+        globe.add_raster(tmp_path / "map.png")
+        globe.add_raster(COLOURED.pixels)
+        globe.add_raster(COLOURED)
+        kinds = [str(array) for name, array in globe.page(LENS).arrays().items() if name.endswith("_latitude")]
+        assert kinds == [latitude, latitude, "spherical"]
+
+
 @pytest.mark.parametrize(
     ("raster", "options", "words"),
     [

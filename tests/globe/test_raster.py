@@ -12,7 +12,8 @@ from tests.globe.supersampling import checkerboard, grid, noise, psnr, reference
 
 PLAIN = MoebiusMap.identity()
 STRONG = fisheye((20.0, 40.0), magnification=20.0)
-LEAST_PSNR = 35.0
+RASTERS = {"squares": (checkerboard(256, 32), 39.0), "rings": (zone_plate(256), 41.0), "noise": (noise(256), 35.0)}
+"""And the least signal-to-noise ratio, decibels, that any place has."""
 PLACES = {
     "grown": (PLAIN, View(20, 40), 1024, (500, 480, 12, 12)),
     "as large": (PLAIN, View(20, 40), 256, (120, 120, 14, 14)),
@@ -21,22 +22,24 @@ PLACES = {
     "limb aslant": (PLAIN, View(20, 40), 256, (206, 30, 12, 12)),
     "pole": (PLAIN, View(20, 80), 128, (56, 46, 14, 14)),
     "pole in the middle": (PLAIN, View(20, -90), 128, (57, 57, 14, 14)),
+    "pole, grown": (fisheye((0.0, 90.0), magnification=8.0), View(0, 90), 128, (57, 57, 14, 14)),
+    "other pole, grown": (fisheye((0.0, -90.0), magnification=8.0), View(0, -90), 128, (57, 57, 14, 14)),
     "pole at the limb": (PLAIN, View(20, 1), 128, (58, 0, 12, 6)),
     "shrunk": (PLAIN, View(20, 40), 32, (0, 0, 14, 14)),
+    "shrunk much": (PLAIN, View(20, 40), 12, (0, 0, 12, 12)),
     "antipode": (STRONG, View(200, -40), 128, (57, 57, 14, 14)),
     "flat": (fisheye((20.0, 40.0), magnification=4.0), StereographicView(20, 40, extent=150), 128, (2, 60, 12, 8)),
 }
 
 
 @pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize(
-    "raster", [checkerboard(256, 32), zone_plate(256), noise(256)], ids=["squares", "rings", "noise"]
-)
-def test_no_aliasing(raster, place):
+@pytest.mark.parametrize("kind", RASTERS)
+def test_no_aliasing(kind, place):
+    raster, least = RASTERS[kind]
     lens, view, size, window = PLACES[place]
     expected, covered = reference(raster, lens, view, size, window)
     found = Raster(raster).warp(lens, view, size, window=window).astype(np.float64)
-    assert psnr(expected, found[..., 0] * found[..., 3] / 255) > LEAST_PSNR
+    assert psnr(expected, found[..., 0] * found[..., 3] / 255) > least
     # The reference counts samples; those in a pixel are off by the straightness of the limb and their number.
     assert np.abs(found[..., 3] / 255 - covered).max() < 0.05
 
@@ -78,6 +81,14 @@ def test_poles_are_smooth(pole):
     x, y, _ = (lens.inverse()(view.raised(xy[inside]) @ view.matrix)).T
     found = raster.warp(lens, view, size)[inside][:, 0]
     assert np.abs(found - (127.5 + 120 * (x * np.cos(1) + y * np.sin(1)))).max() < 1.6
+
+
+@pytest.mark.parametrize("pole", [90.0, -90.0])
+def test_the_raster_goes_on_beyond_a_pole(pole):
+    """Rows of 22.5°, each texel for itself: what is seen over the pole is the opposite meridian's row."""
+    lens, view, window = fisheye((0.0, pole), magnification=4.0), View(0, pole), (92, 92, 16, 16)
+    expected, _ = reference(noise(8), lens, view, 200, window)
+    assert psnr(expected, Raster(noise(8)).warp(lens, view, 200, window=window)[..., 0].astype(float)) > 38
 
 
 @given(st.integers(0, 255), st.floats(-3, 3), st.floats(-180, 180), st.floats(-90, 90))
@@ -140,6 +151,19 @@ def test_levels_are_means_over_the_sphere(shape):
     mean = np.average(texels.astype(float).mean(axis=1), axis=0, weights=-np.diff(edges))
     # One level of rounding in each of the last means.
     assert levels[-4:] == pytest.approx(mean, abs=1.5)
+
+
+@pytest.mark.parametrize("latitude", ["spherical", "geodetic", "authalic"])
+def test_latitudes_of_rows(latitude):
+    """A wave 9° long, of which a fifth of a degree, the most that latitudes differ by, is an eighth of its height."""
+    _, lat = grid(512)
+    raster = Raster(np.round(127.5 + 120 * np.sin(40 * lat)).astype(np.uint8), latitude=latitude)
+    size, view = 201, View(50, 35)
+    middle = (np.arange(size) + 0.5) * 2 / size - 1
+    xy = np.stack(np.meshgrid(middle, -middle), axis=-1)
+    near = np.sum(xy**2, axis=-1) < 0.5
+    rows = np.radians(xyz_to_lonlat(view.raised(xy[near]) @ view.matrix, latitude=latitude)[:, 1])
+    assert np.abs(raster.warp(PLAIN, view, size)[near][:, 0] - (127.5 + 120 * np.sin(40 * rows))).max() < 5
 
 
 def test_part_of_the_globe():
@@ -217,6 +241,11 @@ def test_input_is_not_modified_and_not_shared():
 def test_bad_rasters_are_refused(pixels, extent, error, words):
     with pytest.raises(error, match=words):
         Raster(pixels, extent)
+
+
+def test_unknown_latitudes_are_refused():
+    with pytest.raises(ValueError, match="latitude is 'geocentric'"):
+        Raster(noise(4), latitude="geocentric")
 
 
 @pytest.mark.parametrize(
