@@ -142,35 +142,23 @@ Buffer<double> for_sites(const Cells& cells, std::size_t per_site, Fill&& fill) 
     return filled<double>(per_site * cells.sites, cells.sites > long_work, fill);
 }
 
-ValuesOut<double> areas_in_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
+using Integrals = void(const double* points, const Cells& cells, double* results, int workers, Stop stop);
+
+template <std::size_t Width, Integrals& areas_of>
+ValuesOut<double> areas(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
+                        std::size_t vertex_count, ValuesIn<Index> order, int workers) {
+    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    return to_values(for_sites(cells, 1, [&](double* results, Stop stop) {
+        areas_of(points.data(), cells, results, workers, stop);
+    }));
+}
+
+template <std::size_t Width, Integrals& centroids_of>
+RowsOut<double, Width> centroids(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
                                  std::size_t vertex_count, ValuesIn<Index> order, int workers) {
     const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
-    return to_values(for_sites(cells, 1, [&](double* areas, Stop stop) {
-        cell_areas_plane(points.data(), cells, areas, workers, stop);
-    }));
-}
-
-ValuesOut<double> areas_on_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                  std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
-    return to_values(for_sites(cells, 1, [&](double* areas, Stop stop) {
-        cell_areas_sphere(points.data(), cells, areas, workers, stop);
-    }));
-}
-
-RowsOut<double, 2> centroids_in_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                      std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
-    return to_rows<2>(for_sites(cells, 2, [&](double* centroids, Stop stop) {
-        cell_centroids_plane(points.data(), cells, centroids, workers, stop);
-    }));
-}
-
-RowsOut<double, 3> centroids_on_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                       std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
-    return to_rows<3>(for_sites(cells, 3, [&](double* centroids, Stop stop) {
-        cell_centroids_sphere(points.data(), cells, centroids, workers, stop);
+    return to_rows<Width>(for_sites(cells, Width, [&](double* results, Stop stop) {
+        centroids_of(points.data(), cells, results, workers, stop);
     }));
 }
 
@@ -253,17 +241,17 @@ void bind_voronoi(nb::module_& module) {
     module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "workers"_a = 1,
                "The same for directions.");
-    module.def("cell_areas_plane", areas_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+    module.def("cell_areas_plane", areas<2, cell_areas_plane>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Areas of the cells; infinite where unbounded.");
-    module.def("cell_areas_sphere", areas_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
+    module.def("cell_areas_sphere", areas<3, cell_areas_sphere>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Areas of the cells, steradians.");
-    module.def("cell_centroids_plane", centroids_in_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "order"_a, "workers"_a = 1,
+    module.def("cell_centroids_plane", centroids<2, cell_centroids_plane>, "points"_a, "offsets"_a, "vertices"_a,
+               "neighbors"_a, "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Centroids of the cells; NaN where there is none.");
-    module.def("cell_centroids_sphere", centroids_on_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "order"_a, "workers"_a = 1,
+    module.def("cell_centroids_sphere", centroids<3, cell_centroids_sphere>, "points"_a, "offsets"_a, "vertices"_a,
+               "neighbors"_a, "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Unit vectors; NaN for empty cells.");
     module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "place"_a = nb::none(),
                "workers"_a = 1,

@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "double_double.hpp"
 #include "error_counts.hpp"
 #include "ray_integers.hpp"
 #include "roots.hpp"
@@ -13,25 +12,9 @@ namespace stereodel::rays {
 
 namespace {
 
-DoubleDouble dot(const Direction& a, const Direction& b) {
-    const auto product = [&](int k) { return DoubleDouble{a.hi[k], a.lo[k]} * DoubleDouble{b.hi[k], b.lo[k]}; };
-    return product(0) + product(1) + product(2);
-}
-
 DoubleDouble length(const Direction& d) {
     return sqrt(dot(d, d));
 }
-
-// The rounded difference of two directions.
-struct Gap {
-    double v[3];
-
-    Gap(const Direction& from, const Direction& to) {
-        for (int k = 0; k < 3; ++k) {
-            v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
-        }
-    }
-};
 
 // Along one axis: the sizes of both components, and the sign of their product. The angle depends on these alone.
 using Axis = std::array<double, 3>;
@@ -54,7 +37,7 @@ bool equal_by_symmetry(const double* p, const double* a, const double* q, const 
 }
 
 double squared_chord(const Direction& p, const Direction& a) {
-    const Gap gap(p, a);
+    const Difference gap(p, a);
     return dot_form(gap.v, gap.v);
 }
 
@@ -87,7 +70,7 @@ Sign diametral_filter(const double* a, const double* b, const double* p) {
 }
 
 Sign diametral_filter(const Direction& a, const Direction& b, const Direction& p) {
-    return diametral_of_gaps(Gap(p, a).v, Gap(p, b).v);
+    return diametral_of_gaps(Difference(p, a).v, Difference(p, b).v);
 }
 
 // |a||b||p| + (a.b)|p| - (p.a)|b| - (p.b)|a| in double-double, from left to right. By the errors above the products are

@@ -2,10 +2,18 @@
 // on the rays through the given doubles, stage by stage.
 #pragma once
 
+#include "double_double.hpp"
 #include "ray_stages.hpp"
 #include "tally.hpp"
 
 namespace stereodel::rays {
+
+// In double-double.
+inline DoubleDouble dot(const Direction& a, const Direction& b) {
+    const DoubleDouble u[3] = {{a.hi[0], a.lo[0]}, {a.hi[1], a.lo[1]}, {a.hi[2], a.lo[2]}};
+    const DoubleDouble v[3] = {{b.hi[0], b.lo[0]}, {b.hi[1], b.lo[1]}, {b.hi[2], b.lo[2]}};
+    return dot_form(u, v);
+}
 
 // The stages of the comparison of angles: sign of the angle between p and a less that between q and b. Squared chords
 // stand for the angles in the first.

@@ -3,22 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "double_double.hpp"
 #include "error_counts.hpp"
 #include "pair_arithmetic.hpp"
 #include "ray_integers.hpp"
+#include "ray_lengths.hpp"
 
 namespace stereodel::rays {
 
 namespace {
-
-DoubleDouble component(const Direction& d, int k) {
-    return {d.hi[k], d.lo[k]};
-}
-
-DoubleDouble dot(const Direction& a, const Direction& b) {
-    return component(a, 0) * component(b, 0) + component(a, 1) * component(b, 1) + component(a, 2) * component(b, 2);
-}
 
 // a_k^2 (b_i^2 + b_j^2) - b_k^2 (a_i^2 + a_j^2): the squares compared, without the common term a_k^2 b_k^2.
 template <class Number>
@@ -161,18 +153,8 @@ int compare(const double* a, const double* b, bool unit) {
     return 0;
 }
 
-// The squared chord of unit vectors is (|a-q|^2 - (|a|-|q|)^2) / (|a||q|) for vectors of any length. Here the lengths
-// are within 2^-49 of 1: the denominator within 2^-47.9 * 1/2 of 1 for each of a and b, the subtrahend at most 2^-96.
-// |a-q|^2 is computed with seven roundings a term, its D-vectors are off by 2^-106: below 2^-100 with them. Together 8u
-// + 2^-48 + a little < 2^-47 of both, and 2^-95.
 Sign compare_angles_filter(const Direction& q, const Direction& a, const Direction& b) {
-    double aa = 0.0, bb = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double x = (a.hi[k] - q.hi[k]) + (a.lo[k] - q.lo[k]), y = (b.hi[k] - q.hi[k]) + (b.lo[k] - q.lo[k]);
-        aa += x * x;
-        bb += y * y;
-    }
-    return decide(aa - bb, 0x1p-47 * (aa + bb) + 0x1p-94);
+    return compare_squared_chords(squared_chord(q, a), squared_chord(q, b));
 }
 
 // (q.b)|a| - (q.a)|b| in double-double. A dot product of vectors of length one is off by less than 7u^2 + 2 * 3.1u^2 <

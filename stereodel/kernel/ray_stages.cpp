@@ -10,19 +10,6 @@ namespace {
 
 constexpr double U2 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
-struct Difference {
-    double v[3];
-
-    // Where the difference of the high parts rounds at all (it does not between a/2 and 2a) it exceeds the low parts by
-    // 2^51 or more and counts as one relative rounding; the last sum is a second one. The difference of the low parts,
-    // at most 2^-52, rounds by at most 2^-106: an absolute error.
-    Difference(const Direction& from, const Direction& to) {
-        for (int k = 0; k < 3; ++k) {
-            v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
-        }
-    }
-};
-
 // Difference vectors as pairs: exact where the vectors are plain doubles.
 struct Edge {
     Pair v[3];

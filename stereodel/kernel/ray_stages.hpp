@@ -36,6 +36,21 @@ struct Direction {
     explicit Direction(const double* vector);
 };
 
+// A difference of vectors hi + lo, in doubles. Where the difference of the high parts rounds at all (it does not
+// between a/2 and 2a) it exceeds the low parts by 2^51 or more and counts as one relative rounding; the last sum is a
+// second one. The difference of the low parts, at most 2^-52, rounds by at most 2^-106: an absolute error,
+// beside which the vectors may have their own.
+struct Difference {
+    double v[3];
+
+    template <class Vector>
+    Difference(const Vector& from, const Vector& to) {
+        for (int k = 0; k < 3; ++k) {
+            v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
+        }
+    }
+};
+
 // Whether |p| is certainly within 2^-49 of 1. The computed square is off by less than 3.1u = 0.78 * 2^-51, the
 // difference by nothing, and ||p|^2 - 1| <= 2^-48 - 2^-98 suffices.
 inline bool is_unit(const double* p) {

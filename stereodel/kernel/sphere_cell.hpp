@@ -61,7 +61,7 @@ class SphereCell {
         const UnitVector& p = units_[site];
         for (std::size_t k = 0; k < sides.size(); ++k) {
             Side<double>& side = sides[k];
-            const RoundedEdge edge(p, unit(k));
+            const rays::Difference edge(p, unit(k));
             std::copy(edge.v, edge.v + 3, side.edge);
             const double square = rays::dot_form(edge.v, edge.v);
             if (!(square > 0x1p-90 && square < 2.0)) {
@@ -152,7 +152,7 @@ class SphereCell {
     // of at most |D|/2 l, are covered by the rest.
     bool take_vertex(const UnitVector& p, std::size_t last, std::size_t k) {
         Side<double>&q = sides[k], &r = sides[last];
-        const RoundedEdge across(unit(last), unit(k));
+        const rays::Difference across(unit(last), unit(k));
         const double volume = 2 * rays::determinant_form(p.hi, r.edge, q.edge);
         r.left = {r.length * rays::dot_form(q.edge, across.v), volume};
         q.right = {-q.length * rays::dot_form(r.edge, across.v), volume};
@@ -172,7 +172,7 @@ class SphereCell {
     }
 
     static void take_edge_carefully(const Ray& p, const RayEdge& edge, Side<DoubleDouble>& side) {
-        const DoubleDouble square = dot(edge.v, edge.v), quarter = shifted(square, 2 * edge.exponent - 2);
+        const DoubleDouble square = rays::dot_form(edge.v, edge.v), quarter = shifted(square, 2 * edge.exponent - 2);
         const DoubleDouble rest = DoubleDouble{1.0, 0.0} - quarter;
         side.length = shifted(sqrt(square), edge.exponent);
         side.cosine = rest.hi > 0.0 ? sqrt(rest) : DoubleDouble{};
@@ -191,9 +191,11 @@ class SphereCell {
         Side<DoubleDouble>&q = careful_[k], &r = careful_[last];
         DoubleDouble normal[3];
         cross(to_r.v, to_q.v, normal);
-        const DoubleDouble volume = dot(p.v, normal) / p.length * DoubleDouble{2.0, 0.0};
-        r.left = leg(sqrt(dot(to_r.v, to_r.v)) * dot(to_q.v, across.v), across.exponent, volume);
-        q.right = leg(-(sqrt(dot(to_q.v, to_q.v)) * dot(to_r.v, across.v)), across.exponent, volume);
+        const DoubleDouble volume = rays::dot_form(p.v, normal) / p.length * DoubleDouble{2.0, 0.0};
+        const DoubleDouble length_q = sqrt(rays::dot_form(to_q.v, to_q.v));
+        const DoubleDouble length_r = sqrt(rays::dot_form(to_r.v, to_r.v));
+        r.left = leg(length_r * rays::dot_form(to_q.v, across.v), across.exponent, volume);
+        q.right = leg(-(length_q * rays::dot_form(to_r.v, across.v)), across.exponent, volume);
         RayEdge::normalize(normal);
         double direction[3];
         round_all(normal, direction);

@@ -48,17 +48,6 @@ inline UnitVector unit_vector(const double* vector) {
     return unit;
 }
 
-// A difference as a double: rounded twice, beside the errors of the vectors, 2^-100.
-struct RoundedEdge {
-    double v[3];
-
-    RoundedEdge(const UnitVector& from, const UnitVector& to) {
-        for (int k = 0; k < 3; ++k) {
-            v[k] = (to.hi[k] - from.hi[k]) + (to.lo[k] - from.lo[k]);
-        }
-    }
-};
-
 // A difference as pairs: off by 2^-100 and 4u^2 of itself.
 struct PairedEdge {
     Pair v[3];
@@ -71,10 +60,6 @@ struct PairedEdge {
         }
     }
 };
-
-inline DoubleDouble dot(const DoubleDouble* a, const DoubleDouble* b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 inline void cross(const DoubleDouble* a, const DoubleDouble* b, DoubleDouble* result) {
     for (int k = 0; k < 3; ++k) {
@@ -92,7 +77,7 @@ struct Ray {
         for (int k = 0; k < 3; ++k) {
             v[k] = {d.hi[k], d.lo[k]};
         }
-        length = sqrt(dot(v, v));
+        length = sqrt(rays::dot_form(v, v));
     }
 };
 
@@ -113,7 +98,7 @@ struct RayEdge {
             sum[k] = q.v[k] + p.v[k];
         }
         exponent = normalize(difference);
-        const DoubleDouble growth = dot(difference, sum) / (q.length * (q.length + p.length));
+        const DoubleDouble growth = rays::dot_form(difference, sum) / (q.length * (q.length + p.length));
         for (int k = 0; k < 3; ++k) {
             v[k] = (difference[k] - q.v[k] * growth) / p.length;
         }
