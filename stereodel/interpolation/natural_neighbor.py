@@ -80,7 +80,7 @@ class NaturalNeighborInterpolator(Interpolator):
     def _ask(self, queries: FloatArray, workers: int | None, *, gradients: bool) -> FloatArray:
         triangulation: Triangulation = self.triangulation
         mesh = triangulation.simplices, triangulation.neighbors
-        crew = triangulation._as_queries(queries, workers)[2]
+        crew = triangulation._thread_count(workers, len(queries))
         if not isinstance(triangulation, SphericalDelaunay):
             return _kernel.natural_neighbors_plane(triangulation.points, *mesh, self._values, queries, gradients, crew)
         sites, asked = self._sites.exact, Places(queries).exact

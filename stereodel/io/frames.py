@@ -177,7 +177,7 @@ def edge_arcs(points: FloatArray, edges: npt.NDArray[Any]) -> Arcs:
 def _sphere_cells(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
     diagram = diagram_of(mesh)
     geometry = sphere_polygons(ridge_arcs(diagram), voronoi_faces(diagram), drawing.max_segment, drawing.latitude)
-    alone = np.flatnonzero(diagram.point_region == np.arange(len(diagram.points)))
+    alone = np.flatnonzero(diagram._is_kept)
     if len(alone) == 1:
         geometry[alone] = optional("shapely", "geo").Polygon(WORLD.corners())
     return {"point": np.arange(len(geometry)), "area": diagram.areas(radius=drawing.radius)}, geometry

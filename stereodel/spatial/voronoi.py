@@ -91,12 +91,14 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     def regions(self) -> list[list[int]]:
         """Vertices of each region, counterclockwise."""
         cells = self._diagram.regions
-        return [[] for _ in range(self._empty)] + [cells[site] for site in np.flatnonzero(self._is_kept).tolist()]
+        return [[] for _ in range(self._empty)] + [
+            cells[site] for site in np.flatnonzero(self._diagram._is_kept).tolist()
+        ]
 
     @cached_property
     def point_region(self) -> npt.NDArray[np.intp]:
         """Region of each point, (npoints,)."""
-        kept = self._is_kept
+        kept = self._diagram._is_kept
         number = np.cumsum(kept) - 1 + self._empty
         result: npt.NDArray[np.intp] = number[self._diagram.point_region].astype(np.intp)
         if not self._options.coplanar:
@@ -112,10 +114,3 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
     def _empty(self) -> int:
         """Number of regions of points at infinity."""
         return int(self._options.at_infinity)
-
-    @property
-    def _is_kept(self) -> npt.NDArray[np.bool_]:
-        """Points that have a region of their own."""
-        kept = np.ones(self.npoints, dtype=np.bool_)
-        kept[self._triangulation.duplicates[:, 0]] = False
-        return kept

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, IntArray, locked
+from stereodel._arrays import BoolArray, FloatArray, IntArray, locked
 
 Indices = npt.NDArray[np.intp]
 
@@ -80,9 +80,15 @@ class Diagram:
         region[duplicates[:, 0]] = duplicates[:, 1]
         self.point_region = locked(region)
 
+    @property
+    def _is_kept(self) -> BoolArray:
+        """Whether a point has a cell of its own and is no dropped duplicate, (n,)."""
+        is_kept: BoolArray = self.point_region == np.arange(len(self.points))
+        return is_kept
+
     def _duplicates(self) -> IntArray:
         """Pairs [dropped, kept] of equal points, (k, 2)."""
-        dropped = np.flatnonzero(self.point_region != np.arange(len(self.points)))
+        dropped = np.flatnonzero(~self._is_kept)
         return np.column_stack([dropped, self.point_region[dropped]]).astype(np.int32)
 
     def __repr__(self) -> str:

@@ -84,7 +84,7 @@ class PlanarVoronoi(Diagram):
 
     def _set_strips(self) -> None:
         """Points on one line, in lexicographic order along it."""
-        kept = self.point_region == np.arange(len(self.points))
+        kept = self._is_kept
         order = np.lexsort(self.points.T[::-1])
         order = order[kept[order]]
         pairs = np.sort(np.column_stack([order[:-1], order[1:]]), axis=1)

@@ -142,7 +142,7 @@ class SphericalVoronoi(Diagram):
 
     def _around_circle(self) -> Indices:
         """Different sites of one great circle, counterclockwise around vertex 0, beginning with the lowest."""
-        kept = np.flatnonzero(self.point_region == np.arange(len(self.points)))
+        kept = np.flatnonzero(self._is_kept)
         if len(kept) < 3:
             return kept
         order = circle_order(self.points[kept])
@@ -175,7 +175,7 @@ class SphericalVoronoi(Diagram):
         if self._dimension == 2:
             areas: FloatArray = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
             return areas * scale**2
-        areas = np.where(self.point_region == np.arange(len(self.points)), 4 * np.pi, 0.0)
+        areas = np.where(self._is_kept, 4 * np.pi, 0.0)
         order = self._around_circle()
         if len(order) > 1:
             gaps = self._gaps(order)
