@@ -45,6 +45,7 @@ class LabelLayer:
 
     def __init__(self, page: Page, width_px: int) -> None:
         self._dpi, (self.width, self.height) = pixel_grid(page, width_px)
+        self._canvas: Any = None
         self._placed: list[tuple[Text, float, float]] = []
         if page.labels:
             with matplotlib_settings():
@@ -56,7 +57,7 @@ class LabelLayer:
         """Rows (k, width, 3) of the picture, the first of them row `top`, with the labels on them; rounded half up."""
         if not self._texts(top, top + len(rows)):
             return rows
-        layer = self.rows(top, top + len(rows))
+        layer = self._drawn(top, top + len(rows))
         composed = rows.copy()
         for first in range(0, len(rows), ROWS):
             part = slice(first, first + ROWS)
@@ -65,13 +66,21 @@ class LabelLayer:
 
     def rows(self, top: int, bottom: int) -> Pixels:
         """The labels in the rows from `top` to before `bottom`, (bottom − top, width, 4), colours not premultiplied."""
-        agg = _canvas(self.width, bottom - top, self._dpi)
-        below = self.height - bottom
-        agg.get_canvas_width_height = lambda: (agg.width, agg.height + below)
+        return self._drawn(top, bottom).copy()
+
+    def _drawn(self, top: int, bottom: int) -> Pixels:
+        """As `rows`, until the next call."""
+        # One canvas for all rows: a text keeps the canvas that it was drawn on.
+        if self._canvas is None or self._canvas.height != bottom - top:
+            self._canvas = _canvas(self.width, bottom - top, self._dpi)
+        self._canvas.clear()
+        # As high as its rows and what lies below them, for by that the text is placed.
+        size = (self.width, self.height - top)
+        self._canvas.get_canvas_width_height = lambda: size
         with matplotlib_settings():
             for text in self._texts(top, bottom):
-                text.draw(agg)
-        return np.asarray(agg.buffer_rgba(), dtype=np.uint8)
+                text.draw(self._canvas)
+        return np.asarray(self._canvas.buffer_rgba(), dtype=np.uint8)
 
     def _texts(self, top: int, bottom: int) -> list[Text]:
         return [text for text, first, last in self._placed if first < bottom and last > top]
