@@ -30,6 +30,7 @@ import numpy as np
 
 from stereodel._arrays import IntArray
 from stereodel.render.page import Color
+from stereodel.render.pyrender_mends import mend
 from stereodel.render.triangles import Pixels, Triangles, Window
 
 VARIABLE: Final = "STEREODEL_GL"
@@ -238,8 +239,9 @@ class _Renderer:
             if platform == "egl":
                 os.environ["EGL_DEVICE_ID"] = str(_software_device())
             self.offscreen = self.pyrender.OffscreenRenderer(16, 16)
-            # pyrender would also read the depths and turn them into lengths, which takes longer than drawing.
-            self.offscreen._renderer._read_main_framebuffer = self._read_colors
+            from OpenGL import GL
+
+            mend(self.offscreen._renderer, GL)
         except OpenGLError:
             raise
         except Exception as error:
@@ -255,20 +257,6 @@ class _Renderer:
         flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
         color, _ = self.offscreen.render(scene, flags=flags)
         return cast(Pixels, color)
-
-    def _read_colors(self, scene: Any, flags: int) -> tuple[Pixels, None]:
-        """The colours of the window that was drawn, the samples of each pixel averaged; no depths."""
-        from OpenGL import GL
-
-        renderer = self.offscreen._renderer
-        width, height = renderer._main_fb_dims
-        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, renderer._main_fb_ms)
-        GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, renderer._main_fb)
-        box = (0, 0, width, height)
-        GL.glBlitFramebuffer(*box, *box, GL.GL_COLOR_BUFFER_BIT, GL.GL_LINEAR)
-        GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, renderer._main_fb)
-        data = GL.glReadPixels(*box, GL.GL_RGB, GL.GL_UNSIGNED_BYTE)
-        return np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3)[::-1], None
 
     def strings(self) -> tuple[str, str]:
         """GL_VERSION and GL_RENDERER."""

@@ -174,6 +174,15 @@ def test_closing_makes_room_for_a_new_context():
     assert np.array_equal(draw(shape, 4, 4), before)
 
 
+def test_shaders_are_compiled_once(monkeypatch):
+    shape = triangles([[[0, 0], [3, 0], [0, 3]]], [[0, 0, 1, 1]], [0])
+    draw(shape, 4, 4)
+    from OpenGL.GL import shaders
+
+    monkeypatch.setattr(shaders, "compileShader", lambda *source: pytest.fail("a shader is compiled again"))
+    draw(shape, 5, 5)
+
+
 SCRIPT = """
 import numpy as np
 from stereodel.render.gl import describe, draw
