@@ -21,7 +21,7 @@ from typing import IO, Any, Final, cast
 from stereodel.render.motion.worker import DRAWS_FRAMES, Answer, MainScript, attempt, main
 
 FRAMES: Final = 32
-"""Frames that a process draws before another takes its place: it grows by some megabytes with each, inside OpenGL."""
+"""Frames that a process draws before another takes its place, so that what graphics libraries keep does not add up."""
 
 Task = tuple[int, Any, Path]
 """Number of the frame, what it shows, and the file to write."""
