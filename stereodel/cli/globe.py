@@ -28,7 +28,7 @@ def command(
     borders: globe.Borders = False,
     rivers: globe.Rivers = False,
     lakes: globe.Lakes = False,
-    graticule: globe.Graticule = 15.0,
+    graticule: globe.Graticule = None,
     spin: globe.Spin = False,
     fly: globe.Fly = None,
     seconds: globe.Seconds = 10.0,
@@ -45,7 +45,7 @@ def command(
     shrinks again.
     """
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.globe_aim import Aim, place
+    from stereodel.cli.globe_aim import SPACINGS, Aim, place
     from stereodel.cli.globe_films import motion_of, save_film
     from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe, texture_of
     from stereodel.cli.progress import stage
@@ -58,7 +58,9 @@ def command(
     aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, extent)
     table = read(points, lon=lon, lat=lat) if points is not None else None
     with stage("reading maps"):
-        features = Features(land, coastlines, borders, rivers, lakes, graticule)
+        spacing = aim.spacing if graticule is None and not filming else graticule
+        lines = SPACINGS[0] if spacing is None else spacing
+        features = Features(land, coastlines, borders, rivers, lakes, lines, "50m" if filming else aim.resolution)
         drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude))
         add_files(drawing, layer or ())
         if table is not None:

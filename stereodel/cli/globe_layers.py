@@ -31,6 +31,8 @@ class Features:
     rivers: bool
     lakes: bool
     graticule: float
+    """Degrees; 0 for none."""
+    resolution: str
 
 
 def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster | None:
@@ -51,17 +53,17 @@ def new_globe(features: Features, latitude: Latitude, texture: Raster | None) ->
     if texture is not None:
         globe.add_raster(texture)
     if features.land or (features.land is None and texture is None):
-        globe.add_land()
+        globe.add_land(resolution=features.resolution)
     if features.lakes:
-        globe.add_lakes()
+        globe.add_lakes(resolution=features.resolution)
     if features.graticule:
         globe.add_graticule(features.graticule)
     if features.rivers:
-        globe.add_rivers()
+        globe.add_rivers(resolution=features.resolution)
     if features.coastlines:
-        globe.add_coastlines()
+        globe.add_coastlines(resolution=features.resolution)
     if features.borders:
-        globe.add_borders()
+        globe.add_borders(resolution=features.resolution)
     return globe
 
 

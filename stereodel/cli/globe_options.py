@@ -65,7 +65,10 @@ Coastlines = Annotated[bool, typer.Option(help="Draw the coasts.")]
 Borders = Annotated[bool, typer.Option(help="Draw the borders between countries.")]
 Rivers = Annotated[bool, typer.Option(help="Draw large rivers.")]
 Lakes = Annotated[bool, typer.Option(help="Fill lakes.")]
-Graticule = Annotated[float, typer.Option(metavar="DEGREES", help="Spacing of meridians and parallels; 0 for none.")]
+Graticule = Annotated[
+    float | None,
+    typer.Option(metavar="DEGREES", help="Spacing of meridians and parallels; 0 for none; by default as fits."),
+]
 Spin = Annotated[bool, typer.Option("--spin", help="Of a film: the globe turns once.")]
 Fly = Annotated[
     list[str] | None,

@@ -247,3 +247,22 @@ def test_clusters_are_drawn(folder, run):
     for name in ("tight", "one"):
         run("globe", f"{name}.csv", "-o", f"{name}.svg", "--show", "cells", "--show", "triangles", "--magnify", 9)
         assert (folder / f"{name}.svg").stat().st_size > 0
+
+
+@pytest.mark.parametrize(
+    ("options", "spacing", "resolution"),
+    [
+        ({}, 15.0, "50m"),
+        ({"magnification": 4.0}, 5.0, "50m"),
+        ({"magnification": 20.0}, 1.0, "10m"),
+        ({"magnification": 20.0, "middle": (100.0, 0.0)}, 15.0, "10m"),
+        ({"magnification": 20.0, "projection": Projection.hemispheres}, 15.0, "10m"),
+        ({"magnification": 1e9}, 0.1, "10m"),
+        ({"magnification": 0.1}, 15.0, "50m"),
+    ],
+)
+def test_maps_and_graticule_suit_the_magnification(options, spacing, resolution):
+    given = {"focus": (2.0, 48.0), "magnification": 1.0, "middle": None, "projection": Projection.globe, "extent": 90.0}
+    aim = Aim(**(given | options))
+    assert aim.spacing == spacing
+    assert aim.resolution == resolution
