@@ -27,7 +27,8 @@ from stereodel._arrays import BoolArray, FloatArray, as_directions, as_floats, a
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.sphere import angular_distance
 from stereodel.sphere.chunks import by_blocks
-from stereodel.sphere.coordinates import as_sphere_points, scaled
+from stereodel.sphere.coordinates import as_sphere_points
+from stereodel.sphere.vectors import units
 
 _TAPER = 0.25
 """Part of the window that each of its two tapers takes; the area under the window is 1 − _TAPER."""
@@ -68,7 +69,7 @@ class FocusBlend:
     limit: float = field(default=60.0, kw_only=True)
 
     def __post_init__(self) -> None:
-        foci = _units(as_sphere_points(self.foci, "foci"))
+        foci = units(as_sphere_points(self.foci, "foci"))
         if len(foci) == 0:
             raise ValueError("foci has no points: one is needed at least")
         sizes = as_floats(self.magnification, "magnification")
@@ -120,7 +121,7 @@ class FocusBlend:
         return np.log(self.magnification) / (self._depth * (1 - _TAPER))
 
     def _images(self, rows: FloatArray) -> FloatArray:
-        points = _units(rows)
+        points = units(rows)
         result = points.copy()
         for disc in self._discs(points):
             away = points[disc.inside] - disc.focus
@@ -132,7 +133,7 @@ class FocusBlend:
 
     def _scales(self, rows: FloatArray) -> FloatArray:
         """Radial and tangential scale, (m, 2)."""
-        points = _units(rows)
+        points = units(rows)
         result = np.ones((len(points), 2))
         for disc in self._discs(points):
             radial = disc.tangential * (1 - self._depth * _window(disc.tau, disc.ring))
@@ -185,11 +186,6 @@ def _checked_width(foci: FloatArray, width: float) -> float:
         pair = f"foci[{first[closest]}] and foci[{second[closest]}]"
         raise ValueError(f"width is {width:g}, but the discs of {pair} overlap beyond {widest:g}")
     return width
-
-
-def _units(rows: FloatArray) -> FloatArray:
-    vectors = scaled(rows)[0]
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
 def _position(tau: FloatArray, ring: float) -> FloatArray:

@@ -19,6 +19,7 @@ from stereodel.io.polygons import Geometries, sphere_polygons
 from stereodel.io.rings import WORLD
 from stereodel.sphere import angular_distance, solid_angle, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
+from stereodel.sphere.vectors import units
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]
@@ -165,12 +166,12 @@ def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:
     """The ridges as arcs."""
     ends = diagram.vertices[diagram.ridge_vertices] if len(diagram.vertices) else np.zeros((0, 2, 3))
     normals = diagram.ridge_normals() if len(ends) else np.zeros((0, 3))
-    return Arcs(ends[:, 0], ends[:, 1], normals, unit_vectors(diagram.points)[diagram.ridge_points[:, 0]])
+    return Arcs(ends[:, 0], ends[:, 1], normals, units(diagram.points)[diagram.ridge_points[:, 0]])
 
 
 def edge_arcs(points: FloatArray, edges: npt.NDArray[Any]) -> Arcs:
     """The shorter arcs between pairs of points, given as directions."""
-    unit = unit_vectors(points)
+    unit = units(points)
     return Arcs(unit[edges[:, 0]], unit[edges[:, 1]], np.zeros((len(edges), 3)))
 
 
@@ -260,13 +261,6 @@ def _triangle_columns(numbers: npt.NDArray[Any], simplices: npt.NDArray[Any]) ->
 
 def _pair_columns(pairs: npt.NDArray[Any]) -> Columns:
     return {"a": pairs[:, 0], "b": pairs[:, 1]}
-
-
-def unit_vectors(points: FloatArray) -> FloatArray:
-    """Directions (n, 3) as unit vectors, to rounding."""
-    scaled = points / np.abs(points).max(axis=1, keepdims=True) if len(points) else points
-    length: FloatArray = np.sqrt(np.sum(scaled * scaled, axis=1, keepdims=True))
-    return scaled / length
 
 
 Maker = Callable[[Mesh, Drawing], tuple[Columns, Geometries]]

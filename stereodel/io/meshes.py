@@ -19,11 +19,11 @@ from stereodel.io.frames import (
     is_spherical,
     ridge_arcs,
     triangulation_of,
-    unit_vectors,
     usual_kind,
 )
 from stereodel.io.rings import around
 from stereodel.io.surfaces import surface_of
+from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalVoronoi
 
 GOLDEN = (np.sqrt(5.0) - 1) / 2
@@ -75,7 +75,7 @@ def to_trimesh(
         result.vertex_attributes["point"] = owner.astype(np.float32)  # glTF has no larger integers here
         return result
     simplices = triangulation_of(mesh).simplices
-    points = _space(unit_vectors(mesh.points) if is_spherical(mesh) else mesh.points)
+    points = _space(units(mesh.points) if is_spherical(mesh) else mesh.points)
     if colors is None:
         return trimesh.Trimesh(points, simplices, process=False)
     paint = np.repeat(_as_colors(colors, len(simplices)), 3, axis=0)
@@ -130,7 +130,7 @@ def _sphere_fans(diagram: SphericalVoronoi, max_segment: float) -> tuple[FloatAr
     """Triangles around each site in rings no further apart than `max_segment`; the point of each vertex."""
     chains = sample(ridge_arcs(diagram), max_segment, "spherical")
     index, owner, _ = around(voronoi_faces(diagram), chains)
-    border, center = chains.xyz[index], unit_vectors(diagram.points)
+    border, center = chains.xyz[index], units(diagram.points)
     reach = np.zeros(len(center))
     np.maximum.at(reach, owner, np.degrees(np.arccos(np.clip(np.sum(border * center[owner], axis=1), -1, 1))))
     levels = np.maximum(np.ceil(reach / max_segment), 1).astype(np.intp)
@@ -156,7 +156,7 @@ def _rings(
     share = (level / levels[owner[source]])[:, None]
     vertices = center[owner[source]] * (1 - share) + border[source] * share
     if border.shape[1] == 3:
-        vertices = unit_vectors(vertices)
+        vertices = units(vertices)
     after = np.arange(1, len(owner) + 1)
     last = np.append(np.flatnonzero(np.diff(owner)), len(owner) - 1) if len(owner) else after
     after[last] = np.concatenate([[0], last[:-1] + 1]) if len(owner) else after

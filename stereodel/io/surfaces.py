@@ -10,7 +10,8 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice
 from stereodel.io.faces import Indices, spans, voronoi_faces
-from stereodel.io.frames import Mesh, diagram_of, is_spherical, ridge_arcs, triangulation_of, unit_vectors, usual_kind
+from stereodel.io.frames import Mesh, diagram_of, is_spherical, ridge_arcs, triangulation_of, usual_kind
+from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalVoronoi
 
 
@@ -63,7 +64,7 @@ def _triangles(mesh: Mesh) -> Surface:
     triangulation, spherical = triangulation_of(mesh), is_spherical(mesh)
     number = np.flatnonzero(~triangulation.closing) if spherical else np.arange(len(triangulation.simplices))
     corners = triangulation.simplices[number].astype(np.intp).ravel()
-    nodes = unit_vectors(mesh.points) if spherical else mesh.points
+    nodes = units(mesh.points) if spherical else mesh.points
     return Surface(nodes, corners, 3 * np.arange(len(number) + 1), number, cells=False)
 
 

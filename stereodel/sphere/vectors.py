@@ -8,8 +8,13 @@ from stereodel._arrays import FloatArray
 
 
 def units(vectors: FloatArray) -> FloatArray:
-    """Directions (..., 3) as unit vectors."""
-    directions: FloatArray = vectors / np.sqrt(np.sum(vectors**2, axis=-1, keepdims=True))
+    """Directions (..., 3) of any length as unit vectors, to rounding."""
+    if vectors.size == 0:
+        return vectors
+    # By powers of two, so that squares neither overflow nor vanish and nothing is rounded.
+    _, exponents = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
+    scaled = np.ldexp(vectors, -exponents)
+    directions: FloatArray = scaled / np.sqrt(np.sum(scaled**2, axis=-1, keepdims=True))
     return directions
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pyproj
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, fisheye
@@ -228,6 +228,7 @@ def frame(lonlat):
 
 
 @given(MAPS)
+@example(MoebiusMap(Rotation([0.0, 0.0, 0.5, 5.96046448e-08]), 1.0, Rotation([0.0, 0.0, 0.0, 1.0])))
 @settings(deadline=None, max_examples=40)
 def test_every_map_is_a_proj_pipeline(conformal):
     lonlat = np.random.default_rng(4).uniform([-180, -89], [180, 89], size=(100, 2))
@@ -235,7 +236,10 @@ def test_every_map_is_a_proj_pipeline(conformal):
     # Next to the antipode of the focus PROJ's plane is far away from its middle.
     gap = angular_distance(lonlat_to_xyz(proj_image(conformal, lonlat)), conformal(xyz))
     away = angular_distance(xyz, -conformal.focus) > 1
-    assert (gap < 1e-9 * np.maximum(1, conformal.scale_factor(xyz)))[away].all()
+    # Its inverse about a middle next to a pole divides what cancels by the cosine of the latitude.
+    cosines = [np.hypot(*point[:2]) for point in (conformal.focus, conformal(conformal.focus))]
+    lost = max((2e-14 / cosine for cosine in cosines if cosine > 1e-12), default=0.0)
+    assert (gap < (1e-9 + lost) * np.maximum(1, conformal.scale_factor(xyz)))[away].all()
 
 
 def test_a_twist_is_a_turn_of_the_plane():

@@ -301,3 +301,20 @@ def test_a_halo_has_the_colour_that_is_asked_for():
     pages = [replace(page, items=(item,)) for item in (label, replace(label, halo_color=Label.halo_color))]
     sizes = [sum(array.size for array in each.arrays().values()) for each in pages]
     assert sizes[0] - sizes[1] == 4
+
+
+def test_the_length_of_directions_does_not_matter():
+    rng = np.random.default_rng(8)
+    points = rng.normal(size=(30, 3))
+    pages = []
+    for lengths in (np.ones((30, 1)), 10.0 ** rng.integers(-290, 290, (30, 1))):
+        globe = Globe()
+        globe.add_cells(SphericalVoronoi(points * lengths), colors=np.tile([0.2, 0.4, 0.6], (30, 1)))
+        globe.add_triangulation(SphericalDelaunay(points * lengths))
+        globe.add_points(points * lengths)
+        pages.append(globe.page())
+    for first, second in zip(items_of(pages[0], Dots), items_of(pages[1], Dots), strict=True):
+        np.testing.assert_allclose(first.centers, second.centers, atol=1e-12)
+    covered = [sum(np.abs(item.points).sum() for item in items_of(page, Patch)) for page in pages]
+    assert np.isfinite(covered).all()
+    assert items_of(pages[0], Patch)[0].faces.shape == items_of(pages[1], Patch)[0].faces.shape
