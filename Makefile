@@ -35,7 +35,7 @@ system: ## get the offscreen OpenGL libraries, or say how
 figures: $(STAMP) system ## draw every figure that is out of date into out/
 	@$(BUILD) fig globe earth sky
 
-poster: $(STAMP) system ## draw figures/globe_poster.py 16384 pixels across into out/poster: minutes, and 2 GB of memory
+poster: $(STAMP) system ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory
 	@mkdir -p $(OUT)/poster
 	@$(BIN)/python figures/globe_poster.py --out $(OUT)/poster --size 16384
 
