@@ -74,3 +74,11 @@ def test_pictures_are_there(page):
     shown = re.findall(r'(?:!\[[^]]*\]\(|\{image\} |src=")([^)\s"]+)', text)
     assert shown
     assert [name for name in shown if not (path.parent / name).is_file()] == []
+
+
+def test_the_gallery_runs_every_script():
+    """What its pattern leaves out is shown without a picture."""
+    (pattern,) = re.findall(r'"filename_pattern": r"(.*)"', (DOCS / "conf.py").read_text(encoding="utf-8"))
+    scripts = [path.as_posix() for path in (ROOT / "figures").glob("[!_]*.py")]
+    assert len(scripts) >= 20
+    assert [script for script in scripts if not re.search(pattern, script)] == []
