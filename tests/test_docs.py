@@ -78,7 +78,7 @@ def test_pictures_are_there(page):
 
 def test_the_gallery_runs_every_script():
     """What its pattern leaves out is shown without a picture."""
-    (pattern,) = re.findall(r'"filename_pattern": r"(.*)"', (DOCS / "conf.py").read_text(encoding="utf-8"))
+    (pattern,) = re.findall(r'"filename_pattern": r"(.*)"', (ROOT / "docs" / "conf.py").read_text(encoding="utf-8"))
     scripts = [path.as_posix() for path in (ROOT / "figures").glob("[!_]*.py")]
     assert len(scripts) >= 20
     assert [script for script in scripts if not re.search(pattern, script)] == []
