@@ -56,11 +56,11 @@ def test_paper_and_pixels_fill_the_same_land(focus, size, view):
 
 
 @pytest.mark.parametrize("size", [1.0, 20.0, 1000.0])
-def test_circles_are_drawn_on_the_exact_circle(size):
+@pytest.mark.parametrize("view", [View(*PARIS), StereographicView(*PARIS, extent=150)])
+def test_circles_are_drawn_on_the_exact_circle(size, view):
     """Corners of the image of a circle are on the circle that the map's own image is, in space."""
     lens = fisheye(PARIS, magnification=size)
     circle = SphereCircle.around((2.40, 48.88), 0.06)
-    view = View(*PARIS)
     globe = Globe()
     globe.add_circles([circle])
     page = globe.page(lens, view)
@@ -70,6 +70,13 @@ def test_circles_are_drawn_on_the_exact_circle(size):
     image = lens.image_of(circle)
     inner = np.hypot(*(line.points - middle).T) < 0.99
     np.testing.assert_allclose(axes[inner] @ (view.matrix @ image.normal), image.offset, atol=1e-7)
+    # Between its corners the line is within the tolerance of a page, 0.02 points.
+    radius = page.width / (page.extent[1] - page.extent[0])
+    around = image.sample(40_000) @ view.matrix.T
+    whole = view.flattened(around[around[:, 2] > view.edge])
+    ends = line.points - middle
+    gaps = np.abs(np.linalg.norm(whole[:, None] - (ends[:-1] + ends[1:]) / 2, axis=-1)).min(axis=0)
+    assert radius * gaps.max() < 0.05
 
 
 def test_nothing_turns_to_chords_at_magnification_1000():

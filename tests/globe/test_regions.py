@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import MoebiusMap, fisheye, lonlat_to_xyz
+from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
 from stereodel.globe.polygons import Polygons
 from stereodel.globe.regions import Mesh, SphereMesh
 from stereodel.render.outlines import boundary_sides, loops
@@ -183,3 +183,26 @@ def test_what_is_left_out_beyond_a_cap_is_out_of_sight(focus, size, at, edge, na
         part, _ = replace(image, points=turned(image.points, matrix)).clipped(edge, tolerance=2e-3)
         seen.append(np.sort(part.points[part.faces].reshape(-1, 9), axis=0))
     np.testing.assert_array_equal(*seen)
+
+
+def test_a_side_across_the_cap_whose_ends_are_on_its_rim_stays_straight():
+    points = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.3, 0.9], [1.0, 1.0, 0.2]])
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    mesh = Mesh(points, np.array([[0, 1, 2], [0, 3, 1]]), np.zeros(2, dtype=int))
+    part, rim = mesh.clipped(0.0, tolerance=1e-3)
+    assert len(part.points) == 4
+    assert rim.sum() == 2
+
+
+@given(
+    corners=st.lists(st.tuples(st.floats(-170, 170), st.floats(-90, 90)), min_size=3, max_size=3),
+    seed=st.integers(0, 100),
+)
+def test_triangles_are_no_larger_than_their_size(corners, seed):
+    """What is out of sight is left out by it: it bounds distances from the first corner."""
+    mesh = SphereMesh(np.array(corners), np.array([[0, 1, 2]]), np.array([0]))
+    (size,) = mesh._sizes(lonlat_to_xyz(mesh.corners))
+    shares = np.random.default_rng(seed).dirichlet(np.ones(3), 50)
+    inside = np.clip(shares @ mesh.corners, [-180, -90], [180, 90])
+    distances = angular_distance(lonlat_to_xyz(inside), lonlat_to_xyz(corners[0]))
+    assert np.radians(distances).max() <= size + 1e-9
