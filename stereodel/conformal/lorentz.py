@@ -16,6 +16,7 @@ from stereodel.conformal.biquaternions import from_spinors
 from stereodel.conformal.complex_pairs import Complex
 from stereodel.constants import MATRIX_ERROR, MATRIX_MAGNIFICATION
 from stereodel.sphere import Rotation
+from stereodel.sphere.vectors import determinant
 
 _METRIC = np.diag([1.0, 1.0, 1.0, -1.0])
 _Z = np.array([0.0, 0.0, 1.0])
@@ -65,7 +66,7 @@ def from_lorentz(matrix: FloatArray) -> Parts:
     magnification = float(gamma) + sinh
     _check_magnification(magnification)
     polar = matrix[:3, :3] - np.outer(column, row) / (1 + gamma)
-    if np.linalg.det(polar) < 0:
+    if determinant(polar) < 0:
         raise ValueError("matrix mirrors the sphere: its determinant must be +1")
     turn = Rotation.nearest(polar)
     if sinh == 0:

@@ -16,6 +16,7 @@ from stereodel.sphere import quaternions
 from stereodel.sphere.chunks import by_blocks
 from stereodel.sphere.coordinates import as_direction, scaled
 from stereodel.sphere.degrees import sin_cos_degrees
+from stereodel.sphere.vectors import determinant
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,7 +88,7 @@ class Rotation:
     def from_matrix(cls, matrix: npt.ArrayLike) -> Rotation:
         """The rotation of a (3, 3) matrix, which must be orthogonal up to `MATRIX_ERROR` and of determinant +1."""
         m = as_matrix(matrix, 3, "matrix")
-        if np.abs(m @ m.T - np.eye(3)).max() > MATRIX_ERROR or np.linalg.det(m) < 0:
+        if np.abs(m @ m.T - np.eye(3)).max() > MATRIX_ERROR or determinant(m) < 0:
             raise ValueError("matrix is not a rotation: its columns must be orthonormal with determinant +1")
         return cls.nearest(m)
 

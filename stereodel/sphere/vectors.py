@@ -18,6 +18,11 @@ def units(vectors: FloatArray) -> FloatArray:
     return directions
 
 
+def determinant(matrix: FloatArray) -> float:
+    """Of a matrix (3, 3), as a triple product: LAPACK divides by pivots, which may be subnormal, and warns."""
+    return float(np.sum(matrix[0] * np.cross(matrix[1], matrix[2])))
+
+
 def turned(vectors: FloatArray, matrix: FloatArray) -> FloatArray:
     """Apply the rows of a matrix (3, 3) to vectors (..., 3).
 

@@ -129,3 +129,11 @@ def test_frozen():
         Rotation.identity().quaternion[0] = 2.0
     with pytest.raises(TypeError):
         Rotation.identity() @ 3.0
+
+
+def test_matrices_with_subnormal_entries_are_taken_without_a_warning():
+    matrix = np.eye(3)
+    matrix[0, 1], matrix[1, 0] = 2.2e-309, -2.2e-309
+    assert Rotation.from_matrix(matrix)([0.0, 0.0, 1.0]).tolist() == [0.0, 0.0, 1.0]
+    with pytest.raises(ValueError, match="matrix"):
+        Rotation.from_matrix(-matrix)
