@@ -18,7 +18,8 @@ VIEWS = [View(20.0, 35.0, 10.0), StereographicView(-60.0, -20.0, extent=140.0), 
 LENSES = [MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=6.0), fisheye((-100.0, -40.0), magnification=0.3)]
 
 sights = st.tuples(st.sampled_from(LENSES), st.sampled_from(VIEWS))
-places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
+# GEOS warns of distances from lines with parts as small as 1e-167.
+places = st.tuples(st.floats(-180, 180), st.floats(-90, 90)).map(lambda place: tuple(np.round(place, 12).tolist()))
 
 
 def everywhere(n, seed=0):
@@ -40,7 +41,8 @@ def parts(path):
 def distance(points, path):
     """Of points (n, 2) from a path of lines."""
     lines = [shapely.LineString(line) for line in parts(path)]
-    return shapely.distance(shapely.points(points), shapely.MultiLineString(lines))
+    with np.errstate(all="ignore"):
+        return shapely.distance(shapely.points(points), shapely.MultiLineString(lines))
 
 
 def test_points_are_those_of_proj():
