@@ -1,5 +1,7 @@
 """Check the text of every tracked file: no absolute path, no address of a package index, no unfinished work.
 
+C++ besides, which no formatter lays out here: at most 120 columns, no tabs, no spaces at the end of a line.
+
 python tools/tracked_text.py
 """
 
@@ -19,6 +21,7 @@ FORBIDDEN = {
     ),
     "unfinished work": re.compile(r"\b(?:TO[D]O|FIX[M]E|XX[X])\b"),
 }
+COLUMNS = 120
 PINNED = re.compile(r"[A-Za-z0-9._-]+==[A-Za-z0-9._+!-]+")
 
 
@@ -30,6 +33,12 @@ def problems(name: str, text: str) -> list[str]:
         for what, pattern in FORBIDDEN.items()
         if pattern.search(line)
     ]
+    if name.endswith((".cpp", ".hpp")):
+        found += [
+            f"{name}:{number}: more than {COLUMNS} characters, a tab, or a space at the end"
+            for number, line in enumerate(text.splitlines(), 1)
+            if len(line) > COLUMNS or "\t" in line or line.endswith(" ")
+        ]
     if name == "constraints.txt":
         found += [f"{name}: not name==version: {line}" for line in text.splitlines() if not PINNED.fullmatch(line)]
     return found

@@ -1,0 +1,50 @@
+"""The text checks of `make check`: what they see, and what they say about this repository."""
+
+import importlib.util
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+
+
+def tool(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / "tools" / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+tracked = tool("tracked_text")
+
+@pytest.mark.parametrize("line", ["x" * 121, "\tx", "x "])
+def test_lines_of_cpp_are_seen(line):
+    (found,) = tracked.problems("k.cpp", "x" * 120 + "\n" + line)
+    assert found.startswith("k.cpp:2: ")
+    assert tracked.problems("k.md", line) == []
+
+
+def test_this_repository_passes():
+    ran = subprocess.run([sys.executable, "tools/tracked_text.py"], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "what"),
+    [
+        ("a.md", "see /ho" + "me/me/file", "absolute path"),
+        ("a.toml", "index = 'https://py" + "pi.org/simple'", "package index"),
+        ("a.py", "x = 1  # TO" + "DO later", "unfinished"),
+        ("constraints.txt", "numpy>=2", "name==version"),
+    ],
+)
+def test_text_checks_see(name, text, what):
+    (found,) = tracked.problems(name, text)
+    assert what in found
+
+
+def test_text_checks_let_pass():
+    assert tracked.problems("constraints.txt", "numpy==2.4.6\nruff==0.17.5") == []
+    assert tracked.problems("a.py", "#!/usr/bin/env bash\nPath('/usr/lib')\n'out/home/x'") == []
