@@ -11,9 +11,9 @@
 namespace stereodel {
 namespace {
 
-class PlaneSites : public CurveSites {
+class SortedPoints : public CurveSites {
   public:
-    PlaneSites(CurveArrays& arrays, double granularity)
+    SortedPoints(CurveArrays& arrays, double granularity)
         : CurveSites(arrays), predicates_(&arrays.points.data()->x, granularity) {}
 
     int orient(Index a, Index b, Index c) { return predicates_.orient(a, b, c); }
@@ -102,8 +102,8 @@ Triangulation triangulate_plane(const double* xy, std::size_t count, bool with_n
     const SquareGrid grid = bounding_grid(point, count, crew);
     const auto key = [&](Index k) { return grid.key(point(k)); };
     CurveArrays arrays = CurveArrays::sorted(count, number, point, key, crew, stop);
-    const PlaneSites sites(arrays, common_granularity(xy, count));
-    CurveTriangulation<PlaneSites> work(arrays, sites, crew, Buffer<char>());
+    const SortedPoints sites(arrays, common_granularity(xy, count));
+    CurveTriangulation<SortedPoints> work(arrays, sites, crew, Buffer<char>());
     result.duplicates = std::move(work.duplicates);
     result.tally = work.tally;
     const std::size_t distinct = count - result.duplicates.size();

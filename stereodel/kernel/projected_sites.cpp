@@ -142,7 +142,7 @@ std::uint32_t whole_plane_key(const ProjectedRays& rays, Index point, ProjectedR
     return curve_key(whole_plane_cell(p.x, p.w, rays, point, 0), whole_plane_cell(p.y, p.w, rays, point, 1));
 }
 
-int SphereSites::orient_close(Index a, Index b, Index c) {
+int ProjectedSites::orient_close(Index a, Index b, Index c) {
     const Estimated e = orient_estimate(points_[a], points_[b], points_[c]);
     if (e.positive() || e.negative()) {
         return e.positive() ? 1 : -1;
@@ -152,7 +152,7 @@ int SphereSites::orient_close(Index a, Index b, Index c) {
     return in_bubble(ray(a), ray(b), ray(c), pole_, rays_.unit, first, tally_) ? -1 : 1;
 }
 
-bool SphereSites::in_circle_close(Index a, Index b, Index c, Index d, const InCircleEstimate& e) {
+bool ProjectedSites::in_circle_close(Index a, Index b, Index c, Index d, const InCircleEstimate& e) {
     const double bound = e.bound();
     if (e.value > bound) {
         return true;
@@ -164,7 +164,7 @@ bool SphereSites::in_circle_close(Index a, Index b, Index c, Index d, const InCi
     return in_bubble(ray(a), ray(b), ray(c), ray(d), rays_.unit, -1, tally_);
 }
 
-int SphereSites::compare_along(Index a, Index b, int coordinate) {
+int ProjectedSites::compare_along(Index a, Index b, int coordinate) {
     const Point2 p = points_[a], q = points_[b];
     const double x = coordinate == 0 ? p.x : p.y, y = coordinate == 0 ? q.x : q.y;
     const double bound = coordinate_error * (std::fabs(x) + std::fabs(y));
@@ -178,18 +178,18 @@ int SphereSites::compare_along(Index a, Index b, int coordinate) {
     return v[0] == w[0] && v[1] == w[1] && v[2] == w[2] ? 0 : compare_projected(v, w, rays_.pole, coordinate);
 }
 
-int SphereSites::compare(Index a, Index b, Axis axis) {
+int ProjectedSites::compare(Index a, Index b, Axis axis) {
     const int first = axis == Axis::x ? 0 : 1;
     const int sign = compare_along(a, b, first);
     return sign != 0 ? sign : compare_along(a, b, 1 - first);
 }
 
-Index SphereSites::sort_distinct(Index low, Index high) {
+Index ProjectedSites::sort_distinct(Index low, Index high) {
     return sort_and_drop(low, high, [this](Index a, Index b) { return compare(a, b, Axis::x); });
 }
 
 template <class Coordinates>
-bool SphereSites::refine(Index low, Index high, const Coordinates& coordinates) {
+bool ProjectedSites::refine(Index low, Index high, const Coordinates& coordinates) {
     FineGrid grid;
     for (Index a = low; a < high; ++a) {
         poll();
@@ -208,7 +208,7 @@ bool SphereSites::refine(Index low, Index high, const Coordinates& coordinates) 
     return key(low) != key(high - 1);
 }
 
-bool SphereSites::refine(Index low, Index high) {
+bool ProjectedSites::refine(Index low, Index high) {
     if (refine(low, high, RoundedCoordinates{points_})) {
         return true;
     }

@@ -114,9 +114,9 @@ struct InCircleEstimate {
     double wide_bound() const { return 0x1p-30 * permanent; }
 };
 
-class SphereSites : public CurveSites {
+class ProjectedSites : public CurveSites {
   public:
-    SphereSites(CurveArrays& arrays, const ProjectedRays& rays) : CurveSites(arrays), rays_(rays) {
+    ProjectedSites(CurveArrays& arrays, const ProjectedRays& rays) : CurveSites(arrays), rays_(rays) {
         const double sign = rays.pole.sign;
         for (int k = 0; k < 3; ++k) {
             pole_[k] = k == rays.pole.axis ? sign : 0.0;

@@ -183,7 +183,7 @@ class Closure {
 };
 
 // Write all: what was triangulated around the pole's antipode, then what closes it at the pole.
-void write_sphere(CurveTriangulation<SphereSites>& work, const Closure& closure, CurveArrays& arrays,
+void write_sphere(CurveTriangulation<ProjectedSites>& work, const Closure& closure, CurveArrays& arrays,
                   std::size_t distinct, bool with_neighbors, Crew& crew, Stop stop, Triangles& triangles) {
     const std::size_t count = 2 * distinct - 4, first = count - closure.count();  // Euler
     triangles.corners = Buffer<Index>(std::move(arrays.sorted_items), 3 * count);
@@ -223,7 +223,7 @@ Triangulation triangulate_sphere(const double* xyz, std::size_t count, bool with
     CurveArrays arrays = CurveArrays::sorted(
         division.shown(count), [&](std::size_t k) { return division.number(k); },
         [&](Index p) { return projected[static_cast<std::size_t>(p)]; }, key, crew, stop);
-    CurveTriangulation<SphereSites> work(arrays, SphereSites(arrays, rays), crew, std::move(projected));
+    CurveTriangulation<ProjectedSites> work(arrays, ProjectedSites(arrays, rays), crew, std::move(projected));
 
     Triangulation result;
     result.dimension = 2;
