@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -212,7 +211,7 @@ class CurveTriangulation {
             Node& node = nodes_[up];
             node.part = engine.merge(nodes_[node.left].part, nodes_[node.right].part, node.axis);
         }
-        const std::lock_guard lock(mutex_);
+        const Lock lock(mutex_);
         tally += sites.tally();
         duplicates.insert(duplicates.end(), sites.duplicates.begin(), sites.duplicates.end());
     }
@@ -221,7 +220,7 @@ class CurveTriangulation {
     Stop stop_;
     std::vector<Node> nodes_;
     std::vector<std::atomic<int>> arrived_;  // how many halves of each node are done
-    std::mutex mutex_;                       // of what all tasks add to
+    Mutex mutex_;                            // of what all tasks add to
 };
 
 }  // namespace stereodel

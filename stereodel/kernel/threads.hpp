@@ -1,15 +1,29 @@
 // Threads: loops over tasks on several of them, and a way to stop all.
+//
+// Where there are none (STEREODEL_THREADS = 0, as in WebAssembly without shared memory, whose C++ library has neither
+// std::thread nor std::mutex), every crew is the calling thread alone; the results are the same.
 #pragma once
+
+#if !defined(STEREODEL_THREADS)
+#if defined(__wasm__) && !defined(_REENTRANT)
+#define STEREODEL_THREADS 0
+#else
+#define STEREODEL_THREADS 1
+#endif
+#endif
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <vector>
+
+#if STEREODEL_THREADS
+#include <condition_variable>
 #include <mutex>
 #include <thread>
-#include <vector>
+#endif
 
 namespace stereodel {
 
@@ -30,6 +44,16 @@ inline int useful_workers(int workers, std::size_t size, std::size_t worth_a_thr
     return static_cast<std::size_t>(workers) < most ? workers : static_cast<int>(most);
 }
 
+#if STEREODEL_THREADS
+
+using Mutex = std::mutex;
+using Lock = std::lock_guard<Mutex>;
+
+// Lets other threads go first, while this one waits for what they do.
+inline void wait_for_others() {
+    std::this_thread::yield();
+}
+
 // Threads that wait for loops. The calling thread is one of them: a crew of one starts none.
 class Crew {
   public:
@@ -46,7 +70,7 @@ class Crew {
     Crew& operator=(const Crew&) = delete;
     ~Crew() {
         {
-            const std::lock_guard lock(mutex_);
+            const Lock lock(mutex_);
             leave_ = true;
         }
         begins_.notify_all();
@@ -66,7 +90,7 @@ class Crew {
         bool failed = false;  // by more than being cancelled, which often follows from the failure of another task
         const auto end_with = [&](bool by_more) {
             taken = count;
-            const std::lock_guard lock(mutex_);
+            const Lock lock(mutex_);
             if (!failure || (by_more && !failed)) {
                 failure = std::current_exception();
                 failed = by_more;
@@ -97,7 +121,7 @@ class Crew {
     // All threads do the same work.
     void together(const std::function<void()>& work) {
         {
-            const std::lock_guard lock(mutex_);
+            const Lock lock(mutex_);
             work_ = &work;
             busy_ = threads_.size();
             ++round_;
@@ -128,12 +152,42 @@ class Crew {
     }
 
     std::vector<std::thread> threads_;
-    std::mutex mutex_;
+    Mutex mutex_;
     std::condition_variable begins_, ends_;
     const std::function<void()>* work_ = nullptr;
     std::size_t round_ = 0, busy_ = 0;
     bool leave_ = false;
 };
+
+#else
+
+struct Mutex {};
+
+struct Lock {
+    explicit Lock(Mutex&) {}
+    ~Lock() {}  // not trivial: a lock that is named and not used is meant
+};
+
+inline void wait_for_others() {}
+
+// The calling thread.
+class Crew {
+  public:
+    explicit Crew(int) {}
+    Crew(const Crew&) = delete;
+    Crew& operator=(const Crew&) = delete;
+
+    std::size_t size() const { return 1; }
+
+    template <class Task>
+    void run(std::size_t count, Task&& task) {
+        for (std::size_t k = 0; k < count; ++k) {
+            task(k);
+        }
+    }
+};
+
+#endif
 
 // Calls task(begin, end) for the ranges that make up [0, size): `grain` numbers each, the last one fewer.
 template <class Task>

@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
-#include <thread>
 #include <vector>
 
 #include "corners.hpp"
@@ -124,7 +123,7 @@ class RowsInOrder {
     std::size_t first(std::size_t k) const {
         std::size_t row = unknown_;
         while ((row = first_[k].load(std::memory_order_acquire)) == unknown_) {
-            std::this_thread::yield();
+            wait_for_others();
         }
         if (row == failed_) {
             throw Cancelled{};
