@@ -525,7 +525,7 @@ def voronoi_plane(
     workers: int = 1,
 ) -> tuple:
     """
-    Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of each triangle; if triangles share vertices, rows of three sites and the vertex of each row.
+    Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of each triangle; if triangles share vertices, its rank there, rows of three sites and the vertex of each row.
     """
 
 def voronoi_sphere(
@@ -562,9 +562,11 @@ def delaunay_of_plane(
     vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     vertex_count: int,
+    simplex_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    rank: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
-    """Triangles of a diagram's sites, vertex by vertex."""
+    """Triangles of a diagram's sites, in the order of `simplex_vertex`."""
 
 def delaunay_of_sphere(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
@@ -572,6 +574,8 @@ def delaunay_of_sphere(
     vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     vertex_count: int,
+    simplex_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    rank: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
     """The same for directions."""

@@ -22,14 +22,15 @@ using namespace nb::literals;
 constexpr std::size_t long_work = 20000;  // rows: some milliseconds
 
 nb::tuple to_python(Diagram&& diagram) {
-    nb::object sites = nb::none(), vertex = nb::none();
+    nb::object rank = nb::none(), sites = nb::none(), vertex = nb::none();
     if (diagram.row_vertex.size() != 0) {
         sites = nb::cast(to_rows<3>(std::move(diagram.vertex_sites)));
         vertex = nb::cast(to_values(std::move(diagram.row_vertex)));
+        rank = nb::cast(to_values(std::move(diagram.simplex_rank)));
     }
     return nb::make_tuple(to_values(std::move(diagram.offsets)), to_values(std::move(diagram.vertices)),
                           to_values(std::move(diagram.neighbors)), to_values(std::move(diagram.order)),
-                          to_values(std::move(diagram.simplex_vertex)), sites, vertex);
+                          to_values(std::move(diagram.simplex_vertex)), rank, sites, vertex);
 }
 
 template <std::size_t Width, class Make>
@@ -118,21 +119,32 @@ RowsOut<Index, 3> triangulated(const Cells& cells, int workers, TrianglesOf&& tr
     }));
 }
 
+using Ranks = std::optional<ValuesIn<Index>>;
+
+TriangleOrder to_order(const Entries& simplex_vertex, const Ranks& rank) {
+    if (rank && rank->shape(0) != simplex_vertex.shape(0)) {
+        throw std::invalid_argument("simplex_vertex and rank must have the same length");
+    }
+    return {simplex_vertex.data(), rank ? rank->data() : nullptr, simplex_vertex.shape(0)};
+}
+
 RowsOut<Index, 3> delaunay_of_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                    std::size_t vertex_count, int workers) {
+                                    std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
     const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
     check_sites(cells, points.shape(0));
+    const TriangleOrder order = to_order(simplex_vertex, rank);
     return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
-        return triangles_in_plane(points.data(), polygons, workers, stop);
+        return triangles_in_plane(points.data(), polygons, order, workers, stop);
     });
 }
 
 RowsOut<Index, 3> delaunay_of_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                     std::size_t vertex_count, int workers) {
+                                     std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
     const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
     check_sites(cells, points.shape(0));
+    const TriangleOrder order = to_order(simplex_vertex, rank);
     return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
-        return triangles_on_sphere(points.data(), cells.sites, polygons, workers, stop);
+        return triangles_on_sphere(points.data(), cells.sites, polygons, order, workers, stop);
     });
 }
 
@@ -228,7 +240,8 @@ nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles
 void bind_voronoi(nb::module_& module) {
     module.def("voronoi_plane", of_plane, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
                "Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of "
-               "each triangle; if triangles share vertices, rows of three sites and the vertex of each row.");
+               "each triangle; if triangles share vertices, its rank there, rows of three sites and the vertex of each "
+               "row.");
     module.def("voronoi_sphere", of_sphere, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
                "The same for directions.");
     module.def("voronoi_ridges", ridges, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a, "workers"_a = 1,
@@ -236,10 +249,10 @@ void bind_voronoi(nb::module_& module) {
     module.def("voronoi_polygons", polygons, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a,
                "workers"_a = 1, "Offsets and sites of the polygons around the vertices of a diagram.");
     module.def("delaunay_of_plane", delaunay_of_plane, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1,
-               "Triangles of a diagram's sites, vertex by vertex.");
+               "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1,
+               "Triangles of a diagram's sites, in the order of `simplex_vertex`.");
     module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-               "vertex_count"_a, "workers"_a = 1,
+               "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1,
                "The same for directions.");
     module.def("cell_areas_plane", areas<2, cell_areas_plane>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "order"_a, "workers"_a = 1,

@@ -37,10 +37,18 @@ Ridges ridges_of(const Cells& cells, int workers, Stop stop);
 // Throws std::invalid_argument if the cells are not those of a diagram.
 Polygons polygons_of(const Cells& cells, int workers, Stop stop);
 
-// The triangles of displaced points (plane_predicates.hpp, ray_predicates.hpp), lowest site first, those of one vertex
-// after those of the vertices before it.
-Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, int workers, Stop stop);
-Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons, int workers,
-                                  Stop stop);
+// In which order triangles are wanted: the vertex of each, and its place among those of that vertex in the lexicographic
+// order of their corners (null: each vertex has one).
+struct TriangleOrder {
+    const Index *vertex, *rank;
+    std::size_t count;
+};
+
+// The triangles of displaced points (plane_predicates.hpp, ray_predicates.hpp), lowest site first. Throws
+// std::invalid_argument if the order is not one of the diagram's triangles.
+Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, const TriangleOrder& order,
+                                 int workers, Stop stop);
+Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons,
+                                  const TriangleOrder& order, int workers, Stop stop);
 
 }  // namespace stereodel

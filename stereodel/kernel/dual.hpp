@@ -4,6 +4,7 @@
 // polygon of its sites, and the edge has no ridge. Integers alone; who is tied is told from outside.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -29,6 +30,11 @@ class DualTriangles {
 
     std::size_t count() const { return count_; }
     const Index* corners(Index t) const { return corners_ + 3 * static_cast<std::size_t>(t); }
+    std::array<Index, 3> corners_from_lowest(Index t) const {
+        const Index* const corner = corners(t);
+        const std::size_t k = place_of_least(corner);
+        return {corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3]};
+    }
     Index neighbor(HalfEdge e) const { return neighbors_[3 * static_cast<std::size_t>(e.t) + e.place]; }
     Index origin(HalfEdge e) const { return corners(e.t)[(e.place + 1) % 3]; }
     Index target(HalfEdge e) const { return corners(e.t)[(e.place + 2) % 3]; }

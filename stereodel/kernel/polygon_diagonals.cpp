@@ -5,7 +5,9 @@
 // in, the first point sinks below the rest and is cut off as an ear; then the next one of what remains, down to a
 // triangle. In the plane it lifts them, away from the lower hull: in.
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include "corners.hpp"
@@ -61,10 +63,44 @@ class Diagonals {
     std::vector<Size> before_, after_;
 };
 
+// Lexicographically, for the rank of `TriangleOrder`.
+void sort_rows(Index* rows, Size count) {
+    std::vector<std::array<Index, 3>> sorted(count);
+    for (Size k = 0; k < count; ++k) {
+        sorted[k] = {rows[3 * k], rows[3 * k + 1], rows[3 * k + 2]};
+    }
+    std::sort(sorted.begin(), sorted.end());
+    for (const std::array<Index, 3>& row : sorted) {
+        rows = std::copy(row.begin(), row.end(), rows);
+    }
+}
+
+// From the triangles vertex by vertex, k - 2 of them for a polygon of k corners.
+Buffer<Index> in_order(const Buffer<Index>& triangles, const Polygons& polygons, const TriangleOrder& order,
+                       Crew& crew, Stop stop) {
+    const auto refuse = [] { throw std::invalid_argument("simplex_vertex: not that of the diagram"); };
+    if (3 * order.count != triangles.size()) {
+        refuse();
+    }
+    const Size vertices = polygons.offsets.size() - 2;
+    Buffer<Index> rows(triangles.size());
+    for_all(order.count, crew, stop, [&](Size t) {
+        const Size v = static_cast<Size>(static_cast<std::uint32_t>(order.vertex[t]));
+        const Size rank = order.rank == nullptr ? 0 : static_cast<Size>(static_cast<std::uint32_t>(order.rank[t]));
+        if (v >= vertices ||
+            rank + 2 >= static_cast<Size>(polygons.offsets[v + 1]) - static_cast<Size>(polygons.offsets[v])) {
+            refuse();
+        }
+        const Size from = static_cast<Size>(polygons.offsets[v]) - 2 * v + rank;
+        std::copy_n(triangles.data() + 3 * from, 3, rows.data() + 3 * t);
+    });
+    return rows;
+}
+
 // comes_first(a, b): the order of displacements. is_outward(polygon, size): which way they go.
 template <class ComesFirst, class IsOutward>
-Buffer<Index> triangles(const Polygons& polygons, int workers, Stop stop, ComesFirst&& comes_first,
-                        IsOutward&& is_outward) {
+Buffer<Index> triangles(const Polygons& polygons, const TriangleOrder& order, int workers, Stop stop,
+                        ComesFirst&& comes_first, IsOutward&& is_outward) {
     const Size count = polygons.offsets.size() - 2;
     // A polygon of k corners has k - 2 triangles.
     Buffer<Index> out(3 * (static_cast<Size>(polygons.offsets[count]) - 2 * count));
@@ -86,30 +122,32 @@ Buffer<Index> triangles(const Polygons& polygons, int workers, Stop stop, ComesF
             std::sort(ranked.begin(), ranked.end(),
                       [&](Size a, Size b) { return comes_first(polygon[a], polygon[b]); });
             diagonals.draw(polygon, size, ranked, is_outward(polygon, size), here);
+            sort_rows(here, size - 2);
         });
     });
-    return out;
+    return in_order(out, polygons, order, crew, stop);
 }
 
 }  // namespace
 
-Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, int workers, Stop stop) {
+Buffer<Index> triangles_in_plane(const double* points, const Polygons& polygons, const TriangleOrder& order,
+                                 int workers, Stop stop) {
     const auto comes_first = [points](Index a, Index b) {
         const double *p = points + 2 * static_cast<Size>(a), *q = points + 2 * static_cast<Size>(b);
         return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
     };
-    return triangles(polygons, workers, stop, comes_first, [](const Index*, Size) { return false; });
+    return triangles(polygons, order, workers, stop, comes_first, [](const Index*, Size) { return false; });
 }
 
-Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons, int workers,
-                                  Stop stop) {
+Buffer<Index> triangles_on_sphere(const double* points, std::size_t sites, const Polygons& polygons,
+                                  const TriangleOrder& order, int workers, Stop stop) {
     const bool unit = all_unit(points, sites);
     const auto at = [points](Index a) { return points + 3 * static_cast<Size>(a); };
     const auto comes_first = [&](Index a, Index b) { return rays::compare(at(a), at(b), unit) < 0; };
     const auto is_outward = [&](const Index* polygon, Size size) {
         return displaced_turn(at(polygon[0]), at(polygon[size / 3]), at(polygon[2 * size / 3]), unit) > 0;
     };
-    return triangles(polygons, workers, stop, comes_first, is_outward);
+    return triangles(polygons, order, workers, stop, comes_first, is_outward);
 }
 
 }  // namespace stereodel

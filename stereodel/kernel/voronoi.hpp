@@ -20,6 +20,9 @@ struct Diagram {
     Buffer<std::int64_t> offsets;       // sites + 1
     Buffer<Index> vertices, neighbors;  // of each entry
     Buffer<Index> simplex_vertex;       // of each triangle
+    // The place of each triangle among those of its vertex, in the lexicographic order of their corners from the lowest
+    // on; empty where each vertex has one triangle.
+    Buffer<Index> simplex_rank;
     Buffer<Index> order;                // the sites with entries as they first come among the triangles
     // Three sites of each vertex, counterclockwise and a third of the way apart, and the vertex of each such row, in
     // the order of the triangles. Empty where each triangle has a vertex of its own, and so is such a row.

@@ -1,8 +1,11 @@
 #include "voronoi_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <stdexcept>
 #include <tuple>
+#include <utility>
 
 namespace stereodel {
 namespace {
@@ -158,6 +161,7 @@ class CellBuilder {
         keys_ = {};
         if (dual_.has_ties()) {
             list_sites(vertices);
+            rank_triangles();
         }
         name_triangles();
     }
@@ -183,6 +187,51 @@ class CellBuilder {
             }
             *vertex++ = number_[k];
         });
+    }
+
+    // The way back writes the triangles of a vertex by their corners: this says in which of its rows each belongs.
+    void rank_triangles() {
+        diagram_.simplex_rank = Buffer<Index>(dual_.count());
+        in_grains(dual_.count(), grain, crew_, [&](Size begin, Size end) {
+            std::vector<Member> members;
+            for_range(begin, end, stop_, [&](Size k) {
+                const Index t = static_cast<Index>(k);
+                if (is_triangle(t)) {
+                    diagram_.simplex_rank[k] = 0;
+                } else if (dual_.root(t) == t) {
+                    collect_members(t, members);
+                    std::sort(members.begin(), members.end());
+                    for (Size rank = 0; rank < members.size(); ++rank) {
+                        diagram_.simplex_rank[at(members[rank].second)] = static_cast<Index>(rank);
+                    }
+                }
+            });
+        });
+    }
+
+    using Member = std::pair<std::array<Index, 3>, Index>;  // corners from the lowest, triangle
+
+    // The triangles of a root's polygon: over tied edges these are a tree.
+    void collect_members(Index root, std::vector<Member>& members) const {
+        members.assign(1, {dual_.corners_from_lowest(root), root});
+        std::vector<HalfEdge> doors;  // edges to enter through
+        const auto look_around = [&](Index t, Size entered) {
+            for (Size place = 0; place < 3; ++place) {
+                if (place != entered && dual_.is_tied({t, place})) {
+                    doors.push_back(dual_.twin({t, place}));
+                }
+            }
+        };
+        look_around(root, 3);
+        while (!doors.empty()) {
+            const HalfEdge door = doors.back();
+            doors.pop_back();
+            if (members.size() == dual_.count()) {
+                throw std::invalid_argument("neighbors do not fit the simplices");
+            }
+            members.push_back({dual_.corners_from_lowest(door.t), door.t});
+            look_around(door.t, door.place);
+        }
     }
 
     void name_triangles() {

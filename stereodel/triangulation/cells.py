@@ -44,6 +44,7 @@ class Diagram:
     point_region: IntArray
     simplex_vertex: IntArray
     _order: IntArray  # of sites with cells, along the curve of the triangles
+    _rank: IntArray | None  # of triangles that share a vertex, by their corners
     _threads: int
 
     @cached_property

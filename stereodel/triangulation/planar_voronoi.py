@@ -76,7 +76,7 @@ class PlanarVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, self._order, simplex_vertex, sites, vertex = _kernel.voronoi_plane(*arrays, self._threads)
+        *cells, self._order, simplex_vertex, self._rank, sites, vertex = _kernel.voronoi_plane(*arrays, self._threads)
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
@@ -181,11 +181,13 @@ class PlanarVoronoi(Diagram):
         """The triangulation, from the topology of the diagram alone, in O(n).
 
         The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws (the height
-        x² + y² + ε lifts the first point most, so it is cut off as an ear): equal to the direct triangulation.
+        x² + y² + ε lifts the first point most, so it is cut off as an ear): equal to the direct triangulation, row
+        by row: `simplex_vertex` belongs to its `simplices`.
         """
         if len(self.vertices) == 0:
             return PlanarDelaunay(self.points)
-        simplices = _kernel.delaunay_of_plane(self.points, *self._cells(), self._threads)
+        rows = self.simplex_vertex, self._rank
+        simplices = _kernel.delaunay_of_plane(self.points, *self._cells(), *rows, self._threads)
         return PlanarDelaunay._from_simplices(self.points, simplices, self._duplicates())
 
     def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:

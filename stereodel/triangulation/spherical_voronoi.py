@@ -123,7 +123,7 @@ class SphericalVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, self._order, simplex_vertex, sites, vertex = _kernel.voronoi_sphere(*arrays, self._threads)
+        *cells, self._order, simplex_vertex, self._rank, sites, vertex = _kernel.voronoi_sphere(*arrays, self._threads)
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
@@ -241,11 +241,12 @@ class SphericalVoronoi(Diagram):
         """The triangulation, from the topology of the diagram alone, in O(n).
 
         The sites around a vertex are a triangle, or a polygon whose diagonals the tie rule draws: equal to the direct
-        triangulation.
+        triangulation, row by row: `simplex_vertex` belongs to its `simplices`.
         """
         if self._dimension < 2:
             return SphericalDelaunay(self.points)
-        simplices = _kernel.delaunay_of_sphere(self.points, *self._cells(), self._threads)
+        rows = self.simplex_vertex, self._rank
+        simplices = _kernel.delaunay_of_sphere(self.points, *self._cells(), *rows, self._threads)
         return SphericalDelaunay._from_simplices(self.points, simplices, self._duplicates())
 
 

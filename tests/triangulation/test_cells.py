@@ -30,13 +30,14 @@ def rotated(cycle):
 def test_a_square_is_one_vertex_whatever_its_diagonal(simplices):
     rows = np.array(simplices, dtype=np.int32)
     across = {0: [[-1, 1, -1], [-1, -1, 0]], 1: [[1, -1, -1], [-1, 0, -1]]}[simplices[0][2] == 3]
-    offsets, vertices, neighbors, order, simplex_vertex, sites, row_vertex = _kernel.voronoi_plane(
+    offsets, vertices, neighbors, order, simplex_vertex, rank, sites, row_vertex = _kernel.voronoi_plane(
         SQUARE_POINTS, rows, np.array(across, dtype=np.int32)
     )
     assert listed(offsets, vertices) == [[-1, 0]] * 4
     assert listed(offsets, neighbors) == [[1, 3], [2, 0], [3, 1], [0, 2]]
     assert sorted(order.tolist()) == [0, 1, 2, 3]
     assert simplex_vertex.tolist() == [0, 0]
+    assert rank.tolist() == [0, 1]
     assert sites.tolist() == [[0, 1, 2]]
     assert row_vertex.tolist() == [0]
     points, ends = _kernel.voronoi_ridges(offsets, vertices, neighbors, 1)
@@ -116,6 +117,50 @@ def test_threads_and_pieces_of_work_do_not_matter(diagram):
     assert np.array_equal(one.delaunay().simplices, two.delaunay().simplices)
 
 
+PLANE = PlanarDelaunay, PlanarVoronoi
+SPHERE = SphericalDelaunay, SphericalVoronoi
+
+
+@settings(deadline=None, max_examples=150)
+@given(st.one_of(st.tuples(st.just(PLANE), PLACES), st.tuples(st.just(SPHERE), DIRECTIONS)), st.data())
+def test_triangles_have_one_order_everywhere(case, data):
+    """Of diagrams of points, of a triangulation, and of one that was changed; most vertices have several triangles."""
+    (triangulate, diagram_of), points = case
+    direct, diagram = triangulate(points), diagram_of(points)
+    again = diagram.delaunay()
+    assert again.simplices.tolist() == direct.simplices.tolist()
+    assert again.neighbors.tolist() == direct.neighbors.tolist()
+    direct.remove(data.draw(st.lists(st.integers(0, len(points) - 1), max_size=3)))
+    direct.insert(points[:2])
+    diagram = diagram_of(direct)
+    assert diagram.delaunay().simplices.tolist() == direct.simplices.tolist()
+    if direct.dimension == 2:
+        centers = direct.circumcenters
+        assert diagram.vertices[diagram.simplex_vertex] == pytest.approx(centers, rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+@pytest.mark.parametrize(("triangulate", "diagram_of", "width"), [(*PLANE, 2), (*SPHERE, 3)])
+def test_the_order_of_many_triangles(triangulate, diagram_of, width, workers):
+    rng = np.random.default_rng(1)
+    lattice = rng.integers(1, 40, size=(12_000, width)).astype(float)
+    for points in (rng.normal(size=(9_000, width)), lattice):
+        direct = triangulate(points)
+        assert np.array_equal(diagram_of(points, workers=workers).delaunay().simplices, direct.simplices)
+
+
+def test_an_order_that_is_not_that_of_the_diagram_is_refused():
+    diagram = PlanarVoronoi(SQUARE_POINTS)
+    arrays, number = (diagram.points, *diagram._cells()), np.int32
+    for vertex, rank in (([0], None), ([0, 1], None), ([0, -1], None), ([0, 0], [0, 2]), ([0, 0], [0, -1])):
+        with pytest.raises(ValueError, match="simplex_vertex: not that of the diagram"):
+            _kernel.delaunay_of_plane(
+                *arrays, np.array(vertex, number), None if rank is None else np.array(rank, number)
+            )
+    with pytest.raises(ValueError, match="same length"):
+        _kernel.delaunay_of_plane(*arrays, np.zeros(2, number), np.zeros(1, number))
+
+
 def test_sites_on_a_circle():
     offsets, vertices, neighbors = circle_cells(np.array([0, 3, 2]), 5)
     assert listed(offsets, vertices) == [[0, 1], [], [0, 1], [0, 1], []]
@@ -134,7 +179,7 @@ def test_wrong_arrays_are_refused():
         (offsets[::-1].copy(), vertices, neighbors, count),
     ):
         with pytest.raises(ValueError, match="not those of a Voronoi diagram"):
-            _kernel.delaunay_of_sphere(diagram.points, *wrong)
+            _kernel.delaunay_of_sphere(diagram.points, *wrong, diagram.simplex_vertex)
     for order in ([0, 1, 2, 3, 4, 4], [0, 6], [-1]):
         with pytest.raises(ValueError, match="each site with entries once"):
             _kernel.cell_areas_sphere(diagram.points, *diagram._cells(), np.array(order, dtype=np.int32))
