@@ -100,9 +100,9 @@ def as_vectors(values: npt.ArrayLike, dimension: int, name: str, *, gaps: bool =
 
 
 def as_points(values: npt.ArrayLike, dimension: int, name: str = "points", *, hint: str = "") -> FloatArray:
-    """A list of points, (n, dimension); an empty list is (0, dimension). `hint` ends a message about the shape."""
+    """A list of points, (n, dimension); an empty list, (0,), has no points. `hint` ends a message about the shape."""
     array = as_floats(values, name)
-    if array.size == 0 and array.ndim <= 2 and (array.ndim < 2 or array.shape[1] in (0, dimension)):
+    if array.shape == (0,):
         return np.zeros((0, dimension))
     if array.ndim != 2 or array.shape[1] != dimension:
         raise ValueError(f"{name} must have shape (n, {dimension}), got {array.shape}{hint and '; '}{hint}")
@@ -265,10 +265,10 @@ def read_only(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
 def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.NDArray[np.intp]:
     """Point numbers in [0, size), one-dimensional; negative numbers are refused rather than counted from the end."""
     array = np.atleast_1d(np.asarray(values))
-    if array.size == 0:
-        return np.zeros(0, dtype=np.intp)
     if array.ndim != 1:
         raise ValueError(f"{name} must be one-dimensional, got shape {array.shape}")
+    if array.size == 0:
+        return np.zeros(0, dtype=np.intp)
     if array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be integers, not {array.dtype}")
     outside = (array < 0) | (array >= size)
@@ -288,7 +288,7 @@ def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArra
     array = as_floats(values, name)
     if array.ndim == 2 and array.shape[1] == 3:
         return as_directions(array, name, points=True)
-    if array.size and (array.ndim != 2 or array.shape[1] != 2):
+    if array.shape != (0,) and (array.ndim != 2 or array.shape[1] != 2):
         raise ValueError(f"{name} must have shape (n, 2) or (n, 3), got {array.shape}")
     return as_points(array, 2, name)
 

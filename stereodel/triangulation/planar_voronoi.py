@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_floats, locked
+from stereodel._arrays import FloatArray, as_floats, as_scalar, locked
 from stereodel.triangulation.cells import Diagram, Indices
 from stereodel.triangulation.circumcenters import planar_circumcenters
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
@@ -109,7 +109,7 @@ class PlanarVoronoi(Diagram):
         vertex (half of |D|/2 times |D|/2 cot of the angle at r). No rounded vertex enters, so that the areas of tiny
         cells far from the origin are as accurate as others, to some 1e-14 and never worse than 1e-11.
         """
-        scale = float(as_floats(radius, "radius"))
+        scale = as_scalar(radius, "radius")
         if len(self.vertices) == 0:
             return np.where(np.diff(self.region_offsets) > 0, np.inf, 0.0) * scale**2
         areas: FloatArray = _kernel.cell_areas_plane(self.points, *self._cells(), self._order, self._threads)

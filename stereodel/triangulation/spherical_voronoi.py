@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_floats, locked
+from stereodel._arrays import FloatArray, as_scalar, locked
 from stereodel._double_double import cross, dot, unit
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
@@ -171,7 +171,7 @@ class SphericalVoronoi(Diagram):
         vertex enters, so that cells of any size are accurate to some 1e-14 of themselves, and never worse than 1e-11:
         where a bound says that doubles may not do, double-double takes over. Points of one great circle have lunes.
         """
-        scale = float(as_floats(radius, "radius"))
+        scale = as_scalar(radius, "radius")
         if self._dimension == 2:
             areas: FloatArray = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
             return areas * scale**2

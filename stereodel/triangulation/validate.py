@@ -176,7 +176,10 @@ def _check_duplicates(kept_by: Indices, duplicates: npt.ArrayLike | None) -> Non
         return
     dropped = np.flatnonzero(kept_by != np.arange(len(kept_by)))
     expected = {(int(i), int(kept_by[i])) for i in dropped}
-    given = {(int(i), int(k)) for i, k in np.asarray(duplicates).reshape(-1, 2)}
+    rows = np.asarray(duplicates)
+    if rows.shape != (0,) and (rows.ndim != 2 or rows.shape[1] != 2):
+        raise InvalidTriangulation(f"duplicates must have shape (k, 2), got {rows.shape}")
+    given = {(int(i), int(k)) for i, k in rows.reshape(-1, 2)}
     if given - expected:
         i, k = min(given - expected)
         raise InvalidTriangulation(f"duplicates lists [{i}, {k}], but {k} is not the first point equal to {i}")

@@ -57,7 +57,7 @@ class Mesh:
 def as_simplices(simplices: npt.ArrayLike, size: int) -> Indices:
     """Check that `simplices` is an (m, 3) array of three different point numbers each."""
     array = np.asarray(simplices)
-    if array.size == 0:
+    if array.shape in ((0,), (0, 3)):
         return np.zeros((0, 3), dtype=np.int64)
     if array.ndim != 2 or array.shape[1] != 3:
         raise InvalidTriangulation(f"simplices must have shape (m, 3), got {array.shape}")
