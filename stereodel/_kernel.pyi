@@ -299,6 +299,10 @@ class PlaneMesh:
         """Number of points, duplicates included."""
 
     @property
+    def changes(self) -> int:
+        """Number of changes that have begun, failed ones too."""
+
+    @property
     def inconclusive(self) -> dict:
         """Tests that each stage left open, in changes so far."""
 
@@ -349,6 +353,10 @@ class SphereMesh:
     @property
     def size(self) -> int:
         """Number of points, duplicates included."""
+
+    @property
+    def changes(self) -> int:
+        """Number of changes that have begun, failed ones too."""
 
     @property
     def inconclusive(self) -> dict:

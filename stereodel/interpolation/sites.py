@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import copy
-
 import numpy as np
 import numpy.typing as npt
 
@@ -18,7 +16,7 @@ Indices = npt.NDArray[np.integer]
 
 def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
     """A triangulation of our own: of points (n, 2) or (n, 3), or of those given, as they are now."""
-    return copy.copy(given.as_triangulation(points))  # shares the arrays, which never change
+    return given.as_triangulation(points)
 
 
 def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:

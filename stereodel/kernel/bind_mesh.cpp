@@ -1,6 +1,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 
+#include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -19,7 +21,7 @@ using namespace nb::literals;
 constexpr std::size_t long_changes = 500;    // points: some milliseconds
 constexpr std::size_t long_copies = 100000;  // points: the same
 
-// A triangulation that Python holds; several threads may have it.
+// A triangulation that Python holds; several threads may have it. While one changes it, the others are refused.
 template <class Surface>
 class BoundMesh {
   public:
@@ -54,7 +56,7 @@ class BoundMesh {
     }
 
     nb::tuple arrays() {
-        auto rows = change(size() > long_copies, [&](Stop stop) {
+        auto rows = read(size() > long_copies, [&](Stop stop) {
             Mesh& mesh = delaunay_.mesh();
             std::pair<Buffer<Index>, Buffer<Index>> out(3 * mesh.triangles(), 3 * mesh.triangles());
             mesh.write(out.first.data(), out.second.data(), stop);
@@ -64,20 +66,22 @@ class BoundMesh {
     }
 
     RowsOut<Index, 2> duplicates() {
-        return to_rows(change(false, [&](Stop) { return delaunay_.duplicates(); }));
+        return to_rows(read(false, [&](Stop) { return delaunay_.duplicates(); }));
     }
 
     bool is_flat() {
-        return change(false, [&](Stop) { return delaunay_.is_flat(); });
+        return read(false, [&](Stop) { return delaunay_.is_flat(); });
     }
 
     std::size_t size() {
-        return change(false, [&](Stop) { return delaunay_.size(); });
+        return read(false, [&](Stop) { return delaunay_.size(); });
     }
 
     nb::dict inconclusive() {
-        return to_dict(change(false, [&](Stop) { return delaunay_.tally(); }), !Surface::has_ghost);
+        return to_dict(read(false, [&](Stop) { return delaunay_.tally(); }), !Surface::has_ghost);
     }
+
+    std::uint64_t changes() const { return changes_; }
 
   private:
     static DynamicDelaunay<Surface> make(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
@@ -91,17 +95,50 @@ class BoundMesh {
                                         simplices.shape(0), std::move(pairs), Stop{});
     }
 
-    // Calls work(stop) without the interpreter's lock, one thread at a time.
+    // Both call work(stop) without the interpreter's lock, one thread at a time. A read waits for other reads, which
+    // soon end (even writing out the arrays moves facets); nothing waits for a change, unless it begins at this moment.
     template <class Work>
-    auto change(bool is_long, Work&& work) {
+    auto read(bool is_long, Work&& work) {
         return run_without_lock(is_long, [&](Stop stop) {
+            refuse_if(changing_);
             const std::lock_guard lock(mutex_);
             return work(stop);
         });
     }
 
+    template <class Work>
+    auto change(bool is_long, Work&& work) {
+        return run_without_lock(is_long, [&](Stop stop) {
+            const std::unique_lock lock(mutex_, std::try_to_lock);
+            refuse_if(!lock.owns_lock());
+            const Changing mark(*this);
+            return work(stop);
+        });
+    }
+
+    static void refuse_if(bool in_use) {
+        if (in_use) {
+            throw std::runtime_error(
+                "another thread is using this triangulation while it changes; let one wait for the other by a lock, or "
+                "query a copy");
+        }
+    }
+
+    struct Changing {
+        explicit Changing(BoundMesh& mesh) : changing(mesh.changing_) {
+            ++mesh.changes_;
+            changing = true;
+        }
+        Changing(const Changing&) = delete;
+        Changing& operator=(const Changing&) = delete;
+        ~Changing() { changing = false; }
+        std::atomic<bool>& changing;
+    };
+
     DynamicDelaunay<Surface> delaunay_;
     std::mutex mutex_;
+    std::atomic<bool> changing_{false};
+    std::atomic<std::uint64_t> changes_{0};
 };
 
 template <class Surface>
@@ -120,6 +157,7 @@ void bind(nb::module_& module, const char* name, const char* doc) {
                      "All pairs [dropped, kept], by dropped; the lowest index is kept.")
         .def_prop_ro("is_flat", &Bound::is_flat, "Whether no triangles are left: then points can only be removed.")
         .def_prop_ro("size", &Bound::size, "Number of points, duplicates included.")
+        .def_prop_ro("changes", &Bound::changes, "Number of changes that have begun, failed ones too.")
         .def_prop_ro("inconclusive", &Bound::inconclusive, "Tests that each stage left open, in changes so far.");
 }
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from functools import cached_property
-from typing import Any, Self
+from typing import Any, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -15,116 +14,143 @@ from stereodel._kernel import PlaneMesh, SphereMesh
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
+from stereodel.triangulation.versions import Versioned, kept
 
 Mesh = PlaneMesh | SphereMesh
 Built = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
 """What the kernel returns: simplices, neighbors or None, duplicates, dimension, inconclusive tests."""
+_T = TypeVar("_T")
 
 
-class Delaunay(ABC):
+class Delaunay(Versioned, ABC):
     """A triangulation that depends on the set of points alone; see the two subclasses.
 
-    After `insert` and `remove` the kernel's mesh is what is up to date; arrays are made from it when asked for.
+    After `insert` and `remove` the kernel's mesh is what is up to date, and arrays are made from it when asked for. It
+    goes from version to version; one that has lost it starts from its points.
     """
 
-    dimension: int
     _workers: int | None
     _eager: bool  # whether neighbors are wanted with the simplices
-    _chunks: list[FloatArray]  # the points, in pieces until asked for
-    _simplices: IntArray | None
-    _neighbors: IntArray | None
-    _duplicates: IntArray | None
-    _mesh: Mesh | None
-    _inconclusive: dict[str, int]
+
+    # Of a version, beside what is kept:
+    _chunks: tuple[FloatArray, ...]  # the points, in pieces until asked for
+    _size: int  # number of points
+    _mesh: Mesh  # if it has one
+    _changes: int  # of the mesh, up to this version
+    _counts: dict[str, int]  # inconclusive tests before the mesh was made
 
     def __init__(self, points: npt.ArrayLike, *, workers: int | None = None, neighbors: bool = True) -> None:
         self._workers = as_workers(workers)
         self._eager = bool(neighbors)
-        self._build(private(self._as_points(points), points))
+        self._hold(self._fresh(private(self._as_points(points), points)))
 
     @classmethod
     def _from_simplices(cls, points: FloatArray, simplices: IntArray, duplicates: IntArray) -> Self:
         """The triangulation of `points` whose simplices are known already, as from the dual diagram; not checked."""
         self = cls.__new__(cls)
         self._workers, self._eager = None, True
-        self._take(points, (simplices, None, duplicates, 2, dict.fromkeys(self._stages(), 0)))
+        version = self._new_version((points,))
+        version.__dict__["_built"] = simplices, None, duplicates, 2, dict.fromkeys(self._stages(), 0)
+        self._hold(version)
         return self
 
-    def _build(self, points: FloatArray) -> None:
-        """Triangulate from scratch; arrays handed out before stay as they are."""
-        self._take(points, self._triangulate(points, thread_count(self._workers, len(points)), self._eager))
+    def _new_version(self, chunks: tuple[FloatArray, ...]) -> Self:
+        version = type(self).__new__(type(self))
+        version._workers, version._eager = self._workers, self._eager
+        version._chunks, version._size = chunks, sum(map(len, chunks))
+        return version
 
-    def _take(self, points: FloatArray, built: Built) -> None:
-        self._chunks = [points]
-        self._mesh = None
-        self._forget()
-        simplices, neighbors, duplicates, self.dimension, self._inconclusive = built
-        self._simplices, self._duplicates = locked(simplices), locked(duplicates)
-        self._neighbors = None if neighbors is None else locked(neighbors)
+    def _fresh(self, points: FloatArray) -> Self:
+        """A version that starts from its points."""
+        version = self._new_version((points,))
+        _ = version._built
+        return version
 
-    def _forget(self) -> None:
-        self._simplices = self._neighbors = self._duplicates = None
-        for name in ("edges", "convex_hull", "circumcenters", "closing", "_open"):
-            self.__dict__.pop(name, None)
+    def _changed(self, change: Callable[[Mesh], object], chunks: tuple[FloatArray, ...]) -> Self:
+        """The version after a change of this one's mesh, which is lost to it, whether the change succeeds or not."""
+        version = self._new_version(chunks)
+        mesh = self.__dict__.pop("_mesh", None)  # in one step: a copy that shares this version cannot have it, too
+        version._counts = self._tests if mesh is None else self._counts
+        version._mesh = mesh or self._make_mesh()
+        change(version._mesh)
+        version._changes = version._mesh.changes
+        version.__dict__["dimension"] = 2
+        return version
 
-    @property
+    @kept
+    def _built(self) -> Built:
+        """From the points alone."""
+        return self._triangulate(self.points, thread_count(self._workers, self._size), self._eager)
+
+    def _from_mesh(self, read: Callable[[Mesh], _T]) -> _T | None:
+        """What the mesh says of this version, None if there is none."""
+        mesh = self.__dict__.get("_mesh")
+        if mesh is None:
+            return None
+        value = read(mesh)
+        return value if mesh.changes == self._changes else None  # None: it has gone on meanwhile
+
+    @kept
+    def _rows(self) -> tuple[IntArray, IntArray | None]:
+        """Simplices, and neighbors if known: of one origin, as the order of rows depends on it."""
+        simplices, neighbors = self._from_mesh(lambda mesh: mesh.arrays()) or self._built[:2]
+        return locked(simplices), None if neighbors is None else locked(neighbors)
+
+    @kept
+    def dimension(self) -> int:
+        """Of the points: -1 without any, 0, 1, or 2 when there are triangles."""
+        return self._built[3]
+
+    @kept
     def points(self) -> FloatArray:
         """The points, in the order given, inserted ones at the end."""
-        if len(self._chunks) > 1:
-            self._chunks = [locked(np.concatenate(self._chunks))]
-        return self._chunks[0]
+        return self._chunks[0] if len(self._chunks) == 1 else locked(np.concatenate(self._chunks))
 
-    @property
+    @kept
     def simplices(self) -> IntArray:
         """Triangles (m, 3) int32, counterclockwise, smallest index first."""
-        if self._simplices is None and self._mesh is None:
-            self._build(self.points)  # a change was interrupted
-        elif self._simplices is None and self._mesh is not None:
-            simplices, neighbors = self._mesh.arrays()
-            self._simplices, self._neighbors = locked(simplices), locked(neighbors)
-        assert self._simplices is not None
-        return self._simplices
+        return self._rows[0]
 
-    @property
+    @kept
     def neighbors(self) -> IntArray:
         """Triangle opposite each corner, (m, 3) int32, -1 where there is none."""
-        simplices = self.simplices
-        if self._neighbors is None:
-            self._neighbors = locked(neighbors_of(simplices))
-        return self._neighbors
+        simplices, neighbors = self._rows
+        return locked(neighbors_of(simplices)) if neighbors is None else neighbors
 
-    @property
+    @kept
     def duplicates(self) -> IntArray:
         """Pairs [dropped, kept] of equal points, (k, 2) int32."""
-        if self._duplicates is None and self._mesh is not None:
-            self._duplicates = locked(self._mesh.duplicates)
-        elif self._duplicates is None:
-            self._build(self.points)  # a change was interrupted
-        assert self._duplicates is not None
-        return self._duplicates
+        pairs = self._from_mesh(lambda mesh: mesh.duplicates)
+        return locked(self._built[2] if pairs is None else pairs)
 
     @property
     def inconclusive(self) -> dict[str, int]:
         """Tests that each stage left open, in construction and changes."""
-        changes = self._mesh.inconclusive if self._mesh is not None else {}
-        return {stage: count + changes.get(stage, 0) for stage, count in self._inconclusive.items()}
+        return dict(self._present()._tests)
 
-    @cached_property
+    @kept
+    def _tests(self) -> dict[str, int]:
+        changes = self._from_mesh(lambda mesh: mesh.inconclusive)
+        if changes is None:
+            return self._built[4]
+        return {stage: count + changes.get(stage, 0) for stage, count in self._counts.items()}
+
+    @kept
     def edges(self) -> IntArray:
         """Edges (e, 2) int32 with i < j, in lexicographic order."""
         return locked(edges_of(self.simplices))
 
-    @cached_property
+    @kept
     def convex_hull(self) -> IntArray:
         """Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order."""
         return locked(boundary_of(self.simplices, self.neighbors, self._open))
 
-    @cached_property
+    @kept
     def circumcenters(self) -> FloatArray:
         """Centre of each triangle's circle, (m, 2) or (m, 3)."""
         return locked(self._circumcenters(self._thread_count()))
 
-    @cached_property
+    @kept
     def _open(self) -> BoolArray:
         """Triangles that a query can lie in."""
         return locked(np.ones(len(self.simplices), dtype=np.bool_))
@@ -153,13 +179,13 @@ class Delaunay(ABC):
         earlier do not change.
         """
         added = private(self._as_points(points), points)
-        size = sum(map(len, self._chunks))
-        if self.dimension < 2 or REBUILD_INSERTING * len(added) > size:
-            self._build(locked(np.concatenate([self.points, added])))
-        else:
-            self._change(lambda mesh: mesh.insert(added))
-            self._chunks = [*self._chunks, added]
-        return np.arange(size, size + len(added), dtype=np.int32)
+        with self._change():
+            before = self._latest()
+            if before.dimension < 2 or REBUILD_INSERTING * len(added) > before._size:
+                self._put(before._fresh(locked(np.concatenate([before.points, added]))))
+            else:
+                self._put(before._changed(lambda mesh: mesh.insert(added), (*before._chunks, added)))
+        return np.arange(before._size, before._size + len(added), dtype=np.int32)
 
     def remove(self, indices: npt.ArrayLike) -> IntArray:
         """Take out points; the others keep their order and are numbered anew.
@@ -184,21 +210,21 @@ class Delaunay(ABC):
         The triangles equal those of the rest from scratch; the order of their rows may not. If the kept one of several
         duplicates goes, the lowest remaining one takes its place. Arrays handed out earlier do not change.
         """
-        points = self.points
-        gone = as_indices(indices, len(points))
-        stays = np.ones(len(points), dtype=np.bool_)
-        stays[gone] = False
-        left = np.flatnonzero(stays)
-        number = np.full(len(points), -1, dtype=np.int32)
-        number[left] = np.arange(len(left), dtype=np.int32)
-        rest = locked(points.take(left, axis=0))  # four times as fast as points[stays]
-        if self.dimension < 2 or REBUILD_REMOVING * (len(points) - len(left)) > len(left):
-            self._build(rest)
-        elif len(gone):
-            self._change(lambda mesh: mesh.remove(gone.astype(np.int32)))
-            self._chunks = [rest]
-            if self._mesh is not None and self._mesh.is_flat:
-                self._build(rest)
+        with self._change():
+            before = self._latest()
+            points = before.points
+            gone = as_indices(indices, len(points))
+            stays = np.ones(len(points), dtype=np.bool_)
+            stays[gone] = False
+            left = np.flatnonzero(stays)
+            number = np.full(len(points), -1, dtype=np.int32)
+            number[left] = np.arange(len(left), dtype=np.int32)
+            rest = locked(points.take(left, axis=0))  # four times as fast as points[stays]
+            if before.dimension < 2 or REBUILD_REMOVING * (len(points) - len(left)) > len(left):
+                self._put(before._fresh(rest))
+            elif len(gone):
+                version = before._changed(lambda mesh: mesh.remove(gone.astype(np.int32)), (rest,))
+                self._put(before._fresh(rest) if version._mesh.is_flat else version)
         return number
 
     def find_simplex(self, queries: npt.ArrayLike, *, workers: int | None = None) -> IntArray | int:
@@ -221,8 +247,9 @@ class Delaunay(ABC):
         ValueError, TypeError
             For values that are not finite real numbers, zero vectors, or another last axis.
         """
-        array, flat, threads = self._as_queries(queries, workers)
-        return _shaped(self._locate(flat, threads), array)
+        now = self._present()
+        array, flat, threads = now._as_queries(queries, workers)
+        return _shaped(now._locate(flat, threads), array)
 
     def nearest(self, queries: npt.ArrayLike, *, k: int | None = None, workers: int | None = None) -> IntArray | int:
         """Nearest point of each query, or the k nearest, exactly.
@@ -267,13 +294,13 @@ class Delaunay(ABC):
         >>> square.nearest([[1.5, 1.0], [0.1, 1.9]], k=4).tolist()
         [[1, 2, 4, 0], [3, 0, 2, 4]]
         """
-        size = sum(map(len, self._chunks))
-        if size == 0:
+        now = self._present()
+        if now._size == 0:
             raise ValueError("nearest needs at least one point; this triangulation has none")
-        array, flat, threads = self._as_queries(queries, workers)
+        array, flat, threads = now._as_queries(queries, workers)
         if k is None:
-            return _shaped(self._nearest(flat, threads), array)
-        found = self._k_nearest(flat, as_count(k, "k", high=size), threads)
+            return _shaped(now._nearest(flat, threads), array)
+        found = now._k_nearest(flat, as_count(k, "k", high=now._size), threads)
         return found.reshape(*array.shape[:-1], found.shape[1])
 
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
@@ -284,41 +311,32 @@ class Delaunay(ABC):
     def _thread_count(self, workers: int | None = None, size: int | None = None) -> int:
         """How many threads a task of `size` points takes, by default of all points."""
         chosen = self._workers if workers is None else workers
-        return thread_count(chosen, len(self.points) if size is None else size)
-
-    def _change(self, change: Callable[[Mesh], object]) -> None:
-        """Change the mesh; if that fails or is interrupted, the triangulation stays that of before."""
-        mesh = self._mesh or self._make_mesh()
-        self._mesh = None
-        change(mesh)
-        self._mesh = mesh
-        self._forget()
+        return thread_count(chosen, self._present()._size if size is None else size)
 
     def __getstate__(self) -> dict[str, Any]:
         """Arrays alone; a copy makes its own mesh when it is changed."""
-        state = self.__dict__ | {"_inconclusive": self.inconclusive}
-        state["_chunks"] = [self.points]
-        state["_simplices"], state["_neighbors"], state["_duplicates"] = (
-            self.simplices,
-            self._neighbors,
-            self.duplicates,
-        )
-        state["_mesh"] = None
-        return state
+        now = self._present()
+        own = {name: value for name, value in self.__dict__.items() if name not in {"_turn", "_version"}}
+        return own | {"_arrays": (now.points, (*now._rows, now.duplicates, now.dimension, now._tests))}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        for array in (*state["_chunks"], state["_simplices"], state["_neighbors"], state["_duplicates"]):
-            if array is not None:
+        points, built = state["_arrays"]
+        for array in (points, *built):
+            if isinstance(array, np.ndarray):
                 array.flags.writeable = False  # unpickled arrays are not
-        self.__dict__.update(state)
+        self.__dict__.update((name, value) for name, value in state.items() if name != "_arrays")
+        version = self._new_version((points,))
+        version.__dict__["_built"] = built
+        self._hold(version)
 
     def __len__(self) -> int:
         return len(self.simplices)
 
     def __repr__(self) -> str:
+        now = self._present()
         return (
-            f"{type(self).__name__}({sum(map(len, self._chunks))} points, {len(self.simplices)} simplices, "
-            f"{len(self.duplicates)} duplicates, dimension {self.dimension})"
+            f"{type(self).__name__}({now._size} points, {len(now.simplices)} simplices, "
+            f"{len(now.duplicates)} duplicates, dimension {now.dimension})"
         )
 
     @staticmethod

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy.typing as npt
 
 from stereodel._arrays import as_plane_or_sphere
@@ -12,8 +14,8 @@ Triangulation = PlanarDelaunay | SphericalDelaunay
 
 
 def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
-    """The triangulation given, or that of points (n, 2) of the plane or of directions (n, 3)."""
+    """The triangulation given, as it is now, or that of points (n, 2) of the plane or of directions (n, 3)."""
     if isinstance(points, PlanarDelaunay | SphericalDelaunay):
-        return points
+        return copy.copy(points)
     array = as_plane_or_sphere(points)
     return SphericalDelaunay(array) if array.shape[1] == 3 else PlanarDelaunay(array)

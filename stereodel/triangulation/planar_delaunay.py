@@ -55,7 +55,8 @@ class PlanarDelaunay(Delaunay):
     The answer is that of exact arithmetic on the given doubles. Cocircular points are triangulated as if the first of
     them in lexicographic order were lifted a little above the paraboloid z = x² + y²: a rule on points, so that no
     order of input changes the triangles. Arrays are read-only; `insert` and `remove` replace them. Several threads may
-    ask at the same time; changes need a lock of the caller's.
+    ask at the same time. While one of them changes the triangulation, whatever the others ask of it or change in it is
+    a RuntimeError; copies (`copy.copy`) share the arrays and go their own ways.
 
     Source: divide and conquer by L. Guibas and J. Stolfi (1985) along a space-filling curve; insertion as in the
     paper's pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is the readable

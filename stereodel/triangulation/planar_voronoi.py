@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 import numpy.typing as npt
 
@@ -65,7 +67,9 @@ class PlanarVoronoi(Diagram):
 
     def __init__(self, points: npt.ArrayLike | PlanarDelaunay, *, workers: int | None = None) -> None:
         given = isinstance(points, PlanarDelaunay)
-        triangulation = points if isinstance(points, PlanarDelaunay) else PlanarDelaunay(points, workers=workers)
+        triangulation = (
+            copy.copy(points) if isinstance(points, PlanarDelaunay) else PlanarDelaunay(points, workers=workers)
+        )
         self.points = triangulation.points
         self._threads = triangulation._thread_count(workers if given else None)
         self._set_point_region(triangulation.duplicates)

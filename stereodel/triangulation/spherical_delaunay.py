@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cached_property
-
 import numpy.typing as npt
 
 from stereodel import _kernel
@@ -12,6 +10,7 @@ from stereodel.sphere.coordinates import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.circumcenters import spherical_circumcenters
 from stereodel.triangulation.delaunay import Built, Delaunay
+from stereodel.triangulation.versions import kept
 
 
 class SphericalDelaunay(Delaunay):
@@ -66,7 +65,8 @@ class SphericalDelaunay(Delaunay):
     larger than a hemisphere. Points of one circle are triangulated as if the first of them in the order of their
     directions (x̂, then ŷ, then ẑ) were moved a little outward: a rule on points, so that no order of input changes the
     triangles. `find_simplex` finds triangles that are not closing. Arrays are read-only; `insert` and `remove` replace
-    them. Several threads may ask at the same time; changes need a lock of the caller's.
+    them. Several threads may ask at the same time. While one of them changes the triangulation, whatever the others ask
+    of it or change in it is a RuntimeError; copies (`copy.copy`) share the arrays and go their own ways.
 
     Source: the paper's one idea, stereographic projection keeps circles (rows P2, P7, P8): divide and conquer in the
     plane by L. Guibas and J. Stolfi (1985), every sign decided on the rays; insertion as in the paper's pseudo-code
@@ -123,12 +123,12 @@ class SphericalDelaunay(Delaunay):
         xyz = lonlat_to_xyz(as_points(lonlat, 2, "lonlat"), latitude=latitude)
         return cls(xyz, workers=workers, neighbors=neighbors)
 
-    @cached_property
+    @kept
     def closing(self) -> BoolArray:
         """Facets whose empty bubble is a hemisphere or more, (m,)."""
         return locked(_kernel.closing(self.points, self.simplices))
 
-    @cached_property
+    @kept
     def _open(self) -> BoolArray:
         return locked(~self.closing)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 import numpy.typing as npt
 
@@ -77,7 +79,9 @@ class SphericalVoronoi(Diagram):
 
     def __init__(self, points: npt.ArrayLike | SphericalDelaunay, *, workers: int | None = None) -> None:
         given = isinstance(points, SphericalDelaunay)
-        triangulation = points if isinstance(points, SphericalDelaunay) else SphericalDelaunay(points, workers=workers)
+        triangulation = (
+            copy.copy(points) if isinstance(points, SphericalDelaunay) else SphericalDelaunay(points, workers=workers)
+        )
         self.points = triangulation.points
         self._dimension = triangulation.dimension
         self._threads = triangulation._thread_count(workers if given else None)

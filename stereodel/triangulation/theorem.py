@@ -14,6 +14,8 @@ lift of a point is exact whenever 1 − x² − y² is a double: for at most 26 
 
 from __future__ import annotations
 
+import copy
+
 import numpy as np
 import numpy.typing as npt
 
@@ -91,6 +93,7 @@ def planar_part(triangulation: SphericalDelaunay, pole: npt.ArrayLike) -> IntArr
     >>> len(planar_part(octahedron, [1, 1, -1])), len(planar_part(octahedron, [0, 0, -1]))
     (7, 4)
     """
+    triangulation = copy.copy(triangulation)  # as it is now, whatever other threads do
     corners = triangulation.points[triangulation.simplices]
     direction = as_directions(pole, "pole")
     outside = np.asarray(in_bubble(corners[:, 0], corners[:, 1], corners[:, 2], direction)) < 0
@@ -119,6 +122,7 @@ def merged_polygons(
     >>> sorted(merged_polygons(PlanarDelaunay([[0, 0], [1, 0], [1, 1], [0, 1], [3, 0]])))
     [(0, 1, 2, 3), (1, 4, 2)]
     """
+    triangulation = copy.copy(triangulation)  # as it is now, whatever other threads do
     chosen = triangulation.simplices if simplices is None else np.asarray(simplices, dtype=np.int32).reshape(-1, 3)
     if len(chosen) == 0:
         return frozenset()

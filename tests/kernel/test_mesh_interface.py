@@ -1,6 +1,8 @@
 """The kernel's meshes as Python holds them: what they take and refuse, the arrays that they give, threads."""
 
 import threading
+from collections import Counter
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -75,15 +77,47 @@ def test_wrong_input():
     assert np.array_equal(mesh.arrays()[1], neighbors)
 
 
-def test_threads_take_turns():
+def test_a_change_is_refused_to_others_and_so_is_what_they_ask():
+    """While one thread changes the mesh the rest gets errors at once; of what was done nothing is half done."""
     rng = np.random.default_rng(19)
-    points = rng.random((4000, 2))
+    points = rng.random((60_000, 2))
     mesh = start(points[:100])
-    parts = np.array_split(points[100:], 13)
-    threads = [threading.Thread(target=mesh.insert, args=(part,)) for part in parts]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert mesh.size == 4000
-    assert len(mesh.arrays()[0]) == len(TRIANGULATE[PLANE](points)[0])
+    changer = threading.Thread(target=mesh.insert, args=(points[100:],))
+    changer.start()
+    refused = Counter()
+    while changer.is_alive():
+        for name, use in {
+            "arrays": mesh.arrays,
+            "duplicates": lambda: mesh.duplicates,
+            "insert": lambda: mesh.insert(points[:1]),
+            "remove": lambda: mesh.remove(np.zeros(1, dtype=np.int32)),
+        }.items():
+            if changer.is_alive() and mesh.changes:
+                try:
+                    use()
+                except RuntimeError as error:
+                    refused[name] += "another thread" in str(error)
+    changer.join()
+    assert min(refused[name] for name in ("arrays", "duplicates", "insert", "remove")) > 0
+    check_delaunay_rows(mesh)
+
+
+def check_delaunay_rows(mesh):
+    """The mesh holds what its size says, whichever of the changes beside the long one came before or after it."""
+    simplices, neighbors = mesh.arrays()
+    edges = np.sort(np.concatenate([simplices[:, [0, 1]], simplices[:, [1, 2]], simplices[:, [2, 0]]]), axis=1)
+    boundary = np.unique(edges, axis=0, return_counts=True)[1]
+    vertices = mesh.size - len(mesh.duplicates)
+    assert vertices - len(boundary) + len(simplices) == 1
+    assert (neighbors < 0).sum() == (boundary == 1).sum()
+    assert len(np.unique(simplices)) == vertices
+
+
+def test_reads_wait_for_each_other():
+    mesh = start(np.random.default_rng(20).random((50_000, 2)))
+    expected = mesh.arrays()
+    with ThreadPoolExecutor(8) as pool:
+        for arrays in pool.map(lambda _: mesh.arrays(), range(32)):
+            assert np.array_equal(arrays[0], expected[0])
+            assert np.array_equal(arrays[1], expected[1])
+    assert mesh.changes == 0

@@ -146,8 +146,8 @@ def test_contract_of_the_arrays():
 
 def test_neighbors_on_demand():
     eager, lazy = PlanarDelaunay(GRID), PlanarDelaunay(GRID, neighbors=False)
-    assert eager._neighbors is not None
-    assert lazy._neighbors is None
+    assert eager._rows[1] is not None
+    assert lazy._rows[1] is None
     assert np.array_equal(eager.neighbors, lazy.neighbors)
 
 

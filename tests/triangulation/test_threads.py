@@ -1,0 +1,215 @@
+"""Several threads with one triangulation: queries beside queries, and errors instead of a query beside a change."""
+
+import copy
+import pickle
+import threading
+import time
+
+import numpy as np
+import pytest
+
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, check_delaunay
+from stereodel.graphs import gabriel_graph
+from stereodel.interpolation import LinearInterpolator
+
+CLASSES = {2: PlanarDelaunay, 3: SphericalDelaunay}
+DIAGRAMS = {2: PlanarVoronoi, 3: SphericalVoronoi}
+USES = {
+    "find_simplex": lambda t: t.find_simplex(t_queries(t)),
+    "nearest": lambda t: t.nearest(t_queries(t)),
+    "k nearest": lambda t: t.nearest(t_queries(t), k=3),
+    "insert": lambda t: t.insert(t_queries(t)[None]),
+    "remove": lambda t: t.remove([0]),
+    "points": lambda t: t.points,
+    "simplices": lambda t: t.simplices,
+    "neighbors": lambda t: t.neighbors,
+    "duplicates": lambda t: t.duplicates,
+    "dimension": lambda t: t.dimension,
+    "inconclusive": lambda t: t.inconclusive,
+    "edges": lambda t: t.edges,
+    "convex_hull": lambda t: t.convex_hull,
+    "circumcenters": lambda t: t.circumcenters,
+    "len": len,
+    "repr": repr,
+    "copy": copy.copy,
+    "pickle": pickle.dumps,
+    "diagram": lambda t: DIAGRAMS[width_of(t)](t),
+    "graph": gabriel_graph,
+    "interpolator": lambda t: LinearInterpolator(t, np.zeros(40)),
+}
+
+
+def width_of(triangulation):
+    return 2 if isinstance(triangulation, PlanarDelaunay) else 3
+
+
+def t_queries(triangulation):
+    return np.full(width_of(triangulation), 0.5)
+
+
+def points_of(width, size, seed=0):
+    return np.random.default_rng(seed).normal(size=(size, width))
+
+
+@pytest.mark.parametrize("use", USES)
+@pytest.mark.parametrize("width", CLASSES)
+def test_what_comes_upon_a_change_is_refused(width, use):
+    triangulation = CLASSES[width](points_of(width, 40))
+    if use in {"edges", "circumcenters"}:
+        USES[use](triangulation)  # known already: refused all the same
+    with triangulation._turn, pytest.raises(RuntimeError, match="another thread is changing this triangulation"):
+        USES[use](triangulation)
+    USES[use](triangulation)
+    assert len(triangulation.points) == 40 + (use == "insert") - (use == "remove")
+    check_delaunay(triangulation)
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_a_long_change_refuses_at_once(width):
+    few, many = points_of(width, 200), points_of(width, 60_000, seed=1)
+    triangulation = CLASSES[width](few)
+    changer = threading.Thread(target=triangulation.insert, args=(many,))
+    changer.start()
+    refused, longest = 0, 0.0
+    while changer.is_alive():
+        before = time.perf_counter()
+        try:
+            triangulation.nearest(many[0])
+        except RuntimeError:
+            refused += 1
+            longest = max(longest, time.perf_counter() - before)
+    changer.join()
+    assert refused > 0
+    assert longest < 5.0  # not a wait for the end of the change, on a slow machine either
+    assert len(triangulation.points) == 60_200
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_answers_beside_changes_are_those_of_one_version(width, patience):
+    """A block of points comes and goes; every answer is that of with it or of without it, or an error."""
+    some, block = points_of(width, 300), points_of(width, 20, seed=1)
+    queries = points_of(width, 50, seed=2)
+    triangulation = CLASSES[width](some)
+
+    def answers(t):
+        edges = copy.copy(t).edges
+        k_nearest = t.nearest(queries, k=4)
+        found = copy.copy(t)
+        corners = np.vstack([found.simplices, [[-1] * 3]])[found.find_simplex(queries)]
+        return edges.tobytes(), k_nearest.tobytes(), corners.tobytes()
+
+    with_block = answers(CLASSES[width](np.vstack([some, block])))
+    right = [set(pair) for pair in zip(answers(triangulation), with_block, strict=True)]
+    end = time.monotonic() + 0.7 * patience
+    wrong, refused, answered, changed = [], [], [], []
+
+    def ask():
+        while time.monotonic() < end:
+            try:
+                answer = answers(triangulation)
+            except RuntimeError as error:
+                refused.append(str(error))
+                continue
+            answered.append(1)
+            if not all(part in known for part, known in zip(answer, right, strict=True)):
+                wrong.append(answer)
+
+    def change():
+        while time.monotonic() < end:
+            try:
+                triangulation.insert(block)
+            except RuntimeError as error:
+                refused.append(str(error))
+                continue
+            time.sleep(1e-3)
+            while True:
+                try:
+                    triangulation.remove(np.arange(300, 320))
+                    break
+                except RuntimeError as error:
+                    refused.append(str(error))
+            changed.append(1)
+            time.sleep(1e-3)
+
+    threads = [threading.Thread(target=target, daemon=True) for target in (ask, ask, ask, change)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(timeout=60 * patience)
+    assert not any(thread.is_alive() for thread in threads)
+    assert not wrong
+    assert answered
+    assert changed
+    assert refused
+    assert {"another thread" in message for message in refused} == {True}
+    assert answers(triangulation) == answers(CLASSES[width](some))
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_copies_go_their_own_ways(width):
+    """A copy shares a mesh whose arrays nobody asked for; the one that changes first takes it."""
+    start, more = points_of(width, 60), points_of(width, 8, seed=1)
+    triangulation = CLASSES[width](start)
+    triangulation.insert(more[:2])
+    twin, third = copy.copy(triangulation), copy.copy(triangulation)
+    triangulation.insert(more[2:4])
+    twin.remove([0, 61])
+    for t, points in (
+        (triangulation, np.vstack([start, more[:4]])),
+        (twin, np.vstack([start[1:], more[:1]])),
+        (third, np.vstack([start, more[:2]])),
+    ):
+        assert np.array_equal(t.points, points)
+        assert np.array_equal(t.edges, CLASSES[width](points).edges)
+        assert t.dimension == 2
+        assert len(t.duplicates) == 0
+        assert sum(t.inconclusive.values()) >= 0
+        check_delaunay(t)
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_two_changes_of_copies_at_a_time(width):
+    """Both copies want the mesh of one version: one gets it."""
+    start = points_of(width, 300)
+    more = points_of(width, 40, seed=1)
+    for _ in range(20):
+        triangulation = CLASSES[width](start)
+        triangulation.insert(more[:1])
+        twins = [copy.copy(triangulation) for _ in range(4)]
+        threads = [
+            threading.Thread(target=twin.insert, args=(more[1 + 9 * k : 10 + 9 * k],)) for k, twin in enumerate(twins)
+        ]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for k, twin in enumerate(twins):
+            points = np.vstack([start, more[:1], more[1 + 9 * k : 10 + 9 * k]])
+            assert np.array_equal(twin.points, points)
+            assert np.array_equal(twin.edges, CLASSES[width](points).edges)
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_arrays_cannot_be_set(width):
+    triangulation = CLASSES[width](points_of(width, 10))
+    with pytest.raises(AttributeError, match="points cannot be set"):
+        triangulation.points = points_of(width, 5)
+    triangulation.inconclusive["filter"] = -1
+    assert triangulation.inconclusive["filter"] >= 0
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_a_mesh_that_went_on_is_not_believed(width):
+    """As when a query has taken hold of the mesh, and a change ends before it asks."""
+    start, more = points_of(width, 60), points_of(width, 8, seed=1)
+    triangulation = CLASSES[width](start)
+    triangulation.insert(more[:2])
+    version = triangulation._present()
+    mesh = version._mesh
+    triangulation.insert(more[2:])
+    triangulation.insert(more[2:3])  # a duplicate
+    version.__dict__["_mesh"] = mesh
+    expected = CLASSES[width](version.points)
+    assert np.array_equal(version.edges, expected.edges)
+    assert np.array_equal(version.duplicates, expected.duplicates)
+    assert version.inconclusive == expected.inconclusive
