@@ -47,7 +47,7 @@ test: $(STAMP) system ## all tests, then the image tests once more on EGL
 	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests
 
 test-large: $(STAMP) ## the tests that take minutes or gigabytes
-	$(BIN)/python -m pytest -m large $(PYTEST_ARGS)
+	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
 
 sanitize: $(STAMP) system ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
 	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)

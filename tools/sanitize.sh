@@ -31,4 +31,4 @@ export PYTHONPATH=$tree # before the installed package, in every process that th
 export STEREODEL_TEST_PATIENCE=10
 cd "$tree"
 python -P -c 'import os, stereodel._kernel as k; assert os.path.samefile(os.path.dirname(k.__file__), "stereodel"), k.__file__'
-exec python -m pytest -p no:cacheprovider "$@"
+exec python -m pytest -p no:cacheprovider -o faulthandler_timeout=3000 "$@"
