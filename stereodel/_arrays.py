@@ -7,6 +7,8 @@ shape. Nothing here modifies its argument; the result may share memory with it a
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterable
+from itertools import chain
 from typing import Any, TypeVar
 
 import numpy as np
@@ -19,6 +21,8 @@ IntArray = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 _Word = TypeVar("_Word", bound=str)
+_WHOLE = 2**53
+"""Up to here every whole number is a double."""
 
 
 def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
@@ -27,9 +31,10 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
     Raises
     ------
     TypeError
-        For complex numbers, strings, booleans and objects that are not real numbers.
+        For complex numbers, strings, booleans, times and objects that are not real numbers.
     ValueError
-        For NaN, infinities, masked values and ragged nesting.
+        For NaN, infinities, masked values, ragged nesting, and for whole numbers and long doubles that no double equals
+        (`Decimal` and `Fraction` are rounded to the nearest double, as a literal is).
     """
     result = _as_doubles(values, name)
     _refuse(~np.isfinite(result), result, name, "every value must be a finite number")
@@ -43,8 +48,12 @@ def _as_doubles(values: npt.ArrayLike, name: str) -> FloatArray:
         array = np.asarray(values)
     except ValueError as error:
         raise ValueError(f"{name} is ragged: its rows must all have the same length") from error
-    if array.dtype == object or array.dtype.kind not in "iuf":
+    if isinstance(values, list | tuple) and array.dtype.kind in "iuf" and _may_hide_others(array, values):
+        array = np.asarray(values, dtype=object)
+    if array.dtype.kind not in "iuf":
         array = _from_objects(array, name)
+    elif array.dtype.kind != "f" or array.dtype.itemsize > 8:
+        array = _from_wide(array, name)
     return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
 
 
@@ -79,16 +88,82 @@ def _refuse_masked(values: npt.ArrayLike, name: str) -> None:
         raise ValueError(f"{entry} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})")
 
 
+def _may_hide_others(array: npt.NDArray[Any], values: list[Any] | tuple[Any, ...]) -> bool:
+    """Whether numbers that NumPy made of lists may have been larger whole numbers, or booleans, or long doubles."""
+    if array.ndim > 1 and all(isinstance(row, np.ndarray) for row in values):
+        return any(row.dtype != np.float64 for row in values)
+    numbers: Iterable[Any] = values
+    for _ in range(array.ndim - 1):
+        numbers = chain.from_iterable(numbers)
+    kinds = set(map(type, numbers))
+    if kinds == {float} or (kinds == {int} and array.dtype.kind in "iu"):
+        return False
+    return not kinds <= {float, int, np.float64} or bool((np.abs(array) >= _WHOLE).any())
+
+
+def _from_wide(array: npt.NDArray[Any], name: str) -> FloatArray:
+    """Integers and long doubles as the doubles that equal them."""
+    with np.errstate(over="ignore"):
+        doubles = array.astype(np.float64)
+    if array.dtype.kind == "f":
+        _refuse_rounded((doubles.astype(array.dtype) != array) & (array == array), array, name)
+    elif array.dtype.itemsize == 8 and array.size and (array.max() > _WHOLE or array.min() < -_WHOLE):
+        # Both halves are doubles, and so is the error of their rounded sum (Dekker).
+        high, low = (array >> 32).astype(np.float64) * 2.0**32, (array & 0xFFFFFFFF).astype(np.float64)
+        _refuse_rounded(low - (doubles - high) != 0, array, name)
+    return doubles
+
+
 def _from_objects(array: npt.NDArray[Any], name: str) -> FloatArray:
     """Real numbers in an object array (Fraction, Decimal, huge int) as doubles; anything else is a TypeError."""
-    if array.size == 0 and array.dtype.kind == "O":
-        return np.zeros(array.shape)
-    if array.dtype.kind == "O":
-        try:
-            return array.astype(np.float64)
-        except (TypeError, ValueError, OverflowError) as error:
-            raise TypeError(f"{name} holds values that are not real numbers: {error}") from error
-    raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
+    if array.dtype.kind != "O":
+        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
+    numbers = array.ravel().tolist()
+    kinds = set(map(type, numbers))
+    wrong = tuple(kind for kind in kinds if not _is_real(kind))
+    if wrong:
+        first = next(k for k, number in enumerate(numbers) if isinstance(number, wrong))
+        entry = _entry(name, tuple(int(i) for i in np.unravel_index(first, array.shape)))
+        raise TypeError(f"{entry} is {numbers[first]!r}, which is no real number but a {type(numbers[first]).__name__}")
+    try:
+        doubles = np.array([_nearest_double(number) for number in numbers], dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise TypeError(f"{name} holds values that are not real numbers: {error}") from error
+    rounded = np.zeros(len(numbers), dtype=np.bool_)
+    for k in np.flatnonzero(np.abs(doubles) >= _WHOLE) if np.longdouble not in kinds else range(len(numbers)):
+        rounded[k] = not _equal(numbers[k], float(doubles[k]))
+    _refuse_rounded(rounded.reshape(array.shape), array, name)
+    return doubles.reshape(array.shape)
+
+
+def _is_real(kind: type) -> bool:
+    """Whether objects of a type are real numbers: not booleans, strings or times, which NumPy would convert."""
+    if issubclass(kind, np.generic):
+        return issubclass(kind, np.integer | np.floating) and not issubclass(kind, np.timedelta64)
+    return kind is not bool and (hasattr(kind, "__float__") or hasattr(kind, "__index__"))
+
+
+def _nearest_double(number: Any) -> float:
+    try:
+        return float(number)
+    except OverflowError:
+        return np.inf
+
+
+def _equal(number: Any, double: float) -> bool:
+    """Whether a whole number or a long double equals a double; other numbers may be rounded."""
+    if isinstance(number, int | np.integer):
+        return abs(double) < np.inf and int(number) == int(double)
+    return not isinstance(number, np.longdouble) or bool(np.longdouble(double) == number or number != number)
+
+
+def _refuse_rounded(rounded: BoolArray, array: npt.NDArray[Any], name: str) -> None:
+    if rounded.any():
+        index = tuple(int(i) for i in np.argwhere(rounded)[0])
+        raise ValueError(
+            f"{_entry(name, index)} is {array[index]!s}, which no double equals; subtract an origin that all share, or "
+            f"round with np.asarray({name}).astype(float)"
+        )
 
 
 def as_vectors(values: npt.ArrayLike, dimension: int, name: str, *, gaps: bool = False) -> FloatArray:
@@ -185,7 +260,8 @@ def as_scalar(
 def as_count(value: Any, name: str, *, low: int = 1, high: int | None = None) -> int:
     """One whole number, at least `low`, at most `high`."""
     array = np.asarray(value)
-    if array.ndim != 0 or array.dtype.kind not in "iu":
+    whole = array.dtype.kind in "iu" or (isinstance(value, int) and not isinstance(value, bool))
+    if array.ndim != 0 or not whole:
         raise TypeError(f"{name} must be one integer, got {value!r}")
     if array < low:
         raise ValueError(f"{name} is {value}, but must be at least {low}")
@@ -198,7 +274,8 @@ def as_workers(value: Any) -> int | None:
     """A number of threads, at least 1; -1 stands for all processors, None for a choice by the size of the task."""
     if value is None:
         return None
-    return -1 if value == -1 else as_count(value, "workers")
+    # The kernel takes an int, and starts no more threads than its task can keep busy.
+    return -1 if value == -1 else min(as_count(value, "workers"), np.iinfo(np.int32).max)
 
 
 def as_steps(width: float, spacing: Any, name: str) -> int:
