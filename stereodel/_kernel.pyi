@@ -210,7 +210,7 @@ def nearest_plane(
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """
-    The nearest point of each query, the lowest of several. Without simplices all points are compared.
+    The nearest point of each query, the lowest of several. There must be simplices.
     """
 
 def nearest_sphere(
@@ -249,6 +249,40 @@ def k_nearest_sphere(
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """The same for directions."""
+
+def flat_order_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """The different points of one line, in order."""
+
+def flat_order_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """The different directions of one great circle, in order around it."""
+
+def nearest_flat_plane(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    k: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
+    """
+    The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.
+    """
+
+def nearest_flat_sphere(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    k: int,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
+    """The same for directions of one great circle."""
 
 class PlaneMesh:
     """

@@ -1,14 +1,19 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 
+#include <algorithm>
 #include <optional>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "bind_triangles.hpp"
+#include "flat_order.hpp"
 #include "k_nearest.hpp"
 #include "location.hpp"
 #include "nearest.hpp"
+#include "nearest_flat.hpp"
+#include "query_pieces.hpp"
 
 namespace stereodel {
 namespace {
@@ -42,51 +47,51 @@ ValuesOut<Index> find_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplice
     });
 }
 
-void check_points(std::size_t size) {
-    if (size == 0) {
-        throw std::invalid_argument("nearest needs at least one point");
+// Both searches walk through triangles.
+TriangleArrays with_triangles(const TriangleArrays& triangles) {
+    if (first_open(triangles) == static_cast<Index>(triangles.count())) {
+        throw std::invalid_argument("there are no triangles: use nearest_flat");
     }
-}
-
-// Without triangles a query takes as long as there are points.
-bool is_long_search(const TriangleArrays& triangles, std::size_t size, std::size_t count) {
-    return count * (triangles.count() == 0 ? size : 1) > long_work;
+    return triangles;
 }
 
 ValuesOut<Index> nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
                                   RowsIn<double, 2> queries, int workers) {
-    check_points(points.shape(0));
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
+    const TriangleArrays triangles = with_triangles(to_triangles(points.data(), simplices, neighbors, {}));
     const std::size_t count = queries.shape(0);
-    return answers(count, is_long_search(triangles, points.shape(0), count), [&](Index* found, Stop stop) {
-        nearest_plane(triangles, points.shape(0), queries.data(), count, found, workers, stop);
+    return answers(count, count > long_work, [&](Index* found, Stop stop) {
+        nearest_plane(triangles, queries.data(), count, found, workers, stop);
     });
 }
 
 ValuesOut<Index> nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
                                    RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
-    check_points(points.shape(0));
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
+    const TriangleArrays triangles = with_triangles(to_triangles(points.data(), simplices, neighbors, closing));
     const std::size_t count = queries.shape(0);
-    return answers(count, is_long_search(triangles, points.shape(0), count), [&](Index* found, Stop stop) {
-        nearest_sphere(triangles, points.shape(0), queries.data(), count, found, workers, stop);
+    return answers(count, count > long_work, [&](Index* found, Stop stop) {
+        nearest_sphere(triangles, queries.data(), count, found, workers, stop);
     });
 }
 
-// Rows of k numbers of points; `duplicates` of the triangulation.
-template <class Points, class Work>
-RowsOfAnyWidth k_nearest(const TriangleArrays& triangles, const Points& points, const RowsIn<Index, 2>& duplicates,
-                         const Points& queries, std::size_t k, Work&& work) {
-    const std::size_t size = points.shape(0), count = queries.shape(0);
+// Rows of k numbers for each of `count` queries to some of `size` points.
+template <class Work>
+RowsOfAnyWidth rows_of(std::size_t k, std::size_t size, std::size_t count, Work&& work) {
     if (k == 0 || k > size) {
         throw std::invalid_argument("k must be at least 1 and at most the number of points");
     }
-    const Pairs pairs = to_pairs(duplicates, size);
-    const bool is_long = is_long_search(triangles, size, count) || count * k > long_work;
-    Buffer<Index> numbers = filled<Index>(count * k, is_long, [&](Index* found, Stop stop) {
-        work(KNearestTask{triangles, size, pairs, queries.data(), count, k, found}, stop);
+    return to_array<RowsOfAnyWidth>(filled<Index>(count * k, count * k > long_work, work), {count, k});
+}
+
+// `duplicates` of the triangulation.
+template <class Points, class Work>
+RowsOfAnyWidth k_nearest(const TriangleArrays& triangles, const Points& points, const RowsIn<Index, 2>& duplicates,
+                         const Points& queries, std::size_t k, Work&& work) {
+    with_triangles(triangles);
+    const std::size_t count = queries.shape(0);
+    const Pairs pairs = to_pairs(duplicates, points.shape(0));
+    return rows_of(k, points.shape(0), count, [&](Index* found, Stop stop) {
+        work(KNearestTask{triangles, pairs, queries.data(), count, k, found}, stop);
     });
-    return to_array<RowsOfAnyWidth>(std::move(numbers), {count, k});
 }
 
 RowsOfAnyWidth k_nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
@@ -104,6 +109,55 @@ RowsOfAnyWidth k_nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> si
                      [&](const KNearestTask& task, Stop stop) { k_nearest_sphere(task, workers, stop); });
 }
 
+// `order(points, size, duplicates, stop)`: the different points in order.
+template <class Points, class Order>
+ValuesOut<Index> flat_order(const Points& points, const RowsIn<Index, 2>& duplicates, Order&& order) {
+    const std::size_t size = points.shape(0);
+    const Pairs pairs = to_pairs(duplicates, size);
+    return to_values(run_without_lock(size > long_work, [&](Stop stop) {
+        const std::vector<Index> numbers = order(points.data(), size, pairs, stop);
+        Buffer<Index> buffer(numbers.size());
+        std::copy(numbers.begin(), numbers.end(), buffer.data());
+        return buffer;
+    }));
+}
+
+ValuesOut<Index> order_in_plane(RowsIn<double, 2> points, RowsIn<Index, 2> duplicates) {
+    return flat_order(points, duplicates, flat_order_plane);
+}
+
+ValuesOut<Index> order_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 2> duplicates) {
+    return flat_order(points, duplicates, flat_order_sphere);
+}
+
+template <class Points, class Work>
+RowsOfAnyWidth nearest_flat(const Points& points, const ValuesIn<Index>& order, const RowsIn<Index, 2>& duplicates,
+                            const Points& queries, std::size_t k, Work&& work) {
+    const std::size_t size = points.shape(0), count = queries.shape(0);
+    const Index* const end = order.data() + order.shape(0);
+    const auto exists = [size](Index p) { return p >= 0 && static_cast<std::size_t>(p) < size; };
+    if (order.shape(0) == 0 || !std::all_of(order.data(), end, exists)) {
+        throw std::invalid_argument("order must hold numbers of points");
+    }
+    const Pairs pairs = to_pairs(duplicates, size);
+    return rows_of(k, size, count, [&](Index* found, Stop stop) {
+        work(NearestFlatTask{points.data(), order.data(), order.shape(0), pairs, queries.data(), count, k, found},
+             stop);
+    });
+}
+
+RowsOfAnyWidth nearest_on_line(RowsIn<double, 2> points, ValuesIn<Index> order, RowsIn<Index, 2> duplicates,
+                               RowsIn<double, 2> queries, std::size_t k, int workers) {
+    return nearest_flat(points, order, duplicates, queries, k,
+                        [&](const NearestFlatTask& task, Stop stop) { nearest_flat_plane(task, workers, stop); });
+}
+
+RowsOfAnyWidth nearest_on_circle(RowsIn<double, 3> points, ValuesIn<Index> order, RowsIn<Index, 2> duplicates,
+                                 RowsIn<double, 3> queries, std::size_t k, int workers) {
+    return nearest_flat(points, order, duplicates, queries, k,
+                        [&](const NearestFlatTask& task, Stop stop) { nearest_flat_sphere(task, workers, stop); });
+}
+
 }  // namespace
 
 void bind_location(nb::module_& module) {
@@ -114,7 +168,7 @@ void bind_location(nb::module_& module) {
                "The same for directions; `closing` tells the triangles that hold none (none if not given).");
     module.def("nearest_plane", nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "workers"_a = 1,
-               "The nearest point of each query, the lowest of several. Without simplices all points are compared.");
+               "The nearest point of each query, the lowest of several. There must be simplices.");
     module.def("nearest_sphere", nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");
     module.def("k_nearest_plane", k_nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
@@ -122,6 +176,14 @@ void bind_location(nb::module_& module) {
                "The k nearest points of each query, duplicates among them, by distance, equally near ones by number.");
     module.def("k_nearest_sphere", k_nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
                "queries"_a, "k"_a, "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");
+    module.def("flat_order_plane", order_in_plane, "points"_a, "duplicates"_a,
+               "The different points of one line, in order.");
+    module.def("flat_order_sphere", order_on_sphere, "points"_a, "duplicates"_a,
+               "The different directions of one great circle, in order around it.");
+    module.def("nearest_flat_plane", nearest_on_line, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
+               "workers"_a = 1, "The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.");
+    module.def("nearest_flat_sphere", nearest_on_circle, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
+               "workers"_a = 1, "The same for directions of one great circle.");
 }
 
 }  // namespace stereodel

@@ -15,11 +15,10 @@
 
 namespace stereodel {
 
-// `count` queries, `k` of `size` points for each (at least k), to `found`, rows of k. `duplicates`: pairs (dropped,
-// kept); both count.
+// `count` queries, `k` points for each (at most as many as there are), to `found`, rows of k. `duplicates`: pairs
+// (dropped, kept); both count.
 struct KNearestTask {
     const TriangleArrays& triangles;
-    std::size_t size;
     const Pairs& duplicates;
     const double* queries;
     std::size_t count;
@@ -27,8 +26,8 @@ struct KNearestTask {
     Index* found;
 };
 
-// By distance, equally near ones by number; on the sphere by angle. Without triangles all points are sorted. The result
-// does not depend on `workers`. Throws std::bad_alloc, Cancelled.
+// By distance, equally near ones by number; on the sphere by angle. There must be triangles (see nearest_flat.hpp). The
+// result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
 void k_nearest_plane(const KNearestTask& task, int workers, Stop stop);
 void k_nearest_sphere(const KNearestTask& task, int workers, Stop stop);
 

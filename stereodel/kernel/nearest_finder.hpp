@@ -63,15 +63,6 @@ class NearestFinder {
         }
     }
 
-    Index scan(const double* query, std::size_t size) {
-        query_.take(query);
-        Index best = 0;
-        for (Index p = 1; p < static_cast<Index>(size); ++p) {
-            best = query_.compare(p, best) < 0 ? p : best;
-        }
-        return best;
-    }
-
     Query& query() { return query_; }
 
   private:

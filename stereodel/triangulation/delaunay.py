@@ -155,6 +155,11 @@ class Delaunay(Versioned, ABC):
         """Triangles that a query can lie in."""
         return locked(np.ones(len(self.simplices), dtype=np.bool_))
 
+    @kept
+    def _flat_order(self) -> IntArray:
+        """The different points in the order along their line or great circle, without triangles."""
+        return locked(self._sort_flat())
+
     def insert(self, points: npt.ArrayLike) -> IntArray:
         """Add points.
 
@@ -281,9 +286,10 @@ class Delaunay(Versioned, ABC):
         -----
         A walk through the triangulation, then outward along its edges: after the nearest ones, the next nearest point
         is always a neighbour of one that was found before. Source: M. Dickerson, R. Drysdale, J.-R. Sack, "Simple
-        algorithms for enumerating interpoint distances and finding k nearest neighbors" (1992). Without triangles
-        (`dimension` below 2) all points are compared. Distances are those of the points of the answer:
-        `np.linalg.norm(points[found] - queries[..., None, :], axis=-1)`, `angular_distance` on the sphere.
+        algorithms for enumerating interpoint distances and finding k nearest neighbors" (1992). Points without
+        triangles (`dimension` below 2) are sorted along their line or great circle when first asked about. Distances
+        are those of the points of the answer: `np.linalg.norm(points[found] - queries[..., None, :], axis=-1)`,
+        `angular_distance` on the sphere.
 
         Examples
         --------
@@ -298,10 +304,14 @@ class Delaunay(Versioned, ABC):
         if now._size == 0:
             raise ValueError("nearest needs at least one point; this triangulation has none")
         array, flat, threads = now._as_queries(queries, workers)
-        if k is None:
-            return _shaped(now._nearest(flat, threads), array)
-        found = now._k_nearest(flat, as_count(k, "k", high=now._size), threads)
-        return found.reshape(*array.shape[:-1], found.shape[1])
+        count = 1 if k is None else as_count(k, "k", high=now._size)
+        if now.dimension < 2:
+            found = now._nearest_flat(flat, count, threads)
+        elif k is None:
+            found = now._nearest(flat, threads)
+        else:
+            found = now._k_nearest(flat, count, threads)
+        return _shaped(found.ravel(), array) if k is None else found.reshape(*array.shape[:-1], count)
 
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self._check_queries(queries)
@@ -367,6 +377,12 @@ class Delaunay(Versioned, ABC):
 
     @abstractmethod
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray: ...
+
+    @abstractmethod
+    def _sort_flat(self) -> IntArray: ...
+
+    @abstractmethod
+    def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray: ...
 
     @abstractmethod
     def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray: ...

@@ -100,6 +100,13 @@ class PlanarDelaunay(Delaunay):
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
         return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers)
 
+    def _sort_flat(self) -> IntArray:
+        return _kernel.flat_order_plane(self.points, self.duplicates)
+
+    def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
+        arrays = self.points, self._flat_order, self.duplicates
+        return _kernel.nearest_flat_plane(*arrays, queries, k, workers)
+
     def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors, self.duplicates
         return _kernel.k_nearest_plane(*arrays, queries, k, workers)

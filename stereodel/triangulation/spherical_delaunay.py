@@ -162,6 +162,13 @@ class SphericalDelaunay(Delaunay):
         arrays = self.points, self.simplices, self.neighbors
         return _kernel.nearest_sphere(*arrays, queries, self.closing, workers)
 
+    def _sort_flat(self) -> IntArray:
+        return _kernel.flat_order_sphere(self.points, self.duplicates)
+
+    def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
+        arrays = self.points, self._flat_order, self.duplicates
+        return _kernel.nearest_flat_sphere(*arrays, queries, k, workers)
+
     def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors, self.duplicates
         return _kernel.k_nearest_sphere(*arrays, queries, k, self.closing, workers)

@@ -29,6 +29,7 @@ class Arrays:
     simplices: np.ndarray
     neighbors: np.ndarray
     closing: np.ndarray | None
+    duplicates: np.ndarray
 
     @classmethod
     def of(cls, points):
@@ -36,19 +37,19 @@ class Arrays:
         points = np.array(points, dtype=float)
         hull = HullInsertion(points, spatial=True)
         hull.run()
-        return cls.closed(points, hull.simplices, neighbors_of(hull.simplices))
+        return cls.closed(points, hull.simplices, neighbors_of(hull.simplices), hull.duplicates)
 
     @classmethod
     def large(cls, points):
         triangulate = _kernel.triangulate_plane if points.shape[1] == PLANE else _kernel.triangulate_sphere
-        return cls.closed(points, *triangulate(points)[:2])
+        return cls.closed(points, *triangulate(points)[:3])
 
     @classmethod
-    def closed(cls, points, simplices, neighbors):
+    def closed(cls, points, simplices, neighbors, duplicates):
         closing = None
         if points.shape[1] == SPHERE:
             closing = turn_signs(*(points[simplices[:, k]] for k in range(3))) <= 0
-        return cls(points, simplices, neighbors, closing)
+        return cls(points, simplices, neighbors, closing, duplicates)
 
     def find(self, queries, workers=1):
         queries = np.array(queries, dtype=float)
@@ -60,11 +61,19 @@ class Arrays:
 
     def nearest(self, queries, workers=1):
         queries = np.array(queries, dtype=float)
+        if not len(self.simplices):
+            return self.nearest_flat(queries, workers)
         if self.closing is None:
             return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers)
         return _kernel.nearest_sphere(
             self.points, self.simplices, self.neighbors, queries, closing=self.closing, workers=workers
         )
+
+    def nearest_flat(self, queries, workers):
+        name = "plane" if self.points.shape[1] == PLANE else "sphere"
+        order = getattr(_kernel, f"flat_order_{name}")(self.points, self.duplicates)
+        nearest = getattr(_kernel, f"nearest_flat_{name}")
+        return nearest(self.points, order, self.duplicates, queries, 1, workers)[:, 0]
 
     def sides(self, triangles, queries):
         """Signs (3, k) of the sides of the triangles' edges on which the queries lie, one triangle a query."""
@@ -350,5 +359,17 @@ def test_wrong_input():
     arrays = Arrays.of(np.random.default_rng(11).random((9, 2)))
     with pytest.raises(ValueError, match="same length"):
         _kernel.find_simplex_plane(arrays.points, arrays.simplices, arrays.neighbors[1:], arrays.points)
-    with pytest.raises(ValueError, match="at least one point"):
-        _kernel.nearest_plane(np.zeros((0, 2)), arrays.simplices[:0], arrays.neighbors[:0], arrays.points)
+    with pytest.raises(ValueError, match="no triangles"):
+        _kernel.nearest_plane(arrays.points, arrays.simplices[:0], arrays.neighbors[:0], arrays.points)
+
+
+def test_wrong_order_of_a_line():
+    points, none = np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((0, 2), dtype=np.int32)
+    for order in ([], [0, 2], [-1, 1]):
+        with pytest.raises(ValueError, match="numbers of points"):
+            _kernel.nearest_flat_plane(points, np.array(order, dtype=np.int32), none, points, 1)
+    with pytest.raises(ValueError, match="every point"):
+        _kernel.nearest_flat_plane(points, np.array([1], dtype=np.int32), none, points, 2)
+    for k in (0, 3):
+        with pytest.raises(ValueError, match="k must be"):
+            _kernel.nearest_flat_plane(points, np.array([0, 1], dtype=np.int32), none, points, k)

@@ -90,6 +90,78 @@ def test_awkward_sets_of_the_sphere(name):
     prove(SphericalDelaunay(SPHERE_SETS[name]), [*SPHERE_SETS[name], *queries])
 
 
+SMALL = st.integers(-4, 4)
+STEP = st.tuples(SMALL, SMALL).filter(any)
+SCALE = st.sampled_from([1.0, 2.0**-30, 2.0**-990, 5e-324, 2.0**500])  # nothing is rounded
+
+
+@given(st.lists(SMALL, min_size=1, max_size=12), STEP, SCALE, st.lists(HALF_POINT, min_size=1, max_size=6))
+def test_points_of_one_line(places, step, scale, queries):
+    """Any of them may be equal. Queries at the points and between them are exactly as near to two."""
+    points = np.multiply.outer(places, step) * scale
+    line = PlanarDelaunay(points)
+    assert line.dimension == min(len(set(places)), 2) - 1
+    prove(line, np.vstack([points, points / 2, np.array(queries) * scale]))
+
+
+@given(st.lists(STEP, min_size=1, max_size=12), DIRECTION, DIRECTION, SCALE, st.lists(DIRECTION, max_size=5))
+def test_directions_of_one_great_circle(places, u, v, scale, queries):
+    """Also opposite ones, equal ones of different length, within half a circle; ends of the axis are as near to all."""
+    axis = np.cross(u, v)
+    plane = np.array([u, v])[: 2 if axis.any() else 1]
+    points = np.array(places)[:, : len(plane)] @ plane
+    points = points[points.any(axis=1)]
+    if len(points):
+        circle = SphericalDelaunay(points * scale)
+        assert circle.dimension < 2
+        asked = np.vstack([points, -points, points + points[0], axis, -axis, 1000 * axis + points[0], *queries])
+        prove(circle, asked[asked.any(axis=1)] * scale)
+
+
+@given(st.integers(1, 40), st.integers(0, 2**32 - 1), st.booleans())
+def test_rounded_directions_of_one_great_circle(size, seed, is_short):
+    """Doubles of length one around the equator or a small part of it: answers next to each other differ by roundings."""
+    rng = np.random.default_rng(seed)
+    angle = rng.random(size) * (1e-9 if is_short else 2 * np.pi)
+    points = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(size)])
+    near_axis = rng.normal(size=(3, 3)) * [1e-12, 1e-12, 1]
+    prove(SphericalDelaunay(points), np.vstack([points[:3], rng.normal(size=(2, 3)), near_axis, [[0, 0, 1]]]))
+
+
+@pytest.mark.parametrize("width", [2, 3])
+def test_many_equal_points_take_no_time(width):
+    """Comparing all of them would take minutes."""
+    rng = np.random.default_rng(4)
+    make = PlanarDelaunay if width == 2 else SphericalDelaunay
+    queries = rng.normal(size=(20_000, width))
+    equal = make(np.ones((100_000, width)))
+    assert not equal.nearest(queries).any()
+    assert (equal.nearest(queries, k=8) == np.arange(8)).all()
+    places = np.arange(100_000) % 50_000
+    flat = make(np.column_stack([places, np.ones(100_000), np.zeros(100_000)])[:, :width])
+    assert flat.dimension == 1
+    asked = rng.integers(0, 50_000, 20_000)
+    assert np.array_equal(flat.nearest(flat.points[asked]), asked)
+    assert np.array_equal(flat.nearest(flat.points[asked], k=2), np.column_stack([asked, asked + 50_000]))
+    if width == 3:
+        assert not flat.nearest(np.tile([0, 0, 1], (20_000, 1))).any()
+
+
+@pytest.mark.parametrize("width", [2, 3])
+def test_many_equal_points_at_four_places_take_no_time(width):
+    rng = np.random.default_rng(5)
+    places = np.array([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])[:, :width]
+    chosen = rng.integers(0, 4, 100_000)
+    triangulation = (PlanarDelaunay if width == 2 else SphericalDelaunay)(places[chosen])
+    queries = places * [[1.1, 1, 1]] if width == 3 else places * [[1.1, 1]]
+    expected = [np.flatnonzero(chosen == place)[:8] for place in range(4)]
+    assert np.array_equal(triangulation.nearest(np.repeat(queries, 500, axis=0), k=8), np.repeat(expected, 500, axis=0))
+    center = np.tile([[0, 0, 1]], (500, 1))[:, :width]
+    assert (triangulation.nearest(center, k=8) == np.arange(8)).all()
+    rest = np.flatnonzero(chosen == 0)[:3000]
+    assert triangulation.nearest(queries[0], k=len(expected[0]) + 3000).tolist()[:3000] == rest.tolist()
+
+
 def test_in_a_cluster_far_from_everything():
     """Points 1e-13 rad apart, of any length: squared chords in doubles tell nothing."""
     rng = np.random.default_rng(1)
@@ -117,6 +189,22 @@ def test_after_changes():
     triangulation.insert(rng.integers(0, 12, size=(3, 2)))
     triangulation.remove([5, 17, 30])
     prove(triangulation, rng.integers(0, 24, size=(10, 2)) / 2)
+
+
+def test_flat_sets_after_changes():
+    """The order along the line is that of the points that are there."""
+    line = PlanarDelaunay([[0, 0], [4, 4], [2, 2], [2, 2]])
+    assert line.nearest([3, 3], k=4).tolist() == [1, 2, 3, 0]
+    line.insert([[3, 3], [9, 9]])
+    prove(line, [[3, 3], [0, 1], [7, 7]])
+    line.remove([2, 4])
+    prove(line, [[3, 3], [0, 1], [7, 7]])
+    line.insert([[0, 9]])
+    assert line.dimension == 2
+    prove(line, [[3, 3], [0, 1], [7, 7]])
+    line.remove([len(line.points) - 1])
+    assert line.dimension == 1
+    prove(line, [[3, 3], [0, 1], [7, 7]])
 
 
 def test_shapes():
