@@ -120,7 +120,7 @@ def test_directions_of_one_great_circle(places, u, v, scale, queries):
 
 @given(st.integers(1, 40), st.integers(0, 2**32 - 1), st.booleans())
 def test_rounded_directions_of_one_great_circle(size, seed, is_short):
-    """Doubles of length one around the equator or a small part of it: answers next to each other differ by roundings."""
+    """Doubles of length one around the equator or a small part of it: distances differ by roundings."""
     rng = np.random.default_rng(seed)
     angle = rng.random(size) * (1e-9 if is_short else 2 * np.pi)
     points = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(size)])
