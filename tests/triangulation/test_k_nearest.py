@@ -128,6 +128,19 @@ def test_rounded_directions_of_one_great_circle(size, seed, is_short):
     prove(SphericalDelaunay(points), np.vstack([points[:3], rng.normal(size=(2, 3)), near_axis, [[0, 0, 1]]]))
 
 
+@pytest.mark.parametrize("turn", range(8))
+@pytest.mark.parametrize(
+    "plane", [[[1, 0, 0], [0, 1, 0]], [[0, 1, 0], [0, 0, 1]], [[0, 0, 1], [1, 0, 0]], [[1, 2, 3], [4, 0, -1]]]
+)
+def test_around_a_great_circle_from_any_start(turn, plane):
+    """Opposite directions among them, in every order; queries exactly between the last one and the first."""
+    around = np.array([[1, 0], [4, 1], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1], [4, -1]])
+    points = np.random.default_rng(turn).permutation(around) @ plane
+    prove(SphericalDelaunay(points), np.vstack([points, around @ plane * 2 + points[0], np.cross(*plane)]))
+    prove(SphericalDelaunay(np.array([[4, -1], [4, 1], [-1, 0], [0, 1]]) @ plane), [plane[0]])
+    prove(SphericalDelaunay(np.array([[0, 1], [0, -1], [1, 0], [-1, 0]]) @ plane), points)
+
+
 @pytest.mark.parametrize("width", [2, 3])
 def test_many_equal_points_take_no_time(width):
     """Comparing all of them would take minutes."""
