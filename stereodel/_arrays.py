@@ -54,11 +54,11 @@ def _as_doubles(values: npt.ArrayLike, name: str) -> FloatArray:
         array = _from_objects(array, name)
     elif array.dtype.kind != "f" or array.dtype.itemsize > 8:
         array = _from_wide(array, name)
-    return np.ascontiguousarray(array, dtype=np.float64).reshape(array.shape)
+    return np.asarray(array, dtype=np.float64, order="C")
 
 
 def _refuse(wrong: BoolArray, array: FloatArray, name: str, expected: str) -> None:
-    if wrong.any():
+    if np.count_nonzero(wrong):  # of few values four times as fast as wrong.any()
         index = tuple(int(i) for i in np.argwhere(wrong)[0])
         raise ValueError(f"{_entry(name, index)} is {array[index]}; {expected}")
 
@@ -188,9 +188,9 @@ def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False) -> 
     """Non-zero vectors of space, (..., 3), or (n, 3) when `points`; their lengths do not matter."""
     array = as_points(values, 3, name) if points else as_vectors(values, 3, name)
     zero = array[..., 0] == 0.0  # column by column: ten times as fast as array.any(axis=-1)
-    if zero.any():
+    if np.count_nonzero(zero):
         zero &= (array[..., 1] == 0.0) & (array[..., 2] == 0.0)
-    if zero.any():
+    if np.count_nonzero(zero):
         index = tuple(int(i) for i in np.argwhere(zero)[0])
         raise ValueError(f"{_entry(name, index)} is the zero vector, which has no direction")
     return array
@@ -324,7 +324,7 @@ def as_complex_matrix(value: npt.ArrayLike, name: str) -> npt.NDArray[np.complex
 
 def private(array: FloatArray, given: npt.ArrayLike) -> FloatArray:
     """`array`, made from what was `given`, in memory that the caller does not hold; nobody can write to it."""
-    shared = not isinstance(given, np.ndarray) or np.may_share_memory(array, given)
+    shared = array is given or not isinstance(given, np.ndarray) or np.may_share_memory(array, given)
     return locked(array.copy() if shared else array)
 
 
