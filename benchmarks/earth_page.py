@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from benchmarks import pages
-from benchmarks.earth_nearest import RESULTS
 from stereodel import earth, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.render.style import BLUE, DARK_GRAY, VERMILION
 from stereodel.sphere.latitudes import KINDS
 
+RESULTS = pages.DOCS.parent / "benchmarks" / "earth_nearest.json"
 KILOMETRES_PER_MINUTE = np.radians(1 / 60) * earth.MEAN_RADIUS_KM
 
 

@@ -12,21 +12,19 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from benchmarks import flat_tests
+from benchmarks import flat_regions_page, flat_tests
+from benchmarks.flat_regions_page import RESULTS, WIDE
 from benchmarks.flat_tests import Quadruples, Region
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
 
 SIZES = [10.0 ** (-k / 2) for k in range(29)]
 CLUSTERS, PER_CLUSTER = 10, 5000
-WIDE = 0.1
 SEED = 20
-RESULTS = Path(__file__).resolve().parent / "flat_regions.json"
 
 METHODS = ("plain", "lifted", "curvature", "exact")
 Sampler = Callable[[np.random.Generator, float], tuple[Quadruples, Region]]
@@ -117,8 +115,6 @@ def measure(family: str, size: float) -> dict[str, Any]:
 
 def main() -> None:
     """Measure, then write the numbers, the plot and the page's tables."""
-    from benchmarks import flat_regions_page
-
     begin = time.perf_counter()
     rows = [measure(family, size) for family in FAMILIES for size in SIZES if family != "within" or size <= WIDE]
     with replacing(RESULTS) as temporary:

@@ -12,10 +12,13 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from benchmarks import pages
-from benchmarks.flat_regions import RESULTS, WIDE
 from stereodel.render.style import BLUE, DARK_GRAY, LIGHT_GRAY, VERMILION
 
 Rows = list[dict[str, Any]]
+
+RESULTS = pages.DOCS.parent / "benchmarks" / "flat_regions.json"
+WIDE = 0.1
+"""Radius of the wide region, radians."""
 
 TITLES = {
     "random": "four random points of the region",

@@ -9,7 +9,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
-from benchmarks import earth_nearest, earth_page
+from benchmarks import earth_nearest, earth_page, pages
 from benchmarks.earth_nearest import WGS84, excess, geodesics, lengths, truly_nearest, uniform
 from stereodel import earth
 
@@ -51,6 +51,6 @@ def test_the_centres_direction_is_best_and_mixing_is_worst(monkeypatch):
 
 def test_page_shows_the_numbers():
     results = json.loads(earth_nearest.RESULTS.read_text(encoding="utf-8"))
-    page = (earth_nearest.DOCS / "earth.md").read_text(encoding="utf-8")
+    page = (pages.DOCS / "earth.md").read_text(encoding="utf-8")
     assert earth_page.nearest_table(results) in page
     assert earth_page.lengths_table(results) in page
