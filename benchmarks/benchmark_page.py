@@ -15,6 +15,7 @@ from benchmarks.engines import CONTENDERS, PEERS, Contender
 from benchmarks.experiments import RESULTS, SPACES
 
 Results = dict[str, Any]
+COLUMNS = [f"{space}, {threads}" for space in SPACES for threads in ("one thread", "two threads")]
 
 
 def time_per_point(record: dict[str, Any] | None, n: int) -> str:
@@ -41,6 +42,21 @@ def verdict(results: Results) -> str:
     missed = [figure for figure in measured if not figure.reached]
     text = f"{len(measured) - len(missed)} of {len(measured)} figures are reached."
     return text + (" Not reached: " + "; ".join(figure.what for figure in missed) + "." if missed else "")
+
+
+def opening(results: Results) -> str:
+    """The main numbers at 1e6 points: times of ours, and ratios to CGAL and SciPy on one thread."""
+    n = 1_000_000
+    records = {f"Delaunay triangulation, {space}": (results["sizes"][space][str(n)], "ours") for space in SPACES}
+    if "voronoi" in results:
+        records["Voronoi regions and areas, sphere"] = (results["voronoi"][str(n)], "voronoi")
+    rows = []
+    for what, (record, ours) in records.items():
+        times = [time_per_point(record.get(f"{ours} {workers}"), n) for workers in (1, 2)]
+        over = [faster(record, peer, f"{ours} 1") for peer in ("cgal", "scipy")]
+        rows.append([what, *times, *(f"{digits(statistics.median(values))}×" if values else "–" for values in over)])
+    head = [f"{power(n)} uniform points", "ns per point, one thread", "two threads"]
+    return pages.table([*head, "times as fast as CGAL, one thread", "as SciPy"], rows, "lrrrr")
 
 
 def sizes(results: Results, space: str) -> str:
@@ -117,11 +133,32 @@ def changes(results: Results) -> str:
     rows.append(
         ["peak bytes per point without `neighbors`", *(digits(r["peak"] / n) if "peak" in r else "–" for r in bare)]
     )
-    head = [
-        f"µs, {power(n)} points",
-        *(f"{c.split()[0]}, {c.split()[1]} thread{'s' * (c[-1] == '2')}" for c in columns),
-    ]
-    return pages.table(head, rows, "lrrrr")
+    return pages.table([f"µs, {power(n)} points", *COLUMNS], rows, "lrrrr")
+
+
+def derived(results: Results) -> str:
+    """Nearest points, graphs, relaxation and contours in microseconds for each query or point."""
+    words = {
+        "nearest": "`nearest`, per query",
+        "tree nearest": "SciPy, `cKDTree.query`",
+        "k nearest": "`nearest` with `k=8`, per query",
+        "tree k nearest": "SciPy, `cKDTree.query` with `k=8`",
+        "gabriel": "`gabriel_graph`, per point",
+        "urquhart": "`urquhart_graph`",
+        "relative": "`relative_neighborhood_graph`",
+        "spanning": "`minimum_spanning_tree`",
+        "scipy spanning": "SciPy, `minimum_spanning_tree` of the edges and their lengths",
+        "lloyd": "`lloyd`, one step",
+        "contours": "`contours`, ten levels",
+        "matplotlib contours": "Matplotlib, `tricontour`, the same levels",
+    }
+    measured = results["derived"]
+    n = measured["n"]
+    rows = []
+    for word, what in words.items():
+        records = [measured[space].get(f"{word} {workers}") for space in SPACES for workers in (1, 2)]
+        rows.append([what, *(digits(1e6 * record["seconds"] / n) if record else "–" for record in records)])
+    return pages.table([f"µs, {power(n)} points", *COLUMNS], rows, "lrrrr")
 
 
 def diagrams(results: Results) -> str:
@@ -212,6 +249,7 @@ def write(results: Results) -> None:
     blocks = {"verdict": verdict(results), "asked": asked(results), "missing": missing(), "machine": machine(results)}
     if "sizes" in results:
         benchmark_plots.sizes(results)
+        blocks["opening"] = opening(results)
         blocks |= {f"sizes {space}": sizes(results, space) for space in SPACES}
         blocks["engines"] = taking_part(results)
     if "distributions" in results:
@@ -220,6 +258,8 @@ def write(results: Results) -> None:
             blocks |= {f"{space} {n}": distributions(results, space, n) for n in ("100000", "1000000")}
     if "changes" in results:
         blocks["changes"] = changes(results)
+    if "derived" in results:
+        blocks["derived"] = derived(results)
     if "voronoi" in results:
         blocks["voronoi"] = diagrams(results)
     if "conformal maps" in results:

@@ -1,46 +1,21 @@
 """Conformal maps of many points, beside copying them and beside PROJ.
 
-Everything in one process and in turns: in each round every call is made once, so that a busy moment of the machine
-meets all of them. Ratios are those of a round.
+Everything in one process and in turns. Ratios are those of a round.
 """
 
 from __future__ import annotations
 
-import statistics
-import time
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 from pyproj import Transformer
 
+from benchmarks.rounds import Calls, in_turns
 from stereodel import data, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel._arrays import FloatArray
 
-Calls = dict[str, Callable[[], object]]
-
 LENS = fisheye((2.35, 48.86), magnification=20.0)
-ROUNDS = 7
 COASTLINE = 1_000_000
-
-
-def in_turns(calls: Calls, reference: str, rounds: int = ROUNDS) -> dict[str, Any]:
-    """Seconds of each call in each round, after one that does not count, and their ratios to the reference."""
-    seconds: dict[str, list[float]] = {key: [] for key in calls}
-    for number in range(rounds + 1):
-        for key, call in calls.items():
-            begin = time.perf_counter()
-            call()
-            if number > 0:
-                seconds[key].append(time.perf_counter() - begin)
-    return {
-        key: {
-            "seconds": statistics.median(own),
-            "rounds": own,
-            "ratios": [mine / other for mine, other in zip(own, seconds[reference], strict=True)],
-        }
-        for key, own in seconds.items()
-    }
 
 
 def coastline(size: int) -> FloatArray:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from benchmarks.conformal_maps import conformal_maps
+from benchmarks.derived import derived
 from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, REAL_SETS, SPHERE, make
 from benchmarks.engines import HERE, Contender, contenders, stereodel
 from benchmarks.rounds import SLOW, Entry, Result, ratios, take_turns
@@ -167,6 +168,7 @@ EXPERIMENTS: dict[str, Callable[[int], Records]] = {
     "growth": growth,
     "changes": changes,
     "voronoi": voronoi,
+    "derived": derived,
     "conformal maps": conformal_maps,
 }
 RESULTS = Path(__file__).resolve().parent / "results.json"

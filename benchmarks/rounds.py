@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import statistics
 import sys
+import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
@@ -135,6 +136,32 @@ def take_turns(entries: Sequence[Entry], rounds: int, say: Callable[[Result], No
         if say:
             say(player.result)
     return {player.result.key: player.result for player in players}
+
+
+Calls = dict[str, Callable[[], object]]
+
+
+def in_turns(calls: Calls, reference: str | None = None, rounds: int = 7) -> dict[str, dict[str, Any]]:
+    """Calls in this process: each once in every round, after one that does not count.
+
+    Returns
+    -------
+    dict
+        For each call the median of its seconds, those of all rounds, their ratios to the reference if there is one.
+    """
+    seconds: dict[str, list[float]] = {key: [] for key in calls}
+    for number in range(rounds + 1):
+        for key, call in calls.items():
+            begin = time.perf_counter()
+            call()
+            if number > 0:
+                seconds[key].append(time.perf_counter() - begin)
+    found: dict[str, dict[str, Any]] = {}
+    for key, own in seconds.items():
+        found[key] = {"seconds": statistics.median(own), "rounds": own}
+        if reference is not None:
+            found[key]["ratios"] = [mine / other for mine, other in zip(own, seconds[reference], strict=True)]
+    return found
 
 
 def paired(slower: Sequence[float], faster: Sequence[float]) -> list[float]:

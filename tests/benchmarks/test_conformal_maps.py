@@ -8,7 +8,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks.benchmark_page import conformal_maps as table
-from benchmarks.conformal_maps import coastline, conformal_maps, in_turns
+from benchmarks.conformal_maps import coastline, conformal_maps
+from benchmarks.rounds import in_turns
 
 
 def test_calls_take_turns():
@@ -17,6 +18,7 @@ def test_calls_take_turns():
     assert made == ["a", "b"] * 4
     assert len(found["b"]["rounds"]) == 3
     assert found["a"]["ratios"] == [1.0] * 3
+    assert set(in_turns({"a": list}, rounds=2)["a"]) == {"seconds", "rounds"}
 
 
 def test_coastline_points_are_as_many_as_asked_and_different():
