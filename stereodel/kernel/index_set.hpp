@@ -1,7 +1,6 @@
 // A set of point or triangle numbers that is filled and emptied again and again.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,50 +9,34 @@
 
 namespace stereodel {
 
-// A few numbers are a list; more are hashed, with open addressing, at most half full. Emptying takes no longer than
-// filling did, however large the set once was.
+// Hashed, with open addressing, at most half full. Emptying takes no longer than filling did, however large the set once
+// was.
 class IndexSet {
   public:
     // Whether the number (not negative) is new.
     bool insert(Index number) {
-        if (members_.size() < FEW) {
-            if (std::find(members_.begin(), members_.end(), number) != members_.end()) {
-                return false;
-            }
-        } else {
-            if (!hashed_) {
-                hash_members();
-            } else if (2 * members_.size() >= slots_.size()) {
-                slots_.assign(2 * slots_.size(), FREE);
-                hash_members();
-            }
-            if (!place(number)) {
-                return false;
-            }
+        if (!place(number)) {
+            return false;
         }
         members_.push_back(number);
+        if (2 * members_.size() > slots_.size()) {
+            slots_.assign(2 * slots_.size(), FREE);
+            for (const Index member : members_) {
+                place(member);
+            }
+        }
         return true;
     }
 
     // The last one in leaves first: the way to its slot then still leads past those that came before it.
     void clear() {
-        for (; hashed_ && !members_.empty(); members_.pop_back()) {
+        for (; !members_.empty(); members_.pop_back()) {
             slots_[slot_of(members_.back())] = FREE;
         }
-        members_.clear();
-        hashed_ = false;
     }
 
   private:
     static constexpr Index FREE = -1;
-    static constexpr std::size_t FEW = 16;
-
-    void hash_members() {
-        hashed_ = true;
-        for (const Index member : members_) {
-            place(member);
-        }
-    }
 
     bool place(Index number) {
         Index& slot = slots_[slot_of(number)];
@@ -73,8 +56,7 @@ class IndexSet {
     }
 
     std::vector<Index> members_;
-    std::vector<Index> slots_ = std::vector<Index>(8 * FEW, FREE);
-    bool hashed_ = false;
+    std::vector<Index> slots_ = std::vector<Index>(128, FREE);
 };
 
 }  // namespace stereodel
