@@ -428,6 +428,8 @@ def common_granularity(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
 ) -> float: ...
 def sign_of_roots(terms: Sequence[tuple[Sequence[int], Sequence[int]]]) -> int: ...
+def round_quotient(numerator: Sequence[int], denominator: Sequence[int], exponent: int) -> float: ...
+def root_is_close(square: Sequence[int], bits: int) -> bool: ...
 def bubble(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
@@ -671,9 +673,9 @@ def circumcenters_plane(
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
-) -> tuple:
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
     """
-    Centres of triangles by number, that of row k at place[k], and the rows that are too flat for this.
+    Circumcentres of triangles by number, that of row k at place[k]; infinite where they exceed doubles.
     """
 
 def circumcenters_sphere(
@@ -681,7 +683,7 @@ def circumcenters_sphere(
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
-) -> tuple:
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
     """
     The same for directions: unit normals on the side seen counterclockwise.
     """

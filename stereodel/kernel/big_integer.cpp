@@ -185,6 +185,36 @@ bool operator==(const BigInteger& a, const BigInteger& b) {
     return a.sign_ == b.sign_ && compare_magnitudes(a.limbs_, b.limbs_) == 0;
 }
 
+BigInteger BigInteger::cut(std::size_t bits) const {
+    const std::size_t whole = bits / 32, rest = bits % 32;
+    if (limbs_.size() <= whole) {
+        return {};
+    }
+    Limbs result(limbs_.size() - whole);
+    std::uint64_t above = 0;
+    for (std::size_t k = result.size(); k-- > 0;) {
+        above = above << 32 | limbs_[k + whole];
+        result.data()[k] = low(above >> rest);
+    }
+    return {sign_, std::move(result)};
+}
+
+std::size_t BigInteger::bit_length() const {
+    std::size_t length = 32 * limbs_.size();
+    for (std::uint32_t bit = 0x80000000U; length > 0 && (limbs_[limbs_.size() - 1] & bit) == 0; bit >>= 1) {
+        --length;
+    }
+    return length;
+}
+
+std::int64_t BigInteger::to_int64() const {
+    std::uint64_t magnitude = 0;
+    for (std::size_t k = limbs_.size(); k-- > 0;) {
+        magnitude = magnitude << 32 | limbs_[k];
+    }
+    return sign_ * static_cast<std::int64_t>(magnitude);
+}
+
 int lowest_exponent(double value) {
     if (value == 0.0) {
         return EVERY_EXPONENT;

@@ -47,6 +47,9 @@ class BigInteger {
     int sign() const { return sign_; }
     BigInteger operator-() const;
     BigInteger shifted(std::size_t bits) const;  // times 2^bits
+    BigInteger cut(std::size_t bits) const;      // without the lowest bits of the magnitude, times 2^-bits
+    std::size_t bit_length() const;              // of the magnitude; 0 for zero
+    std::int64_t to_int64() const;               // for a bit length below 64
 
     friend BigInteger operator+(const BigInteger& a, const BigInteger& b) { return sum(a, b, b.sign_); }
     friend BigInteger operator-(const BigInteger& a, const BigInteger& b) { return sum(a, b, -b.sign_); }

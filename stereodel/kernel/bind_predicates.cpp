@@ -5,7 +5,10 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+
 #include "bind_rows.hpp"
+#include "integer_quotients.hpp"
 #include "plane_predicates.hpp"
 #include "ray_integers.hpp"
 #include "ray_predicates.hpp"
@@ -56,6 +59,29 @@ int sign_of_root_sum(const std::vector<std::tuple<Digits, Digits>>& terms) {
         sum.push_back({from_digits(coefficient), from_digits(radicand)});
     }
     return sign_of_roots(sum.data(), static_cast<int>(sum.size()));
+}
+
+double quotient(const Digits& numerator, const Digits& denominator, std::int64_t exponent) {
+    const BigInteger divisor = from_digits(denominator);
+    if (divisor.sign() == 0) {
+        throw std::invalid_argument("denominator: zero");
+    }
+    return round_quotient(from_digits(numerator), divisor, static_cast<std::ptrdiff_t>(exponent));
+}
+
+// Whether the computed root is off by less than 1 in its last bit: (r - 1)^2 < n 2^-2e < (r + 1)^2, e its exponent.
+bool root_is_close(const Digits& digits, std::size_t bits) {
+    const BigInteger square = from_digits(digits);
+    if (square.sign() <= 0 || bits < 54) {
+        throw std::invalid_argument("a positive integer, and 54 bits or more");
+    }
+    const auto [root, exponent] = integer_root(square, bits);
+    const auto up = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, -2 * exponent));
+    const auto down = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, 2 * exponent));
+    const BigInteger one(1), low = (root - one) * (root - one), high = (root + one) * (root + one);
+    const BigInteger given = square.shifted(up);
+    return root.bit_length() >= bits && (given - low.shifted(down)).sign() > 0 &&
+           (high.shifted(down) - given).sign() > 0;
 }
 
 // The plane ----------------------------------------------------------------------------------------------------------
@@ -227,6 +253,8 @@ void bind_plane(nb::module_& m) {
     m.def("incircle_numbered", &incircle_numbered, "points"_a, "numbers"_a, "displaced"_a);
     m.def("common_granularity", &granularity, "points"_a);
     m.def("sign_of_roots", &sign_of_root_sum, "terms"_a);
+    m.def("round_quotient", &quotient, "numerator"_a, "denominator"_a, "exponent"_a);
+    m.def("root_is_close", &root_is_close, "square"_a, "bits"_a);
 }
 
 void bind_rays(nb::module_& m) {

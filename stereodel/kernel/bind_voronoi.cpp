@@ -204,35 +204,19 @@ TriangleRows to_rows_of(const RowsIn<Index, 3>& triangles, const Places& place, 
     return {triangles.data(), place ? place->data() : nullptr, triangles.shape(0)};
 }
 
-struct Centers {
-    Buffer<double> coordinates;
-    std::vector<Index> open;
-};
-
-template <std::size_t Width, class Fill>
-nb::tuple centers(const TriangleRows& rows, Fill&& fill) {
-    Centers result = run_without_lock(rows.count > long_work, [&](Stop stop) {
-        Centers made{Buffer<double>(Width * rows.count), {}};
-        made.open = fill(made.coordinates.data(), stop);
-        return made;
-    });
-    Buffer<Index> open(result.open.size());
-    std::copy(result.open.begin(), result.open.end(), open.data());
-    return nb::make_tuple(to_rows<Width>(std::move(result.coordinates)), to_values(std::move(open)));
+RowsOut<double, 2> centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers) {
+    const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
+    return to_rows<2>(filled<double>(2 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
+        circumcenters_plane(points.data(), rows, out, workers, stop);
+    }));
 }
 
-nb::tuple centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers) {
+RowsOut<double, 3> centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, Places place,
+                                     int workers) {
     const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
-    return centers<2>(rows, [&](double* out, Stop stop) {
-        return circumcenters_plane(points.data(), rows, out, workers, stop);
-    });
-}
-
-nb::tuple centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, Places place, int workers) {
-    const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
-    return centers<3>(rows, [&](double* out, Stop stop) {
-        return circumcenters_sphere(points.data(), points.shape(0), rows, out, workers, stop);
-    });
+    return to_rows<3>(filled<double>(3 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
+        circumcenters_sphere(points.data(), points.shape(0), rows, out, workers, stop);
+    }));
 }
 
 }  // namespace
@@ -268,7 +252,7 @@ void bind_voronoi(nb::module_& module) {
                "Unit vectors; NaN for empty cells.");
     module.def("circumcenters_plane", centers_in_plane, "points"_a, "triangles"_a, "place"_a = nb::none(),
                "workers"_a = 1,
-               "Centres of triangles by number, that of row k at place[k], and the rows that are too flat for this.");
+               "Circumcentres of triangles by number, that of row k at place[k]; infinite where they exceed doubles.");
     module.def("circumcenters_sphere", centers_on_sphere, "points"_a, "triangles"_a, "place"_a = nb::none(),
                "workers"_a = 1, "The same for directions: unit normals on the side seen counterclockwise.");
 }

@@ -1,8 +1,7 @@
-// Circumcentres: from differences of the given coordinates, in about twice the precision, rounded once.
+// Circumcentres: from differences of the given coordinates, in about twice the precision or by integers, rounded once.
 #pragma once
 
 #include <cstddef>
-#include <vector>
 
 #include "tally.hpp"
 #include "threads.hpp"
@@ -17,12 +16,13 @@ struct TriangleRows {
     std::size_t to(std::size_t k) const { return place == nullptr ? k : static_cast<std::size_t>(place[k]); }
 };
 
-// Returns the rows that are left open, in order: triangles so flat that twice the precision is not enough.
+// Both throw std::invalid_argument for triangles without a circumcentre.
 //
-// Plane: two coordinates a centre. Sphere: the unit normals on the side from which the corners appear counterclockwise.
-std::vector<Index> circumcenters_plane(const double* points, const TriangleRows& rows, double* centers, int workers,
-                                       Stop stop);
-std::vector<Index> circumcenters_sphere(const double* points, std::size_t size, const TriangleRows& rows,
-                                        double* centers, int workers, Stop stop);
+// Plane: two coordinates a centre, off by little more than half a unit in the last place of the centre or the radius,
+// infinite beyond the range of doubles. Sphere: the unit normals on the side from which the corners appear
+// counterclockwise, off by little more than their components' rounding.
+void circumcenters_plane(const double* points, const TriangleRows& rows, double* centers, int workers, Stop stop);
+void circumcenters_sphere(const double* points, std::size_t size, const TriangleRows& rows, double* centers,
+                          int workers, Stop stop);
 
 }  // namespace stereodel

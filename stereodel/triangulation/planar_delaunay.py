@@ -6,7 +6,6 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_points, as_vectors
-from stereodel.triangulation.circumcenters import planar_circumcenters
 from stereodel.triangulation.delaunay import Built, Delaunay
 
 
@@ -81,7 +80,7 @@ class PlanarDelaunay(Delaunay):
         return as_vectors(queries, 2, "xy")
 
     def _circumcenters(self, workers: int) -> FloatArray:
-        return planar_circumcenters(self.points, self.simplices, workers=workers)
+        return _kernel.circumcenters_plane(self.points, self.simplices, workers=workers)
 
     @staticmethod
     def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:

@@ -10,7 +10,6 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_floats, as_scalar, locked
 from stereodel.triangulation.cells import Diagram, Indices
-from stereodel.triangulation.circumcenters import planar_circumcenters
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 
@@ -84,7 +83,7 @@ class PlanarVoronoi(Diagram):
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
-        self.vertices = locked(planar_circumcenters(self.points, *rows, workers=self._threads))
+        self.vertices = locked(_kernel.circumcenters_plane(self.points, rows[0], rows[1], self._threads))
 
     def _set_strips(self) -> None:
         """Points on one line, in lexicographic order along it."""

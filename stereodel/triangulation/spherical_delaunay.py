@@ -8,7 +8,6 @@ from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, IntArray, as_directions, as_points, locked
 from stereodel.sphere.coordinates import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.circumcenters import spherical_circumcenters
 from stereodel.triangulation.delaunay import Built, Delaunay
 from stereodel.triangulation.versions import kept
 
@@ -141,7 +140,7 @@ class SphericalDelaunay(Delaunay):
         return as_directions(queries, "xyz")
 
     def _circumcenters(self, workers: int) -> FloatArray:
-        return spherical_circumcenters(self.points, self.simplices, workers=workers)
+        return _kernel.circumcenters_sphere(self.points, self.simplices, workers=workers)
 
     @staticmethod
     def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:

@@ -15,7 +15,6 @@ from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.bisectors import bisector_normals
 from stereodel.triangulation.cells import Diagram, Indices, circle_cells
 from stereodel.triangulation.circle_order import circle_axis, circle_order
-from stereodel.triangulation.circumcenters import spherical_circumcenters
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 
@@ -131,7 +130,7 @@ class SphericalVoronoi(Diagram):
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
-        self._set_vertices(spherical_circumcenters(self.points, *rows, workers=self._threads))
+        self._set_vertices(_kernel.circumcenters_sphere(self.points, rows[0], rows[1], self._threads))
 
     def _set_circle(self) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""

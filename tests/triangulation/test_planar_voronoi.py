@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial import Voronoi, cKDTree
 
-from stereodel.triangulation.circumcenters import planar_circumcenters
+from stereodel import _kernel
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
 
@@ -211,7 +211,7 @@ ONE = np.arange(3, dtype=np.int32)[None]
 
 
 def center_of(triangle):
-    return planar_circumcenters(triangle, ONE)[0]
+    return _kernel.circumcenters_plane(triangle, ONE)[0]
 
 
 def exact_circumcenter(triangle):

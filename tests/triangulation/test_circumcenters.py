@@ -1,0 +1,216 @@
+"""Circumcentres against rational arithmetic and several hundred digits: slivers, needles, any size and any ratio."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from mpmath import mp, mpf, workdps
+
+from stereodel import PlanarDelaunay, SphericalDelaunay, _kernel
+
+ONE = np.arange(3, dtype=np.int32)[None]
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
+ULP = 2.0**-53
+
+
+def difference(p, q):
+    return [x - y for x, y in zip(p, q, strict=True)]
+
+
+def cross(p, q):
+    return [p[k - 2] * q[k - 1] - p[k - 1] * q[k - 2] for k in range(3)]
+
+
+# The sphere ----------------------------------------------------------------------------------------------------------
+
+
+def unit(vector):
+    length = mp.sqrt(mp.fsum(x * x for x in vector))
+    return [x / length for x in vector]
+
+
+def exact_normal(triangle):
+    """With as many digits as `mp` has."""
+    a, b, c = (unit([mpf(float(x)) for x in p]) for p in triangle)
+    return unit(cross(difference(b, a), difference(c, a)))
+
+
+def error(center, exact):
+    """Of length and direction together."""
+    return float(mp.sqrt(mp.fsum((mpf(float(x)) - y) ** 2 for x, y in zip(center, exact, strict=True))))
+
+
+def normal_of(triangle):
+    return _kernel.circumcenters_sphere(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
+
+
+@pytest.mark.parametrize("bits", [20, 28, 30, 33, 36, 39, 41, 42, 43, 44, 46, 50, 52, 60])
+def test_needles(bits):
+    """Two corners 2^-bits apart and one far away, which is the first, the second or the third."""
+    rng = np.random.default_rng(bits)
+    for turn in range(3):
+        for _ in range(4):
+            far, near, step = rng.normal(size=(3, 3))
+            if bits > 50:  # the step is exact where it is along other axes
+                near, step = np.array([1.0, 0.0, 0.0]), step * [0.0, 1.0, 1.0]
+            pair = np.array([near, near + step * 2.0**-bits])
+            if bits <= 50:
+                pair *= rng.uniform(0.5, 2.0, size=(2, 1))
+            triangle = np.roll(np.vstack([far, pair]), turn, axis=0) * 2.0 ** rng.integers(-300, 300, size=(3, 1))
+            with workdps(120):
+                assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
+
+
+def test_the_needles_of_a_triangulation():
+    gap = 2.0**-41
+    points = np.array([[1.0, 0.0, 0.0], [0.1, 1.0, 0.2], [0.1 + gap, 1.0, 0.2 + gap / 3]])
+    triangulation = SphericalDelaunay(points)
+    with workdps(60):
+        for center, corners in zip(triangulation.circumcenters, points[triangulation.simplices], strict=True):
+            assert error(center, exact_normal(corners)) < 1.3e-16
+
+
+def hard_directions(rng):
+    kind = rng.integers(7)
+    noise = rng.normal(size=(3, 3))
+    if kind == 0:  # components of any size
+        return noise * 10.0 ** rng.uniform(-300, 300, (3, 3))
+    if kind == 1:  # exact zeros and nearly opposite corners
+        return rng.integers(-4, 5, (3, 3)) + np.array([[0, 0, 0], [0, 0, 0], [2.0**-48, 0, 0]])
+    if kind == 2:  # differences of the least doubles
+        return np.array([1.0, 0, 0]) + rng.integers(-5, 6, (3, 3)) * [0, 5e-324, 5e-324]
+    if kind == 3:  # one great circle, but for the last bits
+        noise[2] = noise[0] * rng.random() + noise[1] * rng.random()
+        return noise
+    if kind == 4:  # a cluster
+        return [1.0, 0.7, 0.3] * rng.integers(1, 9, (3, 1)) + noise * 10.0 ** -rng.uniform(0, 17)
+    if kind == 5:  # a cluster of subnormal differences, which lengths that are no powers of two would round
+        return np.array([0.7, 0, 0]) * rng.uniform(1, 3, (3, 1)) + noise * [0, 1, 1] * 10.0 ** -rng.uniform(300, 323)
+    return np.array([1.0, 0, 0]) + noise * 10.0 ** rng.uniform(-320, -10, (3, 3))
+
+
+def same_direction(p, q):
+    return not any(cross(p, q)) and sum(x * y for x, y in zip(p, q, strict=True)) > 0
+
+
+def test_hard_triangles_of_the_sphere():
+    rng = np.random.default_rng(7)
+    for _ in range(150):
+        triangle = hard_directions(rng)
+        exact = [[Fraction(float(x)) for x in p] for p in triangle]
+        if any(not any(p) for p in exact) or any(same_direction(exact[k - 1], exact[k]) for k in range(3)):
+            continue
+        with workdps(2800):
+            assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
+
+
+def test_components_of_a_normal_are_right_in_themselves_where_integers_decide():
+    """A great circle nearly in the plane z = 0: its axis leans by less than any difference of unit vectors shows."""
+    for lean in (1e-40, 1e-200, 1e-310, 5e-324):
+        triangle = np.array([[3.0, 1.0, 0.0], [6.0, 2.0, lean], [1.0, 3.0, lean]])
+        with workdps(1400):
+            exact = exact_normal(triangle)
+        assert normal_of(triangle).tolist() == [float(x) for x in exact]
+
+
+@pytest.mark.parametrize("turn", range(3))
+def test_equal_directions_have_no_circumcentre(turn):
+    triangle = np.roll([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [1.0, 0.0, 0.0]], turn, axis=0)
+    with pytest.raises(ValueError, match=r"^triangles: two corners of the same direction"):
+        normal_of(triangle)
+
+
+# The plane -----------------------------------------------------------------------------------------------------------
+
+
+def exact_center(triangle):
+    """Centre and radius squared, as fractions; None for three points on one line."""
+    a, b, c = ([Fraction(float(x)) for x in p] for p in triangle)
+    d, e = difference(b, a), difference(c, a)
+    dd, ee, divisor = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
+    if divisor == 0:
+        return None
+    offset = (e[1] * dd - d[1] * ee) / divisor, (d[0] * ee - e[0] * dd) / divisor
+    return [a[0] + offset[0], a[1] + offset[1]], max(map(abs, offset))
+
+
+def nearest(number):
+    try:
+        return float(number)
+    except OverflowError:
+        return np.inf if number > 0 else -np.inf
+
+
+def center_of(triangle):
+    return _kernel.circumcenters_plane(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
+
+
+def assert_right(triangle):
+    """Within half a unit in the last place and a little more, of the centre's larger coordinate or of its radius."""
+    exact = exact_center(triangle)
+    if exact is None:
+        with pytest.raises(ValueError, match=r"^triangles: three corners on one line"):
+            center_of(triangle)
+        return
+    center, size = exact
+    scale = max(size, *map(abs, center))
+    for got, x in zip(center_of(triangle).tolist(), center, strict=True):
+        if not np.isfinite(got) or abs(x) > Fraction(np.finfo(float).max):
+            assert got == nearest(x)
+        else:
+            assert abs(Fraction(got) - x) <= scale * Fraction(ULP * 1.01) + Fraction(5e-324) / 2
+
+
+def hard_points(rng):
+    kind = rng.integers(7)
+    noise = rng.normal(size=(3, 2))
+    if kind == 0:  # coordinates of any size
+        return noise * 10.0 ** rng.uniform(-320, 300, (3, 2))
+    if kind == 1:  # subnormal
+        return rng.integers(-9, 10, (3, 2)) * 5e-324
+    if kind == 2:  # flat, of any size
+        noise[2] = noise[0] + (noise[1] - noise[0]) * rng.random()
+        return np.ldexp(noise, rng.integers(-1070, 1000))
+    if kind == 3:  # distances of any size
+        return noise * 10.0 ** rng.uniform(-320, 300, (3, 1))
+    if kind == 4:  # small integers and their multiples
+        return rng.integers(-5, 6, (3, 2)) * 10.0 ** rng.integers(-300, 300)
+    if kind == 5:  # centres that overflow
+        return np.array([[0, 0], [1e200, 5e-324], [2e200, 0]]) * rng.uniform(0.5, 2, (3, 2))
+    return noise[0] * (1 + noise * 2.0 ** -rng.integers(1, 53))
+
+
+def test_hard_triangles_of_the_plane():
+    rng = np.random.default_rng(3)
+    for _ in range(2000):
+        assert_right(hard_points(rng)[rng.permutation(3)])
+
+
+@settings(max_examples=200)
+@example((4.9e-106, 5.8e-179), (0.0, 3e11), (4.9e-106, 0.0))  # two corners so close that their distance squared is zero
+@given(*[st.tuples(FINITE, FINITE)] * 3)
+def test_any_triangle_of_the_plane(a, b, c):
+    assert_right([a, b, c])
+
+
+def test_what_integers_decide_is_rounded_once():
+    """Flat to the last bits, of a size that doubles hold."""
+    rng = np.random.default_rng(11)
+    for _ in range(200):
+        triangle = rng.normal(size=(3, 2))
+        triangle[2] = triangle[0] + (triangle[1] - triangle[0]) * rng.random()
+        exact = exact_center(triangle)
+        if exact is not None:
+            assert center_of(triangle).tolist() == pytest.approx([nearest(x) for x in exact[0]], rel=2.1 * ULP, abs=0)
+
+
+@pytest.mark.parametrize("scale", [1e-300, 1e-310, 1.0, 1e300])
+def test_exponential_spacing(scale):
+    rng = np.random.default_rng(5)
+    points = rng.normal(size=(150, 2)) * np.exp(rng.uniform(-600, 0, (150, 2))) * scale
+    triangulation = PlanarDelaunay(points)
+    for center, corners in zip(triangulation.circumcenters, points[triangulation.simplices], strict=True):
+        assert np.array_equal(center, center_of(corners))
+        assert_right(corners)
