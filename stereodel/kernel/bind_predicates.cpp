@@ -10,6 +10,7 @@
 #include "bind_rows.hpp"
 #include "integer_quotients.hpp"
 #include "plane_predicates.hpp"
+#include "ray_balls.hpp"
 #include "ray_integers.hpp"
 #include "ray_predicates.hpp"
 #include "roots.hpp"
@@ -93,7 +94,9 @@ Signs orient2d(const PlaneArray& a, const PlaneArray& b, const PlaneArray& c, co
         const plane::Estimate e = plane::orient_estimate(p, q, r);
         return by_stage(
             only, [&] { return Gathered<3>(p, q, r).view().orient(0, 1, 2); }, [&] { return decide(e.value, e.bound); },
-            [&] { return plane::orient_double_double(p, q, r); }, [&] { return plane::orient_exact(p, q, r); });
+            [&] { return plane::orient_double_double(p, q, r); }, [&] { return plane::orient_balls(p, q, r); },
+            [&] { return plane::orient_integers(p, q, r); },
+            [&] { return plane::orient_exact(p, q, r); });
     });
 }
 
@@ -106,6 +109,8 @@ Signs incircle(const PlaneArray& a, const PlaneArray& b, const PlaneArray& c, co
         return by_stage(
             only, [&] { return Gathered<4>(p, q, r, s).view().incircle(0, 1, 2, 3); },
             [&] { return decide(e.value, e.bound); }, [&] { return plane::incircle_double_double(p, q, r, s); },
+            [&] { return plane::incircle_balls(p, q, r, s); },
+            [&] { return plane::incircle_integers(p, q, r, s); },
             [&] { return plane::incircle_exact(p, q, r, s); });
     });
 }
@@ -119,6 +124,8 @@ Signs compare_distances(const PlaneArray& q, const PlaneArray& a, const PlaneArr
             only, [&] { return Gathered<2>(p, r).view().compare_distances(query, 0, 1); },
             [&] { return decide(e.value, e.bound); },
             [&] { return plane::distances_double_double(query, p, query, r); },
+            [&] { return plane::distances_balls(query, p, query, r); },
+            [&] { return plane::distances_integers(query, p, query, r); },
             [&] { return plane::distances_exact(query, p, query, r); });
     });
 }
@@ -162,6 +169,8 @@ Signs bubble_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c,
         return by_stage(
             only, [&] { return bubble(u, v, w, x, plain, tally); }, [&] { return decide(e.value, e.bound); },
             [&] { return plain ? rays::bubble_double_double(u, v, w, x) : rays::bubble_double_double(du, dv, dw, dx); },
+            [&] { return rays::bubble_balls(u, v, w, x); },
+            [&] { return rays::bubble_integers(u, v, w, x); },
             [&] { return rays::bubble_exact(u, v, w, x); });
     });
 }
@@ -198,6 +207,8 @@ Signs turn_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c, s
             only, [&] { return turn(u, v, w, plain, tally); },
             [&] { return plain ? rays::turn_filter(u, v, w) : rays::turn_filter(du, dv, dw); },
             [&] { return plain ? rays::turn_double_double(u, v, w) : rays::turn_double_double(du, dv, dw); },
+            [&] { return rays::turn_balls(u, v, w); },
+            [&] { return rays::turn_integers(u, v, w); },
             [&] { return rays::turn_exact(u, v, w); });
     });
 }
@@ -227,6 +238,8 @@ Signs compare_component(const SpaceArray& a, const SpaceArray& b, int axis, std:
             only, [&] { return rays::compare_component(u, v, axis, plain); },
             [&] { return plain ? rays::compare_component_filter(u, v, axis) : OPEN; },
             [&] { return rays::compare_component_double_double(u, v, axis); },
+            [&] { return rays::compare_component_balls(u, v, axis); },
+            [&] { return rays::compare_component_integers(u, v, axis); },
             [&] { return rays::compare_component_exact(u, v, axis); });
     });
 }
@@ -241,6 +254,8 @@ Signs compare_angles(const SpaceArray& q, const SpaceArray& a, const SpaceArray&
             only, [&] { return stereodel::compare_angles(u, v, w, tally); },
             [&] { return rays::compare_angles_filter(du, dv, dw); },
             [&] { return rays::compare_angles_double_double(du, dv, dw); },
+            [&] { return rays::compare_angles_balls(u, v, w); },
+            [&] { return rays::compare_angles_integers(u, v, w); },
             [&] { return rays::compare_angles_exact(u, v, w); });
     });
 }

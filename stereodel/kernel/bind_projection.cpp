@@ -41,6 +41,8 @@ Signs compare_projected_rows(const SpaceArray& p, const SpaceArray& q, int axis,
             only, [&] { return compare_projected(a, b, pole, coordinate); },
             [&] { return compare_projected_filter(a, b, pole, coordinate); },
             [&] { return compare_projected_double_double(a, b, pole, coordinate); },
+            [&] { return compare_projected_balls(a, b, pole, coordinate); },
+            [&] { return compare_projected_integers(a, b, pole, coordinate); },
             [&] { return compare_projected_exact(a, b, pole, coordinate); });
     });
 }
@@ -55,6 +57,8 @@ Signs compare_to_line_rows(const SpaceArray& p, int axis, int sign, int coordina
             only, [&] { return compare_to_line(a, pole, coordinate, h, l); },
             [&] { return compare_to_line_filter(a, pole, coordinate, h, l); },
             [&] { return compare_to_line_double_double(a, pole, coordinate, h, l); },
+            [&] { return compare_to_line_balls(a, pole, coordinate, h, l); },
+            [&] { return compare_to_line_integers(a, pole, coordinate, h, l); },
             [&] { return compare_to_line_exact(a, pole, coordinate, h, l); });
     });
 }

@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "error_counts.hpp"
-#include "ray_integers.hpp"
-#include "roots.hpp"
 
 namespace stereodel::rays {
 
@@ -79,21 +77,6 @@ Sign diametral_double_double(const Direction& a, const Direction& b, const Direc
     const DoubleDouble la = length(a), lb = length(b), lp = length(p);
     const DoubleDouble value = la * lb * lp + dot(a, b) * lp - dot(p, a) * lb - dot(p, b) * la;
     return decide(value.hi, 200 * UNIT_ROUNDOFF * UNIT_ROUNDOFF);
-}
-
-int compare_lengths_exact(const double* p, const double* a, const double* q, const double* b) {
-    const IntegerRay rp(p), ra(a), rq(q), rb(b);
-    const std::array<RootTerm, 2> terms = {RootTerm{dot_form(rq.v, rb.v), rp.squared() * ra.squared()},
-                                           RootTerm{-dot_form(rp.v, ra.v), rq.squared() * rb.squared()}};
-    return sign_of_roots(terms.data(), 2);
-}
-
-int diametral_exact(const double* a, const double* b, const double* p) {
-    const IntegerRay ra(a), rb(b), rp(p);
-    const BigInteger aa = ra.squared(), bb = rb.squared(), pp = rp.squared();
-    const std::array<RootTerm, 4> terms = {RootTerm{BigInteger(1), aa * bb * pp}, RootTerm{dot_form(ra.v, rb.v), pp},
-                                           RootTerm{-dot_form(rp.v, ra.v), bb}, RootTerm{-dot_form(rp.v, rb.v), aa}};
-    return sign_of_roots(terms.data(), 4);
 }
 
 }  // namespace stereodel::rays

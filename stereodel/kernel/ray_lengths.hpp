@@ -41,7 +41,4 @@ Sign diametral_filter(const double* a, const double* b, const double* p);
 Sign diametral_filter(const Direction& a, const Direction& b, const Direction& p);
 Sign diametral_double_double(const Direction& a, const Direction& b, const Direction& p);
 
-int compare_lengths_exact(const double* p, const double* a, const double* q, const double* b);
-int diametral_exact(const double* a, const double* b, const double* p);
-
 }  // namespace stereodel::rays

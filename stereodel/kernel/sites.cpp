@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "double_double.hpp"
+#include "ray_integers.hpp"
 
 namespace stereodel {
 

@@ -10,6 +10,7 @@ from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import bubble_ray, compare_component, compare_directions, ray, turn_ray
 
 OPEN = 2
+STAGES = ["filter", "double_double", "balls", "integers", "exact", "all"]
 SPREADS = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13, 1e-14, 1e-15]
 SMALL = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
 
@@ -43,11 +44,11 @@ def check(name, vectors, unit=None):
     rays = [[ray(v) for v in array.tolist()] for array in vectors]
     truth = np.array([oracle(*row) for row in zip(*rays, strict=True)])
     shares = {}
-    for stage in ("filter", "double_double", "exact", "all"):
+    for stage in STAGES:
         signs = predicate(*vectors, unit=unit, stage=stage)
         assert ((signs == truth) | (signs == OPEN)).all(), stage
         shares[stage] = (signs == OPEN).mean()
-    assert shares["exact"] == shares["all"] == 0
+    assert shares["integers"] == shares["exact"] == shares["all"] == 0
     return shares, truth
 
 

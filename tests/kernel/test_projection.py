@@ -14,6 +14,7 @@ from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import ray
 
 OPEN = 2
+STAGES = ["filter", "double_double", "balls", "integers", "exact", "all"]
 POLES = list(itertools.product(range(3), (-1, 1)))
 EVERY_POLE = pytest.mark.parametrize(("axis", "sign"), POLES)
 SMALL = st.tuples(*[st.integers(-4, 4)] * 3).filter(any)
@@ -113,11 +114,11 @@ def check_line(p, axis, sign, coordinate, hi, lo):
 def compare(truth, signs_of):
     """No stage is ever wrong, the last never open. The share that each leaves open."""
     shares = {}
-    for stage in ("filter", "double_double", "exact", "all"):
+    for stage in STAGES:
         signs = signs_of(stage)
         assert ((signs == truth) | (signs == OPEN)).all(), stage
         shares[stage] = (signs == OPEN).mean()
-    assert shares["exact"] == shares["all"] == 0
+    assert shares["integers"] == shares["exact"] == shares["all"] == 0
     return shares
 
 
