@@ -1,7 +1,9 @@
 #include "plane_stages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <utility>
 
 #include "big_integer.hpp"
 #include "pair_arithmetic.hpp"
@@ -51,18 +53,91 @@ IntegerPoint integer_edge(const double* from, const double* to, int exponent) {
 
 }  // namespace
 
-Sign orient_double_double(const double* a, const double* b, const double* c) {
+namespace {
+
+// Points multiplied by a power of two, so that the largest coordinate has a size near one. That is exact but for
+// numbers below 2^-1000 of it, which lose 2^-1074: FLOOR covers that as it does the underflow of products.
+template <std::size_t COUNT>
+struct Scaled {
+    double xy[COUNT][2];
+
+    explicit Scaled(const std::array<const double*, COUNT>& points) {
+        double largest = 0.0;
+        for (const double* p : points) {
+            largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1])});
+        }
+        int exponent = 0;
+        std::frexp(largest, &exponent);
+        const int half = -exponent / 2;  // 2^1074 is no double
+        const double first = std::ldexp(1.0, half), second = std::ldexp(1.0, -exponent - half);
+        for (std::size_t k = 0; k < COUNT; ++k) {
+            xy[k][0] = points[k][0] * first * second;
+            xy[k][1] = points[k][1] * first * second;
+        }
+    }
+};
+
+// Whether FLOOR is nothing beside the bounds, and nothing overflowed.
+bool in_range(double permanent) {
+    return permanent > 0x1p-800 && permanent < HUGE_VAL;
+}
+
+// What the pairs say about the points, or the first stage and the pairs about the scaled ones.
+template <class EstimateOf, class InPairs, std::size_t... K, std::size_t COUNT = sizeof...(K)>
+Sign in_pairs_or_scaled(const EstimateOf& estimate, const InPairs& in_pairs, std::index_sequence<K...>,
+                        const std::array<const double*, COUNT>& points) {
+    const Estimate plain = estimate(points[K]...);
+    if (in_range(plain.permanent)) {
+        return in_pairs(plain.permanent, points[K]...);
+    }
+    const Scaled<COUNT> scaled(points);
+    const Estimate again = estimate(scaled.xy[K]...);
+    const Sign sign = decide(again.value, again.bound);
+    return sign != OPEN ? sign : in_pairs(again.permanent, scaled.xy[K]...);
+}
+
+Sign orient_in_pairs(double permanent, const double* a, const double* b, const double* c) {
     const Edge ab(a, b), ac(a, c);
-    const double permanent = orient_estimate(a, b, c).permanent;
     return decide_pair(cross_form(ab.x, ab.y, ac.x, ac.y), ORIENT_ERROR * U2 * permanent + FLOOR);
 }
 
-Sign incircle_double_double(const double* a, const double* b, const double* c, const double* d) {
+Sign incircle_in_pairs(double, const double* a, const double* b, const double* c, const double* d) {
     const Edge da(d, a), db(d, b), dc(d, c);
     const double aa = square_form(da.x.h, da.y.h), bb = square_form(db.x.h, db.y.h), cc = square_form(dc.x.h, dc.y.h);
     const double permanent = aa * (bb + cc) + bb * cc;
     return decide_pair(incircle_form(da.x, da.y, db.x, db.y, dc.x, dc.y),
                        INCIRCLE_ERROR * U2 * permanent + FLOOR * (aa + (bb + cc) + 1));
+}
+
+Sign diametral_in_pairs(double permanent, const double* a, const double* b, const double* p) {
+    const Edge pa(p, a), pb(p, b);
+    return decide_pair(dot_form(pa.x, pa.y, pb.x, pb.y), ORIENT_ERROR * U2 * permanent + FLOOR);
+}
+
+Sign distances_in_pairs(double permanent, const double* p, const double* a, const double* q, const double* b) {
+    const Edge pa(p, a), qb(q, b);
+    return decide_pair(square_form(pa.x, pa.y) - square_form(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
+}
+
+using Three = std::make_index_sequence<3>;
+using Four = std::make_index_sequence<4>;
+
+}  // namespace
+
+Sign orient_double_double(const double* a, const double* b, const double* c) {
+    return in_pairs_or_scaled(orient_estimate, orient_in_pairs, Three{}, {a, b, c});
+}
+
+Sign incircle_double_double(const double* a, const double* b, const double* c, const double* d) {
+    return in_pairs_or_scaled(incircle_estimate, incircle_in_pairs, Four{}, {a, b, c, d});
+}
+
+Sign diametral_double_double(const double* a, const double* b, const double* p) {
+    return in_pairs_or_scaled(diametral_estimate, diametral_in_pairs, Three{}, {a, b, p});
+}
+
+Sign distances_double_double(const double* p, const double* a, const double* q, const double* b) {
+    return in_pairs_or_scaled(distance_estimate, distances_in_pairs, Four{}, {p, a, q, b});
 }
 
 // The stage before found |value| at most its own bound, so the true value is at most twice that. In units of the grid
@@ -83,18 +158,6 @@ Sign incircle_last_digits(const double* a, const double* b, const double* c, con
         return WrappingInteger(units(p[k]) - units(d[k]));
     };
     return incircle_form(edge(a, 0), edge(a, 1), edge(b, 0), edge(b, 1), edge(c, 0), edge(c, 1)).sign();
-}
-
-Sign diametral_double_double(const double* a, const double* b, const double* p) {
-    const Edge pa(p, a), pb(p, b);
-    const double permanent = diametral_estimate(a, b, p).permanent;
-    return decide_pair(dot_form(pa.x, pa.y, pb.x, pb.y), ORIENT_ERROR * U2 * permanent + FLOOR);
-}
-
-Sign distances_double_double(const double* p, const double* a, const double* q, const double* b) {
-    const Edge pa(p, a), qb(q, b);
-    const double permanent = distance_estimate(p, a, q, b).permanent;
-    return decide_pair(square_form(pa.x, pa.y) - square_form(qb.x, qb.y), DISTANCE_ERROR * U2 * permanent + FLOOR);
 }
 
 int orient_integers(const double* a, const double* b, const double* c) {

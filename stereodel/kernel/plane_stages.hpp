@@ -74,7 +74,8 @@ inline Estimate distance_estimate(const double* p, const double* a, const double
     return {aa - bb, DISTANCE_ROUNDING * UNIT_ROUNDOFF * (aa + bb) + FLOOR, aa + bb};
 }
 
-// About twice the precision.
+// About twice the precision. Where products leave the range of doubles, the first stage and this one are asked about
+// the points multiplied by a power of two.
 Sign orient_double_double(const double* a, const double* b, const double* c);
 Sign incircle_double_double(const double* a, const double* b, const double* c, const double* d);
 // For coordinates that are multiples of 1/`per_unit`, a power of two, and signs that the stage before left open: so the
