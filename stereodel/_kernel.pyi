@@ -94,6 +94,7 @@ def proximity_plane(
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     graph: str,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
     """
     Edges of the graph "gabriel", "urquhart" or "relative" of a triangulation, sorted.
@@ -105,6 +106,7 @@ def proximity_sphere(
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     graph: str,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
     """The same for directions."""
 
@@ -156,6 +158,7 @@ def natural_neighbors_plane(
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     gradients: bool = False,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None), order="C")]:
     """
     Sibson's interpolant of values (n, k) at the queries, (m, 1, k), or its gradients, (m, 2, k).
@@ -175,6 +178,7 @@ def natural_neighbors_sphere(
     | None = None,
     gradients: bool = False,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None), order="C")]:
     """
     The same for directions, which come as unit vectors in double-double too: units + rests.
@@ -186,8 +190,11 @@ def find_simplex_plane(
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
-    """The lowest triangle that holds each query, -1 outside."""
+    """
+    The lowest triangle that holds each query, -1 outside. checked: the arrays are the kernel's own, unchanged.
+    """
 
 def find_simplex_sphere(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
@@ -197,6 +204,7 @@ def find_simplex_sphere(
     closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
     | None = None,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """
     The same for directions; `closing` tells the triangles that hold none (none if not given).
@@ -208,6 +216,7 @@ def nearest_plane(
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """
     The nearest point of each query, the lowest of several. There must be simplices.
@@ -221,6 +230,7 @@ def nearest_sphere(
     closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
     | None = None,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """The same for directions."""
 
@@ -232,6 +242,7 @@ def k_nearest_plane(
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     k: int,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """
     The k nearest points of each query, duplicates among them, by distance, equally near ones by number.
@@ -247,6 +258,7 @@ def k_nearest_sphere(
     closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
     | None = None,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """The same for directions."""
 
@@ -296,6 +308,7 @@ class PlaneMesh:
         neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
         duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
         | None = None,
+        checked: bool = False,
     ) -> None:
         """
         The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.
@@ -352,6 +365,7 @@ class SphereMesh:
         neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
         duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
         | None = None,
+        checked: bool = False,
     ) -> None:
         """
         The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.
@@ -567,6 +581,7 @@ def voronoi_plane(
     simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> tuple:
     """
     Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of each triangle; if triangles share vertices, its rank there, rows of three sites and the vertex of each row.
@@ -577,6 +592,7 @@ def voronoi_sphere(
     simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> tuple:
     """The same for directions."""
 

@@ -25,7 +25,7 @@ def proximity_edges(triangulation: Triangulation, kind: Kind, workers: int | Non
         return _flat_edges(triangulation, kind)
     function = _kernel.proximity_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.proximity_sphere
     arrays = triangulation.points, triangulation.simplices, triangulation.neighbors
-    return function(*arrays, kind, threads)
+    return function(*arrays, kind, threads, True)
 
 
 def different_points(triangulation: Triangulation) -> Indices:

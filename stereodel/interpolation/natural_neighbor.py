@@ -82,7 +82,9 @@ class NaturalNeighborInterpolator(Interpolator):
         mesh = triangulation.simplices, triangulation.neighbors
         crew = triangulation._thread_count(workers, len(queries))
         if not isinstance(triangulation, SphericalDelaunay):
-            return _kernel.natural_neighbors_plane(triangulation.points, *mesh, self._values, queries, gradients, crew)
+            return _kernel.natural_neighbors_plane(
+                triangulation.points, *mesh, self._values, queries, gradients, crew, True
+            )
         sites, asked = self._sites.exact, Places(queries).exact
         return _kernel.natural_neighbors_sphere(
             triangulation.points,
@@ -96,4 +98,5 @@ class NaturalNeighborInterpolator(Interpolator):
             triangulation.closing,
             gradients,
             crew,
+            True,
         )

@@ -19,10 +19,14 @@ SplitRotation split(const Matrix& matrix) {
     if (matrix.shape(0) != 6) {
         throw std::invalid_argument("a rotation is given by six rows");
     }
+    check_finite("rotation", matrix.data(), 6, 3);
     return {matrix.data(), matrix.data() + 9};
 }
 
 MoebiusParts to_parts(const Matrix& left, double magnification, const Matrix& right) {
+    if (!(magnification >= 0x1p-333 && magnification <= 0x1p333)) {  // 1e-100 to 1e100, and a little room
+        throw std::invalid_argument("magnification must be from 1e-100 to 1e100");
+    }
     return {split(left), magnification, split(right)};
 }
 

@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "bind_support.hpp"
@@ -27,6 +28,7 @@ nb::tuple to_python(Triangulation&& result, bool with_neighbors, bool on_sphere)
 nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
     const std::size_t size = points.shape(0);
     Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
+        check_points("points", points);
         return triangulate_plane(points.data(), size, neighbors, workers, stop);
     });
     return to_python(std::move(result), neighbors, false);
@@ -34,7 +36,11 @@ nb::tuple plane(RowsIn<double, 2> points, int workers, bool neighbors) {
 
 nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis, int sign) {
     const std::size_t size = points.shape(0);
+    if (axis < 0 || axis > 2 || (sign != 1 && sign != -1)) {
+        throw std::invalid_argument("axis must be 0, 1 or 2, sign -1 or 1");
+    }
     Triangulation result = run_without_lock(size > long_work, [&](Stop stop) {
+        check_points("points", points);
         return triangulate_sphere(points.data(), size, neighbors, workers, Pole{axis, sign}, stop);
     });
     return to_python(std::move(result), neighbors, true);
@@ -43,6 +49,8 @@ nb::tuple sphere(RowsIn<double, 3> points, int workers, bool neighbors, int axis
 ValuesOut<bool> closing_rows(RowsIn<double, 3> points, RowsIn<Index, 3> simplices) {
     const std::size_t count = simplices.shape(0);
     return to_values(filled<bool>(count, count > long_work, [&](bool* closing, Stop stop) {
+        check_points("points", points);
+        check_indices("simplices", simplices.data(), count, points.shape(0), 3);
         closing_facets(points.data(), points.shape(0), simplices.data(), count, closing, stop);
     }));
 }

@@ -32,8 +32,8 @@ Proximity graph_of(const std::string& name) {
 
 template <std::size_t Width>
 RowsOut<Index, 2> proximity(RowsIn<double, Width> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                            const std::string& name, int workers) {
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
+                            const std::string& name, int workers, bool checked) {
+    const TriangleArrays triangles = to_triangles(points, simplices, neighbors, {}, checked);
     const Proximity graph = graph_of(name);
     return to_rows(run_without_lock(triangles.count() > long_work, [&](Stop stop) {
         return (Width == 2 ? proximity_plane : proximity_sphere)(triangles, points.shape(0), graph, workers, stop);
@@ -43,6 +43,7 @@ RowsOut<Index, 2> proximity(RowsIn<double, Width> points, RowsIn<Index, 3> simpl
 template <std::size_t Width>
 RowsOut<Index, 2> spanning_tree(RowsIn<double, Width> points, const Numbers& edges) {
     const std::size_t size = points.shape(0), count = edges.shape(0);
+    check_points("points", points);
     check_numbers(edges, 2, size);
     Pairs pairs;
     for (std::size_t k = 0; k < count; ++k) {
@@ -57,6 +58,7 @@ RowsOut<Index, 2> spanning_tree(RowsIn<double, Width> points, const Numbers& edg
 template <class Sites, std::size_t Width>
 Signs compare_lengths(RowsIn<double, Width> points, const Numbers& numbers) {
     check_numbers(numbers, 4, points.shape(0));
+    check_points("points", points);
     const Sites sites(points.data(), points.shape(0));
     return over_rows(numbers.shape(0), [&](std::size_t k) {
         const Index* n = numbers.data() + 4 * k;
@@ -67,6 +69,7 @@ Signs compare_lengths(RowsIn<double, Width> points, const Numbers& numbers) {
 template <class Sites, std::size_t Width>
 Signs diametral(RowsIn<double, Width> points, const Numbers& numbers) {
     check_numbers(numbers, 3, points.shape(0));
+    check_points("points", points);
     const Sites sites(points.data(), points.shape(0));
     return over_rows(numbers.shape(0), [&](std::size_t k) {
         const Index* n = numbers.data() + 3 * k;
@@ -77,9 +80,11 @@ Signs diametral(RowsIn<double, Width> points, const Numbers& numbers) {
 }  // namespace
 
 void bind_graphs(nb::module_& module) {
-    module.def("proximity_plane", proximity<2>, "points"_a, "simplices"_a, "neighbors"_a, "graph"_a, "workers"_a = 1,
+    module.def("proximity_plane", proximity<2>, "points"_a, "simplices"_a, "neighbors"_a, "graph"_a,
+               "workers"_a = 1, "checked"_a = false,
                "Edges of the graph \"gabriel\", \"urquhart\" or \"relative\" of a triangulation, sorted.");
-    module.def("proximity_sphere", proximity<3>, "points"_a, "simplices"_a, "neighbors"_a, "graph"_a, "workers"_a = 1,
+    module.def("proximity_sphere", proximity<3>, "points"_a, "simplices"_a, "neighbors"_a, "graph"_a,
+               "workers"_a = 1, "checked"_a = false,
                "The same for directions.");
     module.def("spanning_tree_plane", spanning_tree<2>, "points"_a, "edges"_a,
                "The shortest forest among the edges, equally long ones in the order of their ends; sorted.");

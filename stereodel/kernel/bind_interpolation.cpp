@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 
 #include "bind_triangles.hpp"
@@ -18,12 +17,6 @@ constexpr std::size_t long_work = 4000;  // queries: some milliseconds
 
 using Table = nb::ndarray<const double, nb::numpy, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Vectors = nb::ndarray<nb::numpy, double, nb::ndim<3>, nb::c_contig>;
-
-void check_lengths(bool same) {
-    if (!same) {
-        throw std::invalid_argument("points, values and queries must have rows that belong together");
-    }
-}
 
 // Values at the queries, (count, 1, width), or gradients, (count, dimension, width).
 template <class Work>
@@ -44,9 +37,10 @@ Vectors answers(const NaturalNeighborTask& task, std::size_t dimension, bool gra
 }
 
 Vectors in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values,
-                    RowsIn<double, 2> queries, bool gradients, int workers) {
-    check_lengths(values.shape(0) == points.shape(0));
-    const NaturalNeighborTask task{to_triangles(points.data(), simplices, neighbors, {}),
+                    RowsIn<double, 2> queries, bool gradients, int workers, bool checked) {
+    check_same_length("points", points.shape(0), "values", values.shape(0));
+    check_points("queries", queries);
+    const NaturalNeighborTask task{to_triangles(points, simplices, neighbors, {}, checked),
                                    nullptr,
                                    nullptr,
                                    queries.data(),
@@ -65,11 +59,21 @@ Vectors in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<In
 Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
                      RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values, RowsIn<double, 3> queries,
                      RowsIn<double, 3> query_units, RowsIn<double, 3> query_rests, std::optional<Closing> closing,
-                     bool gradients, int workers) {
+                     bool gradients, int workers, bool checked) {
     const std::size_t size = points.shape(0), count = queries.shape(0);
-    check_lengths(values.shape(0) == size && units.shape(0) == size && rests.shape(0) == size &&
-                  query_units.shape(0) == count && query_rests.shape(0) == count);
-    const NaturalNeighborTask task{to_triangles(points.data(), simplices, neighbors, closing),
+    check_same_length("points", size, "values", values.shape(0));
+    check_same_length("points", size, "units", units.shape(0));
+    check_same_length("points", size, "rests", rests.shape(0));
+    check_same_length("queries", count, "query_units", query_units.shape(0));
+    check_same_length("queries", count, "query_rests", query_rests.shape(0));
+    check_points("queries", queries);
+    check_points("query_units", query_units);
+    check_finite("query_rests", query_rests.data(), count, 3);
+    if (!checked) {
+        check_points("units", units);
+        check_finite("rests", rests.data(), size, 3);
+    }
+    const NaturalNeighborTask task{to_triangles(points, simplices, neighbors, closing, checked),
                                    units.data(),
                                    rests.data(),
                                    queries.data(),
@@ -89,11 +93,11 @@ Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<doub
 
 void bind_interpolation(nb::module_& module) {
     module.def("natural_neighbors_plane", in_plane, "points"_a, "simplices"_a, "neighbors"_a, "values"_a, "queries"_a,
-               "gradients"_a = false, "workers"_a = 1,
+               "gradients"_a = false, "workers"_a = 1, "checked"_a = false,
                "Sibson's interpolant of values (n, k) at the queries, (m, 1, k), or its gradients, (m, 2, k).");
     module.def("natural_neighbors_sphere", on_sphere, "points"_a, "units"_a, "rests"_a, "simplices"_a, "neighbors"_a,
                "values"_a, "queries"_a, "query_units"_a, "query_rests"_a, "closing"_a = nb::none(),
-               "gradients"_a = false, "workers"_a = 1,
+               "gradients"_a = false, "workers"_a = 1, "checked"_a = false,
                "The same for directions, which come as unit vectors in double-double too: units + rests.");
 }
 

@@ -30,8 +30,9 @@ ValuesOut<Index> answers(std::size_t count, bool is_long, Work&& work) {
 }
 
 ValuesOut<Index> find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                            RowsIn<double, 2> queries, int workers) {
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
+                            RowsIn<double, 2> queries, int workers, bool checked) {
+    const TriangleArrays triangles = to_triangles(points, simplices, neighbors, {}, checked);
+    check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
         find_simplex_plane(triangles, queries.data(), count, found, workers, stop);
@@ -39,8 +40,10 @@ ValuesOut<Index> find_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices
 }
 
 ValuesOut<Index> find_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                             RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
+                             RowsIn<double, 3> queries, std::optional<Closing> closing, int workers,
+                             bool checked) {
+    const TriangleArrays triangles = to_triangles(points, simplices, neighbors, closing, checked);
+    check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
         find_simplex_sphere(triangles, queries.data(), count, found, workers, stop);
@@ -56,8 +59,9 @@ TriangleArrays with_triangles(const TriangleArrays& triangles) {
 }
 
 ValuesOut<Index> nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                                  RowsIn<double, 2> queries, int workers) {
-    const TriangleArrays triangles = with_triangles(to_triangles(points.data(), simplices, neighbors, {}));
+                                  RowsIn<double, 2> queries, int workers, bool checked) {
+    const TriangleArrays triangles = with_triangles(to_triangles(points, simplices, neighbors, {}, checked));
+    check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
         nearest_plane(triangles, queries.data(), count, found, workers, stop);
@@ -65,8 +69,10 @@ ValuesOut<Index> nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> sim
 }
 
 ValuesOut<Index> nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                                   RowsIn<double, 3> queries, std::optional<Closing> closing, int workers) {
-    const TriangleArrays triangles = with_triangles(to_triangles(points.data(), simplices, neighbors, closing));
+                                   RowsIn<double, 3> queries, std::optional<Closing> closing, int workers,
+                                   bool checked) {
+    const TriangleArrays triangles = with_triangles(to_triangles(points, simplices, neighbors, closing, checked));
+    check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     return answers(count, count > long_work, [&](Index* found, Stop stop) {
         nearest_sphere(triangles, queries.data(), count, found, workers, stop);
@@ -87,6 +93,7 @@ template <class Points, class Work>
 RowsOfAnyWidth k_nearest(const TriangleArrays& triangles, const Points& points, const RowsIn<Index, 2>& duplicates,
                          const Points& queries, std::size_t k, Work&& work) {
     with_triangles(triangles);
+    check_points("queries", queries);
     const std::size_t count = queries.shape(0);
     const Pairs pairs = to_pairs(duplicates, points.shape(0));
     return rows_of(k, points.shape(0), count, [&](Index* found, Stop stop) {
@@ -95,16 +102,17 @@ RowsOfAnyWidth k_nearest(const TriangleArrays& triangles, const Points& points, 
 }
 
 RowsOfAnyWidth k_nearest_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                                  RowsIn<Index, 2> duplicates, RowsIn<double, 2> queries, std::size_t k, int workers) {
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, {});
+                                  RowsIn<Index, 2> duplicates, RowsIn<double, 2> queries, std::size_t k, int workers,
+                                  bool checked) {
+    const TriangleArrays triangles = to_triangles(points, simplices, neighbors, {}, checked);
     return k_nearest(triangles, points, duplicates, queries, k,
                      [&](const KNearestTask& task, Stop stop) { k_nearest_plane(task, workers, stop); });
 }
 
 RowsOfAnyWidth k_nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
                                    RowsIn<Index, 2> duplicates, RowsIn<double, 3> queries, std::size_t k,
-                                   std::optional<Closing> closing, int workers) {
-    const TriangleArrays triangles = to_triangles(points.data(), simplices, neighbors, closing);
+                                   std::optional<Closing> closing, int workers, bool checked) {
+    const TriangleArrays triangles = to_triangles(points, simplices, neighbors, closing, checked);
     return k_nearest(triangles, points, duplicates, queries, k,
                      [&](const KNearestTask& task, Stop stop) { k_nearest_sphere(task, workers, stop); });
 }
@@ -112,6 +120,7 @@ RowsOfAnyWidth k_nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> si
 // `order(points, size, duplicates, stop)`: the different points in order.
 template <class Points, class Order>
 ValuesOut<Index> flat_order(const Points& points, const RowsIn<Index, 2>& duplicates, Order&& order) {
+    check_points("points", points);
     const std::size_t size = points.shape(0);
     const Pairs pairs = to_pairs(duplicates, size);
     return to_values(run_without_lock(size > long_work, [&](Stop stop) {
@@ -132,13 +141,16 @@ ValuesOut<Index> order_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 2> dupl
 
 template <class Points, class Work>
 RowsOfAnyWidth nearest_flat(const Points& points, const ValuesIn<Index>& order, const RowsIn<Index, 2>& duplicates,
-                            const Points& queries, std::size_t k, Work&& work) {
+                            const Points& queries, std::size_t k, bool checked, Work&& work) {
     const std::size_t size = points.shape(0), count = queries.shape(0);
-    const Index* const end = order.data() + order.shape(0);
-    const auto exists = [size](Index p) { return p >= 0 && static_cast<std::size_t>(p) < size; };
-    if (order.shape(0) == 0 || !std::all_of(order.data(), end, exists)) {
-        throw std::invalid_argument("order must hold numbers of points");
+    if (order.shape(0) == 0) {
+        throw std::invalid_argument("order must hold a point");
     }
+    if (!checked) {
+        check_points("points", points);
+        check_indices("order", order.data(), order.shape(0), size);
+    }
+    check_points("queries", queries);
     const Pairs pairs = to_pairs(duplicates, size);
     return rows_of(k, size, count, [&](Index* found, Stop stop) {
         work(NearestFlatTask{points.data(), order.data(), order.shape(0), pairs, queries.data(), count, k, found},
@@ -147,43 +159,46 @@ RowsOfAnyWidth nearest_flat(const Points& points, const ValuesIn<Index>& order, 
 }
 
 RowsOfAnyWidth nearest_on_line(RowsIn<double, 2> points, ValuesIn<Index> order, RowsIn<Index, 2> duplicates,
-                               RowsIn<double, 2> queries, std::size_t k, int workers) {
-    return nearest_flat(points, order, duplicates, queries, k,
+                               RowsIn<double, 2> queries, std::size_t k, int workers, bool checked) {
+    return nearest_flat(points, order, duplicates, queries, k, checked,
                         [&](const NearestFlatTask& task, Stop stop) { nearest_flat_plane(task, workers, stop); });
 }
 
 RowsOfAnyWidth nearest_on_circle(RowsIn<double, 3> points, ValuesIn<Index> order, RowsIn<Index, 2> duplicates,
-                                 RowsIn<double, 3> queries, std::size_t k, int workers) {
-    return nearest_flat(points, order, duplicates, queries, k,
+                                 RowsIn<double, 3> queries, std::size_t k, int workers, bool checked) {
+    return nearest_flat(points, order, duplicates, queries, k, checked,
                         [&](const NearestFlatTask& task, Stop stop) { nearest_flat_sphere(task, workers, stop); });
 }
 
 }  // namespace
 
 void bind_location(nb::module_& module) {
-    module.def("find_simplex_plane", find_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a, "workers"_a = 1,
-               "The lowest triangle that holds each query, -1 outside.");
+    module.def("find_simplex_plane", find_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
+               "workers"_a = 1, "checked"_a = false,
+               "The lowest triangle that holds each query, -1 outside. checked: the arrays are the kernel's own, unchanged.");
     module.def("find_simplex_sphere", find_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
-               "closing"_a = nb::none(), "workers"_a = 1,
+               "closing"_a = nb::none(), "workers"_a = 1, "checked"_a = false,
                "The same for directions; `closing` tells the triangles that hold none (none if not given).");
     module.def("nearest_plane", nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
-               "workers"_a = 1,
+               "workers"_a = 1, "checked"_a = false,
                "The nearest point of each query, the lowest of several. There must be simplices.");
     module.def("nearest_sphere", nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
-               "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");
+               "closing"_a = nb::none(), "workers"_a = 1, "checked"_a = false, "The same for directions.");
     module.def("k_nearest_plane", k_nearest_in_plane, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
-               "queries"_a, "k"_a, "workers"_a = 1,
+               "queries"_a, "k"_a, "workers"_a = 1, "checked"_a = false,
                "The k nearest points of each query, duplicates among them, by distance, equally near ones by number.");
     module.def("k_nearest_sphere", k_nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
-               "queries"_a, "k"_a, "closing"_a = nb::none(), "workers"_a = 1, "The same for directions.");
+               "queries"_a, "k"_a, "closing"_a = nb::none(), "workers"_a = 1, "checked"_a = false,
+               "The same for directions.");
     module.def("flat_order_plane", order_in_plane, "points"_a, "duplicates"_a,
                "The different points of one line, in order.");
     module.def("flat_order_sphere", order_on_sphere, "points"_a, "duplicates"_a,
                "The different directions of one great circle, in order around it.");
     module.def("nearest_flat_plane", nearest_on_line, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
-               "workers"_a = 1, "The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.");
+               "workers"_a = 1, "checked"_a = false,
+               "The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.");
     module.def("nearest_flat_sphere", nearest_on_circle, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
-               "workers"_a = 1, "The same for directions of one great circle.");
+               "workers"_a = 1, "checked"_a = false, "The same for directions of one great circle.");
 }
 
 }  // namespace stereodel

@@ -28,11 +28,12 @@ class BoundMesh {
     using Points = RowsIn<double, DynamicDelaunay<Surface>::dimension>;
 
     BoundMesh(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-              const std::optional<RowsIn<Index, 2>>& duplicates)
-        : delaunay_(make(points, simplices, neighbors, duplicates)) {}
+              const std::optional<RowsIn<Index, 2>>& duplicates, bool checked)
+        : delaunay_(make(points, simplices, neighbors, duplicates, checked)) {}
 
     RowsOut<Index, 2> insert(Points points) {
         const std::size_t count = points.shape(0);
+        check_points("points", points);
         const Pairs added = change(count > long_changes, [&](Stop stop) {
             const std::size_t old = delaunay_.duplicates().size();
             delaunay_.insert(points.data(), count, stop);
@@ -45,11 +46,7 @@ class BoundMesh {
     ValuesOut<Index> remove(ValuesIn<Index> indices) {
         const std::size_t count = indices.shape(0);
         Buffer<Index> number = change(count > long_changes || size() > long_copies, [&](Stop stop) {
-            for (std::size_t k = 0; k < count; ++k) {
-                if (indices.data()[k] < 0 || static_cast<std::size_t>(indices.data()[k]) >= delaunay_.size()) {
-                    throw std::invalid_argument("indices: no such point");
-                }
-            }
+            check_indices("indices", indices.data(), count, delaunay_.size());
             return delaunay_.remove(indices.data(), count, stop);
         });
         return to_values(std::move(number));
@@ -85,12 +82,10 @@ class BoundMesh {
 
   private:
     static DynamicDelaunay<Surface> make(Points points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
-                                         const std::optional<RowsIn<Index, 2>>& duplicates) {
-        if (simplices.shape(0) != neighbors.shape(0)) {
-            throw std::invalid_argument("simplices and neighbors must have the same length");
-        }
+                                         const std::optional<RowsIn<Index, 2>>& duplicates, bool checked) {
         Pairs pairs = to_pairs(duplicates, points.shape(0));
         const nb::gil_scoped_release release;
+        check_triangles(points, simplices, neighbors, checked);
         return DynamicDelaunay<Surface>(points.data(), points.shape(0), simplices.data(), neighbors.data(),
                                         simplices.shape(0), std::move(pairs), Stop{});
     }
@@ -145,8 +140,9 @@ template <class Surface>
 void bind(nb::module_& module, const char* name, const char* doc) {
     using Bound = BoundMesh<Surface>;
     nb::class_<Bound>(module, name, doc)
-        .def(nb::init<typename Bound::Points, RowsIn<Index, 3>, RowsIn<Index, 3>, std::optional<RowsIn<Index, 2>>>(),
-             "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a = nb::none(),
+        .def(nb::init<typename Bound::Points, RowsIn<Index, 3>, RowsIn<Index, 3>, std::optional<RowsIn<Index, 2>>,
+                      bool>(),
+             "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a = nb::none(), "checked"_a = false,
              "The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.")
         .def("insert", &Bound::insert, "points"_a,
              "Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.")

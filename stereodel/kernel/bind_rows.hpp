@@ -83,11 +83,7 @@ inline void check_numbers(const Numbers& numbers, std::size_t width, std::size_t
     if (numbers.shape(1) != width) {
         throw std::invalid_argument("numbers: wrong number of columns");
     }
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        if (numbers.data()[k] < 0 || static_cast<std::size_t>(numbers.data()[k]) >= count) {
-            throw std::invalid_argument("numbers: no such point");
-        }
-    }
+    check_indices("numbers", numbers.data(), numbers.shape(0), count, width);
 }
 
 using TallyTuple = std::tuple<std::uint64_t, std::uint64_t, std::uint64_t, std::uint64_t>;

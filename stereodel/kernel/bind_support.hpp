@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "duplicates.hpp"
+#include "input_checks.hpp"
 #include "memory.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
@@ -35,6 +36,30 @@ template <class T>
 using ValuesIn = nb::ndarray<const T, nb::numpy, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 template <class T>
 using ValuesOut = nb::ndarray<nb::numpy, T, nb::shape<-1>, nb::c_contig>;
+
+// Points of the plane, rows of two, or directions, rows of three.
+template <class Rows>
+void check_points(const char* name, const Rows& points) {
+    if (points.shape(1) == 3) {
+        check_directions(name, points.data(), points.shape(0));
+    } else {
+        check_finite(name, points.data(), points.shape(0), points.shape(1));
+    }
+}
+
+// Triangles of points of the plane, or of directions. checked: all are arrays that the kernel gave away and nobody can
+// have changed; many a query takes less time than a look at each of them.
+template <class Rows>
+void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices,
+                     const RowsIn<Index, 3>& neighbors, bool checked) {
+    check_same_length("simplices", simplices.shape(0), "neighbors", neighbors.shape(0));
+    if (checked) {
+        return;
+    }
+    check_points("points", points);
+    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0),
+                    points.shape(1) == 3 ? Border::closed : Border::open);
+}
 
 // An array of NumPy's that owns the memory of a buffer.
 template <class Array, class T>

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <stdexcept>
 
 #include "bind_support.hpp"
 #include "queries.hpp"
@@ -12,13 +11,15 @@ namespace stereodel {
 
 using Closing = ValuesIn<bool>;
 
-inline TriangleArrays to_triangles(const double* points, const RowsIn<Index, 3>& simplices,
-                                   const RowsIn<Index, 3>& neighbors, const std::optional<Closing>& closing) {
+template <class Rows>
+TriangleArrays to_triangles(const Rows& points, const RowsIn<Index, 3>& simplices,
+                            const RowsIn<Index, 3>& neighbors, const std::optional<Closing>& closing, bool checked) {
     const std::size_t count = simplices.shape(0);
-    if (neighbors.shape(0) != count || (closing && closing->shape(0) != count)) {
-        throw std::invalid_argument("simplices, neighbors and closing must have the same length");
+    check_triangles(points, simplices, neighbors, checked);
+    if (closing) {
+        check_same_length("simplices", count, "closing", closing->shape(0));
     }
-    return {points, simplices.data(), neighbors.data(), closing ? closing->data() : nullptr, count};
+    return {points.data(), simplices.data(), neighbors.data(), closing ? closing->data() : nullptr, count};
 }
 
 }  // namespace stereodel

@@ -35,65 +35,55 @@ nb::tuple to_python(Diagram&& diagram) {
 
 template <std::size_t Width, class Make>
 nb::tuple diagram(const RowsIn<double, Width>& points, const RowsIn<Index, 3>& simplices,
-                  const RowsIn<Index, 3>& neighbors, int workers, Make&& make) {
+                  const RowsIn<Index, 3>& neighbors, int workers, bool checked, Make&& make) {
     const std::size_t count = simplices.shape(0);
-    if (neighbors.shape(0) != count) {
-        throw std::invalid_argument("simplices and neighbors must have the same length");
-    }
     return to_python(run_without_lock(count > long_work, [&](Stop stop) {
+        check_triangles(points, simplices, neighbors, checked);
         return make(points.data(), points.shape(0), simplices.data(), neighbors.data(), count, workers, stop);
     }));
 }
 
-nb::tuple of_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers) {
-    return diagram<2>(points, simplices, neighbors, workers, voronoi_plane);
+nb::tuple of_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers,
+                   bool checked) {
+    return diagram<2>(points, simplices, neighbors, workers, checked, voronoi_plane);
 }
 
-nb::tuple of_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers) {
-    return diagram<3>(points, simplices, neighbors, workers, voronoi_sphere);
+nb::tuple of_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, int workers,
+                   bool checked) {
+    return diagram<3>(points, simplices, neighbors, workers, checked, voronoi_sphere);
 }
 
 using Offsets = ValuesIn<std::int64_t>;
 using Entries = ValuesIn<Index>;
 
 Cells to_cells(const Offsets& offsets, const Entries& vertices, const Entries& neighbors, std::size_t vertex_count) {
-    const std::size_t sites = offsets.shape(0) == 0 ? 0 : offsets.shape(0) - 1, entries = vertices.shape(0);
-    bool valid = offsets.shape(0) > 0 && neighbors.shape(0) == entries && offsets.data()[0] == 0 &&
-                 offsets.data()[sites] == static_cast<std::int64_t>(entries);
-    for (std::size_t site = 0; valid && site < sites; ++site) {
-        valid = offsets.data()[site] <= offsets.data()[site + 1];
+    if (offsets.shape(0) == 0) {
+        throw std::invalid_argument("offsets must have an entry more than there are sites");
     }
-    for (std::size_t k = 0; valid && k < entries; ++k) {
-        valid = static_cast<std::uint32_t>(vertices.data()[k]) + 1u <= vertex_count &&
-                static_cast<std::uint32_t>(neighbors.data()[k]) < sites;
-    }
-    if (!valid) {
-        throw std::invalid_argument("the arrays are not those of a Voronoi diagram");
-    }
-    return {offsets.data(), vertices.data(), neighbors.data(), sites, vertex_count};
+    check_same_length("vertices", vertices.shape(0), "neighbors", neighbors.shape(0));
+    const Cells cells{offsets.data(), vertices.data(), neighbors.data(), offsets.shape(0) - 1, vertex_count};
+    check_cells(cells, vertices.shape(0));
+    return cells;
 }
 
-void check_sites(const Cells& cells, std::size_t points) {
-    if (cells.sites != points) {
-        throw std::invalid_argument("points and cells must have the same number");
-    }
+// Of a diagram of these points.
+template <class Rows>
+Cells to_cells(const Rows& points, const Offsets& offsets, const Entries& vertices,
+               const Entries& neighbors, std::size_t vertex_count) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+    check_same_length("points", points.shape(0), "cells", cells.sites);
+    check_points("points", points);
+    return cells;
 }
 
 // With the sites that have entries in an order for areas and centroids, each once.
-Cells to_ordered_cells(const Offsets& offsets, const Entries& vertices, const Entries& neighbors,
-                       std::size_t vertex_count, const ValuesIn<Index>& order, std::size_t points) {
-    Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    check_sites(cells, points);
-    std::vector<bool> taken(cells.sites);
-    for (std::size_t k = 0; k < order.shape(0); ++k) {
-        const auto site = static_cast<std::size_t>(static_cast<std::uint32_t>(order.data()[k]));
-        if (site >= cells.sites || taken[site] || cells.begin(site) == cells.end(site)) {
-            throw std::invalid_argument("order must hold each site with entries once");
-        }
-        taken[site] = true;
-    }
+template <class Rows>
+Cells to_ordered_cells(const Rows& points, const Offsets& offsets, const Entries& vertices,
+                       const Entries& neighbors, std::size_t vertex_count, const ValuesIn<Index>& order) {
+    Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count);
     cells.order = order.data();
     cells.filled = order.shape(0);
+    check_order(cells);
     return cells;
 }
 
@@ -122,16 +112,15 @@ RowsOut<Index, 3> triangulated(const Cells& cells, int workers, TrianglesOf&& tr
 using Ranks = std::optional<ValuesIn<Index>>;
 
 TriangleOrder to_order(const Entries& simplex_vertex, const Ranks& rank) {
-    if (rank && rank->shape(0) != simplex_vertex.shape(0)) {
-        throw std::invalid_argument("simplex_vertex and rank must have the same length");
+    if (rank) {
+        check_same_length("simplex_vertex", simplex_vertex.shape(0), "rank", rank->shape(0));
     }
     return {simplex_vertex.data(), rank ? rank->data() : nullptr, simplex_vertex.shape(0)};
 }
 
 RowsOut<Index, 3> delaunay_of_plane(RowsIn<double, 2> points, Offsets offsets, Entries vertices, Entries neighbors,
                                     std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    check_sites(cells, points.shape(0));
+    const Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count);
     const TriangleOrder order = to_order(simplex_vertex, rank);
     return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
         return triangles_in_plane(points.data(), polygons, order, workers, stop);
@@ -140,8 +129,7 @@ RowsOut<Index, 3> delaunay_of_plane(RowsIn<double, 2> points, Offsets offsets, E
 
 RowsOut<Index, 3> delaunay_of_sphere(RowsIn<double, 3> points, Offsets offsets, Entries vertices, Entries neighbors,
                                      std::size_t vertex_count, Entries simplex_vertex, Ranks rank, int workers) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
-    check_sites(cells, points.shape(0));
+    const Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count);
     const TriangleOrder order = to_order(simplex_vertex, rank);
     return triangulated(cells, workers, [&](const Polygons& polygons, Stop stop) {
         return triangles_on_sphere(points.data(), cells.sites, polygons, order, workers, stop);
@@ -159,7 +147,7 @@ using Integrals = void(const double* points, const Cells& cells, double* results
 template <std::size_t Width, Integrals& areas_of>
 ValuesOut<double> areas(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
                         std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    const Cells cells = to_ordered_cells(points, offsets, vertices, neighbors, vertex_count, order);
     return to_values(for_sites(cells, 1, [&](double* results, Stop stop) {
         areas_of(points.data(), cells, results, workers, stop);
     }));
@@ -168,7 +156,7 @@ ValuesOut<double> areas(RowsIn<double, Width> points, Offsets offsets, Entries v
 template <std::size_t Width, Integrals& centroids_of>
 RowsOut<double, Width> centroids(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
                                  std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(offsets, vertices, neighbors, vertex_count, order, points.shape(0));
+    const Cells cells = to_ordered_cells(points, offsets, vertices, neighbors, vertex_count, order);
     return to_rows<Width>(for_sites(cells, Width, [&](double* results, Stop stop) {
         centroids_of(points.data(), cells, results, workers, stop);
     }));
@@ -176,36 +164,18 @@ RowsOut<double, Width> centroids(RowsIn<double, Width> points, Offsets offsets, 
 
 using Places = std::optional<ValuesIn<Index>>;
 
-// Each place below the number of triangles, and so that no two threads write the same.
-void check_places(const ValuesIn<Index>& place, std::size_t count) {
-    std::vector<bool> taken(count);
-    bool valid = place.shape(0) == count;
-    for (std::size_t k = 0; valid && k < count; ++k) {
-        const auto to = static_cast<std::uint32_t>(place.data()[k]);
-        valid = to < count && !taken[to];
-        if (valid) {
-            taken[to] = true;
-        }
-    }
-    if (!valid) {
-        throw std::invalid_argument("place must be a permutation of the rows of triangles");
-    }
-}
-
-TriangleRows to_rows_of(const RowsIn<Index, 3>& triangles, const Places& place, std::size_t size) {
-    for (std::size_t k = 0; k < triangles.size(); ++k) {
-        if (static_cast<std::uint32_t>(triangles.data()[k]) >= size) {
-            throw std::invalid_argument("triangles: no such point");
-        }
-    }
-    if (place) {
-        check_places(*place, triangles.shape(0));
+template <class Rows>
+TriangleRows to_rows_of(const Rows& points, const RowsIn<Index, 3>& triangles, const Places& place) {
+    check_points("points", points);
+    check_indices("triangles", triangles.data(), triangles.shape(0), points.shape(0), 3);
+    if (place) {  // else two threads might write the same
+        check_permutation("place", place->data(), place->shape(0), triangles.shape(0));
     }
     return {triangles.data(), place ? place->data() : nullptr, triangles.shape(0)};
 }
 
 RowsOut<double, 2> centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers) {
-    const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
+    const TriangleRows rows = to_rows_of(points, triangles, place);
     return to_rows<2>(filled<double>(2 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
         circumcenters_plane(points.data(), rows, out, workers, stop);
     }));
@@ -213,7 +183,7 @@ RowsOut<double, 2> centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> t
 
 RowsOut<double, 3> centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, Places place,
                                      int workers) {
-    const TriangleRows rows = to_rows_of(triangles, place, points.shape(0));
+    const TriangleRows rows = to_rows_of(points, triangles, place);
     return to_rows<3>(filled<double>(3 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
         circumcenters_sphere(points.data(), points.shape(0), rows, out, workers, stop);
     }));
@@ -223,10 +193,12 @@ RowsOut<double, 3> centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> 
 
 void bind_voronoi(nb::module_& module) {
     module.def("voronoi_plane", of_plane, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
+               "checked"_a = false,
                "Offsets of the cells, vertices and neighbours of their entries, the sites along a curve, the vertex of "
                "each triangle; if triangles share vertices, its rank there, rows of three sites and the vertex of each "
                "row.");
     module.def("voronoi_sphere", of_sphere, "points"_a, "simplices"_a, "neighbors"_a, "workers"_a = 1,
+               "checked"_a = false,
                "The same for directions.");
     module.def("voronoi_ridges", ridges, "offsets"_a, "vertices"_a, "neighbors"_a, "vertex_count"_a, "workers"_a = 1,
                "Sites i < j and vertices of the ridges of a diagram, in lexicographic order.");

@@ -1,4 +1,5 @@
-// The module stereodel._kernel. Arrays come checked: right type, shape and order, finite numbers, no zero vectors.
+// The module stereodel._kernel. Types, orders and widths of arrays are checked by nanobind, what they hold by
+// input_checks.hpp.
 #include <nanobind/nanobind.h>
 
 namespace stereodel {

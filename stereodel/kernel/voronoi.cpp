@@ -1,9 +1,5 @@
 #include "voronoi.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <stdexcept>
-
 #include "plane_predicates.hpp"
 #include "ray_predicates.hpp"
 #include "voronoi_cells.hpp"
@@ -11,25 +7,10 @@
 namespace stereodel {
 namespace {
 
-void check_rows(std::size_t sites, const Index* simplices, const Index* neighbors, std::size_t count) {
-    if (count > static_cast<std::size_t>(std::numeric_limits<Index>::max()) / 3) {
-        throw std::invalid_argument("too many triangles");
-    }
-    bool valid = true;
-    for (std::size_t k = 0; k < 3 * count; ++k) {
-        valid &= static_cast<std::uint32_t>(simplices[k]) < sites;
-        valid &= static_cast<std::uint32_t>(neighbors[k]) + 1u <= count;
-    }
-    if (!valid) {
-        throw std::invalid_argument("simplices or neighbors hold numbers out of range");
-    }
-}
-
 // `make_view()`: a view of the points for one thread; see DualTriangles::find_ties.
 template <class MakeView>
 Diagram voronoi(std::size_t sites, const Index* simplices, const Index* neighbors, std::size_t count, int workers,
                 Stop stop, MakeView&& make_view) {
-    check_rows(sites, simplices, neighbors, count);
     DualTriangles dual(simplices, neighbors, count);
     Crew crew(useful_workers(workers, count));
     dual.find_ties(crew, stop, make_view);

@@ -91,21 +91,21 @@ class PlanarDelaunay(Delaunay):
         return "filter", "double_double", "exact"
 
     def _make_mesh(self) -> _kernel.PlaneMesh:
-        return _kernel.PlaneMesh(self.points, self.simplices, self.neighbors, self.duplicates)
+        return _kernel.PlaneMesh(self.points, self.simplices, self.neighbors, self.duplicates, True)
 
     def _locate(self, queries: FloatArray, workers: int) -> IntArray:
-        return _kernel.find_simplex_plane(self.points, self.simplices, self.neighbors, queries, workers)
+        return _kernel.find_simplex_plane(self.points, self.simplices, self.neighbors, queries, workers, True)
 
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
-        return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers)
+        return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers, True)
 
     def _sort_flat(self) -> IntArray:
         return _kernel.flat_order_plane(self.points, self.duplicates)
 
     def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self._flat_order, self.duplicates
-        return _kernel.nearest_flat_plane(*arrays, queries, k, workers)
+        return _kernel.nearest_flat_plane(*arrays, queries, k, workers, True)
 
     def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors, self.duplicates
-        return _kernel.k_nearest_plane(*arrays, queries, k, workers)
+        return _kernel.k_nearest_plane(*arrays, queries, k, workers, True)

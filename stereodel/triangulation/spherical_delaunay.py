@@ -151,23 +151,23 @@ class SphericalDelaunay(Delaunay):
         return "filter", "curvature", "double_double", "exact"
 
     def _make_mesh(self) -> _kernel.SphereMesh:
-        return _kernel.SphereMesh(self.points, self.simplices, self.neighbors, self.duplicates)
+        return _kernel.SphereMesh(self.points, self.simplices, self.neighbors, self.duplicates, True)
 
     def _locate(self, queries: FloatArray, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors
-        return _kernel.find_simplex_sphere(*arrays, queries, self.closing, workers)
+        return _kernel.find_simplex_sphere(*arrays, queries, self.closing, workers, True)
 
     def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors
-        return _kernel.nearest_sphere(*arrays, queries, self.closing, workers)
+        return _kernel.nearest_sphere(*arrays, queries, self.closing, workers, True)
 
     def _sort_flat(self) -> IntArray:
         return _kernel.flat_order_sphere(self.points, self.duplicates)
 
     def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self._flat_order, self.duplicates
-        return _kernel.nearest_flat_sphere(*arrays, queries, k, workers)
+        return _kernel.nearest_flat_sphere(*arrays, queries, k, workers, True)
 
     def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self.simplices, self.neighbors, self.duplicates
-        return _kernel.k_nearest_sphere(*arrays, queries, k, self.closing, workers)
+        return _kernel.k_nearest_sphere(*arrays, queries, k, self.closing, workers, True)

@@ -126,7 +126,9 @@ class SphericalVoronoi(Diagram):
 
     def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, self._order, simplex_vertex, self._rank, sites, vertex = _kernel.voronoi_sphere(*arrays, self._threads)
+        *cells, self._order, simplex_vertex, self._rank, sites, vertex = _kernel.voronoi_sphere(
+            *arrays, self._threads, True
+        )
         self._set_cells(*cells)
         self.simplex_vertex = locked(simplex_vertex)
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)

@@ -178,7 +178,7 @@ def test_wrong_arrays_are_refused():
         (offsets, vertices, np.roll(neighbors, 1), count),
         (offsets[::-1].copy(), vertices, neighbors, count),
     ):
-        with pytest.raises(ValueError, match="not those of a Voronoi diagram"):
+        with pytest.raises(ValueError, match=r"not those of a Voronoi diagram|same length"):
             _kernel.delaunay_of_sphere(diagram.points, *wrong, diagram.simplex_vertex)
     for order in ([0, 1, 2, 3, 4, 4], [0, 6], [-1]):
         with pytest.raises(ValueError, match="each site with entries once"):
@@ -191,5 +191,5 @@ def test_wrong_arrays_are_refused():
     for place in ([0, 0], [0, 2], [0], [-1, 0]):
         with pytest.raises(ValueError, match="must be a permutation"):
             _kernel.circumcenters_sphere(np.eye(3), rows, np.array(place, dtype=np.int32))
-    with pytest.raises(ValueError, match="no such point"):
+    with pytest.raises(ValueError, match="out of range"):
         _kernel.circumcenters_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32))

@@ -1,0 +1,176 @@
+"""The kernel's own border, for callers that are not our Python: what would give nonsense or crash is refused."""
+
+import numpy as np
+import pytest
+
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, _kernel
+
+RNG = np.random.default_rng(0)
+PLANE, SPHERE = PlanarDelaunay(RNG.normal(size=(12, 2))), SphericalDelaunay(RNG.normal(size=(12, 3)))
+CELLS = PlanarVoronoi(PLANE), SphericalVoronoi(SPHERE)
+NONE = np.zeros((0, 2), dtype=np.int32)
+EYE = np.vstack([np.eye(3)] * 2)
+
+
+def triangles(t):
+    return {"points": t.points, "simplices": t.simplices, "neighbors": t.neighbors}
+
+
+def cells(diagram):
+    names = "offsets", "vertices", "neighbors", "vertex_count"
+    return {"points": diagram.points, **dict(zip(names, diagram._cells(), strict=True))}
+
+
+def calls():
+    """Name of the function, arguments that are right; from them wrong ones are made."""
+    for place, t, d in (("plane", PLANE, CELLS[0]), ("sphere", SPHERE, CELLS[1])):
+        queries = {"queries": t.points[:3] + 0.01}
+        yield f"triangulate_{place}", {"points": t.points}
+        yield f"{place.title()}Mesh", triangles(t)
+        yield f"voronoi_{place}", triangles(t)
+        yield f"find_simplex_{place}", triangles(t) | queries
+        yield f"nearest_{place}", triangles(t) | queries
+        yield f"k_nearest_{place}", triangles(t) | {"duplicates": NONE} | queries | {"k": 2}
+        yield f"proximity_{place}", triangles(t) | {"graph": "gabriel"}
+        yield f"spanning_tree_{place}", {"points": t.points, "edges": t.edges}
+        yield f"compare_lengths_{place}", {"points": t.points, "numbers": np.full((2, 4), 11, dtype=np.int32)}
+        yield f"diametral_{place}", {"points": t.points, "numbers": np.full((2, 3), 11, dtype=np.int32)}
+        yield f"cell_areas_{place}", cells(d) | {"order": d._order}
+        yield f"cell_centroids_{place}", cells(d) | {"order": d._order}
+        yield f"delaunay_of_{place}", cells(d) | {"simplex_vertex": d.simplex_vertex}
+        yield f"circumcenters_{place}", {"points": t.points, "triangles": t.simplices}
+        if place == "plane":
+            yield "natural_neighbors_plane", triangles(t) | {"values": np.zeros((12, 1))} | queries
+    yield "closing", {"points": SPHERE.points, "simplices": SPHERE.simplices}
+    units = {"units": SPHERE.points, "rests": 0 * SPHERE.points}
+    asked = {"queries": SPHERE.points, "query_units": SPHERE.points, "query_rests": 0 * SPHERE.points}
+    yield "natural_neighbors_sphere", triangles(SPHERE) | units | {"values": np.zeros((12, 1))} | asked
+    for name in ("moebius_images", "moebius_scales"):
+        yield name, {"left": EYE, "magnification": 2.0, "right": EYE, "xyz": SPHERE.points}
+
+
+CALLS = dict(calls())
+VECTORS = {"points", "queries", "units", "query_units"}
+NUMBERS = {"simplices", "neighbors", "vertices", "triangles", "edges", "numbers", "order"}
+FREE = {"xyz"}  # its function answers with a flag
+
+
+def call(name, arguments):
+    return getattr(_kernel, name)(**arguments)
+
+
+def with_entry(array, place, value):
+    changed = np.array(array)
+    changed[place] = value
+    return changed
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_right_arguments_are_accepted(name):
+    call(name, CALLS[name])
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_numbers_that_are_not_finite_are_refused(name):
+    right = CALLS[name]
+    for key, array in right.items():
+        if isinstance(array, np.ndarray) and array.dtype == float and key not in FREE | {"values"}:
+            for value in (np.nan, np.inf, -np.inf):
+                for place in ((0, 0), (-1, -1)):
+                    shown = key if key not in ("left", "right") else "rotation"
+                    row = place[0] % len(array)
+                    with pytest.raises(ValueError, match=rf"{shown}\[{row}, \d\] is -?(nan|inf), not a finite number"):
+                        call(name, right | {key: with_entry(array, place, value)})
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_vectors_without_a_direction_are_refused(name):
+    right = CALLS[name]
+    for key, array in right.items():
+        if key in VECTORS and array.shape[1] == 3:
+            with pytest.raises(ValueError, match=rf"{key}\[2\] is the zero vector"):
+                call(name, right | {key: with_entry(array, 2, -0.0)})
+            small = [0.0, 5e-324, 0.0]
+            if key == "points" and name in ("triangulate_sphere", "circumcenters_sphere"):
+                call(name, right | {key: with_entry(array, 2, small)})
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_numbers_of_what_is_not_there_are_refused(name):
+    right = CALLS[name]
+    for key, array in right.items():
+        if key in NUMBERS:
+            open_border = key == "neighbors" and "plane" in name.lower() and "offsets" not in right
+            least = -2 if open_border or key == "vertices" else -1
+            for value in (least, 10_000, 2**31 - 1, -(2**31)):
+                for place in ((0,) * array.ndim, (-1,) * array.ndim):
+                    with pytest.raises(ValueError, match=r"out of range|not those of|each site with entries"):
+                        call(name, right | {key: with_entry(array, place, value)})
+
+
+@pytest.mark.parametrize("name", [name for name, right in CALLS.items() if {"simplices", "neighbors"} <= set(right)])
+def test_triangles_and_neighbors_that_do_not_fit_are_refused(name):
+    """Numbers that are there, but not beyond that edge: to turn around a point would never end."""
+    right = CALLS[name]
+    inside = np.argwhere(right["neighbors"] >= 0)
+    for place in map(tuple, inside[[0, 5, -1]]):
+        for wrong in {0, 3, len(right["simplices"]) - 1} - {int(right["neighbors"][place])}:
+            with pytest.raises(ValueError, match="does not fit"):
+                call(name, right | {"neighbors": with_entry(right["neighbors"], place, wrong)})
+        with pytest.raises(ValueError, match=r"does not fit|closed surface"):
+            call(name, right | {"neighbors": with_entry(right["neighbors"], place, -1)})
+    for key in ("simplices", "neighbors"):
+        with pytest.raises(ValueError, match="does not fit"):
+            call(name, right | {key: right[key][::-1].copy()})
+
+
+@pytest.mark.parametrize("name", CALLS)
+def test_arrays_of_other_lengths_are_refused(name):
+    """Each array that has to fit others, shortened: it is refused for its length or for what it no longer holds."""
+    right = CALLS[name]
+    alone = {"queries", "duplicates", "edges", "numbers", "triangles", "xyz"}
+    keys = [k for k, a in right.items() if isinstance(a, np.ndarray) and k not in alone]
+    if "simplices" in keys and "neighbors" not in keys:
+        keys.remove("simplices")
+    for key in keys:
+        if key == "points" and len(right) == 1:
+            continue
+        with pytest.raises(ValueError, match=r"length|out of range|not those|each site with entries|six rows|not that"):
+            call(name, right | {key: right[key][:-1]})
+
+
+def test_changes_of_a_mesh():
+    for cls, t in ((_kernel.PlaneMesh, PLANE), (_kernel.SphereMesh, SPHERE)):
+        mesh = cls(t.points, t.simplices, t.neighbors)
+        with pytest.raises(ValueError, match=r"points\[1, 0\] is nan"):
+            mesh.insert(with_entry(t.points, (1, 0), np.nan))
+        with pytest.raises(ValueError, match=r"indices\[1\] is 12, out of range"):
+            mesh.remove(np.array([0, 12], dtype=np.int32))
+        assert mesh.size == 12
+        assert np.array_equal(mesh.arrays()[0], t.simplices)
+    with pytest.raises(ValueError, match=r"points\[0\] is the zero vector"):
+        mesh.insert(np.zeros((1, 3)))
+
+
+def test_other_parameters():
+    for pole in ((3, 1), (-1, 1), (0, 0), (0, 2)):
+        with pytest.raises(ValueError, match="axis"):
+            _kernel.triangulate_sphere(SPHERE.points, axis=pole[0], sign=pole[1])
+    for magnification in (0.0, -1.0, np.nan, np.inf, 1e101, 1e-101):
+        with pytest.raises(ValueError, match="magnification must be"):
+            _kernel.moebius_images(SPHERE.points, EYE, magnification, EYE)
+    with pytest.raises(ValueError, match="offsets"):
+        _kernel.voronoi_ridges(np.zeros(0, dtype=np.int64), NONE[:, 0], NONE[:, 0], 0)
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 7, 8, 9, 1000, 4097])
+def test_every_place_of_long_arrays_is_seen(size):
+    """Loops in vector registers have rests: a wrong number in the first, the middle or the last row."""
+    points = RNG.normal(size=(size, 3))
+    for row in {0, size // 2, size - 1}:
+        with pytest.raises(ValueError, match=rf"points\[{row}, 1\] is nan"):
+            _kernel.triangulate_sphere(with_entry(points, (row, 1), np.nan))
+        with pytest.raises(ValueError, match=rf"points\[{row}\] is the zero vector"):
+            _kernel.triangulate_sphere(with_entry(points, row, 0.0))
+        with pytest.raises(ValueError, match=rf"points\[{row}, 1\] is inf"):
+            _kernel.triangulate_plane(with_entry(points[:, :2], (row, 1), np.inf))
