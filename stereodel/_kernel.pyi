@@ -640,6 +640,51 @@ def delaunay_of_sphere(
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
     """The same for directions."""
 
+def line_order(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """Different points of a line along it."""
+
+def circle_order(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    Different directions of a great circle around it, the three lowest counterclockwise.
+    """
+
+def line_diagram(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+) -> tuple:
+    """
+    Offsets, vertices and neighbours of the cells of points on a line, and the sites of their ridges.
+    """
+
+def circle_diagram(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> tuple:
+    """
+    Offsets, vertices and neighbours of the cells of directions on a great circle, and the vertices.
+    """
+
+def circle_areas(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """Areas of these cells, steradians."""
+
+def circle_centroids(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """Unit vectors; NaN for empty cells."""
+
+def bisector_normals(
+    p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    q: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """
+    Unit vectors of p/|p| - q/|q| for rows of different directions, however close.
+    """
+
 def cell_areas_plane(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],

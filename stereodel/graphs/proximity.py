@@ -9,7 +9,6 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray
-from stereodel.triangulation.circle_order import circle_order
 from stereodel.triangulation.given import Triangulation
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.topology import as_edges
@@ -28,20 +27,11 @@ def proximity_edges(triangulation: Triangulation, kind: Kind, workers: int | Non
     return function(*arrays, kind, threads, True)
 
 
-def different_points(triangulation: Triangulation) -> Indices:
-    """Indices of the points without the dropped duplicates, (k,)."""
-    return np.delete(np.arange(len(triangulation.points)), triangulation.duplicates[:, 0])
-
-
 def points_in_order(triangulation: Triangulation) -> Indices:
     """The different points of a triangulation without triangles, along their line or around their great circle."""
-    different = different_points(triangulation)
-    places = triangulation.points[different]
-    if len(different) < 2:
-        return different
     if isinstance(triangulation, PlanarDelaunay):
-        return different[np.lexsort(places.T[::-1])]
-    return different[circle_order(places)]
+        return _kernel.line_order(triangulation.points)
+    return _kernel.circle_order(triangulation.points)
 
 
 def short_steps(points: FloatArray, circle: Indices) -> Indices:

@@ -12,6 +12,8 @@
 #include "cell_integrals.hpp"
 #include "circumcenters.hpp"
 #include "diagram_parts.hpp"
+#include "flat_diagrams.hpp"
+#include "great_circles.hpp"
 #include "voronoi.hpp"
 
 namespace stereodel {
@@ -189,6 +191,70 @@ RowsOut<double, 3> centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> 
     }));
 }
 
+// Without triangles ------------------------------------------------------------------------------------------------
+
+ValuesOut<Index> to_values_of(const std::vector<Index>& numbers) {
+    Buffer<Index> buffer(numbers.size());
+    std::copy(numbers.begin(), numbers.end(), buffer.data());
+    return to_values(std::move(buffer));
+}
+
+nb::tuple to_cells_in_python(Diagram&& diagram) {
+    return nb::make_tuple(to_values(std::move(diagram.offsets)), to_values(std::move(diagram.vertices)),
+                          to_values(std::move(diagram.neighbors)));
+}
+
+std::vector<Index> order_on_line(const RowsIn<double, 2>& points) {
+    check_points("points", points);
+    return run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
+        return line_order(points.data(), points.shape(0), stop);
+    });
+}
+
+GreatCircle circle_of(const RowsIn<double, 3>& points) {
+    check_points("points", points);
+    return run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
+        return GreatCircle(points.data(), points.shape(0), stop);
+    });
+}
+
+nb::tuple of_line(RowsIn<double, 2> points) {
+    const std::vector<Index> order = order_on_line(points);
+    return nb::make_tuple(to_cells_in_python(line_diagram(order, points.shape(0))), to_rows<2>(line_ridges(order)));
+}
+
+nb::tuple of_circle(RowsIn<double, 3> points) {
+    const GreatCircle circle = circle_of(points);
+    Buffer<double> ends(circle.order.size() < 2 ? 0 : 6);
+    std::copy_n(circle.ends[0], ends.size(), ends.data());
+    return nb::make_tuple(to_cells_in_python(circle_diagram(circle.order, points.shape(0))), to_rows<3>(std::move(ends)));
+}
+
+ValuesOut<double> areas_on_circle(RowsIn<double, 3> points) {
+    const GreatCircle circle = circle_of(points);
+    Buffer<double> areas(points.shape(0));
+    circle_areas(circle.order, circle.gaps(points.data()), areas.size(), areas.data());
+    return to_values(std::move(areas));
+}
+
+RowsOut<double, 3> centroids_on_circle(RowsIn<double, 3> points) {
+    const GreatCircle circle = circle_of(points);
+    Buffer<double> centroids(3 * points.shape(0));
+    circle_centroids(points.data(), circle.order, circle.gaps(points.data()), circle.ends[0], points.shape(0),
+                     centroids.data());
+    return to_rows<3>(std::move(centroids));
+}
+
+RowsOut<double, 3> bisectors(RowsIn<double, 3> p, RowsIn<double, 3> q, int workers) {
+    const std::size_t count = p.shape(0);
+    check_same_length("p", count, "q", q.shape(0));
+    check_points("p", p);
+    check_points("q", q);
+    return to_rows<3>(filled<double>(3 * count, count > long_work, [&](double* normals, Stop stop) {
+        bisector_normals(p.data(), q.data(), count, normals, workers, stop);
+    }));
+}
+
 }  // namespace
 
 void bind_voronoi(nb::module_& module) {
@@ -210,6 +276,18 @@ void bind_voronoi(nb::module_& module) {
     module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1,
                "The same for directions.");
+    module.def("line_order", [](RowsIn<double, 2> points) { return to_values_of(order_on_line(points)); }, "points"_a,
+               "Different points of a line along it.");
+    module.def("circle_order", [](RowsIn<double, 3> points) { return to_values_of(circle_of(points).order); },
+               "points"_a, "Different directions of a great circle around it, the three lowest counterclockwise.");
+    module.def("line_diagram", of_line, "points"_a,
+               "Offsets, vertices and neighbours of the cells of points on a line, and the sites of their ridges.");
+    module.def("circle_diagram", of_circle, "points"_a,
+               "Offsets, vertices and neighbours of the cells of directions on a great circle, and the vertices.");
+    module.def("circle_areas", areas_on_circle, "points"_a, "Areas of these cells, steradians.");
+    module.def("circle_centroids", centroids_on_circle, "points"_a, "Unit vectors; NaN for empty cells.");
+    module.def("bisector_normals", bisectors, "p"_a, "q"_a, "workers"_a = 1,
+               "Unit vectors of p/|p| - q/|q| for rows of different directions, however close.");
     module.def("cell_areas_plane", areas<2, cell_areas_plane>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "order"_a, "workers"_a = 1,
                "Areas of the cells; infinite where unbounded.");

@@ -7,11 +7,11 @@ from typing import cast
 import numpy as np
 import numpy.typing as npt
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray
 from stereodel.constants import CLOSE_SITES, QUADRATURE_CHORD
 from stereodel.relaxation.quadrature import split_long
 from stereodel.triangulation import SphericalVoronoi
-from stereodel.triangulation.bisectors import bisector_normals
 
 Indices = npt.NDArray[np.integer]
 
@@ -86,5 +86,5 @@ def _normals(left: FloatArray, right: FloatArray) -> FloatArray:
     close = lengths[:, 0] < CLOSE_SITES
     lengths[close] = 1.0
     normals = differences / lengths
-    normals[close] = bisector_normals(left[close], right[close])
+    normals[close] = _kernel.bisector_normals(left[close], right[close])
     return cast(FloatArray, normals)

@@ -100,17 +100,3 @@ def polygons(offsets: Indices, vertices: IntArray, neighbors: IntArray, count: i
     """Sites around each of `count` vertices, counterclockwise from the lowest one."""
     ends, sites = (array.tolist() for array in _kernel.voronoi_polygons(offsets, vertices, neighbors, count))
     return [sites[a:b] for a, b in pairwise(ends)]
-
-
-def circle_cells(order: Indices, size: int) -> tuple[Indices, IntArray, IntArray]:
-    """Offsets, vertices and neighbours of the cells of sites on one circle, among `size` points.
-
-    The sites come in counterclockwise order around vertex 0; vertex 1 is its antipode. From vertex 0 a cell is
-    bounded by the ridge to the site before, down to vertex 1, then by the one to the site after.
-    """
-    between = np.zeros((size, 2), dtype=np.int32)
-    between[order] = np.column_stack([np.roll(order, 1), np.roll(order, -1)])
-    kept = np.sort(order)
-    offsets = np.zeros(size + 1, dtype=np.intp)
-    offsets[kept + 1] = 2
-    return np.cumsum(offsets), np.tile(np.array([0, 1], dtype=np.int32), len(order)), between[kept].ravel()

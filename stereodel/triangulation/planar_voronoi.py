@@ -88,16 +88,11 @@ class PlanarVoronoi(Diagram):
         self.vertices = locked(_kernel.circumcenters_plane(self.points, rows[0], rows[1], self._threads))
 
     def _set_strips(self) -> None:
-        """Points on one line, in lexicographic order along it."""
-        kept = self._is_kept
-        order = np.lexsort(self.points.T[::-1])
-        order = order[kept[order]]
-        pairs = np.sort(np.column_stack([order[:-1], order[1:]]), axis=1)
+        """Points on one line."""
         self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
-        points = pairs[np.lexsort(pairs.T[::-1])].astype(np.int32)
-        self._ridges = locked(points), locked(np.full_like(points, -1))
-        nowhere = np.full(len(order), -1, dtype=np.int32)
-        self._set_cells(np.concatenate([[0], np.cumsum(kept)]), nowhere, nowhere)
+        cells, ridges = _kernel.line_diagram(self.points)
+        self._ridges = locked(ridges), locked(np.full_like(ridges, -1))
+        self._set_cells(*cells)
 
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates, infinite for unbounded cells.

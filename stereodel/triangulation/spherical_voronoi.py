@@ -9,12 +9,9 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_scalar, locked
-from stereodel._double_double import cross, dot, unit
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.bisectors import bisector_normals
-from stereodel.triangulation.cells import Diagram, Indices, circle_cells
-from stereodel.triangulation.circle_order import circle_axis, circle_order
+from stereodel.triangulation.cells import Diagram
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 
@@ -137,23 +134,9 @@ class SphericalVoronoi(Diagram):
     def _set_circle(self) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""
         self.simplex_vertex = locked(np.zeros(0, dtype=np.int32))
-        order = self._around_circle()
-        if len(order) > 1:
-            self._set_vertices(circle_axis(self.points[order[np.unique(np.arange(3) * len(order) // 3)]]))
-        else:
-            order = order[:0]
-            self._set_vertices(np.zeros((0, 3)))
-        self._set_cells(*circle_cells(order, len(self.points)))
-
-    def _around_circle(self) -> Indices:
-        """Different sites of one great circle, counterclockwise around vertex 0, beginning with the lowest."""
-        kept = np.flatnonzero(self._is_kept)
-        if len(kept) < 3:
-            return kept
-        order = circle_order(self.points[kept])
-        order = np.roll(order, -int(np.argmin(order)))
-        place = np.argsort(order)
-        return kept[order if place[1] < place[2] else np.roll(order[::-1], 1)]
+        cells, vertices = _kernel.circle_diagram(self.points)
+        self._set_vertices(vertices)
+        self._set_cells(*cells)
 
     def _set_vertices(self, vertices: FloatArray) -> None:
         if len(vertices) == 2:
@@ -177,14 +160,11 @@ class SphericalVoronoi(Diagram):
         where a bound says that doubles may not do, double-double takes over. Points of one great circle have lunes.
         """
         scale = as_scalar(radius, "radius")
-        if self._dimension == 2:
-            areas: FloatArray = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
-            return areas * scale**2
-        areas = np.where(self._is_kept, 4 * np.pi, 0.0)
-        order = self._around_circle()
-        if len(order) > 1:
-            gaps = self._gaps(order)
-            areas[order] = np.roll(gaps, 1) + gaps
+        areas: FloatArray
+        if self._dimension < 2:
+            areas = _kernel.circle_areas(self.points)
+        else:
+            areas = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
         return areas * scale**2
 
     def centroids(self) -> FloatArray:
@@ -204,29 +184,14 @@ class SphericalVoronoi(Diagram):
         [[ 0.         -0.70710678  0.70710678]
          [ 0.          0.70710678 -0.70710678]]
         """
-        if self._dimension == 2:
-            return _kernel.cell_centroids_sphere(self.points, *self._cells(), self._order, self._threads)
-        centroids = np.full((len(self.points), 3), np.nan)
-        order = self._around_circle()
-        centroids[order] = unit(self.points[order]).hi
-        if len(order) > 1:
-            gaps = self._gaps(order)
-            turn = (gaps - np.roll(gaps, 1))[:, None] / 4
-            east = np.cross(self.vertices[0], centroids[order])
-            centroids[order] = unit(np.cos(turn) * centroids[order] + np.sin(turn) * east).hi
-        return centroids
-
-    def _gaps(self, order: Indices) -> FloatArray:
-        """Angle from each site of a great circle to the next one around vertex 0, radians in (0, 2π)."""
-        p = unit(self.points[order])
-        q = unit(self.points[np.roll(order, -1)])
-        angles = np.arctan2(cross(p, q).round() @ self.vertices[0], dot(p, q).round())
-        gaps: FloatArray = np.where(angles > 0, angles, angles + 2 * np.pi)
-        return gaps
+        if self._dimension < 2:
+            return _kernel.circle_centroids(self.points)
+        return _kernel.cell_centroids_sphere(self.points, *self._cells(), self._order, self._threads)
 
     def ridge_normals(self) -> FloatArray:
         """Directions of p̂ᵢ − p̂ⱼ, (r, 3): the unit normal of each ridge's plane, on the side of site i."""
-        return bisector_normals(*(self.points[self.ridge_points[:, k]] for k in (0, 1)))
+        p, q = (self.points.take(self.ridge_points[:, k], axis=0) for k in (0, 1))
+        return _kernel.bisector_normals(p, q, self._threads)
 
     def ridge_arcs(self) -> list[SphereArc]:
         """The ridges as arcs of great circles, in the order of `ridge_points`, from start to end, site i on the left.

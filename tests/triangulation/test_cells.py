@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from stereodel import _kernel
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
-from stereodel.triangulation.cells import circle_cells, polygons
+from stereodel.triangulation.cells import polygons
 
 SQUARE_POINTS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
 DIRECTIONS = st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=3, max_size=24)
@@ -159,13 +159,6 @@ def test_an_order_that_is_not_that_of_the_diagram_is_refused():
             )
     with pytest.raises(ValueError, match="same length"):
         _kernel.delaunay_of_plane(*arrays, np.zeros(2, number), np.zeros(1, number))
-
-
-def test_sites_on_a_circle():
-    offsets, vertices, neighbors = circle_cells(np.array([0, 3, 2]), 5)
-    assert listed(offsets, vertices) == [[0, 1], [], [0, 1], [0, 1], []]
-    assert listed(offsets, neighbors) == [[2, 3], [], [3, 0], [0, 2], []]
-    assert polygons(offsets, vertices, neighbors, 2) == [[0, 3, 2], [0, 2, 3]]
 
 
 def test_wrong_arrays_are_refused():

@@ -9,7 +9,6 @@ from scipy import spatial
 
 from stereodel import _kernel
 from stereodel.sphere import lonlat_to_xyz
-from stereodel.triangulation.bisectors import bisector_normals
 from stereodel.triangulation.planar_voronoi import PlanarVoronoi
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 from stereodel.triangulation.spherical_voronoi import SphericalVoronoi
@@ -197,7 +196,7 @@ def test_normals_of_ridges_between_close_sites(size):
     p, q = rng.integers(1, 9, size=(2, 20, 1)) * [1.0, 3.0, 0.0] + rng.normal(size=(2, 20, 1)) * [0, 0, size]
     p[0], q[0] = [3 * 2.0**50 + 7, 1, 0], [3 * 2.0**51 + 15, 2, 0]
     with mpmath.workdps(400):
-        for a, b, normal in zip(p.tolist(), q.tolist(), bisector_normals(p, q), strict=True):
+        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
             exact = unit_of_many_digits(unit_of_many_digits(a) - unit_of_many_digits(b))
             assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
 

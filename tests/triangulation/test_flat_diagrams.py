@@ -1,0 +1,222 @@
+"""Diagrams without triangles, on a line or a great circle: against fractions and mpmath, at all scales."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import PlanarVoronoi, SphericalVoronoi, _kernel
+from stereodel.graphs import gabriel_graph, hull
+from stereodel.triangulation.cells import polygons
+
+SMALL = st.tuples(*[st.integers(-3, 3)] * 2)
+
+
+def exact_cross(a, b):
+    a, b = ([Fraction(x) for x in v] for v in (a, b))
+    return [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
+
+
+def same_direction(a, b):
+    a, b = ([Fraction(x) for x in v] for v in (a, b))
+    return not any(exact_cross(a, b)) and sum(x * y for x, y in zip(a, b, strict=True)) > 0
+
+
+def kept_of(points):
+    kept = []
+    for k, p in enumerate(points):
+        if not any(same_direction(p, points[i]) for i in kept):
+            kept.append(k)
+    return kept
+
+
+def digits(vector):
+    vector = mpmath.matrix([mpmath.mpf(x) for x in vector])
+    return vector / mpmath.norm(vector)
+
+
+def turn_from(p, q, axis):
+    """Angle from one direction to another around an axis, in [0, 2π), to many digits."""
+    p, q, axis = digits(p), digits(q), digits(axis)
+    cross = mpmath.matrix([p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]])
+    angle = mpmath.atan2((cross.T * axis)[0], (p.T * q)[0])
+    return angle if angle >= 0 else angle + 2 * mpmath.pi
+
+
+def check_circle(points):
+    """All that the documents promise of directions of one great circle, at least two different ones."""
+    points = np.asarray(points, dtype=float)
+    diagram, kept = SphericalVoronoi(points), kept_of(points.tolist())
+    order = _kernel.circle_order(points).tolist()
+    assert sorted(order) == kept
+    assert order[0] == kept[0]
+    assert len(kept) < 3 or order.index(kept[1]) < order.index(kept[2])
+    assert np.array_equal(diagram.vertices[0], -diagram.vertices[1])
+    with mpmath.workdps(700):
+        axis = exact_axis(points, order)
+        assert diagram.vertices[0].tolist() == pytest.approx([float(x) for x in digits(axis)], rel=1e-15, abs=1e-300)
+        around = [turn_from(points[order[0]], points[k], axis) for k in order]
+        assert all(a < b for a, b in pairwise(around))
+        steps = [b - a for a, b in pairwise([*around, around[0] + 2 * mpmath.pi])]
+        expected = [float(steps[k - 1] + steps[k]) for k in range(len(order))]
+    assert diagram.areas()[order] == pytest.approx(expected, rel=1e-15, abs=0)
+    assert diagram.areas().sum() == pytest.approx(4 * np.pi, rel=1e-15)
+    check_cells(diagram, order, kept)
+    check_centroids(diagram, points, order, steps)
+
+
+def exact_axis(points, order):
+    """Some exact vector along vertex 0, from all products of neighbours that are less than a half-turn apart."""
+    p = [[Fraction(x) for x in points[k].tolist()] for k in order]
+    if len(p) == 2:
+        product = exact_cross(*p)
+        if any(product):
+            return fraction_digits(product)
+        shortest = min(range(3), key=lambda k: abs(p[0][k]))
+        return fraction_digits(exact_cross(p[0], [Fraction(int(k == shortest)) for k in range(3)]))
+    products = [v for v in (exact_cross(p[k - 1], p[k]) for k in range(len(p))) if any(v)]
+    k = next(k for k in range(3) if products[0][k])
+    up = [v for v in products if v[k] > 0]
+    down = [v for v in products if v[k] < 0]
+    # At most one step is longer than a half-turn, and then all others point along the axis.
+    return fraction_digits((up if len(up) > len(down) else down)[0])
+
+
+def fraction_digits(vector):
+    return [mpmath.mpf(x.numerator) / mpmath.mpf(x.denominator) for x in vector]
+
+
+def check_cells(diagram, order, kept):
+    size = len(diagram.points)
+    assert diagram.regions == [[0, 1] if k in kept else [] for k in range(size)]
+    before = {k: order[i - 1] for i, k in enumerate(order)}
+    after = {before[k]: k for k in order}
+    assert diagram.region_neighbors.tolist() == [n for k in kept for n in (before[k], after[k])]
+    ridges = sorted(tuple(sorted(step)) for step in zip(order, [*order[1:], order[0]], strict=True))
+    assert list(map(tuple, diagram.ridge_points.tolist())) == ridges
+    assert diagram.simplex_vertex.shape == (0,)
+    if len(order) > 2:
+        assert polygons(*diagram._cells()) == [order, [order[0], *order[:0:-1]]]
+
+
+def check_centroids(diagram, points, order, steps):
+    centroids = diagram.centroids()
+    assert np.isnan(centroids).any(axis=1).tolist() == [k not in order for k in range(len(points))]
+    axis = diagram.vertices[0]
+    for i, k in enumerate(order):
+        p = points[k] / np.abs(points[k]).max()
+        p /= np.linalg.norm(p)
+        turn = float(steps[i] - steps[i - 1]) / 4
+        expected = np.cos(turn) * p + np.sin(turn) * np.cross(axis, p)
+        assert centroids[k] == pytest.approx(expected, abs=1e-15)
+
+
+@settings(deadline=None, max_examples=120)
+@given(
+    st.lists(SMALL.filter(any), min_size=1, max_size=9),
+    st.sampled_from([((1, 0, 0), (0, 1, 0)), ((1, 2, 2), (2, 1, -2)), ((0, 3, 1), (1, 0, 0)), ((-1, 1, 1), (1, 1, 1))]),
+)
+def test_small_integers_of_a_great_circle(pairs, plane):
+    points = np.array(pairs) @ np.array(plane)
+    if len(kept_of(points.tolist())) > 1:
+        check_circle(points)
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1e-9, 1e-17, 1e-40, 1e-150, 1e-300])
+def test_gaps_of_every_size(gap):
+    """Directions that get closer and closer, on both sides of a coordinate axis, and one opposite."""
+    check_circle([[1, gap, 0], [1, 0, 0], [1, -3 * gap, 0], [-1, 0, 0], [2, 2 * gap, 0], [1, gap * (1 + 2**-50), 0]])
+    check_circle([[0, gap, 5], [0, 3 * gap, 5]])
+
+
+@pytest.mark.parametrize("scale", [1e300, 1e-300, 5e-324])
+def test_lengths_of_every_size(scale):
+    check_circle([[scale, 0, 0], [1, 1, 0], [0, 1e-200, 0], [-3e200, 7e180, 0]])
+
+
+def test_components_that_no_double_holds_together():
+    """The product of two directions of which one component is 1e-600 of the others."""
+    check_circle([[1e300, 1e-300, 0], [1e300, 2e-300, 0], [-1e300, 5e-324, 0]])
+    areas = SphericalVoronoi([[1e300, 5e-324, 0], [1e300, 1e-323, 0]]).areas()
+    assert areas.tolist() == [2 * np.pi] * 2
+
+
+def test_an_antipodal_pair_has_the_axis_of_the_reference():
+    for p, axis in (([1, 0, 0], [0, 0, 1]), ([0, 0, -2], [0, -1, 0]), ([3, 2, 1], [2, -3, 0]), ([1, 1, 1], [0, 1, -1])):
+        diagram = SphericalVoronoi([p, [-x for x in p]])
+        assert diagram.vertices[0] == pytest.approx(np.array(axis) / np.linalg.norm(axis), abs=2e-16)
+        assert diagram.ridge_points.tolist() == [[0, 1], [0, 1]]
+        check_circle([p, [-2 * x for x in p], p])
+
+
+def test_none_and_one():
+    empty = SphericalVoronoi([])
+    assert (empty.vertices.shape, empty.regions, empty.areas().tolist()) == ((0, 3), [], [])
+    one = SphericalVoronoi([[0, 3, 4], [0, 6, 8]])
+    assert one.vertices.shape == (0, 3)
+    assert one.regions == [[], []]
+    assert one.areas().tolist() == [4 * np.pi, 0]
+    assert one.centroids()[0] == pytest.approx([0, 0.6, 0.8], abs=1e-16)
+    assert np.isnan(one.centroids()[1]).all()
+    assert one.ridge_points.shape == (0, 2)
+
+
+def test_order_of_input_does_not_matter():
+    rng = np.random.default_rng(0)
+    points = rng.integers(-9, 10, size=(40, 2)) @ np.array([[1, 2, 2], [2, 1, -2]])
+    points = points[points.any(axis=1)].astype(float)
+    areas = {}
+    for _ in range(5):
+        shuffled = rng.permutation(points)
+        diagram = SphericalVoronoi(shuffled)
+        check_circle(shuffled)
+        rays = [tuple(p // np.gcd.reduce(p)) for p in shuffled.astype(int)]
+        found = {ray: a for ray, a in zip(rays, diagram.areas().tolist(), strict=True) if a}
+        areas = areas or found
+        assert found == pytest.approx(areas, rel=1e-15)
+
+
+def test_points_off_the_line_or_circle_are_refused():
+    with pytest.raises(ValueError, match="must lie on one great circle"):
+        _kernel.circle_order(np.eye(3))
+    with pytest.raises(ValueError, match="must lie on one great circle"):
+        _kernel.circle_areas(np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]]))
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.lists(st.integers(-4, 4), max_size=9), st.sampled_from([(1, 0), (0, 1), (-2, 3), (1e-320, 1e300)]))
+def test_strips(places, step):
+    points = np.array(places, dtype=float)[:, None] * np.array(step)
+    diagram = PlanarVoronoi(points if len(points) else [])
+    kept = [k for k, x in enumerate(places) if x not in places[:k]]
+    along = sorted(kept, key=lambda k: tuple(points[k]))
+    assert _kernel.line_order(points.reshape(-1, 2)).tolist() == along
+    assert diagram.regions == [[-1] if k in kept else [] for k in range(len(places))]
+    assert diagram.region_neighbors.tolist() == [-1] * len(kept)
+    assert diagram.ridge_points.tolist() == sorted(sorted(pair) for pair in pairwise(along))
+    assert diagram.ridge_vertices.tolist() == [[-1, -1]] * max(len(kept) - 1, 0)
+    assert diagram.areas().tolist() == [np.inf if k in kept else 0.0 for k in range(len(places))]
+
+
+def test_graphs_of_a_circle_take_the_same_order():
+    points = [[0, 1, 0], [1, 0, 0], [-1, 0, 0], [0, 2, 0], [1, -1, 0]]
+    assert gabriel_graph(points).tolist() == [[0, 1], [0, 2], [1, 4], [2, 4]]
+    assert hull(points).tolist() == []
+
+
+@pytest.mark.parametrize("size", [2.0**-40, 2.0**-43, 2.0**-44, 2.0**-45, 1e-20, 1e-60, 1e-300])
+def test_planes_between_close_directions(size):
+    """Around the change from one formula to the other, and far beyond, whatever the lengths."""
+    rng = np.random.default_rng(int(-np.log2(size)))
+    p = rng.normal(size=(30, 3))
+    p[:, 2] = 0.0
+    q = p + size * np.column_stack([np.zeros((30, 2)), rng.normal(size=30)])
+    q[15:] *= 2.0 ** rng.integers(-300, 300, size=(15, 1)) if size > 1e-100 else 1.0
+    with mpmath.workdps(700):
+        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
+            exact = digits(digits(a) - digits(b))
+            assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
