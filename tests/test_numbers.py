@@ -1,6 +1,6 @@
 """The numbers at the door: what is taken, and taken exactly; any number of workers."""
 
-import datetime
+import datetime as dt
 from decimal import Decimal
 from fractions import Fraction
 
@@ -38,7 +38,7 @@ NO_NUMBERS = {
     "a boolean among integers": [[1, 2], [3, True]],
     "time differences": np.array([[1, 2]], dtype="m8[s]"),
     "time differences as objects": objects([np.timedelta64(1, "s"), 1.0]),
-    "Python's time differences": objects([datetime.timedelta(1), 1.0]),
+    "Python's time differences": objects([dt.timedelta(1), 1.0]),
     "text columns": pd.DataFrame({"x": ["1", "2"], "y": ["3", "4"]}),
     "a text column": pd.DataFrame({"x": ["1", "2"], "y": [3.0, 4.0]}),
     "a column of booleans": pd.DataFrame({"x": [True, False], "y": [3.0, 4.0]}),

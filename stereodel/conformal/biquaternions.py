@@ -2,7 +2,8 @@
 
 q = a + i b with real quaternions a, b stands for the 2×2 matrix in which the quaternion units are −i times the Pauli
 matrices. A rotation is a real unit quaternion; the fisheye of magnification S along the unit vector f is
-cosh(η/2) − i sinh(η/2) f with η = ln S. Products are compositions. For q = L·fisheye(S)·R the two parts are
+cosh(η/2) − i sinh(η/2) f with η = ln S. Products are compositions; those of maps as they are
+stored are taken in integers. For q = L·fisheye(S)·R the two parts are
 a = cosh(η/2) L R and b = −sinh(η/2) L z R, so the decomposition loses nothing however large S is.
 """
 
@@ -13,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from stereodel._double_double import DoubleDouble, dot, stack
-from stereodel.conformal.complex_pairs import Complex
+from stereodel.conformal.complex_pairs import Complex, inner
 from stereodel.sphere import Rotation
 from stereodel.sphere.quaternions import between, conjugate, multiply, normalized
 
@@ -25,6 +26,8 @@ class Biquaternion(NamedTuple):
 
     real: DoubleDouble
     imag: DoubleDouble
+    known_square: Complex | None = None
+    """Of the vector part, where it is known better than from the components, of which it may be a small rest."""
 
     def __matmul__(self, other: Biquaternion) -> Biquaternion:
         return Biquaternion(
@@ -46,6 +49,11 @@ class Biquaternion(NamedTuple):
         """The other three components, (3,)."""
         return Complex(self.real[1:], self.imag[1:])
 
+    @property
+    def vector_square(self) -> Complex:
+        """v·v of the vector part, 1 − c² for determinant 1 and the scalar part c."""
+        return inner(self.vector, self.vector) if self.known_square is None else self.known_square
+
     def determinant(self) -> Complex:
         """1 in SL(2, C)."""
         return Complex(dot(self.real, self.real) - dot(self.imag, self.imag), dot(self.real, self.imag) * 2.0)
@@ -61,13 +69,16 @@ class Biquaternion(NamedTuple):
 
     def decomposed(self) -> tuple[Rotation, float, Rotation]:
         """Left rotation, magnification S ≥ 1 along z and right rotation, each rounded once."""
-        a, b = dot(self.real, self.real).sqrt(), dot(self.imag, self.imag).sqrt()
-        magnification = float(((a + b) * (a + b)).round())
+        # sinh(η/2) is |b|, and cosh(η/2) its √(1 + |b|²) rather than |a|: the determinant of a power is 1 up to a
+        # rounding of doubles, which must not magnify where b is 0.
+        square = dot(self.imag, self.imag)
+        root = square.sqrt() + (square + 1.0).sqrt()
+        magnification = float((root * root).round())
         if magnification <= 1:
-            return Rotation.identity(), 1.0, Rotation.rounded(self.real / a)
+            return Rotation.identity(), 1.0, Rotation.rounded(self.real)
         axis = -multiply(self.imag, conjugate(self.real))[1:]
         left = normalized(between(Z_AXIS, axis / dot(axis, axis).sqrt()))
-        right = multiply(conjugate(left), self.real / a)
+        right = multiply(conjugate(left), normalized(self.real))
         return Rotation.rounded(left), magnification, Rotation.rounded(right)
 
 

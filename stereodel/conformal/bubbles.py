@@ -10,6 +10,7 @@ from stereodel._double_double import DoubleDouble, dot, stack, unit
 from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, boost, rotation
 from stereodel.conformal.boosts import boost_points
 from stereodel.conformal.moebius import MoebiusMap
+from stereodel.constants import STORED_ERROR
 from stereodel.sphere import SphereCircle, as_direction
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.quaternions import between, multiply, rotation_matrix, transform
@@ -44,7 +45,8 @@ def bubble_to_bubble(
     Raises
     ------
     ValueError
-        When a point does not lie strictly inside its bubble.
+        When a point does not lie strictly inside its bubble, by more than what stored points and circles are off
+        (2 · `STORED_ERROR`), and when a bubble or its complement is so small that no point does.
 
     Notes
     -----
@@ -71,13 +73,28 @@ def bubble_to_bubble(
 
 
 def _to_hemisphere(circle: SphereCircle, point: DoubleDouble, to_north: DoubleDouble, name: str) -> Biquaternion:
-    """The map of a bubble onto the northern hemisphere with a point of it at the pole."""
+    """The map of a bubble onto the northern hemisphere with a point of it at the pole.
+
+    A stored point and a stored circle are off by up to STORED_ERROR each, and the map, of scale 1/sin α on the rim,
+    makes that an error of 2 STORED_ERROR/sin α in the height over the equator. Whether a point that is not higher lies
+    inside is rounding; not even the centre, of height 1, is higher where the circle is as small as that. The error of
+    the double-doubles, some 2⁻¹⁰⁰/sin α here, is 2⁻⁵⁰ of that.
+    """
     _, cosine, sine = circle.exact_parts()
+    noise = 2 * STORED_ERROR / float(sine.hi)
+    if noise >= 1:
+        raise ValueError(
+            f"{name} has the radius sin α = {float(sine.hi):g}: a circle of less than {2 * STORED_ERROR:g} cannot be "
+            "told from a point"
+        )
     # cot(α/2), without cancellation whichever side is the larger.
     size = (1.0 + cosine) / sine if circle.offset >= 0 else sine / (1.0 - cosine)
     image = boost_points(transform(rotation_matrix(to_north), point), size)
-    if not float(image.hi[2]) > 0:
-        raise ValueError(f"{name}_point must lie strictly inside the bubble {name}, n·x > {circle.offset:g}")
+    if not float(image.hi[2]) > noise:
+        raise ValueError(
+            f"{name}_point must lie strictly inside the bubble {name}, n·x > {circle.offset:g}, "
+            f"by more than {2 * STORED_ERROR:g} rad"
+        )
     onto = boost(Z_AXIS, size) @ rotation(to_north)
     across = dot(image[:2], image[:2]).sqrt()
     if float(across.hi) == 0:

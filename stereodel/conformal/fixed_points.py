@@ -15,7 +15,7 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble, cross, dot
 from stereodel.conformal.biquaternions import Biquaternion
-from stereodel.conformal.complex_pairs import Complex, inner
+from stereodel.conformal.complex_pairs import Complex
 from stereodel.conformal.powers import principal, sine_of
 from stereodel.constants import KIND_TOLERANCE
 
@@ -31,7 +31,7 @@ def kind_of(element: Biquaternion) -> Kind:
     slack = KIND_TOLERANCE * float(vector.square_size().hi.sum()) ** 0.5
     if slack <= KIND_TOLERANCE**2:
         return "identity"
-    square = complex(inner(vector, vector))
+    square = complex(element.vector_square)
     if abs(square) <= slack:
         return "parabolic"
     if abs(float(element.imag.hi[0])) > slack:

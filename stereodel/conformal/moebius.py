@@ -13,9 +13,10 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_complex_matrix, as_directions, as_lonlat, as_matrix, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, dot, unit
 from stereodel._threads import thread_count
-from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion, boost, rotation
+from stereodel.conformal.biquaternions import Z_AXIS, Biquaternion
 from stereodel.conformal.boosts import Circle, boost_circle, boost_points
 from stereodel.conformal.fixed_points import Kind, fixed_points_of, kind_of, multiplier_of
+from stereodel.conformal.integers import IntegerElement
 from stereodel.conformal.lorentz import from_lorentz, from_moebius, lorentz_matrix
 from stereodel.conformal.pipelines import stereographic_pipeline
 from stereodel.conformal.powers import power
@@ -224,10 +225,13 @@ class MoebiusMap:
         return self.left.apply(normal), cosine, sine
 
     def __matmul__(self, other: MoebiusMap) -> MoebiusMap:
-        """First `other`, then this one: the exact composition with its parameters rounded once."""
+        """First `other`, then this one: the exact composition with its parameters rounded once.
+
+        However large the magnifications are; a ValueError if that of the composition is out of range.
+        """
         if not isinstance(other, MoebiusMap):
             return NotImplemented
-        return MoebiusMap(*(self.biquaternion @ other.biquaternion).decomposed())
+        return MoebiusMap(*(self._integers @ other._integers).rounded().decomposed())
 
     def inverse(self) -> MoebiusMap:
         """The exact inverse; its focus is where this map is smallest."""
@@ -236,8 +240,11 @@ class MoebiusMap:
     @property
     def biquaternion(self) -> Biquaternion:
         """The map as an element of SL(2, C) in double-double."""
-        left, right = (rotation(DoubleDouble(part.quaternion)) for part in (self.left, self.right))
-        return left @ boost(Z_AXIS, self._size) @ right
+        return self._integers.rounded()
+
+    @property
+    def _integers(self) -> IntegerElement:
+        return IntegerElement.of(self.left.quaternion, self.magnification, self.right.quaternion)
 
     def power(self, exponent: float) -> MoebiusMap:
         """The map applied t times, for any real t: a one-parameter group through the map.

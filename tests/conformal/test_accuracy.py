@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
+from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye, flight
 from stereodel.sphere import Rotation, SphereCircle, lonlat_to_xyz
 
 mpmath.mp.dps = 80
@@ -230,3 +230,150 @@ def test_threads_change_nothing(workers):
     assert (lens(points, workers=workers) == np.concatenate([lens(part) for part in np.split(points, [1, 7])])).all()
     assert (lens.scale_factor(points, workers=workers) == lens.scale_factor(points[::-1])[::-1]).all()
     assert (lens.lonlat(places, workers=workers) == lens.lonlat(places[::-1])[::-1]).all()
+
+
+ALL_MAGNIFICATIONS = st.floats(-100, 100).map(lambda k: 10.0**k).filter(lambda s: 1e-100 <= s <= 1e100)
+HALF = st.one_of(st.floats(-50, 50).map(lambda k: 10.0**k), st.sampled_from([1.0, 1e-16, 1e16, 1e20, 1e34]))
+LARGE_MAPS = st.builds(MoebiusMap, QUATERNIONS, HALF, QUATERNIONS)
+TINY_QUATERNIONS = st.tuples(*[st.sampled_from([1.0, 1e-8, -1e-150, 5e-324, 0.0, 0.3])] * 4).filter(any).map(Rotation)
+
+
+@given(st.builds(MoebiusMap, st.one_of(QUATERNIONS, TINY_QUATERNIONS), ALL_MAGNIFICATIONS, QUATERNIONS))
+@settings(deadline=None, max_examples=100)
+def test_a_map_and_its_inverse_are_the_identity(conformal):
+    for both in (conformal @ conformal.inverse(), conformal.inverse() @ conformal):
+        assert both.magnification == 1.0
+        w, *axis = (both.left @ both.right).quaternion
+        assert np.abs(axis).max() <= 4 * 2.0**-52 * abs(w)
+
+
+@given(LARGE_MAPS, LARGE_MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
+@settings(deadline=None, max_examples=60)
+def test_composition_of_any_magnification(first, second, side, nearness, offset):
+    both = second @ first
+    with mpmath.workdps(450):
+        for focus in (first.focus, both.focus):
+            v = normalized(mp(near_point(focus, side, nearness, offset)))
+            # As stored: the kernel's own roundings next to the focus are tested above.
+            gap = error_mp(exact_map(both, v), exact_map(second, exact_map(first, v)))
+            c, s = rotate(both.right, v)[2], mpmath.mpf(both.magnification)
+            assert gap <= ACCURACY * (1 + 2 * s / ((1 + c) + s * s * (1 - c)))
+
+
+@given(QUATERNIONS, QUATERNIONS, st.floats(0, 80), st.floats(0, 1))
+@settings(deadline=None, max_examples=60)
+def test_what_nearly_undoes_a_strong_map(left, right, decades, part):
+    """The small rest of two magnifications is right, not only a rest of none: M(S)⁻¹ M(S (1 + δ)) has 1 + δ."""
+    size = 10.0**decades
+    strong = MoebiusMap(left, size, right)
+    other = MoebiusMap(left, min(size * (1 + part), 1e100), right)
+    rest = strong.inverse() @ other
+    assert rest.magnification == pytest.approx(other.magnification / size, rel=4 * 2.0**-52)
+    assert error(rest.focus, normalized(mp(other.focus))) < 1e-15 / max(rest.magnification - 1, 1e-16)
+
+
+@given(QUATERNIONS, QUATERNIONS, st.floats(-80, 80))
+@settings(deadline=None, max_examples=60)
+def test_powers_of_any_magnification(left, right, decades):
+    conformal = MoebiusMap(left, 10.0**decades, right)
+    slack = (8 + 3 * abs(decades)) * 2.0**-52  # the rounding of the exponent, 2⁻⁵² of ln S, and what is around
+    assert conformal.power(1.0).is_close(conformal, tolerance=slack)
+    assert conformal.power(-1.0).is_close(conformal.inverse(), tolerance=slack)
+    half = conformal.power(0.5)
+    grown = half.biquaternion.norm().hi / np.sqrt(conformal.biquaternion.norm().hi)
+    assert (half @ half).is_close(conformal, tolerance=2 * slack * max(1.0, float(grown)))
+
+
+@given(LONLAT, LONLAT, st.floats(0, 90), st.floats(0, 90), st.floats(0, 1))
+@settings(deadline=None, max_examples=60)
+def test_flights_of_any_magnification(start, end, first, last, t):
+    """The geodesic of hyperbolic space, in 200 digits; a point of it is (sinh η f, cosh η)."""
+    path = flight(start, end, magnification=10.0**first, arrival=10.0**last)
+    with mpmath.workdps(200):
+        f, g = (normalized(mp(lens.focus)) for lens in (path.start, path.end))
+        a, b = (mpmath.log(mpmath.mpf(lens.magnification)) for lens in (path.start, path.end))
+        inner = mpmath.cosh(a) * mpmath.cosh(b) - mpmath.sinh(a) * mpmath.sinh(b) * sum(map(mpmath.fmul, f, g))
+        d = mpmath.acosh(max(inner, 1))
+        assert abs(path.length - d) <= 1e-13 * (1 + d)
+        before, after = (
+            (mpmath.sinh((1 - t) * d) / mpmath.sinh(d), mpmath.sinh(t * d) / mpmath.sinh(d)) if d else (1 - t, t)
+        )
+        vector = [before * mpmath.sinh(a) * x + after * mpmath.sinh(b) * y for x, y in zip(f, g, strict=True)]
+        size = mpmath.sqrt(sum(x * x for x in vector))
+        here = path(t)
+        eta = mpmath.log(mpmath.mpf(here.magnification))
+        # d is rounded to a double, and so is t d; what that is off moves along the path.
+        assert abs(eta - mpmath.asinh(size)) <= 1e-14 * (1 + d)
+        if size > 1e-3:
+            assert error(here.focus, [x / size for x in vector]) <= 1e-13 * (1 + d) * (1 + 1 / size)
+
+
+def circle_of(bubble):
+    """Unit normal and angular radius, as the stored numbers define them."""
+    return normalized(mp(bubble.normal)), mpmath.atan2(mpmath.mpf(bubble.radius), mpmath.mpf(bubble.offset))
+
+
+def angle_mp(a, b):
+    across = mpmath.sqrt(sum(x * x for x in cross(a, b)))
+    return mpmath.atan2(across, sum(x * y for x, y in zip(a, b, strict=True)))
+
+
+def largest_scale(conformal, v):
+    """Of a map within what a stored point may be off."""
+    s = mpmath.mpf(conformal.magnification)
+    chi = angle_mp(rotate(conformal.right, v), mp([0, 0, 1]))
+    chi = max(chi - ACCURACY, 0) if s > 1 else min(chi + ACCURACY, mpmath.pi)
+    return s / (mpmath.cos(chi / 2) ** 2 + s * s * mpmath.sin(chi / 2) ** 2)
+
+
+def check_bubbles(conformal, source, point, target):
+    """A point of the source goes to the centre of the target, and the rim to the rim, as far as a stored map can."""
+    center, radius = circle_of(target)
+    v = normalized(mp(point))
+    assert angle_mp(exact_map(conformal, v), center) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
+    for rim in source.sample(3):
+        v = normalized(mp(rim))
+        gap = angle_mp(exact_map(conformal, v), center) - radius
+        assert abs(gap) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
+
+
+BUBBLE_SIZES = st.floats(-12.9, 1.9).map(lambda k: 10.0**k)
+BUBBLES = st.builds(SphereCircle.around, LONLAT, st.one_of(BUBBLE_SIZES, BUBBLE_SIZES.map(lambda a: 180 - a)))
+
+
+@given(BUBBLES, BUBBLES, st.floats(0, 360))
+@settings(deadline=None, max_examples=50)
+def test_bubbles_down_to_points(source, target, turn):
+    if min(source.radius, target.radius) <= 8 * 2.0**-52:
+        with pytest.raises(ValueError, match="cannot be told from a point"):
+            bubble_to_bubble(source, target, turn=turn)
+    else:
+        check_bubbles(bubble_to_bubble(source, target, turn=turn), source, source.normal, target)
+
+
+@given(LONLAT, st.floats(-11, 1.9), LONLAT, st.floats(1, 179), st.floats(0, 360), st.floats(-17, 0))
+@settings(deadline=None, max_examples=50)
+def test_points_next_to_the_rim(center, decades, other, radius, bearing, depth):
+    """A point that lies inside by more than rounding goes where it should; one that does not is refused."""
+    source, target = SphereCircle.around(center, 10.0**decades), SphereCircle.around(other, radius)
+    start = source.sample(1)[0]
+    edge = Rotation.about(source.normal, bearing)(start)
+    alpha = np.arctan2(source.radius, source.offset)
+    point = Rotation.about(np.cross(edge, source.normal), np.degrees(10.0**depth * alpha))(edge)
+    n, rim = circle_of(source)
+    inside = rim - angle_mp(normalized(mp(point)), n)
+    if inside <= 1.9 * ACCURACY:
+        with pytest.raises(ValueError, match=r"source_point must lie strictly inside .* by more than"):
+            bubble_to_bubble(source, target, source_point=point)
+    elif inside >= 2.1 * ACCURACY:
+        check_bubbles(bubble_to_bubble(source, target, source_point=point), source, point, target)
+
+
+@pytest.mark.parametrize("name", ["source", "target"])
+def test_a_point_on_the_rim_and_a_bubble_like_a_point(name):
+    cap = SphereCircle.around((0.0, 0.0), 10.0)
+    with pytest.raises(ValueError, match=f"{name}_point must lie strictly inside"):
+        bubble_to_bubble(cap, cap, **{f"{name}_point": (10.0, 0.0)})
+    for tiny in (SphereCircle.around((3.0, 4.0), 1e-30), SphereCircle.around((3.0, 4.0), 1e-30).complement):
+        with pytest.raises(ValueError, match=f"{name} has the radius .* cannot be told from a point"):
+            bubble_to_bubble(*((tiny, cap) if name == "source" else (cap, tiny)))
