@@ -16,7 +16,8 @@ from stereodel._arrays import FloatArray
 from stereodel._double_double import unit
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.predicates.rays import bubble_filter, units
-from stereodel.predicates.staged import Pair, SignArray, columns, det3
+from stereodel.predicates.signs import SignArray
+from stereodel.predicates.staged import Pair, columns, det3
 
 Quadruples = tuple[FloatArray, FloatArray, FloatArray, FloatArray]
 """Points a, b, c, p of k tests, (k, 3) each."""

@@ -63,7 +63,7 @@ def _corners(triangulation: Triangulation) -> IntArray:
     cycle = _cycle(triangulation.convex_hull)
     before, here, after = (triangulation.points[np.roll(cycle, shift)] for shift in (1, 0, -1))
     sphere = isinstance(triangulation, SphericalDelaunay)
-    turns = _kernel.turn(before, here, after) if sphere else _kernel.orient2d(before, here, after)
+    turns = _kernel.turn(before, here, after) if sphere else _kernel.orient2d_signs(before, here, after)
     corners = cycle[turns != 0]
     return np.roll(corners, -int(np.argmin(corners)))
 

@@ -14,6 +14,7 @@
 #include "ray_integers.hpp"
 #include "ray_predicates.hpp"
 #include "roots.hpp"
+#include "space_predicates.hpp"
 
 namespace stereodel {
 
@@ -112,6 +113,20 @@ Signs incircle(const PlaneArray& a, const PlaneArray& b, const PlaneArray& c, co
             [&] { return plane::incircle_balls(p, q, r, s); },
             [&] { return plane::incircle_integers(p, q, r, s); },
             [&] { return plane::incircle_exact(p, q, r, s); });
+    });
+}
+
+Signs orient3d(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c, const SpaceArray& d,
+               const std::string& stage) {
+    const Stage only = stage_of(stage);
+    return over_rows(common_rows(a, b, c, d), [&](std::size_t k) {
+        const double *p = row(a, k), *q = row(b, k), *r = row(c, k), *s = row(d, k);
+        switch (only) {
+            case Stage::filter: return space::orient_filter(p, q, r, s);
+            case Stage::double_double: return space::orient_double_double(p, q, r, s);
+            case Stage::exact: return space::orient_exact(p, q, r, s);
+            default: return space::orient(p, q, r, s);
+        }
     });
 }
 
@@ -263,6 +278,7 @@ Signs compare_angles(const SpaceArray& q, const SpaceArray& a, const SpaceArray&
 void bind_plane(nb::module_& m) {
     m.def("orient2d", &orient2d, "a"_a, "b"_a, "c"_a, "stage"_a = "all");
     m.def("incircle", &incircle, "a"_a, "b"_a, "c"_a, "d"_a, "stage"_a = "all");
+    m.def("orient3d", &orient3d, "a"_a, "b"_a, "c"_a, "d"_a, "stage"_a = "all");
     m.def("compare_distances", &compare_distances, "q"_a, "a"_a, "b"_a, "stage"_a = "all");
     m.def("orient_numbered", &orient_numbered, "points"_a, "numbers"_a);
     m.def("incircle_numbered", &incircle_numbered, "points"_a, "numbers"_a, "displaced"_a);

@@ -19,8 +19,8 @@ namespace {
 constexpr std::size_t grain = std::size_t{1} << 13;
 
 // a + (e_y|d|^2 - d_y|e|^2, d_x|e|^2 - e_x|d|^2) / (2 d x e), d = b - a, e = c - a. Differences are exact sums of two
-// doubles, the product d x e is off by less than 16u^2 |d||e|: at 2^-44 |d||e| that is less than 2^-58 of it. No side is
-// longer than 2 after scaling, so above 2^-300 none is shorter than 2^-301, and nothing underflows that counts.
+// doubles, the product d x e is off by less than 16u^2 |d||e|: at 2^-44 |d||e| that is less than 2^-58 of it. No side
+// is longer than 2 after scaling, so above 2^-300 none is shorter than 2^-301, and nothing underflows that counts.
 bool planar_center(const double* a, const double* b, const double* c, double* center) {
     const double size = std::max({std::fabs(b[0] - a[0]), std::fabs(b[1] - a[1]), std::fabs(c[0] - a[0]),
                                   std::fabs(c[1] - a[1])});

@@ -13,6 +13,7 @@ void bind_location(nanobind::module_& module);
 void bind_mesh(nanobind::module_& module);
 void bind_predicates(nanobind::module_& module);
 void bind_raster(nanobind::module_& module);
+void bind_signs(nanobind::module_& module);
 void bind_voronoi(nanobind::module_& module);
 
 }  // namespace stereodel
@@ -30,5 +31,6 @@ NB_MODULE(_kernel, module) {
     stereodel::bind_mesh(module);
     stereodel::bind_predicates(module);
     stereodel::bind_raster(module);
+    stereodel::bind_signs(module);
     stereodel::bind_voronoi(module);
 }

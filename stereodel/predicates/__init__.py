@@ -1,13 +1,15 @@
 """Exact signs: orientation, incircle and their counterpart on the sphere.
 
-Each predicate evaluates its polynomial in doubles with a derived error bound and, where that leaves the sign open,
-in Python integers. The answer is always that of exact arithmetic on the given doubles. Plane: Shewchuk's staged
-predicates ("Adaptive precision floating-point arithmetic", 1997) with integers as the last stage; sphere: the
-curvature form of the paper's idea to lift flat regions (rows P5 and P6 of the ledger).
+`signs` holds the predicates on arrays. The kernel evaluates each polynomial in doubles with a derived error bound,
+then, where that leaves the sign open, in about twice the precision, and in integers at last: the answer is always that
+of exact arithmetic on the given doubles. Plane: the idea of Shewchuk's staged predicates ("Adaptive precision
+floating-point arithmetic", 1997); sphere: the curvature form of the paper's idea to lift flat regions (rows P5 and P6
+of the ledger).
+
+The other modules hold the same formulas in Python, test by test, for `HullInsertion`: the readable form, against which
+the kernel is tested.
 """
 
-from stereodel.predicates.plane import incircle, orient2d
-from stereodel.predicates.rays import in_bubble
-from stereodel.predicates.space import orient3d
+from stereodel.predicates.signs import in_bubble, incircle, orient2d, orient3d
 
 __all__ = ["in_bubble", "incircle", "orient2d", "orient3d"]

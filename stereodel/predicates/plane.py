@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_vectors
+from stereodel._arrays import FloatArray
 from stereodel.constants import FILTER_RANGE, UNIT_ROUNDOFF
-from stereodel.predicates.integers import sign, to_integers
-from stereodel.predicates.staged import Pair, Real, SignArray, columns, decide, over_rows
+from stereodel.predicates.integers import sign
+from stereodel.predicates.staged import Pair, Real
 
 # A term of orient2d: two differences, a product, a subtraction: N = 4.
 _ORIENT2D = 5 * UNIT_ROUNDOFF
@@ -63,85 +62,4 @@ def incircle_integer(a: IntPoint, b: IntPoint, c: IntPoint, d: IntPoint) -> int:
         (ax * ax + ay * ay) * (bx * cy - by * cx)
         + (bx * bx + by * by) * (cx * ay - cy * ax)
         + (cx * cx + cy * cy) * (ax * by - ay * bx)
-    )
-
-
-def _integer_points(*points: FloatArray) -> list[IntPoint]:
-    flat = to_integers(np.concatenate(points).tolist())
-    return [flat[k : k + 2] for k in range(0, len(flat), 2)]
-
-
-def orient2d_signs(a: FloatArray, b: FloatArray, c: FloatArray) -> SignArray:
-    """`orient2d` for (k, 2) arrays."""
-    value, bound = orient2d_filter(*(columns(filter_coordinates(p)) for p in (a, b, c)))
-    return decide(value, bound, lambda k: orient2d_integer(*_integer_points(a[k], b[k], c[k])))
-
-
-def incircle_signs(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> SignArray:
-    """`incircle` for (k, 2) arrays."""
-    value, bound = incircle_filter(*(columns(filter_coordinates(p)) for p in (a, b, c, d)))
-    return decide(value, bound, lambda k: incircle_integer(*_integer_points(a[k], b[k], c[k], d[k])))
-
-
-def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray | int:
-    """Orientation of the triangle abc, exactly.
-
-    Parameters
-    ----------
-    a, b, c : array_like, (..., 2)
-        Points of the plane, y up; leading shapes are broadcast together.
-
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
-        1 counterclockwise, −1 clockwise, 0 collinear.
-
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, or another last axis than 2.
-
-    Notes
-    -----
-    The sign of (b−a) × (c−a) in exact arithmetic on the given doubles. Source: J. R. Shewchuk, "Adaptive precision
-    floating-point arithmetic and fast robust geometric predicates" (1997), section 4.
-
-    Examples
-    --------
-    >>> orient2d([0, 0], [1, 0], [[0, 1], [2, 0], [0, -1e-300]])
-    array([ 1,  0, -1], dtype=int8)
-    """
-    return over_rows(orient2d_signs, as_vectors(a, 2, "a"), as_vectors(b, 2, "b"), as_vectors(c, 2, "c"))
-
-
-def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> SignArray | int:
-    """Side of d on the circle through a, b, c, exactly.
-
-    Parameters
-    ----------
-    a, b, c, d : array_like, (..., 2)
-        Points of the plane; leading shapes are broadcast together.
-
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
-        1 inside, −1 outside, 0 on the circle, for abc counterclockwise; reversed for abc clockwise. For collinear
-        abc the sign of det[x y x²+y² 1] remains: 0 if d is collinear with them or a repetition.
-
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, or another last axis than 2.
-
-    Notes
-    -----
-    The sign of the determinant with rows (x, y, x² + y², 1) for a, b, c, d. Source: Shewchuk (1997), section 4.
-
-    Examples
-    --------
-    >>> incircle([0, 0], [1, 0], [0, 1], [[0.5, 0.5], [1, 1], [2, 2]])
-    array([ 1,  0, -1], dtype=int8)
-    """
-    return over_rows(
-        incircle_signs, as_vectors(a, 2, "a"), as_vectors(b, 2, "b"), as_vectors(c, 2, "c"), as_vectors(d, 2, "d")
     )

@@ -11,13 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_directions
+from stereodel._arrays import FloatArray
 from stereodel._double_double import unit
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.predicates.integers import primitive, sign, sign_of_roots
-from stereodel.predicates.staged import Pair, Real, SignArray, columns, decide, det3, over_rows
+from stereodel.predicates.staged import Pair, Real, det3
 
 Ray = tuple[int, int, int, int]
 """Primitive integer vector (x, y, z) of a direction and its squared length."""
@@ -37,10 +36,6 @@ _ETA = 2.0**-100
 # hold for errors that are not small beside l, and keeps the bound above 2⁻⁴⁰⁰, where underflow is nothing.
 _BUBBLE = 30 * UNIT_ROUNDOFF
 _BUBBLE_DIRECTION = 4 * _ETA
-
-# det[a Δb Δc]: a.hi one rounding, the Δ two each, five of det3: N = 10, 11·√2 < 16; directions: ε·(lb+lc) + η/2·lb·lc.
-_TURN = 16 * UNIT_ROUNDOFF
-_TURN_DIRECTION = 3 * _ETA
 
 
 def units(directions: FloatArray) -> FloatArray:
@@ -79,13 +74,6 @@ def bubble_filter(a: Sequence[Real], b: Sequence[Real], c: Sequence[Real], p: Se
     return value, (lb + lc + lp) * (_BUBBLE * (lb * lc * lp) + _BUBBLE_DIRECTION * pairs)
 
 
-def turn_filter(a: Sequence[Real], b: Sequence[Real], c: Sequence[Real]) -> Pair[Real]:
-    """det[â b̂ ĉ] as det[â Δb Δc], and the bound of its error."""
-    db, dc = difference(b, a), difference(c, a)
-    lb, lc = _squared(db) ** 0.5 + 2 * _ETA, _squared(dc) ** 0.5 + 2 * _ETA
-    return det3((a[0], a[1], a[2]), db, dc), _TURN * (lb * lc) + _TURN_DIRECTION * (lb + lc)
-
-
 def bubble_ray(a: Ray, b: Ray, c: Ray, p: Ray) -> int:
     """Sign of |a|·det[b c p] − |b|·det[a c p] + |c|·det[a b p] − |p|·det[a b c]."""
     return sign_of_roots(((det3(b, c, p), a[3]), (-det3(a, c, p), b[3]), (det3(a, b, p), c[3]), (-det3(a, b, c), p[3])))
@@ -104,53 +92,3 @@ def compare_component(a: Ray, b: Ray, axis: int) -> int:
 def compare_directions(a: Ray, b: Ray) -> int:
     """Lexicographic order of directions, by x̂, then ŷ, then ẑ: −1 if a comes first, 0 if they are the same."""
     return compare_component(a, b, 0) or compare_component(a, b, 1) or compare_component(a, b, 2)
-
-
-def bubble_signs(a: FloatArray, b: FloatArray, c: FloatArray, p: FloatArray) -> SignArray:
-    """`in_bubble` for (k, 3) arrays."""
-    value, bound = bubble_filter(*(columns(units(v)) for v in (a, b, c, p)))
-    return decide(value, bound, lambda k: bubble_ray(*(ray(v[k].tolist()) for v in (a, b, c, p))))
-
-
-def turn_signs(a: FloatArray, b: FloatArray, c: FloatArray) -> SignArray:
-    """Sign of det[a b c] for (k, 3) arrays: 1 if c lies left of the great circle from a to b, seen from outside."""
-    value, bound = turn_filter(*(columns(units(v)) for v in (a, b, c)))
-    return decide(value, bound, lambda k: turn_ray(*(ray(v[k].tolist()) for v in (a, b, c))))
-
-
-def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.ArrayLike) -> SignArray | int:
-    """Side of p on the circle of the sphere through a, b, c, exactly.
-
-    Parameters
-    ----------
-    a, b, c, p : array_like, (..., 3)
-        Directions, of any length; leading shapes are broadcast together.
-
-    Returns
-    -------
-    int8 ndarray of the broadcast leading shape, or int for single points
-        1 if p lies in the open bubble that the plane abc cuts off on the side from which a, b, c appear
-        counterclockwise (p sees that hull facet from outside), −1 beyond it, 0 on the circle.
-
-    Raises
-    ------
-    ValueError, TypeError
-        For values that are not finite real numbers, zero vectors, or another last axis than 3.
-
-    Notes
-    -----
-    The sign of det(b̂−â, ĉ−â, p̂−â), where the hat is the exact direction and not a rounded unit vector; equally of the
-    determinant with rows (x, y, z, |p|), reversed. Source: the paper's sidedness test (rows P5, P6, P14).
-
-    Examples
-    --------
-    >>> in_bubble([1, 0, 0], [0, 2, 0], [0, 0, 3], [[1, 1, 1], [-1, 0, 0], [0, 0, 7]])
-    array([ 1, -1,  0], dtype=int8)
-    """
-    return over_rows(
-        bubble_signs,
-        as_directions(a, "a"),
-        as_directions(b, "b"),
-        as_directions(c, "c"),
-        as_directions(p, "p"),
-    )

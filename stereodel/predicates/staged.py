@@ -1,4 +1,4 @@
-"""From a filtered value to signs: what all vectorised predicates share.
+"""Numbers of any kind in the formulas of the predicates.
 
 How the bounds beside the formulas are counted: in an expanded sum of products every term passes through at most N
 roundings, each a factor 1 + δ with |δ| ≤ u = 2⁻⁵³. So the computed sum is off by at most ((1+u)^N − 1) times the
@@ -8,15 +8,11 @@ between them is far more than what (1+u)^N − 1 − Nu and the roundings in the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import TypeVar
-
-import numpy as np
-import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 
-SignArray = npt.NDArray[np.int8]
 Number = TypeVar("Number", int, float, FloatArray)
 Real = TypeVar("Real", float, FloatArray)
 Pair = tuple[Real, Real]
@@ -30,19 +26,3 @@ def det3(a: Sequence[Number], b: Sequence[Number], c: Sequence[Number]) -> Numbe
 def columns(array: FloatArray) -> tuple[FloatArray, ...]:
     """Components of (..., d) as d arrays, so that one formula serves scalars and arrays."""
     return tuple(array[..., k] for k in range(array.shape[-1]))
-
-
-def decide(value: FloatArray, bound: FloatArray, exact: Callable[[int], int]) -> SignArray:
-    """Signs of `value` where it exceeds its error bound (k,), elsewhere `exact` of the row; NaN decides nothing."""
-    signs = (value > bound).astype(np.int8) - (value < -bound)
-    for row in np.flatnonzero(~(np.abs(value) > bound)).tolist():
-        signs[row] = exact(row)
-    return signs
-
-
-def over_rows(signs: Callable[..., SignArray], *points: FloatArray) -> SignArray | int:
-    """Apply `signs` of (k, d) arrays to points of any leading shape, broadcast together; an int for single points."""
-    leading = np.broadcast_shapes(*(p.shape[:-1] for p in points))
-    rows = [np.broadcast_to(p, (*leading, p.shape[-1])).reshape(-1, p.shape[-1]) for p in points]
-    result = signs(*rows)
-    return result.reshape(leading) if leading else int(result[0])

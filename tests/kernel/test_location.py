@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from stereodel import HullInsertion, _kernel
 from stereodel.predicates import orient2d
 from stereodel.predicates.integers import sign_of_roots
-from stereodel.predicates.rays import ray, turn_signs
+from stereodel.predicates.rays import ray
 from stereodel.triangulation.topology import neighbors_of
 
 PLANE, SPHERE = 2, 3
@@ -48,7 +48,7 @@ class Arrays:
     def closed(cls, points, simplices, neighbors, duplicates):
         closing = None
         if points.shape[1] == SPHERE:
-            closing = turn_signs(*(points[simplices[:, k]] for k in range(3))) <= 0
+            closing = _kernel.turn(*(points[simplices[:, k]] for k in range(3))) <= 0
         return cls(points, simplices, neighbors, closing, duplicates)
 
     def find(self, queries, workers=1):
@@ -77,7 +77,7 @@ class Arrays:
 
     def sides(self, triangles, queries):
         """Signs (3, k) of the sides of the triangles' edges on which the queries lie, one triangle a query."""
-        side = orient2d if self.closing is None else turn_signs
+        side = orient2d if self.closing is None else _kernel.turn
         corners = self.points[self.simplices[triangles]]
         return np.array([side(corners[:, k - 2], corners[:, k - 1], queries) for k in range(3)])
 

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
+from stereodel import _kernel
 from stereodel.predicates import in_bubble
 from stereodel.predicates.integers import sign
 from stereodel.predicates.rays import (
@@ -15,9 +16,7 @@ from stereodel.predicates.rays import (
     bubble_ray,
     compare_directions,
     ray,
-    turn_filter,
     turn_ray,
-    turn_signs,
     units,
 )
 from stereodel.predicates.staged import columns
@@ -63,13 +62,11 @@ def test_small_integers(a, b, c, p):
 def test_clusters_keep_the_bound_of_the_filter(spread):
     vectors = cluster(spread)
     value, bound = bubble_filter(*(columns(units(v)) for v in vectors))
-    turned, turn_bound = turn_filter(*(columns(units(v)) for v in vectors[:3]))
     signs = in_bubble(*vectors)
     with workdps(150):
         for k in range(vectors.shape[1]):
-            truth, turn_truth = 2 * bubble(*vectors[:, k]), turn(*vectors[:3, k])
+            truth = 2 * bubble(*vectors[:, k])
             assert abs(mpf(value[k]) - truth) <= bound[k]
-            assert abs(mpf(turned[k]) - turn_truth) <= turn_bound[k]
             assert signs[k] == sign_of(truth, 0)
 
 
@@ -115,7 +112,7 @@ def test_turn_of_arrays():
     a, b, c = vectors[rng.integers(len(vectors) - 1, size=(3, 300))]
     a, b, c = (v[np.abs(np.stack([a, b, c])).max(axis=2).min(axis=0) > 0] for v in (a, b, c))
     expected = [sign(int(turn_ray(*map(ray, three)))) for three in zip(a.tolist(), b.tolist(), c.tolist(), strict=True)]
-    assert turn_signs(a, b, c).tolist() == expected
+    assert _kernel.turn(a, b, c).tolist() == expected
     assert {-1, 0, 1} == set(expected)
 
 
@@ -140,7 +137,7 @@ def test_turns_below_the_error_of_the_unit_vectors():
     """Three directions of the plane 3x = y, two of them closer than their unit vectors are known."""
     k = np.arange(1.0, 41.0)[:, None]
     for rise in (1e-34, 1e-40):
-        assert not turn_signs(k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]).any()
+        assert not _kernel.turn(k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]).any()
 
 
 def test_the_bounds_hold_where_squares_underflow():
@@ -148,11 +145,8 @@ def test_the_bounds_hold_where_squares_underflow():
     vectors = [[1.0, 0.0, 0.0], [1.0, 1e-170, 0.0], [1.0, 0.0, 1e-170], [1.0, 2e-170, 1e-170]]
     units_of = [columns(units(np.array([v]))) for v in vectors]
     with workdps(1500):
-        for (value, bound), truth in (
-            (bubble_filter(*units_of), 2 * bubble(*vectors)),
-            (turn_filter(*units_of[:3]), turn(*vectors[:3])),
-        ):
-            assert 0 < abs(truth) <= bound[0] - abs(value[0])
+        value, bound = bubble_filter(*units_of)
+        assert 0 < abs(2 * bubble(*vectors)) <= bound[0] - abs(value[0])
 
 
 def test_extreme_components():

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
+from stereodel import _kernel
 from stereodel.predicates import orient2d
-from stereodel.predicates.rays import turn_signs
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 
 GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
@@ -25,7 +25,7 @@ def holders(triangulation, query):
         inside = [orient2d(corners[:, k - 2], corners[:, k - 1], query) >= 0 for k in range(3)]
         return np.flatnonzero(np.all(inside, axis=0))
     queries = np.broadcast_to(np.asarray(query, dtype=float), corners[:, 0].shape)
-    inside = [turn_signs(corners[:, k - 2], corners[:, k - 1], queries) >= 0 for k in range(3)]
+    inside = [_kernel.turn(corners[:, k - 2], corners[:, k - 1], queries) >= 0 for k in range(3)]
     return np.flatnonzero(np.all(inside, axis=0) & ~triangulation.closing)
 
 

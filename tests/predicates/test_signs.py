@@ -1,0 +1,170 @@
+"""The predicates on arrays: shapes, threads, what the kernel refuses, and each stage of orient3d."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel import _kernel, in_bubble, incircle, orient2d, orient3d
+
+PREDICATES = {
+    "orient2d": (orient2d, _kernel.orient2d_signs, 2, "abc"),
+    "incircle": (incircle, _kernel.incircle_signs, 2, "abcd"),
+    "orient3d": (orient3d, _kernel.orient3d_signs, 3, "abcd"),
+    "in_bubble": (in_bubble, _kernel.in_bubble_signs, 3, "abcp"),
+}
+EACH = pytest.mark.parametrize("name", PREDICATES)
+OPEN = 2
+
+
+def points_for(name, count, seed=0):
+    """Points of which many are in special position."""
+    _, _, width, names = PREDICATES[name]
+    return np.random.default_rng(seed).integers(1, 6, size=(len(names), count, width)).astype(float)
+
+
+def one_by_one(predicate, points):
+    return [predicate(*row) for row in zip(*(p.tolist() for p in points), strict=True)]
+
+
+@EACH
+def test_rows_and_single_points_agree(name):
+    predicate, kernel, _, _ = PREDICATES[name]
+    points = points_for(name, 60)
+    expected = one_by_one(predicate, points)
+    assert {-1, 0, 1} == set(expected)
+    assert all(type(sign) is int for sign in expected)
+    assert predicate(*points).tolist() == kernel(*points).tolist() == expected
+
+
+@EACH
+def test_one_point_stands_for_all(name):
+    predicate, kernel, _, _ = PREDICATES[name]
+    points = points_for(name, 40, seed=1)
+    for k in range(len(points)):
+        one = [p[:1] if place == k else p for place, p in enumerate(points)]
+        expected = one_by_one(predicate, [np.broadcast_to(p, points[0].shape) for p in one])
+        single = [p[0] if place == k else p for place, p in enumerate(points)]
+        assert kernel(*one).tolist() == predicate(*one).tolist() == predicate(*single).tolist() == expected
+
+
+@EACH
+def test_leading_shapes_are_broadcast(name):
+    predicate, _, width, _ = PREDICATES[name]
+    points = points_for(name, 12, seed=2)
+    first = points[0].reshape(4, 3, 1, width)
+    result = predicate(first, *(p[:5] for p in points[1:]))
+    assert (result.shape, result.dtype) == ((4, 3, 5), np.int8)
+    assert result[2, 1].tolist() == predicate(first[2, 1], *(p[:5] for p in points[1:])).tolist()
+    assert predicate(first[:0], *(p[0] for p in points[1:])).shape == (0, 3, 1)
+    with pytest.raises(ValueError, match="broadcast"):
+        predicate(*(p[: 3 + k] for k, p in enumerate(points)))
+
+
+@EACH
+def test_memory_of_any_order_is_read_and_not_written(name):
+    predicate, *_ = PREDICATES[name]
+    points = points_for(name, 30, seed=3)
+    expected = predicate(*points).tolist()
+    fortran = [np.asfortranarray(p) for p in points]
+    strided = [np.repeat(np.repeat(p, 2, axis=0), 2, axis=1)[::2, ::2] for p in points]
+    backwards = [np.ascontiguousarray(p[::-1])[::-1] for p in points]
+    for form in (fortran, strided, backwards):
+        for array in form:
+            array.flags.writeable = False
+        assert predicate(*form).tolist() == expected
+    assert predicate(*(p.astype(np.float32) for p in points)).tolist() == expected
+
+
+@EACH
+def test_threads_do_not_matter(name):
+    _, kernel, _, _ = PREDICATES[name]
+    points = points_for(name, 5000, seed=4) + np.random.default_rng(5).random((1, 5000, 1)) * 2.0**-50
+    assert (kernel(*points) == kernel(*points, workers=3)).all()
+
+
+@EACH
+@pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
+def test_the_kernel_refuses_numbers_that_are_not_finite(name, bad):
+    _, kernel, width, names = PREDICATES[name]
+    points = points_for(name, 7)
+    for k, letter in enumerate(names):
+        wrong = points.copy()
+        wrong[k, 3, width - 1] = bad
+        with pytest.raises(ValueError, match=rf"^{letter}\[3, {width - 1}\] is .*finite"):
+            kernel(*wrong)
+
+
+@EACH
+def test_the_kernel_refuses_lengths_that_do_not_fit(name):
+    _, kernel, _, names = PREDICATES[name]
+    points = list(points_for(name, 7))
+    for k in range(1, len(points)):
+        wrong = [p[:4] if place == k else p for place, p in enumerate(points)]
+        with pytest.raises(ValueError, match=rf"^{names[k]} has 4 rows, but a has 7"):
+            kernel(*wrong)
+    with pytest.raises(ValueError, match=r"^c has 7 rows, but b has 0"):
+        kernel(points[0][:1], points[1][:0], *points[2:])
+    assert kernel(points[0][:1], *(p[:0] for p in points[1:])).shape == (0,)
+
+
+def test_the_kernel_refuses_vectors_without_a_direction():
+    for k, letter in enumerate("abcp"):
+        vectors = np.ones((4, 3, 3))
+        vectors[k, 2] = [0.0, -0.0, 0.0]
+        with pytest.raises(ValueError, match=rf"^{letter}\[2\] is the zero vector"):
+            _kernel.in_bubble_signs(*vectors)
+    assert _kernel.orient3d_signs(*np.zeros((4, 1, 3))).tolist() == [0]
+
+
+# The stages of orient3d ----------------------------------------------------------------------------------------------
+
+
+def exact_volume(a, b, c, d):
+    """Sign of det(b−a, c−a, d−a)."""
+    u, v, w = ([Fraction(x) - Fraction(y) for x, y in zip(p, a, strict=True)] for p in (b, c, d))
+    value = sum(u[i] * (v[i - 2] * w[i - 1] - v[i - 1] * w[i - 2]) for i in range(3))
+    return (value > 0) - (value < 0)
+
+
+def stages(points):
+    return {stage: _kernel.orient3d(*points, stage=stage) for stage in ("all", "filter", "double_double", "exact")}
+
+
+@pytest.mark.parametrize("exponent", [-1074, -700, -400, -30, 0, 300, 900])
+@pytest.mark.parametrize("flatness", [1.0, 1e-8, 1e-14, 1e-17, 1e-25, 1e-33, 0.0])
+def test_no_stage_of_orient3d_is_wrong(exponent, flatness):
+    rng = np.random.default_rng(6)
+    a, b, c = rng.normal(size=(3, 25, 3))
+    s, t = rng.random((2, 25, 1))
+    d = a + (b - a) * s + (c - a) * t + flatness * rng.normal(size=(25, 3))
+    points = np.ldexp(np.stack([a, b, c, d]), exponent)
+    truth = [exact_volume(*row) for row in zip(*points.tolist(), strict=True)]
+    for stage, signs in stages(points).items():
+        wrong = [x != y for x, y in zip(signs.tolist(), truth, strict=True) if x != OPEN]
+        assert not any(wrong)
+        assert len(wrong) == 25 or stage in ("filter", "double_double")
+
+
+def test_the_stages_of_orient3d_decide_what_is_theirs():
+    rng = np.random.default_rng(7)
+    points = rng.normal(size=(4, 2000, 3))
+    assert (stages(points)["filter"] == OPEN).mean() < 0.001
+    flat = points.copy()
+    flat[3] = flat[:3].mean(axis=0)
+    assert (stages(flat)["filter"] == OPEN).mean() > 0.5
+    assert (stages(flat)["double_double"] == OPEN).mean() < 0.01
+
+
+ANY = st.floats(allow_nan=False, allow_infinity=False)
+SMALL = st.integers(-3, 3).map(float)
+
+
+@given(*[st.tuples(ANY, ANY, ANY) | st.tuples(SMALL, SMALL, SMALL)] * 4)
+def test_orient3d_of_any_doubles(a, b, c, d):
+    truth = exact_volume(a, b, c, d)
+    for signs in stages([np.array([p]) for p in (a, b, c, d)]).values():
+        assert signs[0] in (truth, OPEN)
+    assert orient3d(a, b, c, d) == truth
