@@ -9,6 +9,7 @@ namespace stereodel {
 namespace {
 
 constexpr std::uint64_t LOW = 0xffffffffU;
+constexpr std::size_t LIMB_BITS = 32;
 
 std::uint32_t low(std::uint64_t value) {
     return static_cast<std::uint32_t>(value & LOW);
@@ -186,31 +187,33 @@ bool operator==(const BigInteger& a, const BigInteger& b) {
 }
 
 BigInteger BigInteger::cut(std::size_t bits) const {
-    const std::size_t whole = bits / 32, rest = bits % 32;
+    const std::size_t whole = bits / LIMB_BITS, rest = bits % LIMB_BITS;
     if (limbs_.size() <= whole) {
         return {};
     }
     Limbs result(limbs_.size() - whole);
-    std::uint64_t above = 0;
-    for (std::size_t k = result.size(); k-- > 0;) {
-        above = above << 32 | limbs_[k + whole];
-        result.data()[k] = low(above >> rest);
+    for (std::size_t k = 0; k < result.size(); ++k) {
+        const auto above = rest == 0 || k + whole + 1 == limbs_.size() ? 0 : limbs_[k + whole + 1];
+        result.data()[k] = limbs_[k + whole] >> rest | above << (LIMB_BITS - rest) % LIMB_BITS;
     }
     return {sign_, std::move(result)};
 }
 
 std::size_t BigInteger::bit_length() const {
-    std::size_t length = 32 * limbs_.size();
-    for (std::uint32_t bit = 0x80000000U; length > 0 && (limbs_[limbs_.size() - 1] & bit) == 0; bit >>= 1) {
-        --length;
+    if (sign_ == 0) {
+        return 0;
+    }
+    std::size_t length = LIMB_BITS * (limbs_.size() - 1);
+    for (auto rest = limbs_[limbs_.size() - 1]; rest != 0; rest >>= 1) {
+        ++length;
     }
     return length;
 }
 
 std::int64_t BigInteger::to_int64() const {
     std::uint64_t magnitude = 0;
-    for (std::size_t k = limbs_.size(); k-- > 0;) {
-        magnitude = magnitude << 32 | limbs_[k];
+    for (std::size_t k = 0; k < limbs_.size(); ++k) {
+        magnitude |= std::uint64_t{limbs_[k]} << LIMB_BITS * k;
     }
     return sign_ * static_cast<std::int64_t>(magnitude);
 }
