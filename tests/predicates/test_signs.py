@@ -158,6 +158,26 @@ def test_the_stages_of_orient3d_decide_what_is_theirs():
     assert (stages(flat)["double_double"] == OPEN).mean() < 0.01
 
 
+def test_double_double_leaves_exact_zeros_to_integers():
+    """Whole numbers of 40 to 53 bits: the last digits of products of three are rounded away."""
+    rng = np.random.default_rng(8)
+    a, u, v = rng.integers(-(2**40), 2**40, size=(3, 300, 3))
+    k, m = rng.integers(-(2**10), 2**10, size=(2, 300, 1))
+    signs = stages([p.astype(float) for p in (a, a + u, a + v, a + k * u + m * v)])
+    assert not signs["all"].any()
+    assert not signs["exact"].any()
+    assert set(signs["filter"].tolist()) | set(signs["double_double"].tolist()) <= {0, OPEN}
+
+
+def test_products_that_underflow_decide_nothing():
+    """Beside 2^700 counts what rounds to zero: 3·7 − 4·5 in units of 2^-1076, a quarter of the least double."""
+    unit = 2.0**-538
+    a, b = np.zeros((1, 3)), np.array([[2.0**700, 2.0**690, 0.0]])
+    c, d = unit * np.array([[4.0, 3.0, 4.0]]), unit * np.array([[0.0, 5.0, 7.0]])
+    assert exact_volume(*(p[0].tolist() for p in (a, b, c, d))) == 1
+    assert [signs[0] for signs in stages((a, b, c, d)).values()] == [1, OPEN, OPEN, 1]
+
+
 ANY = st.floats(allow_nan=False, allow_infinity=False)
 SMALL = st.integers(-3, 3).map(float)
 

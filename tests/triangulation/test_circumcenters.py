@@ -63,6 +63,28 @@ def test_needles(bits):
                 assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
 
 
+@pytest.mark.parametrize("turn", range(3))
+def test_needles_a_few_units_in_the_last_place_apart(turn):
+    """What unit vectors in double-double leave of such a difference is not enough."""
+    rng = np.random.default_rng(turn)
+    for _ in range(60):
+        far, near = rng.normal(size=(2, 3))
+        pair = np.array([near, near + np.spacing(near) * rng.permutation([1, rng.integers(-2, 3), -1])])
+        triangle = np.roll(np.vstack([far, pair]), turn, axis=0)
+        with workdps(60):
+            assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
+
+
+@pytest.mark.parametrize("bits", range(40, 140, 3))
+def test_three_close_directions_of_one_great_circle(bits):
+    """Their circle is the great circle itself; what tells so is of third order in their distance."""
+    step = 2.0**-bits
+    triangle = np.array([[1.0, step, 2 * step], [1.0, 3 * step, 6 * step], [1.0, -2 * step, -4 * step]])
+    for corners in (triangle, triangle + [[0, 0, 0], [0, 0, 0], [0, step * 2.0**-bits, 0]]):
+        with workdps(300):
+            assert error(normal_of(corners), exact_normal(corners)) < 1.3e-16
+
+
 def test_the_needles_of_a_triangulation():
     gap = 2.0**-41
     points = np.array([[1.0, 0.0, 0.0], [0.1, 1.0, 0.2], [0.1 + gap, 1.0, 0.2 + gap / 3]])
@@ -189,7 +211,7 @@ def test_hard_triangles_of_the_plane():
 
 
 @settings(max_examples=200)
-@example((4.9e-106, 5.8e-179), (0.0, 3e11), (4.9e-106, 0.0))  # two corners so close that their distance squared is zero
+@example((4.87894612224509e-106, 5.821812258650955e-179), (0.0, 323494778360.0), (4.87894612224509e-106, 0.0))
 @given(*[st.tuples(FINITE, FINITE)] * 3)
 def test_any_triangle_of_the_plane(a, b, c):
     assert_right([a, b, c])
