@@ -20,13 +20,17 @@ class FlatFinder {
 
     void find(const double* query, Index* found) {
         query_.take(query);
-        if (is_closed() && all_equally_near()) {
-            std::iota(found, found + task_.k, 0);
-            return;
+        std::ptrdiff_t left = nearest_place([this](std::ptrdiff_t a, std::ptrdiff_t b) { return compare_roughly(a, b); });
+        if (!is_nearest(left)) {
+            if (is_closed() && all_equally_near()) {
+                std::iota(found, found + task_.k, 0);
+                return;
+            }
+            left = nearest_place([this](std::ptrdiff_t a, std::ptrdiff_t b) { return compare(a, b); });
         }
         found_ = found;
         missing_ = task_.k;
-        std::ptrdiff_t left = is_closed() ? nearest_around() : nearest_along(), right = left + 1;
+        std::ptrdiff_t right = left + 1;
         while (missing_ > 0 && right - left <= size_) {
             const int sign = compare_ends(left, right);
             if (sign < 0) {
@@ -51,6 +55,12 @@ class FlatFinder {
     // Sign of the distance at one place less that at another.
     int compare(std::ptrdiff_t a, std::ptrdiff_t b) { return query_.compare(at(a), at(b)); }
 
+    // The same, rounded: a guess.
+    int compare_roughly(std::ptrdiff_t a, std::ptrdiff_t b) const {
+        const double to_a = query_.rough_distance(at(a)), to_b = query_.rough_distance(at(b));
+        return int{to_a > to_b} - int{to_a < to_b};
+    }
+
     // Three directions of a great circle are on one circle around the query only at the ends of its axis. The kept
     // points and their duplicates are all points then.
     bool all_equally_near() { return compare(0, 1) == 0 && compare(1, 2) == 0; }
@@ -70,14 +80,27 @@ class FlatFinder {
         return begin;
     }
 
-    // The place of a nearest point, the first one of two.
-    std::ptrdiff_t nearest_along() {
-        return partition_place(size_ - 1, [this](std::ptrdiff_t k) { return compare(k + 1, k) < 0; });
+    // The place of a nearest point, the first one of two, if `compare` is right.
+    template <class Compare>
+    std::ptrdiff_t nearest_place(Compare&& compare) const {
+        return is_closed() ? nearest_around(compare) : nearest_along(compare);
     }
 
-    // The same around a circle. Seen from the first place the angle falls, rises and falls again to its start, or rises,
-    // falls and rises again; it stands still between two places at most, where it turns.
-    std::ptrdiff_t nearest_around() {
+    template <class Compare>
+    std::ptrdiff_t nearest_along(Compare&& compare) const {
+        return partition_place(size_ - 1, [&](std::ptrdiff_t k) { return compare(k + 1, k) < 0; });
+    }
+
+    // Seen from the first place the angle falls, rises and falls again to its start, or rises, falls and rises again; it
+    // stands still between two places at most, where it turns.
+    template <class Compare>
+    std::ptrdiff_t nearest_around(Compare&& compare) const {
+        // How many places beyond `start`, where the angle falls, it falls to its least value.
+        const auto end_of_fall = [&](std::ptrdiff_t start) {
+            return partition_place(size_, [&](std::ptrdiff_t k) {
+                return compare(start + k + 1, start + k) < 0 && compare(start + k, start) <= 0;
+            });
+        };
         const int step = compare(1, 0);
         if (step == 0) {  // a turn: the two nearest, or the two farthest
             return compare(2, 1) > 0 ? 0 : 1 + end_of_fall(1);
@@ -86,14 +109,13 @@ class FlatFinder {
             return end_of_fall(0);
         }
         return partition_place(
-            size_, [this](std::ptrdiff_t k) { return compare(k + 1, k) < 0 || k == 0 || compare(k, 0) > 0; });
+            size_, [&](std::ptrdiff_t k) { return compare(k + 1, k) < 0 || k == 0 || compare(k, 0) > 0; });
     }
 
-    // How many places beyond `start`, where the angle falls, it falls to its least value.
-    std::ptrdiff_t end_of_fall(std::ptrdiff_t start) {
-        return partition_place(size_, [this, start](std::ptrdiff_t k) {
-            return compare(start + k + 1, start + k) < 0 && compare(start + k, start) <= 0;
-        });
+    // Whether a place is what `nearest_place` looks for: least beside its neighbours is least of all.
+    bool is_nearest(std::ptrdiff_t place) {
+        const bool first = !is_closed() && place == 0, last = !is_closed() && place == size_ - 1;
+        return (first || compare(place, place - 1) < 0) && (last || compare(place, place + 1) <= 0);
     }
 
     // Sign of the distance of the next place to the left less that to the right; a side where none is left is beyond

@@ -9,6 +9,7 @@
 #include "charts.hpp"
 #include "corners.hpp"
 #include "plane_predicates.hpp"
+#include "query_symmetry.hpp"
 #include "ray_predicates.hpp"
 #include "threads.hpp"
 
@@ -92,10 +93,22 @@ class PlaneQuery {
 
     void take(const double* query) { query_ = query; }
     int side(Index u, Index v) { return points_.orient(u, v, query_); }
-    int compare(Index a, Index b) { return points_.compare_distances(query_, a, b); }
+
+    // Sign of the distance between the query and a less that between the query and b.
+    int compare(Index a, Index b) {
+        const Sign sign = compare_squares(square(a), square(b));
+        if (sign != OPEN) {
+            return sign;
+        }
+        const bool equal = equally_near_in_plane(query_, points_.at(a), points_.at(b));
+        return equal ? 0 : points_.compare_distances(query_, a, b);
+    }
 
     // Whether the query lies inside the circle of three corners; points have no common granularity here.
     bool sees(const Index* c) { return points_.incircle(c[0], c[1], c[2], query_) > 0; }
+
+    // Grows with the distance from a point, but for roundings.
+    double rough_distance(Index a) const { return square(a); }
 
     // The squared distance from a point, rounded; which of two is smaller, if that is certain.
     double square(Index a) const { return PlaneChart::rough_distance(query_, points_.at(a)); }
@@ -152,7 +165,16 @@ class SphereQuery {
     // Sign of the angle between the query and a less that between the query and b.
     int compare(Index a, Index b) {
         const Sign sign = compare_squares(square(a), square(b));
-        return sign != OPEN ? sign : compare_angles(query_, at(a), at(b), tally_);
+        if (sign != OPEN) {
+            return sign;
+        }
+        return equally_near_on_sphere(query_, at(a), at(b)) ? 0 : compare_angles(query_, at(a), at(b), tally_);
+    }
+
+    // Grows with the angle to a direction, but for roundings.
+    double rough_distance(Index a) const {
+        const double* const p = at(a);
+        return -rays::dot_form(unit_, p) / std::sqrt(rays::dot_form(p, p));
     }
 
     // The squared chord to a point, rounded; not a number if its vector is not of length one.
