@@ -11,6 +11,7 @@ using namespace nb::literals;
 
 RowsOut<double, 4> sines_and_cosines(const ValuesIn<double>& angles) {
     const std::size_t count = angles.shape(0);
+    check_finite("angles", angles.data(), count);
     return to_rows<4>(filled<double>(4 * count, false, [&](double* rows, Stop) {
         for (std::size_t k = 0; k < count; ++k) {
             const SineCosine value = sin_cos_degrees(angles.data()[k]);
@@ -28,6 +29,7 @@ constexpr std::size_t long_work = 100000;  // points: some milliseconds
 template <auto Convert, std::size_t From, std::size_t To>
 RowsOut<double, To> converted(const RowsIn<double, From>& rows, int workers) {
     const std::size_t count = rows.shape(0);
+    check_points(From == 2 ? "lonlat" : "xyz", rows);
     return to_rows<To>(filled<double>(To * count, count > long_work, [&](double* out, Stop stop) {
         Convert(rows.data(), count, out, workers, stop);
     }));

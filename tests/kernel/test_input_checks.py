@@ -45,14 +45,16 @@ def calls():
     units = {"units": SPHERE.points, "rests": 0 * SPHERE.points}
     asked = {"queries": SPHERE.points, "query_units": SPHERE.points, "query_rests": 0 * SPHERE.points}
     yield "natural_neighbors_sphere", triangles(SPHERE) | units | {"values": np.zeros((12, 1))} | asked
+    yield "lonlat_to_xyz", {"lonlat": PLANE.points}
+    yield "xyz_to_lonlat", {"xyz": SPHERE.points}
     for name in ("moebius_images", "moebius_scales"):
         yield name, {"left": EYE, "magnification": 2.0, "right": EYE, "xyz": SPHERE.points}
 
 
 CALLS = dict(calls())
-VECTORS = {"points", "queries", "units", "query_units"}
+VECTORS = {"points", "queries", "units", "query_units", "xyz"}
 NUMBERS = {"simplices", "neighbors", "vertices", "triangles", "edges", "numbers", "order"}
-FREE = {"xyz"}  # its function answers with a flag
+ANSWERED = {"moebius_images", "moebius_scales"}  # which tell by a flag that a row has no image
 
 
 def call(name, arguments):
@@ -74,7 +76,12 @@ def test_right_arguments_are_accepted(name):
 def test_numbers_that_are_not_finite_are_refused(name):
     right = CALLS[name]
     for key, array in right.items():
-        if isinstance(array, np.ndarray) and array.dtype == float and key not in FREE | {"values"}:
+        if (
+            isinstance(array, np.ndarray)
+            and array.dtype == float
+            and key != "values"
+            and not (key == "xyz" and name in ANSWERED)
+        ):
             for value in (np.nan, np.inf, -np.inf):
                 for place in ((0, 0), (-1, -1)):
                     shown = key if key not in ("left", "right") else "rotation"
@@ -87,7 +94,7 @@ def test_numbers_that_are_not_finite_are_refused(name):
 def test_vectors_without_a_direction_are_refused(name):
     right = CALLS[name]
     for key, array in right.items():
-        if key in VECTORS and array.shape[1] == 3:
+        if key in VECTORS and array.shape[1] == 3 and name not in ANSWERED:
             with pytest.raises(ValueError, match=rf"{key}\[2\] is the zero vector"):
                 call(name, right | {key: with_entry(array, 2, -0.0)})
             small = [0.0, 5e-324, 0.0]
@@ -128,7 +135,7 @@ def test_triangles_and_neighbors_that_do_not_fit_are_refused(name):
 def test_arrays_of_other_lengths_are_refused(name):
     """Each array that has to fit others, shortened: it is refused for its length or for what it no longer holds."""
     right = CALLS[name]
-    alone = {"queries", "duplicates", "edges", "numbers", "triangles", "xyz"}
+    alone = {"queries", "duplicates", "edges", "numbers", "triangles", "xyz", "lonlat"}
     keys = [k for k, a in right.items() if isinstance(a, np.ndarray) and k not in alone]
     if "simplices" in keys and "neighbors" not in keys:
         keys.remove("simplices")
@@ -150,6 +157,18 @@ def test_changes_of_a_mesh():
         assert np.array_equal(mesh.arrays()[0], t.simplices)
     with pytest.raises(ValueError, match=r"points\[0\] is the zero vector"):
         mesh.insert(np.zeros((1, 3)))
+
+
+def test_angles():
+    with pytest.raises(ValueError, match=r"angles\[1\] is inf, not a finite number"):
+        _kernel.sin_cos_degrees(np.array([0.0, np.inf]))
+
+
+@pytest.mark.parametrize("name", sorted(ANSWERED))
+def test_points_without_an_image_are_told_by_a_flag(name):
+    for row in (0.0, np.nan, np.inf):
+        assert call(name, CALLS[name])[1]
+        assert not call(name, CALLS[name] | {"xyz": with_entry(SPHERE.points, 3, row)})[1]
 
 
 def test_other_parameters():
