@@ -14,7 +14,9 @@ namespace {
 class SortedPoints : public CurveSites {
   public:
     SortedPoints(CurveArrays& arrays, double granularity)
-        : CurveSites(arrays), predicates_(&arrays.points.data()->x, granularity) {}
+        : CurveSites(arrays), predicates_(&arrays.points.data()->x, granularity) {
+        predicates_.remember_circles();  // where something was asked about places, these are in their final order
+    }
 
     int orient(Index a, Index b, Index c) { return predicates_.orient(a, b, c); }
     bool in_circle(Index a, Index b, Index c, Index d) { return predicates_.in_circle(a, b, c, d); }

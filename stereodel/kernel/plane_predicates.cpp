@@ -69,19 +69,31 @@ int PlanePoints::orient_open(const double* a, const double* b, const double* c, 
 int PlanePoints::incircle_open(const double* a, const double* b, const double* c, const double* d,
                                const plane::Estimate& e) {
     ++tally.filter;
+    const Sign sign = incircle_known(a, b, c, d, e);
+    return counted(sign != OPEN ? sign : incircle_close(a, b, c, d));
+}
+
+// By a rectangle, or products that are exact.
+Sign PlanePoints::incircle_known(const double* a, const double* b, const double* c, const double* d,
+                                 const plane::Estimate& e) const {
     if (plane::is_rectangle(a, b, c, d)) {
-        return counted(0);
+        return 0;
     }
-    if (e.permanent <= exact_incircle_) {
-        return counted(sign_of(e.value));
-    }
+    return e.permanent <= exact_incircle_ ? sign_of(e.value) : OPEN;
+}
+
+int PlanePoints::incircle_close(const double* a, const double* b, const double* c, const double* d) {
     const Sign sign = plane::incircle_double_double(a, b, c, d);
     if (sign != OPEN) {
         return sign;
     }
     ++tally.double_double;
-    const Sign last = per_unit_ > 0.0 ? plane::incircle_last_digits(a, b, c, d, per_unit_) : OPEN;
-    return counted(last != OPEN ? last : plane::incircle_exact(a, b, c, d));
+    return incircle_last(a, b, c, d);
+}
+
+int PlanePoints::incircle_last(const double* a, const double* b, const double* c, const double* d) const {
+    const Sign sign = per_unit_ > 0.0 ? plane::incircle_last_digits(a, b, c, d, per_unit_) : OPEN;
+    return sign != OPEN ? sign : plane::incircle_exact(a, b, c, d);
 }
 
 bool PlanePoints::in_circle_open(Index a, Index b, Index c, Index d, const plane::Estimate& e) {
@@ -89,7 +101,21 @@ bool PlanePoints::in_circle_open(Index a, Index b, Index c, Index d, const plane
     if (d == a || d == b || d == c) {
         return false;
     }
-    const int sign = incircle_open(at(a), at(b), at(c), at(d), e);
+    ++tally.filter;
+    Sign sign = incircle_known(at(a), at(b), at(c), at(d), e);
+    if (sign == OPEN && circles_.knows(a, b, c, d)) {
+        ++tally.double_double;  // as it would have been: counts do not depend on what is remembered
+        sign = 0;
+    } else if (sign == OPEN) {
+        sign = incircle_close(at(a), at(b), at(c), at(d));
+        if (sign == 0 && remembers_) {
+            circles_.learn(a, b, c, d, [this](Index i, Index j, Index k, Index l) {
+                return plane::incircle_double_double(at(i), at(j), at(k), at(l)) == OPEN &&
+                       incircle_last(at(i), at(j), at(k), at(l)) == 0;
+            });
+        }
+    }
+    counted(sign);
     return (sign != 0 ? sign : incircle_tie(at(a), at(b), at(c), at(d))) > 0;
 }
 
@@ -112,11 +138,11 @@ int PlanePoints::compare_distances(const double* p, const double* a, const doubl
 // of the others. Three points of a circle are not collinear, so the first point, whose height grows most, always
 // decides.
 int incircle_tie(const double* a, const double* b, const double* c, const double* d) {
-    const double* points[] = {a, b, c, d};
-    const auto first = std::min_element(points, points + 4, before) - points;
-    std::copy(points + first + 1, points + 4, points + first);
-    const int orientation = orient_signs(points[0], points[1], points[2]);
-    return first % 2 == 0 ? orientation : -orientation;
+    const bool a_first = before(a, b), c_first = before(c, d);
+    if (before(a_first ? a : b, c_first ? c : d)) {
+        return a_first ? orient_signs(b, c, d) : -orient_signs(a, c, d);
+    }
+    return c_first ? orient_signs(a, b, d) : -orient_signs(a, b, c);
 }
 
 }  // namespace stereodel

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 
+#include "circle_memo.hpp"
 #include "plane_stages.hpp"
 #include "tally.hpp"
 
@@ -24,6 +25,9 @@ class PlanePoints {
           exact_orient_(exact_up_to(granularity, 2)),
           exact_incircle_(exact_up_to(granularity, 4)),
           per_unit_(granularity > 0.0 ? 1.0 / granularity : 0.0) {}
+
+    // From now on points keep their numbers and coordinates: ties of `in_circle` may be remembered.
+    void remember_circles() { remembers_ = true; }
 
     const double* at(Index a) const { return xy_ + 2 * static_cast<std::ptrdiff_t>(a); }
 
@@ -85,6 +89,10 @@ class PlanePoints {
 
     int orient_open(const double* a, const double* b, const double* c, const plane::Estimate& e, double exact);
     int incircle_open(const double* a, const double* b, const double* c, const double* d, const plane::Estimate& e);
+    Sign incircle_known(const double* a, const double* b, const double* c, const double* d,
+                        const plane::Estimate& e) const;
+    int incircle_close(const double* a, const double* b, const double* c, const double* d);
+    int incircle_last(const double* a, const double* b, const double* c, const double* d) const;
     bool in_circle_open(Index a, Index b, Index c, Index d, const plane::Estimate& e);
     int counted(int sign);
 
@@ -92,6 +100,8 @@ class PlanePoints {
     double exact_orient_;
     double exact_incircle_;
     double per_unit_;  // 0 if no grid is known
+    bool remembers_ = false;
+    CircleMemo circles_;
 };
 
 // in_circle for four different cocircular points, as vectors: 1 or -1.
