@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 
+#include "error_counts.hpp"
 #include "ray_balls.hpp"
+#include "ray_forms.hpp"
 #include "roots.hpp"
 
 namespace stereodel::rays {
@@ -82,6 +86,78 @@ int diametral_integers(const double* a, const double* b, const double* p) {
     const std::array<RootTerm, 4> terms = {RootTerm{BigInteger(1), aa * bb * pp}, RootTerm{dot(ra, rb), pp},
                                            RootTerm{-dot(rp, ra), bb}, RootTerm{-dot(rp, rb), aa}};
     return sign_of_roots(terms.data(), 4);
+}
+
+namespace {
+
+// Vectors in units of one power of two: integers below 2^16 if `fits`.
+template <std::size_t COUNT>
+struct SmallIntegers {
+    double v[COUNT][3];
+    bool fits;
+
+    explicit SmallIntegers(const std::array<const double*, COUNT>& vectors) {
+        constexpr int BITS = 16;
+        constexpr double ROUND = 0x1.8p52;  // adding it rounds to an integer
+        double largest = 0.0;
+        for (const double* p : vectors) {
+            largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
+        }
+        fits = largest > 0x1p-500 && largest < 0x1p500;
+        if (!fits) {
+            return;
+        }
+        int exponent = 0;
+        std::frexp(largest, &exponent);
+        const double units = std::ldexp(1.0, BITS - exponent);
+        for (std::size_t i = 0; i < COUNT; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                const double value = vectors[i][k] * units;
+                v[i][k] = value;
+                fits = fits && (value + ROUND) - ROUND == value && (value != 0.0 || vectors[i][k] == 0.0);
+            }
+        }
+    }
+};
+
+}  // namespace
+
+// Minors are below 2^33, determinants below 3 * 2^49, squares below 3 * 2^32: exact, and so are sums of determinants.
+// A term coefficient * sqrt(square) is rounded twice and passes three sums: 5u.
+Sign bubble_small_integers(const double* a, const double* b, const double* c, const double* p) {
+    const SmallIntegers<4> integers({a, b, c, p});
+    if (!integers.fits) {
+        return OPEN;
+    }
+    const auto& v = integers.v;
+    double squares[4];
+    for (int i = 0; i < 4; ++i) {
+        squares[i] = dot_form(v[i], v[i]);
+    }
+    double coefficients[4] = {determinant_form(v[1], v[2], v[3]), -determinant_form(v[0], v[2], v[3]),
+                              determinant_form(v[0], v[1], v[3]), -determinant_form(v[0], v[1], v[2])};
+    double value = 0.0, permanent = 0.0;
+    int terms = 0;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = i + 1; j < 4; ++j) {
+            if (squares[i] == squares[j]) {
+                coefficients[j] += coefficients[i];
+                coefficients[i] = 0.0;
+                break;
+            }
+        }
+        const double term = coefficients[i] * std::sqrt(squares[i]);
+        value += term;
+        permanent += std::fabs(term);
+        terms += coefficients[i] != 0.0;
+    }
+    return terms <= 1 ? sign_of(value) : decide(value, 6 * UNIT_ROUNDOFF * permanent);
+}
+
+Sign turn_small_integers(const double* a, const double* b, const double* c) {
+    const SmallIntegers<3> integers({a, b, c});
+    const auto& v = integers.v;
+    return integers.fits ? sign_of(determinant_form(v[0], v[1], v[2])) : OPEN;
 }
 
 namespace {

@@ -19,7 +19,9 @@ constexpr Number component_form(const Number* a, const Number* b, int k, int i, 
 }
 
 constexpr ErrorCount PAIRED[3] = {{1, 0}, {1, 0}, {1, 0}};
-constexpr double COMPONENT_ERROR = 112;
+constexpr RoundingCount EXACT[3] = {{0}, {0}, {0}};
+constexpr double COMPONENT_ROUNDING = 6, COMPONENT_ERROR = 112;
+static_assert(component_form(EXACT, EXACT, 0, 1, 2).bound() <= COMPONENT_ROUNDING);
 static_assert(component_form(PAIRED, PAIRED, 0, 1, 2).bound() <= COMPONENT_ERROR);
 
 // Equal by symmetry: the case of mirrored points, lattices and circles of latitude, and of most exact ties.
@@ -94,8 +96,27 @@ int shadow(const double* a, const double* b, const double* c, int axis, bool uni
             return 0;
         }
     }
-    const Sign sign = unit ? shadow_filter(a, b, c, axis) : OPEN;
+    const Sign sign = unit ? shadow_filter(a, b, c, axis) : shadow_of_rounded(a, b, c, axis);
     return sign != OPEN ? sign : shadow_exact(a, b, c, axis);
+}
+
+// Rounded to length one, components are off by 4.5u of themselves, and small ones by underflow: far less than what the
+// filter allows for.
+Sign shadow_of_rounded(const double* a, const double* b, const double* c, int axis) {
+    double unit[3][3];
+    int i = 0;
+    for (const double* p : {a, b, c}) {
+        const double square = dot_form(p, p);
+        if (!(square > 0x1p-900 && square < 0x1p900)) {
+            return OPEN;
+        }
+        const double factor = 1.0 / std::sqrt(square);
+        for (int k = 0; k < 3; ++k) {
+            unit[i][k] = p[k] * factor;
+        }
+        ++i;
+    }
+    return shadow_filter(unit[0], unit[1], unit[2], axis);
 }
 
 // Components of the unit vectors are within 1.01 * 2^-49 of those given, differences, at most 2.01, within 2^-47.8 of
@@ -113,7 +134,7 @@ int compare_component(const double* a, const double* b, int k, bool unit) {
     if (sign_a != sign_b) {
         return sign_a < sign_b ? -1 : 1;
     }
-    Sign sign = unit ? compare_component_filter(a, b, k) : OPEN;
+    Sign sign = unit ? compare_component_filter(a, b, k) : compare_component_squares(a, b, k);
     if (sign == OPEN) {
         sign = compare_component_double_double(a, b, k);
     }
@@ -125,6 +146,17 @@ int compare_component(const double* a, const double* b, int k, bool unit) {
 // counts: a difference of doubles is at least 2^-1074.
 Sign compare_component_filter(const double* a, const double* b, int k) {
     return decide(a[k] - b[k], 0x1p-47 * (std::fabs(a[k]) + std::fabs(b[k])));
+}
+
+// Underflow in a square or sum of squares of a meets factors at most |b|^2, and the other way round; what the last
+// products lose meets nothing.
+Sign compare_component_squares(const double* a, const double* b, int k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const double aa = dot_form(a, a), bb = dot_form(b, b);
+    const double permanent = a[k] * a[k] * bb + b[k] * b[k] * aa;
+    const double bound = COMPONENT_ROUNDING * UNIT_ROUNDOFF * permanent + plane::FLOOR * (aa + bb + 1);
+    const Sign squares = decide(component_form(a, b, k, i, j), bound);
+    return squares == OPEN ? OPEN : sign_of(a[k]) * squares;
 }
 
 Sign compare_component_double_double(const double* a, const double* b, int k) {

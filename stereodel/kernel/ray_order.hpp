@@ -13,6 +13,7 @@ int compare(const double* a, const double* b, bool unit);
 // One component: sign of a_k/|a| - b_k/|b|; and its stages.
 int compare_component(const double* a, const double* b, int k, bool unit);
 Sign compare_component_filter(const double* a, const double* b, int k);  // lengths within 2^-49 of 1
+Sign compare_component_squares(const double* a, const double* b, int k);  // any lengths, components of one sign
 Sign compare_component_double_double(const double* a, const double* b, int k);
 
 // Whether four different directions lie on one circle by symmetry: with one component in common, or two pairs of
@@ -27,6 +28,7 @@ bool on_mirror(const double* a, const double* b, const double* c);
 // without `axis`, 1). unit: the lengths are within 2^-49 of 1.
 int shadow(const double* a, const double* b, const double* c, int axis, bool unit);
 Sign shadow_filter(const double* a, const double* b, const double* c, int axis);  // lengths within 2^-49 of 1
+Sign shadow_of_rounded(const double* a, const double* b, const double* c, int axis);  // any lengths
 
 // The stages of the comparison of angles: sign of the angle between q and a less that between q and b.
 Sign compare_angles_filter(const Direction& q, const Direction& a, const Direction& b);
