@@ -281,6 +281,7 @@ def nearest_flat_plane(
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     k: int,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """
     The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.
@@ -293,6 +294,7 @@ def nearest_flat_sphere(
     queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     k: int,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """The same for directions of one great circle."""
 

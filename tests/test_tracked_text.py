@@ -19,6 +19,7 @@ def tool(name):
 
 tracked = tool("tracked_text")
 
+
 @pytest.mark.parametrize("line", ["x" * 121, "\tx", "x "])
 def test_lines_of_cpp_are_seen(line):
     (found,) = tracked.problems("k.cpp", "x" * 120 + "\n" + line)
@@ -27,7 +28,9 @@ def test_lines_of_cpp_are_seen(line):
 
 
 def test_this_repository_passes():
-    ran = subprocess.run([sys.executable, "tools/tracked_text.py"], cwd=ROOT, capture_output=True, text=True, check=False)
+    ran = subprocess.run(
+        [sys.executable, "tools/tracked_text.py"], cwd=ROOT, capture_output=True, text=True, check=False
+    )
     assert ran.returncode == 0, ran.stderr
 
 
