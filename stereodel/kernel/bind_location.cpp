@@ -175,7 +175,7 @@ RowsOfAnyWidth nearest_on_circle(RowsIn<double, 3> points, ValuesIn<Index> order
 void bind_location(nb::module_& module) {
     module.def("find_simplex_plane", find_plane, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "workers"_a = 1, "checked"_a = false,
-               "The lowest triangle that holds each query, -1 outside. checked: the arrays are the kernel's own, unchanged.");
+               "The lowest triangle that holds each query, -1 outside. checked: the kernel made the arrays.");
     module.def("find_simplex_sphere", find_sphere, "points"_a, "simplices"_a, "neighbors"_a, "queries"_a,
                "closing"_a = nb::none(), "workers"_a = 1, "checked"_a = false,
                "The same for directions; `closing` tells the triangles that hold none (none if not given).");

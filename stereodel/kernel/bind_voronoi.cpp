@@ -227,7 +227,8 @@ nb::tuple of_circle(RowsIn<double, 3> points) {
     const GreatCircle circle = circle_of(points);
     Buffer<double> ends(circle.order.size() < 2 ? 0 : 6);
     std::copy_n(circle.ends[0], ends.size(), ends.data());
-    return nb::make_tuple(to_cells_in_python(circle_diagram(circle.order, points.shape(0))), to_rows<3>(std::move(ends)));
+    return nb::make_tuple(to_cells_in_python(circle_diagram(circle.order, points.shape(0))),
+                          to_rows<3>(std::move(ends)));
 }
 
 ValuesOut<double> areas_on_circle(RowsIn<double, 3> points) {

@@ -37,8 +37,8 @@ Ridges ridges_of(const Cells& cells, int workers, Stop stop);
 // Throws std::invalid_argument if the cells are not those of a diagram.
 Polygons polygons_of(const Cells& cells, int workers, Stop stop);
 
-// In which order triangles are wanted: the vertex of each, and its place among those of that vertex in the lexicographic
-// order of their corners (null: each vertex has one).
+// In which order triangles are wanted: the vertex of each, and its place among those of that vertex in the
+// lexicographic order of their corners (null: each vertex has one).
 struct TriangleOrder {
     const Index *vertex, *rank;
     std::size_t count;

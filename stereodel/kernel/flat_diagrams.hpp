@@ -23,7 +23,7 @@ Buffer<Index> line_ridges(const std::vector<Index>& order);
 // The cells of `count` directions, of which those in `order` are different, counterclockwise around vertex 0.
 Diagram circle_diagram(const std::vector<Index>& order, std::size_t count);
 
-// The area of each cell: 0 for points that are dropped, 4 pi for one that is alone. The gaps are those of `GreatCircle`.
+// The area of each cell: 0 for points that are dropped, 4 pi for one that is alone. `gaps` are those of `GreatCircle`.
 void circle_areas(const std::vector<Index>& order, const std::vector<double>& gaps, std::size_t count, double* areas);
 
 // Unit vectors to the middles of the cells, NaN for points that are dropped; one that is alone is its own middle.

@@ -82,8 +82,8 @@ double length(const ScaledVector& n) {
 // The angle between two directions, in [0, pi], from their vector product: small ones to a few 2^-53 of themselves.
 double angle_between(const double* p, const double* q, const ScaledVector& normal) {
     const ScaledRay a(p), b(q);
-    const DoubleDouble x = two_product(a.v[0], b.v[0]), y = two_product(a.v[1], b.v[1]), z = two_product(a.v[2], b.v[2]);
-    const DoubleDouble cosine = x + y + z;
+    const DoubleDouble cosine =
+        two_product(a.v[0], b.v[0]) + two_product(a.v[1], b.v[1]) + two_product(a.v[2], b.v[2]);
     return std::atan2(std::ldexp(length(normal), normal.exponent - a.exponent - b.exponent), cosine.hi);
 }
 

@@ -126,11 +126,14 @@ def test_small_integers_of_a_great_circle(pairs, plane):
         check_circle(points)
 
 
-@pytest.mark.parametrize("gap", [1e-3, 1e-9, 1e-17, 1e-40, 1e-150, 1e-300])
+@pytest.mark.parametrize("gap", [1e-3, 2.0**-10, 2.0**-25, 1e-9, 2.0**-45, 1e-17, 1e-40, 1e-150, 1e-300])
 def test_gaps_of_every_size(gap):
     """Directions that get closer and closer, on both sides of a coordinate axis, and one opposite."""
     check_circle([[1, gap, 0], [1, 0, 0], [1, -3 * gap, 0], [-1, 0, 0], [2, 2 * gap, 0], [1, gap * (1 + 2**-50), 0]])
     check_circle([[0, gap, 5], [0, 3 * gap, 5]])
+    # Products of very different size; in a plane where no component is zero the axis has them, too.
+    check_circle([[1, gap, 0], [1, 1, 0], [gap, 1, 0], [-1, 1, 0]])
+    check_circle([[1, 1, 1], [1 + gap, 1, 1], [-1, -1, -1]])
 
 
 @pytest.mark.parametrize("scale", [1e300, 1e-300, 5e-324])
@@ -208,7 +211,7 @@ def test_graphs_of_a_circle_take_the_same_order():
     assert hull(points).tolist() == []
 
 
-@pytest.mark.parametrize("size", [2.0**-40, 2.0**-43, 2.0**-44, 2.0**-45, 1e-20, 1e-60, 1e-300])
+@pytest.mark.parametrize("size", [2.0**-40, 2.0**-43, 2.0**-44, 2.0**-45, 2.0**-55, 2.0**-62, 1e-20, 1e-60, 1e-300])
 def test_planes_between_close_directions(size):
     """Around the change from one formula to the other, and far beyond, whatever the lengths."""
     rng = np.random.default_rng(int(-np.log2(size)))
