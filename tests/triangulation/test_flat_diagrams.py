@@ -223,3 +223,22 @@ def test_planes_between_close_directions(size):
         for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
             exact = digits(digits(a) - digits(b))
             assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
+
+
+@pytest.mark.parametrize("bits", [18, 20, 21, 22, 23, 25, 28, 31, 36, 42, 48, 50])
+def test_planes_between_the_closest_integer_directions(bits):
+    """Neighbours in a Farey sequence, about 2^(-2 bits) apart, in a plane where no component helps."""
+    rng = np.random.default_rng(bits)
+    pairs = []
+    for _ in range(20):
+        c = int(rng.integers(2 ** (bits - 1), 2**bits)) | 1
+        d = int(rng.integers(2, c // 2)) * 2 + 1
+        if np.gcd(c, d) == 1:
+            a = pow(d, -1, c)  # a d = 1 modulo c
+            pairs.append(((a, (a * d - 1) // c), (c, d)))
+    plane = np.array([[1, 2, 2], [2, 1, -2]], dtype=object)
+    p, q = (np.array([np.array(pair[k], dtype=object) @ plane for pair in pairs], dtype=float) for k in (0, 1))
+    with mpmath.workdps(200):
+        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
+            exact = digits(digits(a) - digits(b))
+            assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
