@@ -6,14 +6,12 @@ shape. Nothing here modifies its argument; the result may share memory with it a
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterable
-from itertools import chain
 from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._numbers import as_doubles, entry, refuse_masked
 from stereodel.constants import UNIT_ROUNDOFF
 
 FloatArray = npt.NDArray[np.float64]
@@ -21,8 +19,6 @@ IntArray = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 _Word = TypeVar("_Word", bound=str)
-_WHOLE = 2**53
-"""Up to here every whole number is a double."""
 
 
 def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
@@ -36,36 +32,20 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
         For NaN, infinities, masked values, ragged nesting, and for whole numbers and long doubles that no double equals
         (`Decimal` and `Fraction` are rounded to the nearest double, as a literal is).
     """
-    result = _as_doubles(values, name)
+    result = as_doubles(values, name)
     _refuse(~np.isfinite(result), result, name, "every value must be a finite number")
     return result
-
-
-def _as_doubles(values: npt.ArrayLike, name: str) -> FloatArray:
-    """Real numbers of any shape, NaN and infinities among them."""
-    _refuse_masked(values, name)
-    try:
-        array = np.asarray(values)
-    except ValueError as error:
-        raise ValueError(f"{name} is ragged: its rows must all have the same length") from error
-    if isinstance(values, list | tuple) and array.dtype.kind in "iuf" and _may_hide_others(array, values):
-        array = np.asarray(values, dtype=object)
-    if array.dtype.kind not in "iuf":
-        array = _from_objects(array, name)
-    elif array.dtype.kind != "f" or array.dtype.itemsize > 8:
-        array = _from_wide(array, name)
-    return np.asarray(array, dtype=np.float64, order="C")
 
 
 def _refuse(wrong: BoolArray, array: FloatArray, name: str, expected: str) -> None:
     if np.count_nonzero(wrong):  # of few values four times as fast as wrong.any()
         index = tuple(int(i) for i in np.argwhere(wrong)[0])
-        raise ValueError(f"{_entry(name, index)} is {array[index]}; {expected}")
+        raise ValueError(f"{entry(name, index)} is {array[index]}; {expected}")
 
 
 def as_values(values: npt.ArrayLike, size: int, name: str = "values") -> FloatArray:
     """One value for each of `size` points, (size, ...): finite numbers, or NaN where the value is not known."""
-    array = _as_doubles(values, name)
+    array = as_doubles(values, name)
     if array.ndim == 0 or len(array) != size:
         raise ValueError(f"{name} must have shape ({size}, ...), one entry for each point, got {array.shape}")
     _refuse(np.isinf(array), array, name, "every value must be finite, or NaN where it is not known")
@@ -80,95 +60,9 @@ def as_levels(values: npt.ArrayLike) -> FloatArray:
     return array
 
 
-def _refuse_masked(values: npt.ArrayLike, name: str) -> None:
-    # Nobody has a masked array before numpy.ma is loaded, and loading it would be a tenth of our import time.
-    masked = sys.modules.get("numpy.ma")
-    if masked is not None and isinstance(values, masked.MaskedArray) and masked.is_masked(values):
-        entry = _entry(name, tuple(int(i) for i in np.argwhere(masked.getmaskarray(values))[0]))
-        raise ValueError(f"{entry} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})")
-
-
-def _may_hide_others(array: npt.NDArray[Any], values: list[Any] | tuple[Any, ...]) -> bool:
-    """Whether numbers that NumPy made of lists may have been larger whole numbers, or booleans, or long doubles."""
-    if array.ndim > 1 and all(isinstance(row, np.ndarray) for row in values):
-        return any(row.dtype != np.float64 for row in values)
-    numbers: Iterable[Any] = values
-    for _ in range(array.ndim - 1):
-        numbers = chain.from_iterable(numbers)
-    kinds = set(map(type, numbers))
-    if kinds == {float} or (kinds == {int} and array.dtype.kind in "iu"):
-        return False
-    return not kinds <= {float, int, np.float64} or bool((np.abs(array) >= _WHOLE).any())
-
-
-def _from_wide(array: npt.NDArray[Any], name: str) -> FloatArray:
-    """Integers and long doubles as the doubles that equal them."""
-    with np.errstate(over="ignore"):
-        doubles = array.astype(np.float64)
-    if array.dtype.kind == "f":
-        _refuse_rounded((doubles.astype(array.dtype) != array) & (array == array), array, name)
-    elif array.dtype.itemsize == 8 and array.size and (array.max() > _WHOLE or array.min() < -_WHOLE):
-        # Both halves are doubles, and so is the error of their rounded sum (Dekker).
-        high, low = (array >> 32).astype(np.float64) * 2.0**32, (array & 0xFFFFFFFF).astype(np.float64)
-        _refuse_rounded(low - (doubles - high) != 0, array, name)
-    return doubles
-
-
-def _from_objects(array: npt.NDArray[Any], name: str) -> FloatArray:
-    """Real numbers in an object array (Fraction, Decimal, huge int) as doubles; anything else is a TypeError."""
-    if array.dtype.kind != "O":
-        raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
-    numbers = array.ravel().tolist()
-    kinds = set(map(type, numbers))
-    wrong = tuple(kind for kind in kinds if not _is_real(kind))
-    if wrong:
-        first = next(k for k, number in enumerate(numbers) if isinstance(number, wrong))
-        entry = _entry(name, tuple(int(i) for i in np.unravel_index(first, array.shape)))
-        raise TypeError(f"{entry} is {numbers[first]!r}, which is no real number but a {type(numbers[first]).__name__}")
-    try:
-        doubles = np.array([_nearest_double(number) for number in numbers], dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise TypeError(f"{name} holds values that are not real numbers: {error}") from error
-    rounded = np.zeros(len(numbers), dtype=np.bool_)
-    for k in np.flatnonzero(np.abs(doubles) >= _WHOLE) if np.longdouble not in kinds else range(len(numbers)):
-        rounded[k] = not _equal(numbers[k], float(doubles[k]))
-    _refuse_rounded(rounded.reshape(array.shape), array, name)
-    return doubles.reshape(array.shape)
-
-
-def _is_real(kind: type) -> bool:
-    """Whether objects of a type are real numbers: not booleans, strings or times, which NumPy would convert."""
-    if issubclass(kind, np.generic):
-        return issubclass(kind, np.integer | np.floating) and not issubclass(kind, np.timedelta64)
-    return kind is not bool and (hasattr(kind, "__float__") or hasattr(kind, "__index__"))
-
-
-def _nearest_double(number: Any) -> float:
-    try:
-        return float(number)
-    except OverflowError:
-        return np.inf
-
-
-def _equal(number: Any, double: float) -> bool:
-    """Whether a whole number or a long double equals a double; other numbers may be rounded."""
-    if isinstance(number, int | np.integer):
-        return abs(double) < np.inf and int(number) == int(double)
-    return not isinstance(number, np.longdouble) or bool(np.longdouble(double) == number or number != number)
-
-
-def _refuse_rounded(rounded: BoolArray, array: npt.NDArray[Any], name: str) -> None:
-    if rounded.any():
-        index = tuple(int(i) for i in np.argwhere(rounded)[0])
-        raise ValueError(
-            f"{_entry(name, index)} is {array[index]!s}, which no double equals; subtract an origin that all share, or "
-            f"round with np.asarray({name}).astype(float)"
-        )
-
-
 def as_vectors(values: npt.ArrayLike, dimension: int, name: str, *, gaps: bool = False) -> FloatArray:
     """Coordinates of any leading shape, (..., dimension); with `gaps` they may be NaN and infinite."""
-    array = _as_doubles(values, name) if gaps else as_floats(values, name)
+    array = as_doubles(values, name) if gaps else as_floats(values, name)
     if array.ndim == 0 or array.shape[-1] != dimension:
         raise ValueError(f"{name} must have shape (..., {dimension}), got {array.shape}")
     return array
@@ -192,7 +86,7 @@ def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False) -> 
         zero &= (array[..., 1] == 0.0) & (array[..., 2] == 0.0)
     if np.count_nonzero(zero):
         index = tuple(int(i) for i in np.argwhere(zero)[0])
-        raise ValueError(f"{_entry(name, index)} is the zero vector, which has no direction")
+        raise ValueError(f"{entry(name, index)} is the zero vector, which has no direction")
     return array
 
 
@@ -230,7 +124,7 @@ def as_lonlat(values: npt.ArrayLike, name: str = "lonlat") -> FloatArray:
     outside = np.abs(array[..., 1]) > 90.0
     if outside.any():
         index = tuple(int(i) for i in np.argwhere(outside)[0])
-        where = _entry(name, (*index, 1))
+        where = entry(name, (*index, 1))
         raise ValueError(
             f"{where} is latitude {array[index][1]}, outside [-90, 90]; the order is (longitude, latitude)"
         )
@@ -309,7 +203,7 @@ def _not_negative(values: npt.ArrayLike, name: str, what: str) -> FloatArray:
     array = as_floats(values, name)
     if (array < 0).any():
         index = tuple(int(i) for i in np.argwhere(array < 0)[0])
-        raise ValueError(f"{_entry(name, index)} is {array[index]}; a {what} cannot be negative")
+        raise ValueError(f"{entry(name, index)} is {array[index]}; a {what} cannot be negative")
     return array
 
 
@@ -355,11 +249,6 @@ def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.N
     return array.astype(np.intp)
 
 
-def _entry(name: str, index: tuple[int, ...]) -> str:
-    """How a message names one value of an argument: `points[3, 0]`, or `magnification` for a single number."""
-    return f"{name}[{', '.join(map(str, index))}]" if index else name
-
-
 def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArray:
     """Points of the plane, (n, 2), or non-zero directions of space, (n, 3), told apart by their shape."""
     array = as_floats(values, name)
@@ -382,7 +271,7 @@ def as_frame(values: npt.ArrayLike, name: str) -> npt.NDArray[np.uint8]:
 
 def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> npt.NDArray[np.uint8]:
     """A picture of at most `most` pixels, (h, w), (h, w, 3) or (h, w, 4) uint8, as a copy with four channels."""
-    _refuse_masked(values, name)
+    refuse_masked(values, name)
     array = np.asarray(values)
     if array.dtype != np.uint8:
         raise TypeError(f"{name} must be of uint8, not {array.dtype}; scale the numbers to 0 to 255 and cast them")

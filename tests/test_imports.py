@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
-BASE = {"constants", "earth", "_arrays", "_double_double", "_threads"}
+BASE = {"constants", "earth", "_arrays", "_numbers", "_double_double", "_threads"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel"}
 MAY_IMPORT = {
@@ -21,6 +21,7 @@ MAY_IMPORT = {
     "_extras": set(),
     "_kernel": set(),
     "_arrays": BASE,
+    "_numbers": BASE,
     "_double_double": BASE,
     "_threads": BASE,
     "data": BASE,

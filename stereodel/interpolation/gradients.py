@@ -9,7 +9,7 @@ from stereodel._arrays import FloatArray
 from stereodel.constants import UNDETERMINED
 from stereodel.interpolation.rings import rings_in_blocks
 from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values, as_triangulation
-from stereodel.interpolation.triangles import cross3, dot
+from stereodel.interpolation.triangles import cross3, dot, lengths
 
 _UNKNOWNS = 5
 
@@ -28,6 +28,7 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
     -------
     (n, ..., 2) or (n, ..., 3) array
         Per unit of length, or tangent vectors per radian. NaN where the value is NaN and where there is no triangle.
+        Right at every scale of the points; what no double can hold, as a rise of 1e10 over 1e-300, is not finite.
 
     Raises
     ------
@@ -86,10 +87,11 @@ def _fit(sites: Places, values: FloatArray, block: Indices, owners: Indices, oth
         return gradients
     starts = np.flatnonzero(np.diff(owners, prepend=-1))
     fitted = owners[starts]
-    columns, weights, scale = _columns(sites, block, owners, others, axes, starts)
+    columns, weights, unit = _columns(sites, block, owners, others, axes, starts)
     rises = (values[others] - values[block[owners]]).T * weights
-    slopes = _solve(*_normal_equations(columns, np.ascontiguousarray(rises), starts))[:, :2] / scale[:, None, None]
-    gradients[fitted] = np.einsum("bij,bik->bjk", axes[fitted], slopes)
+    slopes = _solve(*_normal_equations(columns, np.ascontiguousarray(rises), starts))[:, :2]
+    with np.errstate(over="ignore", invalid="ignore"):
+        gradients[fitted] = np.einsum("bij,bik->bjk", axes[fitted], slopes / unit[:, None, None])
     return gradients
 
 
@@ -108,20 +110,32 @@ def _normal_equations(columns: FloatArray, rises: FloatArray, starts: Indices) -
 def _columns(
     sites: Places, block: Indices, owners: Indices, others: Indices, axes: FloatArray, starts: Indices
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the scale of each point in units."""
+    """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point.
+
+    The unit u is the distance of the third neighbour. Weights are smaller by (u/r)² where r is longer; so columns are
+    made of d/max(u, r), which is one at most, however much longer the longest distance is.
+    """
     differences = sites.minus(others, sites, block[owners])
-    size = np.sqrt(dot(differences, differences))[:, 0]
+    size = lengths(differences)[:, 0]
     counts = np.diff(starts, append=len(owners))
-    scale = 1.1 * np.maximum.reduceat(size, starts)
-    of_pair = np.repeat(scale, counts)
-    d = differences / of_pair[:, None]
-    r = size / of_pair
-    # By owner, then distance; r < 1, and its last digits, which the sum loses, do not matter here.
-    third = r[np.argsort(owners + r)[starts + np.minimum(2, counts - 1)]]
-    xi, eta = np.einsum("pij,pj->ip", axes[owners], d)
-    weights = ((1.0 - r) / np.maximum(r, np.repeat(third, counts))) ** 2
-    columns = np.stack([xi, eta, r * r, xi * xi - eta * eta, 2.0 * xi * eta])
-    return columns * weights, weights, scale
+    unit = _third_least(size, owners, starts)
+    of_pair = np.repeat(unit, counts)
+    longer = np.maximum(size, of_pair)
+    share = (1.0 - size / np.repeat(1.1 * np.maximum.reduceat(size, starts), counts)) ** 2
+    nearer = of_pair / longer  # 1/t
+    xi, eta = np.einsum("pij,pj->ip", axes[owners], differences / longer[:, None])
+    r = size / longer
+    columns = np.stack([xi * nearer, eta * nearer, r * r, xi * xi - eta * eta, 2.0 * xi * eta])
+    return columns * share, share * nearer * nearer, unit
+
+
+def _third_least(size: FloatArray, owners: Indices, starts: Indices) -> FloatArray:
+    """Of the lengths of each owner, equal ones counted each; the largest if there are fewer than three."""
+    rest, counts = size.copy(), np.diff(starts, append=len(owners))
+    for _ in range(2):
+        least = np.flatnonzero(rest == np.repeat(np.minimum.reduceat(rest, starts), counts))
+        rest[least[np.flatnonzero(np.diff(owners[least], prepend=-1))]] = np.inf
+    return np.asarray(np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts)))
 
 
 def _axes(sites: Places, block: Indices) -> FloatArray:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel.interpolation.triangles import lengths
 
 
 class Jet:
@@ -94,6 +95,6 @@ def sqrt(number: Number) -> Number:
 def norm(vector: Number) -> Number:
     """Length along the last axis, which is kept."""
     if not isinstance(vector, Jet):
-        return np.asarray(np.sqrt(np.sum(np.square(vector), axis=-1, keepdims=True)))
-    length = np.sqrt(np.sum(np.square(vector.value), axis=-1, keepdims=True))
-    return Jet(length, np.sum(vector.value * vector.slope, axis=-1, keepdims=True) / length)
+        return lengths(np.asarray(vector))
+    length = lengths(vector.value)
+    return Jet(length, np.sum(vector.value / length * vector.slope, axis=-1, keepdims=True))

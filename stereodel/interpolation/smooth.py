@@ -52,7 +52,8 @@ class SmoothInterpolator(TriangleInterpolator):
     and so are constants on the sphere; the error for smooth functions is of order h³ for edges of length h, that of the
     gradient of order h², with estimated gradients too. The function may leave the range of the values, and in
     thin triangles, as between two points that nearly meet and a far one, its gradient may be large. NaN values and
-    NaN gradients make NaN of the triangles at their point, nothing else. Outside is what no triangle holds, as for
+    gradients that are not finite make NaN of the triangles at their point, nothing else. Coordinates may be as small
+    and as large as doubles are. Outside is what no triangle holds, as for
     `LinearInterpolator`.
 
     References

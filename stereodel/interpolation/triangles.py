@@ -34,6 +34,21 @@ def dot(a: FloatArray, b: FloatArray) -> FloatArray:
     return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
 
 
+def lengths(vectors: FloatArray) -> FloatArray:
+    """Lengths along the last axis, which is kept, also where squares would overflow or underflow."""
+    with np.errstate(over="ignore"):
+        plain = np.sqrt(np.sum(np.square(vectors), axis=-1, keepdims=True))
+    # Between these a square below the least double is nothing to the sum.
+    rows = np.nonzero(~((plain > 2.0**-480) & (plain < 2.0**510))[..., 0])
+    if len(rows[0]):
+        odd = vectors[rows]
+        exponent = np.frexp(np.abs(odd).max(axis=-1, keepdims=True))[1]
+        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ alone is no double
+        root = np.sqrt(np.sum(np.square(odd), axis=-1, keepdims=True))
+        plain[rows] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
+    return np.asarray(plain)
+
+
 class Holders:
     """Queries, each with the triangle that holds it.
 
@@ -108,7 +123,7 @@ class Holders:
             across = np.stack([e[:, 1], -e[:, 0]], axis=1) / area, np.stack([-d[:, 1], d[:, 0]], axis=1) / area
         else:
             normal = cross3(d, e)
-            normal /= np.sqrt(dot(normal, normal))
+            normal /= lengths(normal)
             area = dot(normal, cross3(d, e))
             depth = dot(normal, up)
             reach = dot(normal, self.sites.rounded[a]) / depth / area
