@@ -40,7 +40,8 @@ def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> 
     weights = np.maximum(holders.weights(), _SMALLEST)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
     b = [weights[:, k : k + 1] for k in range(3)]
-    return np.asarray(first[:, 0] + _mix(holders, b, values - first, gradients))
+    found = np.asarray(first[:, 0] + _mix(holders, b, values - first, gradients))
+    return _met(found, first[:, 0], weights, values, gradients)
 
 
 def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
@@ -51,7 +52,19 @@ def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArra
     b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
     mixed = _mix(holders, b, values - first, gradients)
     assert isinstance(mixed, Jet)
-    return holders.slope(*mixed.slope)
+    at_corner = np.take_along_axis(gradients, weights.argmax(axis=1)[:, None, None, None], axis=1)[:, 0]
+    return _met(holders.slope(*mixed.slope), at_corner, weights, values, gradients)
+
+
+def _met(
+    found: FloatArray, at_corner: FloatArray, weights: FloatArray, values: FloatArray, gradients: FloatArray
+) -> FloatArray:
+    """What was found, but at corners what is given there: the smallest weight times a steep slope is not nothing."""
+    rows = np.flatnonzero(weights.max(axis=1) == 1.0)
+    known = np.isfinite(values[rows]).all(axis=1) & np.isfinite(gradients[rows]).all(axis=(1, 2))
+    known = known if found.ndim == 2 else known[:, None]
+    found[rows] = np.where(known, at_corner[rows], found[rows])
+    return found
 
 
 def _mix(holders: Holders, b: list[Jet] | list[FloatArray], values: FloatArray, gradients: FloatArray) -> Number:

@@ -83,10 +83,10 @@ def cluster(size, width):
 @pytest.mark.parametrize("size", [1e-20, 1e-160, 1e-200, 1e-290])
 def test_a_cluster_among_points_far_away(size):
     points, queries = cluster(size, 2)
-    linear = points @ [2.0, -3.0] + 1.0
+    linear = points @ [2.0, -3.0]
     smooth = SmoothInterpolator(points, linear)
     assert np.abs(smooth.gradients - [2.0, -3.0]).max() < 1e-9
-    assert np.abs(smooth(queries) - (queries @ [2.0, -3.0] + 1.0)).max() < 1e-12
+    assert np.abs(smooth(queries) - queries @ [2.0, -3.0]).max() < 1e-12
     values = np.random.default_rng(2).normal(size=len(points))
     steep = SmoothInterpolator(points, values)
     assert np.array_equal(steep(points), values)
