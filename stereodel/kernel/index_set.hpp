@@ -9,8 +9,8 @@
 
 namespace stereodel {
 
-// Hashed, with open addressing, at most half full. Emptying takes no longer than filling did, however large the set once
-// was.
+// Hashed, with open addressing, at most half full. Emptying takes no longer than filling did, however large the set
+// once was.
 class IndexSet {
   public:
     // Whether the number (not negative) is new.

@@ -11,11 +11,12 @@
 
 namespace stereodel {
 
-// For each of `count` queries the nearest point, the lowest one of several; on the sphere that of the least angle. There
-// must be triangles (see nearest_flat.hpp). The result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
-void nearest_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
-                   Stop stop);
-void nearest_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found, int workers,
-                    Stop stop);
+// For each of `count` queries the nearest point, the lowest one of several; on the sphere that of the least angle.
+// There must be triangles (see nearest_flat.hpp). The result does not depend on `workers`. Throws std::bad_alloc,
+// Cancelled.
+void nearest_plane(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
+                   int workers, Stop stop);
+void nearest_sphere(const TriangleArrays& triangles, const double* queries, std::size_t count, Index* found,
+                    int workers, Stop stop);
 
 }  // namespace stereodel

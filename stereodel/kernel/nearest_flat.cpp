@@ -20,13 +20,15 @@ class FlatFinder {
 
     void find(const double* query, Index* found) {
         query_.take(query);
-        std::ptrdiff_t left = nearest_place([this](std::ptrdiff_t a, std::ptrdiff_t b) { return compare_roughly(a, b); });
+        const auto roughly = [this](std::ptrdiff_t a, std::ptrdiff_t b) { return compare_roughly(a, b); };
+        const auto exactly = [this](std::ptrdiff_t a, std::ptrdiff_t b) { return compare(a, b); };
+        std::ptrdiff_t left = nearest_place(roughly);
         if (!is_nearest(left)) {
             if (is_closed() && all_equally_near()) {
                 std::iota(found, found + task_.k, 0);
                 return;
             }
-            left = nearest_place([this](std::ptrdiff_t a, std::ptrdiff_t b) { return compare(a, b); });
+            left = nearest_place(exactly);
         }
         found_ = found;
         missing_ = task_.k;
@@ -47,7 +49,7 @@ class FlatFinder {
     }
 
   private:
-    // Two different directions are never between each other on both sides.
+    // Whether the order has no ends. Two directions alone are treated as two points of a line.
     bool is_closed() const { return Query::Chart::dimension == 3 && size_ > 2; }
 
     Index at(std::ptrdiff_t place) const { return task_.order[(place + size_) % size_]; }
@@ -91,8 +93,8 @@ class FlatFinder {
         return partition_place(size_ - 1, [&](std::ptrdiff_t k) { return compare(k + 1, k) < 0; });
     }
 
-    // Seen from the first place the angle falls, rises and falls again to its start, or rises, falls and rises again; it
-    // stands still between two places at most, where it turns.
+    // Seen from the first place the angle falls, rises and falls again to its start, or rises, falls and rises again;
+    // it stands still between two places at most, where it turns.
     template <class Compare>
     std::ptrdiff_t nearest_around(Compare&& compare) const {
         // How many places beyond `start`, where the angle falls, it falls to its least value.

@@ -1,9 +1,10 @@
-// The k nearest points of queries where there are no triangles: all points equal, or on one line or great circle. Exact.
+// The k nearest points of queries where there are no triangles: all points equal, or on one line or great circle.
+// Exact.
 //
-// Along a line the distance from a query falls and then rises. Around a great circle the angle does so too, once, unless
-// the query is an end of the axis and all points are equally near. So binary search finds a nearest point: by rounded
-// distances first, and by exact ones where the point found is not nearest beside its neighbours. The next nearest one is
-// always the next to the left or to the right of those that are known.
+// Along a line the distance from a query falls and then rises. Around a great circle the angle does so too, once,
+// unless the query is an end of the axis and all points are equally near. So binary search finds a nearest point: by
+// rounded distances first, and by exact ones where the point found is not nearest beside its neighbours. The next
+// nearest one is always the next to the left or to the right of those that are known.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Points that are equally near to a query by symmetry: known without arithmetic that rounds. The case of most exact ties
-// of lattices, graticules and solids.
+// Points that are equally near to a query by symmetry: known without arithmetic that rounds. The case of most exact
+// ties of lattices, graticules and solids.
 #pragma once
 
 #include <cmath>
