@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -230,18 +231,23 @@ class DynamicDelaunay {
         }
     }
 
-    // Close the gaps in the numbers.
+    // Close the gaps in the numbers. What lies between two of them moves in one piece.
     void compact(Buffer<Index>& number, Stop stop) {
-        Index count = 0;
         double* const coordinates = points_.data();
-        for (std::size_t p = 0; p < number.size(); ++p) {
-            if (number[p] != removed_) {
-                std::copy_n(coordinates + dimension * p, dimension,
-                            coordinates + dimension * static_cast<std::size_t>(count));
-                number[p] = count++;
+        Index *const all = number.data(), *const end = all + number.size();
+        std::size_t count = 0;
+        for (Index* begin = all; begin != end;) {
+            Index* const gap = std::find(begin, end, removed_);
+            const std::size_t from = static_cast<std::size_t>(begin - all), to = static_cast<std::size_t>(gap - all);
+            if (count != from) {
+                std::copy(coordinates + dimension * from, coordinates + dimension * to,
+                          coordinates + dimension * count);
             }
+            std::iota(begin, gap, static_cast<Index>(count));
+            count += to - from;
+            begin = std::find_if(gap, end, [](Index n) { return n != removed_; });
         }
-        points_.resize(dimension * static_cast<std::size_t>(count));
+        points_.resize(dimension * count);
         if (flat_) {
             mesh_ = Mesh();
         } else {
