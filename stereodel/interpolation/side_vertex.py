@@ -38,19 +38,19 @@ def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> 
         Tangent there.
     """
     weights = np.maximum(holders.weights(), _SMALLEST)
-    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
+    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     b = [weights[:, k : k + 1] for k in range(3)]
-    found = np.asarray(first[:, 0] + _mix(holders, b, values - first, gradients))
-    return _met(found, first[:, 0], weights, values, gradients)
+    found = np.asarray(first + _mix(holders, b, values, first, gradients))
+    return _met(found, first, weights, values, gradients)
 
 
 def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
     """Gradients (m, d, k) at the queries; parameters as for `side_vertex`."""
     weights = np.maximum(holders.weights(), _SMALLEST)
-    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
+    first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
     b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
-    mixed = _mix(holders, b, values - first, gradients)
+    mixed = _mix(holders, b, values, first, gradients)
     assert isinstance(mixed, Jet)
     at_corner = np.take_along_axis(gradients, weights.argmax(axis=1)[:, None, None, None], axis=1)[:, 0]
     return _met(holders.slope(*mixed.slope), at_corner, weights, values, gradients)
@@ -61,17 +61,19 @@ def _met(
 ) -> FloatArray:
     """What was found, but at corners what is given there: the smallest weight times a steep slope is not nothing."""
     rows = np.flatnonzero(weights.max(axis=1) == 1.0)
-    known = np.isfinite(values[rows]).all(axis=1) & np.isfinite(gradients[rows]).all(axis=(1, 2))
-    known = known if found.ndim == 2 else known[:, None]
-    found[rows] = np.where(known, at_corner[rows], found[rows])
+    known = np.asarray(np.isfinite(values[rows]).all(axis=1) & np.isfinite(gradients[rows]).all(axis=(1, 2)))
+    found[rows] = np.where(known if found.ndim == 2 else known[:, None], at_corner[rows], found[rows])
     return found
 
 
-def _mix(holders: Holders, b: list[Jet] | list[FloatArray], values: FloatArray, gradients: FloatArray) -> Number:
+def _mix(
+    holders: Holders, b: list[Jet] | list[FloatArray], values: FloatArray, first: FloatArray, gradients: FloatArray
+) -> Number:
+    """What is to be added to the value `first` of one corner."""
     total: Number = 0.0
     divisor: Number = 0.0
     for i in range(3):
-        corner = _Corner(holders, i, values, gradients)
+        corner = _Corner(holders, i, values, first, gradients)
         weight = b[i - 2] * b[i - 1]
         total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
         divisor = divisor + weight
@@ -94,10 +96,10 @@ def hermite(ends: Pair, slopes: Pair, parts: Pair, length: Number) -> Number:
     )
 
 
-def hermite_slope(ends: Pair, slopes: Pair, parts: Pair, length: Number) -> Number:
-    """Its derivative."""
+def hermite_slope(rise: Number, slopes: Pair, parts: Pair, length: Number) -> Number:
+    """Its derivative, from the difference of the values."""
     s, t = parts
-    return 6.0 * s * t * ((ends[1] - ends[0]) / length) + t * (t - 2.0 * s) * slopes[0] + s * (s - 2.0 * t) * slopes[1]
+    return 6.0 * s * t * (rise / length) + t * (t - 2.0 * s) * slopes[0] + s * (s - 2.0 * t) * slopes[1]
 
 
 @dataclass(frozen=True)
@@ -132,7 +134,7 @@ def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
 class _Corner:
     """S_i of the module's description: corner i, the side jk opposite."""
 
-    def __init__(self, holders: Holders, i: int, values: FloatArray, gradients: FloatArray) -> None:
+    def __init__(self, holders: Holders, i: int, values: FloatArray, first: FloatArray, gradients: FloatArray) -> None:
         sites = holders.sites
         at, start, end = (holders.corners[:, k] for k in (i, i - 2, i - 1))
         self.curved = sites.curved
@@ -143,7 +145,9 @@ class _Corner:
             self.side = _Side.curved(self.foot, sites.rounded[end], edge)
         else:
             self.side = _Side.straight(edge)
-        self.value, self.ends = values[:, i], (values[:, i - 2], values[:, i - 1])
+        self.value, self.ends = values[:, i] - first, (values[:, i - 2] - first, values[:, i - 1] - first)
+        # Not of the ends: two values next to each other have lost their difference when a far one is taken off.
+        self.rise = values[:, i - 1] - values[:, i - 2]
         self.gradient, self.end_gradients = gradients[:, i], (gradients[:, i - 2], gradients[:, i - 1])
 
     def surface(self, b: Number, b_start: Number, b_end: Number) -> Number:
@@ -208,6 +212,6 @@ class _Corner:
         across = _along(first, side.normal) * parts[1] + _along(last, side.normal) * parts[0]
         return (
             hermite(self.ends, slopes, parts, side.length),
-            hermite_slope(self.ends, slopes, parts, side.length),
+            hermite_slope(self.rise, slopes, parts, side.length),
             across,
         )

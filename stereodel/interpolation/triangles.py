@@ -49,6 +49,9 @@ def lengths(vectors: FloatArray) -> FloatArray:
     return np.asarray(plain)
 
 
+_Corner = tuple[Indices, FloatArray, FloatArray, FloatArray, FloatArray]
+
+
 class Holders:
     """Queries, each with the triangle that holds it.
 
@@ -111,10 +114,10 @@ class Holders:
         -----
         With edges d, e from the first corner and N = d × e the function has the slope G = (f_d e×N + f_e N×d) / N² in
         the plane of the triangle. On the sphere the ray through q meets that plane at tq with t = (a·N)/(q·N), which
-        gives t(G − N (G·q)/(q·N)), a tangent vector.
+        gives t(G − N (G·q)/(q·N)), a tangent vector. The first corner is the one opposite the longest side: else d and
+        e would be nearly the same in a triangle of two points that nearly meet and a far one.
         """
-        a = self.corners[:, 0]
-        d, e = (self.sites.minus(self.corners[:, k], self.sites, a) for k in (1, 2))
+        a, d, e, first, second = self._from_blunt_corner(first, second)
         size = np.frexp(np.maximum(np.abs(d).max(axis=1), np.abs(e).max(axis=1)))[1][:, None]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
         up = self._up()
@@ -131,6 +134,18 @@ class Holders:
             across = reach * _tangent(one, normal, up, depth), reach * _tangent(other, normal, up, depth)
         by_first, by_second = (np.ldexp(g, -size)[:, :, None] for g in across)
         return np.asarray(by_first * first[:, None, :] + by_second * second[:, None, :])
+
+    def _from_blunt_corner(self, first: FloatArray, second: FloatArray) -> _Corner:
+        """The corner opposite the longest side, the sides to the next two, and the derivatives by those."""
+        sides = [self.sites.minus(self.corners[:, k - 1], self.sites, self.corners[:, k - 2]) for k in range(3)]
+        blunt = np.hstack([lengths(side) for side in sides]).argmax(axis=1)
+        rows = np.arange(len(blunt))
+        after, before = (blunt + 1) % 3, (blunt + 2) % 3
+        edges = np.stack(sides)
+        by = np.stack([np.zeros_like(first), first, second])
+        here = by[blunt, rows]
+        slopes = by[after, rows] - here, by[before, rows] - here
+        return self.corners[rows, blunt], edges[before, rows], -edges[after, rows], *slopes
 
 
 def _tangent(slope: FloatArray, normal: FloatArray, up: FloatArray, depth: FloatArray) -> FloatArray:
