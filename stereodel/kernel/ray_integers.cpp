@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "error_counts.hpp"
 #include "ray_balls.hpp"
 #include "ray_forms.hpp"
 #include "roots.hpp"
+#include "wrapping_integer.hpp"
 
 namespace stereodel::rays {
 
@@ -90,46 +92,72 @@ int diametral_integers(const double* a, const double* b, const double* p) {
 
 namespace {
 
-// Vectors in units of one power of two: integers below 2^16 if `fits`.
+// Vectors in units of one power of two: integers up to 2^bits if `fits`.
 template <std::size_t COUNT>
-struct SmallIntegers {
+struct Units {
     double v[COUNT][3];
-    bool fits;
+    bool fits = false;
 
-    explicit SmallIntegers(const std::array<const double*, COUNT>& vectors) {
-        constexpr int BITS = 16;
-        constexpr double ROUND = 0x1.8p52;  // adding it rounds to an integer
+    Units(const std::array<const double*, COUNT>& vectors, int bits) {
         double largest = 0.0;
         for (const double* p : vectors) {
             largest = std::max({largest, std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])});
         }
-        fits = largest > 0x1p-500 && largest < 0x1p500;
-        if (!fits) {
+        if (!(largest > 0x1p-500 && largest < 0x1p500)) {
             return;
         }
         int exponent = 0;
         std::frexp(largest, &exponent);
-        const double units = std::ldexp(1.0, BITS - exponent);
+        const double units = std::ldexp(1.0, bits - exponent);
         for (std::size_t i = 0; i < COUNT; ++i) {
             for (int k = 0; k < 3; ++k) {
-                const double value = vectors[i][k] * units;
-                v[i][k] = value;
-                fits = fits && (value + ROUND) - ROUND == value && (value != 0.0 || vectors[i][k] == 0.0);
+                const double number = vectors[i][k] * units;
+                if (!is_integer(number) || (number == 0.0 && vectors[i][k] != 0.0)) {
+                    return;  // of most vectors that are not made of integers, soon
+                }
+                v[i][k] = number;
             }
         }
+        fits = true;
+    }
+
+  private:
+    // Between 2^52 and 2^53 doubles are integers: adding 2^52 rounds smaller numbers to such.
+    static bool is_integer(double x) {
+        const double size = std::fabs(x);
+        return size >= 0x1p52 || (size + 0x1p52) - 0x1p52 == size;
     }
 };
 
-}  // namespace
+constexpr RoundingCount EXACT[3] = {{0}, {0}, {0}};
+constexpr double TURN_ROUNDING = 6;
+static_assert(determinant_form(EXACT, EXACT, EXACT).bound() <= TURN_ROUNDING);
 
-// Minors are below 2^33, determinants below 3 * 2^49, squares below 3 * 2^32: exact, and so are sums of determinants.
-// A term coefficient * sqrt(square) is rounded twice and passes three sums: 5u.
-Sign bubble_small_integers(const double* a, const double* b, const double* c, const double* p) {
-    const SmallIntegers<4> integers({a, b, c, p});
-    if (!integers.fits) {
-        return OPEN;
+constexpr int LONG_BITS = 53, SHORT_BITS = 16;
+
+struct Digits {
+    WrappingInteger v[3];
+
+    explicit Digits(const double* p)
+        : v{WrappingInteger(static_cast<std::int64_t>(p[0])), WrappingInteger(static_cast<std::int64_t>(p[1])),
+            WrappingInteger(static_cast<std::int64_t>(p[2]))} {}
+};
+
+// Of integers up to 2^53 the permanent is at most 6 * 2^159, and what doubles leave open is below twice their error,
+// 2^113: its last 128 digits are the number.
+int turn_in_units(const double* a, const double* b, const double* c) {
+    const double value = determinant_form(a, b, c);
+    const Sign sign = decide(value, TURN_ROUNDING * UNIT_ROUNDOFF * (6 * 0x1p159));
+    if (sign != OPEN) {
+        return sign;
     }
-    const auto& v = integers.v;
+    const Digits digits[3] = {Digits(a), Digits(b), Digits(c)};
+    return determinant_form(digits[0].v, digits[1].v, digits[2].v).sign();
+}
+
+// Of integers up to 2^16. Minors are at most 2^33, determinants 3 * 2^49, squares 3 * 2^32: exact, and so are
+// sums of determinants. A term coefficient * sqrt(square) is rounded twice and passes three sums: 5u.
+Sign bubble_in_short_units(const double (&v)[4][3]) {
     double squares[4];
     for (int i = 0; i < 4; ++i) {
         squares[i] = dot_form(v[i], v[i]);
@@ -154,10 +182,28 @@ Sign bubble_small_integers(const double* a, const double* b, const double* c, co
     return terms <= 1 ? sign_of(value) : decide(value, 6 * UNIT_ROUNDOFF * permanent);
 }
 
-Sign turn_small_integers(const double* a, const double* b, const double* c) {
-    const SmallIntegers<3> integers({a, b, c});
-    const auto& v = integers.v;
-    return integers.fits ? sign_of(determinant_form(v[0], v[1], v[2])) : OPEN;
+}  // namespace
+
+Sign bubble_units(const double* a, const double* b, const double* c, const double* p) {
+    const Units<4> longs({a, b, c, p}, LONG_BITS);
+    if (!longs.fits) {
+        return OPEN;
+    }
+    const Units<4> shorts({a, b, c, p}, SHORT_BITS);
+    if (const Sign sign = shorts.fits ? bubble_in_short_units(shorts.v) : OPEN; sign != OPEN) {
+        return sign;
+    }
+    const auto& v = longs.v;
+    const auto on_one_great_circle = [&v] {
+        return turn_in_units(v[0], v[1], v[2]) == 0 && turn_in_units(v[0], v[1], v[3]) == 0 &&
+               turn_in_units(v[0], v[2], v[3]) == 0 && turn_in_units(v[1], v[2], v[3]) == 0;
+    };
+    return on_one_great_circle() ? 0 : OPEN;
+}
+
+Sign turn_units(const double* a, const double* b, const double* c) {
+    const Units<3> units({a, b, c}, LONG_BITS);
+    return units.fits ? turn_in_units(units.v[0], units.v[1], units.v[2]) : OPEN;
 }
 
 namespace {
@@ -175,7 +221,10 @@ int bubble_exact(const double* a, const double* b, const double* c, const double
 }
 
 int turn_exact(const double* a, const double* b, const double* c) {
-    const Sign sign = any_wide(a, b, c) ? turn_balls(a, b, c) : OPEN;
+    Sign sign = turn_units(a, b, c);
+    if (sign == OPEN && any_wide(a, b, c)) {
+        sign = turn_balls(a, b, c);
+    }
     return sign != OPEN ? sign : turn_integers(a, b, c);
 }
 

@@ -34,10 +34,10 @@ int diametral_integers(const double* a, const double* b, const double* p);
 // Sign of the determinant of the unit vectors with rows (the two components without `axis`, 1).
 int shadow_integers(const double* a, const double* b, const double* c, int axis);
 
-// For vectors of small integers times one power of two (up to 16 bits): determinants and squares are exact in doubles.
-// Open if they are no such vectors, or if the sum of roots that is left is too close to zero for doubles.
-Sign bubble_small_integers(const double* a, const double* b, const double* c, const double* p);
-Sign turn_small_integers(const double* a, const double* b, const double* c);
+// For vectors of integers times one power of two that fit into machine words: up to 2^53. Of turns all are decided; of
+// four directions great circles, and integers up to 2^16 unless the sum of roots is too close to zero for doubles.
+Sign bubble_units(const double* a, const double* b, const double* c, const double* p);
+Sign turn_units(const double* a, const double* b, const double* c);
 
 // The last stage: balls where integers would be long, and integers.
 int bubble_exact(const double* a, const double* b, const double* c, const double* p);

@@ -90,6 +90,20 @@ bool on_mirror(const double* a, const double* b, const double* c) {
     return false;
 }
 
+namespace {
+
+// Whether a_i b_j = a_j b_i, as far as exact products in doubles tell.
+bool minor_vanishes(const double* a, const double* b, int i, int j) {
+    const DoubleDouble left = two_product(a[i], b[j]), right = two_product(a[j], b[i]);
+    const double size = std::fabs(left.hi);
+    if (a[i] == 0.0 || b[j] == 0.0) {
+        return a[j] == 0.0 || b[i] == 0.0;
+    }
+    return size > 0x1p-900 && size < 0x1p1000 && left.hi == right.hi && left.lo == right.lo;
+}
+
+}  // namespace
+
 int shadow(const double* a, const double* b, const double* c, int axis, bool unit) {
     for (int k = 0; k < 3; ++k) {
         if (k != axis && same_component(a, b, k) && same_component(a, c, k)) {
@@ -97,7 +111,13 @@ int shadow(const double* a, const double* b, const double* c, int axis, bool uni
         }
     }
     const Sign sign = unit ? shadow_filter(a, b, c, axis) : shadow_of_rounded(a, b, c, axis);
-    return sign != OPEN ? sign : shadow_exact(a, b, c, axis);
+    if (sign != OPEN) {
+        return sign;
+    }
+    // A great circle seen from its side: each term is zero.
+    const int i = axis == 0 ? 1 : 0, j = axis == 2 ? 1 : 2;
+    const bool flat = minor_vanishes(a, b, i, j) && minor_vanishes(b, c, i, j) && minor_vanishes(a, c, i, j);
+    return flat ? 0 : shadow_exact(a, b, c, axis);
 }
 
 // Rounded to length one, components are off by 4.5u of themselves, and small ones by underflow: far less than what the

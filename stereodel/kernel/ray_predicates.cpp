@@ -65,7 +65,7 @@ int bubble_open(const double* a, const double* b, const double* c, const double*
     if (unit) {
         ++tally.curvature;
         sign = rays::bubble_double_double(a, b, c, p);
-    } else if (sign = rays::bubble_small_integers(a, b, c, p); sign != OPEN) {
+    } else if (sign = rays::bubble_units(a, b, c, p); sign != OPEN) {
         return counted(sign, tally);
     } else {
         sign = bubble_of_directions(Direction(a), Direction(b), Direction(c), Direction(p), tally);
@@ -116,7 +116,7 @@ int turn_open(const double* a, const double* b, const double* c, bool unit, Tall
     if (unit) {
         ++tally.filter;
         sign = rays::turn_double_double(a, b, c);
-    } else if (sign = rays::turn_small_integers(a, b, c); sign != OPEN) {
+    } else if (sign = rays::turn_units(a, b, c); sign != OPEN) {
         return counted(sign, tally);
     } else {
         sign = turn_of_directions(Direction(a), Direction(b), Direction(c), tally);
