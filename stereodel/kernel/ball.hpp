@@ -43,6 +43,11 @@ class Ball {
     // 2^(exponent - 1). FAR_BELOW for the exact zero.
     int exponent() const { return is_zero() ? FAR_BELOW : exponent_; }
 
+    // The numbers within `radius` of `middle`, both times 2^power.
+    DoubleDouble middle() const { return middle_; }
+    double radius() const { return radius_; }
+    int power() const { return exponent_; }
+
     friend Ball operator-(const Ball& a) { return {-a.middle_, a.radius_, a.exponent_}; }
     friend Ball operator-(const Ball& a, const Ball& b) { return a + -b; }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "ball.hpp"
 #include "bind_rows.hpp"
 #include "integer_quotients.hpp"
 #include "plane_predicates.hpp"
@@ -84,6 +85,33 @@ bool root_is_close(const Digits& digits, std::size_t bits) {
     const BigInteger given = square.shifted(up);
     return root.bit_length() >= bits && (given - low.shifted(down)).sign() > 0 &&
            (high.shifted(down) - given).sign() > 0;
+}
+
+// A formula in balls, written with operands first: `v` takes the next value, `s` is the root. Its middle in two parts,
+// its radius, and the power of two that all are multiplied with.
+std::tuple<double, double, double, int> evaluate_balls(const std::vector<double>& values, const std::string& formula) {
+    std::vector<Ball> stack;
+    std::size_t next = 0;
+    const auto pop = [&stack] {
+        if (stack.empty()) {
+            throw std::invalid_argument("formula: too few operands");
+        }
+        const Ball top = stack.back();
+        stack.pop_back();
+        return top;
+    };
+    for (const char symbol : formula) {
+        if (symbol == 'v') {
+            stack.emplace_back(values.at(next++));
+        } else if (symbol == 's') {
+            stack.push_back(sqrt(pop()));
+        } else {
+            const Ball b = pop(), a = pop();
+            stack.push_back(symbol == '+' ? a + b : symbol == '-' ? a - b : symbol == '*' ? a * b : a / b);
+        }
+    }
+    const Ball result = pop();
+    return {result.middle().hi, result.middle().lo, result.radius(), result.power()};
 }
 
 // The plane ----------------------------------------------------------------------------------------------------------
@@ -286,6 +314,7 @@ void bind_plane(nb::module_& m) {
     m.def("sign_of_roots", &sign_of_root_sum, "terms"_a);
     m.def("round_quotient", &quotient, "numerator"_a, "denominator"_a, "exponent"_a);
     m.def("root_is_close", &root_is_close, "square"_a, "bits"_a);
+    m.def("evaluate_balls", &evaluate_balls, "values"_a, "formula"_a);
 }
 
 void bind_rays(nb::module_& m) {

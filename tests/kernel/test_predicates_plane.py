@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+import stereodel
 from stereodel import _kernel
 from stereodel.predicates.integers import sign, to_integers
 from stereodel.predicates.plane import incircle_integer, orient2d_integer
@@ -158,6 +159,41 @@ def test_mixed_exponents(name):
     check(name, sizes * rng.integers(-3, 4, size=(4, 700, 2)))
 
 
+@EVERY
+@pytest.mark.parametrize("near", [on_a_circle, on_a_line, around_a_point])
+@pytest.mark.parametrize("scale", [5e-324, 1e-300, 1e-200, 1e200, 1e300])
+def test_at_another_scale(name, near, scale):
+    """What leaves the range of doubles is decided by twice the precision all the same."""
+    points = near(150, 10) * scale if scale > 1e-323 else np.round(near(150, 10) * 2**40) * scale
+    shares, truth = check(name, points)
+    assert shares["filter"] == 1
+    assert shares["double_double"] <= (truth == 0).mean()
+
+
+@EVERY
+@pytest.mark.parametrize("per", ["coordinate", "point"])
+def test_exponential_spacing(name, per):
+    """Balls leave nothing open but ties."""
+    rng = np.random.default_rng(11)
+    exponents = rng.uniform(-300, 300, size=(4, 300, 2 if per == "coordinate" else 1))
+    shares, truth = check(name, rng.normal(size=(4, 300, 2)) * 10.0**exponents)
+    assert shares["balls"] <= (truth == 0).mean()
+
+
+def test_two_pairs_far_apart():
+    """Pairs that are 1e-200 close, and a tree of the other edges that would lose them: cocircular but for one bit."""
+    rng = np.random.default_rng(12)
+    a, c = rng.normal(size=(2, 200, 2)) * 1e-200
+    mirrored = np.array([-1, 1])
+    far = np.array([0.0, 1.0])
+    points = np.stack([a, a * mirrored, c * [1, 0] + far, c * [-1, 0] + far])
+    assert not check("incircle", points)[1].any()
+    points[0, :, 0] = np.nextafter(points[0, :, 0], 1)
+    shares, truth = check("incircle", points)
+    assert truth.all()
+    assert shares["balls"] == 0
+
+
 @given(SMALL, SMALL, SMALL, SMALL, st.sampled_from([1.0, 0.1, 2.0**-1074, 1e-100, 1e100]))
 def test_small_integers(a, b, c, d, unit):
     points = np.array([a, b, c, d], dtype=float)[:, None] * unit
@@ -262,3 +298,29 @@ def test_the_last_digits_of_large_integers_on_a_circle(size, order, change, axis
     for scale in (1.0, 2.0**-30, 2.0**20):
         signs, _ = _kernel.incircle_numbered(quad * scale, np.array([[0, 1, 2, 3]], dtype=np.int32), False)
         assert signs.tolist() == [exact]
+
+
+def rational_circles():
+    """Two circles of rational points, large enough that products do not fit into doubles."""
+    slopes = np.arange(1, 40)
+    parts = [(2 * t * s, s * s - t * t, s * s + t * t) for t, s in zip(slopes, slopes + 7, strict=True)]
+    common = int(np.lcm.reduce([h for _, _, h in parts[:3]]))
+    circle = [(sx * x * common // h, sy * y * common // h) for x, y, h in parts[:3] for sx in (1, -1) for sy in (1, -1)]
+    circle += [(sx * y, sy * x) for x, y in circle for sx in (1, -1) for sy in (1, -1)]
+    circle = np.array(sorted(set(circle)), dtype=float)
+    scale = 2.0 ** np.floor(49 - np.log2(common))
+    return np.concatenate([circle * scale, circle * scale / 2 + scale * common / 4])
+
+
+@pytest.mark.parametrize("displacement", [0, 1])
+def test_circles_are_remembered_without_harm(displacement):
+    """Triangulations of points of two circles, all exact, or some off by one unit, against the insertion in Python."""
+    rng = np.random.default_rng(13)
+    points = rational_circles()
+    moved = rng.permutation(len(points))[:6]
+    points[moved, 0] += displacement
+    points = rng.permutation(points)
+    found = stereodel.PlanarDelaunay(points)
+    assert found.inconclusive["double_double"] > len(points)
+    expected = stereodel.HullInsertion(points).simplices
+    assert {frozenset(t) for t in found.simplices.tolist()} == {frozenset(t) for t in expected.tolist()}

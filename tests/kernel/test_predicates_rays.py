@@ -167,6 +167,78 @@ def test_mixed_exponents(name):
     check(name, vectors)
 
 
+def scattered(count, seed, low=-300, high=300):
+    """Components of any size, each by itself: what the first stages cannot hold."""
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=(4, count, 3)) * 10.0 ** rng.uniform(low, high, size=(4, count, 3))
+
+
+def towards_the_axes(count, seed):
+    """Small components of every size beside a one, along different axes in a row."""
+    vectors = scattered(count, seed, -300, -1)
+    axis = np.random.default_rng(seed).integers(3, size=(4, count))
+    np.put_along_axis(vectors, axis[..., None], 1.0, axis=-1)
+    return vectors
+
+
+@EVERY
+@pytest.mark.parametrize("make", [scattered, towards_the_axes])
+def test_components_of_any_size(name, make):
+    """Balls decide what is not next to a tie, and nothing else has to be long integers."""
+    shares, truth = check(name, make(150, 19))
+    assert shares["balls"] <= (truth == 0).mean()
+    assert shares["double_double"] > 0.1 or name == "angles"
+
+
+def test_components_of_any_size_four_on_a_circle():
+    """Mirror images, and these moved by one unit in the last place of a component that is far below the others."""
+    vectors = towards_the_axes(100, 20)
+    vectors[1] = vectors[0] * [-1, 1, 1]
+    vectors[3] = vectors[2] * [-1, 1, 1]
+    assert not check("bubble", vectors)[1].any()
+    vectors[3] = np.where(np.abs(vectors[3]) < 1, np.nextafter(vectors[3], 2), vectors[3])
+    assert check("bubble", vectors)[1].all()
+
+
+@pytest.mark.parametrize("bits", [10, 17, 30, 43, 50])
+def test_great_circles_of_integers(bits):
+    """Three and four directions of one plane, and one of them moved by one unit."""
+    rng = np.random.default_rng(21)
+    multiples = rng.integers(-(2 ** (bits - 3)), 2 ** (bits - 3), size=(4, 120, 2))
+    vectors = (multiples @ np.array([[1, 2, 3], [3, -1, 1]])).astype(float)
+    for scale in (1.0, 2.0**-900, 2.0**400, 3.0 if bits < 50 else 1.0):
+        for name in ("turn", "bubble"):
+            assert not check(name, vectors * scale)[1].any()
+    vectors[2] += rng.integers(-1, 2, size=(120, 3))
+    for name in ("turn", "bubble"):
+        assert (check(name, vectors)[1] != 0).mean() > 0.8
+
+
+@pytest.mark.parametrize("bits", [3, 8, 15, 16, 17])
+def test_short_integers(bits):
+    """Of equal lengths, of lengths with a common root, and of any."""
+    rng = np.random.default_rng(22)
+    vectors = rng.integers(-(2**bits), 2**bits, size=(4, 300, 3)).astype(float)
+    vectors[1, ::2] = vectors[0, ::2] * [-1, 1, 1]
+    vectors[3, ::4] = 2 * vectors[2, ::4] * [-1, 1, 1]
+    vectors[(vectors == 0).all(axis=-1)] = 1.0
+    for scale in (1.0, 2.0**-1050, 2.0**480, 2.0**600):
+        check("bubble", vectors * scale)
+        check("turn", vectors * scale)
+
+
+def test_almost_integers():
+    """All components but one are multiples of a unit; that one is off by half of it, or by any less."""
+    rng = np.random.default_rng(23)
+    vectors = rng.integers(-(2**15), 2**15, size=(4, 200, 3)).astype(float)
+    vectors[0] = vectors[1] + vectors[2]
+    vectors[3] = vectors[1] - vectors[2]
+    assert not check("bubble", vectors)[1].any()
+    vectors[0, :, 0] += 2.0 ** -rng.integers(1, 38, size=200)
+    for name in ("turn", "bubble"):
+        assert check(name, vectors)[1].any()
+
+
 @EVERY
 def test_one_long_component(name):
     """Lengths near one, the other components of any size: the first stages meet underflow."""
