@@ -59,6 +59,40 @@ bool write_polygon(const Corner* corners, Size size, std::vector<Size>& next, In
 
 }  // namespace
 
+void check_cells(const Cells& cells, std::size_t entries) {
+    bool valid = cells.offsets[0] == 0 && cells.offsets[cells.sites] == static_cast<std::int64_t>(entries);
+    for (std::size_t site = 0; valid && site < cells.sites; ++site) {
+        valid = cells.offsets[site] <= cells.offsets[site + 1];
+    }
+    bool outside = false;
+    for (std::size_t k = 0; valid && k < entries; ++k) {  // vertex -1: at infinity
+        outside |= static_cast<std::uint32_t>(cells.vertices[k]) + 1u > cells.vertex_count;
+        outside |= static_cast<std::uint32_t>(cells.neighbors[k]) >= cells.sites;
+    }
+    if (!valid || outside) {
+        throw std::invalid_argument("the arrays are not those of a Voronoi diagram");
+    }
+}
+
+void check_order(const Cells& cells) {
+    std::size_t filled = 0;
+    for (std::size_t site = 0; site < cells.sites; ++site) {
+        filled += cells.begin(site) != cells.end(site) ? 1 : 0;
+    }
+    std::vector<bool> taken(cells.sites);
+    bool valid = filled == cells.filled;
+    for (std::size_t k = 0; valid && k < cells.filled; ++k) {
+        const auto site = static_cast<std::size_t>(static_cast<std::uint32_t>(cells.order[k]));
+        valid = site < cells.sites && !taken[site] && cells.begin(site) != cells.end(site);
+        if (valid) {
+            taken[site] = true;
+        }
+    }
+    if (!valid) {
+        throw std::invalid_argument("order must hold each site with entries once");
+    }
+}
+
 Ridges ridges_of(const Cells& cells, int workers, Stop stop) {
     Crew crew(useful_workers(workers, cells.sites));
     Buffer<Size> first(cells.sites + 1);

@@ -22,6 +22,11 @@ struct Cells {
     std::size_t end(std::size_t site) const { return static_cast<std::size_t>(offsets[site + 1]); }
 };
 
+// Of arrays that callers hand in: `entries` vertices and neighbours that fit the offsets, and the order of the sites.
+// Throw std::invalid_argument.
+void check_cells(const Cells& cells, std::size_t entries);
+void check_order(const Cells& cells);
+
 // Ridges by their two sites, i < j, in lexicographic order, with their first and last vertices, i on the left.
 struct Ridges {
     Buffer<Index> sites, vertices;

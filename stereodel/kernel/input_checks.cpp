@@ -172,39 +172,4 @@ void check_triangles(const Index* simplices, const Index* neighbors, std::size_t
     }
 }
 
-void check_cells(const Cells& cells, std::size_t entries) {
-    bool valid = cells.offsets[0] == 0 && cells.offsets[cells.sites] == static_cast<std::int64_t>(entries);
-    for (std::size_t site = 0; valid && site < cells.sites; ++site) {
-        valid = cells.offsets[site] <= cells.offsets[site + 1];
-    }
-    std::uint32_t joined = 0;
-    for (std::size_t k = 0; valid && k < entries; ++k) {
-        joined |= if_outside(static_cast<std::uint32_t>(cells.vertices[k]) + 1u,
-                             static_cast<std::uint32_t>(cells.vertex_count) + 1u) |
-                  if_outside(static_cast<std::uint32_t>(cells.neighbors[k]), static_cast<std::uint32_t>(cells.sites));
-    }
-    if (!valid || has_top(joined)) {
-        refuse("the arrays are not those of a Voronoi diagram");
-    }
-}
-
-void check_order(const Cells& cells) {
-    std::size_t filled = 0;
-    for (std::size_t site = 0; site < cells.sites; ++site) {
-        filled += cells.begin(site) != cells.end(site) ? 1 : 0;
-    }
-    std::vector<bool> taken(cells.sites);
-    bool valid = filled == cells.filled;
-    for (std::size_t k = 0; valid && k < cells.filled; ++k) {
-        const auto site = static_cast<std::size_t>(static_cast<std::uint32_t>(cells.order[k]));
-        valid = site < cells.sites && !taken[site] && cells.begin(site) != cells.end(site);
-        if (valid) {
-            taken[site] = true;
-        }
-    }
-    if (!valid) {
-        refuse("order must hold each site with entries once");
-    }
-}
-
 }  // namespace stereodel

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "diagram_parts.hpp"
 #include "tally.hpp"
 
 namespace stereodel {
@@ -36,9 +35,5 @@ enum class Border {
 // So turning around a point comes to an end. Whether the triangles are Delaunay is not asked.
 void check_triangles(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,
                      Border border);
-
-// The arrays of a diagram, `entries` vertices and neighbours; the order of its sites.
-void check_cells(const Cells& cells, std::size_t entries);
-void check_order(const Cells& cells);
 
 }  // namespace stereodel
