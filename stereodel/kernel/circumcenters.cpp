@@ -101,8 +101,8 @@ void exact_planar_center(const double* a, const double* b, const double* c, doub
 }
 
 // d x e of unit vectors' differences. They are off by 2^-100 each, the product by sqrt(3) 2^-100 (|d| + |e|) and some
-// 2^-99 |d||e|: at 2^-44 (|d| + |e|), less than 2^-55 of it. Low parts of the product are below 4u |d||e|, so at least
-// 2^-29 of it only where it is less than 2^-22 |d||e|.
+// 2^-99 |d||e|: at 2^-44 (|d| + |e|), less than 2^-55 of it. Low parts of the product are below 4u |d||e|: of a product
+// above 2^-22 (|d| + |e|)^2, and so 2^-20 |d||e|, less than 2^-31. Needles are left open.
 bool spherical_center(const UnitVector& a, const UnitVector& b, const UnitVector& c, double* center) {
     const PairedEdge d(a, b), e(a, c);
     Pair normal[3];
@@ -111,12 +111,8 @@ bool spherical_center(const UnitVector& a, const UnitVector& b, const UnitVector
         normal[k] = d.v[i] * e.v[j] - d.v[j] * e.v[i];
     }
     const double sides = std::sqrt(length_squared(d.v)) + std::sqrt(length_squared(e.v)), sides2 = sides * sides;
-    const double length2 = length_squared(normal);
-    if (!(length2 > 0x1p-88 * sides2)) {
+    if (!(length_squared(normal) > std::max(0x1p-88 * sides2, 0x1p-44 * sides2 * sides2))) {
         return false;
-    }
-    if (!(length2 > 0x1p-44 * sides2 * sides2)) {
-        renormalize(normal);
     }
     round_unit(normal, center);
     return true;
@@ -138,8 +134,8 @@ bool normal_of_edges(const RayEdge& d, const RayEdge& e, double* center) {
     return true;
 }
 
-// For corners that are close together. Two long sides are nearly parallel where the third is short: that one must be
-// one of the two.
+// For corners of which two or all are close together. Two long sides are nearly parallel where the third is short: that
+// one must be one of the two.
 bool close_center(const double* a, const double* b, const double* c, double* center) {
     const Ray ra(a), rb(b), rc(c);
     const RayEdge ab(ra, rb), ca(rc, ra);

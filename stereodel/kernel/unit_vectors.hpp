@@ -122,14 +122,6 @@ inline double length_squared(const Pair* v) {
     return v[0].h * v[0].h + v[1].h * v[1].h + v[2].h * v[2].h;
 }
 
-// Makes the low parts small beside the high ones, which those of a product that cancels are not.
-inline void renormalize(Pair* v) {
-    for (int k = 0; k < 3; ++k) {
-        const DoubleDouble sum = two_sum(v[k].h, v[k].l);
-        v[k] = {sum.hi, sum.lo};
-    }
-}
-
 // v/|v| rounded once, for v of length between 2^-300 and 2^300, known to twice the precision, with low parts of less
 // than 2^-29 |v|: |w|^2 is 1 within 2^-27, so that less than 2^-56 is lost where low parts meet the correction.
 inline void round_unit(const Pair* v, double* result) {
