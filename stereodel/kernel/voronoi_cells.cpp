@@ -198,7 +198,7 @@ class CellBuilder {
                 const Index t = static_cast<Index>(k);
                 if (is_triangle(t)) {
                     diagram_.simplex_rank[k] = 0;
-                } else if (dual_.root(t) == t) {
+                } else if (dual_.root(t) == t && !rank_pair(t)) {
                     collect_members(t, members);
                     std::sort(members.begin(), members.end());
                     for (Size rank = 0; rank < members.size(); ++rank) {
@@ -207,6 +207,24 @@ class CellBuilder {
                 }
             });
         });
+    }
+
+    // Two triangles, as most polygons have: false if there are more.
+    bool rank_pair(Index t) {
+        const Size tied = first_tied(t);
+        const HalfEdge other = dual_.twin({t, tied});
+        if (ties_of(t) != 1 || ties_of(other.t) != 1) {
+            return false;
+        }
+        const bool later = dual_.corners_from_lowest(other.t) < dual_.corners_from_lowest(t);
+        diagram_.simplex_rank[at(t)] = later ? 1 : 0;
+        diagram_.simplex_rank[at(other.t)] = later ? 0 : 1;
+        return true;
+    }
+
+    Size first_tied(Index t) const { return dual_.is_tied({t, 0}) ? 0 : dual_.is_tied({t, 1}) ? 1 : 2; }
+    int ties_of(Index t) const {
+        return int{dual_.is_tied({t, 0})} + int{dual_.is_tied({t, 1})} + int{dual_.is_tied({t, 2})};
     }
 
     using Member = std::pair<std::array<Index, 3>, Index>;  // corners from the lowest, triangle
