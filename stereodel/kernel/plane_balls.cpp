@@ -60,8 +60,13 @@ Sign diametral_balls(const double* a, const double* b, const double* p) {
     return dot_form(pa.x, pa.y, pb.x, pb.y).sign();
 }
 
+// From one point that is the sum of the differences times that of a and b: they may be far closer to each other.
 Sign distances_balls(const double* p, const double* a, const double* q, const double* b) {
     const BallEdge pa(p, a), qb(q, b);
+    if (p[0] == q[0] && p[1] == q[1]) {
+        const BallEdge ba(b, a);
+        return dot_form(ba.x, ba.y, pa.x + qb.x, pa.y + qb.y).sign();
+    }
     return (square_form(pa.x, pa.y) - square_form(qb.x, qb.y)).sign();
 }
 

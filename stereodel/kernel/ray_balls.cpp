@@ -111,10 +111,15 @@ Sign compare_component_balls(const double* a, const double* b, int k) {
 
 namespace {
 
-// Sign of the angle between p and a less that between q and b: that of the squared chords, or, for two obtuse angles,
-// of those to the opposite ends, which do not nearly agree where both are next to 4.
+// Sign of the angle between p and a less that between q and b: by the cosines, or, where these nearly agree, by the
+// squared chords, or, for two obtuse angles, by those to the opposite ends: both are far below 4 then.
 Sign compare_chords(const Vector& p, const Vector& a, const Vector& q, const Vector& b) {
-    const bool obtuse = dot_form(p.v, a.v).sign() < 0 && dot_form(q.v, b.v).sign() < 0;
+    const Ball pa = dot_form(p.v, a.v), qb = dot_form(q.v, b.v);
+    const Sign by_cosines = (qb * (p.length * a.length) - pa * (q.length * b.length)).sign();
+    if (by_cosines != OPEN) {
+        return by_cosines;
+    }
+    const bool obtuse = pa.sign() < 0 && qb.sign() < 0;
     const Ball first = (obtuse ? Chord(p, a.opposite()) : Chord(p, a)).square();
     const Ball second = (obtuse ? Chord(q, b.opposite()) : Chord(q, b)).square();
     const Sign sign = (first * (q.square * b.square) - second * (p.square * a.square)).sign();
@@ -123,9 +128,11 @@ Sign compare_chords(const Vector& p, const Vector& a, const Vector& q, const Vec
 
 }  // namespace
 
+// (q.b)|a| - (q.a)|b| = q.(b|a| - a|b|), which does not cancel where a and b are close to each other and far from q.
 Sign compare_angles_balls(const double* q, const double* a, const double* b) {
-    const Vector vertex(q);
-    return compare_chords(vertex, Vector(a), vertex, Vector(b));
+    const Vector vertex(q), u(a), v(b);
+    const Sign sign = dot_form(vertex.v, Chord(u, v).v).sign();
+    return sign != OPEN ? sign : compare_chords(vertex, u, vertex, v);
 }
 
 Sign compare_lengths_balls(const double* p, const double* a, const double* q, const double* b) {

@@ -300,23 +300,20 @@ def test_the_last_digits_of_large_integers_on_a_circle(size, order, change, axis
         assert signs.tolist() == [exact]
 
 
-def rational_circles():
-    """Two circles of rational points, large enough that products do not fit into doubles."""
-    slopes = np.arange(1, 40)
-    parts = [(2 * t * s, s * s - t * t, s * s + t * t) for t, s in zip(slopes, slopes + 7, strict=True)]
-    common = int(np.lcm.reduce([h for _, _, h in parts[:3]]))
-    circle = [(sx * x * common // h, sy * y * common // h) for x, y, h in parts[:3] for sx in (1, -1) for sy in (1, -1)]
-    circle += [(sx * y, sy * x) for x, y in circle for sx in (1, -1) for sy in (1, -1)]
-    circle = np.array(sorted(set(circle)), dtype=float)
-    scale = 2.0 ** np.floor(49 - np.log2(common))
-    return np.concatenate([circle * scale, circle * scale / 2 + scale * common / 4])
+def two_circles():
+    """64 integer points of each of two circles, so large that products do not fit into doubles."""
+    factors = [complex(2, 1), complex(3, 2), complex(4, 1), complex(5, 2)]
+    choices = [(f, f.conjugate()) for f in factors]
+    numbers = [u * np.prod(choice) for choice in itertools.product(*choices) for u in (1, 1j, -1, -1j)]
+    circle = np.array([[z.real, z.imag] for z in numbers]) * (2.0**38 + 1)
+    return np.concatenate([circle, circle + circle[0] * 0.5 + circle[3]])
 
 
 @pytest.mark.parametrize("displacement", [0, 1])
 def test_circles_are_remembered_without_harm(displacement):
     """Triangulations of points of two circles, all exact, or some off by one unit, against the insertion in Python."""
     rng = np.random.default_rng(13)
-    points = rational_circles()
+    points = two_circles()
     moved = rng.permutation(len(points))[:6]
     points[moved, 0] += displacement
     points = rng.permutation(points)
