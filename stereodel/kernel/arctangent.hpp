@@ -1,5 +1,6 @@
-// The angle of a vector in plain double arithmetic, without the platform's mathematics: the same bits on every machine,
-// and without a call, so that a loop over many vectors becomes vector instructions.
+// The rough angle of a vector, for pixels (angles.hpp has the precise one), in plain double arithmetic, without the
+// platform's mathematics: the same bits on every machine, and without a call, so that a loop over many vectors becomes
+// vector instructions.
 //
 // With m <= M the lesser and the greater of |x| and |y|, t = m/M: arctan t, or pi/4 + arctan((m - M)/(m + M)) where
 // t > tan(pi/8), so that the argument r of the series has |r| <= tan(pi/8) < 0.41422. The series
@@ -8,12 +9,12 @@
 
 #include <cmath>
 
+#include "angles.hpp"
+
 namespace stereodel {
 
-inline constexpr double PI = 0x1.921fb54442d18p1;
-
 // Of (x, y) in [-pi, pi]: within 4.5e-10 rad of the exact angle; 0 for the zero vector.
-inline double arctangent(double y, double x) {
+inline double rough_angle(double y, double x) {
     constexpr double TAN_PI_8 = 0x1.a827999fcef32p-2;
     const double ax = std::abs(x), ay = std::abs(y);
     const double lesser = ax < ay ? ax : ay, greater = ax < ay ? ay : ax;

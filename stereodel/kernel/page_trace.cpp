@@ -77,8 +77,8 @@ Traced on_globe(const Moving& seen, const double* last) {
     const double across = p.x * p.x + p.y * p.y, radius = std::sqrt(across);
     const double inverse = 1.0 / (radius > 1e-150 ? radius : 1e-150), square = inverse * inverse;
     Traced out{};
-    out.lon = arctangent(p.y, p.x);
-    out.lat = arctangent(p.z, radius);
+    out.lon = rough_angle(p.y, p.x);
+    out.lat = rough_angle(p.z, radius);
     out.lon_x = (p.x * right.y - p.y * right.x) * square;
     out.lon_y = (p.x * up.y - p.y * up.x) * square;
     out.lat_x = right.z * inverse;

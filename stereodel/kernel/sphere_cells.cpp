@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "ball_cells.hpp"
 #include "cell_integrals.hpp"
 #include "memory.hpp"
 #include "sphere_cell.hpp"
@@ -9,10 +10,11 @@
 namespace stereodel {
 namespace {
 
-// The integral of x over a cell, as a multiple of the site and the rest.
+// The integral of x over a cell, as a multiple of the site and the rest, and the bound of that.
 struct CellMoment {
     double radial = 0.0;
     double rest[3] = {0.0, 0.0, 0.0};
+    double bound = 0.0, size = 0.0;  // size: the cell reaches at least as far
 
     void add(double factor, const double* vector) {
         for (int k = 0; k < 3; ++k) {
@@ -20,72 +22,43 @@ struct CellMoment {
         }
     }
 
-    // The unit vector of its direction. A small cell's is the site's and a little more.
+    // Both triangles of a ridge, in the frame of the site, the direction to the neighbour and their normal. The frame is
+    // off by some 10u, the moments by `bound`, and by the legs' errors, which change the area times less than the size
+    // of the cell: it reaches as far as its vertices.
+    void add_ridge(const double* p, const Side& side) {
+        const TriangleMoment left = stereodel::moment(side.length, side.cosine, side.left);
+        const TriangleMoment right = stereodel::moment(side.length, side.cosine, side.right);
+        radial += left.radial + right.radial;
+        double towards[3];  // the part of q - p across p
+        for (int k = 0; k < 3; ++k) {
+            towards[k] = side.edge[k] + 0.5 * side.length * side.length * p[k];
+        }
+        const double across = std::sqrt(rays::dot_form(towards, towards));
+        for (double& x : towards) {
+            x /= across;
+        }
+        const double along[3] = {p[1] * towards[2] - p[2] * towards[1], p[2] * towards[0] - p[0] * towards[2],
+                                 p[0] * towards[1] - p[1] * towards[0]};
+        add(left.towards + right.towards, towards);
+        add(left.along - right.along, along);
+        bound += left.bound + right.bound +
+                 16 * UNIT_ROUNDOFF * (std::fabs(left.towards) + std::fabs(right.towards) + std::fabs(left.along) +
+                                       std::fabs(right.along));
+        size = std::max(size, side.length / 2);
+    }
+
+    bool is_good(double area) const { return bound <= CELL_ERROR * area * size; }
+
+    // The unit vector of its direction: the site's and a little more.
     void direction(const UnitVector& p, double* result) const {
         Pair v[3];
-        double size = std::max({radial, std::fabs(rest[0]), std::fabs(rest[1]), std::fabs(rest[2])});
-        size = radial > 0.5 * size ? radial : size;
-        if (!(size > 0.0)) {  // its area is below the least of doubles
-            std::copy(p.hi, p.hi + 3, result);
-            return;
-        }
         for (int k = 0; k < 3; ++k) {
-            const DoubleDouble sum = two_sum(radial == size ? p.hi[k] : radial / size * p.hi[k], rest[k] / size);
-            v[k] = {sum.hi, sum.lo};
+            const DoubleDouble sum = two_sum(p.hi[k], rest[k] / radial);
+            v[k] = {sum.hi, sum.lo + p.lo[k]};
         }
         round_unit(v, result);
     }
 };
-
-// Both triangles of a ridge, in the frame of the site, the direction to the neighbour and their normal.
-void add_ridge(const double* p, const SphereCell& cell, std::size_t place, CellMoment& moment) {
-    const Side<double>& side = cell.sides[place];
-    const TriangleMoment left = stereodel::moment(side.length, side.cosine, side.left);
-    const TriangleMoment right = stereodel::moment(side.length, side.cosine, side.right);
-    const double turned = is_turned(side.left, side.right) ? PI : 0.0;
-    moment.radial += left.radial + right.radial + turned * side.length / 2;
-    // The part of q - p across p. Beyond a right angle the sum cancels, near p it is too short for squares.
-    double towards[3];
-    for (int k = 0; k < 3; ++k) {
-        towards[k] = cell.is_careful() ? cell.towards(place)[k] : side.edge[k] + 0.5 * side.length * side.length * p[k];
-    }
-    const double across = std::sqrt(rays::dot_form(towards, towards));
-    for (double& x : towards) {
-        x /= across;
-    }
-    const double along[3] = {p[1] * towards[2] - p[2] * towards[1], p[2] * towards[0] - p[0] * towards[2],
-                             p[0] * towards[1] - p[1] * towards[0]};
-    moment.add(left.towards + right.towards - turned * side.cosine, towards);
-    moment.add(left.along - right.along, along);
-}
-
-// Half of angle times normal of the side from v to w.
-void add_arc(const double* v, const double* w, CellMoment& moment) {
-    const double normal[3] = {v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]};
-    const double sine = std::sqrt(rays::dot_form(normal, normal));
-    if (sine > 0.0) {
-        moment.add(0.5 * std::atan2(sine, rays::dot_form(v, w)) / sine, normal);
-    }
-}
-
-// The triangle of the site and a ridge that is nearly its polar great circle.
-void add_opposite_ridge(const double* p, const SphereCell& cell, std::size_t k, CellMoment& moment) {
-    moment.add(-0.25 * cell.ridge_length(k), cell.sides[k].edge);
-    add_arc(cell.left_vertex(k), p, moment);
-    add_arc(p, cell.right_vertex(k), moment);
-}
-
-CellMoment moment_of(const SphereCell& cell, const UnitVector& p) {
-    CellMoment moment;
-    for (std::size_t k = 0; k < cell.sides.size(); ++k) {
-        if (cell.sides[k].cosine < OPPOSITE) {
-            add_opposite_ridge(p.hi, cell, k, moment);
-        } else {
-            add_ridge(p.hi, cell, k, moment);
-        }
-    }
-    return moment;
-}
 
 // Sites come in any order in memory, their neighbours in the order of `cells` soon after one another.
 void fetch_ahead(const Cells& cells, const Buffer<UnitVector>& units, std::size_t k) {
@@ -103,7 +76,50 @@ void fetch_ahead(const Cells& cells, const Buffer<UnitVector>& units, std::size_
     }
 }
 
-// Calls visit(cell, site) with cells that are taken, visit_empty(site) for sites without entries.
+// The area of a cell, and its centroid if that is wanted, by the first stage that may do.
+class CellMeasure {
+  public:
+    CellMeasure(const double* points, const Cells& cells, const UnitVector* units)
+        : points_(points), cells_(cells), units_(units), cell_(points, cells, units) {}
+
+    double area(std::size_t site) {
+        if (cell_.take(site)) {
+            const double area = cell_.area();
+            if (cell_.is_good(area)) {
+                return area;
+            }
+        }
+        return carefully(site, false).area;
+    }
+
+    void centroid(std::size_t site, double* result) {
+        if (cell_.take(site)) {
+            const double area = cell_.area();
+            CellMoment moment;
+            for (const Side& side : cell_.sides) {
+                moment.add_ridge(units_[site].hi, side);
+            }
+            if (cell_.is_good(area) && moment.is_good(area)) {
+                moment.direction(units_[site], result);
+                return;
+            }
+        }
+        std::copy_n(carefully(site, true).centroid, 3, result);
+    }
+
+  private:
+    MeasuredCell carefully(std::size_t site, bool with_centroid) {
+        const MeasuredCell cell = cell_.measure_carefully(site, with_centroid);
+        return cell.good ? cell : sphere_cell_in_balls(points_, cells_, site, units_[site], with_centroid);
+    }
+
+    const double* points_;
+    const Cells& cells_;
+    const UnitVector* units_;
+    SphereCell cell_;
+};
+
+// Calls visit(measure, site) for sites with entries, visit_empty(site) for those without.
 template <class Visit, class VisitEmpty>
 void for_cells(const double* points, const Cells& cells, int workers, Stop stop, Visit&& visit,
                VisitEmpty&& visit_empty) {
@@ -116,16 +132,10 @@ void for_cells(const double* points, const Cells& cells, int workers, Stop stop,
         }
     });
     in_grains(cells.filled, std::size_t{1} << 12, crew, [&](std::size_t first, std::size_t last) {
-        SphereCell cell(points, cells, units.data());
+        CellMeasure measure(points, cells, units.data());
         for_range(first, last, stop, [&](std::size_t k) {
             fetch_ahead(cells, units, k);
-            const auto site = static_cast<std::size_t>(cells.order[k]);
-            double area = HUGE_VAL;
-            if (!cell.take(site) || !cell.is_good(area = cell.area())) {
-                cell.take_carefully(site);
-                area = cell.careful_area();
-            }
-            visit(cell, units[site], site, area);
+            visit(measure, static_cast<std::size_t>(cells.order[k]));
         });
     });
 }
@@ -135,16 +145,14 @@ void for_cells(const double* points, const Cells& cells, int workers, Stop stop,
 void cell_areas_sphere(const double* points, const Cells& cells, double* areas, int workers, Stop stop) {
     for_cells(
         points, cells, workers, stop,
-        [areas](const SphereCell&, const UnitVector&, std::size_t site, double area) { areas[site] = area; },
+        [areas](CellMeasure& measure, std::size_t site) { areas[site] = measure.area(site); },
         [areas](std::size_t site) { areas[site] = 0.0; });
 }
 
 void cell_centroids_sphere(const double* points, const Cells& cells, double* centroids, int workers, Stop stop) {
     for_cells(
         points, cells, workers, stop,
-        [centroids](const SphereCell& cell, const UnitVector& p, std::size_t site, double) {
-            moment_of(cell, p).direction(p, centroids + 3 * site);
-        },
+        [centroids](CellMeasure& measure, std::size_t site) { measure.centroid(site, centroids + 3 * site); },
         [centroids](std::size_t site) {
             std::fill_n(centroids + 3 * site, 3, std::numeric_limits<double>::quiet_NaN());
         });

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "angles.hpp"
 #include "charts.hpp"
 #include "tally.hpp"
 
@@ -67,7 +68,7 @@ class PlaneAround {
 
     // Integral of the points of an edge along its length.
     static Local moment(const Local& a, const Local& b) {
-        const double half = std::hypot(b.x - a.x, b.y - a.y) / 2;
+        const double half = std::sqrt(inner(b - a, b - a)) / 2;
         return {(a.x + b.x) * half, (a.y + b.y) * half, 0.0};
     }
 
@@ -132,7 +133,7 @@ class SphereAround {
     // the query's cell, which is convex and does not hold its antipode: so sectors add up to areas, without 4 pi more
     // or less.
     static double sector(const Local& a, const Local& b) {
-        return 2 * std::atan2(outer(a, b), 1 + a.z + b.z + inner(a, b));
+        return 2 * vector_angle(outer(a, b), 1 + a.z + b.z + inner(a, b));
     }
 
     // Over an arc of length s the unit vectors add up to 2 sin(s/2), the chord, times the arc's middle.
