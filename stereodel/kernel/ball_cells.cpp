@@ -1,8 +1,10 @@
 #include "ball_cells.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <vector>
 
 #include "big_ball.hpp"
@@ -183,22 +185,87 @@ std::vector<const double*> sites_around(const double* points, const Cells& cells
     return sites;
 }
 
-constexpr std::size_t FEWEST = 8;  // limbs
+// A difference of two points of the plane.
+struct Edge {
+    BigBall x, y, square;
+
+    Edge(const double* from, const double* to, std::size_t limbs)
+        : x(BigBall(to[0], limbs) - BigBall(from[0], limbs)), y(BigBall(to[1], limbs) - BigBall(from[1], limbs)) {
+        square = x * x + y * y;
+    }
+};
+
+BigBall product(const Edge& a, const Edge& b) { return a.x * b.y - a.y * b.x; }
+
+// With d = q - p and c and e for the neighbours before and after q the ridge reaches, in units of |d|, from the middle
+// to g' = e.(e - d)/(2 d x e) on the left and g" = c.(c - d)/(2 c x d) on the right:
+//     g' + g" = (|e|^2 c x d + |d|^2 e x c + |c|^2 d x e)/(2 (c x d) (d x e)),
+// the determinant that says that e is not in the circle of p, c and d. The triangle of p and the ridge has the area
+// |d|^2 (g' + g")/4 and the centroid (d + (g' - g") d')/3 from p, d' being d turned by 90 degrees.
+MeasuredCell plane_cell(const std::vector<const double*>& sites, std::size_t limbs) {
+    const std::size_t size = sites.size() - 1;
+    std::vector<Edge> edges;
+    std::int64_t exponent = std::numeric_limits<std::int64_t>::min();
+    for (std::size_t k = 0; k < size; ++k) {
+        edges.emplace_back(sites[size], sites[k], limbs);
+        for (const BigBall& part : {edges[k].x, edges[k].y}) {
+            exponent = part.sign() == 0 ? exponent : std::max(exponent, part.exponent());
+        }
+    }
+    std::vector<BigBall> volumes;  // d x e
+    for (std::size_t k = 0; k < size; ++k) {
+        volumes.push_back(product(edges[k], edges[(k + 1) % size]));
+    }
+    BigBall area(0.0, limbs), x = area, y = area;
+    double reach = 0.0;
+    for (std::size_t k = 0; k < size; ++k) {
+        const Edge &c = edges[(k + size - 1) % size], &d = edges[k], &e = edges[(k + 1) % size];
+        const BigBall &cd = volumes[(k + size - 1) % size], &de = volumes[k];
+        const BigBall both = (e.square * cd + d.square * product(e, c) + c.square * de) / (cd * de);
+        const BigBall left = (e.x * (e.x - d.x) + e.y * (e.y - d.y)) / de, right = (c.x * (c.x - d.x) + c.y * (c.y - d.y)) / cd;
+        const BigBall weight = d.square * both, turn = (left - right).times_power(-1);
+        area = area + weight;
+        x = x + weight * (d.x - turn * d.y);
+        y = y + weight * (d.y + turn * d.x);
+        reach = std::max({reach, std::fabs(d.x.middle(exponent)), std::fabs(d.y.middle(exponent))});
+    }
+    const BigBall three = area.like(3.0), eighth = area.times_power(-3);
+    x = x / (three * area);
+    y = y / (three * area);
+    const std::int64_t scale = area.exponent();
+    const double error = std::max(x.radius(exponent), y.radius(exponent));
+    return {eighth.middle(0), {x.middle(0), y.middle(0), 0.0},
+            area.radius(scale) <= CELL_ERROR * area.middle(scale) && error <= CELL_ERROR * reach / 2};
+}
+
+constexpr std::size_t FEWEST = 8, MOST = 8192;  // limbs; the determinants of cells have some 600 if nothing is cut off
+
+// Of the measure(limbs) that is good first.
+template <class Measure>
+MeasuredCell with_enough_limbs(Measure&& measure) {
+    for (std::size_t limbs = FEWEST; limbs <= MOST; limbs *= 2) {
+        const MeasuredCell cell = measure(limbs);
+        if (cell.good) {
+            return cell;
+        }
+    }
+    throw std::invalid_argument("the cells are not those of a Voronoi diagram");
+}
 
 }  // namespace
 
 MeasuredCell sphere_cell_in_balls(const double* points, const Cells& cells, std::size_t site, const UnitVector& unit,
                                   bool with_centroid) {
     const std::vector<const double*> sites = sites_around(points, cells, site, 3);
-    for (std::size_t limbs = FEWEST;; limbs *= 2) {
+    return with_enough_limbs([&](std::size_t limbs) {
         const std::vector<Ridge<BigBall>> ridges = ridges_in_balls(sites, limbs);
-        const MeasuredCell cell = RidgeSum<BigBall>(unit, ridges).measure(with_centroid);
-        if (cell.good) {
-            return cell;
-        }
-    }
+        return RidgeSum<BigBall>(unit, ridges).measure(with_centroid);
+    });
 }
 
-MeasuredCell plane_cell_in_balls(const double*, const Cells&, std::size_t) { return {}; }
+MeasuredCell plane_cell_in_balls(const double* points, const Cells& cells, std::size_t site) {
+    const std::vector<const double*> sites = sites_around(points, cells, site, 2);
+    return with_enough_limbs([&](std::size_t limbs) { return plane_cell(sites, limbs); });
+}
 
 }  // namespace stereodel

@@ -134,42 +134,43 @@ class RidgeSum {
                std::fabs(ridge.middle_sine.middle(0)) < FLAT && ridge.middle_cosine.sign() > 0;
     }
 
-    // The mean of 2/3 (c - p) with the areas as weights. All c - p are within the cell, and so are D/2 and sin M t,
-    // which are known to some 2^-51 of themselves and `middle_sine`'s error.
+    // The mean of 2/3 (c - p) with the areas as weights, both over powers of two. All c - p are within the cell, and so
+    // are D/2 and sin M t, which are known to some 2^-50 of themselves and the errors of D and sin M.
     bool flat_centroid(const std::vector<Number>& tangents, double* centroid) const {
-        std::int64_t exponent = tangents[0].exponent();
-        for (const Number& tangent : tangents) {
-            exponent = std::max(exponent, tangent.exponent());
+        std::int64_t heaviest = tangents[0].exponent(), largest = ridges_[0].sine.exponent();
+        for (std::size_t k = 1; k < ridges_.size(); ++k) {
+            heaviest = std::max(heaviest, tangents[k].exponent());
+            largest = std::max(largest, ridges_[k].sine.exponent());
         }
         double total = 0.0, rest[3] = {}, weight_error = 0.0, error = 0.0, size = 0.0;
         for (std::size_t k = 0; k < ridges_.size(); ++k) {
             const Ridge<Number>& ridge = ridges_[k];
-            const double weight = tangents[k].middle(exponent), sine = ridge.middle_sine.middle(0);
-            double half[3], along[3];
+            const double weight = tangents[k].middle(heaviest), height = ridge.sine.middle(largest);
+            const double sine = ridge.middle_sine.middle(largest);
+            const std::int64_t exponent = ridge.length.exponent();
+            double towards[3];
             for (int i = 0; i < 3; ++i) {
-                half[i] = ridge.edge[i].middle(1 - ridge.exponent);  // D/2
-                error = std::max(error, ridge.edge[i].radius(-ridge.exponent));
+                towards[i] = ridge.edge[i].middle(exponent) / ridge.length.middle(exponent);
+                error = std::max(error, height * (ridge.edge[i].radius(exponent) / ridge.length.middle(exponent)));
             }
             for (int i = 0; i < 3; ++i) {
-                along[i] = p_.hi[(i + 1) % 3] * half[(i + 2) % 3] - p_.hi[(i + 2) % 3] * half[(i + 1) % 3];
-            }
-            const double height = ridge.sine.middle(0);
-            for (int i = 0; i < 3; ++i) {
-                rest[i] += weight * (half[i] + sine * (along[i] / height));
+                const int j = (i + 1) % 3, l = (i + 2) % 3;
+                const double along = p_.hi[j] * towards[l] - p_.hi[l] * towards[j];
+                rest[i] += weight * (towards[i] * height + along * sine);
             }
             total += weight;
-            weight_error += tangents[k].radius(exponent);
-            error = std::max(error, ridge.middle_sine.radius(0));
+            weight_error += tangents[k].radius(heaviest);
+            error = std::max(error, ridge.middle_sine.radius(largest));
             size = std::max({size, height, std::fabs(sine)});
         }
-        DoubleDouble sum[3];
+        const int scale = static_cast<int>(std::max<std::int64_t>(largest, -3000));
+        Pair vector[3];
         for (int i = 0; i < 3; ++i) {
-            sum[i] = two_sum(p_.hi[i], 2.0 / 3.0 * (rest[i] / total));
-            sum[i] = fast_two_sum(sum[i].hi, sum[i].lo + p_.lo[i]);
+            const DoubleDouble sum = two_sum(p_.hi[i], std::ldexp(2.0 / 3.0 * (rest[i] / total), scale));
+            vector[i] = {sum.hi, sum.lo + p_.lo[i]};
         }
-        const Pair vector[3] = {{sum[0].hi, sum[0].lo}, {sum[1].hi, sum[1].lo}, {sum[2].hi, sum[2].lo}};
         round_unit(vector, centroid);
-        return error <= CELL_ERROR * size && weight_error <= CELL_ERROR * total && total > 0.0;
+        return error <= CELL_ERROR * size && weight_error <= CELL_ERROR * total;
     }
 
     // By the theorem of Stokes. The cell reaches as far as all its h; its integral must be known to that part of it.

@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "ball_cells.hpp"
 #include "cell_integrals.hpp"
 #include "double_double.hpp"
 #include "error_counts.hpp"
@@ -21,10 +22,9 @@ DoubleDouble difference(double a, double b, DoubleDouble) { return two_differenc
 double times(double x, double factor) { return x * factor; }
 DoubleDouble times(DoubleDouble x, double factor) { return x * DoubleDouble{factor, 0.0}; }
 
-struct Measured {
-    double area, offset[2];  // offset: of the centroid from the site
-    bool good;
-};
+// What an operation of a number may be off by, of its result: those of double_double.hpp are at most 11u^2.
+double roundoff(double) { return UNIT_ROUNDOFF; }
+double roundoff(DoubleDouble) { return 11 * UNIT_ROUNDOFF * UNIT_ROUNDOFF; }
 
 template <class Number>
 struct Edge {
@@ -41,7 +41,7 @@ struct Edge {
 //
 // With area |D|^2 g/4 for each leg pair, D = b, E = a: E.F, with the rounding of the differences, is off by 6u|E||F|,
 // X = a x b by 5u|a||b|; |g| <= |E||F|/(2X). With the other roundings each area is off by less than
-// 8u |a||b||F| |D|/(8X) (1 + |a||b|/X).
+// 8u |a||b||F| |D|/(8X) (1 + |a||b|/X), if the error of X is less than 2^-5 of it and no product underflows.
 template <class Number>
 struct Corner {
     Number at_a, at_b;
@@ -51,18 +51,18 @@ struct Corner {
         const Number twice = times(a.x * b.y - a.y * b.x, 2.0);
         at_a = (b.x * across.x + b.y * across.y) / twice;
         at_b = (-(a.x * across.x) - a.y * across.y) / twice;
-        const double to_a = std::sqrt(rounded(a.square)), to_b = std::sqrt(rounded(b.square));
-        const double shape = to_a * to_b / rounded(twice);
-        bound = shape > 0.0 ? 2 * UNIT_ROUNDOFF * (to_a + to_b) * std::sqrt(rounded(across.square)) * shape *
-                                  (1 + 2 * shape)
-                            : HUGE_VAL;
+        const double to_a = std::sqrt(rounded(a.square)), to_b = std::sqrt(rounded(b.square)), product = to_a * to_b;
+        const double shape = product / rounded(twice), unit = roundoff(Number{});
+        bound = shape > 0.0 && shape < 0x1p-10 / unit && product > 0x1p-800
+                    ? 2 * unit * (to_a + to_b) * std::sqrt(rounded(across.square)) * shape * (1 + 2 * shape)
+                    : HUGE_VAL;
     }
 };
 
 // The triangle with the legs D/2 and g |D|: its area |D|^2 g/4, moment area (D/3 +- g D'/3), D' = D turned by 90
-// degrees.
+// degrees. The centroid, of which the legs are no longer than the cell, is good where the area is.
 template <class Number>
-Measured measure(const double* points, const Index* neighbors, std::size_t size, std::size_t site, double scale) {
+MeasuredCell measure(const double* points, const Index* neighbors, std::size_t size, std::size_t site, double scale) {
     const auto at = [points](std::size_t k) { return points + 2 * k; };
     const auto other = [&](std::size_t k) { return static_cast<std::size_t>(neighbors[k]); };
     Number area{}, x{}, y{};
@@ -80,11 +80,11 @@ Measured measure(const double* points, const Index* neighbors, std::size_t size,
     // Between these no product of the moment leaves the range of doubles.
     const bool good = bound <= CELL_ERROR * rounded(area) && rounded(area) > 0x1p-400 && rounded(area) < 0x1p400;
     const double unscaled = rounded(area) / scale / scale;
-    return {unscaled, {rounded(x) / rounded(area) / 3 / scale, rounded(y) / rounded(area) / 3 / scale}, good};
+    return {unscaled, {rounded(x) / rounded(area) / 3 / scale, rounded(y) / rounded(area) / 3 / scale, 0.0}, good};
 }
 
 // In double-double, brought to a size at which no product leaves the range of doubles.
-Measured measure_carefully(const double* points, const Index* neighbors, std::size_t size, std::size_t site) {
+MeasuredCell measure_carefully(const double* points, const Index* neighbors, std::size_t size, std::size_t site) {
     double largest = 0.0;
     for (std::size_t k = 0; k < size; ++k) {
         const double* const other = points + 2 * static_cast<std::size_t>(neighbors[k]);
@@ -104,7 +104,7 @@ void for_cells(const double* points, const Cells& cells, int workers, Stop stop,
     constexpr double nowhere = std::numeric_limits<double>::quiet_NaN();
     for_range(0, cells.sites, stop, [&](std::size_t site) {
         if (cells.begin(site) == cells.end(site)) {
-            put(site, Measured{0.0, {nowhere, nowhere}, true});
+            put(site, MeasuredCell{0.0, {nowhere, nowhere}, true});
         }
     });
     in_grains(cells.filled, grain, crew, [&](std::size_t first, std::size_t last) {
@@ -112,14 +112,14 @@ void for_cells(const double* points, const Cells& cells, int workers, Stop stop,
             const auto site = static_cast<std::size_t>(cells.order[k]);
             const std::size_t begin = cells.begin(site), size = cells.end(site) - begin;
             if (cells.vertices[begin] < 0) {
-                put(site, Measured{HUGE_VAL, {nowhere, nowhere}, true});
+                put(site, MeasuredCell{HUGE_VAL, {nowhere, nowhere}, true});
                 return;
             }
-            Measured measured = measure<double>(points, cells.neighbors + begin, size, site, 1.0);
+            MeasuredCell measured = measure<double>(points, cells.neighbors + begin, size, site, 1.0);
             if (!measured.good) {
                 measured = measure_carefully(points, cells.neighbors + begin, size, site);
             }
-            put(site, measured);
+            put(site, measured.good ? measured : plane_cell_in_balls(points, cells, site));
         });
     });
 }
@@ -127,15 +127,14 @@ void for_cells(const double* points, const Cells& cells, int workers, Stop stop,
 }  // namespace
 
 void cell_areas_plane(const double* points, const Cells& cells, double* areas, int workers, Stop stop) {
-    for_cells(points, cells, workers, stop, [areas](std::size_t site, const Measured& measured) {
-        areas[site] = std::isnan(measured.area) ? HUGE_VAL : measured.area;  // beyond the range of doubles
-    });
+    for_cells(points, cells, workers, stop,
+              [areas](std::size_t site, const MeasuredCell& measured) { areas[site] = measured.area; });
 }
 
 void cell_centroids_plane(const double* points, const Cells& cells, double* centroids, int workers, Stop stop) {
-    for_cells(points, cells, workers, stop, [=](std::size_t site, const Measured& measured) {
+    for_cells(points, cells, workers, stop, [=](std::size_t site, const MeasuredCell& measured) {
         for (std::size_t k = 0; k < 2; ++k) {
-            centroids[2 * site + k] = points[2 * site + k] + measured.offset[k];
+            centroids[2 * site + k] = points[2 * site + k] + measured.centroid[k];
         }
     });
 }
