@@ -43,9 +43,12 @@ inline constexpr DoubleDouble ARC_TANGENTS[33] = {
     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}
 };
 
-// arctan t by its series, for |t| < 1/16.
+// arctan t by its series, for |t| < 1/16; the tiny cells of large diagrams need a few terms.
 inline double small_arc_tangent(double t) {
     const double q = t * t;
+    if (q < 0x1p-16) {
+        return t - t * q * (1.0 / 3.0 - q * (1.0 / 5.0 - q * (1.0 / 7.0)));
+    }
     double sum = 1.0 / 13.0;
     sum = 1.0 / 11.0 - q * sum;
     sum = 1.0 / 9.0 - q * sum;

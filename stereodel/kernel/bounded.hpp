@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 #include "double_double.hpp"
 
@@ -25,9 +26,7 @@ class Bounded {
     Bounded error_alone() const { return Bounded({}, std::fabs(value_.hi) * (1.0 + 0x1p-50) + error_); }
 
     Bounded times_power(std::int64_t bits) const {
-        const int exponent = static_cast<int>(bits);
-        return Bounded({std::ldexp(value_.hi, exponent), std::ldexp(value_.lo, exponent)},
-                       std::ldexp(error_, exponent) + FLOOR);
+        return Bounded({scaled(value_.hi, bits), scaled(value_.lo, bits)}, scaled(error_, bits) + FLOOR);
     }
 
     std::int64_t exponent() const {
@@ -35,11 +34,8 @@ class Bounded {
         std::frexp(value_.hi, &result);
         return result;
     }
-    double middle(std::int64_t exponent) const { return std::ldexp(value_.hi, -static_cast<int>(exponent)); }
-    double radius(std::int64_t exponent) const {
-        return std::ldexp(error_, -static_cast<int>(exponent)) + FLOOR;
-    }
-    DoubleDouble value() const { return value_; }
+    double middle(std::int64_t exponent) const { return scaled(value_.hi, -exponent); }
+    double radius(std::int64_t exponent) const { return scaled(error_, -exponent) + FLOOR; }
 
     Bounded operator-() const { return Bounded(-value_, error_); }
     friend Bounded operator+(const Bounded& a, const Bounded& b) {
@@ -72,6 +68,20 @@ class Bounded {
 
   private:
     static constexpr double FLOOR = 0x1p-1060;
+
+    // x 2^exponent. Not by the slower std::ldexp where the power itself is a double.
+    static double scaled(double x, std::int64_t exponent) {
+        if (exponent == 0) {
+            return x;
+        }
+        if (exponent < -1022 || exponent > 1023) {
+            return std::ldexp(x, static_cast<int>(exponent));
+        }
+        const std::uint64_t bits = static_cast<std::uint64_t>(exponent + 1023) << 52;
+        double power = 0.0;
+        std::memcpy(&power, &bits, sizeof power);
+        return x * power;
+    }
 
     DoubleDouble value_;
     double error_ = 0.0;

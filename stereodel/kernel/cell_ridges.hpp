@@ -96,12 +96,13 @@ class RidgeSum {
         std::vector<Number> tangents;
         double error = 0.0;
         bool flat = true;
+        const std::int64_t lift = -ridges_[0].sine.exponent();  // areas may leave the range of doubles, these not
         for (const Ridge<Number>& ridge : ridges_) {
             const Number n = ridge.sine * ridge.half_sine, m = ridge.half_cosine + ridge.cosine * ridge.middle_cosine;
             error += add_triangle(n, m, cell.area);
             flat = flat && is_flat(ridge);
             if (with_centroid && flat) {
-                tangents.push_back(n / m);
+                tangents.push_back(ridge.sine.times_power(lift) * ridge.half_sine.times_power(lift) / m);
             }
         }
         cell.good = error <= CELL_ERROR * cell.area + 0x1p-1040;

@@ -69,13 +69,11 @@ class SphereCell {
         set_site(site);
         const Ray p(at(static_cast<Index>(site)));
         ridges_.resize(size_);
-        towards_.clear();
-        opposite_.clear();
+        sums_.resize(size_);
         rays_.clear();
         for (std::size_t k = 0; k < size_; ++k) {
             rays_.emplace_back(at(other(k)));
-            towards_.emplace_back(p, rays_[k]);
-            opposite_.push_back(take_edge(p, rays_[k], towards_[k], ridges_[k]));
+            take_edge(p, rays_[k], ridges_[k], sums_[k]);
         }
         legs_.resize(2 * size_);
         std::size_t last = size_ - 1;
@@ -92,10 +90,20 @@ class SphereCell {
     std::vector<Side> sides;
 
   private:
-    // q + p of the neighbours that are farther than 90 degrees.
-    struct Opposite {
-        bool is_used;
-        RayEdge sum;
+    // A `RayEdge` with the error that is derived there, and that of components of rays which underflow.
+    struct Edge {
+        Bounded v[3], square;
+        int exponent = 0;
+        bool is_used = true;
+
+        Edge() = default;
+        explicit Edge(const RayEdge& edge) : exponent(edge.exponent) {
+            const double error = 0x1p-98 * edge.loss + std::ldexp(0x1p-1066, -edge.exponent);
+            for (int k = 0; k < 3; ++k) {
+                v[k] = Bounded(edge.v[k], error);
+            }
+            square = rays::dot_form(v, v);
+        }
     };
 
     void set_site(std::size_t site) {
@@ -130,91 +138,62 @@ class SphereCell {
         return leg.across / (leg.along + std::sqrt(leg.along * leg.along + leg.across * leg.across));
     }
 
-    // A component of an edge of length 1, with the error that is derived in unit_vectors.hpp, and that of components of
-    // rays which underflow.
-    static Bounded component(const RayEdge& edge, int k) {
-        return Bounded(edge.v[k], 0x1p-98 * edge.loss + std::ldexp(0x1p-1066, -edge.exponent));
-    }
-
-    // A component of a direction. Lengths are off by the root's 5u^2 and half the 13u^2 of a sum of three squares.
-    static Bounded component(const Ray& ray, int k) { return Bounded(ray.v[k], 0.0) / Bounded(ray.length, 0x1p-102); }
-
-    static Bounded square_of(const RayEdge& edge) {
-        const Bounded x = component(edge, 0), y = component(edge, 1), z = component(edge, 2);
-        return x * x + y * y + z * z;
-    }
-
     // sin h = |D|/2 and cos h = |S|/2 with S = q + p: the shorter one from its difference, which keeps its digits.
-    static Opposite take_edge(const Ray& p, const Ray& q, const RayEdge& edge, Ridge<Bounded>& ridge) {
-        const Bounded square = square_of(edge), one = square.like(1.0);
-        for (int i = 0; i < 3; ++i) {
-            ridge.edge[i] = component(edge, i);
-        }
+    static void take_edge(const Ray& p, const Ray& q, Ridge<Bounded>& ridge, Edge& sum) {
+        const Edge edge(RayEdge(p, q));
+        std::copy(edge.v, edge.v + 3, ridge.edge);
         ridge.exponent = edge.exponent;
-        ridge.length = sqrt(square);
+        ridge.length = sqrt(edge.square);
         ridge.sine = ridge.length.times_power(edge.exponent - 1);
-        const Bounded rest = one - ridge.sine * ridge.sine;
-        if (rest.middle(0) > 0.5) {
+        const Bounded one = edge.square.like(1.0), rest = one - ridge.sine * ridge.sine;
+        sum.is_used = !(rest.middle(0) > 0.5);
+        if (!sum.is_used) {
             ridge.cosine = sqrt(rest);
-            return {false, edge};
+            return;
         }
-        Ray across(p);
-        for (DoubleDouble& x : across.v) {
+        Ray opposite(p);
+        for (DoubleDouble& x : opposite.v) {
             x = -x;
         }
-        const RayEdge sum(across, q);
-        ridge.cosine = sqrt(square_of(sum)).times_power(sum.exponent - 1);
+        sum = Edge(RayEdge(opposite, q));
+        ridge.cosine = sqrt(sum.square).times_power(sum.exponent - 1);
         ridge.sine = sqrt(one - ridge.cosine * ridge.cosine);
-        return {true, sum};
     }
 
     // The legs of the ridges with two neighbours r and q at their common vertex. With edges brought to length 1 by 2^-i
     // and 2^-j, and that across, f, by 2^-k, the legs (|q| r.f, 2 det[p r q]) and so on are both 2^(i + j) times what
     // has the numbers of length 1 and 2^k in front of the first.
-    //
-    // Where q is opposite both are as short as S = q + p and made of it: with F = q - r, E = r - p
-    //     -E.F = r.S - |S|^2/2,    det[p r q] = det[p r S],
-    // times 2^-j if S is.
     void take_vertex_carefully(const Ray& p, std::size_t last, std::size_t k) {
-        const RayEdge &to_r = towards_[last], &to_q = towards_[k], across(rays_[last], rays_[k]);
-        Bounded site[3], r[3], q[3], edge_r[3], edge_q[3], f[3];
+        Ridge<Bounded>&to_r = ridges_[last], &to_q = ridges_[k];
+        const Edge across(RayEdge(rays_[last], rays_[k]));
+        Bounded site[3];
+        take_direction(p, site);
+        const Bounded volume = rays::determinant_form(site, to_r.edge, to_q.edge).times_power(1);
+        legs_[2 * last] = sums_[last].is_used
+                              ? opposite_leg(site, last, k, 1.0)
+                              : leg(to_r.length * rays::dot_form(to_q.edge, across.v), across.exponent, volume);
+        legs_[2 * k + 1] = sums_[k].is_used
+                               ? opposite_leg(site, k, last, -1.0)
+                               : leg(to_q.length * rays::dot_form(to_r.edge, across.v), across.exponent, volume);
+    }
+
+    // Lengths are off by the root's 5u^2 and half the 13u^2 of a sum of three squares.
+    static void take_direction(const Ray& ray, Bounded* result) {
         for (int i = 0; i < 3; ++i) {
-            site[i] = component(p, i);
-            edge_r[i] = component(to_r, i);
-            edge_q[i] = component(to_q, i);
-            f[i] = component(across, i);
-        }
-        const Bounded volume = rays::determinant_form(site, edge_r, edge_q).times_power(1);
-        if (opposite_[last].is_used) {
-            directions(rays_[k], q);
-            legs_[2 * last] = opposite_leg(site, opposite_[last].sum, ridges_[last], q, 1.0);
-        } else {
-            legs_[2 * last] = leg(ridges_[last].length * rays::dot_form(edge_q, f), across.exponent, volume);
-        }
-        if (opposite_[k].is_used) {
-            directions(rays_[last], r);
-            legs_[2 * k + 1] = opposite_leg(site, opposite_[k].sum, ridges_[k], r, -1.0);
-        } else {
-            legs_[2 * k + 1] = leg(ridges_[k].length * rays::dot_form(edge_r, f), across.exponent, volume);
+            result[i] = Bounded(ray.v[i]) / Bounded(ray.length, 0x1p-102);
         }
     }
 
-    static void directions(const Ray& ray, Bounded* result) {
-        for (int i = 0; i < 3; ++i) {
-            result[i] = component(ray, i);
-        }
-    }
-
-    // Of the ridge with the opposite q of the site, and the vertex with r on its left (sign 1) or its right (-1).
-    static Leg<Bounded> opposite_leg(const Bounded* site, const RayEdge& sum, const Ridge<Bounded>& ridge,
-                                     const Bounded* r, double sign) {
-        Bounded s[3];
-        for (int i = 0; i < 3; ++i) {
-            s[i] = component(sum, i);
-        }
-        const Bounded half = square_of(sum).times_power(sum.exponent - 1), factor = half.like(sign);
-        const Bounded across = ridge.sine.times_power(1) * (half - rays::dot_form(r, s));
-        return leg(factor * across, 0, factor * rays::determinant_form(site, s, r).times_power(1));
+    // Of the ridge with an opposite neighbour q, at the vertex with r on its left (sign 1) or its right (-1). Both legs
+    // are as short as S, and made of it: with D = q - p, E = r - p, F = r - q
+    //     E.F = |S|^2/2 - r.S,    det[p q r] = det[p S r].
+    Leg<Bounded> opposite_leg(const Bounded* site, std::size_t k, std::size_t third, double sign) const {
+        const Edge& sum = sums_[k];
+        Bounded r[3];
+        take_direction(rays_[third], r);
+        const Bounded half = sum.square.times_power(sum.exponent - 1), factor = half.like(sign);
+        const Bounded across = ridges_[k].sine.times_power(1) * (half - rays::dot_form(r, sum.v));
+        return leg(factor * across, 0, factor * rays::determinant_form(site, sum.v, r).times_power(1));
     }
 
     // Of length 1.
@@ -231,8 +210,7 @@ class SphereCell {
     std::size_t begin_ = 0, size_ = 0;
     double bound_ = 0.0;
     std::vector<Ray> rays_;
-    std::vector<RayEdge> towards_;
-    std::vector<Opposite> opposite_;
+    std::vector<Edge> sums_;  // q + p of the neighbours that are farther than 90 degrees
     std::vector<Leg<Bounded>> legs_;  // left and right of each side
     std::vector<Ridge<Bounded>> ridges_;
 };
