@@ -46,6 +46,14 @@ def sin_cos_degrees(
     Rows (sine, its low part, cosine, its low part) of angles in degrees; relative errors below 2^-101.
     """
 
+def vector_angles(
+    y: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    x: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """
+    Angles of vectors (x, y) in radians, in [-pi, pi], within 2.5 * 2^-53 of themselves.
+    """
+
 def lonlat_to_xyz(
     lonlat: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     workers: int = 1,
@@ -741,6 +749,15 @@ def cell_areas_plane(
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of the cells; infinite where unbounded."""
+
+def circle_gaps(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    axis: Annotated[NDArray[numpy.float64], dict(shape=(3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """
+    Angles from each of the points of a great circle to the next one around its axis, radians in (0, 2 pi].
+    """
 
 def cell_areas_sphere(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

@@ -1,5 +1,6 @@
-// Python: sine and cosine of degrees, longitude and latitude to unit vectors.
+// Python: sine and cosine of degrees, angles of vectors, longitude and latitude to unit vectors.
 
+#include "angles.hpp"
 #include "bind_support.hpp"
 #include "degrees.hpp"
 #include "lonlat.hpp"
@@ -23,6 +24,18 @@ RowsOut<double, 4> sines_and_cosines(const ValuesIn<double>& angles) {
     }));
 }
 
+ValuesOut<double> vector_angles(const ValuesIn<double>& y, const ValuesIn<double>& x) {
+    const std::size_t count = y.shape(0);
+    if (x.shape(0) != count) {
+        throw std::invalid_argument("x and y must have one length");
+    }
+    return to_values(filled<double>(count, false, [&](double* angles, Stop) {
+        for (std::size_t k = 0; k < count; ++k) {
+            angles[k] = vector_angle(y.data()[k], x.data()[k]);
+        }
+    }));
+}
+
 constexpr std::size_t long_work = 100000;  // points: some milliseconds
 
 // A conversion of all rows.
@@ -40,6 +53,8 @@ RowsOut<double, To> converted(const RowsIn<double, From>& rows, int workers) {
 void bind_degrees(nb::module_& module) {
     module.def("sin_cos_degrees", sines_and_cosines, "angles"_a,
                "Rows (sine, its low part, cosine, its low part) of angles in degrees; relative errors below 2^-101.");
+    module.def("vector_angles", vector_angles, "y"_a, "x"_a,
+               "Angles of vectors (x, y) in radians, in [-pi, pi], within 2.5 * 2^-53 of themselves.");
     module.def("lonlat_to_xyz", converted<lonlat_to_xyz, 2, 3>, "lonlat"_a, "workers"_a = 1,
                "Unit vectors of rows (lon, lat) in degrees, each component rounded once.");
     module.def("xyz_to_lonlat", converted<xyz_to_lonlat, 3, 2>, "xyz"_a, "workers"_a = 1,

@@ -10,7 +10,8 @@
 // counterclockwise, is on the circle of p, a, b; so the neighbours of a cell tell all.
 //
 // Each cell is first measured in doubles, with a bound; where the bound is too large beside the area (far vertices of
-// small cells, flat triangles, large cells of the sphere) in double-double.
+// small cells, flat triangles, large cells of the sphere) in double-double, with a bound again (plane_cells.cpp,
+// cell_ridges.hpp); and what that leaves open in as many digits as it takes (ball_cells.hpp).
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,8 @@ void cell_areas_sphere(const double* points, const Cells& cells, double* areas, 
 void cell_centroids_plane(const double* points, const Cells& cells, double* centroids, int workers, Stop stop);
 void cell_centroids_sphere(const double* points, const Cells& cells, double* centroids, int workers, Stop stop);
 
-// The bound relative to the area up to which doubles are good enough, some hundred times the usual error.
+// The bound relative to the area, and for centroids to the size of the cell, up to which a stage is good enough: some
+// hundred times the usual error of doubles.
 constexpr double CELL_ERROR = 0x1p-39;
 
 }  // namespace stereodel

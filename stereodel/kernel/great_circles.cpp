@@ -5,6 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "angles.hpp"
 #include "duplicates.hpp"
 #include "ray_predicates.hpp"
 #include "unit_vectors.hpp"
@@ -84,7 +85,7 @@ double angle_between(const double* p, const double* q, const ScaledVector& norma
     const ScaledRay a(p), b(q);
     const DoubleDouble cosine =
         two_product(a.v[0], b.v[0]) + two_product(a.v[1], b.v[1]) + two_product(a.v[2], b.v[2]);
-    return std::atan2(std::ldexp(length(normal), normal.exponent - a.exponent - b.exponent), cosine.hi);
+    return vector_angle(std::ldexp(length(normal), normal.exponent - a.exponent - b.exponent), cosine.hi);
 }
 
 // Directions of a great circle around the first coordinate axis that does not lie in it: without that coordinate they

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "degrees.hpp"
+
 namespace stereodel {
 
 namespace {
@@ -127,7 +129,9 @@ void make_raster_levels(const std::uint8_t* raster, const RasterShape& shape, do
     const auto level = [&](int i, int j) {
         return RasterLevel{i == 0 && j == 0 ? raster : levels + shape.place(i, j), shape.width(i), shape.height(j)};
     };
-    const auto area = [&](double a) { return std::sin(north) - std::sin(north + a * (south - north)); };
+    // Not the platform's sine: the same weights on every machine.
+    const auto sine = [](double angle) { return sin_cos_degrees(angle / RADIAN.hi).sine.hi; };
+    const auto area = [&](double a) { return sine(north) - sine(north + a * (south - north)); };
     for (int j = 0; j < shape.rows(); ++j) {
         const int begin = std::min(j, shape.columns() - 1);
         if (j > 0) {

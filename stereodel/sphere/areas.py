@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_directions
 from stereodel._double_double import cross, dot, unit
 
@@ -37,4 +38,5 @@ def solid_angle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> FloatAr
     p, q, r = unit(as_directions(a, "a")), unit(as_directions(b, "b")), unit(as_directions(c, "c"))
     volume = dot(p, cross(q - p, r - p))
     base = 1.0 + dot(p, q) + dot(q, r) + dot(r, p)
-    return np.asarray(2 * np.arctan2(volume.hi + 0.0, base.hi))
+    angles = _kernel.vector_angles(*(np.ascontiguousarray(part).ravel() for part in (volume.hi + 0.0, base.hi)))
+    return np.asarray(2 * angles.reshape(volume.hi.shape))

@@ -121,6 +121,93 @@ def test_clusters_beside_an_axis(size):
             assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-12)
 
 
+def assert_cells_of_the_sphere(points, digits):
+    """Areas within 1e-13 of themselves, centroids within 1e-12 of the cell's size, but for the rounding of either."""
+    points = np.asarray(points, dtype=float)
+    diagram = SphericalVoronoi(points)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    assert abs(areas.sum() - 4 * np.pi) < 1e-13
+    with mpmath.workdps(digits):
+        for site in np.flatnonzero(diagram.point_region == np.arange(len(points))).tolist():
+            area, total = cell_in_many_digits(points, diagram, site)
+            assert abs(mpmath.mpf(areas[site]) - area) <= 1e-13 * area + mpmath.mpf(2) ** -1074
+            centroid, size = mp_unit(total), reach(points, diagram, site)
+            for k in range(3):
+                error = abs(mpmath.mpf(centroids[site, k]) - centroid[k])
+                assert error <= 1e-12 * size + 2.0**-51 * abs(centroid[k])
+
+
+def reach(points, diagram, site):
+    """From a site to the farthest corner of its cell."""
+    start, end = diagram.region_offsets[site : site + 2]
+    p = mp_unit(as_matrix(points[site]))
+    edges = [mp_unit(as_matrix(points[j])) - p for j in diagram.region_neighbors[start:end]]
+    return max(mpmath.norm(mp_unit(mp_cross(edges[k - 1], edges[k])) - p) for k in range(len(edges)))
+
+
+@pytest.mark.parametrize(("ratio", "n"), [(10.0, 16), (1e2, 14), (1e5, 12), (1e10, 10), (1e20, 8)])
+def test_curves_of_ever_smaller_spacing_on_the_sphere(ratio, n):
+    """Cells as long as the curve so far and as flat as its next step."""
+    z = ratio ** -np.arange(float(n))
+    assert_cells_of_the_sphere(np.column_stack([z * z, np.ones(n), z]), 700)
+
+
+def test_four_points_from_1_to_1e_60():
+    z = 10.0 ** -np.array([0.0, 20, 40, 60])
+    areas = SphericalVoronoi(np.column_stack([z * z, np.ones(4), z])).areas()
+    assert abs(areas.sum() - 4 * np.pi) < 1e-14
+    assert areas[0] == pytest.approx(2 * np.pi, rel=1e-9)
+
+
+@pytest.mark.parametrize("gap", [1.0, *10.0 ** -np.arange(3.0, 17, 2), 1e-14, 5e-15, 1e-20])
+def test_beside_near_antipodes(gap):
+    rng = np.random.default_rng(8)
+    axis, others = rng.normal(size=3), rng.normal(size=(4, 3))
+    bends = gap * rng.normal(size=(8, 3))
+    assert_cells_of_the_sphere([[1, 2, 3], [1.1, 2, 3], [-1, -2, -3 - gap], [-1, -2 - 1.5 * gap, -3]], 100)
+    assert_cells_of_the_sphere(np.vstack([axis, bends[:1] - axis, others]), 100)
+    assert_cells_of_the_sphere(np.vstack([bends[:4] + axis, bends[4:] - axis, others]), 100)
+
+
+@pytest.mark.parametrize("width", [1e-3, 1e-5, 3e-7, 1e-12, 5e-18, 1e-100])
+def test_long_thin_cells(width):
+    """From pole to pole, or nearly so, and with a middle that hardly moves."""
+    meridians = [[1, 0, 0], [1, width, 0], [1, -1.3 * width, 0]]
+    assert_cells_of_the_sphere([*meridians, [0, 0, 1], [0, 0, -1], [-1, 0.1, 0.2]], 350)
+    assert_cells_of_the_sphere(
+        [*meridians[:2], [1, -1.3 * width, width * width], [1, 2.4 * width, 0], [-1, 0.1, 0.2]], 500
+    )
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_components_of_any_size_on_the_sphere(seed):
+    rng = np.random.default_rng(seed)
+    points = rng.normal(size=(12, 3)) * np.exp(rng.uniform(-300, 300, size=(12, 3)))
+    assert_cells_of_the_sphere(points, 1800)
+
+
+def test_many_components_of_any_size():
+    rng = np.random.default_rng(3)
+    diagram = SphericalVoronoi(rng.normal(size=(250, 3)) * np.exp(rng.uniform(-300, 300, size=(250, 3))))
+    areas = diagram.areas()
+    assert (areas >= 0).all()
+    assert abs(areas.sum() - 4 * np.pi) < 1e-13
+    assert np.linalg.norm(diagram.centroids(), axis=1) == pytest.approx(1, abs=4e-16)
+
+
+@pytest.mark.parametrize("gap", [0.1, 1e-8, 1e-20, 1e-160, 1e-250])
+def test_lunes_of_any_width(gap):
+    """On a great circle, by the turn from each site to the next; the pair's own cells beside all others'."""
+    points = np.array([[1, 0, 0], [1, gap, 0], [1, 3 * gap, 0], [0, 1, 0], [-1, 0, 0]])
+    areas = SphericalVoronoi(points).areas()
+    with mpmath.workdps(300):
+        at = [mpmath.atan2(mpmath.mpf(y), mpmath.mpf(x)) for x, y in points[:, :2].tolist()]
+        expected = [at[k + 1] - at[k - 1] + (2 * mpmath.pi if k == 0 else 0) for k in range(4)]
+        expected = [*expected, at[0] - at[3] + 2 * mpmath.pi]
+        for area, exact in zip(areas.tolist(), expected, strict=True):
+            assert abs(area / exact - 1) < 1e-14
+
+
 def exact_planar_cell(points, diagram, site):
     """Area and centroid as fractions, from circumcentres as fractions."""
     start, end = diagram.region_offsets[site : site + 2]
@@ -158,6 +245,51 @@ def test_cells_of_the_plane_against_fractions(size, flat):
         assert centroids[site] == pytest.approx([float(x) for x in centroid], rel=4e-16, abs=1e-13 * scale)
         bounded += 1
     assert bounded > 5
+
+
+def assert_cells_of_the_plane(points):
+    """Areas within 1e-12 of themselves, centroids within 1e-12 of the cell's size, but for the rounding of either."""
+    points = np.asarray(points, dtype=float)
+    diagram = PlanarVoronoi(points)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    bounded = 0
+    for site in range(len(points)):
+        if not diagram.regions[site] or diagram.regions[site][0] < 0:
+            continue
+        area, centroid = exact_planar_cell(points, diagram, site)
+        assert abs(Fraction(areas[site]) - area) <= area / 10**12 + Fraction(1, 2**1074)
+        start, end = diagram.region_offsets[site : site + 2]
+        others = points[diagram.region_neighbors[start:end]]
+        size = max(abs(Fraction(x) - Fraction(y)) for q in others for x, y in zip(q, points[site], strict=True)) / 2
+        for k in (0, 1):
+            error = abs(Fraction(centroids[site, k]) - centroid[k])
+            assert error <= size / 10**12 + abs(centroid[k]) / 2**51 + Fraction(1, 2**1073)
+        bounded += 1
+    return bounded
+
+
+@pytest.mark.parametrize(
+    ("ratio", "power", "n"), [(10.0, 2, 40), (10.0, 3, 40), (1e5, 2, 20), (1e5, 3, 16), (1e20, 2, 6)]
+)
+def test_curves_of_ever_smaller_spacing_in_the_plane(ratio, power, n):
+    x = ratio ** -np.arange(float(n))
+    frame = [[0, -5], [3, 3], [-3, 3]]
+    assert assert_cells_of_the_plane(np.vstack([np.column_stack([x, x**power]), frame])) == n
+
+
+def test_components_of_any_size_in_the_plane():
+    rng = np.random.default_rng(1)
+    points = rng.choice([-1, 1], size=(60, 2)) * np.exp(rng.uniform(-300, 300, size=(60, 2)))
+    assert assert_cells_of_the_plane(points) > 40
+
+
+def test_a_bounded_cell_beside_a_point_of_1e_100():
+    """Its area is finite, and so is its centroid; a cell of 4.5e-60 keeps its size."""
+    z = 10.0 ** -np.arange(0.0, 101, 20)
+    diagram = PlanarVoronoi(np.vstack([np.column_stack([z, z * z]), [[0, -5], [3, 3], [-3, 3]]]))
+    assert diagram.areas()[1] == pytest.approx(6.125, rel=1e-9)
+    assert diagram.areas()[4] == pytest.approx(4.5e-60, rel=1e-9)
+    assert np.isfinite(diagram.centroids()[1]).all()
 
 
 @pytest.mark.parametrize("exponent", [-520, -400, 400, 500])
