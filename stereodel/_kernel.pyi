@@ -756,7 +756,7 @@ def circle_gaps(
     axis: Annotated[NDArray[numpy.float64], dict(shape=(3), order="C", device="cpu", writable=False)],
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """
-    Angles from each of the points of a great circle to the next one around its axis, radians in (0, 2 pi].
+    Angles from each of some points of a great circle to the next one around its axis, in radians.
     """
 
 def cell_areas_sphere(

@@ -38,8 +38,9 @@ struct Direction {
     Vector given, unit;
     BigBall length;
 
-    Direction(const double* point, std::size_t limbs) : given(vector_of(point, limbs)), length(stereodel::length(given)) {
-        unit = (given[0].like(1.0) / length) * given;
+    Direction(const double* point, std::size_t limbs) : given(vector_of(point, limbs)) {
+        length = sqrt(dot(given, given));
+        unit = (length.like(1.0) / length) * given;
     }
 };
 
@@ -116,8 +117,8 @@ Vector across(const Vector& unit) {
 // E x D of the ridge with q and of r has the components
 //     2 det[p q r]/|S| towards the middle,  |D| E.F/|S| along it;
 // both are as short as S where that is short: det[p q r] = det[p S r], E.F = |S|^2/2 - r.S, and over S any direction
-// across p stands for that of S = 0. The product of two such N is D det[D E G] for the other vertex's G = s - p; that is
-// the bubble's determinant over all lengths.
+// across p stands for that of S = 0. The product of two such N is D det[D E G] for the other vertex's G = s - p; that
+// is the bubble's determinant over all lengths.
 std::vector<Ridge<BigBall>> ridges_in_balls(const std::vector<const double*>& sites, std::size_t limbs) {
     const std::size_t size = sites.size() - 1;
     const Direction p(sites[size], limbs);
@@ -222,7 +223,8 @@ MeasuredCell plane_cell(const std::vector<const double*>& sites, std::size_t lim
         const Edge &c = edges[(k + size - 1) % size], &d = edges[k], &e = edges[(k + 1) % size];
         const BigBall &cd = volumes[(k + size - 1) % size], &de = volumes[k];
         const BigBall both = (e.square * cd + d.square * product(e, c) + c.square * de) / (cd * de);
-        const BigBall left = (e.x * (e.x - d.x) + e.y * (e.y - d.y)) / de, right = (c.x * (c.x - d.x) + c.y * (c.y - d.y)) / cd;
+        const BigBall left = (e.x * (e.x - d.x) + e.y * (e.y - d.y)) / de;
+        const BigBall right = (c.x * (c.x - d.x) + c.y * (c.y - d.y)) / cd;
         const BigBall weight = d.square * both, turn = (left - right).times_power(-1);
         area = area + weight;
         x = x + weight * (d.x - turn * d.y);

@@ -1,5 +1,5 @@
-// Voronoi cells in as many digits as they need: the last stage of areas and centroids, and lunes. It ends, because all that it
-// divides by or takes roots of is positive for cells of a Voronoi diagram.
+// Voronoi cells in as many digits as they need: the last stage of areas and centroids, and lunes. It ends, because all
+// that it divides by or takes roots of is positive for cells of a Voronoi diagram.
 #pragma once
 
 #include <cstddef>

@@ -167,8 +167,8 @@ BigFloat BigFloat::sum(const BigFloat& a, const BigFloat& b, std::size_t limbs, 
     // Of each number what stands at or above `bottom`; the rest of a and b together is less than two units there.
     const auto limb = [bottom](const BigFloat& x, std::size_t k) -> std::uint64_t {
         const std::int64_t place = bottom + static_cast<std::int64_t>(k) - x.exponent_;
-        return place >= 0 && place < static_cast<std::int64_t>(x.limbs_.size()) ? x.limbs_[static_cast<std::size_t>(place)]
-                                                                                 : 0;
+        const bool holds = place >= 0 && place < static_cast<std::int64_t>(x.limbs_.size());
+        return holds ? x.limbs_[static_cast<std::size_t>(place)] : 0;
     };
     for (const BigFloat* x : {&a, &b}) {
         if (x->exponent_ < bottom) {

@@ -1,9 +1,9 @@
 // Right-angled spherical triangles p, m, v with the legs h from p to m and l from m to v: areas and moments.
 //
-// The area is w with tan(w/2) = tan(h/2) tan(l/2); h is below pi/4, l below pi/2. The moment, the integral of x over the
-// triangle, is half the sum of each side times the normal of its plane towards the inside (from the theorem of Stokes;
-// for example J. Arvo, "Applications of irradiance tensors", 1995). With r the hypotenuse and f its angle at p, it is
-// along p, towards m, and along m -> v:
+// The area is w with tan(w/2) = tan(h/2) tan(l/2); h is below pi/4, l below pi/2. The moment, the integral of x over
+// the triangle, is half the sum of each side times the normal of its plane towards the inside (from the theorem of
+// Stokes; for example J. Arvo, "Applications of irradiance tensors", 1995). With r the hypotenuse and f its angle at p,
+// it is along p, towards m, and along m -> v:
 //     l sin h / 2,    (r sin f - l cos h) / 2,    (h - r cos f) / 2,
 //     sin r sin f = sin l,  sin r cos f = cos l sin h,  cos r = cos h cos l.
 // v may be on the other side of m, l negative: area, first and second component are then negative.

@@ -22,9 +22,9 @@ struct CellMoment {
         }
     }
 
-    // Both triangles of a ridge, in the frame of the site, the direction to the neighbour and their normal. The frame is
-    // off by some 10u, the moments by `bound`, and by the legs' errors, which change the area times less than the size
-    // of the cell: it reaches as far as its vertices.
+    // Both triangles of a ridge, in the frame of the site, the direction to the neighbour and their normal. The frame
+    // is off by some 10u, the moments by `bound`, and by the legs' errors: those change the area, which has a bound of
+    // its own, at vertices, and the cell reaches as far as these.
     void add_ridge(const double* p, const Side& side) {
         const TriangleMoment left = stereodel::moment(side.length, side.cosine, side.left);
         const TriangleMoment right = stereodel::moment(side.length, side.cosine, side.right);
