@@ -179,6 +179,30 @@ def test_long_thin_cells(width):
     )
 
 
+@pytest.mark.parametrize(("length", "width"), [(0.8, 1e-4), (0.8, 1e-6), (0.8, 1e-8), (1e-4, 1e-9), (1e-4, 1e-14)])
+def test_thin_cells_of_any_length(length, width):
+    """All neighbours nearer than a right angle: what is measured in doubles elsewhere."""
+    across = [[1, 0, 0], [1, width, 0], [1, -1.3 * width, 0]]
+    ends = [[1, 0, length], [1, 0.3 * length, -length], [1, length, length], [1, -length, 0.5 * length], [-1, 0.1, 0.2]]
+    assert_cells_of_the_sphere(np.vstack([across, ends]), 150)
+    assert_cells_of_the_sphere(np.vstack([across, ends]) @ GENERAL, 150)
+
+
+@pytest.mark.parametrize("size", [1e-20, 1e-33, 1e-38, 1e-100])
+def test_clusters_of_vectors_of_any_length(size):
+    """Lengths differ by far more than the directions do."""
+    rng = np.random.default_rng(4)
+    points = np.column_stack([np.ones(10), rng.normal(size=(10, 2)) * size]) * rng.uniform(1, 1000, size=(10, 1))
+    assert_cells_of_the_sphere(np.vstack([points, [[-1, 0, 0.1], [0, 1, 0]]]), 450)
+
+
+@pytest.mark.parametrize("size", [1e-150, 1e-200, 1e-250])
+def test_curves_of_which_areas_are_below_the_least_of_doubles(size):
+    t = 10.0 ** -np.arange(12.0)
+    curve = np.column_stack([np.ones(12), size * t, size * t * t])
+    assert_cells_of_the_sphere(np.vstack([curve, [[-1, 0, 0.1], [0, 1, 0]]]), 900)
+
+
 @pytest.mark.parametrize("seed", [0, 1])
 def test_components_of_any_size_on_the_sphere(seed):
     rng = np.random.default_rng(seed)
