@@ -157,7 +157,8 @@ class SphericalVoronoi(Diagram):
         the middle of p and q, and the vertex: tan(ω/2) = tan(h/2) tan(l/2) with sin h = |D|/2 and
         tan l = |D| E·F / (2 det[p q r]), r the third site of the vertex, D = q − p, E = r − p, F = r − q. No rounded
         vertex enters, so that cells of any size are accurate to some 1e-14 of themselves, and never worse than 1e-11:
-        where a bound says that doubles may not do, double-double takes over. Points of one great circle have lunes.
+        where a bound says that doubles may not do, double-double takes over, and where its bound says so, as many
+        digits as are needed. An area below the least double is 0. Points of one great circle have lunes.
         """
         scale = as_scalar(radius, "radius")
         areas: FloatArray
@@ -176,7 +177,7 @@ class SphericalVoronoi(Diagram):
         normal of its plane towards the inside (theorem of Stokes; J. Arvo, "Applications of irradiance tensors to the
         simulation of non-Lambertian phenomena", SIGGRAPH 1995). It is summed over the triangles of `areas`, relative to
         the site, so that nothing cancels in small cells. The cell of a single point is the whole sphere, whose mean has
-        no direction: the point itself.
+        no direction: the point itself. Centroids are within 1e-11 of the cell's size, besides their rounding.
 
         Examples
         --------
