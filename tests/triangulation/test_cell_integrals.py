@@ -232,6 +232,21 @@ def test_lunes_of_any_width(gap):
             assert abs(area / exact - 1) < 1e-14
 
 
+EXPONENTS = st.one_of(st.integers(-3, 3), st.integers(-60, 60), st.integers(-1074, 1020))
+COMPONENT = st.builds(lambda m, e: float(np.ldexp(m, e)), st.integers(-7, 7), EXPONENTS)
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.lists(st.tuples(COMPONENT, COMPONENT, COMPONENT).filter(any), min_size=2, max_size=9))
+def test_directions_of_any_components_share_the_sphere(vectors):
+    diagram = SphericalVoronoi(vectors)
+    areas, centroids = diagram.areas(), diagram.centroids()
+    assert (areas >= 0).all()
+    assert abs(areas.sum() - 4 * np.pi) < 1e-13
+    kept = diagram.point_region == np.arange(len(vectors))
+    assert np.linalg.norm(centroids[kept], axis=1) == pytest.approx(1, abs=5e-16)
+
+
 def exact_planar_cell(points, diagram, site):
     """Area and centroid as fractions, from circumcentres as fractions."""
     start, end = diagram.region_offsets[site : site + 2]
@@ -281,6 +296,9 @@ def assert_cells_of_the_plane(points):
         if not diagram.regions[site] or diagram.regions[site][0] < 0:
             continue
         area, centroid = exact_planar_cell(points, diagram, site)
+        if np.isinf(areas[site]):
+            assert area > Fraction(np.finfo(float).max)
+            continue
         assert abs(Fraction(areas[site]) - area) <= area / 10**12 + Fraction(1, 2**1074)
         start, end = diagram.region_offsets[site : site + 2]
         others = points[diagram.region_neighbors[start:end]]
@@ -305,6 +323,12 @@ def test_components_of_any_size_in_the_plane():
     rng = np.random.default_rng(1)
     points = rng.choice([-1, 1], size=(60, 2)) * np.exp(rng.uniform(-300, 300, size=(60, 2)))
     assert assert_cells_of_the_plane(points) > 40
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.lists(st.tuples(COMPONENT, COMPONENT), min_size=4, max_size=12))
+def test_points_of_any_components_in_the_plane(points):
+    assert_cells_of_the_plane([(x / 2**40, y / 2**40) for x, y in points])
 
 
 def test_a_bounded_cell_beside_a_point_of_1e_100():
