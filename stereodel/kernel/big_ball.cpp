@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace stereodel {
 namespace {
@@ -267,7 +268,7 @@ BigFloat BigFloat::reciprocal_root(const BigFloat& a, std::size_t limbs) {
 }
 
 BigBall::BigBall(BigFloat&& middle, const Magnitude& radius, std::size_t limbs)
-    : middle_(static_cast<BigFloat&&>(middle)), radius_(radius), limbs_(limbs) {}
+    : middle_(std::move(middle)), radius_(radius), limbs_(limbs) {}
 
 BigBall BigBall::times_power(std::int64_t bits) const {
     return {middle_.times_power(bits), Magnitude{radius_.m, radius_.is_zero() ? 0 : radius_.e + bits}, limbs_};
