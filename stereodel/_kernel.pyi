@@ -469,6 +469,12 @@ def bubble(
     unit: bool | None = None,
     stage: str = "all",
 ) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
+def bubble_plane_filter(
+    a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    c: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]: ...
 def in_bubble(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

@@ -6,6 +6,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "ball.hpp"
 #include "bind_rows.hpp"
@@ -218,6 +219,15 @@ Signs bubble_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c,
     });
 }
 
+Signs bubble_plane_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c, const SpaceArray& p) {
+    if (!decide_unit({}, a, b, c, p)) {
+        throw std::invalid_argument("vectors must have length one");
+    }
+    return over_rows(common_rows(a, b, c, p), [&](std::size_t k) {
+        return rays::bubble_plane_filter(row(a, k), row(b, k), row(c, k), row(p, k));
+    });
+}
+
 Signs in_bubble_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArray& c, const SpaceArray& p,
                      std::optional<bool> unit, int first) {
     const bool plain = decide_unit(unit, a, b, c, p);
@@ -320,6 +330,7 @@ void bind_plane(nb::module_& m) {
 void bind_rays(nb::module_& m) {
     const auto unknown = nb::none();
     m.def("bubble", &bubble_rows, "a"_a, "b"_a, "c"_a, "p"_a, "unit"_a = unknown, "stage"_a = "all");
+    m.def("bubble_plane_filter", &bubble_plane_rows, "a"_a, "b"_a, "c"_a, "p"_a);
     m.def("in_bubble", &in_bubble_rows, "a"_a, "b"_a, "c"_a, "p"_a, "unit"_a = unknown, "first"_a = -1);
     m.def("bubble_numbered", &bubble_numbered, "vectors"_a, "numbers"_a, "displaced"_a, "unit"_a = unknown);
     m.def("turn", &turn_rows, "a"_a, "b"_a, "c"_a, "unit"_a = unknown, "stage"_a = "all");

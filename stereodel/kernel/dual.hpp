@@ -4,6 +4,7 @@
 // polygon of its sites, and the edge has no ridge. Integers alone; who is tied is told from outside.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +21,17 @@ namespace stereodel {
 struct HalfEdge {
     Index t;
     std::size_t place;
+};
+
+// The same in four bytes.
+class PackedEdge {
+  public:
+    PackedEdge() = default;
+    PackedEdge(HalfEdge e) : bits_(static_cast<std::uint32_t>(e.t) << 2 | static_cast<std::uint32_t>(e.place)) {}
+    operator HalfEdge() const { return {static_cast<Index>(bits_ >> 2), bits_ & 3}; }
+
+  private:
+    std::uint32_t bits_;
 };
 
 class DualTriangles {
@@ -39,11 +51,8 @@ class DualTriangles {
     Index origin(HalfEdge e) const { return corners(e.t)[(e.place + 1) % 3]; }
     Index target(HalfEdge e) const { return corners(e.t)[(e.place + 2) % 3]; }
 
-    // The same edge of the triangle beyond, which there is. Two triangles may share all their edges.
-    HalfEdge twin(HalfEdge e) const {
-        const Index across = neighbor(e);
-        return {across, place_opposite(corners(across), origin(e), target(e))};
-    }
+    // The same edge of the triangle beyond, which there is; after `find_ties`.
+    HalfEdge twin(HalfEdge e) const { return twins_[3 * static_cast<std::size_t>(e.t) + e.place]; }
 
     bool is_tied(HalfEdge e) const {
         return !tied_.empty() && ((tied_[static_cast<std::size_t>(e.t)] >> e.place) & 1) != 0;
@@ -53,24 +62,20 @@ class DualTriangles {
     // The lowest triangle with the same vertex.
     Index root(Index t) const { return root_.size() == 0 ? t : root_[static_cast<std::size_t>(t)]; }
 
-    // Ask for each edge inside, once, from the triangle of lower number: view.is_tied(dual, e, twin), with a view of
-    // the points for each thread; view.fetch(site) comes some time before.
+    // Find the twins of all edges, and ask for each edge inside, once: view.is_tied(dual, e, twin), with a view of the
+    // points for each thread; view.fetch(site) comes some time before.
     template <class MakeView>
     void find_ties(Crew& crew, Stop stop, MakeView&& make_view) {
         constexpr std::size_t grain = std::size_t{1} << 14;
+        twins_ = Buffer<PackedEdge>(3 * count_);
+        std::fill_n(twins_.data(), twins_.size(), PackedEdge({0, 0}));  // neighbours that do not fit lead nowhere else
         std::vector<std::vector<HalfEdge>> found((count_ + grain - 1) / grain);
         in_grains(count_, grain, crew, [&](std::size_t begin, std::size_t end) {
             auto view = make_view();
-            std::vector<HalfEdge>& here = found[begin / grain];
-            for_range(begin, end, stop, [&](std::size_t t) {
-                for_corners_ahead(t, 16, [&view](Index site) { view.fetch(site); });
-                for (std::size_t place = 0; place < 3; ++place) {
-                    const HalfEdge e{static_cast<Index>(t), place};
-                    if (neighbor(e) > e.t && view.is_tied(*this, e, twin(e))) {
-                        here.push_back(e);
-                    }
-                }
-            });
+            for (std::size_t next = begin; next < end; next += block_) {
+                check(stop);
+                find_ties(next, std::min(end, next + block_), view, found[begin / grain]);
+            }
         });
         for (const std::vector<HalfEdge>& some : found) {
             check(stop);
@@ -110,17 +115,49 @@ class DualTriangles {
     // whether the triangles go all round.
     template <class Visit>
     bool around(Index start, std::size_t place, Visit&& visit) const {
-        const Index corner = corners(start)[place];
-        Index t = start;
-        do {
-            const HalfEdge e{t, (place_of(corners(t), corner) + 1) % 3};
+        HalfEdge e{start, (place + 1) % 3};
+        for (;;) {
             visit(e);
-            t = neighbor(e);
-        } while (t >= 0 && t != start);
-        return t == start;
+            if (neighbor(e) < 0) {
+                return false;
+            }
+            e = twin(e);  // leaves the corner
+            e.place = e.place == 0 ? 2 : e.place - 1;
+            if (e.t == start) {
+                return true;
+            }
+        }
     }
 
   private:
+    static constexpr std::size_t block_ = 512;
+
+    // For the edges of triangles [begin, end) that lead to a higher one. Every second edge does, in no order that a
+    // processor could guess: they are collected without a branch, and what follows is one loop over them.
+    template <class View>
+    void find_ties(std::size_t begin, std::size_t end, View& view, std::vector<HalfEdge>& found) {
+        std::array<PackedEdge, 3 * block_ + 1> edges;
+        std::size_t size = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+            for_corners_ahead(t, 16, [&view](Index site) { view.fetch(site); });
+            for (std::size_t place = 0; place < 3; ++place) {
+                const HalfEdge e{static_cast<Index>(t), place};
+                edges[size] = e;
+                size += std::size_t{neighbor(e) > e.t};
+            }
+        }
+        for (std::size_t k = 0; k < size; ++k) {
+            const HalfEdge e = edges[k];
+            const Index across = neighbor(e);  // two triangles may share all their edges
+            const HalfEdge other{across, place_opposite(corners(across), origin(e), target(e))};
+            twins_[3 * static_cast<std::size_t>(e.t) + e.place] = other;
+            twins_[3 * static_cast<std::size_t>(other.t) + other.place] = e;
+            if (view.is_tied(*this, e, other)) {
+                found.push_back(e);
+            }
+        }
+    }
+
     void join(HalfEdge e, HalfEdge other) {
         if (tied_.empty()) {
             tied_.assign(count_, 0);
@@ -149,6 +186,7 @@ class DualTriangles {
     const Index* corners_;
     const Index* neighbors_;
     std::size_t count_;
+    Buffer<PackedEdge> twins_;
     std::vector<std::uint8_t> tied_;  // three bits a triangle; empty without ties
     Buffer<Index> root_;
 };

@@ -39,8 +39,12 @@ struct SphereView {
     }
 
     bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
-        const Index *c = dual.corners(e.t), *d = dual.corners(twin.t);
-        return rays.bubble(c[0], c[1], c[2], d[twin.place]) == 0 &&
+        const Index *c = dual.corners(e.t), *d = dual.corners(twin.t), beyond = d[twin.place];
+        if (rays.unit() &&
+            rays::bubble_plane_filter(rays.at(c[0]), rays.at(c[1]), rays.at(c[2]), rays.at(beyond)) != OPEN) {
+            return false;
+        }
+        return rays.bubble(c[0], c[1], c[2], beyond) == 0 &&
                rays.turn(c[0], c[1], c[2]) == rays.turn(d[0], d[1], d[2]);
     }
 };

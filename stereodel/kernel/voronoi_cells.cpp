@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace stereodel {
 namespace {
@@ -14,30 +15,23 @@ using Size = std::size_t;
 
 Size at(Index k) { return static_cast<Size>(k); }
 
-// A vertex among those with the same lowest site: the two next sites, whether the three are clockwise, and its
-// triangle of lowest number.
-struct VertexKey {
-    Index second, third;
-    bool clockwise;
-    Index root;
-
-    bool operator<(const VertexKey& other) const {
-        return std::tie(second, third, clockwise) < std::tie(other.second, other.third, other.clockwise);
-    }
-};
-
+// The lowest site of a vertex, and its key among those with the same one: the two next sites, and whether the three are
+// clockwise.
 struct LowestSites {
     Index first;
-    VertexKey key;
+    std::uint64_t key;
+
+    LowestSites(Index a, Index b, Index c, bool clockwise)
+        : first(a), key(std::uint64_t{at(b)} << 33 | std::uint64_t{at(c)} << 1 | std::uint64_t{clockwise}) {}
 };
 
-LowestSites of_triangle(const Index* corner, Index t) {
+LowestSites of_triangle(const Index* corner) {
     const Size k = place_of_least(corner);
     const Index b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
-    return {corner[k], {std::min(b, c), std::max(b, c), c < b, t}};
+    return {corner[k], std::min(b, c), std::max(b, c), c < b};
 }
 
-LowestSites of_polygon(const std::vector<Index>& polygon, Index t) {
+LowestSites of_polygon(const std::vector<Index>& polygon) {
     std::vector<Size> place(polygon.size());
     for (Size k = 0; k < place.size(); ++k) {
         place[k] = k;
@@ -45,7 +39,7 @@ LowestSites of_polygon(const std::vector<Index>& polygon, Index t) {
     std::partial_sort(place.begin(), place.begin() + 3, place.end(),
                       [&](Size a, Size b) { return polygon[a] < polygon[b]; });
     const auto turn = [&](Size k) { return (place[k] + polygon.size() - place[0]) % polygon.size(); };
-    return {polygon[place[0]], {polygon[place[1]], polygon[place[2]], turn(2) < turn(1), t}};
+    return {polygon[place[0]], polygon[place[1]], polygon[place[2]], turn(2) < turn(1)};
 }
 
 class CellBuilder {
@@ -60,11 +54,11 @@ class CellBuilder {
         number_vertices();
         diagram_.vertices = Buffer<Index>(entries_);
         diagram_.neighbors = Buffer<Index>(entries_);
-        in_grains(dual_.count(), grain, crew_, [&](Size begin, Size end) {
-            std::vector<Index> room;
-            for_range(begin, end, stop_, [&](Size t) {
-                fetch_ahead(t);
-                write_cells_from(static_cast<Index>(t), room);
+        in_grains(order_size_, grain, crew_, [&](Size begin, Size end) {
+            std::vector<Entry> room;
+            for_range(begin, end, stop_, [&](Size k) {
+                fetch_ahead(k);
+                write_cell(diagram_.order[k], room);
             });
         });
         return std::move(diagram_);
@@ -108,62 +102,87 @@ class CellBuilder {
 
     LowestSites lowest_sites(Index root, std::vector<Index>& polygon) const {
         if (is_triangle(root)) {
-            return of_triangle(dual_.corners(root), root);
+            return of_triangle(dual_.corners(root));
         }
         polygon_of(root, polygon);
-        return of_polygon(polygon, root);
+        return of_polygon(polygon);
     }
 
-    // Into one list for each lowest site, the lists one after the other; list_end_[site] is where one ends.
+    // The roots in one list for each lowest site, the lists one after the other; list_end_[site] is where one ends.
     void list_vertices() {
         std::vector<Index> polygon;
         list_end_ = Buffer<Index>(sites_ + 1);
         Index* const end = list_end_.data();
         std::fill_n(end, sites_ + 1, 0);
+        number_ = Buffer<Index>(dual_.count());  // until vertices have their numbers: the lowest site
         Size vertices = 0;
-        const auto each_root = [&](auto&& visit) {
-            for_range(0, dual_.count(), stop_, [&](Size k) {
-                const Index t = static_cast<Index>(k);
-                dual_.for_corners_ahead(k, 16, [end](Index site) { prefetch(end + site); });
-                if (dual_.root(t) == t) {
-                    visit(lowest_sites(t, polygon));
-                }
-            });
-        };
-        each_root([&](const LowestSites& sites) {
-            ++end[at(sites.first) + 1];
-            ++vertices;
+        for_range(0, dual_.count(), stop_, [&](Size k) {
+            const Index t = static_cast<Index>(k);
+            dual_.for_corners_ahead(k, 16, [end](Index site) { prefetch(end + site); });
+            number_[k] = -1;
+            if (dual_.root(t) == t) {
+                number_[k] = lowest_sites(t, polygon).first;
+                ++end[at(number_[k]) + 1];
+                ++vertices;
+            }
         });
         for (Size site = 0; site < sites_; ++site) {
             end[site + 1] += end[site];
         }
-        keys_ = Buffer<VertexKey>(vertices);
-        each_root([&](const LowestSites& sites) {
-            dual_.for_corners_ahead(at(sites.key.root), 8, [&](Index site) { prefetch(keys_.data() + end[at(site)]); });
-            keys_[at(end[at(sites.first)]++)] = sites.key;
+        roots_ = Buffer<Index>(vertices);
+        for_range(0, dual_.count(), stop_, [&](Size k) {
+            if (number_[k] >= 0) {
+                roots_[at(end[at(number_[k])]++)] = static_cast<Index>(k);
+            }
         });
     }
 
-    // Each list sorted.
+    // In the order of the keys in each list. Sites come in the order of the triangles, whose corners are near then.
     void number_vertices() {
-        number_ = Buffer<Index>(dual_.count());
-        in_grains(sites_, grain, crew_, [&](Size first, Size last) {
-            for_range(first, last, stop_, [&](Size site) {
-                VertexKey* const begin = keys_.data() + (site == 0 ? 0 : list_end_[site - 1]);
-                VertexKey* const end = keys_.data() + list_end_[site];
-                std::sort(begin, end);
-                for (VertexKey* key = begin; key < end; ++key) {
-                    number_[at(key->root)] = static_cast<Index>(key - keys_.data());
+        in_grains(order_size_, grain, crew_, [&](Size first, Size last) {
+            std::vector<Index> polygon;
+            std::vector<std::pair<std::uint64_t, Index>> list;
+            for_range(first, last, stop_, [&](Size k) {
+                if (constexpr Size ahead = 16; k + ahead < order_size_) {
+                    prefetch(roots_.data() + list_begin(diagram_.order[k + ahead]));
                 }
+                const Index site = diagram_.order[k];
+                const Index begin = list_begin(site);
+                list.clear();
+                for (Index place = begin; place < list_end_[at(site)]; ++place) {
+                    const Index root = roots_[at(place)];
+                    list.emplace_back(lowest_sites(root, polygon).key, root);
+                }
+                number_list(list, begin);
             });
         });
-        const Size vertices = keys_.size();
-        keys_ = {};
+        const Size vertices = roots_.size();
+        roots_ = {};
         if (dual_.has_ties()) {
             list_sites(vertices);
             rank_triangles();
         }
         name_triangles();
+    }
+
+    Index list_begin(Index site) const { return site == 0 ? 0 : list_end_[at(site) - 1]; }
+
+    // Numbers from `first` on. The place in a short list is counted, which takes no branches.
+    void number_list(std::vector<std::pair<std::uint64_t, Index>>& list, Index first) {
+        if (constexpr Size few = 8; list.size() > few) {
+            std::sort(list.begin(), list.end());
+            for (const auto& item : list) {
+                number_[at(item.second)] = first++;
+            }
+            return;
+        }
+        for (const auto& item : list) {
+            Index number = first;
+            for (const auto& other : list) {
+                number += Index{other.first < item.first};
+            }
+            number_[at(item.second)] = number;
+        }
     }
 
     void list_sites(Size vertices) {
@@ -271,7 +290,7 @@ class CellBuilder {
         diagram_.offsets = Buffer<std::int64_t>(sites_ + 1);
         std::int64_t* const count = diagram_.offsets.data();
         std::fill_n(count, sites_ + 1, 0);
-        order_.reserve(sites_);
+        diagram_.order = Buffer<Index>(sites_ + 1);
         for_range(0, dual_.count(), stop_, [&](Size k) {
             const Index t = static_cast<Index>(k);
             dual_.for_corners_ahead(k, 16, [&](Index site) {
@@ -280,84 +299,76 @@ class CellBuilder {
             });
             for (Size place = 0; place < 3; ++place) {
                 const Size site = at(dual_.corners(t)[place]);
-                const bool at_border = dual_.neighbor({t, (place + 2) % 3}) < 0;
+                const bool at_border = dual_.neighbor({t, (place + 2) % 3}) < 0, is_first = start_[site] < 0;
                 count[site + 1] += std::int64_t{!dual_.is_tied({t, (place + 1) % 3})} + std::int64_t{at_border};
-                if (start_[site] < 0) {
-                    order_.push_back(static_cast<Index>(site));
-                }
-                if (at_border || start_[site] < 0) {
-                    start_[site] = static_cast<Index>(3 * k + place);
-                }
+                diagram_.order[order_size_] = static_cast<Index>(site);
+                order_size_ += Size{is_first};
+                start_[site] = at_border | is_first ? static_cast<Index>(3 * k + place) : start_[site];
             }
         });
         for (Size site = 0; site < sites_; ++site) {
             count[site + 1] += count[site];
         }
         entries_ = static_cast<Size>(count[sites_]);
-        diagram_.order = Buffer<Index>(order_.size());
-        std::copy(order_.begin(), order_.end(), diagram_.order.data());
+        diagram_.order = Buffer<Index>(std::move(diagram_.order), order_size_);
     }
 
-    void fetch_ahead(Size t) const {
-        dual_.for_corners_ahead(t, 24, [this](Index site) {
-            prefetch(start_.data() + site);
-            prefetch(diagram_.offsets.data() + site);
-        });
-        dual_.for_corners_ahead(t, 12, [this](Index site) {
-            prefetch(diagram_.vertices.data() + diagram_.offsets[at(site)]);
-            prefetch(diagram_.neighbors.data() + diagram_.offsets[at(site)]);
-        });
-    }
-
-    // The cells of the sites around which to turn from triangle t.
-    void write_cells_from(Index t, std::vector<Index>& room) {
-        for (Size place = 0; place < 3; ++place) {
-            const Index site = dual_.corners(t)[place];
-            if (start_[at(site)] == 3 * t + static_cast<Index>(place)) {
-                write_cell(t, place, room);
-            }
+    void fetch_ahead(Size k) const {
+        if (constexpr Size far = 16, near = 8; k + far < order_size_) {
+            const Size soon = at(diagram_.order[k + far]), next = at(diagram_.order[k + near]);
+            prefetch(start_.data() + soon);
+            prefetch(diagram_.offsets.data() + soon);
+            prefetch(diagram_.vertices.data() + diagram_.offsets[next]);
+            prefetch(diagram_.neighbors.data() + diagram_.offsets[next]);
         }
     }
 
-    void write_cell(Index t, Size place, std::vector<Index>& entries) {
-        entries.clear();  // vertex, neighbour
-        const bool closed = dual_.around(t, place, [&](HalfEdge e) {
+    struct Entry {
+        Index vertex, neighbor;
+    };
+
+    void write_cell(Index site, std::vector<Entry>& entries) {
+        const Index start = start_[at(site)], t = start / 3;
+        const Size offset = static_cast<Size>(diagram_.offsets[at(site)]);
+        const Size most = static_cast<Size>(diagram_.offsets[at(site) + 1]) - offset;
+        if (entries.size() < most) {
+            entries.resize(2 * most);
+        }
+        Size size = 0;
+        // Vertex and place in one number: no branch that would be guessed wrong in half of the cells.
+        std::int64_t least = std::numeric_limits<std::int64_t>::max();
+        const auto add = [&](Index vertex, Index neighbor) {
+            least = std::min(least, vertex * (std::int64_t{1} << 32) + static_cast<std::int64_t>(size));
+            if (size == most) {
+                throw std::invalid_argument("neighbors do not fit the simplices");
+            }
+            entries[size++] = {vertex, neighbor};
+        };
+        const bool closed = dual_.around(t, at(start) % 3, [&](HalfEdge e) {
             if (!dual_.is_tied(e)) {
-                entries.push_back(diagram_.simplex_vertex[at(e.t)]);
-                entries.push_back(dual_.origin(e));
+                add(diagram_.simplex_vertex[at(e.t)], dual_.origin(e));
             }
         });
         if (!closed) {
-            entries.push_back(-1);
-            entries.push_back(dual_.corners(t)[(place + 1) % 3]);
-        }
-        const Size size = entries.size() / 2;
-        // Vertex and place in one number: no branch that would be guessed wrong in half of the cells.
-        std::int64_t least = std::numeric_limits<std::int64_t>::max();
-        for (Size k = 0; k < size; ++k) {
-            least = std::min(least, static_cast<std::int64_t>(entries[2 * k]) * (std::int64_t{1} << 32) +
-                                        static_cast<std::int64_t>(k));
+            add(-1, dual_.corners(t)[(at(start) % 3 + 1) % 3]);
         }
         const Size lowest = static_cast<Size>(least & 0xFFFFFFFF);
-        const Size offset = static_cast<Size>(diagram_.offsets[at(dual_.corners(t)[place])]);
         for (Size k = 0; k < size; ++k) {
-            const Size from = lowest + k < size ? lowest + k : lowest + k - size;
-            diagram_.vertices[offset + k] = entries[2 * from];
-            diagram_.neighbors[offset + k] = entries[2 * from + 1];
+            const Entry entry = entries[lowest + k < size ? lowest + k : lowest + k - size];
+            diagram_.vertices[offset + k] = entry.vertex;
+            diagram_.neighbors[offset + k] = entry.neighbor;
         }
     }
 
     const DualTriangles& dual_;
-    Size sites_, entries_ = 0;
+    Size sites_, entries_ = 0, order_size_ = 0;
     Crew& crew_;
     Stop stop_;
     Diagram diagram_;
-    Buffer<VertexKey> keys_;
-    Buffer<Index> list_end_;
+    Buffer<Index> roots_, list_end_;
     Buffer<Index> side_;    // of each root of several triangles: 3 t + place of a side of its polygon
     Buffer<Index> number_;  // of each root: its vertex
     Buffer<Index> start_;   // of each site: 3 t + place
-    std::vector<Index> order_;
 };
 
 }  // namespace

@@ -104,6 +104,20 @@ def test_near_degenerate(name, spread, change):
     assert shares["double_double"] <= (truth == 0).mean() + allowance(name, spread)
 
 
+@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("change", [normalised, off_length])
+def test_side_of_a_plane(spread, change):
+    """Never wrong, however close and however cocircular the points are; mostly told where they are 1e-6 apart."""
+    for vectors in (cluster(spread), on_a_circle(spread)):
+        vectors = change(normalised(vectors))
+        rays = [[ray(v) for v in array.tolist()] for array in vectors]
+        truth = np.array([bubble_ray(*row) for row in zip(*rays, strict=True)])
+        signs = _kernel.bubble_plane_filter(*vectors)
+        assert ((signs == truth) | (signs == OPEN)).all()
+    if spread >= 1e-6:
+        assert (_kernel.bubble_plane_filter(*change(normalised(cluster(spread)))) == OPEN).mean() < 0.1
+
+
 def test_what_stays_open_is_little():
     """Row P6: cocircular up to rounding, the curvature form alone decides the more, the smaller the circle."""
     shares = [check("bubble", on_a_circle(spread))[0]["filter"] for spread in (1.0, 1e-3, 1e-6)]
