@@ -72,6 +72,4 @@ class LinearInterpolator(TriangleInterpolator):
         return np.asarray(first[:, 0] + np.einsum("mi,mik->mk", weights, values - first))
 
     def _slope_within(self, corners: Indices, queries: FloatArray) -> FloatArray:
-        values = self._values[corners]
-        rises = values[:, 1] - values[:, 0], values[:, 2] - values[:, 0]
-        return Holders(self._sites, corners, queries).slope(*rises)
+        return Holders(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])

@@ -53,7 +53,8 @@ def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArra
     mixed = _mix(holders, b, values, first, gradients)
     assert isinstance(mixed, Jet)
     at_corner = np.take_along_axis(gradients, weights.argmax(axis=1)[:, None, None, None], axis=1)[:, 0]
-    return _met(holders.slope(*mixed.slope), at_corner, weights, values, gradients)
+    slope = holders.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
+    return _met(slope, at_corner, weights, values, gradients)
 
 
 def _met(

@@ -102,13 +102,13 @@ class Holders:
         weights[lost] = np.eye(3)[nearest]
         return weights
 
-    def slope(self, first: FloatArray, second: FloatArray) -> FloatArray:
+    def slope(self, derivatives: list[FloatArray]) -> FloatArray:
         """Gradient (m, d, k) of a function of the barycentric coordinates.
 
         Parameters
         ----------
-        first, second : (m, k) array
-            Its derivatives by those of the second and the third corner, that of the first making up the sum of one.
+        derivatives : list of three (m, k) arrays
+            Its derivatives by each of them, as if they were independent; only differences count, as their sum is one.
 
         Notes
         -----
@@ -117,7 +117,7 @@ class Holders:
         gives t(G − N (G·q)/(q·N)), a tangent vector. The first corner is the one opposite the longest side: else d and
         e would be nearly the same in a triangle of two points that nearly meet and a far one.
         """
-        a, d, e, first, second = self._from_blunt_corner(first, second)
+        a, d, e, first, second = self._from_blunt_corner(derivatives)
         size = np.frexp(np.maximum(np.abs(d).max(axis=1), np.abs(e).max(axis=1)))[1][:, None]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
         up = self._up()
@@ -135,14 +135,14 @@ class Holders:
         by_first, by_second = (np.ldexp(g, -size)[:, :, None] for g in across)
         return np.asarray(by_first * first[:, None, :] + by_second * second[:, None, :])
 
-    def _from_blunt_corner(self, first: FloatArray, second: FloatArray) -> _Corner:
+    def _from_blunt_corner(self, derivatives: list[FloatArray]) -> _Corner:
         """The corner opposite the longest side, the sides to the next two, and the derivatives by those."""
         sides = [self.sites.minus(self.corners[:, k - 1], self.sites, self.corners[:, k - 2]) for k in range(3)]
         blunt = np.hstack([lengths(side) for side in sides]).argmax(axis=1)
         rows = np.arange(len(blunt))
         after, before = (blunt + 1) % 3, (blunt + 2) % 3
         edges = np.stack(sides)
-        by = np.stack([np.zeros_like(first), first, second])
+        by = np.stack(derivatives)
         here = by[blunt, rows]
         slopes = by[after, rows] - here, by[before, rows] - here
         return self.corners[rows, blunt], edges[before, rows], -edges[after, rows], *slopes
