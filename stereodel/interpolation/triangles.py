@@ -49,9 +49,6 @@ def lengths(vectors: FloatArray) -> FloatArray:
     return np.asarray(plain)
 
 
-_Corner = tuple[Indices, FloatArray, FloatArray, FloatArray, FloatArray]
-
-
 class Holders:
     """Queries, each with the triangle that holds it.
 
@@ -65,7 +62,7 @@ class Holders:
 
     def __init__(self, sites: Places, corners: Indices, queries: FloatArray) -> None:
         self.sites, self.corners = sites, corners
-        self.queries = Places(queries)
+        self.given, self.queries = queries, Places(queries)
 
     def offsets(self) -> list[FloatArray]:
         """Corners less queries, three arrays (m, d), one for each corner."""
@@ -114,12 +111,15 @@ class Holders:
         -----
         With edges d, e from the first corner and N = d × e the function has the slope G = (f_d e×N + f_e N×d) / N² in
         the plane of the triangle. On the sphere the ray through q meets that plane at tq with t = (a·N)/(q·N), which
-        gives t(G − N (G·q)/(q·N)), a tangent vector. The first corner is the one opposite the longest side: else d and
-        e would be nearly the same in a triangle of two points that nearly meet and a far one.
+        gives t(G − N (G·q)/(q·N)), a tangent vector. Where the side opposite the first corner is by far the shortest, d
+        and e are nearly the same; the corner opposite the longest side takes its part.
         """
-        a, d, e, first, second = self._from_blunt_corner(derivatives)
+        a = self.corners[:, 0]
+        d, e = (self.sites.minus(self.corners[:, k], self.sites, a) for k in (1, 2))
+        first, second = derivatives[1] - derivatives[0], derivatives[2] - derivatives[0]
         size = np.frexp(np.maximum(np.abs(d).max(axis=1), np.abs(e).max(axis=1)))[1][:, None]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
+        needles = np.flatnonzero(np.abs(e - d).max(axis=1) < 2.0**-4)
         up = self._up()
         if up is None:
             area = cross2(d, e)[:, None]
@@ -133,19 +133,14 @@ class Holders:
             one, other = cross3(e, normal), cross3(normal, d)
             across = reach * _tangent(one, normal, up, depth), reach * _tangent(other, normal, up, depth)
         by_first, by_second = (np.ldexp(g, -size)[:, :, None] for g in across)
-        return np.asarray(by_first * first[:, None, :] + by_second * second[:, None, :])
-
-    def _from_blunt_corner(self, derivatives: list[FloatArray]) -> _Corner:
-        """The corner opposite the longest side, the sides to the next two, and the derivatives by those."""
-        sides = [self.sites.minus(self.corners[:, k - 1], self.sites, self.corners[:, k - 2]) for k in range(3)]
-        blunt = np.hstack([lengths(side) for side in sides]).argmax(axis=1)
-        rows = np.arange(len(blunt))
-        after, before = (blunt + 1) % 3, (blunt + 2) % 3
-        edges = np.stack(sides)
-        by = np.stack(derivatives)
-        here = by[blunt, rows]
-        slopes = by[after, rows] - here, by[before, rows] - here
-        return self.corners[rows, blunt], edges[before, rows], -edges[after, rows], *slopes
+        result = np.asarray(by_first * first[:, None, :] + by_second * second[:, None, :])
+        if len(needles):
+            longer = np.abs(d[needles]).max(axis=1) > np.abs(e[needles]).max(axis=1)
+            order = (np.where(longer, 2, 1)[:, None] + np.arange(3)) % 3
+            corners = np.take_along_axis(self.corners[needles], order, axis=1)
+            by = np.take_along_axis(np.stack(derivatives, axis=1)[needles], order[:, :, None], axis=1)
+            result[needles] = Holders(self.sites, corners, self.given[needles]).slope(list(by.swapaxes(0, 1)))
+        return result
 
 
 def _tangent(slope: FloatArray, normal: FloatArray, up: FloatArray, depth: FloatArray) -> FloatArray:
