@@ -88,7 +88,7 @@ def test_roots_lie_in_their_balls(a, b, c, d):
 
 def test_a_quotient_by_what_may_be_zero_tells_nothing():
     tiny = [1.0, 1.0, 2.0**-150, 1.0, 2.0**-150, 1.0]
-    middle, radius = ball(tiny, "vv*v*v+v-v-")  # 2^-150 in a ball that holds zero
+    _, radius = ball(tiny, "vv*v*v+v-v-")  # 2^-150 in a ball that holds zero
     assert radius > 0
     _, radius = ball([1.0, *tiny], "vvv*v*v+v-v-/")
     assert radius > 2**1000
