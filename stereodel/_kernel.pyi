@@ -201,7 +201,7 @@ def find_simplex_plane(
     checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """
-    The lowest triangle that holds each query, -1 outside. checked: the arrays are the kernel's own, unchanged.
+    The lowest triangle that holds each query, -1 outside. checked: the kernel made the arrays.
     """
 
 def find_simplex_sphere(
@@ -461,6 +461,7 @@ def common_granularity(
 def sign_of_roots(terms: Sequence[tuple[Sequence[int], Sequence[int]]]) -> int: ...
 def round_quotient(numerator: Sequence[int], denominator: Sequence[int], exponent: int) -> float: ...
 def root_is_close(square: Sequence[int], bits: int) -> bool: ...
+def evaluate_balls(values: Sequence[float], formula: str) -> tuple[float, float, float, int]: ...
 def bubble(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
@@ -755,15 +756,6 @@ def cell_areas_plane(
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of the cells; infinite where unbounded."""
-
-def circle_gaps(
-    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
-    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
-    axis: Annotated[NDArray[numpy.float64], dict(shape=(3), order="C", device="cpu", writable=False)],
-) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
-    """
-    Angles from each of some points of a great circle to the next one around its axis, in radians.
-    """
 
 def cell_areas_sphere(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
