@@ -51,14 +51,19 @@ void check_points(const char* name, const Rows& points) {
 // have changed; many a query takes less time than a look at each of them.
 template <class Rows>
 void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices,
-                     const RowsIn<Index, 3>& neighbors, bool checked) {
+                     const RowsIn<Index, 3>& neighbors, bool checked, Border border) {
     check_same_length("simplices", simplices.shape(0), "neighbors", neighbors.shape(0));
     if (checked) {
         return;
     }
     check_points("points", points);
-    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0),
-                    points.shape(1) == 3 ? Border::closed : Border::open);
+    check_triangles(simplices.data(), neighbors.data(), simplices.shape(0), points.shape(0), border);
+}
+
+template <class Rows>
+void check_triangles(const Rows& points, const RowsIn<Index, 3>& simplices, const RowsIn<Index, 3>& neighbors,
+                     bool checked) {
+    check_triangles(points, simplices, neighbors, checked, points.shape(1) == 3 ? Border::closed : Border::open);
 }
 
 // An array of NumPy's that owns the memory of a buffer.

@@ -111,7 +111,9 @@ def test_numbers_of_what_is_not_there_are_refused(name):
             least = -2 if open_border or key == "vertices" else -1
             for value in (least, 10_000, 2**31 - 1, -(2**31)):
                 for place in ((0,) * array.ndim, (-1,) * array.ndim):
-                    with pytest.raises(ValueError, match=r"out of range|not those of|each site with entries"):
+                    with pytest.raises(
+                        ValueError, match=r"out of range|not those of|each site with entries|does not fit"
+                    ):
                         call(name, right | {key: with_entry(array, place, value)})
 
 
