@@ -51,7 +51,7 @@ class CircleMemo {
         std::uint32_t circle = 0;  // 0: nothing is noted here
         std::uint64_t points = 0;
     };
-    static constexpr std::size_t SIZE = 4096;
+    static constexpr std::size_t SIZE = 16384;
     static constexpr std::int64_t CREDIT = 256, PRICE = 8;  // of a change of circle, in tests that were spared
 
     static std::uint32_t block(Index p) { return static_cast<std::uint32_t>(p) / 64; }
