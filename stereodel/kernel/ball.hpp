@@ -48,6 +48,27 @@ class Ball {
     double radius() const { return radius_; }
     int power() const { return exponent_; }
 
+    // The middle divided by 2^exponent, which is no less than its own. Below 2^-960 it may lose digits to underflow.
+    DoubleDouble middle(int exponent) const {
+        const int shift = exponent_ - exponent;
+        return {std::ldexp(middle_.hi, shift), std::ldexp(middle_.lo, shift)};
+    }
+
+    // Whether the number is known to 2^-58 of itself, and is no subnormal; if so, the double next to it, or infinity.
+    bool round(double& result) const {
+        if (!(radius_ <= 0x1p-58 * std::fabs(middle_.hi)) || (!is_zero() && exponent_ < -1000)) {
+            return false;
+        }
+        result = std::ldexp(middle_.hi, exponent_) + 0.0;  // no negative zero
+        return true;
+    }
+
+    // Whether |a| < |b|, up to their errors.
+    friend bool is_shorter(const Ball& a, const Ball& b) {
+        return a.exponent() != b.exponent() ? a.exponent() < b.exponent()
+                                            : std::fabs(a.middle_.hi) < std::fabs(b.middle_.hi);
+    }
+
     friend Ball operator-(const Ball& a) { return {-a.middle_, a.radius_, a.exponent_}; }
     friend Ball operator-(const Ball& a, const Ball& b) { return a + -b; }
 
@@ -72,12 +93,12 @@ class Ball {
 
     // With a = a' + r, b = b' + s and q' = a'/b': a/b - q' = (r - q' s)/b, and |b| >= |b'| - |s|.
     friend Ball operator/(const Ball& a, const Ball& b) {
-        if (a.is_zero()) {
-            return {};
-        }
         const double least = (std::fabs(b.middle_.hi) * (1 - 4 * U) - b.radius_) * (1 - 4 * U);
         if (!(least > 0x1p-100)) {
             return {{}, 1.0, ANYTHING};
+        }
+        if (a.is_zero()) {
+            return {};
         }
         const DoubleDouble quotient = a.middle_ / b.middle_;
         const double size = std::fabs(quotient.hi), radius = (a.radius_ + size * b.radius_) / least;

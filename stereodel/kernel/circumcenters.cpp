@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "bounded_number.hpp"
+#include "ball.hpp"
 #include "integer_quotients.hpp"
 #include "memory.hpp"
 #include "plane_forms.hpp"
@@ -62,23 +62,23 @@ std::size_t opposite_to_longest(const Side* sides, IsShorter&& is_shorter) {
     return (longest + 2) % 3;
 }
 
-// The same with an exponent and a bound to each number: for triangles of any size, and for those that are flat since
+// The same in ball arithmetic: for triangles of any size, and for those that are flat since
 // their coordinates are of very different size.
 bool careful_planar_center(const double* const* corners, double* center) {
     struct Side {
-        BoundedNumber x, y, square;
+        Ball x, y, square;
 
         Side(const double* from, const double* to)
-            : x(BoundedNumber(to[0]) - BoundedNumber(from[0])), y(BoundedNumber(to[1]) - BoundedNumber(from[1])),
+            : x(Ball(to[0]) - Ball(from[0])), y(Ball(to[1]) - Ball(from[1])),
               square(plane::square_form(x, y)) {}
     };
     const Side sides[3] = {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}};
     const std::size_t base = opposite_to_longest(
         sides, [](const Side& p, const Side& q) { return is_shorter(p.square, q.square); });
     const Side &d = sides[base], &e = sides[(base + 2) % 3];  // e is the way back
-    const BoundedNumber half = plane::cross_form(e.x, e.y, d.x, d.y), divisor = half + half;
-    const BoundedNumber x = BoundedNumber(corners[base][0]) - (e.y * d.square + d.y * e.square) / divisor;
-    const BoundedNumber y = BoundedNumber(corners[base][1]) + (d.x * e.square + e.x * d.square) / divisor;
+    const Ball half = plane::cross_form(e.x, e.y, d.x, d.y), divisor = half + half;
+    const Ball x = Ball(corners[base][0]) - (e.y * d.square + d.y * e.square) / divisor;
+    const Ball y = Ball(corners[base][1]) + (d.x * e.square + e.x * d.square) / divisor;
     return x.round(center[0]) && y.round(center[1]);
 }
 

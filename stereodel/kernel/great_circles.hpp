@@ -5,29 +5,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "double_double.hpp"
 #include "tally.hpp"
 #include "threads.hpp"
 
 namespace stereodel {
 
 inline constexpr double FULL_TURN = 0x1.921fb54442d18p2;  // 2 pi
-
-// v 2^exponent, the longest component in [1/4, 1); all zero if the vector is.
-struct ScaledVector {
-    DoubleDouble v[3];
-    int exponent;
-
-    int sign(int k) const { return v[k].hi > 0.0 ? 1 : v[k].hi < 0.0 ? -1 : 0; }
-    bool is_zero() const { return sign(0) == 0 && sign(1) == 0 && sign(2) == 0; }
-};
-
-// The vector product of vectors of any lengths: each component is off by 2^-103 of itself, and so has the right sign
-// (where it is below 2^-960 of the longest, it may have lost digits to underflow).
-ScaledVector cross_product(const double* a, const double* b);
-
-// The sign of component k of the vector product, exactly.
-int cross_sign(const double* a, const double* b, int k);
 
 // The different directions of one great circle.
 struct GreatCircle {

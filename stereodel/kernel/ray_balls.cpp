@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "ball.hpp"
+#include "ball_vectors.hpp"
 #include "ray_forms.hpp"
 #include "spanning_edges.hpp"
 
@@ -13,12 +13,10 @@ namespace stereodel::rays {
 
 namespace {
 
-struct Vector {
-    Ball v[3];
+struct Vector : BallVector {
     Ball square, length;
 
-    explicit Vector(const double* p)
-        : v{Ball(p[0]), Ball(p[1]), Ball(p[2])}, square(dot_form(v, v)), length(sqrt(square)) {}
+    explicit Vector(const double* p) : BallVector(p), square(dot_form(v, v)), length(sqrt(square)) {}
 
     Vector opposite() const {
         Vector result = *this;
@@ -29,31 +27,15 @@ struct Vector {
     }
 };
 
-// p x q
-struct Cross {
-    Ball v[3];
-
-    Cross(const Vector& p, const Vector& q) {
-        for (int k = 0; k < 3; ++k) {
-            const int i = (k + 1) % 3, j = (k + 2) % 3;
-            v[k] = p.v[i] * q.v[j] - p.v[j] * q.v[i];
-        }
-    }
-
-    int exponent() const { return std::max({v[0].exponent(), v[1].exponent(), v[2].exponent()}); }
-};
-
 // q|p| - p|q|, a positive multiple of the chord from p/|p| to q/|q|.
-struct Chord {
-    Ball v[3];
+struct Chord : BallVector {
+    Chord(const Vector& p, const Vector& q) : Chord(p, q, cross(p, q)) {}
 
-    Chord(const Vector& p, const Vector& q) : Chord(p, q, Cross(p, q)) {}
-
-    Chord(const Vector& p, const Vector& q, const Cross& cross) {
+    Chord(const Vector& p, const Vector& q, const BallVector& normal) {
         Ball products[3];
         for (int k = 0; k < 3; ++k) {
             const int i = (k + 1) % 3, j = (k + 2) % 3;
-            products[k] = cross.v[k] * (p.v[i] * q.v[j] + p.v[j] * q.v[i]);
+            products[k] = normal.v[k] * (p.v[i] * q.v[j] + p.v[j] * q.v[i]);
         }
         for (int k = 0; k < 3; ++k) {
             const Ball end = q.v[k] * p.length, start = p.v[k] * q.length;
@@ -66,9 +48,9 @@ struct Chord {
 };
 
 // How far two directions are apart, in powers of two: a guess, but for directions that are the same or opposite.
-int distance(const Vector& p, const Vector& q, const Cross& cross) {
+int distance(const Vector& p, const Vector& q, const BallVector& normal) {
     constexpr int LARGE = 3;
-    return dot_form(p.v, q.v).sign() > 0 ? cross.exponent() - p.length.exponent() - q.length.exponent() : LARGE;
+    return dot_form(p.v, q.v).sign() > 0 ? normal.exponent() - p.length.exponent() - q.length.exponent() : LARGE;
 }
 
 }  // namespace
@@ -85,15 +67,15 @@ bool is_wide(const double* vector) {
 // determinant itself is left to cancel.
 Sign bubble_balls(const double* a, const double* b, const double* c, const double* p) {
     const std::array<Vector, 4> points = {Vector(a), Vector(b), Vector(c), Vector(p)};
-    const std::array<Cross, SpanningEdges::PAIRS> crosses = {
-        Cross(points[0], points[1]), Cross(points[0], points[2]), Cross(points[0], points[3]),
-        Cross(points[1], points[2]), Cross(points[1], points[3]), Cross(points[2], points[3])};
+    const std::array<BallVector, SpanningEdges::PAIRS> normals = {
+        cross(points[0], points[1]), cross(points[0], points[2]), cross(points[0], points[3]),
+        cross(points[1], points[2]), cross(points[1], points[3]), cross(points[2], points[3])};
     const SpanningEdges edges([&](std::size_t pair, std::size_t from, std::size_t to) {
-        return distance(points[from], points[to], crosses[pair]);
+        return distance(points[from], points[to], normals[pair]);
     });
     const auto chord = [&](std::size_t k) {
         const SpanningEdges::Edge edge = edges[k];
-        return Chord(points[edge.from], points[edge.to], crosses[edge.pair]);
+        return Chord(points[edge.from], points[edge.to], normals[edge.pair]);
     };
     const Chord first = chord(0), second = chord(1), third = chord(2);
     const Sign sign = determinant_form(first.v, second.v, third.v).sign();
@@ -148,17 +130,17 @@ Sign diametral_balls(const double* a, const double* b, const double* p) {
 Sign shadow_balls(const double* a, const double* b, const double* c, int axis) {
     const int i = axis == 0 ? 1 : 0, j = axis == 2 ? 1 : 2;
     const Vector points[3] = {Vector(a), Vector(b), Vector(c)};
-    const Cross crosses[3] = {Cross(points[0], points[1]), Cross(points[1], points[2]), Cross(points[2], points[0])};
+    const BallVector normals[3] = {cross(points[0], points[1]), cross(points[1], points[2]), cross(points[2], points[0])};
     int longest = 0, length = 0;
     for (int k = 0; k < 3; ++k) {
-        const int candidate = distance(points[k], points[(k + 1) % 3], crosses[k]);
+        const int candidate = distance(points[k], points[(k + 1) % 3], normals[k]);
         if (k == 0 || candidate > length) {
             longest = k;
             length = candidate;
         }
     }
     const int next = (longest + 1) % 3, last = (longest + 2) % 3;
-    const Chord first(points[next], points[last], crosses[next]), second(points[last], points[longest], crosses[last]);
+    const Chord first(points[next], points[last], normals[next]), second(points[last], points[longest], normals[last]);
     return (first.v[i] * second.v[j] - first.v[j] * second.v[i]).sign();
 }
 
