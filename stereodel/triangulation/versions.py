@@ -8,7 +8,8 @@ Queries take no lock; they look whether somebody else has it.
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any, Generic, Never, NoReturn, Self, TypeVar, cast, overload
 
 _T = TypeVar("_T")
@@ -32,9 +33,7 @@ class Versioned:
     def _present(self) -> Self:
         """The version to ask."""
         if self._version is not None and self._turn.locked():
-            raise RuntimeError(
-                "another thread is changing this triangulation; let one wait for the other by a lock, or query a copy"
-            )
+            raise _in_change()
         return self._latest()
 
     def _latest(self) -> Self:
@@ -42,10 +41,15 @@ class Versioned:
         version = self._version
         return version if version is not None else self
 
-    def _change(self) -> threading.Lock:
-        """What keeps other threads out while it is held."""
-        self._present()  # refuses; the lock alone would wait
-        return self._turn
+    @contextmanager
+    def _change(self) -> Iterator[None]:
+        """Keep other threads out; refuse where one is at it."""
+        if not self._turn.acquire(blocking=False):
+            raise _in_change()
+        try:
+            yield
+        finally:
+            self._turn.release()
 
     def _put(self, version: Self) -> None:
         """End a change."""
@@ -57,6 +61,12 @@ class Versioned:
         twin.__dict__.update(self.__dict__)
         twin._hold(self._present())
         return twin
+
+
+def _in_change() -> RuntimeError:
+    return RuntimeError(
+        "another thread is changing this triangulation; let one wait for the other by a lock, or query a copy"
+    )
 
 
 class kept(Generic[_T]):  # noqa: N801  # a decorator, like `property`

@@ -64,6 +64,51 @@ def test_what_comes_upon_a_change_is_refused(width, use):
     check_delaunay(triangulation)
 
 
+class TakenUnseen:
+    """A lock that another thread takes just after one looked."""
+
+    def __init__(self):
+        lock = threading.Lock()
+        self.acquire, self.release = lock.acquire, lock.release
+
+    def __enter__(self):
+        self.acquire()
+
+    def __exit__(self, *_):
+        self.release()
+
+    def locked(self):
+        return False
+
+
+@pytest.mark.parametrize("change", ["insert", "remove"])
+@pytest.mark.parametrize("width", CLASSES)
+def test_of_two_changes_at_the_same_moment_one_is_refused(width, change):
+    """The second does not wait, even if nobody was there when it looked."""
+    triangulation = CLASSES[width](points_of(width, 40))
+    triangulation._turn = TakenUnseen()
+    refused = []
+
+    def second():
+        try:
+            USES[change](triangulation)
+        except RuntimeError as error:
+            refused.append(str(error))
+
+    changer = threading.Thread(target=second)
+    with triangulation._turn:
+        changer.start()
+        changer.join(timeout=5)
+        waits = changer.is_alive()
+    changer.join()
+    assert not waits
+    assert len(refused) == 1
+    assert "another thread is changing this triangulation" in refused[0]
+    assert len(triangulation.points) == 40
+    USES[change](triangulation)  # refused, not broken
+    check_delaunay(triangulation)
+
+
 @pytest.mark.parametrize("width", CLASSES)
 def test_a_long_change_refuses_at_once(width):
     few, many = points_of(width, 200), points_of(width, 60_000, seed=1)
