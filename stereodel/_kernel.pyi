@@ -270,18 +270,6 @@ def k_nearest_sphere(
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """The same for directions."""
 
-def flat_order_plane(
-    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
-    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
-) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
-    """The different points of one line, in order."""
-
-def flat_order_sphere(
-    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
-    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
-) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
-    """The different directions of one great circle, in order around it."""
-
 def nearest_flat_plane(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
@@ -292,7 +280,7 @@ def nearest_flat_plane(
     checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """
-    The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.
+    The k nearest points of one line, as k_nearest_plane; `order`: of line_order.
     """
 
 def nearest_flat_sphere(
@@ -304,7 +292,7 @@ def nearest_flat_sphere(
     workers: int = 1,
     checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
-    """The same for directions of one great circle."""
+    """The same for directions of one great circle; `order`: of circle_order."""
 
 class PlaneMesh:
     """
@@ -708,13 +696,15 @@ def line_order(
 
 def circle_order(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
     """
-    Different directions of a great circle around it, the three lowest counterclockwise.
+    Different directions of a great circle around it, the three lowest counterclockwise. checked: they are known to lie on one.
     """
 
 def line_diagram(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> tuple:
     """
     Offsets, vertices and neighbours of the cells of points on a line, and the sites of their ridges.
@@ -722,6 +712,7 @@ def line_diagram(
 
 def circle_diagram(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> tuple:
     """
     Offsets, vertices and neighbours of the cells of directions on a great circle, and the vertices.
@@ -729,11 +720,13 @@ def circle_diagram(
 
 def circle_areas(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of these cells, steradians."""
 
 def circle_centroids(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
     """Unit vectors; NaN for empty cells."""
 

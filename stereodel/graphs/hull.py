@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, locked
-from stereodel.graphs.proximity import Indices, points_in_order, short_steps
+from stereodel.graphs.proximity import Indices, short_steps
 from stereodel.triangulation.given import Triangulation, as_triangulation
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
@@ -86,9 +86,9 @@ def _in_open_hemisphere(triangulation: SphericalDelaunay) -> bool:
 
 def _ends(triangulation: Triangulation) -> Indices:
     """The hull of points of one line or great circle."""
-    order, points = points_in_order(triangulation), triangulation.points
+    order, points = triangulation._flat_order, triangulation.points
     if len(order) < 2:
-        return order
+        return order.copy()
     if isinstance(triangulation, SphericalDelaunay):
         return _ends_of_arc(points, order)
     return np.sort(order[[0, -1]])

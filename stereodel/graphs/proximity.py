@@ -27,13 +27,6 @@ def proximity_edges(triangulation: Triangulation, kind: Kind, workers: int | Non
     return function(*arrays, kind, threads, True)
 
 
-def points_in_order(triangulation: Triangulation) -> Indices:
-    """The different points of a triangulation without triangles, along their line or around their great circle."""
-    if isinstance(triangulation, PlanarDelaunay):
-        return _kernel.line_order(triangulation.points)
-    return _kernel.circle_order(triangulation.points)
-
-
 def short_steps(points: FloatArray, circle: Indices) -> Indices:
     """Steps (e, 2) around three or more different directions of a great circle that are less than half-turns.
 
@@ -45,7 +38,7 @@ def short_steps(points: FloatArray, circle: Indices) -> Indices:
 
 
 def _flat_edges(triangulation: Triangulation, kind: Kind) -> IntArray:
-    order, points = points_in_order(triangulation), triangulation.points
+    order, points = triangulation._flat_order, triangulation.points
     if isinstance(triangulation, PlanarDelaunay) or len(order) < 3:
         return as_edges(order[:-1], order[1:])
     steps = short_steps(points, order)

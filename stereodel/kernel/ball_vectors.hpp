@@ -15,6 +15,8 @@ struct BallVector {
 
     int exponent() const { return std::max({v[0].exponent(), v[1].exponent(), v[2].exponent()}); }
     bool is_zero() const { return v[0].sign() == 0 && v[1].sign() == 0 && v[2].sign() == 0; }
+    // Of a vector other than zero, the first component that is not zero.
+    int first_axis() const { return v[0].sign() != 0 ? 0 : v[1].sign() != 0 ? 1 : 2; }
 };
 
 inline Ball cross_component(const BallVector& p, const BallVector& q, int k) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "bind_triangles.hpp"
-#include "flat_order.hpp"
 #include "k_nearest.hpp"
 #include "location.hpp"
 #include "nearest.hpp"
@@ -117,28 +116,6 @@ RowsOfAnyWidth k_nearest_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> si
                      [&](const KNearestTask& task, Stop stop) { k_nearest_sphere(task, workers, stop); });
 }
 
-// `order(points, size, duplicates, stop)`: the different points in order.
-template <class Points, class Order>
-ValuesOut<Index> flat_order(const Points& points, const RowsIn<Index, 2>& duplicates, Order&& order) {
-    check_points("points", points);
-    const std::size_t size = points.shape(0);
-    const Pairs pairs = to_pairs(duplicates, size);
-    return to_values(run_without_lock(size > long_work, [&](Stop stop) {
-        const std::vector<Index> numbers = order(points.data(), size, pairs, stop);
-        Buffer<Index> buffer(numbers.size());
-        std::copy(numbers.begin(), numbers.end(), buffer.data());
-        return buffer;
-    }));
-}
-
-ValuesOut<Index> order_in_plane(RowsIn<double, 2> points, RowsIn<Index, 2> duplicates) {
-    return flat_order(points, duplicates, flat_order_plane);
-}
-
-ValuesOut<Index> order_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 2> duplicates) {
-    return flat_order(points, duplicates, flat_order_sphere);
-}
-
 template <class Points, class Work>
 RowsOfAnyWidth nearest_flat(const Points& points, const ValuesIn<Index>& order, const RowsIn<Index, 2>& duplicates,
                             const Points& queries, std::size_t k, bool checked, Work&& work) {
@@ -190,15 +167,11 @@ void bind_location(nb::module_& module) {
     module.def("k_nearest_sphere", k_nearest_on_sphere, "points"_a, "simplices"_a, "neighbors"_a, "duplicates"_a,
                "queries"_a, "k"_a, "closing"_a = nb::none(), "workers"_a = 1, "checked"_a = false,
                "The same for directions.");
-    module.def("flat_order_plane", order_in_plane, "points"_a, "duplicates"_a,
-               "The different points of one line, in order.");
-    module.def("flat_order_sphere", order_on_sphere, "points"_a, "duplicates"_a,
-               "The different directions of one great circle, in order around it.");
     module.def("nearest_flat_plane", nearest_on_line, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
                "workers"_a = 1, "checked"_a = false,
-               "The k nearest points of one line, as k_nearest_plane; `order`: of flat_order_plane.");
+               "The k nearest points of one line, as k_nearest_plane; `order`: of line_order.");
     module.def("nearest_flat_sphere", nearest_on_circle, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
-               "workers"_a = 1, "checked"_a = false, "The same for directions of one great circle.");
+               "workers"_a = 1, "checked"_a = false, "The same for directions of one great circle; `order`: of circle_order.");
 }
 
 }  // namespace stereodel

@@ -13,6 +13,7 @@
 #include "circumcenters.hpp"
 #include "diagram_parts.hpp"
 #include "flat_diagrams.hpp"
+#include "flat_order.hpp"
 #include "great_circles.hpp"
 #include "voronoi.hpp"
 
@@ -204,42 +205,53 @@ nb::tuple to_cells_in_python(Diagram&& diagram) {
                           to_values(std::move(diagram.neighbors)));
 }
 
-std::vector<Index> order_on_line(const RowsIn<double, 2>& points) {
+ValuesOut<Index> order_on_line(RowsIn<double, 2> points) {
     check_points("points", points);
-    return run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
+    return to_values_of(run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
         return line_order(points.data(), points.shape(0), stop);
-    });
+    }));
 }
 
-GreatCircle circle_of(const RowsIn<double, 3>& points) {
+ValuesOut<Index> order_on_circle(RowsIn<double, 3> points, bool checked) {
     check_points("points", points);
-    return run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
-        return GreatCircle(points.data(), points.shape(0), stop);
-    });
+    return to_values_of(run_without_lock(points.shape(0) > long_work, [&](Stop stop) {
+        return circle_order(points.data(), points.shape(0), checked, stop);
+    }));
 }
 
-nb::tuple of_line(RowsIn<double, 2> points) {
-    const std::vector<Index> order = order_on_line(points);
+// Of `count` points.
+std::vector<Index> to_order(const ValuesIn<Index>& order, std::size_t count) {
+    check_indices("order", order.data(), order.shape(0), count);
+    return {order.data(), order.data() + order.shape(0)};
+}
+
+GreatCircle to_circle(const RowsIn<double, 3>& points, const ValuesIn<Index>& order) {
+    check_points("points", points);
+    return GreatCircle(points.data(), to_order(order, points.shape(0)));
+}
+
+nb::tuple of_line(RowsIn<double, 2> points, ValuesIn<Index> numbers) {
+    const std::vector<Index> order = to_order(numbers, points.shape(0));
     return nb::make_tuple(to_cells_in_python(line_diagram(order, points.shape(0))), to_rows<2>(line_ridges(order)));
 }
 
-nb::tuple of_circle(RowsIn<double, 3> points) {
-    const GreatCircle circle = circle_of(points);
+nb::tuple of_circle(RowsIn<double, 3> points, ValuesIn<Index> order) {
+    const GreatCircle circle = to_circle(points, order);
     Buffer<double> ends(circle.order.size() < 2 ? 0 : 6);
     std::copy_n(circle.ends[0], ends.size(), ends.data());
     return nb::make_tuple(to_cells_in_python(circle_diagram(circle.order, points.shape(0))),
                           to_rows<3>(std::move(ends)));
 }
 
-ValuesOut<double> areas_on_circle(RowsIn<double, 3> points) {
-    const GreatCircle circle = circle_of(points);
+ValuesOut<double> areas_on_circle(RowsIn<double, 3> points, ValuesIn<Index> order) {
+    const GreatCircle circle = to_circle(points, order);
     Buffer<double> areas(points.shape(0));
     circle_areas(circle.order, circle.gaps(points.data()), areas.size(), areas.data());
     return to_values(std::move(areas));
 }
 
-RowsOut<double, 3> centroids_on_circle(RowsIn<double, 3> points) {
-    const GreatCircle circle = circle_of(points);
+RowsOut<double, 3> centroids_on_circle(RowsIn<double, 3> points, ValuesIn<Index> order) {
+    const GreatCircle circle = to_circle(points, order);
     Buffer<double> centroids(3 * points.shape(0));
     circle_centroids(points.data(), circle.order, circle.gaps(points.data()), circle.ends[0], points.shape(0),
                      centroids.data());
@@ -277,16 +289,16 @@ void bind_voronoi(nb::module_& module) {
     module.def("delaunay_of_sphere", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1,
                "The same for directions.");
-    module.def("line_order", [](RowsIn<double, 2> points) { return to_values_of(order_on_line(points)); }, "points"_a,
-               "Different points of a line along it.");
-    module.def("circle_order", [](RowsIn<double, 3> points) { return to_values_of(circle_of(points).order); },
-               "points"_a, "Different directions of a great circle around it, the three lowest counterclockwise.");
-    module.def("line_diagram", of_line, "points"_a,
+    module.def("line_order", order_on_line, "points"_a, "Different points of a line along it.");
+    module.def("circle_order", order_on_circle, "points"_a, "checked"_a = false,
+               "Different directions of a great circle around it, the three lowest counterclockwise. checked: they are "
+               "known to lie on one.");
+    module.def("line_diagram", of_line, "points"_a, "order"_a,
                "Offsets, vertices and neighbours of the cells of points on a line, and the sites of their ridges.");
-    module.def("circle_diagram", of_circle, "points"_a,
+    module.def("circle_diagram", of_circle, "points"_a, "order"_a,
                "Offsets, vertices and neighbours of the cells of directions on a great circle, and the vertices.");
-    module.def("circle_areas", areas_on_circle, "points"_a, "Areas of these cells, steradians.");
-    module.def("circle_centroids", centroids_on_circle, "points"_a, "Unit vectors; NaN for empty cells.");
+    module.def("circle_areas", areas_on_circle, "points"_a, "order"_a, "Areas of these cells, steradians.");
+    module.def("circle_centroids", centroids_on_circle, "points"_a, "order"_a, "Unit vectors; NaN for empty cells.");
     module.def("bisector_normals", bisectors, "p"_a, "q"_a, "workers"_a = 1,
                "Unit vectors of p/|p| - q/|q| for rows of different directions, however close.");
     module.def("cell_areas_plane", areas<2, cell_areas_plane>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "degrees.hpp"
-#include "duplicates.hpp"
 #include "great_circles.hpp"
 #include "unit_vectors.hpp"
 
@@ -44,20 +43,6 @@ struct Lune {
 };
 
 }  // namespace
-
-std::vector<Index> line_order(const double* xy, std::size_t count, Stop stop) {
-    std::vector<Index> order(count);
-    std::iota(order.begin(), order.end(), 0);
-    const auto compare = [xy, stop](Index a, Index b) {
-        check(stop);
-        const double *p = xy + 2 * static_cast<Size>(a), *q = xy + 2 * static_cast<Size>(b);
-        const int k = p[0] != q[0] ? 0 : 1;
-        return p[k] < q[k] ? -1 : p[k] > q[k] ? 1 : 0;
-    };
-    Pairs duplicates;
-    order.resize(sort_and_drop(order, compare, [](Index k) { return k; }, duplicates));
-    return order;
-}
 
 Diagram line_diagram(const std::vector<Index>& order, std::size_t count) {
     Diagram diagram = cells(order, count, 1);

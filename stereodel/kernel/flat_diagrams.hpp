@@ -2,6 +2,7 @@
 //
 // On a line the cells are strips without vertices, between parallel ridges. On a great circle they are lunes between
 // two vertices, the ends of its axis; a ridge is half a great circle. A single point has no vertices: its cell is all.
+// Orders are those of flat_order.hpp.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +11,6 @@
 #include "voronoi.hpp"
 
 namespace stereodel {
-
-// The different points of a line, the first of equal ones, in lexicographic order.
-std::vector<Index> line_order(const double* xy, std::size_t count, Stop stop);
 
 // The cells of `count` points, of which those in `order` are different: one entry each, without vertex or neighbour.
 Diagram line_diagram(const std::vector<Index>& order, std::size_t count);

@@ -1,99 +1,130 @@
 #include "flat_order.hpp"
 
 #include <algorithm>
+#include <numeric>
+#include <stdexcept>
 
-#include "plane_predicates.hpp"
+#include "ball_vectors.hpp"
+#include "duplicates.hpp"
+#include "ray_predicates.hpp"
 
 namespace stereodel {
 namespace {
 
-std::vector<Index> kept_points(std::size_t size, const Pairs& duplicates) {
-    std::vector<bool> is_dropped(size);
-    for (const auto& pair : duplicates) {
-        is_dropped[static_cast<std::size_t>(pair.first)] = true;
-    }
-    std::vector<Index> kept;
-    kept.reserve(size - duplicates.size());
-    for (std::size_t p = 0; p < size; ++p) {
-        if (!is_dropped[p]) {
-            kept.push_back(static_cast<Index>(p));
-        }
-    }
-    return kept;
+const double* row(const double* xyz, Index k) {
+    return xyz + 3 * static_cast<std::ptrdiff_t>(k);
 }
 
-// Directions without one of their coordinates, and the origin, number 0: the k-th direction has number k + 1. Seen from
-// the origin their order around it is exact, as no coordinate is rounded.
-class Shadow {
+// Directions of a great circle around the first coordinate axis that does not lie in it: without that coordinate they
+// are in the same order, or in the opposite one, and none of them is zero.
+class Turns {
   public:
-    Shadow(const double* xyz, const std::vector<Index>& directions, std::size_t dropped) : xy_(2, 0.0) {
-        for (const Index p : directions) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                if (k != dropped) {
-                    xy_.push_back(xyz[3 * static_cast<std::size_t>(p) + k]);
-                }
-            }
-        }
-    }
+    Turns(const double* xyz, int axis) : xyz_(xyz), axis_(axis) {}
 
-    int turn(Index a, Index b) const { return PlanePoints(xy_.data(), 0.0).orient(0, a, b); }
-
-    // By the angle from the positive x axis, 0 to a full turn.
-    bool is_before(Index a, Index b) const {
-        const int half_a = half(a), half_b = half(b);
-        return half_a != half_b ? half_a < half_b : turn(a, b) > 0;
+    int compare(Index a, Index b) const {
+        const double *p = row(xyz_, a), *q = row(xyz_, b);
+        const bool late = is_late(p), other_late = is_late(q);
+        return late != other_late ? (late ? 1 : -1) : -cross_sign(p, q);
     }
 
   private:
-    int half(Index a) const {
-        const double x = xy_[2 * static_cast<std::size_t>(a)], y = xy_[2 * static_cast<std::size_t>(a) + 1];
-        return y > 0.0 || (y == 0.0 && x > 0.0) ? 1 : y < 0.0 || x < 0.0 ? 2 : 0;
+    bool is_late(const double* p) const {
+        const double x = p[(axis_ + 1) % 3], y = p[(axis_ + 2) % 3];
+        return x < 0.0 || (x == 0.0 && y < 0.0);
     }
 
-    std::vector<double> xy_;
+    // Rounding keeps the order of numbers: rounded products that differ tell that of the exact ones. Infinite ones too.
+    Sign cross_sign(const double* p, const double* q) const {
+        const int i = (axis_ + 1) % 3, j = (axis_ + 2) % 3;
+        const double left = p[i] * q[j], right = p[j] * q[i];
+        if (left != right) {
+            return left < right ? -1 : 1;
+        }
+        const bool same = p[i] == q[i] && p[j] == q[j];
+        return same ? 0 : cross_component(BallVector(p), BallVector(q), axis_).sign();
+    }
+
+    const double* xyz_;
+    int axis_;
 };
 
-// Where the axis of the great circle has a component that is not zero, dropping this coordinate keeps the order. Of the
-// second and the third direction at most one is opposite to the first, so one of them spans the circle with it.
-Shadow shadow_of_circle(const double* xyz, const std::vector<Index>& directions) {
-    for (std::size_t dropped = 0; dropped < 2; ++dropped) {
-        Shadow shadow(xyz, directions, dropped);
-        if (shadow.turn(1, 2) != 0 || shadow.turn(1, 3) != 0) {
-            return shadow;
+// The first direction that is neither that of number 0 nor opposite to it; their number if there is none.
+Index first_aside(const double* xyz, Index count) {
+    Index k = 1;
+    while (k < count && cross(row(xyz, 0), row(xyz, k)).is_zero()) {
+        ++k;
+    }
+    return k;
+}
+
+// An axis along which the directions are seen in order. If there is one, and perhaps its opposite: one that is not
+// theirs.
+int axis_of_sight(const double* xyz, Index count, Index aside) {
+    const double* const first = row(xyz, 0);
+    if (aside < count) {
+        return cross(first, row(xyz, aside)).first_axis();
+    }
+    const double* const component = std::find_if(first, first + 3, [](double x) { return x != 0.0; });
+    return (static_cast<int>(component - first) + 1) % 3;
+}
+
+void check_on_circle(const double* xyz, Index count, Index aside, Stop stop) {
+    Rays rays(xyz, all_unit(xyz, static_cast<std::size_t>(count)));
+    for_range(0, static_cast<std::size_t>(count), stop, [&](std::size_t k) {
+        if (rays.turn(0, aside, static_cast<Index>(k)) != 0) {
+            throw std::invalid_argument("points without triangles must lie on one great circle");
+        }
+    });
+}
+
+// From the lowest on, in the direction in which the three lowest follow one another.
+void begin_with_lowest(std::vector<Index>& order) {
+    std::rotate(order.begin(), std::min_element(order.begin(), order.end()), order.end());
+    if (order.size() > 2) {
+        std::vector<Index> lowest(3);
+        std::partial_sort_copy(order.begin(), order.end(), lowest.begin(), lowest.end());
+        if (std::find(order.begin(), order.end(), lowest[1]) > std::find(order.begin(), order.end(), lowest[2])) {
+            std::reverse(order.begin() + 1, order.end());
         }
     }
-    return Shadow(xyz, directions, 2);
+}
+
+// The first of equal ones, in the order of `compare`.
+template <class Compare>
+std::vector<Index> different_ones(std::size_t count, Stop stop, Compare&& compare) {
+    std::vector<Index> order(count);
+    std::iota(order.begin(), order.end(), 0);
+    const auto patiently = [&](Index a, Index b) {
+        check(stop);
+        return compare(a, b);
+    };
+    Pairs duplicates;
+    order.resize(sort_and_drop(order, patiently, [](Index k) { return k; }, duplicates));
+    return order;
 }
 
 }  // namespace
 
-std::vector<Index> flat_order_plane(const double* xy, std::size_t size, const Pairs& duplicates, Stop stop) {
-    std::vector<Index> order = kept_points(size, duplicates);
-    std::sort(order.begin(), order.end(), [xy, stop](Index a, Index b) {
-        check(stop);
-        const double *p = xy + 2 * static_cast<std::size_t>(a), *q = xy + 2 * static_cast<std::size_t>(b);
-        return p[0] < q[0] || (p[0] == q[0] && p[1] < q[1]);
+std::vector<Index> line_order(const double* xy, std::size_t count, Stop stop) {
+    return different_ones(count, stop, [xy](Index a, Index b) {
+        const double *p = xy + 2 * static_cast<std::ptrdiff_t>(a), *q = xy + 2 * static_cast<std::ptrdiff_t>(b);
+        const int k = p[0] != q[0] ? 0 : 1;
+        return p[k] < q[k] ? -1 : p[k] > q[k] ? 1 : 0;
     });
-    return order;
 }
 
-std::vector<Index> flat_order_sphere(const double* xyz, std::size_t size, const Pairs& duplicates, Stop stop) {
-    const std::vector<Index> directions = kept_points(size, duplicates);
-    if (directions.size() < 3) {
-        return directions;
+std::vector<Index> circle_order(const double* xyz, std::size_t count, bool checked, Stop stop) {
+    if (count == 0) {
+        return {};
     }
-    const Shadow shadow = shadow_of_circle(xyz, directions);
-    std::vector<Index> order(directions.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        order[k] = static_cast<Index>(k) + 1;
+    const Index size = static_cast<Index>(count), aside = first_aside(xyz, size);
+    if (!checked && aside < size) {
+        check_on_circle(xyz, size, aside, stop);
     }
-    std::sort(order.begin(), order.end(), [&shadow, stop](Index a, Index b) {
-        check(stop);
-        return shadow.is_before(a, b);
-    });
-    for (Index& p : order) {
-        p = directions[static_cast<std::size_t>(p) - 1];
-    }
+    const Turns turns(xyz, axis_of_sight(xyz, size, aside));
+    std::vector<Index> order =
+        different_ones(count, stop, [&turns](Index a, Index b) { return turns.compare(a, b); });
+    begin_with_lowest(order);
     return order;
 }
 

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <stdexcept>
+#include <utility>
 
 #include "angles.hpp"
 #include "ball_vectors.hpp"
-#include "duplicates.hpp"
-#include "ray_predicates.hpp"
 #include "unit_vectors.hpp"
 
 namespace stereodel {
@@ -58,82 +55,6 @@ double angle_between(const double* p, const double* q, const ScaledVector& norma
     return vector_angle(std::ldexp(normal.length(), normal.exponent - a.exponent - b.exponent), cosine.hi);
 }
 
-// Directions of a great circle around the first coordinate axis that does not lie in it: without that coordinate they
-// are in the same order, or in the opposite one, and none of them is zero.
-class Turns {
-  public:
-    Turns(const double* xyz, int axis) : xyz_(xyz), axis_(axis) {}
-
-    int compare(Index a, Index b) const {
-        const double *p = row(xyz_, a), *q = row(xyz_, b);
-        const bool late = is_late(p), other_late = is_late(q);
-        return late != other_late ? (late ? 1 : -1) : -cross_component(BallVector(p), BallVector(q), axis_).sign();
-    }
-
-  private:
-    bool is_late(const double* p) const {
-        const double x = p[(axis_ + 1) % 3], y = p[(axis_ + 2) % 3];
-        return x < 0.0 || (x == 0.0 && y < 0.0);
-    }
-
-    const double* xyz_;
-    int axis_;
-};
-
-int first_axis(const BallVector& n) {
-    return n.v[0].sign() != 0 ? 0 : n.v[1].sign() != 0 ? 1 : 2;
-}
-
-void check_on_circle(const double* xyz, Index count, Index second, Stop stop) {
-    Rays rays(xyz, all_unit(xyz, static_cast<Size>(count)));
-    for_range(0, static_cast<Size>(count), stop, [&](Size k) {
-        if (rays.turn(0, second, static_cast<Index>(k)) != 0) {
-            throw std::invalid_argument("points without triangles must lie on one great circle");
-        }
-    });
-}
-
-// From the lowest on, in the direction in which the three lowest follow one another.
-void begin_with_lowest(std::vector<Index>& order) {
-    std::rotate(order.begin(), std::min_element(order.begin(), order.end()), order.end());
-    if (order.size() > 2) {
-        std::vector<Index> lowest(3);
-        std::partial_sort_copy(order.begin(), order.end(), lowest.begin(), lowest.end());
-        if (std::find(order.begin(), order.end(), lowest[1]) > std::find(order.begin(), order.end(), lowest[2])) {
-            std::reverse(order.begin() + 1, order.end());
-        }
-    }
-}
-
-// Different directions in order, at least one.
-std::vector<Index> order_of(const double* xyz, Index count, Stop stop) {
-    std::vector<Index> order(static_cast<Size>(count));
-    std::iota(order.begin(), order.end(), 0);
-    Index second = 1;
-    while (second < count && cross(row(xyz, 0), row(xyz, second)).is_zero()) {
-        ++second;
-    }
-    int axis = 0;
-    if (second < count) {
-        check_on_circle(xyz, count, second, stop);
-        axis = first_axis(cross(row(xyz, 0), row(xyz, second)));
-    } else {  // one direction and perhaps its opposite: seen along an axis that is not theirs
-        axis = (static_cast<int>(std::find_if(row(xyz, 0), row(xyz, 0) + 3, [](double x) { return x != 0.0; }) -
-                                 row(xyz, 0)) +
-                1) %
-               3;
-    }
-    const Turns turns(xyz, axis);
-    Pairs duplicates;
-    const auto compare = [&](Index a, Index b) {
-        check(stop);
-        return turns.compare(a, b);
-    };
-    order.resize(sort_and_drop(order, compare, [](Index k) { return k; }, duplicates));
-    begin_with_lowest(order);
-    return order;
-}
-
 BallVector axis_of_pair(const double* p, const double* q) {
     const BallVector normal = cross(p, q);
     if (!normal.is_zero()) {
@@ -152,7 +73,7 @@ BallVector axis_of_pair(const double* p, const double* q) {
 // or three of the products point along the axis, at most one is zero or points against it.
 BallVector axis_of_three(const double* a, const double* b, const double* c) {
     const BallVector products[] = {cross(c, a), cross(a, b), cross(b, c)};
-    const auto k = first_axis(products[0].is_zero() ? products[1] : products[0]);
+    const int k = (products[0].is_zero() ? products[1] : products[0]).first_axis();
     const auto sign = [&](int product) { return products[product].v[k].sign(); };
     const int turn = sign(0) + sign(1) + sign(2);
     return products[sign(0) * turn > 0 ? 0 : sign(1) * turn > 0 ? 1 : 2];
@@ -187,11 +108,7 @@ void bisector_normal(const double* p, const double* q, double* normal) {
 
 }  // namespace
 
-GreatCircle::GreatCircle(const double* xyz, std::size_t count, Stop stop) {
-    if (count == 0) {
-        return;
-    }
-    order = order_of(xyz, static_cast<Index>(count), stop);
+GreatCircle::GreatCircle(const double* xyz, std::vector<Index> directions) : order(std::move(directions)) {
     const Size size = order.size();
     if (size < 2) {
         return;

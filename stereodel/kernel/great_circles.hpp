@@ -1,5 +1,4 @@
-// Directions of one great circle: their exact order around it, its axis, the angles between neighbours; and the planes
-// that bisect two directions.
+// Directions of one great circle: its axis and the angles between neighbours; and the planes that bisect two directions.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +11,15 @@ namespace stereodel {
 
 inline constexpr double FULL_TURN = 0x1.921fb54442d18p2;  // 2 pi
 
-// The different directions of one great circle.
+// The different directions of one great circle, in the order of `circle_order`.
 struct GreatCircle {
-    // The first of equal ones, counterclockwise around the first end of the axis from the lowest. Of three or more, the
-    // three lowest are counterclockwise; two are in the order of their numbers.
     std::vector<Index> order;
-    // Both ends, -0 nowhere. Of two directions the first end is that of their vector product; of two opposite ones that
-    // of p x e, e the first of the coordinate axes along which p is shortest. Zero for fewer than two.
+    // Both ends of the axis, -0 nowhere; the order is counterclockwise around the first one. Of two directions that is
+    // the end of their vector product; of two opposite ones that of p x e, e the first of the coordinate axes along
+    // which p is shortest. Zero for fewer than two.
     double ends[2][3] = {};
 
-    GreatCircle() = default;
-    // Throws std::invalid_argument if the directions, `count` of them, do not lie on one great circle; Cancelled.
-    GreatCircle(const double* xyz, std::size_t count, Stop stop);
+    GreatCircle(const double* xyz, std::vector<Index> directions);
 
     // The angle from each one to the next around the first end, in [0, 2 pi), for two or more: within 2^-51 of itself.
     std::vector<double> gaps(const double* xyz) const;

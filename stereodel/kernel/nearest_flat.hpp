@@ -15,7 +15,7 @@
 namespace stereodel {
 
 // `count` queries, `k` points for each (at most as many as there are), to `found`, rows of k. `order`: the different
-// points, `size` of them, in the order of `flat_order`. `duplicates`: pairs (dropped, kept); both count.
+// points, `size` of them, as in flat_order.hpp, from any start. `duplicates`: pairs (dropped, kept); both count.
 struct NearestFlatTask {
     const double* points;
     const Index* order;

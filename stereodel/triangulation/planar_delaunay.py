@@ -100,7 +100,7 @@ class PlanarDelaunay(Delaunay):
         return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers, True)
 
     def _sort_flat(self) -> IntArray:
-        return _kernel.flat_order_plane(self.points, self.duplicates)
+        return _kernel.line_order(self.points)
 
     def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self._flat_order, self.duplicates

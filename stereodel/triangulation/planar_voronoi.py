@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_floats, as_scalar, locked
+from stereodel._arrays import FloatArray, IntArray, as_floats, as_scalar, locked
 from stereodel.triangulation.cells import Diagram, Indices
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
@@ -75,7 +75,7 @@ class PlanarVoronoi(Diagram):
         if triangulation.dimension == 2:
             self._set_diagram(triangulation)
         else:
-            self._set_strips()
+            self._set_strips(triangulation._flat_order)
 
     def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
         arrays = self.points, triangulation.simplices, triangulation.neighbors
@@ -87,10 +87,10 @@ class PlanarVoronoi(Diagram):
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
         self.vertices = locked(_kernel.circumcenters_plane(self.points, rows[0], rows[1], self._threads))
 
-    def _set_strips(self) -> None:
+    def _set_strips(self, order: IntArray) -> None:
         """Points on one line."""
         self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
-        cells, ridges = _kernel.line_diagram(self.points)
+        cells, ridges = _kernel.line_diagram(self.points, order)
         self._ridges = locked(ridges), locked(np.full_like(ridges, -1))
         self._set_cells(*cells)
 

@@ -162,7 +162,7 @@ class SphericalDelaunay(Delaunay):
         return _kernel.nearest_sphere(*arrays, queries, self.closing, workers, True)
 
     def _sort_flat(self) -> IntArray:
-        return _kernel.flat_order_sphere(self.points, self.duplicates)
+        return _kernel.circle_order(self.points, checked=True)
 
     def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
         arrays = self.points, self._flat_order, self.duplicates

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_scalar, locked
+from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.cells import Diagram
@@ -85,7 +85,7 @@ class SphericalVoronoi(Diagram):
         if triangulation.dimension == 2:
             self._set_diagram(triangulation)
         else:
-            self._set_circle()
+            self._set_circle(triangulation._flat_order)
 
     @classmethod
     def from_lonlat(
@@ -131,10 +131,11 @@ class SphericalVoronoi(Diagram):
         rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
         self._set_vertices(_kernel.circumcenters_sphere(self.points, rows[0], rows[1], self._threads))
 
-    def _set_circle(self) -> None:
+    def _set_circle(self, order: IntArray) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""
+        self._order = order
         self.simplex_vertex = locked(np.zeros(0, dtype=np.int32))
-        cells, vertices = _kernel.circle_diagram(self.points)
+        cells, vertices = _kernel.circle_diagram(self.points, order)
         self._set_vertices(vertices)
         self._set_cells(*cells)
 
@@ -163,7 +164,7 @@ class SphericalVoronoi(Diagram):
         scale = as_scalar(radius, "radius")
         areas: FloatArray
         if self._dimension < 2:
-            areas = _kernel.circle_areas(self.points)
+            areas = _kernel.circle_areas(self.points, self._order)
         else:
             areas = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
         return areas * scale**2
@@ -186,7 +187,7 @@ class SphericalVoronoi(Diagram):
          [ 0.          0.70710678 -0.70710678]]
         """
         if self._dimension < 2:
-            return _kernel.circle_centroids(self.points)
+            return _kernel.circle_centroids(self.points, self._order)
         return _kernel.cell_centroids_sphere(self.points, *self._cells(), self._order, self._threads)
 
     def ridge_normals(self) -> FloatArray:

@@ -70,10 +70,11 @@ class Arrays:
         )
 
     def nearest_flat(self, queries, workers):
-        name = "plane" if self.points.shape[1] == PLANE else "sphere"
-        order = getattr(_kernel, f"flat_order_{name}")(self.points, self.duplicates)
-        nearest = getattr(_kernel, f"nearest_flat_{name}")
-        return nearest(self.points, order, self.duplicates, queries, 1, workers)[:, 0]
+        if self.points.shape[1] == PLANE:
+            order, nearest = _kernel.line_order, _kernel.nearest_flat_plane
+        else:
+            order, nearest = _kernel.circle_order, _kernel.nearest_flat_sphere
+        return nearest(self.points, order(self.points), self.duplicates, queries, 1, workers)[:, 0]
 
     def sides(self, triangles, queries):
         """Signs (3, k) of the sides of the triangles' edges on which the queries lie, one triangle a query."""
@@ -365,8 +366,8 @@ def test_wrong_input():
 
 def test_wrong_order_of_a_line():
     points, none = np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((0, 2), dtype=np.int32)
-    for order in ([], [0, 2], [-1, 1]):
-        with pytest.raises(ValueError, match="numbers of points"):
+    for order, message in (([], "must hold a point"), ([0, 2], "numbers of points"), ([-1, 1], "numbers of points")):
+        with pytest.raises(ValueError, match=message):
             _kernel.nearest_flat_plane(points, np.array(order, dtype=np.int32), none, points, 1)
     with pytest.raises(ValueError, match="every point"):
         _kernel.nearest_flat_plane(points, np.array([1], dtype=np.int32), none, points, 2)

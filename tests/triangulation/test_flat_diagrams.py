@@ -187,7 +187,7 @@ def test_points_off_the_line_or_circle_are_refused():
     with pytest.raises(ValueError, match="must lie on one great circle"):
         _kernel.circle_order(np.eye(3))
     with pytest.raises(ValueError, match="must lie on one great circle"):
-        _kernel.circle_areas(np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]]))
+        _kernel.circle_order(np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]]))
 
 
 @settings(deadline=None, max_examples=60)
@@ -203,6 +203,25 @@ def test_strips(places, step):
     assert diagram.ridge_points.tolist() == sorted(sorted(pair) for pair in pairwise(along))
     assert diagram.ridge_vertices.tolist() == [[-1, -1]] * max(len(kept) - 1, 0)
     assert diagram.areas().tolist() == [np.inf if k in kept else 0.0 for k in range(len(places))]
+
+
+@pytest.mark.parametrize("scale", [1.0, 2.0**600, 2.0**-520, 2.0**-536, 2.0**-1060])
+@pytest.mark.parametrize("axis", range(3))
+def test_order_of_directions_that_differ_by_roundings(axis, scale):
+    """Multiples of one vector, rounded: products that agree in double, overflow or underflow."""
+    rng = np.random.default_rng(axis)
+    pairs = np.outer(rng.uniform(1, 2, 60), [1.0, 0.7]) * scale
+    points = np.insert(pairs, axis, 0.0, axis=1)
+    slopes = [Fraction(y) / Fraction(x) for x, y in pairs.tolist()]
+    kept = [k for k, slope in enumerate(slopes) if slope not in slopes[:k]]
+    expected = sorted(kept, key=slopes.__getitem__)
+    for checked in (False, True):
+        order = _kernel.circle_order(points, checked).tolist()
+        assert order[0] == kept[0]
+        assert order.index(kept[1]) < order.index(kept[2])
+        start = order.index(expected[0])
+        around = order[start:] + order[:start]
+        assert around in (expected, [expected[0], *expected[:0:-1]])
 
 
 def test_graphs_of_a_circle_take_the_same_order():
