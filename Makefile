@@ -21,8 +21,9 @@ help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
 
 # The script does nothing when the files hold what was installed last, so a touched file needs no network; a changed
-# kernel is built alone. The folder stands for kernel sources that were added or removed.
-$(STAMP): pyproject.toml constraints.txt CMakeLists.txt stereodel/kernel $(wildcard stereodel/kernel/*) \
+# kernel is built alone. Folders stand for kernel sources that were added or removed.
+KERNEL := $(shell find stereodel/kernel tests/kernel/probe)
+$(STAMP): pyproject.toml constraints.txt CMakeLists.txt $(KERNEL) \
 		tools/install.sh tools/build_kernel.sh tools/find_python.sh tools/compiler.sh
 	@tools/install.sh $(VENV)
 
@@ -56,15 +57,15 @@ sanitize: $(STAMP) system ## the tests, then random bytes, on a kernel that stop
 fuzz: $(STAMP) ## feed random bytes to the kernel for FUZZ_SECONDS
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
-check: lint docs ## format, lint, types, sizes, tracked text, then the documentation
+check: lint docs ## format, lint, types, tracked text, the kernel's one-definition rule, then the documentation
 
 lint: $(STAMP) ## what check does, without the documentation
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/python tools/kernel_stub.py --check
-	$(BIN)/python tools/code_sizes.py stereodel figures tests/fuzz
 	$(BIN)/python tools/tracked_text.py
+	tools/one_definition.sh $(VENV)
 
 stub: $(STAMP) ## write the kernel's type stub anew
 	$(BIN)/python tools/kernel_stub.py

@@ -8,12 +8,18 @@ TRACKED = {
     ".ci/run",
     "README.md",
     "stereodel/__init__.py",
-    "stereodel/_kernel.pyi",
+    "stereodel/_kernel/__init__.pyi",
     "stereodel/py.typed",
-    "stereodel/kernel/module.cpp",
+    "stereodel/kernel/python/module.cpp",
 }
-WHEEL = {"stereodel/__init__.py", "stereodel/_kernel.pyi", "stereodel/py.typed", "stereodel-1.dist-info/METADATA"}
+WHEEL = {
+    "stereodel/__init__.py",
+    "stereodel/_kernel/__init__.pyi",
+    "stereodel/py.typed",
+    "stereodel-1.dist-info/METADATA",
+}
 KERNEL = "stereodel/_kernel.cpython-311-x86_64-linux-gnu.so"
+PROBE = "stereodel/_kernel_probe.cpython-311-x86_64-linux-gnu.so"
 
 spec = importlib.util.spec_from_file_location("archives", ROOT / "tools" / "archives.py")
 archives = importlib.util.module_from_spec(spec)
@@ -32,5 +38,6 @@ def test_wheel():
     assert archives.wheel_problems(whole, TRACKED) == []
     assert archives.wheel_problems(WHEEL, TRACKED) == ["one compiled kernel wanted, not []"]
     assert archives.wheel_problems(whole - {"stereodel/py.typed"}, TRACKED) == ["not in the wheel: stereodel/py.typed"]
-    source = "stereodel/kernel/module.cpp"
+    assert archives.wheel_problems(whole | {PROBE}, TRACKED) == [f"not in the package: {PROBE}"]
+    source = "stereodel/kernel/python/module.cpp"
     assert archives.wheel_problems(whole | {source}, TRACKED) == [f"not in the package: {source}"]

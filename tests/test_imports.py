@@ -1,6 +1,7 @@
 """Imports go down only: the order of the packages, no cycles, one door to OpenGL, no graphics in `import stereodel`."""
 
 import ast
+import re
 import subprocess
 import sys
 from graphlib import CycleError, TopologicalSorter
@@ -13,13 +14,14 @@ PACKAGE = ROOT / "stereodel"
 
 BASE = {"constants", "earth", "_arrays", "_numbers", "_double_double", "_threads"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
-KERNEL = BASE | {"_kernel"}
+KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
     "constants": set(),
     "earth": set(),
     "_files": set(),
     "_extras": set(),
     "_kernel": set(),
+    "_spaces": {"_arrays", "_kernel"},
     "_arrays": BASE,
     "_numbers": BASE,
     "_double_double": BASE,
@@ -55,6 +57,25 @@ NEIGHBOURS = {
     "xarray",
 }
 NOT_IN_CORE = GRAPHICS | NEIGHBOURS | {"scipy", "typer", "rich", "mpmath"}
+
+
+# Folders of the kernel from the ground: each may include those before it. Files in no folder are the ground floor.
+KERNEL_FLOORS = [
+    "",
+    "arithmetic",
+    "coordinates",
+    "predicates",
+    "order",
+    "mesh",
+    "engine",
+    "queries",
+    "voronoi",
+    "graphs",
+    "interpolation",
+    "conformal",
+    "raster",
+    "python",
+]
 
 
 def module_names():
@@ -180,3 +201,30 @@ def test_points_are_read_from_csv_and_geojson_without_other_libraries():
     json = """io.StringIO('{"type": "FeatureCollection", "features": []}')"""
     for stream in (csv, json):
         assert not loaded_by(f"import io, stereodel.io; stereodel.io.read_points({stream})") & NOT_IN_CORE
+
+
+def kernel_includes():
+    """Pairs of a file of the kernel and a header of the kernel that it includes, as paths below `stereodel/kernel`."""
+    kernel = PACKAGE / "kernel"
+    for path in [*kernel.rglob("*.hpp"), *kernel.rglob("*.cpp")]:
+        for header in re.findall(r'^#include "([^"]+)"', path.read_text(encoding="utf-8"), flags=re.MULTILINE):
+            yield path.relative_to(kernel).as_posix(), header
+
+
+def floor(file):
+    return KERNEL_FLOORS.index(file.rpartition("/")[0])
+
+
+def test_the_kernel_includes_go_down():
+    pairs = list(kernel_includes())
+    assert len(pairs) > 200
+    assert [f"{file} includes {header}" for file, header in pairs if floor(header) > floor(file)] == []
+
+
+def test_a_folder_of_the_kernel_is_a_namespace():
+    for path in (PACKAGE / "kernel").rglob("*.hpp"):
+        folder = path.parent.name if path.parent.name != "kernel" else ""
+        wanted = "namespace stereodel" + (f"::{folder}" if folder else "")
+        names = re.findall(r"^namespace (\S+) \{", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        assert names, path
+        assert all(f"namespace {name}".startswith(wanted) for name in names), path

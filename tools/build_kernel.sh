@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/build_kernel.sh VENV
-# Build stereodel._kernel for the Python of VENV beside the sources of the package, unless that was done already.
+# Build stereodel._kernel for the Python of VENV beside the sources of the package, unless that was done already; and
+# stereodel._kernel_probe, through which the tests reach what the library itself does not call.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -8,8 +9,10 @@ venv=$1
 PATH=$(cd "$venv/bin" && pwd):$PATH # its cmake and ninja come first
 tag=$(python -c 'import sys; print(sys.implementation.cache_tag)')
 build=build/$tag
-wanted=$(cat CMakeLists.txt tools/build_kernel.sh constraints.txt stereodel/kernel/* | sha256sum)
-if [[ -f $build/installed && $(<"$build/installed") == "$wanted" ]] && compgen -G "stereodel/_kernel.$tag*" >/dev/null; then
+wanted=$(find CMakeLists.txt tools/build_kernel.sh constraints.txt stereodel/kernel tests/kernel/probe -type f -print0 |
+    LC_ALL=C sort -z | xargs -0 sha256sum | sha256sum)
+if [[ -f $build/installed && $(<"$build/installed") == "$wanted" ]] &&
+    compgen -G "stereodel/_kernel.$tag*" >/dev/null && compgen -G "stereodel/_kernel_probe.$tag*" >/dev/null; then
     exit 0
 fi
 tools/compiler.sh python
@@ -23,5 +26,5 @@ quietly cmake -S . -B "$build" -G Ninja -DSTEREODEL_DEVELOPMENT=ON -DPython_EXEC
 quietly cmake --build "$build"
 # Moved into place whole: a running Python keeps the file that it opened.
 quietly cmake --install "$build" --prefix "$build/stage"
-mv -f "$build"/stage/stereodel/_kernel.* stereodel/
+mv -f "$build"/stage/stereodel/_kernel.* "$build"/stage/stereodel/_kernel_probe.* stereodel/
 printf '%s\n' "$wanted" >"$build/installed"

@@ -1,4 +1,4 @@
-"""Write the type stub of the kernel, or check that it is the one that the compiled kernel gives.
+"""Write the type stubs of the kernel, or check that they are those that the compiled kernel gives.
 
 python tools/kernel_stub.py [--check]
 """
@@ -11,29 +11,38 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-STUB = ROOT / "stereodel" / "_kernel.pyi"
+STUBS = ROOT / "stereodel" / "_kernel"
+"""A folder, as the kernel has submodules; Python takes the compiled module, which is no folder."""
 
 
-def generated() -> str:
-    """The stub as nanobind writes it, formatted like other code."""
+def generated() -> dict[str, str]:
+    """The stubs as nanobind writes them, formatted like other code, by the name of the file."""
     with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / STUB.name
-        write = ["nanobind.stubgen", "-q", "-m", "stereodel._kernel", "-o", str(path)]
-        for command in (write, ["ruff", "format", "-q", "--config", str(ROOT / "pyproject.toml"), str(path)]):
+        write = ["nanobind.stubgen", "-q", "-r", "-m", "stereodel._kernel", "-O", folder]
+        for command in (write, ["ruff", "format", "-q", "--config", str(ROOT / "pyproject.toml"), folder]):
             subprocess.run([sys.executable, "-m", *command], check=True)
-        return path.read_text(encoding="utf-8")
+        return read(Path(folder))
+
+
+def read(folder: Path) -> dict[str, str]:
+    """Stubs in a folder and below it by their names."""
+    return {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.rglob("*.pyi"))}
 
 
 def main(*options: str) -> int:
     """Write or check, and return the exit code."""
-    text = generated()
+    stubs = generated()
     if options != ("--check",):
-        STUB.write_text(text, encoding="utf-8")
+        STUBS.mkdir(exist_ok=True)
+        for name, text in stubs.items():
+            (STUBS / name).write_text(text, encoding="utf-8")
+        for old in set(read(STUBS)) - set(stubs):
+            (STUBS / old).unlink()
         return 0
-    if STUB.is_file() and STUB.read_text(encoding="utf-8") == text:
-        print(f"{STUB.name} is that of the kernel")
+    if read(STUBS) == stubs:
+        print("the stubs are those of the kernel")
         return 0
-    print(f"{STUB.name} is not that of the kernel: run make stub", file=sys.stderr)
+    print("the stubs in stereodel/_kernel are not those of the kernel: run make stub", file=sys.stderr)
     return 1
 
 

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, locked
+from stereodel._spaces import space_of
 from stereodel.graphs.proximity import Indices, short_steps
 from stereodel.triangulation.given import Triangulation, as_triangulation
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
@@ -62,9 +63,7 @@ def _corners(triangulation: Triangulation) -> IntArray:
         return np.zeros(0, dtype=np.int32)
     cycle = _cycle(triangulation.convex_hull)
     before, here, after = (triangulation.points[np.roll(cycle, shift)] for shift in (1, 0, -1))
-    sphere = isinstance(triangulation, SphericalDelaunay)
-    turns = _kernel.turn(before, here, after) if sphere else _kernel.orient2d_signs(before, here, after)
-    corners = cycle[turns != 0]
+    corners = cycle[space_of(triangulation.points).turn(before, here, after) != 0]
     return np.roll(corners, -int(np.argmin(corners)))
 
 
@@ -81,7 +80,7 @@ def _in_open_hemisphere(triangulation: SphericalDelaunay) -> bool:
     """Whether the hull of the vectors' tips has a facet with the centre strictly on its outer side."""
     closing = triangulation.simplices[triangulation.closing]
     a, b, c = (triangulation.points[closing[:, k]] for k in range(3))
-    return bool((_kernel.turn(a, b, c) < 0).any())
+    return bool((_kernel.sphere.turn(a, b, c) < 0).any())
 
 
 def _ends(triangulation: Triangulation) -> Indices:
@@ -108,4 +107,4 @@ def _ends_of_arc(points: FloatArray, circle: Indices) -> Indices:
 
 
 def _are_opposite(a: FloatArray, b: FloatArray) -> bool:
-    return bool(_kernel.compare_directions(a[None], -b[None])[0] == 0)
+    return bool(_kernel.sphere.compare(a[None], -b[None])[0] == 0)

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray
+from stereodel._spaces import space_of
 from stereodel.triangulation.given import Triangulation
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.topology import as_edges
@@ -22,9 +23,8 @@ def proximity_edges(triangulation: Triangulation, kind: Kind, workers: int | Non
     threads = triangulation._thread_count(workers)
     if triangulation.dimension < 2:
         return _flat_edges(triangulation, kind)
-    function = _kernel.proximity_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.proximity_sphere
-    arrays = triangulation.points, triangulation.simplices, triangulation.neighbors
-    return function(*arrays, kind, threads, True)
+    points = triangulation.points
+    return space_of(points).proximity(points, triangulation.simplices, triangulation.neighbors, kind, threads, True)
 
 
 def short_steps(points: FloatArray, circle: Indices) -> Indices:
@@ -34,7 +34,7 @@ def short_steps(points: FloatArray, circle: Indices) -> Indices:
     on it: the next point tells.
     """
     three = np.column_stack([circle, np.roll(circle, -1), np.roll(circle, -2)]).astype(np.int32)
-    return three[_kernel.diametral_sphere(points, three) > 0, :2]
+    return three[_kernel.sphere.diametral(points, three) > 0, :2]
 
 
 def _flat_edges(triangulation: Triangulation, kind: Kind) -> IntArray:
@@ -60,6 +60,6 @@ def _has_empty_lune(points: FloatArray, circle: Indices, step: Indices) -> bool:
 
     def nearer(end: int) -> npt.NDArray[np.bool_]:
         rows = [np.broadcast_to(k, others.shape) for k in (end, others, a, b)]
-        return _kernel.compare_lengths_sphere(points, np.column_stack(rows).astype(np.int32)) < 0
+        return _kernel.sphere.compare_lengths(points, np.column_stack(rows).astype(np.int32)) < 0
 
     return not (nearer(a) & nearer(b)).any()

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
-from stereodel import _kernel
 from stereodel._arrays import IntArray, locked
+from stereodel._spaces import space_of
 from stereodel.graphs.proximity import proximity_edges
 from stereodel.triangulation.given import Triangulation, as_triangulation
-from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 
 def minimum_spanning_tree(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
@@ -51,5 +50,4 @@ def minimum_spanning_tree(points: npt.ArrayLike | Triangulation, *, workers: int
     """
     triangulation = as_triangulation(points)
     edges = proximity_edges(triangulation, "urquhart", workers)
-    tree = _kernel.spanning_tree_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.spanning_tree_sphere
-    return locked(tree(triangulation.points, edges))
+    return locked(space_of(triangulation.points).spanning_tree(triangulation.points, edges))

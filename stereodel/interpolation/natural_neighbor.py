@@ -82,11 +82,11 @@ class NaturalNeighborInterpolator(Interpolator):
         mesh = triangulation.simplices, triangulation.neighbors
         crew = triangulation._thread_count(workers, len(queries))
         if not isinstance(triangulation, SphericalDelaunay):
-            return _kernel.natural_neighbors_plane(
+            return _kernel.plane.natural_neighbors(
                 triangulation.points, *mesh, self._values, queries, gradients, crew, True
             )
         sites, asked = self._sites.exact, Places(queries).exact
-        return _kernel.natural_neighbors_sphere(
+        return _kernel.sphere.natural_neighbors(
             triangulation.points,
             sites.hi,
             sites.lo,

@@ -44,7 +44,7 @@ def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray 
     array([ 1,  0, -1], dtype=int8)
     """
     points = (as_vectors(p, 2, name) for p, name in ((a, "a"), (b, "b"), (c, "c")))
-    return _over_rows(_kernel.orient2d_signs, *points)
+    return _over_rows(_kernel.plane.turn, *points)
 
 
 def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> SignArray | int:
@@ -76,7 +76,7 @@ def incircle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     array([ 1,  0, -1], dtype=int8)
     """
     points = (as_vectors(p, 2, name) for p, name in ((a, "a"), (b, "b"), (c, "c"), (d, "d")))
-    return _over_rows(_kernel.incircle_signs, *points)
+    return _over_rows(_kernel.plane.in_circle, *points)
 
 
 def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayLike) -> SignArray | int:
@@ -107,7 +107,7 @@ def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     array([ 1,  0, -1], dtype=int8)
     """
     points = (as_vectors(p, 3, name) for p, name in ((a, "a"), (b, "b"), (c, "c"), (d, "d")))
-    return _over_rows(_kernel.orient3d_signs, *points)
+    return _over_rows(_kernel.orient3d, *points)
 
 
 def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.ArrayLike) -> SignArray | int:
@@ -140,7 +140,7 @@ def in_bubble(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, p: npt.Array
     array([ 1, -1,  0], dtype=int8)
     """
     points = (as_directions(v, name) for v, name in ((a, "a"), (b, "b"), (c, "c"), (p, "p")))
-    return _over_rows(_kernel.in_bubble_signs, *points)
+    return _over_rows(_kernel.sphere.in_circle, *points)
 
 
 def _over_rows(signs: Callable[..., SignArray], *points: FloatArray) -> SignArray | int:

@@ -24,7 +24,7 @@ def as_polygon(extent: npt.ArrayLike | None) -> FloatArray:
         values = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
     if values.ndim != 2 or values.shape[1] != 2 or len(values) < 3:
         raise ValueError(f"extent must be (xmin, xmax, ymin, ymax) or corners (k, 2), k >= 3, got shape {values.shape}")
-    turns = _kernel.orient2d_signs(values, np.roll(values, -1, axis=0), np.roll(values, -2, axis=0))
+    turns = _kernel.plane.turn(values, np.roll(values, -1, axis=0), np.roll(values, -2, axis=0))
     if (turns <= 0).any() or not _turns_once(values):
         raise ValueError(
             "extent must be a rectangle with xmin < xmax and ymin < ymax, or a convex counterclockwise polygon"
@@ -40,7 +40,7 @@ def _turns_once(polygon: FloatArray) -> bool:
 def _sides(points: FloatArray, polygon: FloatArray) -> list[npt.NDArray[np.int8]]:
     """For each side of the polygon the signs (n,) of the points, 1 inside."""
     starts, ends = (np.repeat(p[:, None], len(points), axis=1) for p in (polygon, np.roll(polygon, -1, axis=0)))
-    return [_kernel.orient2d_signs(start, end, points) for start, end in zip(starts, ends, strict=True)]
+    return [_kernel.plane.turn(start, end, points) for start, end in zip(starts, ends, strict=True)]
 
 
 def check_inside(points: FloatArray, polygon: FloatArray) -> None:

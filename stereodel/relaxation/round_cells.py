@@ -86,5 +86,5 @@ def _normals(left: FloatArray, right: FloatArray) -> FloatArray:
     close = lengths[:, 0] < CLOSE_SITES
     lengths[close] = 1.0
     normals = differences / lengths
-    normals[close] = _kernel.bisector_normals(left[close], right[close])
+    normals[close] = _kernel.sphere.bisector_normals(left[close], right[close])
     return cast(FloatArray, normals)

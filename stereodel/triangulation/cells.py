@@ -10,6 +10,8 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, IntArray, locked
+from stereodel._spaces import space_of
+from stereodel.triangulation.delaunay import Delaunay
 
 Indices = npt.NDArray[np.intp]
 
@@ -67,6 +69,29 @@ class Diagram:
     def _ridges(self) -> tuple[IntArray, IntArray]:
         points, vertices = _kernel.voronoi_ridges(*self._cells(), self._threads)
         return locked(points), locked(vertices)
+
+    def _set_diagram(self, triangulation: Delaunay) -> FloatArray:
+        """Cells, and which triangle has which vertex; returns the vertices."""
+        space, points = space_of(self.points), self.points
+        arrays = points, triangulation.simplices, triangulation.neighbors
+        made = space.voronoi(*arrays, self._threads, True)
+        offsets, vertices, neighbors, self._order, simplex_vertex, self._rank, sites, vertex = made
+        self._set_cells(offsets, vertices, neighbors)
+        self.simplex_vertex = locked(simplex_vertex)
+        if sites is None:
+            return space.circumcenters(points, triangulation.simplices, simplex_vertex, self._threads)
+        return space.circumcenters(points, sites, vertex, self._threads)
+
+    def _cell_areas(self) -> FloatArray:
+        return space_of(self.points).cell_areas(self.points, *self._cells(), self._order, self._threads)
+
+    def _cell_centroids(self) -> FloatArray:
+        return space_of(self.points).cell_centroids(self.points, *self._cells(), self._order, self._threads)
+
+    def _simplices(self) -> IntArray:
+        """The triangles, from the topology of the diagram."""
+        rows = self.simplex_vertex, self._rank
+        return space_of(self.points).delaunay_of(self.points, *self._cells(), *rows, self._threads)
 
     def _cells(self) -> tuple[Indices, IntArray, IntArray, int]:
         """The diagram as the kernel takes it."""

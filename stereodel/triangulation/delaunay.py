@@ -4,21 +4,18 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, Self, TypeVar
+from typing import Any, ClassVar, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, IntArray, as_count, as_indices, as_workers, locked, private
-from stereodel._kernel import PlaneMesh, SphereMesh
+from stereodel._spaces import Mesh, Space, Triangulated
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
 from stereodel.triangulation.versions import Versioned, kept
 
-Mesh = PlaneMesh | SphereMesh
-Built = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
-"""What the kernel returns: simplices, neighbors or None, duplicates, dimension, inconclusive tests."""
 _T = TypeVar("_T")
 
 
@@ -28,6 +25,8 @@ class Delaunay(Versioned, ABC):
     After `insert` and `remove` the kernel's mesh is what is up to date, and arrays are made from it when asked for. It
     goes from version to version; one that has lost it starts from its points.
     """
+
+    _space: ClassVar[Space]
 
     _workers: int | None
     _eager: bool  # whether neighbors are wanted with the simplices
@@ -50,7 +49,7 @@ class Delaunay(Versioned, ABC):
         self = cls.__new__(cls)
         self._workers, self._eager = None, True
         version = self._new_version((points,))
-        version.__dict__["_built"] = simplices, None, duplicates, 2, dict.fromkeys(self._stages(), 0)
+        version.__dict__["_built"] = simplices, None, duplicates, 2, dict.fromkeys(self._space.stages, 0)
         self._hold(version)
         return self
 
@@ -74,16 +73,16 @@ class Delaunay(Versioned, ABC):
         version = self._new_version(chunks)
         mesh = self.__dict__.pop("_mesh", None)  # in one step: a copy that shares this version cannot have it, too
         version._counts = self._tests if mesh is None else self._counts
-        version._mesh = mesh or self._make_mesh()
+        version._mesh = mesh or self._space.Mesh(*self._triangles(), self.duplicates, True)
         result = change(version._mesh)
         version._changes = version._mesh.changes
         version.__dict__["dimension"] = 2
         return version, result
 
     @kept
-    def _built(self) -> Built:
+    def _built(self) -> Triangulated:
         """From the points alone."""
-        return self._triangulate(self.points, thread_count(self._workers, self._size), self._eager)
+        return self._space.triangulate(self.points, thread_count(self._workers, self._size), self._eager)
 
     def _from_mesh(self, read: Callable[[Mesh], _T]) -> _T | None:
         """What the mesh says of this version, None if there is none."""
@@ -151,7 +150,7 @@ class Delaunay(Versioned, ABC):
     @kept
     def circumcenters(self) -> FloatArray:
         """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return locked(self._circumcenters(self._thread_count()))
+        return locked(self._space.circumcenters(self.points, self.simplices, workers=self._thread_count()))
 
     @kept
     def _open(self) -> BoolArray:
@@ -161,7 +160,7 @@ class Delaunay(Versioned, ABC):
     @kept
     def _flat_order(self) -> IntArray:
         """The different points in the order along their line or great circle, without triangles."""
-        return locked(self._sort_flat())
+        return locked(self._space.flat_order(self.points, checked=True))
 
     def insert(self, points: npt.ArrayLike) -> IntArray:
         """Add points.
@@ -258,7 +257,7 @@ class Delaunay(Versioned, ABC):
         """
         now = self._present()
         array, flat, threads = now._as_queries(queries, workers)
-        return _shaped(now._locate(flat, threads), array)
+        return _shaped(now._space.find_simplex(*now._triangles(), flat, now._closed(), threads, True), array)
 
     def nearest(self, queries: npt.ArrayLike, *, k: int | None = None, workers: int | None = None) -> IntArray | int:
         """Nearest point of each query, or the k nearest, exactly.
@@ -310,12 +309,19 @@ class Delaunay(Versioned, ABC):
         array, flat, threads = now._as_queries(queries, workers)
         count = 1 if k is None else as_count(k, "k", high=now._size)
         if now.dimension < 2:
-            found = now._nearest_flat(flat, count, threads)
+            found = now._space.nearest_flat(now.points, now._flat_order, now.duplicates, flat, count, threads, True)
         elif k is None:
-            found = now._nearest(flat, threads)
+            found = now._space.nearest(*now._triangles(), flat, now._closed(), threads, True)
         else:
-            found = now._k_nearest(flat, count, threads)
+            found = now._space.k_nearest(*now._triangles(), now.duplicates, flat, count, now._closed(), threads, True)
         return _shaped(found.ravel(), array) if k is None else found.reshape(*array.shape[:-1], count)
+
+    def _triangles(self) -> tuple[FloatArray, IntArray, IntArray]:
+        return self.points, self.simplices, self.neighbors
+
+    def _closed(self) -> BoolArray | None:
+        """Triangles that no query can lie in, None if there is none."""
+        return None
 
     def _as_queries(self, queries: npt.ArrayLike, workers: int | None) -> tuple[FloatArray, FloatArray, int]:
         array = self._check_queries(queries)
@@ -360,36 +366,6 @@ class Delaunay(Versioned, ABC):
     @staticmethod
     @abstractmethod
     def _check_queries(queries: npt.ArrayLike) -> FloatArray: ...
-
-    @abstractmethod
-    def _circumcenters(self, workers: int) -> FloatArray: ...
-
-    @staticmethod
-    @abstractmethod
-    def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built: ...
-
-    @staticmethod
-    @abstractmethod
-    def _stages() -> tuple[str, ...]:
-        """Keys of `inconclusive`."""
-
-    @abstractmethod
-    def _make_mesh(self) -> Mesh: ...
-
-    @abstractmethod
-    def _locate(self, queries: FloatArray, workers: int) -> IntArray: ...
-
-    @abstractmethod
-    def _nearest(self, queries: FloatArray, workers: int) -> IntArray: ...
-
-    @abstractmethod
-    def _sort_flat(self) -> IntArray: ...
-
-    @abstractmethod
-    def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray: ...
-
-    @abstractmethod
-    def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray: ...
 
 
 def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:

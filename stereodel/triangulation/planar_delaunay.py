@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, IntArray, as_points, as_vectors
-from stereodel.triangulation.delaunay import Built, Delaunay
+from stereodel._arrays import FloatArray, as_points, as_vectors
+from stereodel._spaces import Space
+from stereodel.triangulation.delaunay import Delaunay
 
 
 class PlanarDelaunay(Delaunay):
@@ -71,6 +74,8 @@ class PlanarDelaunay(Delaunay):
     [1 2 4] -1
     """
 
+    _space: ClassVar[Space] = _kernel.plane
+
     @staticmethod
     def _as_points(points: npt.ArrayLike) -> FloatArray:
         return as_points(points, 2)
@@ -78,34 +83,3 @@ class PlanarDelaunay(Delaunay):
     @staticmethod
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
         return as_vectors(queries, 2, "xy")
-
-    def _circumcenters(self, workers: int) -> FloatArray:
-        return _kernel.circumcenters_plane(self.points, self.simplices, workers=workers)
-
-    @staticmethod
-    def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:
-        return _kernel.triangulate_plane(points, workers, neighbors)
-
-    @staticmethod
-    def _stages() -> tuple[str, ...]:
-        return "filter", "double_double", "exact"
-
-    def _make_mesh(self) -> _kernel.PlaneMesh:
-        return _kernel.PlaneMesh(self.points, self.simplices, self.neighbors, self.duplicates, True)
-
-    def _locate(self, queries: FloatArray, workers: int) -> IntArray:
-        return _kernel.find_simplex_plane(self.points, self.simplices, self.neighbors, queries, workers, True)
-
-    def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
-        return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers, True)
-
-    def _sort_flat(self) -> IntArray:
-        return _kernel.line_order(self.points)
-
-    def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
-        arrays = self.points, self._flat_order, self.duplicates
-        return _kernel.nearest_flat_plane(*arrays, queries, k, workers, True)
-
-    def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
-        arrays = self.points, self.simplices, self.neighbors, self.duplicates
-        return _kernel.k_nearest_plane(*arrays, queries, k, workers, True)

@@ -73,24 +73,14 @@ class PlanarVoronoi(Diagram):
         self._threads = triangulation._thread_count(workers if given else None)
         self._set_point_region(triangulation.duplicates)
         if triangulation.dimension == 2:
-            self._set_diagram(triangulation)
+            self.vertices = locked(self._set_diagram(triangulation))
         else:
             self._set_strips(triangulation._flat_order)
-
-    def _set_diagram(self, triangulation: PlanarDelaunay) -> None:
-        arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, self._order, simplex_vertex, self._rank, sites, vertex = _kernel.voronoi_plane(
-            *arrays, self._threads, True
-        )
-        self._set_cells(*cells)
-        self.simplex_vertex = locked(simplex_vertex)
-        rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
-        self.vertices = locked(_kernel.circumcenters_plane(self.points, rows[0], rows[1], self._threads))
 
     def _set_strips(self, order: IntArray) -> None:
         """Points on one line."""
         self.vertices, self.simplex_vertex = locked(np.zeros((0, 2))), locked(np.zeros(0, dtype=np.int32))
-        cells, ridges = _kernel.line_diagram(self.points, order)
+        cells, ridges = _kernel.plane.flat_diagram(self.points, order)
         self._ridges = locked(ridges), locked(np.full_like(ridges, -1))
         self._set_cells(*cells)
 
@@ -114,8 +104,7 @@ class PlanarVoronoi(Diagram):
         scale = as_scalar(radius, "radius")
         if len(self.vertices) == 0:
             return np.where(np.diff(self.region_offsets) > 0, np.inf, 0.0) * scale**2
-        areas: FloatArray = _kernel.cell_areas_plane(self.points, *self._cells(), self._order, self._threads)
-        return areas * scale**2
+        return self._cell_areas() * scale**2
 
     def centroids(self) -> FloatArray:
         """Centroid of each point's cell, (n, 2); NaN for unbounded cells and for duplicates.
@@ -131,7 +120,7 @@ class PlanarVoronoi(Diagram):
         """
         if len(self.vertices) == 0:
             return np.full((len(self.points), 2), np.nan)
-        return _kernel.cell_centroids_plane(self.points, *self._cells(), self._order, self._threads)
+        return self._cell_centroids()
 
     def segments(self, extent: npt.ArrayLike) -> tuple[FloatArray, Indices]:
         """The ridges as far as they lie in a rectangle, for drawing.
@@ -188,9 +177,7 @@ class PlanarVoronoi(Diagram):
         """
         if len(self.vertices) == 0:
             return PlanarDelaunay(self.points)
-        rows = self.simplex_vertex, self._rank
-        simplices = _kernel.delaunay_of_plane(self.points, *self._cells(), *rows, self._threads)
-        return PlanarDelaunay._from_simplices(self.points, simplices, self._duplicates())
+        return PlanarDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
 
     def _stretch(self, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Parameters of both ends of each ridge on its line."""

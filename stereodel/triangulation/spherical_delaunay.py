@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_directions, as_points, locked
+from stereodel._arrays import BoolArray, FloatArray, as_directions, as_points, locked
+from stereodel._spaces import Space
 from stereodel.sphere.coordinates import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import Built, Delaunay
+from stereodel.triangulation.delaunay import Delaunay
 from stereodel.triangulation.versions import kept
 
 
@@ -83,6 +86,8 @@ class SphericalDelaunay(Delaunay):
     [False, True]
     """
 
+    _space: ClassVar[Space] = _kernel.sphere
+
     @classmethod
     def from_lonlat(
         cls,
@@ -125,7 +130,7 @@ class SphericalDelaunay(Delaunay):
     @kept
     def closing(self) -> BoolArray:
         """Facets whose empty bubble is a hemisphere or more, (m,)."""
-        return locked(_kernel.closing(self.points, self.simplices))
+        return locked(_kernel.sphere.closing(self.points, self.simplices))
 
     @kept
     def _open(self) -> BoolArray:
@@ -139,35 +144,5 @@ class SphericalDelaunay(Delaunay):
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
         return as_directions(queries, "xyz")
 
-    def _circumcenters(self, workers: int) -> FloatArray:
-        return _kernel.circumcenters_sphere(self.points, self.simplices, workers=workers)
-
-    @staticmethod
-    def _triangulate(points: FloatArray, workers: int, neighbors: bool) -> Built:
-        return _kernel.triangulate_sphere(points, workers, neighbors)
-
-    @staticmethod
-    def _stages() -> tuple[str, ...]:
-        return "filter", "curvature", "double_double", "exact"
-
-    def _make_mesh(self) -> _kernel.SphereMesh:
-        return _kernel.SphereMesh(self.points, self.simplices, self.neighbors, self.duplicates, True)
-
-    def _locate(self, queries: FloatArray, workers: int) -> IntArray:
-        arrays = self.points, self.simplices, self.neighbors
-        return _kernel.find_simplex_sphere(*arrays, queries, self.closing, workers, True)
-
-    def _nearest(self, queries: FloatArray, workers: int) -> IntArray:
-        arrays = self.points, self.simplices, self.neighbors
-        return _kernel.nearest_sphere(*arrays, queries, self.closing, workers, True)
-
-    def _sort_flat(self) -> IntArray:
-        return _kernel.circle_order(self.points, checked=True)
-
-    def _nearest_flat(self, queries: FloatArray, k: int, workers: int) -> IntArray:
-        arrays = self.points, self._flat_order, self.duplicates
-        return _kernel.nearest_flat_sphere(*arrays, queries, k, workers, True)
-
-    def _k_nearest(self, queries: FloatArray, k: int, workers: int) -> IntArray:
-        arrays = self.points, self.simplices, self.neighbors, self.duplicates
-        return _kernel.k_nearest_sphere(*arrays, queries, k, self.closing, workers, True)
+    def _closed(self) -> BoolArray:
+        return self.closing

@@ -83,7 +83,7 @@ class SphericalVoronoi(Diagram):
         self._threads = triangulation._thread_count(workers if given else None)
         self._set_point_region(triangulation.duplicates)
         if triangulation.dimension == 2:
-            self._set_diagram(triangulation)
+            self._set_vertices(self._set_diagram(triangulation))
         else:
             self._set_circle(triangulation._flat_order)
 
@@ -121,21 +121,11 @@ class SphericalVoronoi(Diagram):
         """
         return cls(SphericalDelaunay.from_lonlat(lonlat, latitude=latitude, workers=workers), workers=workers)
 
-    def _set_diagram(self, triangulation: SphericalDelaunay) -> None:
-        arrays = self.points, triangulation.simplices, triangulation.neighbors
-        *cells, self._order, simplex_vertex, self._rank, sites, vertex = _kernel.voronoi_sphere(
-            *arrays, self._threads, True
-        )
-        self._set_cells(*cells)
-        self.simplex_vertex = locked(simplex_vertex)
-        rows = (triangulation.simplices, simplex_vertex) if sites is None else (sites, vertex)
-        self._set_vertices(_kernel.circumcenters_sphere(self.points, rows[0], rows[1], self._threads))
-
     def _set_circle(self, order: IntArray) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""
         self._order = order
         self.simplex_vertex = locked(np.zeros(0, dtype=np.int32))
-        cells, vertices = _kernel.circle_diagram(self.points, order)
+        cells, vertices = _kernel.sphere.flat_diagram(self.points, order)
         self._set_vertices(vertices)
         self._set_cells(*cells)
 
@@ -162,11 +152,7 @@ class SphericalVoronoi(Diagram):
         digits as are needed. An area below the least double is 0. Points of one great circle have lunes.
         """
         scale = as_scalar(radius, "radius")
-        areas: FloatArray
-        if self._dimension < 2:
-            areas = _kernel.circle_areas(self.points, self._order)
-        else:
-            areas = _kernel.cell_areas_sphere(self.points, *self._cells(), self._order, self._threads)
+        areas = self._cell_areas() if self._dimension == 2 else _kernel.sphere.flat_areas(self.points, self._order)
         return areas * scale**2
 
     def centroids(self) -> FloatArray:
@@ -187,13 +173,13 @@ class SphericalVoronoi(Diagram):
          [ 0.          0.70710678 -0.70710678]]
         """
         if self._dimension < 2:
-            return _kernel.circle_centroids(self.points, self._order)
-        return _kernel.cell_centroids_sphere(self.points, *self._cells(), self._order, self._threads)
+            return _kernel.sphere.flat_centroids(self.points, self._order)
+        return self._cell_centroids()
 
     def ridge_normals(self) -> FloatArray:
         """Directions of p̂ᵢ − p̂ⱼ, (r, 3): the unit normal of each ridge's plane, on the side of site i."""
         p, q = (self.points.take(self.ridge_points[:, k], axis=0) for k in (0, 1))
-        return _kernel.bisector_normals(p, q, self._threads)
+        return _kernel.sphere.bisector_normals(p, q, self._threads)
 
     def ridge_arcs(self) -> list[SphereArc]:
         """The ridges as arcs of great circles, in the order of `ridge_points`, from start to end, site i on the left.
@@ -217,9 +203,7 @@ class SphericalVoronoi(Diagram):
         """
         if self._dimension < 2:
             return SphericalDelaunay(self.points)
-        rows = self.simplex_vertex, self._rank
-        simplices = _kernel.delaunay_of_sphere(self.points, *self._cells(), *rows, self._threads)
-        return SphericalDelaunay._from_simplices(self.points, simplices, self._duplicates())
+        return SphericalDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
 
 
 def _angles(start: FloatArray, end: FloatArray) -> FloatArray:

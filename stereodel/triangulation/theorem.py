@@ -19,9 +19,9 @@ import copy
 import numpy as np
 import numpy.typing as npt
 
-from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_directions, as_points
 from stereodel._double_double import two_prod, two_sum
+from stereodel._spaces import space_of
 from stereodel.predicates import in_bubble
 from stereodel.triangulation.cells import polygons
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
@@ -126,8 +126,8 @@ def merged_polygons(
     chosen = triangulation.simplices if simplices is None else np.asarray(simplices, dtype=np.int32).reshape(-1, 3)
     if len(chosen) == 0:
         return frozenset()
-    voronoi = _kernel.voronoi_plane if isinstance(triangulation, PlanarDelaunay) else _kernel.voronoi_sphere
-    offsets, vertices, across, _, vertex, *_ = voronoi(triangulation.points, chosen, neighbors_of(chosen))
+    points = triangulation.points
+    offsets, vertices, across, _, vertex, *_ = space_of(points).voronoi(points, chosen, neighbors_of(chosen))
     return frozenset(map(tuple, polygons(offsets, vertices, across, int(vertex.max()) + 1)))
 
 

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "checks.hpp"
-#include "dynamic.hpp"
+#include "mesh/dynamic.hpp"
 
 namespace fuzz {
 
 using Coordinates = std::vector<double>;
 
 template <class Surface>
-void check_state(stereodel::DynamicDelaunay<Surface>& delaunay, const Triangulation& fresh, const char* what) {
+void check_state(stereodel::mesh::DynamicDelaunay<Surface>& delaunay, const Triangulation& fresh, const char* what) {
     require(delaunay.duplicates() == fresh.duplicates, what);
     require(delaunay.is_flat() == (fresh.triangles.count() == 0), what);
     if (delaunay.is_flat()) {
@@ -30,14 +30,14 @@ void check_state(stereodel::DynamicDelaunay<Surface>& delaunay, const Triangulat
 // fresh(coordinates): the triangulation of points. Insert the second half of them, then remove every third.
 template <class Surface, class Fresh>
 void check_changes(const Coordinates& all, Fresh&& fresh) {
-    constexpr std::size_t width = stereodel::DynamicDelaunay<Surface>::dimension;
+    constexpr std::size_t width = stereodel::mesh::DynamicDelaunay<Surface>::dimension;
     const std::size_t size = all.size() / width, half = size / 2;
     const Coordinates first(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(width * half));
     Triangulation start = fresh(first);
     if (start.triangles.count() == 0) {
         return;
     }
-    stereodel::DynamicDelaunay<Surface> delaunay(first.data(), half, start.triangles.corners.data(),
+    stereodel::mesh::DynamicDelaunay<Surface> delaunay(first.data(), half, start.triangles.corners.data(),
                                                  start.triangles.neighbors.data(), start.triangles.count(),
                                                  std::move(start.duplicates), nullptr);
     delaunay.insert(all.data() + width * half, size - half, nullptr);

@@ -13,12 +13,12 @@
 #include <utility>
 #include <vector>
 
-#include "plane.hpp"
+#include "engine/plane.hpp"
 
 namespace fuzz {
 
 using stereodel::Index;
-using stereodel::Triangulation;
+using stereodel::engine::Triangulation;
 
 inline void require(bool holds, const char* what) {
     if (!holds) {
@@ -55,7 +55,7 @@ class Rows {
     }
 
   private:
-    const stereodel::Triangles& triangles_;
+    const stereodel::engine::Triangles& triangles_;
 };
 
 inline void check_corners(const Rows& rows, std::size_t points, const Triangulation& result) {

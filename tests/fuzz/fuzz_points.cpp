@@ -8,12 +8,12 @@
 
 #include "changes.hpp"
 #include "checks.hpp"
-#include "plane_predicates.hpp"
-#include "plane_surface.hpp"
+#include "predicates/plane_predicates.hpp"
+#include "mesh/plane_surface.hpp"
 #include "points_from_bytes.hpp"
-#include "ray_predicates.hpp"
-#include "sphere.hpp"
-#include "sphere_surface.hpp"
+#include "predicates/ray_predicates.hpp"
+#include "engine/sphere.hpp"
+#include "mesh/sphere_surface.hpp"
 
 namespace fuzz {
 namespace {
@@ -51,9 +51,9 @@ void check_equal(const Triangulation& a, const Triangulation& b, const char* wha
 
 void check_plane(const Points& points) {
     const double* xy = points.coordinates.data();
-    const Triangulation result = stereodel::triangulate_plane(xy, points.count, true, 1, nullptr);
+    const Triangulation result = stereodel::engine::triangulate_plane(xy, points.count, true, 1, nullptr);
     const Rows rows(result);
-    stereodel::PlanePoints predicates(xy, stereodel::common_granularity(xy, points.count));
+    stereodel::predicates::PlanePoints predicates(xy, stereodel::predicates::common_granularity(xy, points.count));
     const auto orient = [&](Index a, Index b, Index c) { return predicates.orient(a, b, c); };
     const auto equal = [xy](Index a, Index b) { return xy[2 * a] == xy[2 * b] && xy[2 * a + 1] == xy[2 * b + 1]; };
     check_same_points(result, equal);
@@ -69,17 +69,19 @@ void check_plane(const Points& points) {
     } else {
         check_flat(result, points.count, orient);
     }
-    check_equal(result, stereodel::triangulate_plane(xy, points.count, true, 2, nullptr), "threads change triangles");
-    check_changes<stereodel::PlaneSurface>(points.coordinates, [](const Coordinates& some) {
-        return stereodel::triangulate_plane(some.data(), some.size() / 2, true, 1, nullptr);
+    check_equal(result, stereodel::engine::triangulate_plane(xy, points.count, true, 2, nullptr),
+                "threads change triangles");
+    check_changes<stereodel::mesh::PlaneSurface>(points.coordinates, [](const Coordinates& some) {
+        return stereodel::engine::triangulate_plane(some.data(), some.size() / 2, true, 1, nullptr);
     });
 }
 
 void check_sphere(const Points& points) {
     const double* xyz = points.coordinates.data();
-    const Triangulation result = stereodel::triangulate_sphere(xyz, points.count, true, 1, points.pole, nullptr);
+    const Triangulation result =
+        stereodel::engine::triangulate_sphere(xyz, points.count, true, 1, points.pole, nullptr);
     const Rows rows(result);
-    stereodel::Rays rays(xyz, stereodel::all_unit(xyz, points.count));
+    stereodel::predicates::Rays rays(xyz, stereodel::predicates::all_unit(xyz, points.count));
     check_same_points(result, [&](Index a, Index b) { return rays.compare(a, b) == 0; });
     check_corners(rows, points.count, result);
     if (rows.count() > 0) {
@@ -90,11 +92,11 @@ void check_sphere(const Points& points) {
     } else {
         check_flat(result, points.count, [&](Index a, Index b, Index c) { return rays.turn(a, b, c); });
     }
-    const stereodel::Pole other{(points.pole.axis + 1) % 3, -points.pole.sign};
-    check_equal(result, stereodel::triangulate_sphere(xyz, points.count, true, 2, other, nullptr),
+    const stereodel::engine::Pole other{(points.pole.axis + 1) % 3, -points.pole.sign};
+    check_equal(result, stereodel::engine::triangulate_sphere(xyz, points.count, true, 2, other, nullptr),
                 "other pole or threads, other triangles");
-    check_changes<stereodel::SphereSurface>(points.coordinates, [&](const Coordinates& some) {
-        return stereodel::triangulate_sphere(some.data(), some.size() / 3, true, 1, other, nullptr);
+    check_changes<stereodel::mesh::SphereSurface>(points.coordinates, [&](const Coordinates& some) {
+        return stereodel::engine::triangulate_sphere(some.data(), some.size() / 3, true, 1, other, nullptr);
     });
 }
 

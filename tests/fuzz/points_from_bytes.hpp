@@ -7,13 +7,13 @@
 #include <cstring>
 #include <vector>
 
-#include "projection.hpp"
+#include "engine/projection.hpp"
 
 namespace fuzz {
 
 struct Points {
     bool on_sphere = false;
-    stereodel::Pole pole{0, 1};
+    stereodel::engine::Pole pole{0, 1};
     std::size_t count = 0;
     std::vector<double> coordinates;  // two or three a point; finite, no zero vector on the sphere
 };

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, Rotation, _kernel, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel import _kernel_probe as probe
 from stereodel.globe import Raster
 from stereodel.render.view import StereographicView, View
 from tests.globe.supersampling import checkerboard, grid, noise, psnr, reference, zone_plate
@@ -111,7 +112,7 @@ def test_traced_points_are_those_of_the_exact_map(view, magnification):
     lens = fisheye((17.5, 33.2), magnification=magnification) @ MoebiusMap.rotation(Rotation.about((50, 60), 70))
     reach = 0.0 if isinstance(view, View) else np.tan(np.radians(view.extent / 2))
     x = np.linspace(-0.9, 0.9, 401)
-    traced = _kernel.trace_page(*lens_parts(lens, view), reach, (-0.9, 0.31, 1.8 / 400, 1e-3), 401)
+    traced = probe.trace_page(*lens_parts(lens, view), reach, (-0.9, 0.31, 1.8 / 400, 1e-3), 401)
     exact = lens.inverse()(view.raised(np.stack([x, np.full(401, 0.31)], axis=-1)) @ view.matrix)
     found = lonlat_to_xyz(np.degrees(traced[:, :2]))
     scale = np.maximum(lens.scale_factor(exact), 1.0)
@@ -124,7 +125,7 @@ def test_traced_changes_are_derivatives(view):
     if isinstance(view, StereographicView):
         reach = np.tan(np.radians(view.extent / 2))
     for x, y in np.random.default_rng(3).uniform(-0.6, 0.6, (20, 2)):
-        row = _kernel.trace_page(*lens_parts(lens, view), reach, (x, y, step, step / 2), 1)[0]
+        row = probe.trace_page(*lens_parts(lens, view), reach, (x, y, step, step / 2), 1)[0]
         ends = np.array([[x + step, y], [x - step, y], [x, y + step], [x, y - step]])
         east, west, north, south = np.radians(xyz_to_lonlat(lens.inverse()(view.raised(ends) @ view.matrix)))
         expected = np.concatenate([(east - west) / 2, (north - south) / 4])

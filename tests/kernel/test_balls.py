@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workprec
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 
 NUMBER = st.floats(allow_nan=False, allow_infinity=False)
 NEAR = st.builds(lambda m, e: float(m) * 2.0**e, st.integers(-8, 8), st.integers(-300, 40))
@@ -28,7 +28,7 @@ def evaluate(values, formula):
 
 def ball(values, formula):
     """Middle and radius as fractions."""
-    hi, lo, radius, power = _kernel.evaluate_balls(list(map(float, values)), formula)
+    hi, lo, radius, power = probe.evaluate_balls(list(map(float, values)), formula)
     scale = Fraction(2) ** power
     return (Fraction(hi) + Fraction(lo)) * scale, Fraction(radius) * scale
 

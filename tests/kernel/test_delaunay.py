@@ -90,8 +90,8 @@ PLANE = {
 def triangulate(points, workers=1, pole=(0, -1)):
     points = np.ascontiguousarray(points, dtype=float)
     if points.shape[1] == 2:
-        return _kernel.triangulate_plane(points, workers)
-    return _kernel.triangulate_sphere(points, workers, True, *pole)
+        return _kernel.plane.triangulate(points, workers)
+    return _kernel.sphere.triangulate(points, workers, True, *pole)
 
 
 def rows(simplices):

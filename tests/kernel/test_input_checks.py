@@ -1,5 +1,7 @@
 """The kernel's own border, for callers that are not our Python: what would give nonsense or crash is refused."""
 
+from operator import attrgetter
+
 import numpy as np
 import pytest
 
@@ -25,26 +27,26 @@ def calls():
     """Name of the function, arguments that are right; from them wrong ones are made."""
     for place, t, d in (("plane", PLANE, CELLS[0]), ("sphere", SPHERE, CELLS[1])):
         queries = {"queries": t.points[:3] + 0.01}
-        yield f"triangulate_{place}", {"points": t.points}
-        yield f"{place.title()}Mesh", triangles(t)
-        yield f"voronoi_{place}", triangles(t)
-        yield f"find_simplex_{place}", triangles(t) | queries
-        yield f"nearest_{place}", triangles(t) | queries
-        yield f"k_nearest_{place}", triangles(t) | {"duplicates": NONE} | queries | {"k": 2}
-        yield f"proximity_{place}", triangles(t) | {"graph": "gabriel"}
-        yield f"spanning_tree_{place}", {"points": t.points, "edges": t.edges}
-        yield f"compare_lengths_{place}", {"points": t.points, "numbers": np.full((2, 4), 11, dtype=np.int32)}
-        yield f"diametral_{place}", {"points": t.points, "numbers": np.full((2, 3), 11, dtype=np.int32)}
-        yield f"cell_areas_{place}", cells(d) | {"order": d._order}
-        yield f"cell_centroids_{place}", cells(d) | {"order": d._order}
-        yield f"delaunay_of_{place}", cells(d) | {"simplex_vertex": d.simplex_vertex}
-        yield f"circumcenters_{place}", {"points": t.points, "triangles": t.simplices}
+        yield f"{place}.triangulate", {"points": t.points}
+        yield f"{place}.Mesh", triangles(t)
+        yield f"{place}.voronoi", triangles(t)
+        yield f"{place}.find_simplex", triangles(t) | queries
+        yield f"{place}.nearest", triangles(t) | queries
+        yield f"{place}.k_nearest", triangles(t) | {"duplicates": NONE} | queries | {"k": 2}
+        yield f"{place}.proximity", triangles(t) | {"graph": "gabriel"}
+        yield f"{place}.spanning_tree", {"points": t.points, "edges": t.edges}
+        yield f"{place}.compare_lengths", {"points": t.points, "numbers": np.full((2, 4), 11, dtype=np.int32)}
+        yield f"{place}.diametral", {"points": t.points, "numbers": np.full((2, 3), 11, dtype=np.int32)}
+        yield f"{place}.cell_areas", cells(d) | {"order": d._order}
+        yield f"{place}.cell_centroids", cells(d) | {"order": d._order}
+        yield f"{place}.delaunay_of", cells(d) | {"simplex_vertex": d.simplex_vertex}
+        yield f"{place}.circumcenters", {"points": t.points, "triangles": t.simplices}
         if place == "plane":
-            yield "natural_neighbors_plane", triangles(t) | {"values": np.zeros((12, 1))} | queries
-    yield "closing", {"points": SPHERE.points, "simplices": SPHERE.simplices}
+            yield "plane.natural_neighbors", triangles(t) | {"values": np.zeros((12, 1))} | queries
+    yield "sphere.closing", {"points": SPHERE.points, "simplices": SPHERE.simplices}
     units = {"units": SPHERE.points, "rests": 0 * SPHERE.points}
     asked = {"queries": SPHERE.points, "query_units": SPHERE.points, "query_rests": 0 * SPHERE.points}
-    yield "natural_neighbors_sphere", triangles(SPHERE) | units | {"values": np.zeros((12, 1))} | asked
+    yield "sphere.natural_neighbors", triangles(SPHERE) | units | {"values": np.zeros((12, 1))} | asked
     yield "lonlat_to_xyz", {"lonlat": PLANE.points}
     yield "xyz_to_lonlat", {"xyz": SPHERE.points}
     for name in ("moebius_images", "moebius_scales"):
@@ -58,7 +60,7 @@ ANSWERED = {"moebius_images", "moebius_scales"}  # which tell by a flag that a r
 
 
 def call(name, arguments):
-    return getattr(_kernel, name)(**arguments)
+    return attrgetter(name)(_kernel)(**arguments)
 
 
 def with_entry(array, place, value):
@@ -98,7 +100,7 @@ def test_vectors_without_a_direction_are_refused(name):
             with pytest.raises(ValueError, match=rf"{key}\[2\] is the zero vector"):
                 call(name, right | {key: with_entry(array, 2, -0.0)})
             small = [0.0, 5e-324, 0.0]
-            if key == "points" and name in ("triangulate_sphere", "circumcenters_sphere"):
+            if key == "points" and name in ("sphere.triangulate", "sphere.circumcenters"):
                 call(name, right | {key: with_entry(array, 2, small)})
 
 
@@ -149,7 +151,7 @@ def test_arrays_of_other_lengths_are_refused(name):
 
 
 def test_changes_of_a_mesh():
-    for cls, t in ((_kernel.PlaneMesh, PLANE), (_kernel.SphereMesh, SPHERE)):
+    for cls, t in ((_kernel.plane.Mesh, PLANE), (_kernel.sphere.Mesh, SPHERE)):
         mesh = cls(t.points, t.simplices, t.neighbors)
         with pytest.raises(ValueError, match=r"points\[1, 0\] is nan"):
             mesh.insert(with_entry(t.points, (1, 0), np.nan))
@@ -176,7 +178,7 @@ def test_points_without_an_image_are_told_by_a_flag(name):
 def test_other_parameters():
     for pole in ((3, 1), (-1, 1), (0, 0), (0, 2)):
         with pytest.raises(ValueError, match="axis"):
-            _kernel.triangulate_sphere(SPHERE.points, axis=pole[0], sign=pole[1])
+            _kernel.sphere.triangulate(SPHERE.points, axis=pole[0], sign=pole[1])
     for magnification in (0.0, -1.0, np.nan, np.inf, 1e101, 1e-101):
         with pytest.raises(ValueError, match="magnification must be"):
             _kernel.moebius_images(SPHERE.points, EYE, magnification, EYE)
@@ -190,8 +192,8 @@ def test_every_place_of_long_arrays_is_seen(size):
     points = RNG.normal(size=(size, 3))
     for row in {0, size // 2, size - 1}:
         with pytest.raises(ValueError, match=rf"points\[{row}, 1\] is nan"):
-            _kernel.triangulate_sphere(with_entry(points, (row, 1), np.nan))
+            _kernel.sphere.triangulate(with_entry(points, (row, 1), np.nan))
         with pytest.raises(ValueError, match=rf"points\[{row}\] is the zero vector"):
-            _kernel.triangulate_sphere(with_entry(points, row, 0.0))
+            _kernel.sphere.triangulate(with_entry(points, row, 0.0))
         with pytest.raises(ValueError, match=rf"points\[{row}, 1\] is inf"):
-            _kernel.triangulate_plane(with_entry(points[:, :2], (row, 1), np.inf))
+            _kernel.plane.triangulate(with_entry(points[:, :2], (row, 1), np.inf))

@@ -56,8 +56,8 @@ import numpy as np
 from stereodel import _kernel
 
 points = np.random.default_rng(0).random((400_000, 2))
-simplices, neighbors, duplicates, _, _ = _kernel.triangulate_plane(points[:1000])
-mesh = _kernel.PlaneMesh(points[:1000], simplices, neighbors, duplicates)
+simplices, neighbors, duplicates, _, _ = _kernel.plane.triangulate(points[:1000])
+mesh = _kernel.plane.Mesh(points[:1000], simplices, neighbors, duplicates)
 signal.signal(signal.SIGALRM, signal.default_int_handler)
 signal.setitimer(signal.ITIMER_REAL, 0.02)
 try:

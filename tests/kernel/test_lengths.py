@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign, sign_of_roots
 from stereodel.predicates.rays import ray
 
@@ -39,8 +40,8 @@ def prove(points, seed=0, rows=300):
     numbers = np.random.default_rng(seed).integers(0, len(points), size=(rows, 4)).astype(np.int32)
     on_sphere = points.shape[1] == 3
     exact = [ray(p) if on_sphere else tuple(map(Fraction, p)) for p in points.tolist()]
-    lengths = _kernel.compare_lengths_sphere if on_sphere else _kernel.compare_lengths_plane
-    diametral = _kernel.diametral_sphere if on_sphere else _kernel.diametral_plane
+    lengths = _kernel.sphere.compare_lengths if on_sphere else _kernel.plane.compare_lengths
+    diametral = _kernel.sphere.diametral if on_sphere else _kernel.plane.diametral
     oracles = (lengths_sphere, diametral_sphere) if on_sphere else (lengths_plane, diametral_plane)
     wanted = [oracles[0](*(exact[k] for k in row)) for row in numbers.tolist()]
     assert lengths(points, numbers).tolist() == wanted
@@ -62,7 +63,7 @@ def test_clusters_in_the_plane(spread):
 def test_clusters_on_the_sphere(spread):
     rng = np.random.default_rng(2)
     points = normalised(np.array([0.3, 0.7, -0.2]) + spread * rng.normal(size=(40, 3)))
-    assert _kernel.all_unit(points)
+    assert probe.all_unit(points)
     prove(points)
     prove(points * (1 + 0.6 * 2.0**-49 * rng.choice([-1, 1], size=(40, 1))))
     prove(points * rng.uniform(0.5, 1e6, size=(40, 1)))
@@ -97,18 +98,18 @@ def test_nearly_right_angles():
     numbers = np.column_stack([np.arange(60), np.arange(60, 120), rng.permutation(60)]).astype(np.int32)
     exact = [tuple(map(Fraction, p)) for p in points.tolist()]
     wanted = [diametral_plane(*(exact[k] for k in row)) for row in numbers.tolist()]
-    assert _kernel.diametral_plane(points, numbers).tolist() == wanted
+    assert _kernel.plane.diametral(points, numbers).tolist() == wanted
     assert len(set(wanted)) > 1
     lifted = normalised(np.column_stack([points * 1e-3, np.ones(120)]))
     rays = [ray(p) for p in lifted.tolist()]
     wanted = [diametral_sphere(*(rays[k] for k in row)) for row in numbers.tolist()]
-    assert _kernel.diametral_sphere(lifted, numbers).tolist() == wanted
+    assert _kernel.sphere.diametral(lifted, numbers).tolist() == wanted
     assert len(set(wanted)) > 1
 
 
 def test_opposite_directions_have_every_point_on_their_circle():
     points = np.array([[1.0, 2, 3], [-2, -4, -6], [0, 1, 5], [7, 0, 0]])
-    assert _kernel.diametral_sphere(points, np.array([[0, 1, 2], [0, 1, 3]], dtype=np.int32)).tolist() == [0, 0]
+    assert _kernel.sphere.diametral(points, np.array([[0, 1, 2], [0, 1, 3]], dtype=np.int32)).tolist() == [0, 0]
 
 
 @pytest.mark.parametrize("size", [1e-14, 1e-16, 1e-40, 1e-200])

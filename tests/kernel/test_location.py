@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import HullInsertion, _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates import orient2d
 from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import ray
@@ -41,44 +42,37 @@ class Arrays:
 
     @classmethod
     def large(cls, points):
-        triangulate = _kernel.triangulate_plane if points.shape[1] == PLANE else _kernel.triangulate_sphere
+        triangulate = _kernel.plane.triangulate if points.shape[1] == PLANE else _kernel.sphere.triangulate
         return cls.closed(points, *triangulate(points)[:3])
 
     @classmethod
     def closed(cls, points, simplices, neighbors, duplicates):
         closing = None
         if points.shape[1] == SPHERE:
-            closing = _kernel.turn(*(points[simplices[:, k]] for k in range(3))) <= 0
+            closing = probe.turn(*(points[simplices[:, k]] for k in range(3))) <= 0
         return cls(points, simplices, neighbors, closing, duplicates)
+
+    @property
+    def space(self):
+        return _kernel.plane if self.points.shape[1] == PLANE else _kernel.sphere
 
     def find(self, queries, workers=1):
         queries = np.array(queries, dtype=float)
-        if self.closing is None:
-            return _kernel.find_simplex_plane(self.points, self.simplices, self.neighbors, queries, workers)
-        return _kernel.find_simplex_sphere(
-            self.points, self.simplices, self.neighbors, queries, closing=self.closing, workers=workers
-        )
+        return self.space.find_simplex(self.points, self.simplices, self.neighbors, queries, self.closing, workers)
 
     def nearest(self, queries, workers=1):
         queries = np.array(queries, dtype=float)
         if not len(self.simplices):
             return self.nearest_flat(queries, workers)
-        if self.closing is None:
-            return _kernel.nearest_plane(self.points, self.simplices, self.neighbors, queries, workers)
-        return _kernel.nearest_sphere(
-            self.points, self.simplices, self.neighbors, queries, closing=self.closing, workers=workers
-        )
+        return self.space.nearest(self.points, self.simplices, self.neighbors, queries, self.closing, workers)
 
     def nearest_flat(self, queries, workers):
-        if self.points.shape[1] == PLANE:
-            order, nearest = _kernel.line_order, _kernel.nearest_flat_plane
-        else:
-            order, nearest = _kernel.circle_order, _kernel.nearest_flat_sphere
-        return nearest(self.points, order(self.points), self.duplicates, queries, 1, workers)[:, 0]
+        order = self.space.flat_order(self.points)
+        return self.space.nearest_flat(self.points, order, self.duplicates, queries, 1, workers)[:, 0]
 
     def sides(self, triangles, queries):
         """Signs (3, k) of the sides of the triangles' edges on which the queries lie, one triangle a query."""
-        side = orient2d if self.closing is None else _kernel.turn
+        side = orient2d if self.closing is None else probe.turn
         corners = self.points[self.simplices[triangles]]
         return np.array([side(corners[:, k - 2], corners[:, k - 1], queries) for k in range(3)])
 
@@ -359,18 +353,18 @@ def test_without_triangles(points):
 def test_wrong_input():
     arrays = Arrays.of(np.random.default_rng(11).random((9, 2)))
     with pytest.raises(ValueError, match="same length"):
-        _kernel.find_simplex_plane(arrays.points, arrays.simplices, arrays.neighbors[1:], arrays.points)
+        _kernel.plane.find_simplex(arrays.points, arrays.simplices, arrays.neighbors[1:], arrays.points)
     with pytest.raises(ValueError, match="no triangles"):
-        _kernel.nearest_plane(arrays.points, arrays.simplices[:0], arrays.neighbors[:0], arrays.points)
+        _kernel.plane.nearest(arrays.points, arrays.simplices[:0], arrays.neighbors[:0], arrays.points)
 
 
 def test_wrong_order_of_a_line():
     points, none = np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((0, 2), dtype=np.int32)
     for order, message in (([], "must hold a point"), ([0, 2], "numbers of points"), ([-1, 1], "numbers of points")):
         with pytest.raises(ValueError, match=message):
-            _kernel.nearest_flat_plane(points, np.array(order, dtype=np.int32), none, points, 1)
+            _kernel.plane.nearest_flat(points, np.array(order, dtype=np.int32), none, points, 1)
     with pytest.raises(ValueError, match="every point"):
-        _kernel.nearest_flat_plane(points, np.array([1], dtype=np.int32), none, points, 2)
+        _kernel.plane.nearest_flat(points, np.array([1], dtype=np.int32), none, points, 2)
     for k in (0, 3):
         with pytest.raises(ValueError, match="k must be"):
-            _kernel.nearest_flat_plane(points, np.array([0, 1], dtype=np.int32), none, points, k)
+            _kernel.plane.nearest_flat(points, np.array([0, 1], dtype=np.int32), none, points, k)

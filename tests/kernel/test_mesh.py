@@ -12,8 +12,8 @@ from stereodel.triangulation.topology import canonical, neighbors_of
 
 PLANE, SPHERE = 2, 3
 BOTH = pytest.mark.parametrize("width", [PLANE, SPHERE])
-MESHES = {PLANE: _kernel.PlaneMesh, SPHERE: _kernel.SphereMesh}
-TRIANGULATE = {PLANE: _kernel.triangulate_plane, SPHERE: _kernel.triangulate_sphere}
+MESHES = {PLANE: _kernel.plane.Mesh, SPHERE: _kernel.sphere.Mesh}
+TRIANGULATE = {PLANE: _kernel.plane.triangulate, SPHERE: _kernel.sphere.triangulate}
 
 
 @dataclass

@@ -10,8 +10,8 @@ import pytest
 from stereodel import _kernel
 
 PLANE, SPHERE = 2, 3
-MESHES = {PLANE: _kernel.PlaneMesh, SPHERE: _kernel.SphereMesh}
-TRIANGULATE = {PLANE: _kernel.triangulate_plane, SPHERE: _kernel.triangulate_sphere}
+MESHES = {PLANE: _kernel.plane.Mesh, SPHERE: _kernel.sphere.Mesh}
+TRIANGULATE = {PLANE: _kernel.plane.triangulate, SPHERE: _kernel.sphere.triangulate}
 
 
 def triangulated(points):
@@ -36,7 +36,7 @@ def test_tests_left_open_are_counted():
 
 def test_rows_are_given_in_any_rotation():
     points, simplices, neighbors, _ = triangulated(np.random.default_rng(15).random((30, 2)))
-    mesh = _kernel.PlaneMesh(points, np.roll(simplices, 1, axis=1), np.roll(neighbors, 1, axis=1))
+    mesh = _kernel.plane.Mesh(points, np.roll(simplices, 1, axis=1), np.roll(neighbors, 1, axis=1))
     assert np.array_equal(mesh.arrays()[0], simplices)
     assert np.array_equal(mesh.arrays()[1], neighbors)
 
@@ -55,20 +55,20 @@ def test_wrong_input():
     points, simplices, neighbors, _ = triangulated(np.random.default_rng(18).random((20, 2)))
     empty = np.zeros((0, 3), dtype=np.int32)
     with pytest.raises(ValueError, match="needs triangles"):
-        _kernel.PlaneMesh(points, empty, empty)
+        _kernel.plane.Mesh(points, empty, empty)
     with pytest.raises(ValueError, match="same length"):
-        _kernel.PlaneMesh(points, simplices, neighbors[1:])
+        _kernel.plane.Mesh(points, simplices, neighbors[1:])
     for wrong in (simplices - 1, simplices + 1):
         with pytest.raises(ValueError, match="out of range"):
-            _kernel.PlaneMesh(points, wrong, neighbors)
+            _kernel.plane.Mesh(points, wrong, neighbors)
     for wrong in (neighbors - 1, neighbors + 1):
         with pytest.raises(ValueError, match="out of range"):
-            _kernel.PlaneMesh(points, simplices, wrong)
+            _kernel.plane.Mesh(points, simplices, wrong)
     with pytest.raises(ValueError, match="dropped, kept"):
-        _kernel.PlaneMesh(points, simplices, neighbors, np.array([[3, 20]], dtype=np.int32))
+        _kernel.plane.Mesh(points, simplices, neighbors, np.array([[3, 20]], dtype=np.int32))
     with pytest.raises(ValueError, match="closed surface"):
-        _kernel.SphereMesh(np.column_stack([points, np.ones(20)]), simplices, neighbors)
-    mesh = _kernel.PlaneMesh(points, simplices, neighbors)
+        _kernel.sphere.Mesh(np.column_stack([points, np.ones(20)]), simplices, neighbors)
+    mesh = _kernel.plane.Mesh(points, simplices, neighbors)
     for wrong in (-1, 20):
         with pytest.raises(ValueError, match="out of range"):
             mesh.remove(np.array([0, wrong], dtype=np.int32))

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import stereodel
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign, to_integers
 from stereodel.predicates.plane import incircle_integer, orient2d_integer
 from stereodel.predicates.ties import incircle_tie
@@ -31,9 +31,9 @@ def distances_integer(q, a, b):
 
 
 PREDICATES = {
-    "orient2d": (_kernel.orient2d, orient2d_integer, 3),
-    "incircle": (_kernel.incircle, incircle_integer, 4),
-    "distances": (_kernel.compare_distances, distances_integer, 3),
+    "orient2d": (probe.orient2d, orient2d_integer, 3),
+    "incircle": (probe.incircle, incircle_integer, 4),
+    "distances": (probe.compare_distances, distances_integer, 3),
 }
 EVERY = pytest.mark.parametrize("name", PREDICATES)
 
@@ -147,8 +147,8 @@ def test_a_grid_too_large_for_doubles():
     points = np.array([[0, 0], *itertools.pairwise(fibonacci)], dtype=float)
     numbers = np.array([[0, k, k + 1] for k in range(1, len(points) - 1)], dtype=np.int32)
     truth = [orient2d_integer(*points[row].astype(int).tolist()) for row in numbers]
-    assert _kernel.common_granularity(points) == 1
-    assert _kernel.orient_numbered(points, numbers)[0].tolist() == truth
+    assert probe.common_granularity(points) == 1
+    assert probe.orient_numbered(points, numbers)[0].tolist() == truth
     assert {-1, 1} == set(truth)
 
 
@@ -231,11 +231,11 @@ def test_by_number_with_ties(grid):
     rng = np.random.default_rng(8)
     numbers = rng.integers(len(points), size=(1500, 4)).astype(np.int32)
     numbers = numbers[[len(set(row[:3])) == 3 for row in numbers.tolist()]]
-    numbers = numbers[_kernel.orient_numbered(points, numbers[:, :3].copy())[0] > 0]
+    numbers = numbers[probe.orient_numbered(points, numbers[:, :3].copy())[0] > 0]
     assert len(numbers) > 300
-    signs, tally = _kernel.incircle_numbered(points, numbers, True)
+    signs, tally = probe.incircle_numbered(points, numbers, True)
     assert signs.tolist() == [decided(points.tolist(), row) for row in numbers]
-    undisplaced, other_tally = _kernel.incircle_numbered(points, numbers, False)
+    undisplaced, other_tally = probe.incircle_numbered(points, numbers, False)
     distinct = np.array([row[3] not in row[:3].tolist() for row in numbers])
     assert tally[3] == (undisplaced[distinct] == 0).sum()
     assert other_tally[0] >= tally[0] >= tally[2]
@@ -246,7 +246,7 @@ def test_by_number_with_ties(grid):
 def test_collinear_by_number():
     points = np.array([[0.1 * x, 0.1 * y] for x in range(7) for y in range(7)])
     numbers = np.array(list(itertools.permutations(range(0, 49, 3), 3)), dtype=np.int32)
-    signs, tally = _kernel.orient_numbered(points, numbers)
+    signs, tally = probe.orient_numbered(points, numbers)
     assert signs.tolist() == [orient2d_integer(*integer_points(*points[row].tolist())) for row in numbers]
     assert tally[3] == (signs == 0).sum() > 0
 
@@ -254,9 +254,9 @@ def test_collinear_by_number():
 def test_a_permanent_that_underflows_proves_nothing():
     """Without a common grid (the granularity is out of range) a zero of products that underflow is no zero."""
     points = np.array([[0.0, 0.0], [1e-200, 0.0], [0.0, 1e-200], [3e-200, 5e-200]])
-    assert _kernel.common_granularity(points) == 0
-    assert _kernel.orient_numbered(points, np.array([[0, 1, 2]], dtype=np.int32))[0] == [1]
-    assert _kernel.incircle_numbered(points, np.array([[0, 1, 2, 3]], dtype=np.int32), False)[0] == [-1]
+    assert probe.common_granularity(points) == 0
+    assert probe.orient_numbered(points, np.array([[0, 1, 2]], dtype=np.int32))[0] == [1]
+    assert probe.incircle_numbered(points, np.array([[0, 1, 2, 3]], dtype=np.int32), False)[0] == [-1]
 
 
 @pytest.mark.parametrize("count", range(1, 6))
@@ -265,7 +265,7 @@ def test_granularity(count, data):
     exponents = st.integers(-300, 250) | st.integers(-3, 3)
     value = st.builds(lambda m, e: float(m) * 2.0**e, st.integers(-(2**53), 2**53), exponents)
     points = np.array(data.draw(st.lists(st.tuples(value, value), min_size=count, max_size=count)))
-    granularity = _kernel.common_granularity(points)
+    granularity = probe.common_granularity(points)
     if granularity:
         assert 2.0**-240 <= granularity <= 2.0**240
         quotients = [Fraction(x) / Fraction(granularity) for x in points.ravel().tolist()]
@@ -279,12 +279,12 @@ def test_granularity(count, data):
 def test_granularity_of_long_numbers(bits):
     """A large number after a round one: its last bit counts unless doubles of its size have none so small."""
     for first in (2.0, 4.0, 8.0):
-        assert _kernel.common_granularity(np.array([[first, 2.0**bits - 1]])) == 1
-        assert _kernel.common_granularity(np.array([[first, 2.0**53 + 2]])) == 2
+        assert probe.common_granularity(np.array([[first, 2.0**bits - 1]])) == 1
+        assert probe.common_granularity(np.array([[first, 2.0**53 + 2]])) == 2
 
 
 def test_granularity_of_nothing():
-    assert _kernel.common_granularity(np.zeros((0, 2))) == _kernel.common_granularity(np.zeros((3, 2))) == 2.0**240
+    assert probe.common_granularity(np.zeros((0, 2))) == probe.common_granularity(np.zeros((3, 2))) == 2.0**240
 
 
 @given(st.integers(2**40, 2**50), st.permutations(range(12)), st.integers(-1, 1), st.integers(0, 1))
@@ -296,7 +296,7 @@ def test_the_last_digits_of_large_integers_on_a_circle(size, order, change, axis
     quad[3, axis] += change
     exact = incircle_integer(*[[int(x) for x in p] for p in quad.tolist()])
     for scale in (1.0, 2.0**-30, 2.0**20):
-        signs, _ = _kernel.incircle_numbered(quad * scale, np.array([[0, 1, 2, 3]], dtype=np.int32), False)
+        signs, _ = probe.incircle_numbered(quad * scale, np.array([[0, 1, 2, 3]], dtype=np.int32), False)
         assert signs.tolist() == [exact]
 
 
@@ -310,7 +310,7 @@ def circle_of_integers():
 
 @pytest.mark.parametrize("moved", [0, 5, 128])
 def test_circles_are_remembered_without_harm(moved):
-    """Of one circle, with a few points beside it, or half of them on another circle that the first filter cannot tell."""
+    """Of one circle, with a few points beside it, or half of them on another one that the first filter cannot tell."""
     points = np.random.default_rng(13).permutation(circle_of_integers())
     points[:moved, 0] += 1
     found = stereodel.PlanarDelaunay(points)

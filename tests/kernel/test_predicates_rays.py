@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import bubble_ray, compare_component, compare_directions, ray, turn_ray
 
@@ -23,11 +23,11 @@ def angles_ray(q, a, b):
 
 
 PREDICATES = {
-    "bubble": (_kernel.bubble, bubble_ray, 4),
-    "turn": (_kernel.turn, turn_ray, 3),
-    "angles": (lambda *v, unit, stage: _kernel.compare_angles(*v, stage=stage), angles_ray, 3),
+    "bubble": (probe.bubble, bubble_ray, 4),
+    "turn": (probe.turn, turn_ray, 3),
+    "angles": (lambda *v, unit, stage: probe.compare_angles(*v, stage=stage), angles_ray, 3),
     "component": (
-        lambda a, b, unit, stage: _kernel.compare_component(a, b, 1, unit=unit, stage=stage),
+        lambda a, b, unit, stage: probe.compare_component(a, b, 1, unit=unit, stage=stage),
         lambda a, b: compare_component(a, b, 1),
         2,
     ),
@@ -40,7 +40,7 @@ def check(name, vectors, unit=None):
     predicate, oracle, count = PREDICATES[name]
     vectors = np.ascontiguousarray(vectors[:count])
     if unit is None:
-        unit = all(_kernel.all_unit(v) for v in vectors)
+        unit = all(probe.all_unit(v) for v in vectors)
     rays = [[ray(v) for v in array.tolist()] for array in vectors]
     truth = np.array([oracle(*row) for row in zip(*rays, strict=True)])
     shares = {}
@@ -73,7 +73,7 @@ def off_length(vectors, seed=2):
     """Lengths as far from one as vectors may be that are taken as they stand."""
     rng = np.random.default_rng(seed)
     changed = vectors * (1 + rng.choice([-1, 1], size=(*vectors.shape[:-1], 1)) * 0.6 * 2.0**-49)
-    assert all(_kernel.all_unit(v) for v in changed)
+    assert all(probe.all_unit(v) for v in changed)
     return changed
 
 
@@ -112,10 +112,10 @@ def test_side_of_a_plane(spread, change):
         vectors = change(normalised(vectors))
         rays = [[ray(v) for v in array.tolist()] for array in vectors]
         truth = np.array([bubble_ray(*row) for row in zip(*rays, strict=True)])
-        signs = _kernel.bubble_plane_filter(*vectors)
+        signs = probe.bubble_plane_filter(*vectors)
         assert ((signs == truth) | (signs == OPEN)).all()
     if spread >= 1e-6:
-        assert (_kernel.bubble_plane_filter(*change(normalised(cluster(spread)))) == OPEN).mean() < 0.1
+        assert (probe.bubble_plane_filter(*change(normalised(cluster(spread)))) == OPEN).mean() < 0.1
 
 
 def test_what_stays_open_is_little():
@@ -306,9 +306,9 @@ def test_by_number_and_the_tally():
     numbers = np.array([rng.choice(len(vectors), 4, replace=False) for _ in range(1500)], dtype=np.int32)
     rows = [np.ascontiguousarray(vectors[numbers[:, k]]) for k in range(4)]
     truth = np.array([bubble_ray(*(ray(v) for v in row)) for row in vectors[numbers].tolist()])
-    stages = {stage: _kernel.bubble(*rows, stage=stage) for stage in ("filter", "double_double")}
+    stages = {stage: probe.bubble(*rows, stage=stage) for stage in ("filter", "double_double")}
     for lengths, unit in ((1.0, True), (2.0, False)):
-        signs, tally = _kernel.bubble_numbered(vectors * lengths, numbers, False)
+        signs, tally = probe.bubble_numbered(vectors * lengths, numbers, False)
         assert signs.tolist() == truth.tolist()
         assert tally[3] == (truth == 0).sum() > 0
         if unit:
@@ -327,7 +327,7 @@ def test_queries_of_any_length(length, unit):
     queries[::3] = vectors[numbers[::3, 0]] * -1
     queries[1::3] = rng.normal(size=(100, 3)) * length
     truth = [turn_ray(*map(ray, (*vectors[row].tolist(), q))) for row, q in zip(numbers, queries.tolist(), strict=True)]
-    assert _kernel.turn_queries(vectors, numbers, queries).tolist() == truth
+    assert probe.turn_queries(vectors, numbers, queries).tolist() == truth
 
 
 def test_the_order_of_directions():
@@ -339,19 +339,19 @@ def test_the_order_of_directions():
     a, b = vectors[rng.integers(len(vectors), size=(2, 2000))]
     b[::2] = a[::2] * rng.choice([[1, 1, 1], [1, -1, 1], [1, 1, -1], [2, 2, 2]], size=1000)
     truth = [compare_directions(ray(u), ray(v)) for u, v in zip(a.tolist(), b.tolist(), strict=True)]
-    assert _kernel.compare_directions(a, b).tolist() == truth
+    assert probe.compare_directions(a, b).tolist() == truth
     assert {-1, 0, 1} == set(truth)
-    units = np.array([_kernel.all_unit(u[None]) and _kernel.all_unit(v[None]) for u, v in zip(a, b, strict=True)])
+    units = np.array([probe.all_unit(u[None]) and probe.all_unit(v[None]) for u, v in zip(a, b, strict=True)])
     assert units.sum() > 100
-    assert _kernel.compare_directions(a[units], b[units], unit=True).tolist() == np.array(truth)[units].tolist()
+    assert probe.compare_directions(a[units], b[units], unit=True).tolist() == np.array(truth)[units].tolist()
 
 
 def test_which_lengths_are_one():
     rng = np.random.default_rng(17)
     vectors = normalised(rng.normal(size=(1000, 3)))
-    assert _kernel.all_unit(vectors)
+    assert probe.all_unit(vectors)
     for factor, answer in ((1 + 0.6 * 2.0**-49, True), (1 - 0.6 * 2.0**-49, True)):
-        assert _kernel.all_unit(vectors * factor) is answer
+        assert probe.all_unit(vectors * factor) is answer
     for factor in (1 + 1.2 * 2.0**-49, 1 - 1.2 * 2.0**-49, 0.0, np.nan, np.inf, 1e300):
-        assert not any(_kernel.all_unit(v[None] * factor) for v in vectors)
-    assert not _kernel.all_unit(np.concatenate([vectors, [[0.0, 0.0, 1.0 + 2.0**-48]], vectors]))
+        assert not any(probe.all_unit(v[None] * factor) for v in vectors)
+    assert not probe.all_unit(np.concatenate([vectors, [[0.0, 0.0, 1.0 + 2.0**-48]], vectors]))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates.rays import bubble_ray, ray, turn_ray
 from stereodel.predicates.ties import bubble_tie
 
@@ -15,7 +15,7 @@ SMALL = st.tuples(*[st.integers(-2, 2)] * 3).filter(any)
 
 
 def in_bubble(a, b, c, p, **options):
-    return _kernel.in_bubble(*(np.array([v], dtype=float) for v in (a, b, c, p)), **options)[0]
+    return probe.in_bubble(*(np.array([v], dtype=float) for v in (a, b, c, p)), **options)[0]
 
 
 def distinct(vectors):
@@ -53,7 +53,7 @@ def test_the_rule_of_the_reference(name):
     rays = [ray(v) for v in vectors]
     numbers = np.array(list(itertools.permutations(range(len(vectors)), 4)), dtype=np.int32)
     numbers = numbers[np.random.default_rng(1).permutation(len(numbers))[:700]]
-    signs, tally = _kernel.bubble_numbered(np.array(vectors), numbers, True)
+    signs, tally = probe.bubble_numbered(np.array(vectors), numbers, True)
     four = [[rays[k] for k in row] for row in numbers]
     zero = [bubble_ray(*row) == 0 for row in four]
     expected = [(bubble_tie(*row) if tied else bubble_ray(*row)) > 0 for row, tied in zip(four, zero, strict=True)]
@@ -85,7 +85,7 @@ def test_unit_vectors_of_a_great_circle(plane):
     vectors = np.array([PLANES[plane](x, y) for x, y in GREAT], dtype=float)
     vectors /= np.linalg.norm(vectors, axis=1)[:, None]
     numbers = np.array(list(itertools.permutations(range(len(vectors)), 4)), dtype=np.int32)[::7]
-    signs, tally = _kernel.bubble_numbered(vectors, numbers, True)
+    signs, tally = probe.bubble_numbered(vectors, numbers, True)
     rays = [ray(v) for v in vectors]
     assert signs.astype(bool).tolist() == [bubble_tie(*(rays[k] for k in row)) > 0 for row in numbers]
     assert tally[3] == len(numbers)
@@ -113,12 +113,12 @@ def test_mirror_images_are_ties_and_their_neighbours_are_not(u, w, mirror, order
         u, w = u / np.linalg.norm(u), w / np.linalg.norm(w)
     four = np.array([u, mirror @ u, w, mirror @ w])[list(order)]
     if len(distinct(four.tolist())) == 4:
-        assert _kernel.bubble(*four[:, None])[0] == 0
+        assert probe.bubble(*four[:, None])[0] == 0
         assert in_bubble(*four) == (bubble_tie(*map(ray, four)) > 0)
     four.ravel()[entry] = np.nextafter(four.ravel()[entry], 2.0)
     if len(distinct(four.tolist())) == 4:
         rays = [ray(v) for v in four]
-        assert _kernel.bubble(*four[:, None])[0] == bubble_ray(*rays)
+        assert probe.bubble(*four[:, None])[0] == bubble_ray(*rays)
         assert in_bubble(*four) == ((bubble_ray(*rays) or bubble_tie(*rays)) > 0)
 
 
@@ -126,9 +126,9 @@ def test_mirror_images_are_ties_and_their_neighbours_are_not(u, w, mirror, order
 def test_directions_of_a_mirror_are_on_a_great_circle(u, v, w, mirror, entry):
     three = np.array([(np.array(x) + mirror @ np.array(x)) for x in (u, v, w)])
     if three.any(axis=1).all():
-        assert _kernel.turn(*three[:, None])[0] == 0
+        assert probe.turn(*three[:, None])[0] == 0
         three.ravel()[entry] = np.nextafter(three.ravel()[entry], 4.0)
-        assert _kernel.turn(*three[:, None])[0] == turn_ray(*map(ray, three))
+        assert probe.turn(*three[:, None])[0] == turn_ray(*map(ray, three))
 
 
 def chirotope(vectors, pole):
@@ -141,7 +141,7 @@ def chirotope(vectors, pole):
     for first in range(-1, 4):
         rows = where == first
         columns = [np.ascontiguousarray(points[numbers[rows, k]]) for k in range(4)]
-        signs[rows] = 2 * _kernel.in_bubble(*columns, first=first) - 1
+        signs[rows] = 2 * probe.in_bubble(*columns, first=first) - 1
     return {tuple(row): sign for row, sign in zip(numbers.tolist(), signs.tolist(), strict=True)}
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mpmath import mp, mpf, workdps
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 
 POLE = (0, -1)
 
@@ -47,7 +47,7 @@ def true_values(quad):
 @pytest.mark.parametrize("size", [1.0, 1e-2, 1e-5, 1e-8, 1e-11, 1e-14])
 def test_estimates_keep_their_bounds(size, length, near_ties):
     quads = fours(size, 1, near_ties) * length
-    estimates = _kernel.projected_estimates(quads.reshape(-1, 3), *POLE)
+    estimates = probe.projected_estimates(quads.reshape(-1, 3), *POLE)
     used = 0.0
     with workdps(60):
         for quad, (turn, turn_bound, circle, bound, wide) in zip(quads.tolist(), estimates.tolist(), strict=True):
@@ -61,7 +61,7 @@ def test_estimates_keep_their_bounds(size, length, near_ties):
 
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-6])
 def test_what_is_wide_is_decided_without_a_root(size):
-    _, _, circle, bound, wide = _kernel.projected_estimates(fours(size, 2, False).reshape(-1, 3), *POLE)[20:].T
+    _, _, circle, bound, wide = probe.projected_estimates(fours(size, 2, False).reshape(-1, 3), *POLE)[20:].T
     assert (bound <= wide).all()
     if size > 1e-4:
         assert (np.abs(circle) > wide).mean() > 0.9
@@ -71,7 +71,7 @@ def test_what_is_wide_is_decided_without_a_root(size):
 @pytest.mark.parametrize("length", [1.0, 3.0])
 def test_projected_points_are_within_eight_roundoffs(length):
     points = np.vstack([fours(s, 3, False).reshape(-1, 3) for s in (1.0, 1e-6, 1e-15)]) * length
-    images = _kernel.projected(points, *POLE)
+    images = probe.projected(points, *POLE)
     with workdps(60):
         for p, image in zip(points.tolist(), images.tolist(), strict=True):
             for value, truth in zip(image, true_image(p), strict=True):
@@ -80,10 +80,10 @@ def test_projected_points_are_within_eight_roundoffs(length):
 
 def test_coordinates_out_of_range_decide_nothing():
     points = np.array([[1.0, 1e-30, 0.0], [1.0, 0.0, 0.0], [-1.0, 1e-25, 1e-25], [1.0, 1e-20, -1e-20]])
-    images = _kernel.projected(points, *POLE)
+    images = probe.projected(points, *POLE)
     assert np.isnan(images[0, 0])
     assert images[1].tolist() == [0.0, 0.0]
     assert np.isnan(images[2]).all()
     assert np.isfinite(images[3]).all()
-    estimates = _kernel.projected_estimates(points, *POLE)[0]
+    estimates = probe.projected_estimates(points, *POLE)[0]
     assert not (np.abs(estimates[[0, 2]]) > estimates[[1, 3]]).any()

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import ray
 
@@ -43,7 +43,7 @@ def true_image(p, axis, sign):
 @EVERY_POLE
 def test_the_promised_errors(axis, sign):
     points = vectors()
-    images, fine = _kernel.project(points, axis, sign), _kernel.project_double_double(points, axis, sign)
+    images, fine = probe.project(points, axis, sign), probe.project_double_double(points, axis, sign)
     assert np.isfinite(images).all()
     assert np.isfinite(fine).all()
     with workdps(120):
@@ -60,7 +60,7 @@ def test_no_promise_no_number(axis, sign):
     sizes = rng.choice([5e-324, 1e-310, 1e-280, 1e-200, 1e-130, 1e-100, 1.0, 1e100, 1e300], size=(200, 3))
     points = sizes * rng.integers(-3, 4, size=(200, 3))
     points[(points == 0).all(axis=1)] = 1.0
-    images, fine = _kernel.project(points, axis, sign), _kernel.project_double_double(points, axis, sign)
+    images, fine = probe.project(points, axis, sign), probe.project_double_double(points, axis, sign)
     with workdps(1500):
         for p, image, pair in zip(points.tolist(), images.tolist(), fine.tolist(), strict=True):
             i, j = components(axis, sign)
@@ -81,8 +81,8 @@ def test_orientation_is_kept(axis, sign):
     a, b, c = rng.normal(size=(3, 300, 3))
     pole = np.zeros((300, 3))
     pole[:, axis] = sign
-    images = [_kernel.project(v, axis, sign) for v in (a, b, c)]
-    assert (_kernel.orient2d(*images) == -_kernel.bubble(a, b, c, pole)).all()
+    images = [probe.project(v, axis, sign) for v in (a, b, c)]
+    assert (probe.orient2d(*images) == -probe.bubble(a, b, c, pole)).all()
 
 
 def projected_order(p, q, axis, sign, coordinate):
@@ -102,13 +102,13 @@ def line_order(p, axis, sign, coordinate, hi, lo):
 
 def check_order(p, q, axis, sign, coordinate):
     truth = [projected_order(u, v, axis, sign, coordinate) for u, v in zip(p.tolist(), q.tolist(), strict=True)]
-    return compare(truth, lambda stage: _kernel.compare_projected(p, q, axis, sign, coordinate, stage=stage))
+    return compare(truth, lambda stage: probe.compare_projected(p, q, axis, sign, coordinate, stage=stage))
 
 
 def check_line(p, axis, sign, coordinate, hi, lo):
     rows = zip(p.tolist(), hi.tolist(), lo.tolist(), strict=True)
     truth = [line_order(v, axis, sign, coordinate, h, low) for v, h, low in rows]
-    return compare(truth, lambda stage: _kernel.compare_to_line(p, axis, sign, coordinate, hi, lo, stage=stage))
+    return compare(truth, lambda stage: probe.compare_to_line(p, axis, sign, coordinate, hi, lo, stage=stage))
 
 
 def compare(truth, signs_of):
@@ -141,7 +141,7 @@ def test_multiples_of_a_vector_project_alike(axis, sign, coordinate):
     for factor in (3.0, 11.0):
         shares = check_order(p, p * factor, axis, sign, coordinate)
         assert shares["filter"] == shares["double_double"] == 1
-    assert (_kernel.compare_projected(p, 7 * p, axis, sign, coordinate) == 0).all()
+    assert (probe.compare_projected(p, 7 * p, axis, sign, coordinate) == 0).all()
 
 
 @EVERY_POLE
@@ -149,7 +149,7 @@ def test_multiples_of_a_vector_project_alike(axis, sign, coordinate):
 def test_coordinates_and_lines(axis, sign, coordinate):
     p = vectors()
     rng = np.random.default_rng(5)
-    fine = _kernel.project_double_double(p, axis, sign)[:, 2 * coordinate : 2 * coordinate + 2]
+    fine = probe.project_double_double(p, axis, sign)[:, 2 * coordinate : 2 * coordinate + 2]
     low = fine[:, 1] * (1 + 10.0 ** rng.uniform(-17, 17, size=len(p)) * rng.integers(-1, 2, size=len(p)))
     shares = check_line(p, axis, sign, coordinate, np.ascontiguousarray(fine[:, 0]), low)
     assert 0.9 > shares["filter"] > 0.5 > shares["double_double"] > 0.1
@@ -188,17 +188,17 @@ def test_rational_points_on_rational_lines(parts):
     x, y = x / parts, y / parts
     first, second = (np.ascontiguousarray(v) for v in np.stack(list(itertools.product(lifted, lifted)), axis=1))
     order = np.sign([b - a for b, a in itertools.product(y, y)])
-    assert (_kernel.compare_projected(first, second, 2, 1, 0) == order).all()
+    assert (probe.compare_projected(first, second, 2, 1, 0) == order).all()
     for k in range(7):
         check_order(lifted, np.roll(lifted, 7 * k, axis=0), 2, 1, 0)
     if parts != 4:
         return
-    assert (_kernel.compare_to_line(lifted, 2, 1, 0, y, 0 * y) == 0).all()
-    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x) == 0).all()
-    assert (_kernel.compare_to_line(lifted, 2, 1, 1, x, 0 * x + 1e-300) == -1).all()
+    assert (probe.compare_to_line(lifted, 2, 1, 0, y, 0 * y) == 0).all()
+    assert (probe.compare_to_line(lifted, 2, 1, 1, x, 0 * x) == 0).all()
+    assert (probe.compare_to_line(lifted, 2, 1, 1, x, 0 * x + 1e-300) == -1).all()
 
 
 @pytest.mark.parametrize(("axis", "sign"), [(3, 1), (-1, 1), (0, 0)])
 def test_no_such_pole(axis, sign):
     with pytest.raises(ValueError, match="axis"):
-        _kernel.project(np.ones((1, 3)), axis, sign)
+        probe.project(np.ones((1, 3)), axis, sign)

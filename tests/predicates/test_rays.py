@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates import in_bubble
 from stereodel.predicates.integers import sign
 from stereodel.predicates.rays import (
@@ -112,7 +112,7 @@ def test_turn_of_arrays():
     a, b, c = vectors[rng.integers(len(vectors) - 1, size=(3, 300))]
     a, b, c = (v[np.abs(np.stack([a, b, c])).max(axis=2).min(axis=0) > 0] for v in (a, b, c))
     expected = [sign(int(turn_ray(*map(ray, three)))) for three in zip(a.tolist(), b.tolist(), c.tolist(), strict=True)]
-    assert _kernel.turn(a, b, c).tolist() == expected
+    assert probe.turn(a, b, c).tolist() == expected
     assert {-1, 0, 1} == set(expected)
 
 
@@ -137,7 +137,7 @@ def test_turns_below_the_error_of_the_unit_vectors():
     """Three directions of the plane 3x = y, two of them closer than their unit vectors are known."""
     k = np.arange(1.0, 41.0)[:, None]
     for rise in (1e-34, 1e-40):
-        assert not _kernel.turn(k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]).any()
+        assert not probe.turn(k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]).any()
 
 
 def test_the_bounds_hold_where_squares_underflow():

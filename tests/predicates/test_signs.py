@@ -8,12 +8,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import _kernel, in_bubble, incircle, orient2d, orient3d
+from stereodel import _kernel_probe as probe
 
 PREDICATES = {
-    "orient2d": (orient2d, _kernel.orient2d_signs, 2, "abc"),
-    "incircle": (incircle, _kernel.incircle_signs, 2, "abcd"),
-    "orient3d": (orient3d, _kernel.orient3d_signs, 3, "abcd"),
-    "in_bubble": (in_bubble, _kernel.in_bubble_signs, 3, "abcp"),
+    "orient2d": (orient2d, _kernel.plane.turn, 2, "abc"),
+    "incircle": (incircle, _kernel.plane.in_circle, 2, "abcd"),
+    "orient3d": (orient3d, _kernel.orient3d, 3, "abcd"),
+    "in_bubble": (in_bubble, _kernel.sphere.in_circle, 3, "abcp"),
 }
 EACH = pytest.mark.parametrize("name", PREDICATES)
 OPEN = 2
@@ -115,8 +116,8 @@ def test_the_kernel_refuses_vectors_without_a_direction():
         vectors = np.ones((4, 3, 3))
         vectors[k, 2] = [0.0, -0.0, 0.0]
         with pytest.raises(ValueError, match=rf"^{letter}\[2\] is the zero vector"):
-            _kernel.in_bubble_signs(*vectors)
-    assert _kernel.orient3d_signs(*np.zeros((4, 1, 3))).tolist() == [0]
+            _kernel.sphere.in_circle(*vectors)
+    assert _kernel.orient3d(*np.zeros((4, 1, 3))).tolist() == [0]
 
 
 # The stages of orient3d ----------------------------------------------------------------------------------------------
@@ -130,7 +131,7 @@ def exact_volume(a, b, c, d):
 
 
 def stages(points):
-    return {stage: _kernel.orient3d(*points, stage=stage) for stage in ("all", "filter", "double_double", "exact")}
+    return {stage: probe.orient3d(*points, stage=stage) for stage in ("all", "filter", "double_double", "exact")}
 
 
 @pytest.mark.parametrize("exponent", [-1074, -700, -400, -30, 0, 300, 900])

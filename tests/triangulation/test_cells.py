@@ -30,7 +30,7 @@ def rotated(cycle):
 def test_a_square_is_one_vertex_whatever_its_diagonal(simplices):
     rows = np.array(simplices, dtype=np.int32)
     across = {0: [[-1, 1, -1], [-1, -1, 0]], 1: [[1, -1, -1], [-1, 0, -1]]}[simplices[0][2] == 3]
-    offsets, vertices, neighbors, order, simplex_vertex, rank, sites, row_vertex = _kernel.voronoi_plane(
+    offsets, vertices, neighbors, order, simplex_vertex, rank, sites, row_vertex = _kernel.plane.voronoi(
         SQUARE_POINTS, rows, np.array(across, dtype=np.int32)
     )
     assert listed(offsets, vertices) == [[-1, 0]] * 4
@@ -154,11 +154,11 @@ def test_an_order_that_is_not_that_of_the_diagram_is_refused():
     arrays, number = (diagram.points, *diagram._cells()), np.int32
     for vertex, rank in (([0], None), ([0, 1], None), ([0, -1], None), ([0, 0], [0, 2]), ([0, 0], [0, -1])):
         with pytest.raises(ValueError, match="simplex_vertex: not that of the diagram"):
-            _kernel.delaunay_of_plane(
+            _kernel.plane.delaunay_of(
                 *arrays, np.array(vertex, number), None if rank is None else np.array(rank, number)
             )
     with pytest.raises(ValueError, match="same length"):
-        _kernel.delaunay_of_plane(*arrays, np.zeros(2, number), np.zeros(1, number))
+        _kernel.plane.delaunay_of(*arrays, np.zeros(2, number), np.zeros(1, number))
 
 
 def test_wrong_arrays_are_refused():
@@ -172,17 +172,17 @@ def test_wrong_arrays_are_refused():
         (offsets[::-1].copy(), vertices, neighbors, count),
     ):
         with pytest.raises(ValueError, match=r"not those of a Voronoi diagram|same length"):
-            _kernel.delaunay_of_sphere(diagram.points, *wrong, diagram.simplex_vertex)
+            _kernel.sphere.delaunay_of(diagram.points, *wrong, diagram.simplex_vertex)
     for order in ([0, 1, 2, 3, 4, 4], [0, 6], [-1]):
         with pytest.raises(ValueError, match="each site with entries once"):
-            _kernel.cell_areas_sphere(diagram.points, *diagram._cells(), np.array(order, dtype=np.int32))
+            _kernel.sphere.cell_areas(diagram.points, *diagram._cells(), np.array(order, dtype=np.int32))
     with pytest.raises(ValueError, match="out of range"):
-        _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
+        _kernel.sphere.voronoi(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
     with pytest.raises(ValueError, match="same length"):
-        _kernel.voronoi_sphere(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), np.zeros((0, 3), dtype=np.int32))
+        _kernel.sphere.voronoi(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), np.zeros((0, 3), dtype=np.int32))
     rows = np.array([[0, 1, 2], [0, 2, 1]], dtype=np.int32)
     for place in ([0, 0], [0, 2], [0], [-1, 0]):
         with pytest.raises(ValueError, match="must be a permutation"):
-            _kernel.circumcenters_sphere(np.eye(3), rows, np.array(place, dtype=np.int32))
+            _kernel.sphere.circumcenters(np.eye(3), rows, np.array(place, dtype=np.int32))
     with pytest.raises(ValueError, match="out of range"):
-        _kernel.circumcenters_sphere(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32))
+        _kernel.sphere.circumcenters(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32))

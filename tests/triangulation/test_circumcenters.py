@@ -43,7 +43,7 @@ def error(center, exact):
 
 
 def normal_of(triangle):
-    return _kernel.circumcenters_sphere(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
+    return _kernel.sphere.circumcenters(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
 
 
 @pytest.mark.parametrize("bits", [20, 28, 30, 33, 36, 39, 41, 42, 43, 44, 46, 50, 52, 60])
@@ -169,7 +169,7 @@ def nearest(number):
 
 
 def center_of(triangle):
-    return _kernel.circumcenters_plane(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
+    return _kernel.plane.circumcenters(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
 
 
 def assert_right(triangle):

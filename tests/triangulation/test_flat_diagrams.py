@@ -51,7 +51,7 @@ def check_circle(points):
     """All that the documents promise of directions of one great circle, at least two different ones."""
     points = np.asarray(points, dtype=float)
     diagram, kept = SphericalVoronoi(points), kept_of(points.tolist())
-    order = _kernel.circle_order(points).tolist()
+    order = _kernel.sphere.flat_order(points).tolist()
     assert sorted(order) == kept
     assert order[0] == kept[0]
     assert len(kept) < 3 or order.index(kept[1]) < order.index(kept[2])
@@ -185,9 +185,9 @@ def test_order_of_input_does_not_matter():
 
 def test_points_off_the_line_or_circle_are_refused():
     with pytest.raises(ValueError, match="must lie on one great circle"):
-        _kernel.circle_order(np.eye(3))
+        _kernel.sphere.flat_order(np.eye(3))
     with pytest.raises(ValueError, match="must lie on one great circle"):
-        _kernel.circle_order(np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]]))
+        _kernel.sphere.flat_order(np.array([[1, 0, 0], [0, 1, 0], [1, 1, 1e-300]]))
 
 
 @settings(deadline=None, max_examples=60)
@@ -197,7 +197,7 @@ def test_strips(places, step):
     diagram = PlanarVoronoi(points if len(points) else [])
     kept = [k for k, x in enumerate(places) if x not in places[:k]]
     along = sorted(kept, key=lambda k: tuple(points[k]))
-    assert _kernel.line_order(points.reshape(-1, 2)).tolist() == along
+    assert _kernel.plane.flat_order(points.reshape(-1, 2)).tolist() == along
     assert diagram.regions == [[-1] if k in kept else [] for k in range(len(places))]
     assert diagram.region_neighbors.tolist() == [-1] * len(kept)
     assert diagram.ridge_points.tolist() == sorted(sorted(pair) for pair in pairwise(along))
@@ -216,7 +216,7 @@ def test_order_of_directions_that_differ_by_roundings(axis, scale):
     kept = [k for k, slope in enumerate(slopes) if slope not in slopes[:k]]
     expected = sorted(kept, key=slopes.__getitem__)
     for checked in (False, True):
-        order = _kernel.circle_order(points, checked).tolist()
+        order = _kernel.sphere.flat_order(points, checked).tolist()
         assert order[0] == kept[0]
         assert order.index(kept[1]) < order.index(kept[2])
         start = order.index(expected[0])
@@ -239,7 +239,7 @@ def test_planes_between_close_directions(size):
     q = p + size * np.column_stack([np.zeros((30, 2)), rng.normal(size=30)])
     q[15:] *= 2.0 ** rng.integers(-300, 300, size=(15, 1)) if size > 1e-100 else 1.0
     with mpmath.workdps(700):
-        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
+        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.sphere.bisector_normals(p, q), strict=True):
             exact = digits(digits(a) - digits(b))
             assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
 
@@ -258,6 +258,6 @@ def test_planes_between_the_closest_integer_directions(bits):
     plane = np.array([[1, 2, 2], [2, 1, -2]], dtype=object)
     p, q = (np.array([np.array(pair[k], dtype=object) @ plane for pair in pairs], dtype=float) for k in (0, 1))
     with mpmath.workdps(200):
-        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
+        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.sphere.bisector_normals(p, q), strict=True):
             exact = digits(digits(a) - digits(b))
             assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)

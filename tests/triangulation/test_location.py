@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
-from stereodel import _kernel
+from stereodel import _kernel_probe as probe
 from stereodel.predicates import orient2d
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 
@@ -25,7 +25,7 @@ def holders(triangulation, query):
         inside = [orient2d(corners[:, k - 2], corners[:, k - 1], query) >= 0 for k in range(3)]
         return np.flatnonzero(np.all(inside, axis=0))
     queries = np.broadcast_to(np.asarray(query, dtype=float), corners[:, 0].shape)
-    inside = [_kernel.turn(corners[:, k - 2], corners[:, k - 1], queries) >= 0 for k in range(3)]
+    inside = [probe.turn(corners[:, k - 2], corners[:, k - 1], queries) >= 0 for k in range(3)]
     return np.flatnonzero(np.all(inside, axis=0) & ~triangulation.closing)
 
 

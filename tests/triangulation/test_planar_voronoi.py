@@ -211,7 +211,7 @@ ONE = np.arange(3, dtype=np.int32)[None]
 
 
 def center_of(triangle):
-    return _kernel.circumcenters_plane(triangle, ONE)[0]
+    return _kernel.plane.circumcenters(triangle, ONE)[0]
 
 
 def exact_circumcenter(triangle):

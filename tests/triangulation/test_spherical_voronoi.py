@@ -196,7 +196,7 @@ def test_normals_of_ridges_between_close_sites(size):
     p, q = rng.integers(1, 9, size=(2, 20, 1)) * [1.0, 3.0, 0.0] + rng.normal(size=(2, 20, 1)) * [0, 0, size]
     p[0], q[0] = [3 * 2.0**50 + 7, 1, 0], [3 * 2.0**51 + 15, 2, 0]
     with mpmath.workdps(400):
-        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.bisector_normals(p, q), strict=True):
+        for a, b, normal in zip(p.tolist(), q.tolist(), _kernel.sphere.bisector_normals(p, q), strict=True):
             exact = unit_of_many_digits(unit_of_many_digits(a) - unit_of_many_digits(b))
             assert normal == pytest.approx([float(x) for x in exact], abs=1.2e-16)
 
@@ -214,7 +214,7 @@ def test_circumcentres_of_clusters(size):
             d, e = b - a, c - a
             normal = mpmath.matrix([d[1] * e[2] - d[2] * e[1], d[2] * e[0] - d[0] * e[2], d[0] * e[1] - d[1] * e[0]])
             exact = [float(x) for x in normal / mpmath.norm(normal)]
-        assert _kernel.circumcenters_sphere(triangle, ONE)[0] == pytest.approx(exact, abs=1.2e-16)
+        assert _kernel.sphere.circumcenters(triangle, ONE)[0] == pytest.approx(exact, abs=1.2e-16)
 
 
 def test_circumcentre_of_a_sliver_of_a_few_units_in_the_last_place():
@@ -222,7 +222,7 @@ def test_circumcentre_of_a_sliver_of_a_few_units_in_the_last_place():
     step = np.array([1, 0, -1]) * 2.0**-52
     triangle = np.array([1.0, 1, 1]) + np.arange(3)[:, None] * step
     expected = -np.array([1, -2, 1]) / np.sqrt(6)
-    assert _kernel.circumcenters_sphere(triangle, ONE)[0] == pytest.approx(expected, abs=1.2e-16)
+    assert _kernel.sphere.circumcenters(triangle, ONE)[0] == pytest.approx(expected, abs=1.2e-16)
 
 
 def test_a_ridge_shorter_than_the_doubles_resolve_is_an_arc_and_no_circle():

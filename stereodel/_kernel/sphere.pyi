@@ -1,0 +1,311 @@
+"""Directions, (n, 3): what `plane` has, under the same names."""
+
+from typing import Annotated
+
+import numpy
+from numpy.typing import NDArray
+
+stages: tuple = ("filter", "curvature", "double_double", "exact")
+
+def triangulate(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+    neighbors: bool = True,
+    axis: int = 0,
+    sign: int = -1,
+) -> tuple:
+    """
+    The same of directions; `sign` times axis number `axis` is the pole of the projection.
+    """
+
+def closing(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C")]:
+    """Whether det[a b c] <= 0, for each facet."""
+
+def proximity(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    graph: str,
+    workers: int = 1,
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+    """
+    Edges of the graph "gabriel", "urquhart" or "relative" of a triangulation, sorted.
+    """
+
+def spanning_tree(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    edges: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+    """
+    The shortest forest among the edges, equally long ones in the order of their ends; sorted.
+    """
+
+def compare_lengths(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """
+    Sign of |ab| - |cd| for rows a b c d of numbers; of angles between directions.
+    """
+
+def diametral(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    numbers: Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """
+    1 where p lies outside the circle with diameter ab, 0 on it, -1 inside, for rows a b p of numbers; 0 for opposite directions a and b.
+    """
+
+def natural_neighbors(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    units: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    rests: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    values: Annotated[NDArray[numpy.float64], dict(shape=(None, None), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    query_units: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    query_rests: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    gradients: bool = False,
+    workers: int = 1,
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, None, None), order="C")]:
+    """
+    The same for directions, which come as unit vectors in double-double too: units + rests.
+    """
+
+def find_simplex(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    workers: int = 1,
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    The lowest triangle that holds each query, -1 outside. closing: triangles that hold none. checked: the kernel made the arrays.
+    """
+
+def nearest(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    workers: int = 1,
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    The nearest point of each query, the lowest of several. There must be simplices.
+    """
+
+def k_nearest(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    k: int,
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    workers: int = 1,
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
+    """
+    The k nearest points of each query, duplicates among them, by distance, equally near ones by number.
+    """
+
+def nearest_flat(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    k: int,
+    workers: int = 1,
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
+    """
+    The same for points of one line or great circle; order: what flat_order gives.
+    """
+
+class Mesh:
+    """
+    Delaunay triangulation of directions that points can be added to and taken from.
+    """
+
+    def __init__(
+        self,
+        points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+        duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)]
+        | None = None,
+        checked: bool = False,
+    ) -> None:
+        """
+        The triangulation of `points`, as `triangulate_...` gives it; at least one triangle. Copies everything.
+        """
+
+    def insert(
+        self, points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)]
+    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        """
+        Append points. Returns the pairs [dropped, kept] of those that repeat an earlier one.
+        """
+
+    def remove(
+        self, indices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    ) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+        """
+        Take points out, number the others anew in the same order. Returns old -> new, -1 = removed.
+        """
+
+    def arrays(self) -> tuple:
+        """
+        Simplices, smallest index first, and neighbors, -1 for none, as new arrays.
+        """
+
+    @property
+    def duplicates(self) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C")]:
+        """All pairs [dropped, kept], by dropped; the lowest index is kept."""
+
+    @property
+    def is_flat(self) -> bool:
+        """Whether no triangles are left: then points can only be removed."""
+
+    @property
+    def size(self) -> int:
+        """Number of points, duplicates included."""
+
+    @property
+    def changes(self) -> int:
+        """Number of changes that have begun, failed ones too."""
+
+    @property
+    def inconclusive(self) -> dict:
+        """Tests that each stage left open, in changes so far."""
+
+def turn(
+    a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    c: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """
+    The same for directions: 1 if c lies to the left of the great circle from a to b.
+    """
+
+def in_circle(
+    a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    c: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """The same: 1 if p lies in the open bubble of a b c."""
+
+def compare(
+    a: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    b: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int8], dict(shape=(None,), order="C")]:
+    """The lexicographic order of directions: -1, 0 or 1 for each row."""
+
+def voronoi(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+    checked: bool = False,
+) -> tuple:
+    """As in the plane."""
+
+def delaunay_of(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    simplex_vertex: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    rank: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C")]:
+    """As in the plane."""
+
+def circumcenters(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """
+    Unit normals of triangles by number, on the side seen counterclockwise, that of row k at place[k].
+    """
+
+def flat_order(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    checked: bool = False,
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    Different directions of a great circle around it, the three lowest counterclockwise. checked: they are known to lie on one.
+    """
+
+def flat_diagram(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> tuple:
+    """
+    Offsets, vertices and neighbours of the cells of directions on a great circle, and the vertices.
+    """
+
+def flat_areas(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """Areas of the cells of flat_diagram."""
+
+def flat_centroids(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """Centroids of the cells of flat_diagram."""
+
+def bisector_normals(
+    p: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    q: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """
+    Unit normals, on the side of p, of the planes between directions p and q.
+    """
+
+def cell_areas(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
+    """Areas of the cells, infinite where unbounded; steradians."""
+
+def cell_centroids(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    offsets: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertices: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    vertex_count: int,
+    order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
+    """Centroids of the cells; NaN where there is none."""

@@ -1,0 +1,155 @@
+"""Plane and sphere as the kernel has them: the same functions for points (n, 2) and for directions (n, 3).
+
+What works on either takes its space once, ``space_of(points)``, and asks no further.
+"""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import _kernel
+from stereodel._arrays import BoolArray, FloatArray, IntArray
+
+Offsets = npt.NDArray[np.int64]
+Signs = npt.NDArray[np.int8]
+Cells = tuple[Offsets, IntArray, IntArray, int]
+"""A diagram as the kernel takes it: offsets, vertices and neighbours of the cells, number of vertices."""
+Triangulated = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
+"""Simplices, neighbors or None, duplicates, dimension, inconclusive tests."""
+
+
+class Mesh(Protocol):
+    """A triangulation that points can be added to and taken from; see the stub of the kernel."""
+
+    @property
+    def duplicates(self) -> IntArray: ...
+    @property
+    def is_flat(self) -> bool: ...
+    @property
+    def changes(self) -> int: ...
+    @property
+    def inconclusive(self) -> dict[str, int]: ...
+    def insert(self, points: FloatArray) -> IntArray: ...
+    def remove(self, indices: IntArray) -> IntArray: ...
+    def arrays(self) -> tuple[IntArray, IntArray]: ...
+
+
+class Space(Protocol):
+    """The functions that `_kernel.plane` and `_kernel.sphere` have in common, as far as both are asked alike."""
+
+    @property
+    def stages(self) -> tuple[str, ...]: ...
+
+    def Mesh(  # a class of the kernel
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        duplicates: IntArray | None = None,
+        checked: bool = False,
+    ) -> Mesh: ...
+    def triangulate(self, points: FloatArray, workers: int = 1, neighbors: bool = True) -> Triangulated: ...
+    def circumcenters(
+        self, points: FloatArray, triangles: IntArray, place: IntArray | None = None, workers: int = 1
+    ) -> FloatArray: ...
+    def flat_order(self, points: FloatArray, checked: bool = False) -> IntArray: ...
+    def find_simplex(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        queries: FloatArray,
+        closing: BoolArray | None = None,
+        workers: int = 1,
+        checked: bool = False,
+    ) -> IntArray: ...
+    def nearest(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        queries: FloatArray,
+        closing: BoolArray | None = None,
+        workers: int = 1,
+        checked: bool = False,
+    ) -> IntArray: ...
+    def k_nearest(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        duplicates: IntArray,
+        queries: FloatArray,
+        k: int,
+        closing: BoolArray | None = None,
+        workers: int = 1,
+        checked: bool = False,
+    ) -> IntArray: ...
+    def nearest_flat(
+        self,
+        points: FloatArray,
+        order: IntArray,
+        duplicates: IntArray,
+        queries: FloatArray,
+        k: int,
+        workers: int = 1,
+        checked: bool = False,
+    ) -> IntArray: ...
+    def voronoi(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        workers: int = 1,
+        checked: bool = False,
+    ) -> tuple[Offsets, IntArray, IntArray, IntArray, IntArray, IntArray | None, IntArray | None, IntArray | None]: ...
+    def delaunay_of(
+        self,
+        points: FloatArray,
+        offsets: Offsets,
+        vertices: IntArray,
+        neighbors: IntArray,
+        vertex_count: int,
+        simplex_vertex: IntArray,
+        rank: IntArray | None = None,
+        workers: int = 1,
+    ) -> IntArray: ...
+    def cell_areas(
+        self,
+        points: FloatArray,
+        offsets: Offsets,
+        vertices: IntArray,
+        neighbors: IntArray,
+        vertex_count: int,
+        order: IntArray,
+        workers: int = 1,
+    ) -> FloatArray: ...
+    def cell_centroids(
+        self,
+        points: FloatArray,
+        offsets: Offsets,
+        vertices: IntArray,
+        neighbors: IntArray,
+        vertex_count: int,
+        order: IntArray,
+        workers: int = 1,
+    ) -> FloatArray: ...
+    def proximity(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        graph: str,
+        workers: int = 1,
+        checked: bool = False,
+    ) -> IntArray: ...
+    def spanning_tree(self, points: FloatArray, edges: IntArray) -> IntArray: ...
+    def turn(self, a: FloatArray, b: FloatArray, c: FloatArray, workers: int = 1) -> Signs: ...
+
+
+def space_of(points: FloatArray) -> Space:
+    """The plane for points (n, 2), the sphere for directions (n, 3)."""
+    return _kernel.plane if points.shape[1] == 2 else _kernel.sphere

@@ -1,0 +1,33 @@
+// Natural neighbour interpolation: each point counts with the area that the query's Voronoi cell takes from its own.
+//
+// R. Sibson, "A brief description of natural neighbour interpolation", in: Interpreting Multivariate Data (1981). The
+// derivative of an area is the integral of y - q over the edge between the two cells, divided by the distance of the
+// two points: B. Piper, "Properties of local coordinates based on Dirichlet tesselations" (1993). On the sphere the
+// same holds with spherical areas and the chord as distance.
+#pragma once
+
+#include <cstddef>
+
+#include "queries/queries.hpp"
+
+namespace stereodel::interpolation {
+
+using queries::TriangleArrays;
+
+struct NaturalNeighborTask {
+    TriangleArrays triangles;
+    const double *units, *unit_rests;  // sphere: the points as unit vectors in double-double
+    const double* queries;
+    const double *query_units, *query_rests;  // sphere
+    std::size_t count;
+    const double* values;  // `width` for each point
+    std::size_t width;
+    double* found;      // `width` for each query; NaN where no triangle holds it
+    double* gradients;  // dimension times `width` for each query, or null; NaN at points and on the plane's hull too
+};
+
+// The result does not depend on `workers`. Throws std::bad_alloc, Cancelled.
+void natural_neighbors_plane(const NaturalNeighborTask& task, int workers, Stop stop);
+void natural_neighbors_sphere(const NaturalNeighborTask& task, int workers, Stop stop);
+
+}  // namespace stereodel::interpolation

@@ -1,0 +1,180 @@
+#include "predicates/ray_stages.hpp"
+
+#include <algorithm>
+
+#include "arithmetic/pair_arithmetic.hpp"
+
+namespace stereodel::predicates::rays {
+
+using arithmetic::DoubleDouble;
+using arithmetic::ErrorCount;
+using arithmetic::Pair;
+using arithmetic::PlainCount;
+using arithmetic::pair_difference;
+using arithmetic::two_difference;
+using arithmetic::two_product;
+using arithmetic::two_sum;
+
+namespace {
+
+constexpr double U2 = UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+
+// Difference vectors as pairs: exact where the vectors are plain doubles.
+struct Edge {
+    Pair v[3];
+
+    Edge(const double* from, const double* to) {
+        for (int k = 0; k < 3; ++k) {
+            v[k] = pair_difference(to[k], from[k]);
+        }
+    }
+
+    // h + r + e1 + e2 is exact, with e1 = 0 unless |h| exceeds 2^51 times the low parts, and |e2| <= 2^-106. Adding up
+    // the small ones rounds by less than 4u^2 |h| and 2^-157, an absolute error; the last line makes |l| <= u|h|.
+    Edge(const Direction& from, const Direction& to) {
+        for (int k = 0; k < 3; ++k) {
+            const DoubleDouble high = two_difference(to.hi[k], from.hi[k]), low = two_difference(to.lo[k], from.lo[k]);
+            const DoubleDouble sum = two_sum(high.hi, low.hi);
+            const DoubleDouble result = two_sum(sum.hi, sum.lo + (high.lo + low.lo));
+            v[k] = {result.hi, result.lo};
+        }
+    }
+};
+
+struct Plain {
+    const double* v;
+
+    explicit Plain(const double* vector) : v(vector) {}
+};
+
+struct Paired {
+    Pair v[3];
+
+    explicit Paired(const Direction& d) : v{{d.hi[0], d.lo[0]}, {d.hi[1], d.lo[1]}, {d.hi[2], d.lo[2]}} {}
+};
+
+constexpr PlainCount PLAIN[3] = {};
+constexpr ErrorCount PAIRED[3] = {{1, 0}, {1, 0}, {1, 0}};
+constexpr ErrorCount EDGE[3] = {{1, 5}, {1, 5}, {1, 5}};  // of directions; those of plain vectors are exact
+
+constexpr double BUBBLE_ERROR = 460;
+static_assert(bubble_bound(PLAIN, EDGE) <= BUBBLE_ERROR && bubble_bound(PAIRED, EDGE) <= BUBBLE_ERROR);
+constexpr double TURN_ERROR = 120;
+static_assert(turn_bound(PLAIN, EDGE) <= TURN_ERROR && turn_bound(PAIRED, EDGE) <= TURN_ERROR);
+
+template <class Scalar>
+constexpr double growth_bound(const Scalar* a) {
+    return growth_form(dot_form(EDGE, EDGE), dot_form(a, EDGE)).bound();
+}
+
+// The e_i, where their squares matter: e_i = (|i|^2 - |a|^2)/(|i| + |a|), and the denominator is 2 within 2^-49 of
+// itself. The numerator |D|^2 + 2a.D has a majorant below 4.1 |D_i| and so is known within 2^-97 |D_i| (and 2^-154 of
+// the directions). With |e_i| <= 2^-48 and |D_i| < 2.1, e_i^2 is known within
+//     2^-96 * 2^-47.9 + 2 * 2^-48 * 2^-98 * 2.1 < 2^-142.8,
+// times the determinants, summed in doubles, within 2^-142.5 times the lj lk, whose sum is at most B + C + P.
+static_assert(4.1 * growth_bound(PLAIN) <= 0x1p9 && 4.1 * growth_bound(PAIRED) <= 0x1p9);
+constexpr double LENGTHS_KNOWN = 0x1p-142;
+
+template <class Scalar>
+double length_difference_squared(const Scalar* a, const Pair* edge, const Pair& square) {
+    const Pair growth = growth_form(square, dot_form(a, edge));
+    const double difference = 0.5 * (growth.h + growth.l);
+    return difference * difference;
+}
+
+// The curvature form in pairs, the e_i first neglected, then added.
+template <class Scalar>
+Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair* dp, double floor) {
+    const Pair bb = dot_form(db, db), cc = dot_form(dc, dc), pp = dot_form(dp, dp);
+    const Pair at_b = determinant_form(a, dc, dp), at_c = determinant_form(a, dp, db);
+    const Pair at_p = determinant_form(a, db, dc);
+    const Pair value = weighted_form(bb, at_b, cc, at_c, pp, at_p);
+    const double sum = bb.h + (cc.h + pp.h), permanent = bb.h * (cc.h + pp.h) + cc.h * pp.h;
+    const double bound = BUBBLE_ERROR * U2 * permanent + floor;
+    const Sign sign = decide(-(value.h + value.l), bound + LENGTHS * sum);
+    if (sign != OPEN) {
+        return sign;
+    }
+    const double lengths = length_difference_squared(a, db, bb) * at_b.h +
+                           length_difference_squared(a, dc, cc) * at_c.h +
+                           length_difference_squared(a, dp, pp) * at_p.h;
+    const DoubleDouble rest = two_difference(lengths, value.h);
+    return decide(rest.hi + (rest.lo - value.l), bound + LENGTHS_KNOWN * sum);
+}
+
+// lb lc <= 2^-530 may underflow to zero under the root.
+constexpr double TURN_FLOOR = 0x1p-500;
+
+// `directions`: sqrt(3) times the absolute error of the D-vectors' components, `floor` that times itself, or
+// TURN_FLOOR.
+template <class Scalar>
+Sign turn_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, double directions, double floor) {
+    const Pair value = determinant_form(a, db, dc);
+    const double bb = dot_form(db, db).h, cc = dot_form(dc, dc).h;
+    return decide(value.h + value.l,
+                  TURN_ERROR * U2 * std::sqrt(bb * cc) + directions * (std::sqrt(bb) + std::sqrt(cc)) + floor);
+}
+
+// Absolute errors of D-vectors, each component off by h: with l the computed lengths + 4h, the form moves by at most
+// sqrt(3) h (LM + 3 lb lc lp) <= 2.4 h LM, L the sum of the l and M that of their products in pairs; L <= 6 and M is at
+// most 2 (B + C + P) + 100 h^2. For h = 2^-106 that is below 2^-100 (B + C + P), inside the room of LENGTHS, and
+// 2^-300; for h = 2^-157 below 2^-151 (B + C + P), inside that of LENGTHS_KNOWN, and 2^-450.
+constexpr double DIRECTIONS_FLOOR = 0x1p-300, DIRECTIONS_FLOOR_KNOWN = 0x1p-440;
+
+}  // namespace
+
+Direction::Direction(const double* vector) {
+    const double largest = std::max({std::fabs(vector[0]), std::fabs(vector[1]), std::fabs(vector[2])});
+    double v[3] = {vector[0], vector[1], vector[2]};
+    if (!(largest > 0x1p-300 && largest < 0x1p300)) {
+        int exponent = 0;
+        std::frexp(largest, &exponent);
+        for (double& component : v) {
+            component = std::ldexp(component, -exponent);
+        }
+    }
+    // Off by 3.5u: 1.5u of the square, the root, the quotient. Any double near serves.
+    const double factor = 1.0 / std::sqrt(dot_form(v, v));
+    for (int k = 0; k < 3; ++k) {
+        const DoubleDouble product = two_product(v[k], factor);
+        hi[k] = product.hi;
+        lo[k] = product.lo;
+    }
+}
+
+// The differences hold two roundings each and a.hi one.
+constexpr double BUBBLE_ROUNDING_OF_DIRECTIONS = 30, TURN_ROUNDING_OF_DIRECTIONS = 16;
+static_assert(bubble_bound(ROUNDED, TWICE_ROUNDED) <= BUBBLE_ROUNDING_OF_DIRECTIONS);
+static_assert(turn_bound(ROUNDED, TWICE_ROUNDED) <= TURN_ROUNDING_OF_DIRECTIONS);
+
+Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
+    const Difference db(a, b), dc(a, c), dp(a, p);
+    return curvature_form(a.hi, db.v, dc.v, dp.v, BUBBLE_ROUNDING_OF_DIRECTIONS * UNIT_ROUNDOFF, DIRECTIONS_FLOOR);
+}
+
+// D-vectors off by h = 2^-106 in each component: sqrt(3) h (lb + lc + 2h).
+Sign turn_filter(const Direction& a, const Direction& b, const Direction& c) {
+    const Difference db(a, b), dc(a, c);
+    const double bb = dot_form(db.v, db.v), cc = dot_form(dc.v, dc.v);
+    const double rounding = TURN_ROUNDING_OF_DIRECTIONS * UNIT_ROUNDOFF * std::sqrt(bb * cc);
+    const double directions = 0x1p-105 * (std::sqrt(bb) + std::sqrt(cc)) + 0x1p-208;
+    return decide(determinant_form(a.hi, db.v, dc.v), rounding + directions);
+}
+
+Sign bubble_double_double(const double* a, const double* b, const double* c, const double* p) {
+    return bubble_in_pairs(a, Edge(a, b).v, Edge(a, c).v, Edge(a, p).v, plane::FLOOR);
+}
+
+Sign bubble_double_double(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
+    return bubble_in_pairs(Paired(a).v, Edge(a, b).v, Edge(a, c).v, Edge(a, p).v, DIRECTIONS_FLOOR_KNOWN);
+}
+
+Sign turn_double_double(const double* a, const double* b, const double* c) {
+    return turn_in_pairs(a, Edge(a, b).v, Edge(a, c).v, 0.0, TURN_FLOOR);
+}
+
+Sign turn_double_double(const Direction& a, const Direction& b, const Direction& c) {
+    return turn_in_pairs(Paired(a).v, Edge(a, b).v, Edge(a, c).v, 0x1p-156, 0x1p-310);
+}
+
+}  // namespace stereodel::predicates::rays
