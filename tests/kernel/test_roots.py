@@ -8,27 +8,11 @@ from hypothesis import strategies as st
 
 from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign_of_roots
-
-BASE = 2**30
-
-
-def digits(number):
-    """Digits to the base 2^30, the highest first, all with the sign of the number."""
-    size, sign, out = abs(number), -1 if number < 0 else 1, []
-    while size:
-        out.insert(0, sign * (size % BASE))
-        size //= BASE
-    return out
+from tests.kernel.long_integers import digits, integers
 
 
 def kernel_sign(terms):
     return probe.sign_of_roots([(digits(c), digits(n)) for c, n in terms])
-
-
-def integers(bits):
-    """Of any length, and where carries run through whole limbs."""
-    power = st.builds(lambda e, d: 2**e + d, st.integers(0, bits), st.integers(-2, 2))
-    return st.integers(0, 2**bits) | power.map(abs)
 
 
 def terms(bits):
