@@ -1,35 +1,15 @@
 #include "graphs/sites.hpp"
 
-#include <algorithm>
-#include <utility>
-
-#include "arithmetic/double_double.hpp"
 #include "predicates/ray_integers.hpp"
+#include "predicates/symmetry.hpp"
 
 namespace stereodel::graphs {
 
-using arithmetic::DoubleDouble;
-using arithmetic::two_difference;
 using predicates::all_unit;
 using predicates::common_granularity;
-
+using predicates::equal_by_symmetry_in_plane;
+using predicates::equal_by_symmetry_on_sphere;
 using rays::Direction;
-
-namespace {
-
-// The exact size of a difference as the unevaluated sum of two doubles.
-std::pair<double, double> step(double from, double to) {
-    const DoubleDouble d = two_difference(std::max(from, to), std::min(from, to));
-    return {d.hi, d.lo};
-}
-
-// Whether the steps along the axes are the same for ab and cd, perhaps exchanged: the ties of lattices.
-bool has_same_steps(const double* a, const double* b, const double* c, const double* d) {
-    const auto x = step(a[0], b[0]), y = step(a[1], b[1]), u = step(c[0], d[0]), v = step(c[1], d[1]);
-    return (x == u && y == v) || (x == v && y == u);
-}
-
-}  // namespace
 
 PlaneSites::PlaneSites(const double* xy, std::size_t size) : xy_(xy) {
     const double g = common_granularity(xy, size);
@@ -37,7 +17,7 @@ PlaneSites::PlaneSites(const double* xy, std::size_t size) : xy_(xy) {
 }
 
 int PlaneSites::compare_lengths_open(Index a, Index b, Index c, Index d) const {
-    if (has_same_steps(at(a), at(b), at(c), at(d))) {
+    if (equal_by_symmetry_in_plane(at(a), at(b), at(c), at(d))) {
         return 0;
     }
     const Sign sign = plane::distances_double_double(at(a), at(b), at(c), at(d));
@@ -69,7 +49,8 @@ SphereSites::SphereSites(const double* xyz, std::size_t size) : xyz_(xyz), unit_
 }
 
 int SphereSites::compare_lengths_open(Index a, Index b, Index c, Index d) const {
-    if (rays::equal_by_symmetry(at(a), at(b), at(c), at(d))) {
+    if (equal_by_symmetry_on_sphere(at(a), at(b), at(c), at(d)) ||
+        equal_by_symmetry_on_sphere(at(a), at(b), at(d), at(c))) {
         return 0;
     }
     const Sign sign = rays::compare_lengths_double_double(direction(a), direction(b), direction(c), direction(d));

@@ -1,9 +1,5 @@
 #include "predicates/ray_lengths.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
 #include "arithmetic/error_counts.hpp"
 
 namespace stereodel::predicates::rays {
@@ -16,25 +12,7 @@ DoubleDouble length(const Direction& d) {
     return sqrt(dot(d, d));
 }
 
-// Along one axis: the sizes of both components, and the sign of their product. The angle depends on these alone.
-using Axis = std::array<double, 3>;
-
-std::array<Axis, 3> sorted_axes(const double* p, const double* a) {
-    std::array<Axis, 3> axes;
-    for (std::size_t k = 0; k < 3; ++k) {
-        const bool is_negative = std::signbit(p[k]) != std::signbit(a[k]);
-        axes[k] = {std::fabs(p[k]), std::fabs(a[k]), is_negative && p[k] != 0.0 && a[k] != 0.0 ? -1.0 : 1.0};
-    }
-    std::sort(axes.begin(), axes.end());
-    return axes;
-}
-
 }  // namespace
-
-bool equal_by_symmetry(const double* p, const double* a, const double* q, const double* b) {
-    const std::array<Axis, 3> axes = sorted_axes(p, a);
-    return axes == sorted_axes(q, b) || axes == sorted_axes(b, q);
-}
 
 double squared_chord(const Direction& p, const Direction& a) {
     const Difference gap(p, a);

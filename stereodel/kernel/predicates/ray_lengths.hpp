@@ -31,11 +31,6 @@ inline Sign compare_squared_chords(double aa, double bb) {
     return decide(aa - bb, 0x1p-47 * (aa + bb) + 0x1p-94);
 }
 
-// Whether the angle between p and a equals that between q and b by symmetry: by an exchange of axes, of their ends, or
-// of the two vectors. So exact ties of lattices, graticules and solids are known without many digits; false says
-// nothing.
-bool equal_by_symmetry(const double* p, const double* a, const double* q, const double* b);
-
 // The stages of (a'-p').(b'-p') for the unit vectors a', b', p' of a, b, p: positive outside the smaller bubble that
 // has a and b as ends of a diameter, zero on its circle. The first takes vectors within 2^-49 of length one as they
 // stand, or directions.

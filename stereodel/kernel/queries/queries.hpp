@@ -10,7 +10,7 @@
 #include "order/charts.hpp"
 #include "predicates/plane_predicates.hpp"
 #include "predicates/ray_predicates.hpp"
-#include "queries/query_symmetry.hpp"
+#include "predicates/symmetry.hpp"
 #include "threads.hpp"
 
 namespace stereodel::queries {
@@ -20,6 +20,8 @@ namespace rays = predicates::rays;
 using mesh::place_of;
 using order::PlaneChart;
 using order::SphereChart;
+using predicates::equal_by_symmetry_in_plane;
+using predicates::equal_by_symmetry_on_sphere;
 using predicates::PlanePoints;
 using predicates::bubble;
 using predicates::compare_angles;
@@ -110,7 +112,7 @@ class PlaneQuery {
         if (sign != OPEN) {
             return sign;
         }
-        const bool equal = equally_near_in_plane(query_, points_.at(a), points_.at(b));
+        const bool equal = equal_by_symmetry_in_plane(query_, points_.at(a), query_, points_.at(b));
         return equal ? 0 : points_.compare_distances(query_, a, b);
     }
 
@@ -178,7 +180,8 @@ class SphereQuery {
         if (sign != OPEN) {
             return sign;
         }
-        return equally_near_on_sphere(query_, at(a), at(b)) ? 0 : compare_angles(query_, at(a), at(b), tally_);
+        const bool equal = equal_by_symmetry_on_sphere(query_, at(a), query_, at(b));
+        return equal ? 0 : compare_angles(query_, at(a), at(b), tally_);
     }
 
     // Grows with the angle to a direction, but for roundings.
