@@ -1,10 +1,10 @@
 // Real numbers of many digits that know their error: the last stage of what is measured, not decided.
 //
 // A `BigBall` is a midpoint of up to so many limbs of 32 bits and a radius: the true value is no farther from the
-// midpoint than that. Every operation cuts its midpoint to the precision of its operands and widens the radius by what it cut
-// off, so that a formula carries its own bound; where that is too large, it is evaluated again with more limbs. (F.
-// Johansson, "Arb: efficient arbitrary-precision midpoint-radius interval arithmetic", IEEE Trans. Computers 66, 2017.)
-// Exponents have 64 bits: nothing overflows.
+// midpoint than that. Every operation cuts its midpoint to the precision of its operands and widens the radius by what
+// it cut off, so that a formula carries its own bound; where that is too large, it is evaluated again with more limbs.
+// (F. Johansson, "Arb: efficient arbitrary-precision midpoint-radius interval arithmetic", IEEE Trans. Computers 66,
+// 2017.) Exponents have 64 bits: nothing overflows.
 #pragma once
 
 #include <cstddef>

@@ -135,7 +135,8 @@ Sign diametral_balls(const double* a, const double* b, const double* p) {
 Sign shadow_balls(const double* a, const double* b, const double* c, int axis) {
     const int i = axis == 0 ? 1 : 0, j = axis == 2 ? 1 : 2;
     const Vector points[3] = {Vector(a), Vector(b), Vector(c)};
-    const BallVector normals[3] = {cross(points[0], points[1]), cross(points[1], points[2]), cross(points[2], points[0])};
+    const BallVector normals[3] = {cross(points[0], points[1]), cross(points[1], points[2]),
+                                   cross(points[2], points[0])};
     int longest = 0, length = 0;
     for (int k = 0; k < 3; ++k) {
         const int candidate = distance(points[k], points[(k + 1) % 3], normals[k]);

@@ -1,5 +1,5 @@
-// The module stereodel._kernel_probe: parts of the kernel that the tests ask by themselves, and that the library reaches
-// from C++ alone. Wheels do not have it.
+// The module stereodel._kernel_probe: parts of the kernel that the tests ask by themselves, and that the library
+// reaches from C++ alone. Wheels do not have it.
 #include <nanobind/nanobind.h>
 
 namespace stereodel::probe {
