@@ -153,6 +153,7 @@ TYPE: Final[Mapping[str, Any]] = {
     "mathtext.fontset": "stix",
     "font.size": LABEL_SIZE,
     "axes.unicode_minus": True,
+    "lines.scale_dashes": False,  # dashes are in points, whatever the width
     "text.usetex": False,
     "text.hinting": "no_hinting",
     "text.antialiased": True,

@@ -93,6 +93,14 @@ def test_opengl_and_agg_draw_the_same():
     assert np.abs(ours.mean(axis=(0, 1)) - agg.mean(axis=(0, 1))).max() < 0.3
 
 
+@pytest.mark.parametrize("draw", [render, rasterize])
+@pytest.mark.parametrize("width", [0.5, 1.0, 2.0])
+def test_dashes_are_in_points_whatever_the_width(draw, width):
+    page = Page(EXTENT, (Stroke(lines((0.0, 1.0), (4.0, 1.0)), BLACK, width, dash=(6.0, 4.0), cap="butt"),), width=50.0)
+    inked = draw(page, size=500)[125, :, 0] < 128
+    assert np.array_equal(inked, np.arange(500) % 100 < 60)
+
+
 def test_labels_come_last_and_can_be_left_out():
     covered = Page(EXTENT, (Label("text", (2.0, 1.0), size=40.0), Fill((box(0, 4, 0, 2),), GRAY)))
     bare = render(covered, size=300, text=False)
