@@ -98,8 +98,23 @@ PIXEL_LEVELS: Final = 8
 PIXEL_SHARE_VISIBLE: Final = 1e-4
 """Share of the pixels of a picture that may be visibly other: one missing hairline of a small picture is more."""
 
-PIXEL_SHARE_ANY: Final = 1e-2
+PIXEL_SHARE_ANY: Final = 1e-3
 """Share of the pixels of a picture that may differ at all; a processor without AVX moves 5e-5 of them, by one level."""
+
+PIXEL_TILE: Final = 32
+"""Side in pixels of the tiles in which differences are counted too, so that a small one is not lost in a large picture.
+
+Tiles begin at each multiple of half a side: whatever is no larger than that lies in one of them.
+"""
+
+TILE_VISIBLE: Final = 4
+"""Pixels of a tile that may be visibly other: rounding moves single ones, the smallest dot without its rim has nine."""
+
+TILE_ANY: Final = 8
+"""Pixels of a tile that may differ at all: as many as another processor moves in a picture; a line across it has 32."""
+
+TYPE_PIXELS: Final = 1.0
+"""Pixels of a stored picture by which the ink of a label may lie elsewhere: versions of FreeType round otherwise."""
 
 THIN_TRIANGLE: Final = 2.0**-12
 """Twice the area of a triangle, relative to the square of its size, below which weights are computed in double-double.

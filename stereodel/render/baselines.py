@@ -3,8 +3,9 @@
     python -m stereodel.render.baselines --scripts figures --store tests/images/baselines [NAME…]
 
 A case is a figure, or one of three frames of an animation: first, middle, last. Of each the store holds NAME.npz, the
-arrays that are drawn and the geometry behind them (T0), its pixel hash in `pixels.json` (T1), and NAME.png, the picture
-without text at 640 pixels (T2); see `stereodel.render.image`.
+arrays that are drawn and the geometry behind them (T0), its pixel hash in `pixels.json` (T1), NAME.png, the picture
+without text at 640 pixels (T2), and in `labels.json` the boxes of the ink of its labels (T3); see
+`stereodel.render.image`.
 """
 
 from __future__ import annotations
@@ -22,7 +23,9 @@ import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._arrays import FloatArray
 from stereodel._files import replacing
+from stereodel.constants import TYPE_PIXELS
 from stereodel.render.animate import Animation, drawn_page
 from stereodel.render.build import BuildError, find_scripts, load_drawing
 from stereodel.render.figure import Figure
@@ -42,6 +45,9 @@ from stereodel.render.report import Failure
 
 SIZE: Final = 640
 """Width of the stored pictures in pixels."""
+
+HASHES: Final = "pixels.json"
+BOXES: Final = "labels.json"
 
 FRAMES: Final = ("first", "middle", "last")
 """Frames of an animation that are kept."""
@@ -74,18 +80,33 @@ class Case:
 
         return render(self.page, size=SIZE, text=False)
 
+    @cached_property
+    def ink(self) -> FloatArray:
+        """What T3 compares: where the ink of each label lies, (n, 4); see `stereodel.render.labels.ink_boxes`."""
+        from stereodel.render.labels import ink_boxes
+
+        return ink_boxes(self.page)
+
 
 @dataclass(frozen=True)
 class Store:
-    """The folder of stored arrays, hashes and pictures."""
+    """The folder of stored arrays, hashes, pictures and places of type."""
 
     folder: Path
 
     @cached_property
     def hashes(self) -> dict[str, str]:
         """Name → SHA-256 of the stored picture."""
-        path = self.folder / "pixels.json"
-        return dict(json.loads(path.read_text(encoding="utf-8"))) if path.is_file() else {}
+        return self._table(HASHES)
+
+    @cached_property
+    def boxes(self) -> dict[str, list[list[float] | None]]:
+        """Name → left, bottom, right and top of the ink of each label, in points; None for a label without ink."""
+        return self._table(BOXES)
+
+    def otherwise(self, case: Case) -> list[str]:
+        """What all nets find, the coarse ones first, which can be seen."""
+        return [*self.looks_otherwise(case), *self.set_otherwise(case), *self.drawn_otherwise(case)]
 
     def drawn_otherwise(self, case: Case) -> list[str]:
         """T0: what differs in the arrays, a line each; empty when nothing does."""
@@ -104,22 +125,38 @@ class Store:
         found = compare(read_picture(path), case.picture)
         return [] if found.passes else [f"T2: {found}"]
 
+    def set_otherwise(self, case: Case) -> list[str]:
+        """T3: which labels do not lie where they lay, a line each; empty when all do."""
+        if case.name not in self.boxes:
+            return [f"T3: {BOXES} has no {case.name}; look at the picture, then run `make baselines`"]
+        stored = np.array([box or [np.nan] * 4 for box in self.boxes[case.name]]).reshape(-1, 4)
+        if stored.shape != case.ink.shape:
+            return [f"T3: {len(stored)} labels expected, {len(case.ink)} found"]
+        limit = TYPE_PIXELS * case.page.width / SIZE
+        return [
+            f"T3: label {number} ({label.text!r}) has its ink {apart.max():.2f} points from where it was"
+            for number, (label, apart) in enumerate(zip(case.page.labels, np.abs(stored - case.ink), strict=True))
+            if (np.isnan(stored[number]) != np.isnan(case.ink[number])).any() or (apart > limit).any()
+        ]
+
     def failure(self, case: Case, messages: Iterable[str]) -> Failure:
         """The messages with both pictures, for the report."""
         path = self.folder / f"{case.name}.png"
         return Failure(case.name, tuple(messages), read_picture(path) if path.is_file() else None, case.picture)
 
     def write(self, case: Case) -> None:
-        """Store a case; its hash goes into `pixels.json` with `write_hashes`."""
+        """Store a case; its hash and its boxes go into their files with `write_tables`."""
         save_arrays(case.arrays, self.folder / f"{case.name}.npz")
         data = iio.imwrite("<bytes>", case.picture, extension=".png", plugin="pillow", optimize=True)
         _replace(self.folder / f"{case.name}.png", data)
         self.hashes[case.name] = pixel_hash(case.picture)
+        self.boxes[case.name] = [None if np.isnan(box).any() else box.round(1).tolist() for box in case.ink]
 
-    def write_hashes(self) -> None:
-        """Write `pixels.json`."""
-        text = json.dumps(dict(sorted(self.hashes.items())), indent=1) + "\n"
-        _replace(self.folder / "pixels.json", text.encode())
+    def write_tables(self) -> None:
+        """Write `pixels.json` and `labels.json`, a line for each case."""
+        for file, table in ((HASHES, self.hashes), (BOXES, self.boxes)):
+            lines = [f" {json.dumps(name)}: {json.dumps(entry)}" for name, entry in sorted(table.items())]
+            _replace(self.folder / file, ("{\n" + ",\n".join(lines) + "\n}\n").encode())
 
     def forget_others(self, names: Iterable[str]) -> list[str]:
         """Remove what belongs to none of `names`, and say what."""
@@ -128,9 +165,14 @@ class Store:
         stale = [name for name in stale if name not in kept]
         for name in stale:
             self.hashes.pop(name, None)
+            self.boxes.pop(name, None)
             for kind in ("npz", "png"):
                 (self.folder / f"{name}.{kind}").unlink(missing_ok=True)
         return stale
+
+    def _table(self, file: str) -> dict[str, Any]:
+        path = self.folder / file
+        return dict(json.loads(path.read_text(encoding="utf-8"))) if path.is_file() else {}
 
 
 def cases_of(script: Path) -> list[Case]:
@@ -164,13 +206,13 @@ def write_baselines(scripts: Path, folder: Path, names: Sequence[str] = ()) -> I
     for script in find_scripts(scripts, names):
         for case in cases_of(script):
             known = case.name in store.hashes
-            changed = [*store.drawn_otherwise(case), *store.looks_otherwise(case)]
+            changed = store.otherwise(case)
             if changed:
                 store.write(case)
             yield f"{case.name}: {('changed' if known else 'new') if changed else 'as it was'}"
     for name in store.forget_others(n for script in find_scripts(scripts) for n in case_names(script)):
         yield f"{name}: removed, no script draws it"
-    store.write_hashes()
+    store.write_tables()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

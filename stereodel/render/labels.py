@@ -7,6 +7,7 @@ canvas for the whole page.
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Any, Final
 
@@ -16,10 +17,14 @@ from matplotlib.backends import backend_agg
 from matplotlib.text import Text
 from matplotlib.transforms import Affine2D
 
+from stereodel._arrays import FloatArray
 from stereodel.render.page import Page
 from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
 
 Pixels = npt.NDArray[np.uint8]
+
+INK_PER_POINT: Final = 10
+"""Pixels per point at which ink is measured: a twentieth of a point is less than a reader can see."""
 
 ROWS: Final = 16
 """Rows over which labels are laid at once: that takes 32 bytes a pixel."""
@@ -68,6 +73,13 @@ class LabelLayer:
         """The labels in the rows from `top` to before `bottom`, (bottom − top, width, 4), colours not premultiplied."""
         return self._drawn(top, bottom).copy()
 
+    @property
+    def span(self) -> tuple[int, int]:
+        """Rows between which all labels lie, as far as these are on the page; empty where there is none."""
+        first = min((first for _, first, _ in self._placed), default=0.0)
+        last = max((last for _, _, last in self._placed), default=0.0)
+        return max(0, math.floor(first)), min(self.height, math.ceil(last))
+
     def _drawn(self, top: int, bottom: int) -> Pixels:
         """As `rows`, until the next call."""
         # One canvas for all rows: a text keeps the canvas that it was drawn on.
@@ -95,6 +107,29 @@ def label_layer(page: Page, width_px: int) -> Pixels:
 def with_labels(picture: Pixels, page: Page) -> Pixels:
     """The labels of a page over a picture of it without text, (height, width, 3)."""
     return LabelLayer(page, picture.shape[1]).over(picture)
+
+
+def ink_boxes(page: Page) -> FloatArray:
+    """Where the ink of each label lies, halos too: left, bottom, right and top in points from the lower left, (n, 4).
+
+    As far as it is at least half as strong as where it is strongest; NaN where a label leaves no ink.
+    """
+    width_px = max(1, round(INK_PER_POINT * page.width))
+    boxes = np.full((len(page.labels), 4), np.nan)
+    for box, label in zip(boxes, page.labels, strict=True):
+        layer = LabelLayer(replace(page, items=(label,)), width_px)
+        top, bottom = layer.span
+        opacity = layer.rows(top, bottom)[..., 3] if top < bottom else np.zeros((0, 0), dtype=np.uint8)
+        if opacity.any():
+            rows, columns = np.nonzero(opacity >= opacity.max() / 2)
+            edges = [
+                columns.min(),
+                layer.height - top - rows.max() - 1,
+                columns.max() + 1,
+                layer.height - top - rows.min(),
+            ]
+            box[:] = np.array(edges) * (page.width / width_px)
+    return boxes
 
 
 def _laid_over(rows: Pixels, layer: Pixels) -> Pixels:

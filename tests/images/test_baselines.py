@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel.render.baselines import Case, Store, cases_of, main, write_baselines
-from stereodel.render.page import Dots, Page
+from stereodel.render.page import Dots, Label, Page
 
 FIGURE = """
 import numpy as np
@@ -46,7 +46,7 @@ def write_figure(scripts, name, radius):
 def check(scripts: Path, folder: Path, name: str):
     store = Store(folder)
     (case,) = (c for c in cases_of(scripts / f"{name}.py") if c.name.startswith(name))
-    return [*store.drawn_otherwise(case), *store.looks_otherwise(case)]
+    return store.otherwise(case)
 
 
 def test_what_was_written_passes(project):
@@ -56,15 +56,16 @@ def test_what_was_written_passes(project):
         "fig90_dot: new",
     ]
     assert check(scripts, folder, "fig90_dot") == []
-    assert len(list(folder.iterdir())) == 4 * 2 + 1
+    assert len(list(folder.iterdir())) == 4 * 2 + 2
 
 
 def test_a_missing_baseline_fails_and_names_the_command(project):
     scripts, folder = project
-    t0, t1 = check(scripts, folder, "fig90_dot")
+    t1, t3, t0 = check(scripts, folder, "fig90_dot")
     assert t0.startswith("T0: fig90_dot.npz is missing")
     assert t1.startswith("T1: fig90_dot.png or its hash is missing")
-    assert "make baselines" in t0
+    assert t3.startswith("T3: labels.json has no fig90_dot")
+    assert all("make baselines" in message for message in (t0, t1, t3))
     assert not folder.exists()
 
 
@@ -73,7 +74,7 @@ def test_a_change_fails_until_it_is_stored(project):
     list(write_baselines(scripts, folder))
     write_figure(scripts, "fig90_dot", 10.0)
     messages = check(scripts, folder, "fig90_dot")
-    assert [message[:2] for message in messages] == ["T0", "T2"]
+    assert [message[:2] for message in messages] == ["T2", "T0"]
     assert list(write_baselines(scripts, folder, ["fig90"])) == ["fig90_dot: changed"]
     assert check(scripts, folder, "fig90_dot") == []
 
@@ -91,7 +92,9 @@ def test_what_no_script_draws_any_more_is_removed(project):
     list(write_baselines(scripts, folder))
     (scripts / "anim_dot.py").unlink()
     assert "anim_dot_last: removed, no script draws it" in list(write_baselines(scripts, folder))
-    assert sorted(path.name for path in folder.iterdir()) == ["fig90_dot.npz", "fig90_dot.png", "pixels.json"]
+    assert sorted(path.name for path in folder.iterdir()) == [
+        *("fig90_dot.npz", "fig90_dot.png", "labels.json", "pixels.json")
+    ]
 
 
 def test_the_hash_decides_before_the_picture(project, monkeypatch):
@@ -128,3 +131,21 @@ def test_the_command_reports_and_its_exit_code_tells(project, capsys):
     assert capsys.readouterr().out == "fig90_dot: new\n"
     assert main(["--scripts", str(scripts / "none"), "--store", str(folder)]) == 2
     assert "no figure scripts" in capsys.readouterr().err
+
+
+def labelled(x, text="north"):
+    return Case("labelled", Page((0.0, 4.0, 0.0, 2.0), (Label(text, (x, 1.0)), Label("", (1.0, 1.0)))), {}, "agg")
+
+
+def test_labels_keep_their_place_to_a_pixel(tmp_path):
+    store = Store(tmp_path)
+    store.write(labelled(2.0))
+    store.write_tables()
+    pixel = 4.0 / 640
+    for kept in (labelled(2.0), labelled(2.0 + 0.8 * pixel)):
+        assert Store(tmp_path).set_otherwise(kept) == []
+    for moved in (labelled(2.0 + 1.2 * pixel), labelled(2.0 - 1.2 * pixel), labelled(2.0, "norths"), labelled(2.0, "")):
+        (message,) = Store(tmp_path).set_otherwise(moved)
+        assert message.startswith("T3: label 0 (")
+    bare = Case("labelled", labelled(2.0).page.without_labels(), {}, "agg")
+    assert Store(tmp_path).set_otherwise(bare) == ["T3: 2 labels expected, 0 found"]

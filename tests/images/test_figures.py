@@ -1,40 +1,28 @@
-"""The three nets over every figure and animation: what is drawn is what was stored.
+"""The nets over every figure and animation: what is drawn is what was stored.
 
-T0 compares the arrays, T1 the hash of the pixels, T2 the pixels where T1 differs (`stereodel.render.baselines`). What
-fails is shown in out/report/index.html. `make baselines` alone changes what is stored.
+T0 compares the arrays, T1 the hash of the pixels, T2 the pixels where T1 differs, T3 the places of the type
+(`stereodel.render.baselines`). What fails is shown in out/report/index.html. `make baselines` alone changes what is
+stored.
 """
-
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from stereodel.render.baselines import SIZE, Store, case_names, cases_of
-from stereodel.render.build import find_scripts
+from stereodel.render.baselines import SIZE, case_names
 from stereodel.render.labels import label_layer
 from stereodel.render.report import report_failure, withdraw_failure
+from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases
 
 pytestmark = pytest.mark.images
 
-ROOT = Path(__file__).parents[2]
-SCRIPTS = find_scripts(ROOT / "figures")
-STORE = Store(Path(__file__).parent / "baselines")
 REPORT = ROOT / "out" / "report"
-
-by_script = pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
-
-
-@cache
-def cases(script):
-    return cases_of(script)
 
 
 @by_script
 def test_a_script_draws_what_was_stored(script):
     found = {}
     for case in cases(script):
-        messages = [*STORE.drawn_otherwise(case), *STORE.looks_otherwise(case)]
+        messages = STORE.otherwise(case)
         if messages:
             report_failure(STORE.failure(case, messages), REPORT)
             found[case.name] = messages[:8]
@@ -58,9 +46,22 @@ def test_no_text_is_cut_off(script):
             assert not border.any(), case.name
 
 
+@by_script
+def test_labels_lie_together_where_each_lies_alone(script):
+    for case in cases(script):
+        if case.page.labels:
+            ink = label_layer(case.page, SIZE)[..., 3] > 0
+            boxes = case.ink[~np.isnan(case.ink).any(axis=1)] * (SIZE / case.page.width)
+            for left, bottom, right, top in boxes:
+                # Two pixels more: the boxes hold what is at least half as strong.
+                rows = slice(max(0, int(len(ink) - top) - 2), int(len(ink) - bottom) + 3)
+                ink[rows, max(0, int(left) - 2) : int(right) + 3] = False
+            assert not ink.any(), case.name
+
+
 def test_nothing_is_stored_that_no_script_draws():
     names = sorted(name for script in SCRIPTS for name in case_names(script))
-    assert sorted(STORE.hashes) == names
+    assert sorted(STORE.hashes) == sorted(STORE.boxes) == names
     assert sorted(path.name for path in STORE.folder.iterdir()) == sorted(
-        [*(f"{name}.{kind}" for name in names for kind in ("npz", "png")), "pixels.json"]
+        [*(f"{name}.{kind}" for name in names for kind in ("npz", "png")), "labels.json", "pixels.json"]
     )

@@ -1,22 +1,21 @@
-"""The nets catch what they must: each small change of a figure fails T0 and T2, a moved label T0."""
+"""The nets catch what they must in scripts: each small change of a figure fails T0 and T2, a moved label T0."""
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stereodel.render import View
-from stereodel.render.baselines import Case, Store
+from stereodel.render.baselines import Case
 from stereodel.render.build import load_drawing
 from stereodel.render.image import compare, read_picture
 from stereodel.render.page import Label, Page, Stroke
+from tests.images.scripts import ROOT, STORE
 
 pytestmark = pytest.mark.images
 
-FIGURES = Path(__file__).parents[2] / "figures"
-STORE = Store(Path(__file__).parent / "baselines")
+FIGURES = ROOT / "figures"
 
 
 def module(name):

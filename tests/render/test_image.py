@@ -46,13 +46,40 @@ def test_one_pixel_in_ten_thousand_may_be_visibly_other(white):
     assert not compare(white, other).passes
 
 
-def test_one_pixel_in_a_hundred_may_be_a_little_other(white):
+def test_one_pixel_in_a_thousand_may_be_a_little_other(white):
     other = white.copy()
-    other[0, :, 2] -= PIXEL_LEVELS
+    other[5::25, 25::40, 2] -= PIXEL_LEVELS
+    other[95, 90:92, 2] -= PIXEL_LEVELS
     assert compare(white, other).visible == 0
+    assert compare(white, other).any == 1e-3
     assert compare(white, other).passes
     other[1, 0, 0] -= 1
     assert not compare(white, other).passes
+
+
+def blot(large, top, left, size, depth):
+    other = large.copy()
+    other[top : top + size[0], left : left + size[1]] -= np.uint8(depth)
+    return compare(large, other)
+
+
+@pytest.mark.parametrize(("top", "left"), [(0, 0), (30, 47), (500, 600), (996, 996)])
+def test_what_is_lost_in_the_shares_is_seen_in_a_tile(top, left):
+    """Whatever it lies on: seams of tiles are the middles of others."""
+    large = np.full((1000, 1000, 3), 255, dtype=np.uint8)
+    dot = blot(large, top, left, (2, 3), 100)
+    assert (dot.visible, dot.worst.visible, dot.worst.any) == (6e-6, 6, 6)
+    assert not dot.passes
+    assert dot.worst.row <= top < dot.worst.row + 32
+    assert dot.worst.column <= left < dot.worst.column + 32
+    assert blot(large, top, left, (2, 2), 100).passes
+    assert not blot(large, top, left, (3, 3), 1).passes
+    assert blot(large, top, left, (2, 4), 1).passes
+
+
+def test_a_failure_names_the_worst_tile():
+    large = np.full((1000, 1000, 3), 255, dtype=np.uint8)
+    assert str(blot(large, 500, 600, (3, 3), 1)).endswith("in columns 576 to 607, rows 480 to 511: 0 and 9")
 
 
 def test_levels_do_not_wrap_around():
