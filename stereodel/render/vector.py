@@ -31,6 +31,7 @@ from matplotlib.transforms import ScaledTranslation
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
 from stereodel.constants import FINEST_POINTS
+from stereodel.render.matplotlib_mends import exact_mathtext
 from stereodel.render.outlines import patch_outline
 from stereodel.render.page import (
     Beziers,
@@ -92,7 +93,7 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures =
     kind = target.suffix.lower().lstrip(".")
     if kind not in METADATA:
         raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
-    with matplotlib_settings():
+    with matplotlib_settings(), exact_mathtext():
         canvas = drawn(page, dpi=PAPER_DPI, mosaics=mosaics)
         with replacing(target) as temporary:
             canvas.savefig(temporary, format=kind, metadata=METADATA[kind], facecolor=page.background)
@@ -223,13 +224,17 @@ def _stroke_patch(strokes: list[Stroke], look: Stroke) -> PathPatch:
 
 
 def _polylines_patch(lines: Polylines) -> PathPatch:
-    codes = np.full(len(lines.points), Outline.LINETO)
-    codes[lines.offsets[:-1]] = Outline.MOVETO
-    starts, ends = lines.offsets[:-1], lines.offsets[1:] - 1
-    closed = (lines.points[starts] == lines.points[ends]).all(axis=1) & (ends - starts > 2)
+    # A point alone is a dot: a piece of no length with round ends.
+    alone = np.diff(lines.offsets) == 1
+    points = np.insert(lines.points, lines.offsets[:-1][alone], lines.points[lines.offsets[:-1][alone]], axis=0)
+    offsets = lines.offsets + np.concatenate([[0], np.cumsum(alone)])
+    codes = np.full(len(points), Outline.LINETO)
+    codes[offsets[:-1]] = Outline.MOVETO
+    starts, ends = offsets[:-1], offsets[1:] - 1
+    closed = (points[starts] == points[ends]).all(axis=1) & (ends - starts > 2)
     codes[ends[closed]] = Outline.CLOSEPOLY
     return PathPatch(
-        Outline(lines.points, codes),
+        Outline(points, codes),
         fill=False,
         edgecolor=lines.color,
         linewidth=lines.width,
