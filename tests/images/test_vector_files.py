@@ -1,0 +1,255 @@
+"""SVG and PDF hold what their page holds, item by item: paths, colours, widths, dashes, pictures and type."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stereodel.render.baselines import SIZE
+from stereodel.render.labels import ink_boxes
+from stereodel.render.page import Dots, Fill, Label, Mosaic, Page, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.render.saving import mosaic_pictures
+from stereodel.render.vector import save_vector
+from tests.images.marks import path_of
+from tests.images.page_marks import differences
+from tests.images.read_pdf import read_pdf
+from tests.images.read_svg import read_svg
+from tests.images.scripts import by_script, cases
+from tests.images.type_marks import type_differences
+
+READERS = {"svg": read_svg, "pdf": read_pdf}
+
+
+def wrong_in_files(page, ink, folder):
+    """What is wrong with the files of a page, a line each."""
+    mosaics = mosaic_pictures(page, SIZE)
+    wrong, type_marks = [], {}
+    for kind, read in READERS.items():
+        size, marks = read(save_vector(page, folder / f"page.{kind}", mosaics=mosaics))
+        found, type_marks[kind] = differences(page, size, marks, mosaics)
+        wrong += [f"{kind}: {what}" for what in found]
+    return wrong or type_differences(page, ink, type_marks)
+
+
+@by_script
+def test_the_files_of_a_script_hold_what_its_pages_hold(script, tmp_path):
+    assert {
+        case.name: wrong for case in cases(script) if (wrong := wrong_in_files(case.page, case.ink, tmp_path))
+    } == {}
+
+
+BLACK, RED = (0.0, 0.0, 0.0, 1.0), (0.8, 0.1, 0.0, 1.0)
+
+
+def lines(*points):
+    points = np.array(points, dtype=float)
+    return np.linspace(points[:-1], points[1:], 4, axis=1)
+
+
+def box(left, right, bottom, top):
+    return lines((left, bottom), (right, bottom), (right, top), (left, top), (left, bottom))
+
+
+class Checks:
+    """A painter of squares in many colours, of which every other one is seen through."""
+
+    def paint(self, place, pixels):
+        left, top, width, height = place
+        columns, rows = pixels
+        x, y = np.meshgrid(left + width * (np.arange(columns) + 0.5), top - height * (np.arange(rows) + 0.5))
+        odd = (np.floor(4.7 * x) + np.floor(4.7 * y)) % 2 == 1
+        return np.stack([200 * odd, 99.3 * x * odd, 99.3 * y * odd, 255 * odd], axis=-1).astype(np.uint8)
+
+    def arrays(self):
+        return {}
+
+
+def fan(turn, radius=0.4):
+    """A patch of triangles from a middle to a rim, through part of a turn, with a hole and a speck."""
+    angle = np.linspace(0.0, turn, 13)
+    circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    middle = np.array([3.0, 0.5])
+    points = np.concatenate(
+        [middle + radius * circle, middle + 0.3 * circle, [[3.4, 0.9], [3.40001, 0.9], [3.4, 0.90001]]]
+    )
+    k = np.arange(12)
+    faces = np.concatenate(
+        [np.stack([k, k + 1, k + 14], axis=1), np.stack([k, k + 14, k + 13], axis=1), [[26, 27, 28]]]
+    )
+    rim = np.arange(len(points)) < 13
+    return Patch(points, faces.astype(np.int32), (0.3, 0.6, 0.2, 0.5), rim, (3.0, 0.5), role="fan")
+
+
+def everything():
+    """A page with each kind of item, in each of its ways."""
+    bent = np.array(
+        [[[0.2, 1.2], [0.4, 1.9], [0.9, 1.9], [1.1, 1.2]], [[1.1, 1.2], [1.2, 0.9], [1.3, 0.9], [1.4, 1.2]]]
+    )
+    outline = (box(1.6, 2.4, 1.1, 1.9), box(1.8, 2.2, 1.3, 1.7))
+    corners = np.array([[[2.6, 1.1], [3.4, 1.1], [3.4, 1.9]], [[2.6, 1.1], [3.4, 1.9], [2.6, 1.9]]])
+    ball = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+    polylines = np.array(
+        [(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)]
+    )
+    items = (
+        Surface(ball, ball, np.array([[0, 1, 2]], np.int32), (box(0.1, 1.5, 0.1, 1.9),), (0.9, 0.95, 1.0, 1.0), "ball"),
+        Mosaic(corners, None, np.array([[0.2, 0.5, 0.5], [0.5, 0.5, 0.9]]), (box(2.6, 3.4, 1.1, 1.9),), "cells"),
+        Picture((box(0.3, 1.2, 0.2, 1.0),), Checks(), "checks"),
+        Fill(outline, (0.9, 0.6, 0.1, 0.4), "ring"),
+        Fill((*outline, box(1.9, 2.1, 1.4, 1.6)), RED, "island"),
+        fan(1.5 * np.pi),
+        fan(2.0 * np.pi, radius=0.45),
+        Stroke(bent, RED, 2.0, dash=(6.0, 4.0), cap="butt", role="dashed"),
+        Stroke(bent - [0.0, 0.1], RED, 0.5, dash=(6.0, 4.0), role="dashed"),
+        Stroke(bent - [0.0, 0.2], RED, 1.0, dash=(6.0, 4.0), closed=True, role="dashed"),
+        Stroke(box(-0.5, 4.5, 0.4, 2.5), BLACK, 1.5, closed=True, role="beyond"),
+        Stroke(bent + [0.1, 0.0], BLACK, 1.5, role="beyond"),
+        Stroke(lines((1.0, 1.0), (1.0, 1.0)), BLACK, 1.5, role="speck"),
+        *(Stroke(bent + [0.1 * k, -0.5], (0.0, 0.3, 0.0, 0.5), 3.0, cap="butt", role="veil") for k in range(2)),
+        Polylines(polylines, np.array([0, 3, 7, 8]), (0.0, 0.0, 1.0, 0.6), 0.8, "coast"),
+        Polylines(polylines + 0.05, np.array([0, 3, 7, 8]), BLACK, 0.8, "border"),
+        Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, RED, rim_width=1.0, role="sites"),
+        Dots(np.array([[3.9, 0.1]]), 2.0, BLACK),
+        Label("north", (1.0, 1.0), (3.0, 4.0), align="left", valign="bottom", color=RED),
+        Label(r"$\frac{\varphi}{2}$ and $\sqrt{2\pi}$", (2.0, 0.7), size=14.0, rotation=30.0),
+        Label("", (2.0, 0.7)),
+        Label("West Point", (3.0, 1.0), align="right", halo=1.2, halo_color=(0.9, 0.9, 0.7, 1.0), valign="top"),
+    )
+    return Page((0.0, 4.0, 0.0, 2.0), items, width=300.0, background=(0.98, 0.97, 0.9, 1.0))
+
+
+def test_files_hold_each_kind_of_item(tmp_path):
+    page = everything()
+    assert wrong_in_files(page, ink_boxes(page), tmp_path) == []
+
+
+@pytest.mark.parametrize("kind", READERS)
+def test_dashes_have_the_same_length_whatever_the_width(kind, tmp_path):
+    dashed = [item for item in everything().items if item.role == "dashed"]
+    _, marks = READERS[kind](save_vector(replace(everything(), items=tuple(dashed)), tmp_path / f"page.{kind}"))
+    assert [(mark.width, mark.dash) for mark in marks[1:]] == [(width, (6.0, 4.0)) for width in (2.0, 0.5, 1.0)]
+
+
+def without(page, role):
+    return replace(page, items=tuple(item for item in page.items if item.role != role))
+
+
+def changed(page, role, **fields):
+    """A page whose items of a role differ in some fields, each a value or a function of what there is."""
+    items = []
+    for item in page.items:
+        if item.role == role:
+            new = {name: value(getattr(item, name)) if callable(value) else value for name, value in fields.items()}
+            item = replace(item, **new)
+        items.append(item)
+    return replace(page, items=tuple(items))
+
+
+NEAR = 2e-3 * 4 / 300
+"""Two thousandths of a point in the units of `everything`."""
+
+CHANGES = {
+    "the ground": lambda page: replace(page, background=(0.98, 0.97, 0.91, 1.0)),
+    "the size": lambda page: replace(page, width=300.01),
+    "another order": lambda page: replace(page, items=page.items[::-1]),
+    **{
+        f"{role} missing": lambda page, role=role: without(page, role)
+        for role in ("ball", "cells", "checks", "ring", "fan", "dashed", "beyond", "veil", "coast", "sites", "speck")
+    },
+    **{
+        f"{role} paler": lambda page, role=role: changed(
+            page, role, color=lambda c: (*(v - 2 / 255 if v > 0.5 else v + 2 / 255 for v in c[:3]), c[3])
+        )
+        for role in ("ball", "ring", "fan", "dashed", "beyond", "veil", "coast", "border", "sites")
+    },
+    **{
+        f"{role} more opaque": lambda page, role=role: changed(page, role, color=lambda c: (*c[:3], c[3] + 2 / 255))
+        for role in ("ring", "fan", "veil", "coast")
+    },
+    **{
+        f"{role} wider": lambda page, role=role: changed(page, role, width=lambda width: width + 2e-3)
+        for role in ("dashed", "beyond", "veil", "coast", "border")
+    },
+    "rim wider": lambda page: changed(page, "sites", rim_width=1.002),
+    "rim of another colour": lambda page: changed(page, "sites", rim=(1.0, 1.0, 0.99, 1.0)),
+    "dots larger": lambda page: changed(page, "sites", radius=4.002),
+    "a dot elsewhere": lambda page: changed(page, "sites", centers=lambda c: c + [[0, 0], [NEAR, 0], [0, 0]]),
+    "dashes longer": lambda page: changed(page, "dashed", dash=(6.002, 4.0)),
+    "no dashes": lambda page: changed(page, "dashed", dash=None),
+    "other ends": lambda page: changed(page, "veil", cap="round"),
+    "open": lambda page: changed(page, "dashed", closed=False),
+    "a curve elsewhere": lambda page: changed(page, "veil", path=lambda path: path + [0.0, NEAR]),
+    "a bend elsewhere": lambda page: changed(
+        page, "dashed", path=lambda path: path + 3 * NEAR * np.eye(4)[1][None, :, None] * [0.0, 1.0]
+    ),
+    "a fill elsewhere": lambda page: changed(page, "ring", paths=lambda paths: (paths[0] + [NEAR, 0.0], paths[1])),
+    "a hole filled": lambda page: changed(page, "ring", paths=lambda paths: paths[:1]),
+    "a corner elsewhere": lambda page: changed(page, "coast", points=lambda points: points + [[0.0, NEAR]]),
+    "a line missing": lambda page: changed(
+        page, "coast", points=lambda points: points[:7], offsets=np.array([0, 3, 7])
+    ),
+    "lines joined": lambda page: changed(page, "coast", offsets=np.array([0, 7, 8])),
+    "a triangle missing": lambda page: changed(page, "fan", faces=lambda faces: faces[1:]),
+    "a corner of a patch elsewhere": lambda page: changed(
+        page, "fan", points=lambda points: points + 20 * NEAR * (np.arange(len(points)) == 20)[:, None] * [-1.0, 0.0]
+    ),
+    "chords for arcs": lambda page: changed(page, "fan", rim=np.zeros(29, dtype=bool)),
+    "cells of another colour": lambda page: changed(page, "cells", outline=lambda runs: (runs[0] * [1.0, 0.99],)),
+    "a label elsewhere": lambda page: changed(page, "label", offset=lambda offset: (offset[0] + 0.4, offset[1])),
+    "a label larger": lambda page: changed(page, "label", size=lambda size: 1.05 * size),
+    "a label of another colour": lambda page: changed(page, "label", color=(0.0, 0.0, 0.01, 1.0)),
+    "a label missing": lambda page: replace(page, items=page.items[:-1]),
+    "no halo": lambda page: changed(page, "label", halo=0.0),
+    "a wider halo": lambda page: changed(page, "label", halo=lambda halo: halo and halo + 0.01),
+    "another text": lambda page: changed(page, "label", text=lambda text: text.replace("north", "morth")),
+}
+
+
+@pytest.fixture(scope="module")
+def as_it_is(tmp_path_factory):
+    """The marks of type in the files of `everything`, and the ink of its labels."""
+    folder, page = tmp_path_factory.mktemp("files"), everything()
+    type_marks = {}
+    for kind, read in READERS.items():
+        file = save_vector(page, folder / f"a.{kind}", mosaics=pictures(page))
+        wrong, type_marks[kind] = differences(page, *read(file), pictures(page))
+        assert wrong == []
+    ink = ink_boxes(page)
+    assert type_differences(page, ink, type_marks) == []
+    return page, type_marks, ink
+
+
+@pytest.mark.parametrize("change", CHANGES)
+@pytest.mark.parametrize("kind", READERS)
+def test_a_file_of_another_page_is_told_apart(kind, change, as_it_is, tmp_path):
+    """One of the two files shows a page that differs a little."""
+    page, type_marks, ink = as_it_is
+    other = CHANGES[change](page)
+    file = save_vector(other, tmp_path / f"b.{kind}", mosaics=pictures(other))
+    wrong, marks = differences(page, *READERS[kind](file), pictures(page))
+    assert wrong or type_differences(page, ink, {**type_marks, kind: marks})
+
+
+def pictures(page):
+    """A picture for each mosaic that needs no OpenGL."""
+    ramp = (np.arange(2400) % 251).astype(np.uint8).reshape(20, 40, 3)
+    return [ramp for item in page.items if isinstance(item, Mosaic)]
+
+
+def test_paths_are_read_by_their_commands():
+    path = path_of(b"MLLZMQML", [0, 0, 3, 0, 3, 3, 9, 9, 12, 9, 12, 12, 5, 5, 5, 5])
+    assert path.closed.tolist() == [True, False, False]
+    assert path.run.tolist() == [0, 0, 0, 1, 2]
+    assert path.pieces[2].tolist() == [[3, 3], [2, 2], [1, 1], [0, 0]]
+    assert path.pieces[3].tolist() == [[9, 9], [11, 9], [12, 10], [12, 12]]
+    assert path.pieces[4].tolist() == [[5, 5]] * 4
+
+
+def test_readers_refuse_what_they_do_not_know(tmp_path):
+    file = save_vector(everything().without_labels(), tmp_path / "page.svg", mosaics=pictures(everything()))
+    text = file.read_text()
+    for old, new in (("stroke-width: 1.5", "stroke-miterlimit: 3"), ("<path d=", "<circle d="), ("\nC ", "\nc ")):
+        assert old in text
+        file.write_text(text.replace(old, new, 1))
+        with pytest.raises((AssertionError, NotImplementedError)):
+            read_svg(file)
