@@ -228,3 +228,14 @@ def test_a_folder_of_the_kernel_is_a_namespace():
         names = re.findall(r"^namespace (\S+) \{", path.read_text(encoding="utf-8"), flags=re.MULTILINE)
         assert names, path
         assert all(f"namespace {name}".startswith(wanted) for name in names), path
+
+
+@pytest.mark.parametrize("folder", KERNEL_FLOORS[1:])
+def test_the_main_header_of_a_folder_names_its_files(folder):
+    """What the folder is for and in which order to read it, so that no file is overlooked."""
+    files = list((PACKAGE / "kernel" / folder).iterdir())
+    heads = [re.match(rf"// The folder `{folder}`: (?:.*\n)+?//\n", path.read_text(encoding="utf-8")) for path in files]
+    (head,) = filter(None, heads)
+    if folder != "python":  # whose files are named after the other folders
+        missing = {path.stem for path in files} - set(re.findall(r"\w+", head[0]))
+        assert missing - {"moebius"} == set()  # alone there

@@ -1,5 +1,5 @@
 // Angles of vectors in doubles, relatively accurate, without the platform's mathematics: the same bits on every
-// machine. (arctangent.hpp is the rough one, for pixels.)
+// machine. (raster/rough_angle.hpp is a rough one, for pixels.)
 //
 // Of (x, y) with l <= g the lesser and the greater of |x| and |y|, the angle is arctan(l/g), and one subtraction from
 // pi/2 or pi or both. With c = k/32 next to l/g, or c = 0 for l/g < 1/16,

@@ -1,3 +1,9 @@
+// The folder `arithmetic`: numbers that hold more than a double, and the error bounds of those that do not.
+// Reading order: double_double; pair_arithmetic, the same with unnormalised halves; error_counts, bounds that the
+// compiler counts; bounded and ball, double-doubles that carry their error, and ball_vectors; wrapping_integer,
+// big_integer, roots (signs of sums of square roots), integer_quotients; big_ball, many digits with their error;
+// arc_tangent.
+//
 // Double-double arithmetic: a value is the unevaluated sum hi + lo, |lo| <= ulp(hi)/2, about 106 bits.
 //
 // The error-free transformations are Knuth's (two_sum) and Dekker's and Veltkamp's (two_product: no fused

@@ -1,3 +1,5 @@
+// The folder `conformal`: conformal maps of the sphere. What is proved, and how, stands in moebius.cpp.
+//
 // Conformal maps of the sphere at many points: a rotation, the fisheye along z, a rotation.
 #pragma once
 

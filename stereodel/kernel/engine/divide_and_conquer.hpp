@@ -1,3 +1,7 @@
+// The folder `engine`: Delaunay triangulation from scratch.
+// Reading order: edges, divide_and_conquer, curve_sites (sorting, tasks, threads), triangles (edges to rows), plane;
+// for the sphere projection, projected_sites (the same questions about projected directions), sphere.
+//
 // Delaunay triangulation by divide and conquer over points in the order of a space-filling curve.
 //
 // L. Guibas, J. Stolfi, "Primitives for the manipulation of general subdivisions and the computation of Voronoi

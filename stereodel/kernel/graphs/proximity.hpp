@@ -1,3 +1,6 @@
+// The folder `graphs`: proximity graphs and the shortest spanning tree.
+// Reading order: sites (points by number), proximity, lune_search, spanning_tree.
+//
 // Graphs of nearness as parts of a Delaunay triangulation, decided exactly: Gabriel, Urquhart, relative neighbourhood.
 //
 // All comparisons are of chords, on the sphere of arcs, which compare alike. So one set of proofs serves both: the

@@ -1,3 +1,6 @@
+// The folder `interpolation`: values between points, as far as they need more than the triangle that holds a query.
+// Reading order: natural_neighbors, stolen_areas.
+//
 // Natural neighbour interpolation: each point counts with the area that the query's Voronoi cell takes from its own.
 //
 // R. Sibson, "A brief description of natural neighbour interpolation", in: Interpreting Multivariate Data (1981). The

@@ -1,3 +1,7 @@
+// The folder `mesh`: triangulations that points are added to and taken from.
+// Reading order: corners (places in a triangle), mesh, walk, mesh_walk; plane_surface and sphere_surface, what the mesh
+// asks of points; insertion, polygon_fill, removal; dynamic, all of it together.
+//
 // A closed surface of triangles that can be taken apart and put together: integers alone, nothing here knows a
 // coordinate.
 //

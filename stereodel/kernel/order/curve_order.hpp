@@ -1,3 +1,7 @@
+// The folder `order`: points along a curve, so that what is near in place is near in memory and in time.
+// Reading order: curve_keys, square_grid, charts (where in the grid a point lies), radix_sort, curve_order, landmarks,
+// itinerary (a walk over queries); flat_order, points of one line or great circle in their exact order.
+//
 // Points in the order of a space-filling curve, so that a walk from one to the next is short; clusters have curves of
 // their own, however tight they are.
 //

@@ -1,3 +1,9 @@
+// The folder `predicates`: exact signs, in stages: a filter in doubles, double-double, balls, integers.
+// Reading order, for points of the plane: plane_forms, the formulas for any kind of number; plane_stages, their bounds;
+// spanning_edges, plane_balls; plane_predicates, points by number and ties; circle_memo. For directions: ray_forms,
+// ray_stages, ray_balls, ray_integers, ray_order, ray_lengths, ray_predicates. For space: space_predicates. Then
+// predicate_rows, the public predicates on arrays, and symmetry, ties that need no arithmetic.
+//
 // Orientation and incircle of points of the plane by number, y up: the answers of exact arithmetic on their doubles.
 //
 // orient > 0: counterclockwise; incircle > 0: inside a counterclockwise triangle. Ties of `in_circle` are decided by

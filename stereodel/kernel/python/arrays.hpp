@@ -1,3 +1,7 @@
+// The folder `python`: the module stereodel._kernel. Each file binds the folder or the concern that it is named after;
+// nothing is computed here.
+// Reading order: module, arrays, rows and triangles (what comes from Python), then any other.
+//
 // What the bindings share: arrays from and to NumPy, and calls that Ctrl-C can stop.
 #pragma once
 

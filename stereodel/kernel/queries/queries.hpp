@@ -1,3 +1,7 @@
+// The folder `queries`: which triangle holds a point, and which points are nearest to it.
+// Reading order: queries, query_pieces (many queries, on threads), location; nearest_finder, nearest, equal_points,
+// k_nearest; nearest_flat, where there are no triangles.
+//
 // Triangulations as plain arrays, and a query's side of their edges: what location and nearest points share.
 #pragma once
 

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "arithmetic/arctangent.hpp"
+#include "raster/rough_angle.hpp"
 
 namespace stereodel::raster {
 
-using arithmetic::rough_angle;
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <utility>
 
-#include "arithmetic/arctangent.hpp"
+#include "arithmetic/arc_tangent.hpp"
 
 namespace stereodel::raster {
 

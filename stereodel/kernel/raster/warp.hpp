@@ -1,3 +1,7 @@
+// The folder `raster`: pictures of the sphere through a conformal map, pixel by pixel.
+// Reading order: rough_angle, page_trace (from the page back to the sphere), levels (means of the raster), sample,
+// warp.
+//
 // An equirectangular raster on a globe seen through a lens, as pixels.
 #pragma once
 

@@ -11,7 +11,9 @@
 
 #include "arithmetic/arc_tangent.hpp"
 
-namespace stereodel::arithmetic {
+namespace stereodel::raster {
+
+using arithmetic::PI;
 
 // Of (x, y) in [-pi, pi]: within 4.5e-10 rad of the exact angle; 0 for the zero vector.
 inline double rough_angle(double y, double x) {
@@ -36,4 +38,4 @@ inline double rough_angle(double y, double x) {
     return std::copysign(x < 0.0 ? PI - upper : upper, y);
 }
 
-}  // namespace stereodel::arithmetic
+}  // namespace stereodel::raster
