@@ -30,10 +30,11 @@ else
     echo "one definition a name: not checked, GCC alone compares them" >&2
 fi
 compiled build/one_thread -DSTEREODEL_THREADS=OFF -DSTEREODEL_MODULE=OFF -DSTEREODEL_FUZZ=ON
-if grep -qE '/(thread|mutex|condition_variable)"?$' <(ninja -C "$build" -t deps | sed 's/ *$//'); then
+# The fuzz target's own main may use files, and these threads.
+if ninja -C "$build" -t deps | awk '/^[^ ]/ { kernel = /kernel\.dir/ } kernel' | grep -qE '/(thread|mutex|condition_variable)$'; then
     echo "without threads, no header of threads may be asked for" >&2
     exit 1
 fi
-(cd "$build" && quietly ./fuzz_points -max_total_time=2 -max_len=3000)
+quietly env --chdir="$build" ./fuzz_points -max_total_time=2
 echo "the kernel runs without threads"
 printf '%s\n' "$wanted" >"$done"
