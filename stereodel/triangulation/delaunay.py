@@ -71,8 +71,9 @@ class Delaunay(Versioned, ABC):
         The mesh is lost to this version, whether the change succeeds or not.
         """
         version = self._new_version(chunks)
+        tests = self._tests  # before the mesh goes on, which knows what earlier changes cost
         mesh = self.__dict__.pop("_mesh", None)  # in one step: a copy that shares this version cannot have it, too
-        version._counts = self._tests if mesh is None else self._counts
+        version._counts = tests if mesh is None else self._counts
         version._mesh = mesh or self._space.Mesh(*self._triangles(), self.duplicates, True)
         result = change(version._mesh)
         version._changes = version._mesh.changes
@@ -89,7 +90,12 @@ class Delaunay(Versioned, ABC):
         mesh = self.__dict__.get("_mesh")
         if mesh is None:
             return None
-        value = read(mesh)
+        try:
+            value = read(mesh)
+        except RuntimeError:
+            if "_mesh" in self.__dict__:
+                raise
+            return None
         return value if mesh.changes == self._changes else None  # None: it has gone on meanwhile
 
     @kept

@@ -26,7 +26,7 @@ class Versioned:
     _turn: threading.Lock  # held by who makes a change; versions have none
 
     def _hold(self, version: Self) -> None:
-        """Begin with a version."""
+        """Set the first version."""
         self._turn = threading.Lock()
         self._version = version
 
@@ -43,7 +43,7 @@ class Versioned:
 
     @contextmanager
     def _change(self) -> Iterator[None]:
-        """Keep other threads out; refuse where one is at it."""
+        """Keep other threads out; refuse if one of them is making a change."""
         if not self._turn.acquire(blocking=False):
             raise _in_change()
         try:
@@ -52,7 +52,7 @@ class Versioned:
             self._turn.release()
 
     def _put(self, version: Self) -> None:
-        """End a change."""
+        """Make `version` the present one."""
         self._version = version
 
     def __copy__(self) -> Self:

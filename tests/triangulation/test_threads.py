@@ -257,3 +257,36 @@ def test_a_mesh_that_went_on_is_not_believed(width):
     assert np.array_equal(version.edges, expected.edges)
     assert np.array_equal(version.duplicates, expected.duplicates)
     assert version.inconclusive == expected.inconclusive
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_a_copy_that_is_read_does_not_hinder_changes(width):
+    """The original and the copy share the mesh: writing out its arrays takes a while."""
+    triangulation = CLASSES[width](points_of(width, 60_000))
+    for turn in range(6):
+        triangulation.insert(points_of(width, 3, seed=turn + 1))  # whose arrays are not written yet
+        twin = copy.copy(triangulation)
+        expected = CLASSES[width](twin.points)
+        found = []
+        reader = threading.Thread(target=lambda: found.append((twin.simplices, twin.inconclusive)))  # noqa: B023
+        reader.start()
+        time.sleep(0.0003 * turn)
+        triangulation.insert(points_of(width, 3, seed=turn + 100))
+        reader.join(60)
+        assert not reader.is_alive()
+        assert {tuple(t) for t in found[0][0].tolist()} == {tuple(t) for t in expected.simplices.tolist()}
+
+
+@pytest.mark.parametrize("width", CLASSES)
+def test_tests_left_open_are_remembered(width):
+    """Neither a change that is given up nor one of the original after a copy alters how many there were."""
+    grid = np.stack(np.meshgrid(np.arange(20.0), np.arange(20.0)), axis=-1).reshape(-1, 2)
+    points = grid if width == 2 else np.column_stack([grid, np.full(len(grid), 7.0)])
+    triangulation = CLASSES[width](points)
+    triangulation.insert(points_of(width, 3) + 9.5)
+    before, twin = dict(copy.copy(triangulation).inconclusive), copy.copy(triangulation)
+    with pytest.raises(ZeroDivisionError):
+        triangulation._latest()._changed(lambda mesh: 1 / 0, triangulation._latest()._chunks)
+    assert triangulation.inconclusive == before
+    triangulation.insert(points_of(width, 3, seed=1) + 9.5)
+    assert twin.inconclusive == before

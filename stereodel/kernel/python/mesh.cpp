@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -96,13 +97,15 @@ class BoundMesh {
                                         simplices.shape(0), std::move(pairs), Stop{});
     }
 
-    // Both call work(stop) without the interpreter's lock, one thread at a time. A read waits for other reads, which
-    // soon end (even writing out the arrays moves facets); nothing waits for a change, unless it begins at this moment.
+    // Both call work(stop) without the interpreter's lock, one thread at a time. All wait for reads, which soon end (even
+    // writing out the arrays moves facets); nothing waits for a change.
     template <class Work>
     auto read(bool is_long, Work&& work) {
         return run_without_lock(is_long, [&](Stop stop) {
-            refuse_if(changing_);
-            const std::lock_guard lock(mutex_);
+            std::unique_lock lock(mutex_, std::defer_lock);
+            do {
+                refuse_if(changing_);
+            } while (!lock.try_lock_for(std::chrono::milliseconds(1)));
             return work(stop);
         });
     }
@@ -110,9 +113,9 @@ class BoundMesh {
     template <class Work>
     auto change(bool is_long, Work&& work) {
         return run_without_lock(is_long, [&](Stop stop) {
-            const std::unique_lock lock(mutex_, std::try_to_lock);
-            refuse_if(!lock.owns_lock());
+            refuse_if(changing_.exchange(true));
             const Changing mark(*this);
+            const std::lock_guard lock(mutex_);
             return work(stop);
         });
     }
@@ -120,16 +123,13 @@ class BoundMesh {
     static void refuse_if(bool in_use) {
         if (in_use) {
             throw std::runtime_error(
-                "another thread is using this triangulation while it changes; let one wait for the other by a lock, or "
-                "query a copy");
+                "another thread is changing this mesh; let one wait for the other by a lock, or query a copy");
         }
     }
 
+    // Counts a change, and ends it.
     struct Changing {
-        explicit Changing(BoundMesh& mesh) : changing(mesh.changing_) {
-            ++mesh.changes_;
-            changing = true;
-        }
+        explicit Changing(BoundMesh& mesh) : changing(mesh.changing_) { ++mesh.changes_; }
         Changing(const Changing&) = delete;
         Changing& operator=(const Changing&) = delete;
         ~Changing() { changing = false; }
@@ -137,7 +137,7 @@ class BoundMesh {
     };
 
     DynamicDelaunay<Surface> delaunay_;
-    std::mutex mutex_;
+    std::timed_mutex mutex_;
     std::atomic<bool> changing_{false};
     std::atomic<std::uint64_t> changes_{0};
 };

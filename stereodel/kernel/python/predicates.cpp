@@ -38,7 +38,7 @@ ValuesOut<std::int8_t> of_three(RowsIn<double, Width> a, RowsIn<double, Width> b
 template <std::size_t Width, OfFour& predicate>
 ValuesOut<std::int8_t> of_four(RowsIn<double, Width> a, RowsIn<double, Width> b, RowsIn<double, Width> c,
                                RowsIn<double, Width> d, int workers) {
-    constexpr const char* last = &predicate == &signs::in_bubble ? "p" : "d";
+    const char* const last = &predicate == &signs::in_bubble ? "p" : "d";
     const signs::PointRows p = to_points("a", a), q = to_points("b", b), r = to_points("c", c), s = to_points(last, d);
     return filled_signs(signs::common_count({p, q, r, s}), [&](std::int8_t* out, Stop stop) {
         predicate(p, q, r, s, out, workers, stop);

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <unordered_set>
 #include <vector>
 
+#include "index_set.hpp"
 #include "mesh/walk.hpp"
 #include "queries/queries.hpp"
 
@@ -49,11 +49,12 @@ class NearestFinder {
         if (equal_.empty()) {
             return;
         }
-        std::unordered_set<Index> seen{here.point};
+        seen_.clear();
+        seen_.insert(here.point);
         while (!equal_.empty()) {
             const Near next = equal_.back();
             equal_.pop_back();
-            if (!seen.insert(next.point).second) {
+            if (!seen_.insert(next.point)) {
                 continue;
             }
             check(stop_);
@@ -139,6 +140,7 @@ class NearestFinder {
     const TriangleArrays& triangles_;
     Query query_;
     std::vector<Near> equal_;
+    IndexSet seen_;  // by `visit_equal`
     Stop stop_;
 };
 
