@@ -15,8 +15,6 @@ from stereodel._arrays import BoolArray, FloatArray, IntArray
 
 Offsets = npt.NDArray[np.int64]
 Signs = npt.NDArray[np.int8]
-Cells = tuple[Offsets, IntArray, IntArray, int]
-"""A diagram as the kernel takes it: offsets, vertices and neighbours of the cells, number of vertices."""
 Triangulated = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
 """Simplices, neighbors or None, duplicates, dimension, inconclusive tests."""
 

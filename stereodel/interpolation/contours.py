@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, as_levels, as_values, read_only
-from stereodel.interpolation.sites import Indices, Places, Triangulation, as_triangulation, one_value_a_place
+from stereodel.interpolation.sites import Indices, Places, Triangulation, one_value_a_place
+from stereodel.triangulation.given import as_triangulation
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,8 +8,9 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray
 from stereodel.constants import UNDETERMINED
 from stereodel.interpolation.rings import rings_in_blocks
-from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values, as_triangulation
+from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values
 from stereodel.interpolation.triangles import cross3, dot, lengths
+from stereodel.triangulation.given import as_triangulation
 
 _UNKNOWNS = 5
 

@@ -9,7 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_directions, as_vectors, locked
-from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values, as_triangulation
+from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values
+from stereodel.triangulation.given import as_triangulation
 
 BLOCK = 4096
 """Queries at a time: a temporary of three vectors is 300 KB and stays in the second-level cache."""

@@ -8,15 +8,10 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_values
 from stereodel._double_double import DoubleDouble, unit
 from stereodel.sphere.chunks import ROWS
-from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay, given
+from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 
 Triangulation = PlanarDelaunay | SphericalDelaunay
 Indices = npt.NDArray[np.integer]
-
-
-def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
-    """A triangulation of our own: of points (n, 2) or (n, 3), or of those given, as they are now."""
-    return given.as_triangulation(points)
 
 
 def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:

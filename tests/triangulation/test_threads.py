@@ -282,11 +282,13 @@ def test_tests_left_open_are_remembered(width):
     """Neither a change that is given up nor one of the original after a copy alters how many there were."""
     grid = np.stack(np.meshgrid(np.arange(20.0), np.arange(20.0)), axis=-1).reshape(-1, 2)
     points = grid if width == 2 else np.column_stack([grid, np.full(len(grid), 7.0)])
-    triangulation = CLASSES[width](points)
-    triangulation.insert(points_of(width, 3) + 9.5)
-    before, twin = dict(copy.copy(triangulation).inconclusive), copy.copy(triangulation)
+    first, second, third = (CLASSES[width](points) for _ in range(3))
+    for triangulation in (first, second, third):
+        triangulation.insert(points_of(width, 3) + 9.5)
+    wanted, twin = first.inconclusive, copy.copy(second)
+    third.simplices  # noqa: B018  # from the mesh
     with pytest.raises(ZeroDivisionError):
-        triangulation._latest()._changed(lambda mesh: 1 / 0, triangulation._latest()._chunks)
-    assert triangulation.inconclusive == before
-    triangulation.insert(points_of(width, 3, seed=1) + 9.5)
-    assert twin.inconclusive == before
+        third._latest()._changed(lambda mesh: 1 / 0, third._latest()._chunks)
+    assert third.inconclusive == wanted
+    second.insert(points_of(width, 3, seed=1) + 9.5)
+    assert twin.inconclusive == wanted
