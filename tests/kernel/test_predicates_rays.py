@@ -118,6 +118,14 @@ def test_side_of_a_plane(spread, change):
         assert (probe.bubble_plane_filter(*change(normalised(cluster(spread)))) == OPEN).mean() < 0.1
 
 
+@pytest.mark.parametrize("spread", [2.0**-17.5, 2.0**-16, 2.0**-12, 2.0**-5])
+@pytest.mark.parametrize("change", [normalised, off_length])
+def test_where_the_plane_with_lengths_hardly_tells(spread, change):
+    """Twice the precision begins with the side of the plane down to 2^-18: many circles, on both sides of its bound."""
+    shares, truth = check("bubble", change(on_a_circle(spread, count=3000)))
+    assert shares["double_double"] <= (truth == 0).mean()
+
+
 def test_what_stays_open_is_little():
     """Row P6: cocircular up to rounding, the curvature form alone decides the more, the smaller the circle."""
     shares = [check("bubble", on_a_circle(spread))[0]["filter"] for spread in (1.0, 1e-3, 1e-6)]

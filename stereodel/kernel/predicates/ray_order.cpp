@@ -77,7 +77,8 @@ bool cocircular_by_symmetry(const double* a, const double* b, const double* c, c
         return true;
     }
     for (int k = 0; k < 3; ++k) {
-        if (same_component(a, b, k) && same_component(a, c, k) && same_component(a, p, k)) {
+        const bool equal = a[k] == b[k] && a[k] == c[k] && a[k] == p[k];  // cheap, and seldom true
+        if (equal && same_component(a, b, k) && same_component(a, c, k) && same_component(a, p, k)) {
             return true;
         }
     }

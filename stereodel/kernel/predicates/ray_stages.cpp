@@ -105,6 +105,84 @@ Sign bubble_in_pairs(const Scalar* a, const Pair* db, const Pair* dc, const Pair
 // lb lc <= 2^-530 may underflow to zero under the root.
 constexpr double TURN_FLOOR = 0x1p-500;
 
+// |v|^2 - 1 within 2^-76, for |v|^2 within 2^-47.9 of 1. Components are rounded to multiples of 2^-26, whose squares
+// and the sum of them are multiples of 2^-52 below 2: exact. The rests, at most 2^-27, are exact too. Their products
+// with sums, which add up to 2^-27 * 2 * 1.733 at most, are rounded twice, and twice more as they are added: less than
+// 4 * 2^-53 * 2^-25.2 = 2^-76.2. The result is so small that its own rounding is nothing beside that.
+double square_less_one(const double* v) {
+    constexpr double TO_GRID = 1.5 * 0x1p26;  // its neighbours are 2^-26 apart
+    double squares = -1.0, rests = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double near = (v[k] + TO_GRID) - TO_GRID;
+        squares += near * near;
+        rests += (v[k] - near) * (v[k] + near);
+    }
+    return squares + rests;
+}
+
+struct Heads {
+    double v[3];
+
+    explicit Heads(const Edge& e) : v{e.v[0].h, e.v[1].h, e.v[2].h} {}
+};
+
+struct Tails {
+    double v[3];
+
+    explicit Tails(const Edge& e) : v{e.v[0].l, e.v[1].l, e.v[2].l} {}
+    bool any() const { return v[0] != 0.0 || v[1] != 0.0 || v[2] != 0.0; }
+};
+
+// det[b c p] of exact edges within 2^-98 lb lc lp. Most differences of neighbours are doubles. Of the heads in pairs:
+// HEADS_ERROR u^2. Tails are at most u times heads: three determinants of at most ROOT_TWO u each with one tail vector
+// in it, which are rounded at most ten times until all are added; 4u^2 and less for two or three tail vectors in one.
+constexpr ErrorCount PRODUCT = {1, 0}, MINOR = PRODUCT - PRODUCT, TERM = PlainCount{} * MINOR;
+constexpr double HEADS_ERROR = 36;
+static_assert(ROOT_TWO * (TERM + TERM + TERM).bound() <= HEADS_ERROR);
+static_assert((HEADS_ERROR + 3 * 10 * ROOT_TWO + 3 * 4 * ROOT_TWO) * U2 < 0x1p-98);
+
+Pair volume(const Edge& db, const Edge& dc, const Edge& dp) {
+    const Heads b(db), c(dc), p(dp);
+    const auto minor = [&](int i, int j) {
+        const DoubleDouble left = two_product(c.v[i], p.v[j]), right = two_product(c.v[j], p.v[i]);
+        return Pair{left.hi, left.lo} - Pair{right.hi, right.lo};
+    };
+    Pair result = b.v[0] * minor(1, 2) + b.v[1] * minor(2, 0) + b.v[2] * minor(0, 1);
+    const Tails rb(db), rc(dc), rp(dp);
+    if (rb.any() || rc.any() || rp.any()) {
+        result.l += determinant_form(rb.v, c.v, p.v) + determinant_form(b.v, rc.v, p.v) +
+                    determinant_form(b.v, c.v, rp.v);
+    }
+    return result;
+}
+
+// The side of the plane, as in `bubble_plane_filter`, with the lengths: a third of the work of the curvature form, but
+// open where points are very close. Of vectors of length one as they stand.
+//
+// The first line of the proof in ray_stages.hpp, divided by |a|, is
+//     W/|a| = det[Db Dc Dp] - fb det[a Dc Dp] - fc det[a Dp Db] - fp det[a Db Dc]   with
+//     f_i = e_i/|a| = (|i|^2 - |a|^2)/(|a| (|i| + |a|)),
+// where the denominator is 2 within 2^-47.9 of itself. Half of the numerator is known within 2^-76 and at most 2^-47.9:
+// so is f_i, but for 2^-95. The determinants beside it are at most (1 + 2^-49) lj lk. They are computed in doubles, off
+// by TURN_ROUNDING u lj lk, and three more roundings follow: times f_i less than 2^-96 lj lk. So the error of these
+// terms is below 1.1 * 2^-76 times the sum of the lj lk, which is at most B + C + P. The first determinant and the last
+// line add less than 2^-97 lb lc lp and 2^-105 (B + C + P); and lb lc lp < B + C + P.
+Sign bubble_plane(const double* a, const double* b, const double* c, const double* p, const Edge& ab, const Edge& ac,
+                  const Edge& ap) {
+    const Heads db(ab), dc(ac), dp(ap);
+    const double sum = dot_form(db.v, db.v) + (dot_form(dc.v, dc.v) + dot_form(dp.v, dp.v));
+    if (sum < 0x1p-36) {  // rounding the vectors moves the value by 2^-53 of a length cubed: too little to be seen
+        return OPEN;
+    }
+    const double one = square_less_one(a);
+    const double lengths = (square_less_one(b) - one) * determinant_form(a, dc.v, dp.v) +
+                           (square_less_one(c) - one) * determinant_form(a, dp.v, db.v) +
+                           (square_less_one(p) - one) * determinant_form(a, db.v, dc.v);
+    const Pair solid = volume(ab, ac, ap);
+    const DoubleDouble rest = two_difference(solid.h, 0.5 * lengths);
+    return decide(rest.hi + (rest.lo + solid.l), 0x1p-75 * sum);
+}
+
 // `directions`: sqrt(3) times the absolute error of the D-vectors' components, `floor` that times itself, or
 // TURN_FLOOR.
 template <class Scalar>
@@ -162,7 +240,9 @@ Sign turn_filter(const Direction& a, const Direction& b, const Direction& c) {
 }
 
 Sign bubble_double_double(const double* a, const double* b, const double* c, const double* p) {
-    return bubble_in_pairs(a, Edge(a, b).v, Edge(a, c).v, Edge(a, p).v, plane::FLOOR);
+    const Edge db(a, b), dc(a, c), dp(a, p);
+    const Sign sign = bubble_plane(a, b, c, p, db, dc, dp);
+    return sign != OPEN ? sign : bubble_in_pairs(a, db.v, dc.v, dp.v, plane::FLOOR);
 }
 
 Sign bubble_double_double(const Direction& a, const Direction& b, const Direction& c, const Direction& p) {
