@@ -300,12 +300,12 @@ def test_the_last_digits_of_large_integers_on_a_circle(size, order, change, axis
         assert signs.tolist() == [exact]
 
 
-def circle_of_integers():
-    """256 integer points of one circle, so large that products do not fit into doubles."""
-    factors = [complex(2, 1), complex(3, 2), complex(4, 1), complex(5, 2), complex(6, 1), complex(5, 4)]
+def circle_of_integers(*more):
+    """256 integer points of one circle, twice as many with each of `more`, so large that doubles hold no products."""
+    factors = [complex(2, 1), complex(3, 2), complex(4, 1), complex(5, 2), complex(6, 1), complex(5, 4), *more]
     choices = [(f, f.conjugate()) for f in factors]
     numbers = [u * np.prod(choice) for choice in itertools.product(*choices) for u in (1, 1j, -1, -1j)]
-    return np.array([[z.real, z.imag] for z in numbers]) * (2.0**33 + 1)
+    return np.array([[z.real, z.imag] for z in numbers]) * (1 if more else 2.0**33 + 1)
 
 
 @pytest.mark.parametrize("moved", [0, 5, 128])
@@ -318,3 +318,23 @@ def test_circles_are_remembered_without_harm(moved):
     reference = stereodel.HullInsertion(points)
     list(reference)  # all insertions
     assert sorted(found.simplices.tolist()) == sorted(reference.simplices.tolist())
+
+
+@pytest.mark.parametrize("moved", [0, 100])
+def test_circles_are_remembered_from_task_to_task(moved):
+    """So many points that there are several tasks: whatever one has left to the next, in any order, for any threads."""
+    circle = circle_of_integers(complex(7, 2), complex(6, 5), complex(8, 3), complex(8, 5), complex(9, 4))
+    assert len(np.unique(circle, axis=0)) == len(circle) == 8192
+    circle[:moved, 0] += 1
+    found = []
+    for seed, workers in ((1, 1), (1, 2), (2, 1)):
+        order = np.random.default_rng(seed).permutation(len(circle) + 500) % len(circle)  # some points twice
+        triangulation = stereodel.PlanarDelaunay(circle[order], workers=workers)
+        assert len(triangulation.duplicates) == 500
+        assert triangulation.inconclusive["double_double"] > 3 * len(circle)
+        corners = np.sort(order[triangulation.simplices], axis=1)
+        found.append((corners[np.lexsort(corners.T)].tolist(), triangulation.inconclusive))
+    assert found[0] == found[1]
+    assert found[0][0] == found[2][0]
+    if not moved:
+        assert len(found[0][0]) == len(circle) - 2

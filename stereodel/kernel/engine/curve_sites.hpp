@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -158,6 +159,10 @@ class CurveTriangulation {
         arrived_ = std::vector<std::atomic<int>>(nodes_.size());
         crew.run(ranges.size(), [&](std::size_t k) { solve(k); });
         whole = nodes_.back().part;
+        for (const std::unique_ptr<Sites>& view : views_) {
+            tally += view->tally();
+            duplicates.insert(duplicates.end(), view->duplicates.begin(), view->duplicates.end());
+        }
         std::sort(duplicates.begin(), duplicates.end());
     }
 
@@ -206,7 +211,8 @@ class CurveTriangulation {
         if (range.low == range.high) {
             return;
         }
-        Sites sites(sites_);
+        std::unique_ptr<Sites> view = take_view();
+        Sites& sites = *view;
         DivideAndConquer<Sites> engine(edges, sites, stop_);
         sites.stay_within(range.low, range.high);
         nodes_[range.node].part = engine.solve(range.low, range.high);
@@ -216,15 +222,28 @@ class CurveTriangulation {
             node.part = engine.merge(nodes_[node.left].part, nodes_[node.right].part, node.axis);
         }
         const Lock lock(mutex_);
-        tally += sites.tally();
-        duplicates.insert(duplicates.end(), sites.duplicates.begin(), sites.duplicates.end());
+        views_.push_back(std::move(view));
+    }
+
+    // A view that a task before this one has left, with what it remembers of its points, or a new one.
+    std::unique_ptr<Sites> take_view() {
+        {
+            const Lock lock(mutex_);
+            if (!views_.empty()) {
+                std::unique_ptr<Sites> view = std::move(views_.back());
+                views_.pop_back();
+                return view;
+            }
+        }
+        return std::make_unique<Sites>(sites_);
     }
 
     Sites sites_;
     Stop stop_;
     std::vector<Node> nodes_;
-    std::vector<std::atomic<int>> arrived_;  // how many halves of each node are done
-    Mutex mutex_;                            // of what all tasks add to
+    std::vector<std::atomic<int>> arrived_;      // how many halves of each node are done
+    std::vector<std::unique_ptr<Sites>> views_;  // that no task is using: never more than there are threads
+    Mutex mutex_;                                // of the views
 };
 
 }  // namespace stereodel::engine

@@ -47,8 +47,7 @@ class CircleMemo {
   private:
     // 64 points and the circle that this was noted for; another block at its place is forgotten.
     struct Place {
-        std::uint32_t block = 0;
-        std::uint32_t circle = 0;  // 0: nothing is noted here
+        std::uint64_t owner = 0;  // circle and block; 0: nothing is noted here
         std::uint64_t points = 0;
     };
     static constexpr std::size_t SIZE = 16384;
@@ -56,17 +55,18 @@ class CircleMemo {
 
     static std::uint32_t block(Index p) { return static_cast<std::uint32_t>(p) / 64; }
     static std::uint64_t bit(Index p) { return std::uint64_t{1} << (static_cast<std::uint32_t>(p) % 64); }
+    std::uint64_t owner(Index p) const { return circle_ << 32 | block(p); }
     Place& place(Index p) const { return (*places_)[block(p) % SIZE]; }
 
     bool holds(Index p) const {
         const Place& found = place(p);
-        return found.block == block(p) && found.circle == circle_ && (found.points & bit(p)) != 0;
+        return found.owner == owner(p) && (found.points & bit(p)) != 0;
     }
 
     void add(Index p) {
         Place& found = place(p);
-        if (found.block != block(p) || found.circle != circle_) {
-            found = {block(p), circle_, 0};
+        if (found.owner != owner(p)) {
+            found = {owner(p), 0};
         }
         found.points |= bit(p);
     }
@@ -104,7 +104,7 @@ class CircleMemo {
 
     std::unique_ptr<std::array<Place, SIZE>> places_;
     std::array<Index, 3> leaders_{};
-    std::uint32_t circle_ = 0;
+    std::uint64_t circle_ = 0;  // the first is 1; below 2^32: each but a few is paid for by tests that are spared
     std::int64_t balance_ = CREDIT;
 };
 

@@ -46,11 +46,6 @@ double common_granularity(const double* xy, std::size_t count) {
     return modulus;
 }
 
-int PlanePoints::counted(int sign) {
-    tally.exact += sign == 0;
-    return sign;
-}
-
 int PlanePoints::orient_open(const double* a, const double* b, const double* c, const plane::Estimate& e,
                              double exact) {
     ++tally.filter;
@@ -73,15 +68,6 @@ int PlanePoints::incircle_open(const double* a, const double* b, const double* c
     ++tally.filter;
     const Sign sign = incircle_known(a, b, c, d, e);
     return counted(sign != OPEN ? sign : incircle_close(a, b, c, d));
-}
-
-// By a rectangle, or products that are exact.
-Sign PlanePoints::incircle_known(const double* a, const double* b, const double* c, const double* d,
-                                 const plane::Estimate& e) const {
-    if (plane::is_rectangle(a, b, c, d)) {
-        return 0;
-    }
-    return e.permanent <= exact_incircle_ ? sign_of(e.value) : OPEN;
 }
 
 int PlanePoints::incircle_close(const double* a, const double* b, const double* c, const double* d) {

@@ -95,12 +95,21 @@ class PlanePoints {
 
     int orient_open(const double* a, const double* b, const double* c, const plane::Estimate& e, double exact);
     int incircle_open(const double* a, const double* b, const double* c, const double* d, const plane::Estimate& e);
+    // By a rectangle, or products that are exact.
     Sign incircle_known(const double* a, const double* b, const double* c, const double* d,
-                        const plane::Estimate& e) const;
+                        const plane::Estimate& e) const {
+        if (plane::is_rectangle(a, b, c, d)) {
+            return 0;
+        }
+        return e.permanent <= exact_incircle_ ? sign_of(e.value) : OPEN;
+    }
     int incircle_close(const double* a, const double* b, const double* c, const double* d);
     int incircle_last(const double* a, const double* b, const double* c, const double* d) const;
     bool in_circle_open(Index a, Index b, Index c, Index d, const plane::Estimate& e);
-    int counted(int sign);
+    int counted(int sign) {
+        tally.exact += sign == 0;
+        return sign;
+    }
 
     const double* xy_;
     double exact_orient_;

@@ -230,7 +230,7 @@ int distances_exact(const double* p, const double* a, const double* q, const dou
     return sign != OPEN ? sign : distances_integers(p, a, q, b);
 }
 
-bool is_rectangle(const double* a, const double* b, const double* c, const double* d) {
+bool is_rectangle_beside(const double* a, const double* b, const double* c, const double* d) {
     // o is the corner opposite to d, s and t are the other two.
     const auto opposite = [d](const double* o, const double* s, const double* t) {
         const bool s_beside = s[0] == d[0] && s[1] == o[1] && t[0] == o[0] && t[1] == d[1];

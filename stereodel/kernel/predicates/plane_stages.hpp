@@ -108,7 +108,11 @@ int distances_exact(const double* p, const double* a, const double* q, const dou
 
 // Whether the four points are the corners of a rectangle with sides along the axes (or fewer than four different ones
 // of them): then incircle is exactly zero. Grids consist of these.
-bool is_rectangle(const double* a, const double* b, const double* c, const double* d);
+bool is_rectangle_beside(const double* a, const double* b, const double* c, const double* d);
+inline bool is_rectangle(const double* a, const double* b, const double* c, const double* d) {
+    const bool beside = d[0] == a[0] || d[0] == b[0] || d[0] == c[0];  // one corner is, and mostly there is none
+    return beside && is_rectangle_beside(a, b, c, d);
+}
 
 // Whether two points are the same or all three share a coordinate: then orient is exactly zero.
 inline bool on_axis_line(const double* a, const double* b, const double* c) {
