@@ -120,7 +120,7 @@ def nearest_flat(
     checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """
-    The same for points of one line or great circle; order: what flat_order gives.
+    The same for points that are taken to lie on one line or great circle; order: what flat_order gives.
     """
 
 class Mesh:
@@ -243,7 +243,7 @@ def flat_diagram(
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> tuple:
     """
-    Offsets, vertices and neighbours of the cells of points on a line, and the sites of their ridges.
+    Offsets, vertices and neighbours of the cells of points, and the sites of their ridges. They are taken to lie on one line, in this order.
     """
 
 def cell_areas(

@@ -134,7 +134,7 @@ def nearest_flat(
     checked: bool = False,
 ) -> Annotated[NDArray[numpy.int32], dict(shape=(None, None), order="C")]:
     """
-    The same for points of one line or great circle; order: what flat_order gives.
+    The same for points that are taken to lie on one line or great circle; order: what flat_order gives.
     """
 
 class Mesh:
@@ -264,7 +264,7 @@ def flat_diagram(
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
 ) -> tuple:
     """
-    Offsets, vertices and neighbours of the cells of directions on a great circle, and the vertices.
+    Offsets, vertices and neighbours of the cells of directions, and the vertices. They are taken to lie on one great circle, in this order.
     """
 
 def flat_areas(

@@ -131,19 +131,23 @@ void check_indices(const char* name, const Index* numbers, std::size_t count, st
     }
 }
 
-void check_permutation(const char* name, const Index* numbers, std::size_t size, std::size_t count) {
-    std::vector<bool> taken(count);
-    bool valid = size == count;
-    for (std::size_t k = 0; valid && k < size; ++k) {
-        const auto number = static_cast<std::uint32_t>(numbers[k]);
-        valid = number < count && !taken[number];
-        if (valid) {
-            taken[number] = true;
+void check_distinct(const char* name, const Index* numbers, std::size_t count, std::size_t size) {
+    check_indices(name, numbers, count, size);
+    std::vector<bool> taken(size);
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto number = static_cast<std::size_t>(numbers[k]);
+        if (taken[number]) {
+            refuse(place_in(name, k, 1) + " is " + std::to_string(number) + " a second time; give each number once");
         }
+        taken[number] = true;
     }
-    if (!valid) {
+}
+
+void check_permutation(const char* name, const Index* numbers, std::size_t size, std::size_t count) {
+    if (size != count) {
         refuse(std::string(name) + " must be a permutation of the numbers below " + std::to_string(count));
     }
+    check_distinct(name, numbers, size, count);
 }
 
 void check_triangles(const Index* simplices, const Index* neighbors, std::size_t count, std::size_t points,

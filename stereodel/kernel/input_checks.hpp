@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "tally.hpp"
 
@@ -22,6 +21,9 @@ void check_same_length(const char* first, std::size_t one, const char* second, s
 
 // Numbers of things, or rows of `width` of them, of which there are `size`.
 void check_indices(const char* name, const Index* numbers, std::size_t count, std::size_t size, std::size_t width = 1);
+
+// None of them twice, all below `size`.
+void check_distinct(const char* name, const Index* numbers, std::size_t count, std::size_t size);
 
 // Each number below `count` once.
 void check_permutation(const char* name, const Index* numbers, std::size_t size, std::size_t count);

@@ -53,7 +53,21 @@ def calls():
         yield name, {"left": EYE, "magnification": 2.0, "right": EYE, "xyz": SPHERE.points}
 
 
+def flat_calls():
+    """The same for points of a line and directions of a great circle, of which not all need be in the order."""
+    steps = np.arange(5.0)
+    for place, points in (
+        ("plane", np.column_stack([steps, 2 * steps])),
+        ("sphere", np.column_stack([np.cos(steps), np.sin(steps), 0 * steps])),
+    ):
+        right = {"points": points, "order": np.arange(5, dtype=np.int32)}
+        yield f"{place}.nearest_flat", right | {"duplicates": NONE, "queries": points, "k": 2}
+        for name in ("flat_diagram", "flat_areas", "flat_centroids")[: 1 if place == "plane" else 3]:
+            yield f"{place}.{name}", right
+
+
 CALLS = dict(calls())
+ORDERED = dict(flat_calls()) | {name: right for name, right in CALLS.items() if "order" in right}
 VECTORS = {"points", "queries", "units", "query_units", "xyz"}
 NUMBERS = {"simplices", "neighbors", "vertices", "triangles", "edges", "numbers", "order"}
 ANSWERED = {"moebius_images", "moebius_scales"}  # which tell by a flag that a row has no image
@@ -117,6 +131,35 @@ def test_numbers_of_what_is_not_there_are_refused(name):
                         ValueError, match=r"out of range|not those of|each site with entries|does not fit"
                     ):
                         call(name, right | {key: with_entry(array, place, value)})
+
+
+@pytest.mark.parametrize("name", ORDERED)
+def test_orders_that_hold_a_site_twice_are_refused(name):
+    """Whose cells would not be written, or be written twice at a time."""
+    right = ORDERED[name]
+    order = right["order"]
+    call(name, right)
+    for place, value in ((1, order[0]), (-1, order[2])):
+        with pytest.raises(ValueError, match=rf"order\[{place % len(order)}\] is {value} a second time"):
+            call(name, right | {"order": with_entry(order, place, value)})
+    with pytest.raises(ValueError, match=r"order\[\d+\] is \d+, out of range"):
+        call(name, right | {"order": with_entry(order, 0, 99)})
+    with pytest.raises(ValueError, match=r"order\[\d+\] is \d+ a second time"):
+        call(name, right | {"order": np.concatenate([order, order])})
+
+
+def test_places_are_a_permutation():
+    t = PLANE
+    place = np.arange(len(t.simplices), dtype=np.int32)
+    centers = _kernel.plane.circumcenters(t.points, t.simplices)
+    assert np.array_equal(_kernel.plane.circumcenters(t.points, t.simplices, place[::-1].copy()), centers[::-1])
+    for wrong, said in (
+        (with_entry(place, 3, 1), r"place\[3\] is 1 a second time"),
+        (with_entry(place, 3, len(place)), r"place\[3\] is \d+, out of range"),
+        (place[:-1], "place must be a permutation"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            _kernel.plane.circumcenters(t.points, t.simplices, wrong)
 
 
 @pytest.mark.parametrize("name", [name for name, right in CALLS.items() if {"simplices", "neighbors"} <= set(right)])

@@ -1,11 +1,8 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
 
-#include <algorithm>
 #include <optional>
 #include <stdexcept>
-#include <utility>
-#include <vector>
 
 #include "python/triangles.hpp"
 #include "queries/k_nearest.hpp"
@@ -105,7 +102,7 @@ RowsOfAnyWidth nearest_flat(RowsIn<double, Width> points, ValuesIn<Index> order,
     }
     if (!checked) {
         check_points("points", points);
-        check_indices("order", order.data(), different, size);
+        check_distinct("order", order.data(), different, size);
     }
     check_points("queries", queries);
     const Pairs pairs = to_pairs(duplicates, size);
@@ -129,7 +126,7 @@ void bind_space(nb::module_& space) {
               "The k nearest points of each query, duplicates among them, by distance, equally near ones by number.");
     space.def("nearest_flat", nearest_flat<Width>, "points"_a, "order"_a, "duplicates"_a, "queries"_a, "k"_a,
               "workers"_a = 1, "checked"_a = false,
-              "The same for points of one line or great circle; order: what flat_order gives.");
+              "The same for points that are taken to lie on one line or great circle; order: what flat_order gives.");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <vector>
 
+#include "input_checks.hpp"
+
 namespace stereodel::voronoi {
 namespace {
 
@@ -75,18 +77,15 @@ void check_cells(const Cells& cells, std::size_t entries) {
 }
 
 void check_order(const Cells& cells) {
+    check_distinct("order", cells.order, cells.filled, cells.sites);
+    const auto has_entries = [&cells](std::size_t site) { return cells.begin(site) != cells.end(site); };
     std::size_t filled = 0;
     for (std::size_t site = 0; site < cells.sites; ++site) {
-        filled += cells.begin(site) != cells.end(site) ? 1 : 0;
+        filled += has_entries(site) ? 1 : 0;
     }
-    std::vector<bool> taken(cells.sites);
     bool valid = filled == cells.filled;
     for (std::size_t k = 0; valid && k < cells.filled; ++k) {
-        const auto site = static_cast<std::size_t>(static_cast<std::uint32_t>(cells.order[k]));
-        valid = site < cells.sites && !taken[site] && cells.begin(site) != cells.end(site);
-        if (valid) {
-            taken[site] = true;
-        }
+        valid = has_entries(static_cast<std::size_t>(cells.order[k]));
     }
     if (!valid) {
         throw std::invalid_argument("order must hold each site with entries once");
