@@ -70,7 +70,8 @@ def _from_objects(array: npt.NDArray[Any], name: str) -> _Doubles:
     """Real numbers in an object array (Fraction, Decimal, huge int) as doubles; anything else is a TypeError."""
     if array.dtype.kind != "O":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
-    numbers = array.ravel().tolist()
+    # An array without dimensions can be converted to a double whatever it holds: what counts is what that is.
+    numbers = [each[()] if isinstance(each, np.ndarray) and each.ndim == 0 else each for each in array.flat]
     kinds = set(map(type, numbers))
     wrong = tuple(kind for kind in kinds if not _is_real(kind))
     if wrong:
@@ -99,7 +100,7 @@ def _nearest_double(number: Any) -> float:
     try:
         return float(number)
     except OverflowError:
-        return np.inf
+        return np.inf if number > 0 else -np.inf
 
 
 def _equal(number: Any, double: float) -> bool:

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz, xyz_to_lonlat
 from stereodel._arrays import as_floats
+from stereodel._numbers import as_doubles
 from stereodel._threads import thread_count
 from stereodel.conformal import fisheye
 from stereodel.graphs import gabriel_graph, relative_neighborhood_graph, urquhart_graph
@@ -36,6 +37,8 @@ NO_NUMBERS = {
     "NumPy's booleans": objects([np.True_, 1.5]),
     "a boolean in a list": [[1.0, 2.0], [True, 3.0]],
     "a boolean among integers": [[1, 2], [3, True]],
+    "a boolean as an array in a list": [[np.array(True), 1.0], [2.0, 3.0]],
+    "NumPy's strings as arrays in a list": [[np.array("1", dtype=object), 1.0], [2.0, 3.0]],
     "time differences": np.array([[1, 2]], dtype="m8[s]"),
     "time differences as objects": objects([np.timedelta64(1, "s"), 1.0]),
     "Python's time differences": objects([dt.timedelta(1), 1.0]),
@@ -53,6 +56,7 @@ ROUNDED = {
     "a list": ([[0, 1], [2, ODD]], "9007199254740993"),
     "a list with fractions": ([[0, 0.5], [2, ODD]], "9007199254740993"),
     "of both signs": ([[0, -1], [2, 2**63 + 1]], "9223372036854775809"),
+    "arrays without dimensions": ([[0.5, 1.0], [np.array(2), np.array(ODD)]], "9007199254740993"),
     "beyond 64 bits": ([[0, 1], [2, 2**70 + 1]], "1180591620717411303425"),
     "beyond all doubles": ([[0, 1], [2, 10**309]], "1000"),
     "objects": (objects([0, 1], [2, np.int64(ODD)]), "9007199254740993"),
@@ -116,6 +120,7 @@ def test_what_doubles_hold_is_taken():
         ([0, 1, 0.5, 1e300], [0.0, 1.0, 0.5, 1e300]),
         (np.array([0.1, 2.0**900], dtype=np.longdouble), [0.1, 2.0**900]),
         ([np.float32(0.1), 1], [float(np.float32(0.1)), 1.0]),
+        ([[np.array(1.5), 2], [np.array(Fraction(1, 2), dtype=object), np.array(4)]], [[1.5, 2.0], [0.5, 4.0]]),
         ([np.arange(3.0), np.ones(3)], [[0.0, 1.0, 2.0], [1.0, 1.0, 1.0]]),
         (pd.DataFrame({"x": [1, 2], "y": [0.5, 1.5]}), [[1.0, 0.5], [2.0, 1.5]]),
         (np.zeros((0, 2), dtype=object), np.zeros((0, 2))),
@@ -128,8 +133,10 @@ def test_what_doubles_hold_is_taken():
 def test_fractions_and_decimals_are_rounded_to_nearest():
     values = objects([Fraction(1, 3), Decimal("0.1")], [mpmath.mpf(1) / 3, Fraction(2**54 + 1, 2**54)])
     assert as_floats(values, "x").tolist() == [[1 / 3, 0.1], [1 / 3, 1.0]]
-    with pytest.raises(ValueError, match=r"x\[0\] is inf"):
-        as_floats([Fraction(10**400)], "x")
+    for huge, shown in ((Fraction(10**400), "inf"), (Fraction(-(10**400)), "-inf")):
+        assert as_doubles(huge, "x") == float(shown)
+        with pytest.raises(ValueError, match=rf"x\[0\] is {shown}"):
+            as_floats([huge], "x")
 
 
 PLANE, SPHERE = np.random.default_rng(0).random((3000, 2)), np.random.default_rng(1).normal(size=(3000, 3))
