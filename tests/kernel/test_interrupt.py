@@ -1,4 +1,4 @@
-"""Ctrl-C in the middle of long calls: they end soon, and what they worked on is what it was.
+"""Ctrl-C in the middle of long calls: they end soon, and what they worked on is what it was; calls without threads.
 
 Each in a process of its own: a signal that comes late must not hit the test runner.
 """
@@ -78,3 +78,30 @@ def test_a_change_that_was_interrupted_is_not_used():
     first, *others = ran.stdout.splitlines()
     assert first == "interrupted"
     assert others == ["an earlier change did not come to its end; build the triangulation anew"] * 3
+
+
+ALONE = """
+import threading
+import numpy as np
+from stereodel import PlanarDelaunay, SphericalDelaunay
+
+try:
+    threading.Thread(target=print).start()
+except RuntimeError:
+    print("no thread")
+rng = np.random.default_rng(0)
+for cls, points in ((PlanarDelaunay, rng.random((50_000, 2))), (SphericalDelaunay, rng.normal(size=(50_000, 3)))):
+    for workers in (1, 2):
+        simplices = cls(points, workers=workers).simplices
+        print(len(simplices), int(simplices[::7].sum()))
+"""
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of stacks are Linux's")
+def test_where_no_thread_is_to_be_had_long_calls_work_without():
+    """A limit of 2^47 bytes is also the size of each thread's stack: it leaves room for none."""
+    run = {"capture_output": True, "text": True, "check": True, "timeout": 120}
+    limited = 'ulimit -s 137438953472 && OPENBLAS_NUM_THREADS=1 exec "$0" -c "$1"'
+    alone = subprocess.run(["bash", "-c", limited, sys.executable, ALONE], **run).stdout.splitlines()
+    assert alone[0] == "no thread"
+    assert alone[1:] == subprocess.run([sys.executable, "-c", ALONE], **run).stdout.split("\n")[-5:-1]

@@ -17,6 +17,7 @@
 #include <mutex>
 #include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -131,7 +132,7 @@ inline nb::dict to_dict(const Tally& tally, bool on_sphere) {
 
 // Calls work(stop) without the interpreter's lock. Long work runs on a thread of its own, while this one looks for
 // Ctrl-C twenty times a second; then `stop` is raised, the work throws `Cancelled`, and Python's exception goes on from
-// here.
+// here. Where the system gives no thread, the work is done on this one and Ctrl-C waits.
 template <class Work>
 auto run_without_lock(bool is_long, Work&& work) {
     using Result = decltype(work(Stop{}));
@@ -145,16 +146,22 @@ auto run_without_lock(bool is_long, Work&& work) {
     bool done = false;
     std::exception_ptr failure;
     Result result{};
-    std::thread thread([&] {
-        try {
-            result = work(Stop{&stop});
-        } catch (...) {
-            failure = std::current_exception();
-        }
-        const std::lock_guard lock(mutex);
-        done = true;
-        changed.notify_one();
-    });
+    std::thread thread;
+    try {
+        thread = std::thread([&] {
+            try {
+                result = work(Stop{&stop});
+            } catch (...) {
+                failure = std::current_exception();
+            }
+            const std::lock_guard lock(mutex);
+            done = true;
+            changed.notify_one();
+        });
+    } catch (const std::system_error&) {  // no thread is to be had
+        const nb::gil_scoped_release release;
+        return work(Stop{});
+    }
     bool interrupted = false;
     for (;;) {
         {
