@@ -55,7 +55,8 @@ class Bounded {
         }
         const DoubleDouble quotient = a.value_ / b.value_;
         const double size = std::fabs(quotient.hi);
-        return Bounded(quotient, (a.error_ + size * b.error_ + FLOOR) / least + 0x1p-102 * size);
+        // What underflows in the residual is divided; the quotient itself may underflow too.
+        return Bounded(quotient, (a.error_ + size * b.error_ + FLOOR) / least + (0x1p-102 * size + FLOOR));
     }
     // Of a number that is not negative.
     friend Bounded sqrt(const Bounded& a) {
