@@ -1,5 +1,6 @@
 """Circumcentres against rational arithmetic and several hundred digits: slivers, needles, any size and any ratio."""
 
+import timeit
 from fractions import Fraction
 
 import numpy as np
@@ -138,6 +139,35 @@ def test_components_of_a_normal_are_right_in_themselves_where_integers_decide():
         with workdps(1400):
             exact = exact_normal(triangle)
         assert normal_of(triangle).tolist() == [float(x) for x in exact]
+
+
+def test_components_that_are_exactly_zero():
+    """Without any product: known at once, whatever the lengths. By cancellation: the lengths tell, to many bits."""
+    flat = np.array([[3.0, 1.0, 0.0], [-3.0, -1.0, 0.0], [1.0, 3.0, 0.0]])
+    for turn in range(3):
+        for axes in ([0, 1, 2], [1, 2, 0], [2, 0, 1]):
+            center = normal_of(np.roll(flat, turn, axis=0)[:, axes])
+            assert np.abs(center).tolist() == np.eye(3)[axes.index(2)].tolist()
+    # Mirror images at the plane y = 0, of lengths without a root, around a circle that is nearly flat.
+    for lean in (1e-30, 1e-200, 5e-324):
+        triangle = np.array([[1.0, 0.0, lean], [-1.0, 2.0, 0.0], [-1.0, -2.0, 0.0]])
+        with workdps(1400):
+            exact = exact_normal(triangle)
+        assert normal_of(triangle).tolist() == [float(x) if abs(x) > 1e-900 else 0.0 for x in exact]
+
+
+def test_components_without_any_product_cost_nothing():
+    """Three close directions of the equator take no longer than others that integers decide."""
+    rng = np.random.default_rng(1)
+    steps = np.spacing(1.0) * np.array([0.0, 1.0, 2.0])[:, None]
+
+    def seconds(axes):
+        towards = rng.uniform(1, 2, (100, 1, 3)) * axes
+        points = (towards + steps * axes).reshape(-1, 3)
+        triangles = np.arange(len(points), dtype=np.int32).reshape(-1, 3)
+        return min(timeit.repeat(lambda: _kernel.sphere.circumcenters(points, triangles), number=1, repeat=5))
+
+    assert seconds([1.0, 1.0, 0.0]) < 4 * seconds([1.0, 1.0, 1.0])
 
 
 @pytest.mark.parametrize("turn", range(3))

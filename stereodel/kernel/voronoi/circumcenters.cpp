@@ -73,8 +73,8 @@ std::size_t opposite_to_longest(const Side* sides, IsShorter&& is_shorter) {
     return (longest + 2) % 3;
 }
 
-// The same in ball arithmetic: for triangles of any size, and for those that are flat since
-// their coordinates are of very different size.
+// The same in ball arithmetic: for triangles of any size, and for those that are flat since their coordinates are of
+// very different size.
 bool careful_planar_center(const double* const* corners, double* center) {
     struct Side {
         Ball x, y, square;
@@ -180,6 +180,7 @@ struct IntegerNormal {
 
     // A multiple of the normal, from lengths of so many bits. Each is off by less than 1, its term by less than the
     // product. Whether every component is known to 2^-66 of itself, or to 2^-1150 of the longest: no subnormal that is.
+    // One without products is zero, whatever the lengths are.
     bool sum(std::size_t bits, BigInteger* normal) const {
         std::array<IntegerRoot, 3> lengths;
         std::ptrdiff_t lowest = PTRDIFF_MAX;
@@ -199,7 +200,7 @@ struct IntegerNormal {
         }
         for (std::size_t i = 0; i < 3; ++i) {
             const std::size_t length = normal[i].bit_length();
-            if (length < error[i] + 67 && longest < std::max(length, error[i]) + 1152) {
+            if (error[i] != 0 && length < error[i] + 67 && longest < std::max(length, error[i]) + 1152) {
                 return false;
             }
         }
