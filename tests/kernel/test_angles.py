@@ -6,7 +6,7 @@ import pytest
 
 from stereodel import _kernel
 
-BOUND = 2.5 * 2.0**-53
+BOUND = 3.1 * 2.0**-53
 
 
 def assert_close(y, x):
@@ -34,6 +34,13 @@ def test_angles_near_breakpoints():
         assert_close(np.full(len(close), x), y)
     # Subtraction and division of what is not a power of two.
     assert_close(close * (1 / 3), np.full(len(close), 1 / 3))
+
+
+def test_angles_where_the_error_is_largest():
+    """Beside 3/32, which is not a power of two, far from it: the product with it rounds beside the smallest angle."""
+    rng = np.random.default_rng(3)
+    greater = rng.uniform(4 / 3, 1.34, 3000)
+    assert_close(greater * rng.uniform(0.0781, 0.0785, 3000), greater)
 
 
 def test_angles_of_the_ends_of_the_range():

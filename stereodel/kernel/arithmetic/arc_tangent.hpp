@@ -7,13 +7,22 @@
 // |t| < 1/63 for k > 0: the argument reduction of P. T. P. Tang, "Table-lookup algorithms for elementary functions and
 // their error analysis", ARITH 10 (1991).
 //
-// Errors, u = 2^-53: for k = 0 the quotient is off by u of itself. Else c g rounds by u c g and the other four
-// operations by at most 4u|t|, so that t is off by u c/(1 + c l/g) + 4u/63, which is less than 1.4u arctan(l/g), as
-// arctan(l/g) > 1/17. The series r - r^3/3 + ... is cut where less than 2^-59 of r is left out, and its other terms are
-// below 2^-9 |r|. Multiples of pi/2 and the values of the table are added to twice the precision. The last sum rounds
-// once: together off by less than 2.5u of the angle. (Angles below 2^-1022 round as subnormal numbers do.)
+// Errors, u = 2^-53. The series r - r^3/3 + ... is cut where less than 2^-59 of r is left out, and its other terms are
+// below 2^-9 |r|: their last sum apart, its roundings and the cut are below 0.03u |r|. Multiples of pi/2 and the values
+// of the table are added to twice the precision.
+// * k = 0: the quotient, and the series' last sum: 2.03u of the angle.
+// * k = 2, 3, ...: l is within a quarter of c g, so that l - c g is exact, but for c g, which rounds by u c g; that is
+//   u c/(1 + c l/g) of t. g + c l is off by 1.5u of itself, since c l <= g, and the quotient rounds: 2.5u |t|. The
+//   series' last sum and that with the table's low part are off by u |t| each, the one with its high part by u of the
+//   angle. With |t| <= 1/(64 (1 + c l/g)) that is the most at c = 3/32, l/g = 5/64 (c = 2/32 rounds nothing):
+//   1.20u + 2.5 * 0.20u + 2 * 0.20u + 1u of arctan(l/g).
+// * A multiple of pi/2 is added: arctan(l/g) is off by less than 0.6u as above, of angles of pi/4 and more, and the
+//   last sum rounds: 1.8u.
+// Together off by less than 3.1u of the angle; 2.41u is the most that was found. (Angles below 2^-1022 round as subnormal
+// numbers do.)
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "arithmetic/double_double.hpp"
@@ -87,6 +96,28 @@ inline double vector_angle(double y, double x) {
 
 inline double arc_tangent(double t) {
     return std::fabs(t) < 0x1p-4 ? small_arc_tangent(t) : vector_angle(t, 1.0);
+}
+
+// arctan t for 0 <= t <= 1 in numbers that know their error (Bounded or BigBall): halved until t is small,
+// arctan t = 2 arctan(t/(1 + root(1 + t^2))), then the series.
+template <class Number>
+Number arc_tangent_series(Number t) {
+    const Number one = t.like(1.0);
+    const double small = std::ldexp(1.0, -static_cast<int>(std::sqrt(t.digits()) / 2));
+    int halved = 0;
+    for (; t.middle(0) > small; ++halved) {
+        t = t / (one + sqrt(one + t * t));
+    }
+    const double size = std::max(t.middle(0), 0x1p-900);
+    const int terms = static_cast<int>(t.digits() / (-2.0 * std::ilogb(size) - 2.0)) + 1;
+    const Number square = t * t;
+    Number power = t, sum = t;
+    for (int k = 1; k <= terms; ++k) {
+        power = power * square;
+        const Number term = power / t.like(2 * k + 1);
+        sum = k % 2 == 0 ? sum + term : sum - term;
+    }
+    return (sum + (power * square).error_alone()).times_power(halved);
 }
 
 }  // namespace stereodel::arithmetic

@@ -1,4 +1,5 @@
 // Python: sine and cosine of degrees, angles of vectors, longitude and latitude to unit vectors.
+#include <stdexcept>
 
 #include "arithmetic/arc_tangent.hpp"
 #include "coordinates/degrees.hpp"
@@ -62,7 +63,7 @@ void bind_degrees(Modules& modules) {
     module.def("sin_cos_degrees", sines_and_cosines, "angles"_a,
                "Rows (sine, its low part, cosine, its low part) of angles in degrees; relative errors below 2^-101.");
     module.def("vector_angles", vector_angles, "y"_a, "x"_a,
-               "Angles of vectors (x, y) in radians, in [-pi, pi], within 2.5 * 2^-53 of themselves.");
+               "Angles of vectors (x, y) in radians, in [-pi, pi], within 3.1 * 2^-53 of themselves.");
     module.def("lonlat_to_xyz", converted<lonlat_to_xyz, 2, 3>, "lonlat"_a, "workers"_a = 1,
                "Unit vectors of rows (lon, lat) in degrees, each component rounded once.");
     module.def("xyz_to_lonlat", converted<xyz_to_lonlat, 3, 2>, "xyz"_a, "workers"_a = 1,

@@ -20,12 +20,13 @@
 #include <vector>
 
 #include "arithmetic/arc_tangent.hpp"
+#include "arithmetic/double_double.hpp"
 #include "voronoi/cell_integrals.hpp"
 #include "voronoi/unit_vectors.hpp"
 
 namespace stereodel::voronoi {
 
-using arithmetic::arc_tangent;
+using arithmetic::arc_tangent_series;
 using arithmetic::vector_angle;
 
 // The angle of a vector of any length.
@@ -61,27 +62,6 @@ struct Ridge {
     }
 };
 
-// arctan t for 0 <= t <= 1: halved until t is small, arctan t = 2 arctan(t/(1 + root(1 + t^2))), then the series.
-template <class Number>
-Number arc_tangent(Number t) {
-    const Number one = t.like(1.0);
-    const double small = std::ldexp(1.0, -static_cast<int>(std::sqrt(t.digits()) / 2));
-    int halved = 0;
-    for (; t.middle(0) > small; ++halved) {
-        t = t / (one + sqrt(one + t * t));
-    }
-    const double size = std::max(t.middle(0), 0x1p-900);
-    const int terms = static_cast<int>(t.digits() / (-2.0 * std::ilogb(size) - 2.0)) + 1;
-    const Number square = t * t;
-    Number power = t, sum = t;
-    for (int k = 1; k <= terms; ++k) {
-        power = power * square;
-        const Number term = power / t.like(2 * k + 1);
-        sum = k % 2 == 0 ? sum + term : sum - term;
-    }
-    return (sum + (power * square).error_alone()).times_power(halved);
-}
-
 // What a cell came out as. The bounds are those of CELL_ERROR, an area's beside 2^-1040 for what underflows.
 struct MeasuredCell {
     double area = 0.0, centroid[3] = {};
@@ -97,17 +77,19 @@ class RidgeSum {
     MeasuredCell measure(bool with_centroid) {
         MeasuredCell cell;
         std::vector<Number> tangents;
+        DoubleDouble area;
         double error = 0.0;
         bool flat = true;
         const std::int64_t lift = -ridges_[0].sine.exponent();  // areas may leave the range of doubles, these not
         for (const Ridge<Number>& ridge : ridges_) {
             const Number n = ridge.sine * ridge.half_sine, m = ridge.half_cosine + ridge.cosine * ridge.middle_cosine;
-            error += add_triangle(n, m, cell.area);
+            error += add_triangle(n, m, area);
             flat = flat && is_flat(ridge);
             if (with_centroid && flat) {
                 tangents.push_back(ridge.sine.times_power(lift) * ridge.half_sine.times_power(lift) / m);
             }
         }
+        cell.area = area.hi;
         cell.good = error <= CELL_ERROR * cell.area + 0x1p-1040;
         if (with_centroid && cell.good) {
             cell.good = flat ? flat_centroid(tangents, cell.centroid) : centroid(cell.centroid);
@@ -120,8 +102,9 @@ class RidgeSum {
 
     // Adds twice the angle of (m, n); returns its error. Where n and m are off by e and f, the angle is by
     // (|m| e + |n| f)/(m^2 + n^2) and less than 2^-8 of that more while both are below 2^-12 of the vector. Both are
-    // rounded to doubles, by 2^-51 of themselves, and so the angle is.
-    static double add_triangle(const Number& n, const Number& m, double& area) {
+    // rounded to doubles, by u of themselves, and the angle by 3.1u: less than 2^-50 of it. The sum, in double-double,
+    // adds nothing to that, however many ridges there are.
+    static double add_triangle(const Number& n, const Number& m, DoubleDouble& area) {
         const std::int64_t exponent = std::max(n.exponent(), m.exponent());
         const double y = n.middle(exponent), x = m.middle(exponent), e = n.radius(exponent), f = m.radius(exponent);
         const double square = x * x + y * y;
@@ -129,9 +112,12 @@ class RidgeSum {
             return HUGE_VAL;
         }
         const double angle = 2 * vector_angle(y, x);
-        area += angle;
+        area = area + DoubleDouble{angle};
         return 2.02 * (std::fabs(x) * e + std::fabs(y) * f) / square + 0x1p-49 * angle;
     }
+
+    // NaN if one of them is, which no bound lets pass: std::max drops it.
+    static double larger(double a, double b) { return a >= b || std::isnan(a) ? a : b; }
 
     static bool is_flat(const Ridge<Number>& ridge) {
         return ridge.sine.middle(0) < FLAT && ridge.half_sine.middle(0) < FLAT && ridge.half_cosine.sign() > 0 &&
@@ -146,7 +132,8 @@ class RidgeSum {
             heaviest = std::max(heaviest, tangents[k].exponent());
             largest = std::max(largest, ridges_[k].sine.exponent());
         }
-        double total = 0.0, rest[3] = {}, weight_error = 0.0, error = 0.0, size = 0.0;
+        DoubleDouble total, rest[3];
+        double weight_error = 0.0, error = 0.0, size = 0.0;
         for (std::size_t k = 0; k < ridges_.size(); ++k) {
             const Ridge<Number>& ridge = ridges_[k];
             const double weight = tangents[k].middle(heaviest), height = ridge.sine.middle(largest);
@@ -155,26 +142,26 @@ class RidgeSum {
             double towards[3];
             for (int i = 0; i < 3; ++i) {
                 towards[i] = ridge.edge[i].middle(exponent) / ridge.length.middle(exponent);
-                error = std::max(error, height * (ridge.edge[i].radius(exponent) / ridge.length.middle(exponent)));
+                error = larger(error, height * (ridge.edge[i].radius(exponent) / ridge.length.middle(exponent)));
             }
             for (int i = 0; i < 3; ++i) {
                 const int j = (i + 1) % 3, l = (i + 2) % 3;
                 const double along = p_.hi[j] * towards[l] - p_.hi[l] * towards[j];
-                rest[i] += weight * (towards[i] * height + along * sine);
+                rest[i] = rest[i] + DoubleDouble{weight * (towards[i] * height + along * sine)};
             }
-            total += weight;
+            total = total + DoubleDouble{weight};
             weight_error += tangents[k].radius(heaviest);
-            error = std::max(error, ridge.middle_sine.radius(largest));
+            error = larger(error, ridge.middle_sine.radius(largest));
             size = std::max({size, height, std::fabs(sine)});
         }
         const int scale = static_cast<int>(std::max<std::int64_t>(largest, -3000));
         Pair vector[3];
         for (int i = 0; i < 3; ++i) {
-            const DoubleDouble sum = two_sum(p_.hi[i], std::ldexp(2.0 / 3.0 * (rest[i] / total), scale));
+            const DoubleDouble sum = two_sum(p_.hi[i], std::ldexp(2.0 / 3.0 * (rest[i].hi / total.hi), scale));
             vector[i] = {sum.hi, sum.lo + p_.lo[i]};
         }
         round_unit(vector, centroid);
-        return error <= CELL_ERROR * size && weight_error <= CELL_ERROR * total;
+        return error <= CELL_ERROR * size && weight_error <= CELL_ERROR * total.hi;
     }
 
     // By the theorem of Stokes. The cell reaches as far as all its h; its integral must be known to that part of it.
@@ -184,7 +171,7 @@ class RidgeSum {
         for (std::size_t k = 0; k < ridges_.size(); ++k) {
             const Ridge<Number>& ridge = ridges_[k];
             const Number one = ridge.sine.like(1.0);
-            const Number turn = arc_tangent(ridge.half_sine / (one + ridge.half_cosine)) / ridge.length;
+            const Number turn = arc_tangent_series(ridge.half_sine / (one + ridge.half_cosine)) / ridge.length;
             for (int i = 0; i < 3; ++i) {
                 total[i] = k == 0 ? -(turn * ridge.edge[i]) : total[i] - turn * ridge.edge[i];
             }
@@ -195,7 +182,7 @@ class RidgeSum {
         for (int i = 0; i < 3; ++i) {
             const Number component = total[i] / length;
             centroid[i] = component.middle(0) + 0.0;  // no negative zero
-            error = std::max(error, component.radius(0));
+            error = larger(error, component.radius(0));
         }
         return error <= CELL_ERROR * size;
     }

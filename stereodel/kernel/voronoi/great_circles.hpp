@@ -21,7 +21,7 @@ struct GreatCircle {
 
     GreatCircle(const double* xyz, std::vector<Index> directions);
 
-    // The angle from each one to the next around the first end, in [0, 2 pi), for two or more: within 2^-51 of itself.
+    // The angle from each one to the next around the first end, in [0, 2 pi), for two or more: within 2^-50 of itself.
     std::vector<double> gaps(const double* xyz) const;
 };
 

@@ -15,6 +15,7 @@
 namespace stereodel::voronoi {
 
 using arithmetic::Bounded;
+using arithmetic::arc_tangent;
 
 // A neighbour q of a site p: |q - p|, the cosine of half the angle between them, the legs to the two vertices.
 struct Side {
@@ -55,12 +56,17 @@ class SphereCell {
         return in_front;
     }
 
-    double area() const {
-        double sum = 0.0;
+    // After `take`, once: the bound grows by what the additions are off by. No partial sum is longer than `total`.
+    double area() {
+        double sum = 0.0, total = 0.0;
         for (const Side& side : sides) {
             const double half = 0.5 * side.length / (1 + side.cosine);
-            sum += 2 * (arc_tangent(half * half_tangent(side.left)) + arc_tangent(half * half_tangent(side.right)));
+            const double left = arc_tangent(half * half_tangent(side.left));
+            const double right = arc_tangent(half * half_tangent(side.right));
+            sum += 2 * (left + right);
+            total += 2 * (std::fabs(left) + std::fabs(right));
         }
+        bound_ += static_cast<double>(sides.size()) * UNIT_ROUNDOFF * total;
         return sum;
     }
 
