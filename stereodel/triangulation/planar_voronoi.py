@@ -97,7 +97,7 @@ class PlanarVoronoi(Diagram):
         The sum over the neighbours q of a site p and the two vertices of their ridge of |D|² E·F / (8 D×E), with r the
         third site of the vertex, D = q − p, E = r − p, F = r − q: the triangle of p, the middle of p and q, and the
         vertex (half of |D|/2 times |D|/2 cot of the angle at r). No rounded vertex enters, so that the areas of tiny
-        cells far from the origin are as accurate as others, to some 1e-14 and never worse than 1e-11: where a bound
+        cells far from the origin are as accurate as others, to some 1e-14 and never worse than 2e-12: where a bound
         says that doubles may not do, double-double takes over, and then as many digits as are needed. Areas beyond the
         range of doubles are infinite or 0.
         """
@@ -111,7 +111,7 @@ class PlanarVoronoi(Diagram):
 
         Notes
         -----
-        From the sites' differences, as `areas`; within 1e-11 of the cell's size, besides their rounding.
+        From the sites' differences, as `areas`; within 2e-12 of the cell's size, besides their rounding.
 
         Examples
         --------

@@ -147,7 +147,7 @@ class SphericalVoronoi(Diagram):
         The sum over the neighbours q of a site p and the two vertices of their ridge of the right-angled triangle of p,
         the middle of p and q, and the vertex: tan(ω/2) = tan(h/2) tan(l/2) with sin h = |D|/2 and
         tan l = |D| E·F / (2 det[p q r]), r the third site of the vertex, D = q − p, E = r − p, F = r − q. No rounded
-        vertex enters, so that cells of any size are accurate to some 1e-14 of themselves, and never worse than 1e-11:
+        vertex enters, so that cells of any size are accurate to some 1e-14 of themselves, and never worse than 2e-12:
         where a bound says that doubles may not do, double-double takes over, and where its bound says so, as many
         digits as are needed. An area below the least double is 0. Points of one great circle have lunes.
         """
@@ -164,7 +164,7 @@ class SphericalVoronoi(Diagram):
         normal of its plane towards the inside (theorem of Stokes; J. Arvo, "Applications of irradiance tensors to the
         simulation of non-Lambertian phenomena", SIGGRAPH 1995). It is summed over the triangles of `areas`, relative to
         the site, so that nothing cancels in small cells. The cell of a single point is the whole sphere, whose mean has
-        no direction: the point itself. Centroids are within 1e-11 of the cell's size, besides their rounding.
+        no direction: the point itself. Centroids are within 2e-12 of the cell's size, besides their rounding.
 
         Examples
         --------

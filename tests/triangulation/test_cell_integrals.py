@@ -1,5 +1,6 @@
 """Areas and centroids of cells: against exact arithmetic and many digits, by what they add up to, and by symmetry."""
 
+import math
 from fractions import Fraction
 
 import mpmath
@@ -9,6 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy import spatial
 
+from stereodel import _kernel
 from stereodel.triangulation import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, check_delaunay
 
 GENERAL = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3  # an orthogonal matrix: no axis is special
@@ -454,3 +456,51 @@ def test_the_way_a_triangulation_is_made_does_not_change_areas():
     triangulation = SphericalDelaunay(points[:300])
     triangulation.insert(points[300:])
     assert np.array_equal(SphericalVoronoi(triangulation).areas(), SphericalVoronoi(points).areas())
+
+
+def integrals_of_first(points):
+    """Area and centroid of the first point's cell, whose neighbours are all others, counterclockwise."""
+    others = len(points) - 1
+    cells = {
+        "points": np.ascontiguousarray(points),
+        "offsets": np.concatenate([[0], np.full(others + 1, others)]),
+        "vertices": np.zeros(others, dtype=np.int32),
+        "neighbors": np.arange(1, others + 1, dtype=np.int32),
+        "vertex_count": 1,
+        "order": np.zeros(1, dtype=np.int32),
+    }
+    space = _kernel.plane if points.shape[1] == 2 else _kernel.sphere
+    return space.cell_areas(**cells)[0], space.cell_centroids(**cells)[0]
+
+
+@pytest.mark.parametrize("share", [0.3, 0.7, 1.3])
+@pytest.mark.parametrize("n", [40_000, 100_000])
+def test_additions_count_in_a_cell_of_many_ridges_in_the_plane(n, share):
+    """To a large area each of n neighbours in an arc about the site adds less than a unit in its last place."""
+    angle = np.pi + np.linspace(-0.5, 0.5, n)
+    near = np.sqrt(32 * share * 2.0**-53 * n) * np.column_stack([np.cos(angle), np.sin(angle)])
+    others = np.vstack([[[0.1, -2], [2, 0.1], [-0.1, 2]], near])
+    before = np.roll(others, 1, axis=0)
+    across = others - before
+    double = before[:, 0] * others[:, 1] - before[:, 1] * others[:, 0]
+    areas = [
+        (a * a).sum(axis=1) * (b * across).sum(axis=1) / (8 * double) * sign
+        for a, b, sign in ((before, others, 1), (others, before, -1))
+    ]
+    expected = math.fsum(np.concatenate(areas))
+    assert integrals_of_first(np.vstack([np.zeros(2), others]))[0] == pytest.approx(expected, rel=5e-16, abs=0)
+
+
+@pytest.mark.parametrize("distance", [1e-9, 0.1, 0.6])
+def test_additions_count_in_a_cell_of_many_ridges_on_the_sphere(distance):
+    """Neighbours all around the pole: a regular polygon, up to the rounding of sites, which is of both signs."""
+    n = 70_000
+    angle = 2 * np.pi * np.arange(n) / n
+    around = np.sin(2 * distance) * np.column_stack([np.cos(angle), np.sin(angle)])
+    points = np.vstack([[0, 0, 1], np.column_stack([around, np.full(n, np.cos(2 * distance))])])
+    area, centroid = integrals_of_first(points)
+    with mpmath.workdps(60):
+        half = mpmath.pi / n
+        expected = 2 * n * (half - mpmath.asin(mpmath.cos(distance) * mpmath.sin(half)))
+    assert area == pytest.approx(float(expected), rel=1e-15, abs=0)
+    assert np.abs(centroid - [0, 0, 1]).max() < 1e-15 * distance

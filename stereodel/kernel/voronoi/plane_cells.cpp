@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "arithmetic/double_double.hpp"
 #include "arithmetic/error_counts.hpp"
@@ -69,7 +68,7 @@ MeasuredCell measure(const double* points, const Index* neighbors, std::size_t s
     const auto at = [points](std::size_t k) { return points + 2 * k; };
     const auto other = [&](std::size_t k) { return static_cast<std::size_t>(neighbors[k]); };
     Number area{}, x{}, y{};
-    double bound = 0.0;
+    double bound = 0.0, total = 0.0;
     std::size_t before = size - 1;
     for (std::size_t k = 0; k < size; before = k++) {
         const Edge<Number> a(at(site), at(other(before)), scale), b(at(site), at(other(k)), scale);
@@ -79,7 +78,10 @@ MeasuredCell measure(const double* points, const Index* neighbors, std::size_t s
         x = x + (of_a * (a.x - a.y * corner.at_a) + of_b * (b.x + b.y * corner.at_b));
         y = y + (of_a * (a.y + a.x * corner.at_a) + of_b * (b.y - b.x * corner.at_b));
         bound += corner.bound;
+        total += std::fabs(rounded(of_a)) + std::fabs(rounded(of_b));
     }
+    // No partial sum of areas is longer than `total`, none of moments longer than that with legs of the cell.
+    bound += static_cast<double>(size) * roundoff(Number{}) * total;
     // Between these no product of the moment leaves the range of doubles.
     const bool good = bound <= CELL_ERROR * rounded(area) && rounded(area) > 0x1p-400 && rounded(area) < 0x1p400;
     const double unscaled = rounded(area) / scale / scale;

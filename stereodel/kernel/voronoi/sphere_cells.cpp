@@ -14,7 +14,8 @@ namespace {
 struct CellMoment {
     double radial = 0.0;
     double rest[3] = {0.0, 0.0, 0.0};
-    double bound = 0.0, size = 0.0;  // size: the cell reaches at least as far
+    double bound = 0.0, size = 0.0;    // size: the cell reaches at least as far
+    double total = 0.0, ridges = 0.0;  // of the parts' absolute values; how many were added
 
     void add(double factor, const double* vector) {
         for (int k = 0; k < 3; ++k) {
@@ -41,13 +42,16 @@ struct CellMoment {
                                  p[0] * towards[1] - p[1] * towards[0]};
         add(left.towards + right.towards, towards);
         add(left.along - right.along, along);
-        bound += left.bound + right.bound +
-                 16 * UNIT_ROUNDOFF * (std::fabs(left.towards) + std::fabs(right.towards) + std::fabs(left.along) +
-                                       std::fabs(right.along));
+        bound += left.bound + right.bound;
+        total += std::fabs(left.towards) + std::fabs(right.towards) + std::fabs(left.along) + std::fabs(right.along);
+        ++ridges;
         size = std::max(size, side.length / 2);
     }
 
-    bool is_good(double area) const { return bound <= CELL_ERROR * area * size; }
+    // No partial sum of the rest is longer than `total`; there are two additions a ridge.
+    bool is_good(double area) const {
+        return bound + (16 + 2 * ridges) * UNIT_ROUNDOFF * total <= CELL_ERROR * area * size;
+    }
 
     // The unit vector of its direction: the site's and a little more.
     void direction(const UnitVector& p, double* result) const {
