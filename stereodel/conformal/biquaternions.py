@@ -2,9 +2,9 @@
 
 q = a + i b with real quaternions a, b stands for the 2×2 matrix in which the quaternion units are −i times the Pauli
 matrices. A rotation is a real unit quaternion; the fisheye of magnification S along the unit vector f is
-cosh(η/2) − i sinh(η/2) f with η = ln S. Products are compositions; those of maps as they are
-stored are taken in integers. For q = L·fisheye(S)·R the two parts are
-a = cosh(η/2) L R and b = −sinh(η/2) L z R, so the decomposition loses nothing however large S is.
+cosh(η/2) − i sinh(η/2) f with η = ln S. Products are compositions; those of maps as they are stored are
+taken in integers. For q = L·fisheye(S)·R the two parts are a = cosh(η/2) L R and b = −sinh(η/2) L z R, so the
+decomposition loses nothing however large S is.
 """
 
 from __future__ import annotations

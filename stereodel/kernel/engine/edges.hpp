@@ -3,8 +3,6 @@
 // dual half.
 #pragma once
 
-#include <cstdint>
-
 #include "memory.hpp"
 #include "tally.hpp"
 

@@ -1,7 +1,6 @@
 #include "engine/projected_sites.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "engine/projection.hpp"

@@ -1,6 +1,7 @@
 #include "engine/sphere.hpp"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 #include <utility>
 #include <vector>

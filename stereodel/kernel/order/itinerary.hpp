@@ -7,7 +7,6 @@
 // other's landmarks.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,7 @@
 // Python: conformal maps of the sphere at many points.
 #include <nanobind/stl/pair.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "conformal/moebius.hpp"

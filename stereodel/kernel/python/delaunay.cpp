@@ -1,7 +1,5 @@
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/optional.h>
 
-#include <optional>
 #include <stdexcept>
 #include <utility>
 

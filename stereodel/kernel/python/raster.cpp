@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "python/arrays.hpp"
 #include "raster/levels.hpp"

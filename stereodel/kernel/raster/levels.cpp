@@ -3,7 +3,6 @@
 #include "raster/levels.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "coordinates/degrees.hpp"
 

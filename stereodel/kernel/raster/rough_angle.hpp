@@ -1,4 +1,4 @@
-// The rough angle of a vector, for pixels (angles.hpp has the precise one), in plain double arithmetic, without the
+// The rough angle of a vector, for pixels (arithmetic/arc_tangent.hpp has the precise one), in plain double arithmetic, without the
 // platform's mathematics: the same bits on every machine, and without a call, so that a loop over many vectors becomes
 // vector instructions.
 //

@@ -1,7 +1,6 @@
 #include "voronoi/flat_diagrams.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>

@@ -4,7 +4,6 @@
 #include <array>
 #include <limits>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 #include <vector>
 
