@@ -18,8 +18,8 @@
 //   1.20u + 2.5 * 0.20u + 2 * 0.20u + 1u of arctan(l/g).
 // * A multiple of pi/2 is added: arctan(l/g) is off by less than 0.6u as above, of angles of pi/4 and more, and the
 //   last sum rounds: 1.8u.
-// Together off by less than 3.1u of the angle; 2.41u is the most that was found. (Angles below 2^-1022 round as subnormal
-// numbers do.)
+// Together off by less than 3.1u of the angle; 2.41u is the most that was found. (Angles below 2^-1022 round as
+// subnormal numbers do.)
 #pragma once
 
 #include <algorithm>

@@ -71,8 +71,8 @@ class BigBall {
     BigBall times_power(std::int64_t bits) const;
     BigBall error_alone() const;  // zero within its absolute value
 
-    // The exponent of a power of two above the midpoint, a multiple of 32: up to 32 more than needed. And both parts over
-    // such a power.
+    // The exponent of a power of two above the midpoint, a multiple of 32: up to 32 more than needed. And both parts
+    // over such a power.
     std::int64_t exponent() const { return 32 * middle_.top(); }
     double middle(std::int64_t exponent) const { return middle_.to_double(-exponent); }
     double radius(std::int64_t exponent) const;

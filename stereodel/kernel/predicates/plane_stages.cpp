@@ -59,10 +59,6 @@ IntegerPoint integer_edge(const double* from, const double* to, int exponent) {
             BigInteger::from_double(to[1], exponent) - BigInteger::from_double(from[1], exponent)};
 }
 
-}  // namespace
-
-namespace {
-
 // Points multiplied by a power of two, so that the largest coordinate has a size near one. That is exact but for
 // numbers below 2^-1000 of it, which lose 2^-1074: FLOOR covers that as it does the underflow of products.
 template <std::size_t COUNT>

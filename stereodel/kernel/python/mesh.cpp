@@ -97,8 +97,8 @@ class BoundMesh {
                                         simplices.shape(0), std::move(pairs), Stop{});
     }
 
-    // Both call work(stop) without the interpreter's lock, one thread at a time. All wait for reads, which soon end (even
-    // writing out the arrays moves facets); nothing waits for a change.
+    // Both call work(stop) without the interpreter's lock, one thread at a time. All wait for reads, which soon end
+    // (even writing out the arrays moves facets); nothing waits for a change.
     template <class Work>
     auto read(bool is_long, Work&& work) {
         return run_without_lock(is_long, [&](Stop stop) {

@@ -1,6 +1,6 @@
-// The rough angle of a vector, for pixels (arithmetic/arc_tangent.hpp has the precise one), in plain double arithmetic, without the
-// platform's mathematics: the same bits on every machine, and without a call, so that a loop over many vectors becomes
-// vector instructions.
+// The rough angle of a vector, for pixels (arithmetic/arc_tangent.hpp has the precise one), in plain double arithmetic,
+// without the platform's mathematics: the same bits on every machine, and without a call, so that a loop over many
+// vectors becomes vector instructions.
 //
 // With m <= M the lesser and the greater of |x| and |y|, t = m/M: arctan t, or pi/4 + arctan((m - M)/(m + M)) where
 // t > tan(pi/8), so that the argument r of the series has |r| <= tan(pi/8) < 0.41422. The series

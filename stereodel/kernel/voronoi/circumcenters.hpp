@@ -20,8 +20,8 @@ struct TriangleRows {
 //
 // Plane: two coordinates a centre, off by little more than half a unit in the last place of the centre or the radius,
 // infinite beyond the range of doubles. Sphere: the unit normals on the side from which the corners appear
-// counterclockwise, off by little more than half a unit in the last place of their length, 2^-54: components that are far
-// shorter than that may hold fewer digits.
+// counterclockwise, off by little more than half a unit in the last place of their length, 2^-54: components that are
+// far shorter than that may hold fewer digits.
 void circumcenters_plane(const double* points, const TriangleRows& rows, double* centers, int workers, Stop stop);
 void circumcenters_sphere(const double* points, std::size_t size, const TriangleRows& rows, double* centers,
                           int workers, Stop stop);
