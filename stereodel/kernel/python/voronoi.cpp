@@ -321,8 +321,8 @@ void bind_plane(nb::module_& plane) {
               "Centres of triangles by number, that of row k at place[k].");
     plane.def("flat_order", order_on_line, "points"_a, "checked"_a = false, "Different points of a line along it.");
     plane.def("flat_diagram", of_line, "points"_a, "order"_a,
-              "Offsets, vertices and neighbours of the cells of points, and the sites of their ridges. They are taken to "
-              "lie on one line, in this order.");
+              "Offsets, vertices and neighbours of the cells of points, and the sites of their ridges. They are taken "
+              "to lie on one line, in this order.");
     bind_integrals<2, cell_areas_plane, cell_centroids_plane>(plane);
 }
 
@@ -337,8 +337,8 @@ void bind_sphere(nb::module_& sphere) {
                "Different directions of a great circle around it, the three lowest counterclockwise. checked: they are "
                "known to lie on one.");
     sphere.def("flat_diagram", of_circle, "points"_a, "order"_a,
-               "Offsets, vertices and neighbours of the cells of directions, and the vertices. They are taken to lie on "
-               "one great circle, in this order.");
+               "Offsets, vertices and neighbours of the cells of directions, and the vertices. They are taken to lie "
+               "on one great circle, in this order.");
     sphere.def("flat_areas", areas_on_circle, "points"_a, "order"_a, "Areas of the cells of flat_diagram.");
     sphere.def("flat_centroids", centroids_on_circle, "points"_a, "order"_a, "Centroids of the cells of flat_diagram.");
     sphere.def("bisector_normals", bisectors, "p"_a, "q"_a, "workers"_a = 1,
