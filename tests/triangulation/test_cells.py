@@ -173,8 +173,8 @@ def test_wrong_arrays_are_refused():
     ):
         with pytest.raises(ValueError, match=r"not those of a Voronoi diagram|same length"):
             _kernel.sphere.delaunay_of(diagram.points, *wrong, diagram.simplex_vertex)
-    for order in ([0, 1, 2, 3, 4, 4], [0, 6], [-1]):
-        with pytest.raises(ValueError, match="each site with entries once"):
+    for order in ([0, 1, 2, 3, 4, 4], [0, 6], [-1], [0, 1]):
+        with pytest.raises(ValueError, match=r"a second time|out of range|each site with entries once"):
             _kernel.sphere.cell_areas(diagram.points, *diagram._cells(), np.array(order, dtype=np.int32))
     with pytest.raises(ValueError, match="out of range"):
         _kernel.sphere.voronoi(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
@@ -182,7 +182,7 @@ def test_wrong_arrays_are_refused():
         _kernel.sphere.voronoi(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), np.zeros((0, 3), dtype=np.int32))
     rows = np.array([[0, 1, 2], [0, 2, 1]], dtype=np.int32)
     for place in ([0, 0], [0, 2], [0], [-1, 0]):
-        with pytest.raises(ValueError, match="must be a permutation"):
+        with pytest.raises(ValueError, match=r"a second time|out of range|must be a permutation"):
             _kernel.sphere.circumcenters(np.eye(3), rows, np.array(place, dtype=np.int32))
     with pytest.raises(ValueError, match="out of range"):
         _kernel.sphere.circumcenters(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32))
