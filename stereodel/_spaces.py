@@ -51,7 +51,12 @@ class Space(Protocol):
     ) -> Mesh: ...
     def triangulate(self, points: FloatArray, workers: int = 1, neighbors: bool = True) -> Triangulated: ...
     def circumcenters(
-        self, points: FloatArray, triangles: IntArray, place: IntArray | None = None, workers: int = 1
+        self,
+        points: FloatArray,
+        triangles: IntArray,
+        place: IntArray | None = None,
+        workers: int = 1,
+        checked: bool = False,
     ) -> FloatArray: ...
     def flat_order(self, points: FloatArray, checked: bool = False) -> IntArray: ...
     def find_simplex(
@@ -124,6 +129,7 @@ class Space(Protocol):
         vertex_count: int,
         order: IntArray,
         workers: int = 1,
+        checked: bool = False,
     ) -> FloatArray: ...
     def cell_centroids(
         self,
@@ -134,6 +140,7 @@ class Space(Protocol):
         vertex_count: int,
         order: IntArray,
         workers: int = 1,
+        checked: bool = False,
     ) -> FloatArray: ...
     def proximity(
         self,

@@ -229,6 +229,7 @@ def circumcenters(
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
     """Centres of triangles by number, that of row k at place[k]."""
 
@@ -254,6 +255,7 @@ def cell_areas(
     vertex_count: int,
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of the cells, infinite where unbounded; steradians."""
 
@@ -265,5 +267,6 @@ def cell_centroids(
     vertex_count: int,
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
     """Centroids of the cells; NaN where there is none."""

@@ -246,6 +246,7 @@ def circumcenters(
     triangles: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
     place: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
     """
     Unit normals of triangles by number, on the side seen counterclockwise, that of row k at place[k].
@@ -296,6 +297,7 @@ def cell_areas(
     vertex_count: int,
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C")]:
     """Areas of the cells, infinite where unbounded; steradians."""
 
@@ -307,5 +309,6 @@ def cell_centroids(
     vertex_count: int,
     order: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
     workers: int = 1,
+    checked: bool = False,
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 3), order="C")]:
     """Centroids of the cells; NaN where there is none."""

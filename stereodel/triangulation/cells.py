@@ -79,14 +79,14 @@ class Diagram:
         self._set_cells(offsets, vertices, neighbors)
         self.simplex_vertex = locked(simplex_vertex)
         if sites is None:
-            return space.circumcenters(points, triangulation.simplices, simplex_vertex, self._threads)
-        return space.circumcenters(points, sites, vertex, self._threads)
+            return space.circumcenters(points, triangulation.simplices, simplex_vertex, self._threads, True)
+        return space.circumcenters(points, sites, vertex, self._threads, True)
 
     def _cell_areas(self) -> FloatArray:
-        return space_of(self.points).cell_areas(self.points, *self._cells(), self._order, self._threads)
+        return space_of(self.points).cell_areas(self.points, *self._cells(), self._order, self._threads, True)
 
     def _cell_centroids(self) -> FloatArray:
-        return space_of(self.points).cell_centroids(self.points, *self._cells(), self._order, self._threads)
+        return space_of(self.points).cell_centroids(self.points, *self._cells(), self._order, self._threads, True)
 
     def _simplices(self) -> IntArray:
         """The triangles, from the topology of the diagram."""

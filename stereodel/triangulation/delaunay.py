@@ -156,7 +156,7 @@ class Delaunay(Versioned, ABC):
     @kept
     def circumcenters(self) -> FloatArray:
         """Centre of each triangle's circle, (m, 2) or (m, 3)."""
-        return locked(self._space.circumcenters(self.points, self.simplices, workers=self._thread_count()))
+        return locked(self._space.circumcenters(self.points, self.simplices, None, self._thread_count(), True))
 
     @kept
     def _open(self) -> BoolArray:

@@ -240,6 +240,7 @@ COMPONENT = st.builds(lambda m, e: float(np.ldexp(m, e)), st.integers(-7, 7), EX
 
 @settings(deadline=None, max_examples=100)
 @given(st.lists(st.tuples(COMPONENT, COMPONENT, COMPONENT).filter(any), min_size=2, max_size=9))
+@example([(0.0, 0.0, 1.0), (0.0, 1.0, -0.5), (6.525304467998525e-55, 0.0, 1.0)])  # near lunes, one of half the sphere
 def test_directions_of_any_components_share_the_sphere(vectors):
     diagram = SphericalVoronoi(vectors)
     areas, centroids = diagram.areas(), diagram.centroids()

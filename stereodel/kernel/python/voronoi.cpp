@@ -90,34 +90,42 @@ nb::tuple of_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> simplices, RowsIn
 using Offsets = ValuesIn<std::int64_t>;
 using Entries = ValuesIn<Index>;
 
-Cells to_cells(const Offsets& offsets, const Entries& vertices, const Entries& neighbors, std::size_t vertex_count) {
+Cells to_cells(const Offsets& offsets, const Entries& vertices, const Entries& neighbors, std::size_t vertex_count,
+               bool checked = false) {
     if (offsets.shape(0) == 0) {
         throw std::invalid_argument("offsets must have an entry more than there are sites");
     }
     check_same_length("vertices", vertices.shape(0), "neighbors", neighbors.shape(0));
     const Cells cells{offsets.data(), vertices.data(), neighbors.data(), offsets.shape(0) - 1, vertex_count};
-    check_cells(cells, vertices.shape(0));
+    if (!checked) {
+        check_cells(cells, vertices.shape(0));
+    }
     return cells;
 }
 
 // Of a diagram of these points.
 template <class Rows>
 Cells to_cells(const Rows& points, const Offsets& offsets, const Entries& vertices,
-               const Entries& neighbors, std::size_t vertex_count) {
-    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count);
+               const Entries& neighbors, std::size_t vertex_count, bool checked = false) {
+    const Cells cells = to_cells(offsets, vertices, neighbors, vertex_count, checked);
     check_same_length("points", points.shape(0), "cells", cells.sites);
-    check_points("points", points);
+    if (!checked) {
+        check_points("points", points);
+    }
     return cells;
 }
 
 // With the sites that have entries in an order for areas and centroids, each once.
 template <class Rows>
 Cells to_ordered_cells(const Rows& points, const Offsets& offsets, const Entries& vertices,
-                       const Entries& neighbors, std::size_t vertex_count, const ValuesIn<Index>& order) {
-    Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count);
+                       const Entries& neighbors, std::size_t vertex_count, const ValuesIn<Index>& order,
+                       bool checked) {
+    Cells cells = to_cells(points, offsets, vertices, neighbors, vertex_count, checked);
     cells.order = order.data();
     cells.filled = order.shape(0);
-    check_order(cells);
+    if (!checked) {
+        check_order(cells);
+    }
     return cells;
 }
 
@@ -180,8 +188,8 @@ using Integrals = void(const double* points, const Cells& cells, double* results
 
 template <std::size_t Width, Integrals& areas_of>
 ValuesOut<double> areas(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
-                        std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(points, offsets, vertices, neighbors, vertex_count, order);
+                        std::size_t vertex_count, ValuesIn<Index> order, int workers, bool checked) {
+    const Cells cells = to_ordered_cells(points, offsets, vertices, neighbors, vertex_count, order, checked);
     return to_values(for_sites(cells, 1, [&](double* results, Stop stop) {
         areas_of(points.data(), cells, results, workers, stop);
     }));
@@ -189,8 +197,8 @@ ValuesOut<double> areas(RowsIn<double, Width> points, Offsets offsets, Entries v
 
 template <std::size_t Width, Integrals& centroids_of>
 RowsOut<double, Width> centroids(RowsIn<double, Width> points, Offsets offsets, Entries vertices, Entries neighbors,
-                                 std::size_t vertex_count, ValuesIn<Index> order, int workers) {
-    const Cells cells = to_ordered_cells(points, offsets, vertices, neighbors, vertex_count, order);
+                                 std::size_t vertex_count, ValuesIn<Index> order, int workers, bool checked) {
+    const Cells cells = to_ordered_cells(points, offsets, vertices, neighbors, vertex_count, order, checked);
     return to_rows<Width>(for_sites(cells, Width, [&](double* results, Stop stop) {
         centroids_of(points.data(), cells, results, workers, stop);
     }));
@@ -199,25 +207,28 @@ RowsOut<double, Width> centroids(RowsIn<double, Width> points, Offsets offsets, 
 using Places = std::optional<ValuesIn<Index>>;
 
 template <class Rows>
-TriangleRows to_rows_of(const Rows& points, const RowsIn<Index, 3>& triangles, const Places& place) {
-    check_points("points", points);
-    check_indices("triangles", triangles.data(), triangles.shape(0), points.shape(0), 3);
-    if (place) {  // else two threads might write the same
+TriangleRows to_rows_of(const Rows& points, const RowsIn<Index, 3>& triangles, const Places& place, bool checked) {
+    if (!checked) {
+        check_points("points", points);
+        check_indices("triangles", triangles.data(), triangles.shape(0), points.shape(0), 3);
+    }
+    if (place && !checked) {  // else two threads might write the same
         check_permutation("place", place->data(), place->shape(0), triangles.shape(0));
     }
     return {triangles.data(), place ? place->data() : nullptr, triangles.shape(0)};
 }
 
-RowsOut<double, 2> centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers) {
-    const TriangleRows rows = to_rows_of(points, triangles, place);
+RowsOut<double, 2> centers_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> triangles, Places place, int workers,
+                                    bool checked) {
+    const TriangleRows rows = to_rows_of(points, triangles, place, checked);
     return to_rows<2>(filled<double>(2 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
         circumcenters_plane(points.data(), rows, out, workers, stop);
     }));
 }
 
 RowsOut<double, 3> centers_on_sphere(RowsIn<double, 3> points, RowsIn<Index, 3> triangles, Places place,
-                                     int workers) {
-    const TriangleRows rows = to_rows_of(points, triangles, place);
+                                     int workers, bool checked) {
+    const TriangleRows rows = to_rows_of(points, triangles, place, checked);
     return to_rows<3>(filled<double>(3 * rows.count, rows.count > long_work, [&](double* out, Stop stop) {
         circumcenters_sphere(points.data(), points.shape(0), rows, out, workers, stop);
     }));
@@ -303,10 +314,11 @@ RowsOut<double, 3> bisectors(RowsIn<double, 3> p, RowsIn<double, 3> q, int worke
 template <std::size_t Width, Integrals& areas_of, Integrals& centroids_of>
 void bind_integrals(nb::module_& space) {
     space.def("cell_areas", areas<Width, areas_of>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-              "vertex_count"_a, "order"_a, "workers"_a = 1,
+              "vertex_count"_a, "order"_a, "workers"_a = 1, "checked"_a = false,
               "Areas of the cells, infinite where unbounded; steradians.");
     space.def("cell_centroids", centroids<Width, centroids_of>, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
-              "vertex_count"_a, "order"_a, "workers"_a = 1, "Centroids of the cells; NaN where there is none.");
+              "vertex_count"_a, "order"_a, "workers"_a = 1, "checked"_a = false,
+              "Centroids of the cells; NaN where there is none.");
 }
 
 void bind_plane(nb::module_& plane) {
@@ -318,6 +330,7 @@ void bind_plane(nb::module_& plane) {
               "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1,
               "Triangles of a diagram's sites, in the order of `simplex_vertex`.");
     plane.def("circumcenters", centers_in_plane, "points"_a, "triangles"_a, "place"_a = nb::none(), "workers"_a = 1,
+              "checked"_a = false,
               "Centres of triangles by number, that of row k at place[k].");
     plane.def("flat_order", order_on_line, "points"_a, "checked"_a = false, "Different points of a line along it.");
     plane.def("flat_diagram", of_line, "points"_a, "order"_a,
@@ -332,6 +345,7 @@ void bind_sphere(nb::module_& sphere) {
     sphere.def("delaunay_of", delaunay_of_sphere, "points"_a, "offsets"_a, "vertices"_a, "neighbors"_a,
                "vertex_count"_a, "simplex_vertex"_a, "rank"_a = nb::none(), "workers"_a = 1, "As in the plane.");
     sphere.def("circumcenters", centers_on_sphere, "points"_a, "triangles"_a, "place"_a = nb::none(), "workers"_a = 1,
+               "checked"_a = false,
                "Unit normals of triangles by number, on the side seen counterclockwise, that of row k at place[k].");
     sphere.def("flat_order", order_on_circle, "points"_a, "checked"_a = false,
                "Different directions of a great circle around it, the three lowest counterclockwise. checked: they are "

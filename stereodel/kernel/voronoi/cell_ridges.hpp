@@ -62,7 +62,7 @@ struct Ridge {
     }
 };
 
-// What a cell came out as. The bounds are those of CELL_ERROR, an area's beside 2^-1040 for what underflows.
+// What a cell came out as. The bounds are SHARE_ERROR for areas, beside 2^-1040 for what underflows, and CELL_ERROR.
 struct MeasuredCell {
     double area = 0.0, centroid[3] = {};
     bool good = false;
@@ -90,7 +90,7 @@ class RidgeSum {
             }
         }
         cell.area = area.hi;
-        cell.good = error <= CELL_ERROR * cell.area + 0x1p-1040;
+        cell.good = error <= SHARE_ERROR * cell.area + 0x1p-1040;
         if (with_centroid && cell.good) {
             cell.good = flat ? flat_centroid(tangents, cell.centroid) : centroid(cell.centroid);
         }
