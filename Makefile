@@ -12,7 +12,7 @@ PYTEST_ARGS :=
 FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
 STAMP := $(VENV)/installed
-BUILD := $(BIN)/python -m stereodel.render.build --scripts figures --out $(OUT)
+BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT)
 
 .PHONY: help install system figures poster animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
 	readme-images docs clean
@@ -79,7 +79,7 @@ dist: $(STAMP) ## source archive and wheel into dist/, the wheel tried in a new 
 	tools/dist.sh $(VENV)
 
 baselines: $(STAMP) system ## draw the stored pictures of the image tests anew: look at what git shows before you commit
-	$(BIN)/python -m stereodel.render.baselines --scripts figures --store tests/images/baselines
+	$(BIN)/python -m tools.baselines --scripts figures --store tests/images/baselines
 
 readme-images: $(STAMP) system ## draw the small pictures of the README anew
 	$(BIN)/python tools/readme_images.py

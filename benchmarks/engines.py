@@ -8,8 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from stereodel.render.page import Color
-from stereodel.render.style import BLACK, BLUE, GRAY, GREEN, ORANGE, SKY, VERMILION
+from stereodel.drawing.page import Color
+from stereodel.drawing.style import BLACK, BLUE, GRAY, GREEN, ORANGE, SKY, VERMILION
 
 HERE = Path(__file__).resolve().parent
 PEERS = HERE / ".peers"

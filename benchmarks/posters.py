@@ -24,7 +24,7 @@ def largest_memory() -> float:
 def measured(script: Path, size: int) -> str:
     """One line about one picture."""
     from stereodel.render import save_page
-    from stereodel.render.build import load_drawing
+    from tools.build import load_drawing
 
     page = load_drawing(script).page()
     with tempfile.TemporaryDirectory() as folder:

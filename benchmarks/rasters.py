@@ -29,8 +29,8 @@ from benchmarks import pages
 from stereodel import MoebiusMap, fisheye
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
+from stereodel.drawing import View
 from stereodel.globe import Raster
-from stereodel.render import View
 from tests.globe.supersampling import checkerboard, psnr, reference, zone_plate
 
 HERE = Path(__file__).resolve().parent

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from stereodel.render import CircleArc
+from stereodel.drawing import CircleArc
 from stereodel.sphere import SphereArc
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
-from stereodel.render import Page, Scene, View
+from stereodel.drawing import Page, Scene, View
 from stereodel.sphere import graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from stereodel.render import ColorScale, Label, Page
+from stereodel.drawing import ColorScale, Label, Page
 
 LATITUDE = "authalic"  # areas of cells are those on the ellipsoid
 

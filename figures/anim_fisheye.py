@@ -12,7 +12,8 @@ from functools import partial
 import numpy as np
 
 from stereodel import fisheye
-from stereodel.render import Animation, Label, Page, Scene, View
+from stereodel.drawing import Label, Page, Scene, View
+from stereodel.film import Animation
 from stereodel.sphere import SphereArc, graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees

@@ -10,10 +10,11 @@ shortest in hyperbolic space, where a fisheye of magnification S lies at the dis
 from collections.abc import Callable, Iterator
 from functools import partial
 
+from stereodel.drawing import LineStyle, Page
+from stereodel.drawing.style import BLACK
+from stereodel.film import Animation
 from stereodel.globe import Flight, Globe, Stop
 from stereodel.globe.flights import Shot
-from stereodel.render import Animation, LineStyle, Page
-from stereodel.render.style import BLACK
 
 CITIES = {"Paris": (2.35, 48.86), "New York": (-74.01, 40.71), "Tokyo": (139.69, 35.69)}
 MAGNIFICATION = 8.0

@@ -13,8 +13,9 @@ import numpy as np
 from _sites import on_sphere
 
 from stereodel import HullInsertion
-from stereodel.render import Animation, Page, Scene, View
-from stereodel.render.style import fainter, fill
+from stereodel.drawing import Page, Scene, View
+from stereodel.drawing.style import fainter, fill
+from stereodel.film import Animation
 
 SITES, SEED = 28, 5
 VIEW = View(25, 20)

@@ -14,7 +14,8 @@ import numpy as np
 from _rectangle import CORNERS, lift, sites
 
 from stereodel import PlanarDelaunay, Stereographic
-from stereodel.render import Animation, CircleArc, Page, Scene, View
+from stereodel.drawing import CircleArc, Page, Scene, View
+from stereodel.film import Animation
 from stereodel.sphere import SphereArc, SphereCircle
 
 VIEW = View(0, -52)

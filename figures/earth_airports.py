@@ -11,9 +11,10 @@ import numpy as np
 from _poster import LATITUDE, captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth
+from stereodel.drawing import ColorScale, Page, View
+from stereodel.drawing.style import BLACK, WHITE, LineStyle
 from stereodel.globe import Globe
-from stereodel.render import ColorScale, Figure, Page, View
-from stereodel.render.style import BLACK, WHITE, LineStyle
+from stereodel.render import Figure
 
 VIEW = View(-40, 36)
 SCALE = ColorScale("magma", 10.0, 1e7, log=True)  # km²

@@ -12,9 +12,10 @@ import numpy as np
 from _poster import LATITUDE, captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth
+from stereodel.drawing import ColorScale, Page, View
+from stereodel.drawing.style import LineStyle
 from stereodel.globe import Globe
-from stereodel.render import ColorScale, Figure, Page, View
-from stereodel.render.style import LineStyle
+from stereodel.render import Figure
 
 VIEW = View(68, 28)
 SCALE = ColorScale("inferno", 0.1, 1e4, log=True)  # people per km²

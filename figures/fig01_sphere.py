@@ -13,7 +13,8 @@ import numpy as np
 from _sites import on_sphere
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
-from stereodel.render import Figure, Page, Scene, View
+from stereodel.drawing import Page, Scene, View
+from stereodel.render import Figure
 
 SITES, SEED = 80, 1
 VIEW = View(20, 25)

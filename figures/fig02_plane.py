@@ -12,7 +12,8 @@ Chosen by us: the number of sites, their seed, and the frame, which clips the un
 from _sites import in_rectangle
 
 from stereodel import PlanarDelaunay, PlanarVoronoi
-from stereodel.render import Figure, Page, Sketch
+from stereodel.drawing import Page, Sketch
+from stereodel.render import Figure
 
 SITES, SEED = 60, 2
 WIDTH, HEIGHT, MARGIN = 3.0, 2.0, 0.08

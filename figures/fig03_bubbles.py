@@ -11,7 +11,8 @@ Chosen by us: a circle of angular radius 42° about (30° E, 32° N).
 import numpy as np
 
 from stereodel import SphereCircle, lonlat_to_xyz
-from stereodel.render import Figure, Page, Scene, View
+from stereodel.drawing import Page, Scene, View
+from stereodel.render import Figure
 
 CENTER, RADIUS = (30.0, 32.0), 42.0  # degrees
 VIEW = View(12, 14)

@@ -12,7 +12,8 @@ Chosen by us: the three vertices and the view.
 import numpy as np
 
 from stereodel import lonlat_to_xyz
-from stereodel.render import Figure, Layer, Page, Scene, View
+from stereodel.drawing import Layer, Page, Scene, View
+from stereodel.render import Figure
 
 VERTICES = np.array([[-42.0, -18.0], [48.0, -12.0], [4.0, 58.0]])  # degrees
 VIEW = View(26, 12)

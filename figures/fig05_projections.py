@@ -12,7 +12,8 @@ Chosen by us: the points, the tangent point of the oblique plane, the view.
 import numpy as np
 
 from stereodel import SphereCircle, Stereographic, lonlat_to_xyz
-from stereodel.render import CircleArc, Figure, Page, Scene, View
+from stereodel.drawing import CircleArc, Page, Scene, View
+from stereodel.render import Figure
 
 PANELS = {  # tangent point; centre and angular radius of the circle; directions of its points, all in degrees
     "normal": ((0.0, -90.0), (10.0, -66.0), 52.0, (118.0, 168.0, 235.0)),

@@ -11,7 +11,8 @@ Chosen by us: a segment of length 3.2 and the radii 2, 1 and 1/2.
 import numpy as np
 
 from stereodel import Stereographic
-from stereodel.render import Figure, Page, Sketch
+from stereodel.drawing import Page, Sketch
+from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 
 HALF_LENGTH = 1.6

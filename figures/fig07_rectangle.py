@@ -12,7 +12,8 @@ import numpy as np
 from _rectangle import CORNERS, HEIGHT, WIDTH, lift, sites
 
 from stereodel import PlanarDelaunay, PlanarVoronoi
-from stereodel.render import Figure, Page, Sketch
+from stereodel.drawing import Page, Sketch
+from stereodel.render import Figure
 
 MARGIN = 0.05
 

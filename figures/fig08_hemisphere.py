@@ -14,7 +14,8 @@ from _arcs import from_rows, to_rows
 from _rectangle import CORNERS, lift, sites
 
 from stereodel import PlanarDelaunay, SphericalVoronoi
-from stereodel.render import Figure, Page, Scene, View
+from stereodel.drawing import Page, Scene, View
+from stereodel.render import Figure
 from stereodel.sphere import SphereArc, SphereCircle
 
 VIEW = View(0, -78)

@@ -12,7 +12,8 @@ Chosen by us: φ = 25° on the left.
 import numpy as np
 
 from stereodel import RectangleLift, lonlat_to_xyz
-from stereodel.render import Figure, Page, Sketch
+from stereodel.drawing import Page, Sketch
+from stereodel.render import Figure
 
 RADIUS = 1.0
 PHI = 25.0  # degrees south of the equator

@@ -13,7 +13,8 @@ Chosen by us: S = 2.5 and d = 1.6 R.
 import numpy as np
 
 from stereodel import Stereographic
-from stereodel.render import Figure, Page, Sketch
+from stereodel.drawing import Page, Sketch
+from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 
 RADIUS, S = 2.0, 2.5

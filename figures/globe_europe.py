@@ -12,9 +12,10 @@ import numpy as np
 from _poster import LATITUDE, captioned, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, fisheye
+from stereodel.drawing import ColorScale, Page
+from stereodel.drawing.style import BLACK, WHITE, DotStyle, LineStyle
 from stereodel.globe import Globe
-from stereodel.render import ColorScale, Figure, Page
-from stereodel.render.style import BLACK, WHITE, DotStyle, LineStyle
+from stereodel.render import Figure
 
 FOCUS = (11.0, 49.0)
 MAGNIFICATION = 4.0

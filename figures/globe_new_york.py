@@ -12,9 +12,10 @@ import numpy as np
 from _poster import captioned
 
 from stereodel import SphereCircle, bubble_to_bubble, data, earth
+from stereodel.drawing import Page
+from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
 from stereodel.globe import Globe, Panel, hemispheres, panels
-from stereodel.render import Figure, Page
-from stereodel.render.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
+from stereodel.render import Figure
 
 NEW_YORK = (-73.98, 40.75)
 RADIUS_KM = 100.0

@@ -10,9 +10,10 @@ Chosen by us: focus, magnification, colours, the cities and on which side of the
 from dataclasses import replace
 
 from stereodel import fisheye
+from stereodel.drawing import Label, Page
+from stereodel.drawing.style import DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
-from stereodel.render import Figure, Label, Page
-from stereodel.render.style import DotStyle, LineStyle, with_opacity
+from stereodel.render import Figure
 
 FOCUS = (17.0, 38.5)
 MAGNIFICATION = 3.5

@@ -12,8 +12,9 @@ Chosen by us: the place, one of the circles' centres; the magnification; one cir
 import numpy as np
 
 from stereodel import earth, fisheye
+from stereodel.drawing import Page, View
 from stereodel.globe import Globe, Panel, panels
-from stereodel.render import Figure, Page, View
+from stereodel.render import Figure
 
 FOCUS = (0.0, 40.0)
 MAGNIFICATION = 3.0

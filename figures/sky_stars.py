@@ -14,9 +14,10 @@ import numpy as np
 from _poster import captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, lonlat_to_xyz
+from stereodel.drawing import ColorScale, Page, View
+from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.globe import Globe
-from stereodel.render import ColorScale, Figure, Page, View
-from stereodel.render.style import DotStyle, LineStyle
+from stereodel.render import Figure
 
 CENTER, POLE = (266.40499, -28.93617), (192.85948, 27.12825)  # of the galaxy, ICRS
 VIEW = View(180, 0)

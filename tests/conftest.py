@@ -1,9 +1,14 @@
 """Settings of all tests."""
 
 import os
+import sys
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
+
+# `benchmarks` and `tools` are folders of the repository and not installed.
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 
 # No deadline: the first call of a test may load a library or meet a busy machine. In CI the same examples every time.
 settings.register_profile("stereodel", deadline=None, derandomize=bool(os.environ.get("CI")))

@@ -10,14 +10,16 @@ import pytest
 import stereodel
 import stereodel.conformal
 import stereodel.data
+import stereodel.drawing
 import stereodel.earth
+import stereodel.film
 import stereodel.globe
 import stereodel.graphs
 import stereodel.interpolation
 import stereodel.io
+import stereodel.mpl
 import stereodel.relaxation
 import stereodel.render
-import stereodel.render.mpl
 import stereodel.spatial
 import stereodel.sphere
 import stereodel.triangulation
@@ -86,8 +88,10 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.io") == set(stereodel.io.__all__)
     assert reference("stereodel.spatial") | {"QhullError"} == set(stereodel.spatial.__all__)
     assert reference("stereodel.globe") == set(stereodel.globe.__all__)
+    assert reference("stereodel.drawing") == set(stereodel.drawing.__all__)
     assert reference("stereodel.render") == set(stereodel.render.__all__)
-    assert reference("stereodel.render.mpl") == set(stereodel.render.mpl.__all__)
+    assert reference("stereodel.film") == set(stereodel.film.__all__)
+    assert reference("stereodel.mpl") == set(stereodel.mpl.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}
 
 

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
+from stereodel.drawing import LineStyle, Page, Scene, View
+from stereodel.drawing.style import BLUE, LIGHT_GRAY
 from stereodel.graphs import (
     gabriel_graph,
     minimum_spanning_tree,
@@ -17,9 +19,8 @@ from stereodel.graphs import (
     urquhart_graph,
 )
 from stereodel.relaxation import lloyd
-from stereodel.render import Figure, LineStyle, Page, Scene, View
-from stereodel.render.saving import save_png
-from stereodel.render.style import BLUE, LIGHT_GRAY
+from stereodel.render import Figure
+from stereodel.render.save import save_png
 
 SITES, SEED, STEPS = 450, 11, 40
 VIEW = View(20, 25)

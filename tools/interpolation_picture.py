@@ -11,10 +11,11 @@ import numpy as np
 
 from stereodel import SphericalDelaunay
 from stereodel._arrays import FloatArray
+from stereodel.drawing import LineStyle, Page, Scene, View
+from stereodel.drawing.style import BLUE, LIGHT_GRAY, VERMILION
 from stereodel.interpolation import Contour, SmoothInterpolator, contours
-from stereodel.render import Figure, LineStyle, Page, Scene, View
-from stereodel.render.saving import save_png
-from stereodel.render.style import BLUE, LIGHT_GRAY, VERMILION
+from stereodel.render import Figure
+from stereodel.render.save import save_png
 
 SITES, FINE, SEED = 500, 40_000, 6
 LEVELS = np.linspace(-0.9, 0.9, 10)  # without zero

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from stereodel.render.build import load_drawing
-from stereodel.render.saving import save_png
+from stereodel.render.save import save_png
+from tools.build import load_drawing
 
 ROOT = Path(__file__).resolve().parent.parent
 WIDTHS = {

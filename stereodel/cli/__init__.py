@@ -4,10 +4,10 @@ One module a command, each with a function `command` and an `EXAMPLE`. They impo
 that the help answers at once.
 """
 
-from stereodel.cli import doctor, figures, globe, interpolate, nearest, triangulate, voronoi
+from stereodel.cli import doctor, globe, interpolate, nearest, triangulate, voronoi
 from stereodel.cli.application import app
 
 __all__ = ["app"]
 
-for module in (triangulate, voronoi, interpolate, nearest, globe, figures, doctor):
+for module in (triangulate, voronoi, interpolate, nearest, globe, doctor):
     app.command(module.__name__.rpartition(".")[2], epilog=f"Example: {module.EXAMPLE}")(module.command)

@@ -10,9 +10,9 @@ from stereodel import MoebiusMap, fisheye, xyz_to_lonlat
 from stereodel._arrays import FloatArray
 from stereodel.cli.globe_options import Projection
 from stereodel.cli.options import pair
+from stereodel.drawing import StereographicView, View
+from stereodel.drawing.view import MapView
 from stereodel.globe import hemispheres
-from stereodel.render import StereographicView, View
-from stereodel.render.view import MapView
 
 Place = tuple[float, float]
 

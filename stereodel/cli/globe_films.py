@@ -10,9 +10,9 @@ from stereodel import MoebiusMap
 from stereodel.cli.globe_aim import Aim, Place
 from stereodel.cli.globe_options import Projection
 from stereodel.conformal import path_between
+from stereodel.film import FrameError
 from stereodel.globe import Flight, Globe, Morph, Spin, Stop, film
 from stereodel.globe.flights import Motion
-from stereodel.render import FrameError
 
 KEPT = "interrupted; the same command goes on with the frames that are missing"
 

@@ -12,8 +12,8 @@ from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude, box_of
 from stereodel.cli.sources import Table
 from stereodel.data import blue_marble
+from stereodel.drawing.style import DOTS, LINES
 from stereodel.globe import Globe, Raster
-from stereodel.render.style import DOTS, LINES
 
 CROWDED = 500  # points from which on lines and dots are drawn finer, so that what they bound can still be seen
 FINEST = 0.2  # of the usual widths

@@ -10,12 +10,12 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
+from stereodel.drawing.page import Beziers
+from stereodel.drawing.regions import limb
+from stereodel.drawing.space_curves import page_path
+from stereodel.drawing.view import MapView
 from stereodel.globe.lines import SphereLines, clipped_lines, thinned
 from stereodel.globe.regions import Mesh, SphereMesh
-from stereodel.render.curves import page_path
-from stereodel.render.page import Beziers
-from stereodel.render.regions import limb
-from stereodel.render.view import MapView
 from stereodel.sphere.vectors import turned
 
 Indices = npt.NDArray[np.intp]

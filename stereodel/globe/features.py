@@ -9,10 +9,10 @@ import numpy.typing as npt
 
 from stereodel import data
 from stereodel._arrays import FloatArray, as_floats
+from stereodel.drawing.colors import ColorScale
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.polygons import Polygons
 from stereodel.globe.regions import SphereMesh
-from stereodel.render.colors import ColorScale
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from stereodel._arrays import as_count, as_scalar
+from stereodel.drawing.page import Color, Page
+from stereodel.drawing.style import WHITE
+from stereodel.film.film import Film
 from stereodel.globe.flights import Motion, Shot
 from stereodel.globe.globe import Globe
-from stereodel.render.motion.film import Film
-from stereodel.render.page import Color, Page
-from stereodel.render.style import WHITE
 
 POINTS_PER_PIXEL = 0.375
 """Of a page of a film: lines keep their width in pixels whatever the size, 1 pt being 2⅔ of them."""

@@ -18,7 +18,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar
 from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
 from stereodel.constants import OPPOSITE
-from stereodel.render.view import MapView, View
+from stereodel.drawing.view import MapView, View
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 
 Shot = tuple[MoebiusMap, MapView]

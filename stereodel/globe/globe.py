@@ -13,21 +13,21 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
+from stereodel.drawing.colors import ColorScale
+from stereodel.drawing.label import placed_label
+from stereodel.drawing.page import Color, Item, Label, Page
+from stereodel.drawing.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotStyle, LineStyle
+from stereodel.drawing.view import MapView
 from stereodel.globe import features, looks
 from stereodel.globe.chart import Chart
 from stereodel.globe.geodata import shapes_of
 from stereodel.globe.layers import Areas, Circles, Ground, Image, Lines, MapLayer, Names, Points, Rim
-from stereodel.globe.lettering import placed_label
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.polygons import Polygons, Rings
 from stereodel.globe.raster import Raster
-from stereodel.render.colors import ColorScale
-from stereodel.render.page import Color, Item, Label, Page
-from stereodel.render.saving import save_page
+from stereodel.render.save import save_page
 from stereodel.render.sizes import LARGEST_SIZE
-from stereodel.render.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotStyle, LineStyle
-from stereodel.render.view import MapView
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units

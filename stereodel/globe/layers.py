@@ -10,13 +10,13 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
+from stereodel.drawing.page import Color, Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.drawing.regions import near_hemisphere
+from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.globe.regions import Mesh, SphereMesh
-from stereodel.render.page import Color, Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
-from stereodel.render.regions import near_hemisphere
-from stereodel.render.style import DotStyle, LineStyle
 from stereodel.sphere import SphereCircle
 
 FEW_COLORS = 64

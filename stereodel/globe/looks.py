@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Final
 
-from stereodel.render.page import Color
-from stereodel.render.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle, LineStyle, with_opacity
+from stereodel.drawing.page import Color
+from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle, LineStyle, with_opacity
 
 OCEAN: Final[Color] = (0.855, 0.910, 0.945, 1.0)
 LAND: Final[Color] = (0.957, 0.937, 0.890, 1.0)

@@ -8,11 +8,11 @@ from typing import Protocol
 
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
+from stereodel.drawing.label import with_room
+from stereodel.drawing.page import Item, Label, Page
+from stereodel.drawing.style import BLACK, PRINT_WIDTH
+from stereodel.drawing.view import MapView, StereographicView, View
 from stereodel.globe.chart import Chart
-from stereodel.globe.lettering import with_room
-from stereodel.render.page import Item, Label, Page
-from stereodel.render.style import BLACK, PRINT_WIDTH
-from stereodel.render.view import MapView, StereographicView, View
 from stereodel.sphere import xyz_to_lonlat
 
 MARGIN = 0.03

@@ -15,8 +15,8 @@ from stereodel._arrays import FloatArray, as_choice, as_count, as_edges, as_pixe
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
+from stereodel.drawing.view import MapView
 from stereodel.globe.images import read_image
-from stereodel.render.view import MapView
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
@@ -60,7 +60,7 @@ class Raster:
 
     Examples
     --------
-    >>> from stereodel.render import View
+    >>> from stereodel.drawing import View
     >>> stripes = Raster(np.arange(0, 240, 20, dtype=np.uint8)[None, :].repeat(6, axis=0))
     >>> picture = stripes.warp(MoebiusMap.identity(), View(0.0, 0.0), 101)
     >>> picture.shape, picture[50, 50].tolist(), picture[0, 0].tolist()
@@ -240,7 +240,7 @@ def _shifts(latitude: Latitude) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class RasterOnDisc:
-    """A raster through a lens and a view on a disc of a page, for a `stereodel.render.page.Picture`.
+    """A raster through a lens and a view on a disc of a page, for a `stereodel.drawing.page.Picture`.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ class RasterOnDisc:
     opacity: float = 1.0
 
     def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
-        """Pixels of the page, (rows, columns, 4); see `stereodel.render.page.Painter`."""
+        """Pixels of the page, (rows, columns, 4); see `stereodel.drawing.page.Painter`."""
         left, top, width, height = place
         in_disc = (left - self.at[0]) / self.scale, (top - self.at[1]) / self.scale
         sides = width / self.scale, height / self.scale

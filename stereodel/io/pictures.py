@@ -24,7 +24,7 @@ def page_of(
 
 
 def _globe(mesh: Mesh, kind: str, view: npt.ArrayLike) -> Any:
-    from stereodel.render import Page, Scene, View
+    from stereodel.drawing import Page, Scene, View
 
     scene = Scene()
     if kind == "cells":
@@ -39,7 +39,7 @@ def _globe(mesh: Mesh, kind: str, view: npt.ArrayLike) -> Any:
 
 
 def _plane(mesh: Mesh, kind: str, extent: npt.ArrayLike | None) -> Any:
-    from stereodel.render import Sketch
+    from stereodel.drawing import Sketch
 
     box = frame_of(mesh.points, extent)
     sketch = Sketch()

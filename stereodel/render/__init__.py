@@ -1,37 +1,6 @@
-"""Pictures: views, scenes and their pages; vector files through matplotlib, pixels through OpenGL."""
+"""Pages as files: pixels through OpenGL, SVG and PDF through matplotlib."""
 
-from stereodel.render.animate import Animation
-from stereodel.render.colors import ColorScale
-from stereodel.render.curves import CircleArc, Segment
 from stereodel.render.figure import Figure
-from stereodel.render.motion.film import Film
-from stereodel.render.motion.formats import save_pictures
-from stereodel.render.motion.workers import FrameError
-from stereodel.render.page import Label, Page
-from stereodel.render.saving import save_page
-from stereodel.render.scene import Scene
-from stereodel.render.sketch import Sketch
-from stereodel.render.style import DotStyle, LineStyle
-from stereodel.render.things import Layer
-from stereodel.render.view import StereographicView, View
+from stereodel.render.save import save_page
 
-__all__ = [
-    "Animation",
-    "CircleArc",
-    "ColorScale",
-    "DotStyle",
-    "Figure",
-    "Film",
-    "FrameError",
-    "Label",
-    "Layer",
-    "LineStyle",
-    "Page",
-    "Scene",
-    "Segment",
-    "Sketch",
-    "StereographicView",
-    "View",
-    "save_page",
-    "save_pictures",
-]
+__all__ = ["Figure", "save_page"]

@@ -12,8 +12,8 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel.render.page import Page
-from stereodel.render.saving import bare_rows, mosaic_pictures, write_png
+from stereodel.drawing.page import Page
+from stereodel.render.save import bare_rows, mosaic_pictures, write_png
 from stereodel.render.script import run_script
 from stereodel.render.sizes import as_width, pixel_height
 
@@ -69,7 +69,7 @@ class Figure:
         text : bool
             Whether labels are drawn.
         """
-        from stereodel.render.labels import with_labels
+        from stereodel.render.text import with_labels
 
         page = self.page()
         width = as_width(page, size)

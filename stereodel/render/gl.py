@@ -29,7 +29,7 @@ from typing import Any, Final, cast
 import numpy as np
 
 from stereodel._arrays import IntArray
-from stereodel.render.page import Color
+from stereodel.drawing.page import Color
 from stereodel.render.pyrender_mends import mend
 from stereodel.render.triangles import Pixels, Triangles, Window
 

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from matplotlib.path import Path as Outline
 
 from stereodel._arrays import FloatArray
-from stereodel.render.page import Patch
+from stereodel.drawing.page import Patch
 
 Indices = npt.NDArray[np.intp]
 

@@ -15,7 +15,7 @@ from stereodel import _kernel
 LIBRARIES: Final = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
 
-NOT_DRAWN_WITH: Final = ("cli", "render/build.py", "render/baselines.py", "render/report.py")
+NOT_DRAWN_WITH: Final = ("cli",)
 """Modules and packages of the library that no picture depends on."""
 
 

@@ -13,9 +13,7 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.render import gl
-from stereodel.render.labels import LabelLayer
-from stereodel.render.page import (
+from stereodel.drawing.page import (
     Beziers,
     Color,
     Dots,
@@ -29,9 +27,11 @@ from stereodel.render.page import (
     Stroke,
     Surface,
 )
+from stereodel.render import gl
 from stereodel.render.pieces import Piece, Pieces
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon, ribbons
 from stereodel.render.sizes import as_width, pixel_height
+from stereodel.render.text import LabelLayer
 from stereodel.render.triangles import Pixels, Window
 
 SUPERSAMPLING: Final = 2

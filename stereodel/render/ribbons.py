@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel.constants import FLATNESS
-from stereodel.render.page import Beziers
+from stereodel.drawing.page import Beziers
 
 Corners = FloatArray
 """Triangles by their corners, (n, 3, 2)."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Final
 
 from stereodel._arrays import as_count
-from stereodel.render.page import Page
-from stereodel.render.style import PRINT_DPI
+from stereodel.drawing.page import Page
+from stereodel.drawing.style import PRINT_DPI
 
 LARGEST_SIZE: Final = 2**16 - 1
 """Pixels across; Agg, which draws the labels, has no wider canvas. A square of it has 4.3 thousand million pixels."""

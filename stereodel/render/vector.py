@@ -31,9 +31,7 @@ from matplotlib.transforms import ScaledTranslation
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
 from stereodel.constants import FINEST_POINTS
-from stereodel.render.matplotlib_mends import exact_mathtext
-from stereodel.render.outlines import patch_outline
-from stereodel.render.page import (
+from stereodel.drawing.page import (
     Beziers,
     Color,
     Dots,
@@ -48,8 +46,10 @@ from stereodel.render.page import (
     Stroke,
     Surface,
 )
+from stereodel.drawing.style import PRINT_DPI, TYPE
+from stereodel.render.matplotlib_mends import exact_mathtext
+from stereodel.render.outlines import patch_outline
 from stereodel.render.sizes import pixel_height
-from stereodel.render.style import PRINT_DPI, TYPE
 
 CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
 """Reach of the controls of a circle drawn as eight cubics, in radii."""

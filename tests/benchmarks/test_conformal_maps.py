@@ -1,11 +1,6 @@
 """The measurement of conformal maps: every call is made in every round, both sides compute the same map."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks.benchmark_page import conformal_maps as table
 from benchmarks.conformal_maps import coastline, conformal_maps

@@ -1,12 +1,9 @@
 """The measurement of what is made of a triangulation: every call is made, and the peers compute the same."""
 
-import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks import benchmark_page
 from benchmarks.derived import derived, graphs, others, queries

@@ -1,12 +1,7 @@
 """The point sets of the benchmarks are what they say."""
 
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks.distributions import FOR_DIRECTIONS, PLANE, REAL, SPHERE, make
 

@@ -1,13 +1,9 @@
 """The comparison with the ellipsoid: its search finds the nearest, and it finds what its page says."""
 
 import json
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks import earth_nearest, earth_page, pages
 from benchmarks.earth_nearest import WGS84, excess, geodesics, lengths, truly_nearest, uniform

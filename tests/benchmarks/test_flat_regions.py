@@ -1,11 +1,6 @@
 """The experiment about flat regions: its bounds hold, and it finds what its page says."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks import flat_regions
 

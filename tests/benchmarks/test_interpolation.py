@@ -1,11 +1,6 @@
 """The experiment on interpolation: what its page says of the methods."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).resolve().parents[2]))  # `benchmarks` is not installed
 
 from benchmarks import interpolation, interpolation_page
 

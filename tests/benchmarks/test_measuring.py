@@ -9,8 +9,6 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT))  # `benchmarks` is a folder of the repository and not installed
-
 from benchmarks import benchmark_asked, benchmark_page, pages, processes, rounds  # noqa: E402
 from benchmarks.engines import stereodel  # noqa: E402
 from benchmarks.processes import Engine, StoppedError  # noqa: E402

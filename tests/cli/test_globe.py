@@ -15,10 +15,11 @@ from stereodel import fisheye, lonlat_to_xyz
 from stereodel.cli.globe_aim import Aim, middle_of
 from stereodel.cli.globe_films import motion_of
 from stereodel.cli.globe_options import Projection
+from stereodel.drawing import StereographicView, View
+from stereodel.drawing.page import Dots
+from stereodel.film import Film, FrameError
 from stereodel.globe import Globe
-from stereodel.render import Film, FrameError, StereographicView, View
-from stereodel.render.image import read_picture
-from stereodel.render.page import Dots
+from tools.image import read_picture
 
 
 def test_png_has_the_size_asked_for(folder, run):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from stereodel import MoebiusMap, PlanarDelaunay, SphericalDelaunay, Stereographic, fisheye, lonlat_to_xyz
-from stereodel.render import View
+from stereodel.drawing import View
 from stereodel.sphere import angular_distance, graticule
 from stereodel.triangulation import check_delaunay
 

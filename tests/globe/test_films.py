@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from stereodel.drawing import View
 from stereodel.globe import Flight, Globe, Spin, Stop, film
-from stereodel.render import View
 from stereodel.render.raster import render
 
 PARIS = (2.35, 48.86)

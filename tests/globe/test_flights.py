@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz
 from stereodel.conformal import path_between
+from stereodel.drawing import StereographicView, View
 from stereodel.globe import Flight, Morph, Spin, Stop
 from stereodel.globe.flights import eased
-from stereodel.render import StereographicView, View
 from stereodel.sphere import angular_distance
 
 PARIS, NEW_YORK, TOKYO = (2.35, 48.86), (-74.0, 40.7), (139.7, 35.7)

@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from matplotlib.transforms import Affine2D
 
 from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, data, fisheye, lonlat_to_xyz
+from stereodel.drawing import StereographicView, View
+from stereodel.drawing.page import Dots, Label, Mosaic, Patch, Polylines, Stroke
 from stereodel.globe import Globe, Panel, hemispheres, panels
-from stereodel.render import StereographicView, View
-from stereodel.render.labels import label_layer
 from stereodel.render.outlines import patch_outline
-from stereodel.render.page import Dots, Label, Mosaic, Patch, Polylines, Stroke
+from stereodel.render.text import label_layer
 from stereodel.sphere import SphereCircle
 
 PARIS = (2.35, 48.86)

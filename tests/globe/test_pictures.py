@@ -9,14 +9,14 @@ import pytest
 from PIL import Image as Pillow
 
 from stereodel import MoebiusMap, fisheye
+from stereodel.drawing.page import Fill, Page, Picture
+from stereodel.drawing.view import StereographicView, View
 from stereodel.globe import Globe, Raster
 from stereodel.globe.chart import Chart
 from stereodel.globe.layers import Image
 from stereodel.globe.raster import RasterOnDisc
-from stereodel.render.page import Fill, Page, Picture
 from stereodel.render.raster import SUPERSAMPLING, render
 from stereodel.render.vector import rasterize, save_vector
-from stereodel.render.view import StereographicView, View
 from tests.globe.supersampling import noise, zone_plate
 
 LENS = fisheye((10.0, 50.0), magnification=3.0)

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, Rotation, _kernel, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel import _kernel_probe as probe
+from stereodel.drawing.view import StereographicView, View
 from stereodel.globe import Raster
-from stereodel.render.view import StereographicView, View
 from tests.globe.supersampling import checkerboard, grid, noise, psnr, reference, zone_plate
 
 PLAIN = MoebiusMap.identity()

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
+from stereodel.drawing.view import View
 from stereodel.globe.polygons import Polygons
 from stereodel.globe.regions import Mesh, SphereMesh
 from stereodel.render.outlines import boundary_sides, loops
-from stereodel.render.view import View
 from stereodel.sphere.vectors import turned
 
 NONE = MoebiusMap.identity()

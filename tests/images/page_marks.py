@@ -6,8 +6,8 @@ from itertools import groupby
 
 import numpy as np
 
-from stereodel.render.page import Dots, Fill, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
-from stereodel.render.style import PRINT_DPI
+from stereodel.drawing.page import Dots, Fill, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.drawing.style import PRINT_DPI
 from tests.images.marks import PLACE, Mark, Path, area, distances, tidy, together
 from tests.images.patch_boundary import PatchBoundary
 

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from stereodel.render.baselines import Store, cases_of
-from stereodel.render.build import find_scripts
+from tools.baselines import Store, cases_of
+from tools.build import find_scripts
 
 ROOT = Path(__file__).parents[2]
 SCRIPTS = find_scripts(ROOT / "figures")

@@ -5,13 +5,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stereodel.render.baselines import Case, Store, cases_of, main, write_baselines
-from stereodel.render.page import Dots, Label, Page
+from stereodel.drawing.page import Dots, Label, Page
+from tools.baselines import Case, Store, cases_of, main, write_baselines
 
 FIGURE = """
 import numpy as np
-from stereodel.render import Figure, Page
-from stereodel.render.page import Dots
+from stereodel.drawing import Page
+from stereodel.render import Figure
+from stereodel.drawing.page import Dots
 def geometry():
     return {"centers": np.array([[1.0, 0.5]])}
 def draw(g):
@@ -21,8 +22,9 @@ FIGURE = Figure("NAME", geometry, draw, renderer="agg")
 
 ANIMATION = """
 import numpy as np
-from stereodel.render import Animation, Page
-from stereodel.render.page import Dots
+from stereodel.drawing import Page
+from stereodel.film import Animation
+from stereodel.drawing.page import Dots
 def frames():
     return [Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[x, 0.5]]), 9.0, (0.0, 0.0, 1.0, 1.0)),)) for x in range(5)]
 ANIMATION = Animation("anim_dot", frames)
@@ -100,7 +102,7 @@ def test_what_no_script_draws_any_more_is_removed(project):
 def test_the_hash_decides_before_the_picture(project, monkeypatch):
     scripts, folder = project
     list(write_baselines(scripts, folder))
-    monkeypatch.setattr("stereodel.render.baselines.read_picture", lambda path: pytest.fail("T2 was not needed"))
+    monkeypatch.setattr("tools.baselines.read_picture", lambda path: pytest.fail("T2 was not needed"))
     assert check(scripts, folder, "fig90_dot") == []
 
 

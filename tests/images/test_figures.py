@@ -1,17 +1,17 @@
 """The nets over every figure and animation: what is drawn is what was stored.
 
 T0 compares the arrays, T1 the hash of the pixels, T2 the pixels where T1 differs, T3 the places of the type
-(`stereodel.render.baselines`). What fails is shown in out/report/index.html. `make baselines` alone changes what is
+(`tools.baselines`). What fails is shown in out/report/index.html. `make baselines` alone changes what is
 stored.
 """
 
 import numpy as np
 import pytest
 
-from stereodel.render.baselines import SIZE, case_names
-from stereodel.render.labels import label_layer
-from stereodel.render.report import report_failure, withdraw_failure
+from stereodel.render.text import label_layer
 from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases
+from tools.baselines import SIZE, case_names
+from tools.report import report_failure, withdraw_failure
 
 pytestmark = pytest.mark.images
 

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.render import View
-from stereodel.render.baselines import Case
-from stereodel.render.build import load_drawing
-from stereodel.render.image import compare, read_picture
-from stereodel.render.page import Label, Page, Stroke
+from stereodel.drawing import View
+from stereodel.drawing.page import Label, Page, Stroke
 from tests.images.scripts import ROOT, STORE
+from tools.baselines import Case
+from tools.build import load_drawing
+from tools.image import compare, read_picture
 
 pytestmark = pytest.mark.images
 

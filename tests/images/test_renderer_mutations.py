@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.render import labels, raster, vector
-from stereodel.render.baselines import SIZE
-from stereodel.render.page import Fill, Label, Patch, Polylines, Stroke, Surface
+from stereodel.drawing.page import Fill, Label, Patch, Polylines, Stroke, Surface
+from stereodel.render import raster, vector
+from stereodel.render import text as labels
 from stereodel.render.ribbons import discs, ribbon, ribbons
 from tests.images.scripts import STORE, case
 from tests.images.test_vector_files import wrong_in_files
+from tools.baselines import SIZE
 
 
 def nets(name):

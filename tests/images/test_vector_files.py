@@ -5,10 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.render.baselines import SIZE
-from stereodel.render.labels import ink_boxes
-from stereodel.render.page import Dots, Fill, Label, Mosaic, Page, Patch, Picture, Polylines, Stroke, Surface
-from stereodel.render.saving import mosaic_pictures
+from stereodel.drawing.page import Dots, Fill, Label, Mosaic, Page, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.render.save import mosaic_pictures
+from stereodel.render.text import ink_boxes
 from stereodel.render.vector import save_vector
 from tests.images.marks import path_of
 from tests.images.page_marks import differences
@@ -16,6 +15,7 @@ from tests.images.read_pdf import read_pdf
 from tests.images.read_svg import read_svg
 from tests.images.scripts import by_script, cases
 from tests.images.type_marks import type_differences
+from tools.baselines import SIZE
 
 READERS = {"svg": read_svg, "pdf": read_pdf}
 

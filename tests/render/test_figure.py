@@ -9,12 +9,12 @@ import imageio.v3 as iio
 import numpy as np
 import pytest
 
+from stereodel.drawing.page import Dots, Label, Page
+from stereodel.drawing.style import BLACK
 from stereodel.render import figure as module
+from stereodel.render.digest import pixel_hash
 from stereodel.render.figure import Figure
-from stereodel.render.image import pixel_hash
-from stereodel.render.page import Dots, Label, Page
 from stereodel.render.script import default_folder
-from stereodel.render.style import BLACK
 
 
 def geometry():

@@ -187,7 +187,7 @@ SCRIPT = """
 import numpy as np
 from stereodel.render.gl import describe, draw
 from stereodel.render.triangles import Triangles
-from stereodel.render.image import pixel_hash
+from stereodel.render.digest import pixel_hash
 rng = np.random.default_rng(1)
 colors = np.repeat(rng.uniform(0, 1, (300, 4)), 3, axis=0)
 slots = np.repeat(np.arange(300, dtype=np.int32), 3)

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 from matplotlib.transforms import Affine2D
 from scipy.spatial import Delaunay
 
+from stereodel.drawing.page import Patch
 from stereodel.render.outlines import boundary_sides, loops, patch_outline
-from stereodel.render.page import Patch
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
 

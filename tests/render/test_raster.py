@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from stereodel.render.image import compare
-from stereodel.render.page import Dots, Fill, Label, Page, Polylines, Stroke, Surface
+from stereodel.drawing.page import Dots, Fill, Label, Page, Polylines, Stroke, Surface
 from stereodel.render.raster import LIGHT, SHADE, SUPERSAMPLING, render, triangulate
 from stereodel.render.triangles import Window
 from stereodel.render.vector import rasterize
+from tools.image import compare
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
 GRAY = (0.5, 0.5, 0.5, 1.0)

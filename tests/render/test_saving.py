@@ -7,14 +7,17 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from stereodel.render import Label, Page, Scene, View, gl, labels, raster, save_page, saving, vector
-from stereodel.render.curves import CircleArc
+from stereodel.drawing import Label, Page, Scene, View
+from stereodel.drawing.page import Dots, Fill, Mosaic, Polylines, Stroke
+from stereodel.drawing.space_curves import CircleArc
+from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
+from stereodel.render import gl, raster, save_page, vector
+from stereodel.render import save as saving
+from stereodel.render import text as labels
+from stereodel.render.digest import PixelDigest, pixel_hash
 from stereodel.render.figure import Figure
-from stereodel.render.image import PixelDigest, pixel_hash
-from stereodel.render.labels import LabelLayer, label_layer
-from stereodel.render.page import Dots, Fill, Mosaic, Polylines, Stroke
 from stereodel.render.raster import render, triangulate
-from stereodel.render.style import BLACK, BLUE, VERMILION, with_opacity
+from stereodel.render.text import LabelLayer, label_layer
 from stereodel.render.triangles import Window
 from stereodel.sphere import SphereCircle
 

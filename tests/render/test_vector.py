@@ -7,13 +7,13 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from stereodel.render.labels import label_layer, with_labels
-from stereodel.render.page import Dots, Fill, Label, Page, Stroke
-from stereodel.render.scene import Scene
+from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke
+from stereodel.drawing.scene import Scene
+from stereodel.drawing.style import BLACK
+from stereodel.drawing.view import View
 from stereodel.render.sizes import pixel_height
-from stereodel.render.style import BLACK
+from stereodel.render.text import label_layer, with_labels
 from stereodel.render.vector import rasterize, save_vector
-from stereodel.render.view import View
 from stereodel.sphere import SphereCircle, graticule
 
 SVG = "{http://www.w3.org/2000/svg}"

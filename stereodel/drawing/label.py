@@ -1,0 +1,55 @@
+"""Type on maps: where it goes beside its place, and which labels have room."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+from stereodel.drawing.page import Item, Label
+
+GAP = 1.0
+"""Least distance between labels, points."""
+
+
+def placed_label(label: Label, offset: tuple[float, float]) -> Label:
+    """A label on the side of its place that an offset in points points to."""
+    align: Literal["left", "center", "right"] = "left" if offset[0] > 0 else "right" if offset[0] < 0 else "center"
+    valign: Literal["bottom", "center", "top"] = "center" if offset[0] else "bottom" if offset[1] > 0 else "top"
+    return replace(label, offset=offset, align=align, valign=valign)
+
+
+def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], points_per_unit: float) -> list[Item]:
+    """Page items without labels that would cover a label before them or leave (left, right, bottom, top)."""
+    low, high = points_per_unit * np.array(extent[::2]), points_per_unit * np.array(extent[1::2])
+    kept: list[Item] = []
+    boxes: list[FloatArray] = []
+    for item in items:
+        if isinstance(item, Label):
+            box = label_box(item, points_per_unit)
+            off_page = (box[0] < low).any() or (box[1] > high).any()
+            if off_page or any((box[0] < other[1] + GAP).all() and (other[0] < box[1] + GAP).all() for other in boxes):
+                continue
+            boxes.append(box)
+        kept.append(item)
+    return kept
+
+
+def label_box(label: Label, points_per_unit: float) -> FloatArray:
+    """Lower left and upper right corner of a label that is not turned, in points, (2, 2)."""
+    from matplotlib import rc_context
+    from matplotlib.font_manager import FontProperties
+    from matplotlib.textpath import text_to_path
+
+    from stereodel.drawing.style import TYPE
+
+    with rc_context({"mathtext.fontset": TYPE["mathtext.fontset"]}):
+        font = FontProperties(family=TYPE["font.family"], size=label.size)
+        width, height, _ = text_to_path.get_text_width_height_descent(label.text, font, ismath="$" in label.text)
+    left = {"left": 0.0, "center": -width / 2, "right": -width}[label.align]
+    low = {"bottom": 0.0, "baseline": 0.0, "center": -height / 2, "top": -height}[label.valign]
+    corner = points_per_unit * np.array(label.anchor) + np.array(label.offset) + np.array([left, low])
+    return np.stack([corner, corner + np.array([width, height])])

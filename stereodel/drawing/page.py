@@ -1,0 +1,271 @@
+"""What a picture shows, before any renderer sees it: paths, dots, balls and labels in painter's order.
+
+A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to cubic
+Béziers, and every item carries its colour and its width in points. The vector backend writes it as SVG and PDF, the
+raster backend as triangles for OpenGL; the golden tests store `Page.arrays()`. Page coordinates: x right, y up, any
+unit; `width` says how many points the extent is wide.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Literal, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray
+
+Color = tuple[float, float, float, float]
+"""Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
+
+Beziers = FloatArray
+"""A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins; straight: controls at thirds."""
+
+
+@dataclass(frozen=True, eq=False)
+class Stroke:
+    """A line of constant width on the page; round joins, and round or flat ends."""
+
+    path: Beziers
+    color: Color
+    width: float
+    """In points."""
+    dash: tuple[float, float] | None = None
+    """Length of dash and gap in points."""
+    cap: Literal["round", "butt"] = "round"
+    closed: bool = False
+    role: str = ""
+    """What it is, in the words of the figure: "delaunay", "voronoi", "limb" …; becomes the group's id in SVG."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fill:
+    """A filled region, bounded by one or more closed runs (even-odd rule)."""
+
+    paths: tuple[Beziers, ...]
+    color: Color
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Dots:
+    """Round dots of one kind, radius in points, with a rim of `rim_width` points (0: none) drawn inside the radius."""
+
+    centers: FloatArray
+    radius: float
+    color: Color
+    rim: Color = (1.0, 1.0, 1.0, 1.0)
+    rim_width: float = 0.0
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A lit surface: a mesh with normals for OpenGL, its outline for paper.
+
+    `vertices` (n, 3) and `normals` (n, 3) are in view axes (right, up, toward the viewer), vertices in page units; only
+    faces turned to the viewer are given. `outline` bounds its image. The raster backend lights it, the vector backend
+    fills it flat.
+    """
+
+    vertices: FloatArray
+    normals: FloatArray
+    faces: npt.NDArray[np.int32]
+    outline: tuple[Beziers, ...]
+    color: Color
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Mosaic:
+    """Triangles, each of its own colour, which do not overlap: so many that only pixels hold them.
+
+    `corners` (n, 3, 2) on the page, `normals` (n, 3, 3) in view axes where they are lit, `colors` (n, 3), sRGB. The
+    vector backend puts the picture of the raster backend into `outline`.
+    """
+
+    corners: FloatArray
+    normals: FloatArray | None
+    colors: FloatArray
+    outline: tuple[Beziers, ...]
+    role: str = ""
+
+
+class Painter(Protocol):
+    """What a `Picture` shows: made at the resolution at which it is drawn, and only where it is drawn."""
+
+    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> npt.NDArray[np.uint8]:
+        """Pixels (rows, columns, 4) from the top: sRGB and opacity, not premultiplied.
+
+        `place` is the left and upper edge, and the width and height of a pixel, in page units; `pixels` are columns and
+        rows. What lies beyond the outline by more than a pixel may be anything.
+        """
+
+    def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
+        """What defines it, for the golden tests."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A region that is painted pixel by pixel: a raster on a globe.
+
+    Where it is transparent, what lies below shows through. The raster backend gives each pixel that it draws one of the
+    painter's; the vector backend embeds a picture, cut along `outline`.
+    """
+
+    outline: tuple[Beziers, ...]
+    painter: Painter
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Polylines:
+    """Many lines of straight pieces, of one look: coastlines, borders.
+
+    Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; joins and ends are round.
+    """
+
+    points: FloatArray
+    """(n, 2)."""
+    offsets: npt.NDArray[np.intp]
+    """(m + 1,)."""
+    color: Color
+    width: float
+    """In points."""
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A region of any shape as triangles, each counterclockwise, which share their corners where they meet.
+
+    The raster backend draws the triangles, lit where `normals` (n, 3) in view axes are given; the vector backend fills
+    the loops of sides that have a triangle on one side only. Sides between two corners of `rim` are arcs of the circle
+    about `middle`: there the region goes on, out of sight.
+    """
+
+    points: FloatArray
+    """(n, 2)."""
+    faces: npt.NDArray[np.int32]
+    """(m, 3)."""
+    color: Color
+    rim: BoolArray
+    """(n,): whether a corner lies on the edge of what is seen."""
+    middle: tuple[float, float] = (0.0, 0.0)
+    normals: FloatArray | None = None
+    role: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Label:
+    """Text in matplotlib's mathtext, anchored at a page point and moved by `offset` points."""
+
+    text: str
+    anchor: tuple[float, float]
+    offset: tuple[float, float] = (0.0, 0.0)
+    align: Literal["left", "center", "right"] = "center"
+    valign: Literal["bottom", "center", "top", "baseline"] = "center"
+    size: float = 9.0
+    color: Color = (0.0, 0.0, 0.0, 1.0)
+    rotation: float = 0.0
+    role: str = "label"
+    halo: float = 0.0
+    """Width of a line round the letters, points."""
+    halo_color: Color = (1.0, 1.0, 1.0, 1.0)
+
+
+Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Picture | Label
+
+
+@dataclass(frozen=True, eq=False)
+class Page:
+    """A picture.
+
+    Parameters
+    ----------
+    extent : tuple of float
+        (left, right, bottom, top) in page coordinates.
+    items : tuple of Item
+        In painter's order: later ones cover earlier ones. Labels come last whatever their place.
+    width : float
+        Width of the extent in points (1/72 inch); the height follows, page units being square. 17 cm are 481.89 points.
+    background : Color
+    views : tuple of (3, 3) arrays
+        The view matrices that made it (rows right, up, toward), kept for the golden tests.
+    """
+
+    extent: tuple[float, float, float, float]
+    items: tuple[Item, ...] = ()
+    width: float = 481.89
+    background: Color = (1.0, 1.0, 1.0, 1.0)
+    views: tuple[FloatArray, ...] = field(default=())
+
+    @property
+    def points_per_unit(self) -> float:
+        """Scale of the page."""
+        return self.width / (self.extent[1] - self.extent[0])
+
+    @property
+    def height(self) -> float:
+        """In points."""
+        return (self.extent[3] - self.extent[2]) * self.points_per_unit
+
+    @property
+    def labels(self) -> tuple[Label, ...]:
+        """The text alone."""
+        return tuple(item for item in self.items if isinstance(item, Label))
+
+    def without_labels(self) -> Page:
+        """The picture without its text, which is what pixel tests compare."""
+        return replace(self, items=tuple(item for item in self.items if not isinstance(item, Label)))
+
+    def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
+        """Everything drawn as named arrays, for the golden tests: a number per thing that a reader could see change."""
+        named: dict[str, npt.NDArray[np.generic]] = {
+            "page": np.array([*self.extent, self.width, *self.background]),
+            "views": np.array(self.views).reshape(-1, 3, 3),
+        }
+        for number, item in enumerate(self.items):
+            prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.role}"
+            named.update({f"{prefix}_{key}": value for key, value in _arrays_of(item).items()})
+        return named
+
+
+def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
+    match item:
+        case Stroke():
+            dash = item.dash or (0.0, 0.0)
+            style = np.array([*item.color, item.width, *dash, item.cap == "round", item.closed])
+            return {"path": item.path, "style": style}
+        case Polylines():
+            return {"points": item.points, "offsets": item.offsets, "style": np.array([*item.color, item.width])}
+        case Patch():
+            style = np.array([*item.color, *item.middle, item.normals is not None])
+            return {"points": item.points, "faces": item.faces, "rim": item.rim, "style": style}
+        case Fill():
+            return {
+                "path": np.concatenate(item.paths),
+                "sizes": np.array([len(p) for p in item.paths]),
+                "style": np.array(item.color),
+            }
+        case Dots():
+            return {"centers": item.centers, "style": np.array([item.radius, *item.color, *item.rim, item.rim_width])}
+        case Surface():
+            return {
+                "outline": np.concatenate(item.outline),
+                "vertices": item.vertices,
+                "normals": item.normals,
+                "faces": item.faces,
+                "style": np.array(item.color),
+            }
+        case Mosaic():
+            return {"outline": np.concatenate(item.outline), "corners": item.corners, "colors": item.colors}
+        case Picture():
+            return {"outline": np.concatenate(item.outline), **item.painter.arrays()}
+        case Label():
+            halo = [item.halo] if item.halo else []
+            if item.halo and item.halo_color != Label.halo_color:
+                halo += item.halo_color
+            numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo]
+            return {"place": np.array(numbers), "text": np.array([item.text, item.align, item.valign])}

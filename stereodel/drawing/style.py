@@ -1,0 +1,194 @@
+"""The one look: colours, line widths, dots, tints and type of every picture.
+
+Widths and radii are in points (1/72 inch) for a picture that is printed 17 cm wide. The accents are those of Okabe and
+Ito's palette, which readers with any colour vision tell apart. The type is STIX, which matplotlib ships and which has
+the mathematics too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Final, TypeVar
+
+from stereodel.drawing.page import Color
+
+T = TypeVar("T")
+
+PRINT_WIDTH: Final = 17.0 / 2.54 * 72.0
+"""Width of a figure in print, points: 17 cm."""
+
+PRINT_DPI: Final = 300
+"""Pixels per inch of a picture in print."""
+
+LABEL_SIZE: Final = 9.0
+"""Height of type in points."""
+
+
+def _hex(code: str, opacity: float = 1.0) -> Color:
+    red, green, blue = (int(code[i : i + 2], 16) / 255 for i in (1, 3, 5))
+    return (red, green, blue, opacity)
+
+
+WHITE: Final = _hex("#ffffff")
+BLACK: Final = _hex("#000000")
+GRAY: Final = _hex("#8a8a8a")
+LIGHT_GRAY: Final = _hex("#b4b4b4")
+DARK_GRAY: Final = _hex("#4d4d4d")
+BLUE: Final = _hex("#0072b2")
+VERMILION: Final = _hex("#d55e00")
+GREEN: Final = _hex("#009e73")
+ORANGE: Final = _hex("#e69f00")
+SKY: Final = _hex("#56b4e9")
+
+FAINT: Final = 0.62
+"""How far colours go toward white on the far side of a transparent ball (0: not at all, 1: white)."""
+
+
+def fainter(color: Color, amount: float = FAINT) -> Color:
+    """A colour mixed with white."""
+    red, green, blue, opacity = color
+    return (red + (1 - red) * amount, green + (1 - green) * amount, blue + (1 - blue) * amount, opacity)
+
+
+def with_opacity(color: Color, opacity: float) -> Color:
+    """The same colour at another opacity."""
+    return (*color[:3], opacity)
+
+
+@dataclass(frozen=True)
+class LineStyle:
+    """How a line looks: colour, width in points, dash and gap in points."""
+
+    color: Color
+    width: float
+    dash: tuple[float, float] | None = None
+
+    def scaled(self, weight: float) -> LineStyle:
+        """The same line for a smaller or larger picture."""
+        return replace(self, width=weight * self.width)
+
+    @property
+    def hidden(self) -> LineStyle:
+        """The same line on the far side of a transparent ball: fainter and a little thinner."""
+        return replace(self, color=fainter(self.color), width=0.8 * self.width)
+
+
+@dataclass(frozen=True)
+class DotStyle:
+    """How a dot looks: colour, radius in points with the rim, width and colour of the rim."""
+
+    color: Color
+    radius: float
+    rim: Color = WHITE
+    rim_width: float = 0.0
+
+    def scaled(self, weight: float) -> DotStyle:
+        """The same dot for a smaller or larger picture."""
+        return replace(self, radius=weight * self.radius, rim_width=weight * self.rim_width)
+
+    @property
+    def hidden(self) -> DotStyle:
+        """The same dot on the far side of a transparent ball."""
+        return replace(self, color=fainter(self.color), radius=0.85 * self.radius)
+
+
+LINES: Final[Mapping[str, LineStyle]] = {
+    "delaunay": LineStyle(GRAY, 0.8),
+    "voronoi": LineStyle(BLACK, 0.9),
+    "graticule": LineStyle(LIGHT_GRAY, 0.45),
+    "fine": LineStyle(BLACK, 0.45),
+    "limb": LineStyle(DARK_GRAY, 1.2),
+    "circle": LineStyle(BLACK, 1.1),
+    "arc": LineStyle(BLUE, 1.2),
+    "chord": LineStyle(VERMILION, 1.1),
+    "ray": LineStyle(VERMILION, 0.7),
+    "plane": LineStyle(DARK_GRAY, 0.6),
+    "frame": LineStyle(DARK_GRAY, 0.6),
+    "axis": LineStyle(BLACK, 0.6),
+    "outline": LineStyle(BLACK, 1.1),
+    "grid": LineStyle(LIGHT_GRAY, 0.5),
+    "footprint": LineStyle(BLUE, 1.0),
+    "construction": LineStyle(DARK_GRAY, 0.5, (3.0, 2.0)),
+    "accent1": LineStyle(BLUE, 1.2),
+    "accent2": LineStyle(VERMILION, 1.2),
+    "accent3": LineStyle(GREEN, 1.2),
+    "covered1": LineStyle(BLUE, 2.6),
+    "covered2": LineStyle(VERMILION, 2.6),
+    "covered3": LineStyle(GREEN, 2.6),
+}
+"""What a line stands for → how it looks. On a ball no line is wider than the limb, which covers their ends."""
+
+DOTS: Final[Mapping[str, DotStyle]] = {
+    "sites": DotStyle(BLACK, 2.0, rim_width=0.5),
+    "points": DotStyle(VERMILION, 2.4, rim_width=0.5),
+    "vertices": DotStyle(BLACK, 1.2),
+    "pole": DotStyle(BLACK, 2.2, rim_width=0.5),
+    "accent1": DotStyle(BLUE, 2.4, rim_width=0.5),
+    "accent2": DotStyle(VERMILION, 2.4, rim_width=0.5),
+    "accent3": DotStyle(GREEN, 2.4, rim_width=0.5),
+}
+"""What a dot stands for → how it looks."""
+
+FILLS: Final[Mapping[str, Color]] = {
+    "ball": _hex("#f4f6f8"),
+    "glass": _hex("#dfe7ee", 0.3),
+    "small_bubble": _hex("#f6cf8e"),
+    "large_bubble": _hex("#bfdcf0"),
+    "triangle": with_opacity(SKY, 0.3),
+    "chordal": with_opacity(ORANGE, 0.55),
+    "plane": _hex("#9db4c8", 0.28),
+    "facet": _hex("#c9d3dc"),
+    "visible": _hex("#f0a35e"),
+    "new": _hex("#6fb7e0"),
+    "cell": with_opacity(SKY, 0.25),
+    "accent1": with_opacity(BLUE, 0.25),
+    "accent2": with_opacity(VERMILION, 0.25),
+    "accent3": with_opacity(GREEN, 0.25),
+}
+"""What a region stands for → its tint."""
+
+TYPE: Final[Mapping[str, Any]] = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": LABEL_SIZE,
+    "axes.unicode_minus": True,
+    "lines.scale_dashes": False,  # dashes are in points, whatever the width
+    "text.usetex": False,
+    "text.hinting": "no_hinting",
+    "text.antialiased": True,
+    "path.simplify": False,
+    "pdf.fonttype": 42,
+    "pdf.compression": 6,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "stereodel",
+    "svg.image_inline": True,
+}
+"""matplotlib settings under which every page is drawn; fonts are those that matplotlib ships."""
+
+
+def line(role: str | LineStyle) -> LineStyle:
+    """The style of a line.
+
+    Raises
+    ------
+    ValueError
+        For a role that has no style.
+    """
+    return role if isinstance(role, LineStyle) else _look_up(LINES, role, "line")
+
+
+def dot(role: str | DotStyle) -> DotStyle:
+    """The style of a dot; a ValueError for a role that has none."""
+    return role if isinstance(role, DotStyle) else _look_up(DOTS, role, "dot")
+
+
+def fill(role: str | Color) -> Color:
+    """The tint of a region; a ValueError for a role that has none."""
+    return role if isinstance(role, tuple) else _look_up(FILLS, role, "fill")
+
+
+def _look_up(table: Mapping[str, T], role: str, kind: str) -> T:
+    if role not in table:
+        raise ValueError(f"role {role!r} has no {kind} style; known are {', '.join(table)}")
+    return table[role]

@@ -1,0 +1,294 @@
+"""The things of a scene, and how each is laid out as page items with its hidden parts removed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from enum import IntEnum
+from typing import Literal, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray
+from stereodel.constants import ON_BALL
+from stereodel.drawing import style as styles
+from stereodel.drawing.page import Beziers, Color, Dots, Fill, Item, Label, Stroke, Surface
+from stereodel.drawing.regions import SphereRegion, limb, near_hemisphere
+from stereodel.drawing.space_curves import Curve, Segment, page_path
+from stereodel.drawing.style import DotStyle, LineStyle
+from stereodel.drawing.visibility import TOWARD, Place, cut, lies_on_ball, place_of, split_by_ball
+from stereodel.sphere.vectors import turned
+
+Look = Literal["solid", "glass", "none"]
+
+
+class Layer(IntEnum):
+    """Painter's order: later layers cover earlier ones; within a layer the order of adding counts."""
+
+    UNDER = 0
+    """Lines seen through a sheet that lies below the ball."""
+    GROUND = 1
+    """Sheets that the ball covers."""
+    BESIDE = 2
+    """Lines outside the ball's disc."""
+    FAR_TINT = 3
+    FAR_LINE = 4
+    FAR_DOT = 5
+    INSIDE_SHEET = 6
+    INSIDE_LINE = 7
+    INSIDE_DOT = 8
+    BALL = 9
+    TINT = 10
+    """Regions on the near side."""
+    LINE = 11
+    """Lines on the near side."""
+    LIMB = 12
+    FREE = 13
+    """Lines in front of the ball."""
+    DOT = 14
+    SHEET = 15
+    """Sheets that cover the ball."""
+    OVER = 16
+    """Lines on or above such a sheet."""
+    OVER_DOT = 17
+    LABEL = 18
+
+
+Laid = tuple[Layer, Item]
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Where a scene goes on the page: view, ball, and the planes of its sheets in view axes about the ball's centre."""
+
+    matrix: FloatArray
+    center: FloatArray
+    radius: float
+    look: Look
+    at: tuple[float, float]
+    scale: float
+    sheets: tuple[tuple[FloatArray, float, Layer], ...] = ()
+
+    @property
+    def origin(self) -> tuple[float, float]:
+        """Page position of the ball's centre."""
+        x, y, _ = self.scale * turned(self.center, self.matrix)
+        return (self.at[0] + float(x), self.at[1] + float(y))
+
+    def axes(self, points: FloatArray) -> FloatArray:
+        """Points (..., 3) of the scene in view axes about the ball's centre."""
+        return turned(points - self.center, self.matrix)
+
+    def on_page(self, points: FloatArray) -> FloatArray:
+        """Page coordinates (..., 2) of points in view axes about the ball's centre."""
+        placed: FloatArray = points[..., :2] * self.scale + np.array(self.origin)
+        return placed
+
+    def path(self, curves: list[Curve]) -> Beziers:
+        """Page path of connected curves in view axes about the ball's centre."""
+        return page_path(curves, self.origin, self.scale)
+
+    def place(self, point: FloatArray) -> Place:
+        """Place of a point in view axes; without a ball all is in front."""
+        return Place.FRONT if self.look == "none" else place_of(point, self.radius)
+
+    def split(self, curve: Curve) -> list[tuple[Curve, Place]]:
+        """A curve cut by the ball."""
+        return [(curve, Place.FRONT)] if self.look == "none" else split_by_ball(curve, self.radius)
+
+    def beyond_sheets(self, point: FloatArray) -> Layer | None:
+        """UNDER for a point below a sheet behind the ball, OVER for one on or above a sheet that covers the ball."""
+        slack = ON_BALL * self.radius
+        heights = [(float(np.sum(normal * point)) - level, layer) for normal, level, layer in self.sheets]
+        if any(layer is Layer.GROUND and height < -slack for height, layer in heights):
+            return Layer.UNDER
+        return Layer.OVER if any(layer is Layer.SHEET and height >= -slack for height, layer in heights) else None
+
+
+class Thing(Protocol):
+    """What a scene holds."""
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """Its visible parts as page items with their layers."""
+
+
+@dataclass(frozen=True, eq=False)
+class LineThing:
+    """A curve drawn as a line."""
+
+    curve: Curve
+    look: LineStyle
+    role: str
+    layer: Layer | None = None
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """Pieces in front as they are, pieces behind fainter, or not at all behind an opaque ball."""
+        curve = self.curve.moved(layout.matrix, layout.center)
+        on_ball = layout.look != "none" and lies_on_ball(curve, layout.radius)
+        for piece, place in layout.split(curve):
+            covered = place in (Place.BEHIND, Place.INSIDE)
+            if covered and layout.look == "solid":
+                continue
+            for part, beyond in self._by_sheets(piece, layout):
+                layer = _line_layer(place, on_ball) if beyond is None else beyond
+                layer = layer if self.layer is None or place is Place.BEHIND else self.layer
+                look = self.look.hidden if place is Place.BEHIND else self.look
+                yield layer, _stroke(layout.path([part]), look, self.role, closed=part.closed)
+
+    def _by_sheets(self, curve: Curve, layout: Layout) -> list[tuple[Curve, Layer | None]]:
+        slack = ON_BALL * layout.radius
+        crossings = [curve.level_parameters(normal, level - slack) for normal, level, _ in layout.sheets]
+        return cut(curve, np.unique(np.concatenate([*crossings, np.zeros(0)])), layout.beyond_sheets)
+
+
+def _line_layer(place: Place, on_ball: bool) -> Layer:
+    if place is Place.FRONT:
+        return Layer.LINE if on_ball else Layer.FREE
+    return {Place.OUTSIDE: Layer.BESIDE, Place.INSIDE: Layer.INSIDE_LINE, Place.BEHIND: Layer.FAR_LINE}[place]
+
+
+def _stroke(path: Beziers, look: LineStyle, role: str, *, closed: bool) -> Stroke:
+    cap: Literal["round", "butt"] = "butt" if look.dash else "round"
+    return Stroke(path, look.color, look.width, look.dash, cap, closed, role)
+
+
+@dataclass(frozen=True, eq=False)
+class DotsThing:
+    """Dots at points of space."""
+
+    points: FloatArray
+    look: DotStyle
+    role: str
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """Dots whose centres are seen; on a glass ball the hidden ones fainter."""
+        points = layout.axes(self.points)
+        layers = np.array([self._layer(point, layout) for point in points], dtype=int)
+        for layer in np.unique(layers[layers >= 0]):
+            look = self.look.hidden if layer == Layer.FAR_DOT else self.look
+            centers = layout.on_page(points[layers == layer])
+            yield Layer(layer), Dots(centers, look.radius, look.color, look.rim, look.rim_width, self.role)
+
+    def _layer(self, point: FloatArray, layout: Layout) -> int:
+        place = layout.place(point)
+        if place in (Place.BEHIND, Place.INSIDE):
+            hidden = Layer.FAR_DOT if place is Place.BEHIND else Layer.INSIDE_DOT
+            return -1 if layout.look == "solid" else hidden
+        beyond = layout.beyond_sheets(point)
+        return Layer.OVER_DOT if beyond is Layer.OVER else Layer.DOT if beyond is None else beyond
+
+
+@dataclass(frozen=True, eq=False)
+class RegionThing:
+    """A tinted region of the ball's surface."""
+
+    region: SphereRegion
+    color: Color
+    role: str
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """The part on the near side lit, the part on the far side of a glass ball flat and faint."""
+        region = self.region.turned(layout.matrix)
+        near = region.visible_outline()
+        if near:
+            vertices, faces = region.visible_mesh()
+            outline = tuple(layout.path(run) for run in near)
+            yield Layer.TINT, _surface(vertices, faces, outline, layout, self.color, self.role)
+        far = region.far_side().visible_outline() if layout.look != "solid" else []
+        if far:
+            faint = styles.fainter(self.color)
+            yield Layer.FAR_TINT, Fill(tuple(layout.path(run) for run in far), faint, self.role)
+
+
+@dataclass(frozen=True, eq=False)
+class SheetThing:
+    """A flat polygon, tinted; it does not cut the ball, or lies inside it."""
+
+    corners: FloatArray
+    color: Color
+    role: str
+
+    def plane(self, layout: Layout) -> tuple[FloatArray, float, Layer]:
+        """Normal toward the viewer and level of its plane in view axes, and the layer it belongs to.
+
+        Raises
+        ------
+        ValueError
+            When the polygon cuts the sphere, so that no painter's order is right.
+        """
+        corners = layout.axes(self.corners)
+        normal = _newell(corners)
+        normal = -normal if normal[2] < 0 else normal
+        level = float(np.mean(np.sum(corners * normal, axis=-1)))
+        limit = (1 - ON_BALL) * layout.radius
+        if layout.look == "none" or level <= -limit:
+            return normal, level, Layer.GROUND
+        if level >= limit:
+            return normal, level, Layer.SHEET
+        if np.all(np.sqrt(np.sum(corners**2, axis=-1)) <= (1 + ON_BALL) * layout.radius):
+            return normal, level, Layer.INSIDE_SHEET
+        raise ValueError(
+            f"the polygon {self.role!r} cuts the ball; give one that touches it, avoids it or is inside it"
+        )
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """The polygon as one fill; inside an opaque ball nothing."""
+        _, _, layer = self.plane(layout)
+        if layer is Layer.INSIDE_SHEET and layout.look == "solid":
+            return
+        corners = layout.axes(self.corners)
+        edges: list[Curve] = [Segment.between(a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+        yield layer, Fill((layout.path(edges),), self.color, self.role)
+
+
+@dataclass(frozen=True, eq=False)
+class BallThing:
+    """The ball itself: a lit surface and its outline."""
+
+    color: Color
+    outline: LineStyle
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """Its near half, and the limb on top."""
+        vertices, faces = near_hemisphere(layout.radius)
+        path = layout.path([limb(layout.radius)])
+        yield Layer.BALL, _surface(vertices, faces, (path,), layout, self.color, "ball")
+        yield Layer.LIMB, _stroke(path, self.outline, "limb", closed=True)
+
+
+def _surface(
+    vertices: FloatArray,
+    faces: npt.NDArray[np.int32],
+    outline: tuple[Beziers, ...],
+    layout: Layout,
+    color: Color,
+    role: str,
+) -> Surface:
+    x, y = layout.origin
+    placed = vertices * layout.scale + np.array([x, y, 0.0])
+    return Surface(placed, vertices / layout.radius, faces, outline, color, role)
+
+
+@dataclass(frozen=True, eq=False)
+class LabelThing:
+    """Text at a point of space."""
+
+    label: Label
+    point: FloatArray
+    always: bool
+
+    def lay(self, layout: Layout) -> Iterator[Laid]:
+        """The label at the point's image, unless the ball hides the point."""
+        point = layout.axes(self.point)
+        if self.always or layout.place(point) is not Place.BEHIND:
+            x, y = layout.on_page(point)
+            yield Layer.LABEL, replace(self.label, anchor=(float(x), float(y)))
+
+
+def _newell(corners: FloatArray) -> FloatArray:
+    """Unit normal of a flat polygon by Newell's sum; TOWARD when the polygon has no area."""
+    edges = corners - corners[0]
+    normal = np.cross(edges, np.roll(edges, -1, axis=0)).sum(axis=0)
+    length = float(np.sqrt(np.sum(normal**2)))
+    return normal / length if length else TOWARD

@@ -1,0 +1,5 @@
+"""Globes in matplotlib: ``projection="stereodel.fisheye"``, known to matplotlib once this package is imported."""
+
+from stereodel.mpl.axes import FisheyeAxes
+
+__all__ = ["FisheyeAxes"]

@@ -1,0 +1,322 @@
+"""Globes in matplotlib: ``projection="stereodel.fisheye"``, known to matplotlib once this module is imported.
+
+Data is longitude and latitude in degrees. What joins two vertices of a line or polygon is the shorter great-circle arc,
+so that nothing has to be cut at ±180° or at a pole; with ``edges="straight"`` it is what is straight on the map of
+longitude and latitude, which is how GeoJSON and cartopy's PlateCarree mean it. ``transform=ax.transGreatCircle`` and
+``transform=ax.transStraight`` choose for one artist.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import numpy.typing as npt
+from matplotlib.axes import Axes
+from matplotlib.axis import XAxis, YAxis
+from matplotlib.cbook import normalize_kwargs
+from matplotlib.collections import PathCollection
+from matplotlib.patches import Patch, PathPatch
+from matplotlib.path import Path
+from matplotlib.projections import register_projection
+from matplotlib.spines import Spine
+from matplotlib.transforms import Transform
+
+from stereodel import data
+from stereodel._arrays import FloatArray, IntArray, as_choice, as_lonlat, as_scalar, as_steps
+from stereodel.conformal import MoebiusMap, fisheye
+from stereodel.constants import PAGE_TOLERANCE
+from stereodel.drawing.style import LINES, LineStyle
+from stereodel.drawing.view import MapView, View
+from stereodel.mpl.frame import Disc, Limb
+from stereodel.mpl.geometries import compound, paths_of
+from stereodel.mpl.plots import GlobePlots
+from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage
+from stereodel.sphere import xyz_to_lonlat
+
+__all__ = ["FisheyeAxes"]
+
+LAND = "0.86"
+"""Gray on which coasts, borders and the graticule can be seen."""
+
+
+class FisheyeAxes(GlobePlots):
+    """A globe, or a flat stereographic map, seen through a conformal map.
+
+    Made by ``plt.subplot(projection="stereodel.fisheye", focus=…, magnification=…)`` after
+    ``import stereodel.mpl``. The limits of the axes are in units of the radius of the disc that the whole view
+    fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `set_extent` and the toolbar. What lies behind is not drawn: lines
+    are cut where the view ends, and filled regions follow its edge.
+
+    Parameters
+    ----------
+    focus : array_like, shape (2,) or (3,), optional
+        What is magnified: (lon, lat) in degrees or a direction; by default (0, 0).
+    magnification : float, optional
+        S > 0, by default 1: nothing is magnified.
+    lens : MoebiusMap, optional
+        Any conformal map, instead of `focus` and `magnification`.
+    view : (lon, lat), View or StereographicView, optional
+        Seen from above which point, after the lens; by default above the image of the focus.
+    edges : {"great circle", "straight"}
+        What joins vertices: the shorter great-circle arc, or what is straight on the map of longitude and latitude.
+
+    Raises
+    ------
+    ValueError
+        For a wrong focus, magnification, view or kind of edges, and for both a lens and a magnification.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> axes = Figure().add_subplot(projection="stereodel.fisheye", focus=(2.35, 48.86), magnification=20)
+    >>> coast, grid = axes.coastlines(), axes.graticule(10)
+    >>> places = [(2.35, 48.86), (-0.13, 51.51), (174.8, -41.3)]
+    >>> print(axes.transGlobe.transform(places).round(3) + 0.0)
+    [[ 0.     0.   ]
+     [-0.418  0.724]
+     [   nan    nan]]
+    """
+
+    name = "stereodel.fisheye"
+
+    transGreatCircle: Transform  # noqa: N815 (matplotlib's way to name transforms)
+    """Degrees to pixels, with great circles between vertices."""
+    transStraight: Transform  # noqa: N815
+    """Degrees to pixels, with what is straight on the map of longitude and latitude between vertices."""
+
+    def __init__(
+        self,
+        *args: Any,
+        focus: npt.ArrayLike | None = None,
+        magnification: float | None = None,
+        lens: MoebiusMap | None = None,
+        view: MapView | Sequence[float] | None = None,
+        edges: Edges = "great circle",
+        **kwargs: Any,
+    ) -> None:
+        if lens is not None and not (focus is None and magnification is None):
+            raise ValueError("lens was given beside focus or magnification; give one or the other")
+        place = (0.0, 0.0) if focus is None else focus
+        self._lens = lens or fisheye(place, magnification=1.0 if magnification is None else magnification)
+        self._view = _view_of(view, self._lens)
+        self._edges = as_choice(edges, EDGES, "edges")
+        self._graticule: PathPatch | None = None
+        super().__init__(*args, **kwargs)
+
+    # What matplotlib asks of a projection.
+
+    def _init_axis(self) -> None:
+        self.xaxis = XAxis(self, clear=False)
+        self.yaxis = YAxis(self, clear=False)
+
+    def _set_lim_and_transforms(self) -> None:
+        super()._set_lim_and_transforms()  # type: ignore[misc]
+        kinds = {kind: LonLatToPage(self._lens, self._view, kind) for kind in EDGES}
+        self.transPage = self.transLimits + self.transAxes
+        self.transGlobe = kinds[self._edges]
+        self.transGreatCircle, self.transStraight = (kinds[kind] + self.transPage for kind in EDGES)
+        self.transData = self.transGreatCircle if self._edges == "great circle" else self.transStraight
+        self._globes = tuple(kinds.values())
+
+    def get_xaxis_transform(self, which: str = "grid") -> Transform:
+        """Across by the limits, up by the height of the axes: there are no ticks, but `axvline` and others ask."""
+        return self._xaxis_transform  # type: ignore[attr-defined, no-any-return]
+
+    def get_yaxis_transform(self, which: str = "grid") -> Transform:
+        """Up by the limits, across by the width of the axes."""
+        return self._yaxis_transform  # type: ignore[attr-defined, no-any-return]
+
+    def _gen_axes_patch(self) -> Patch:
+        return Disc(self)
+
+    def _gen_axes_spines(self) -> dict[str, Spine]:
+        return {"limb": Limb(self)}
+
+    def clear(self) -> None:
+        """Empty the axes: the whole view; a graticule only where matplotlib's setting ``axes.grid`` wants one."""
+        self._graticule = None
+        super().clear()
+        self.set_autoscale_on(False)
+        for axis in (self.xaxis, self.yaxis):
+            axis.set_visible(False)
+        Axes.set_aspect(self, 1.0)
+        self.set_global()
+        self.grid(mpl.rcParams["axes.grid"])
+
+    def autoscale_view(self, *args: Any, **kwargs: Any) -> None:
+        """Nothing: a globe shows all of itself until a part is asked for."""
+
+    def set_aspect(self, *args: Any, **kwargs: Any) -> None:
+        """Nothing: a globe is round. GeoPandas asks here for what suits a flat map of longitude and latitude."""
+
+    def draw(self, renderer: Any) -> None:
+        """Draw, with lines as fine as the zoom wants them."""
+        width = abs(self.viewLim.width)
+        # In powers of two, so that small changes of the limits do not make all paths anew.
+        finer = min(1.0, 2.0 ** float(np.floor(np.log2(width / 2))))
+        for globe in self._globes:
+            globe.tolerance = PAGE_TOLERANCE * finer
+        super().draw(renderer)
+
+    def format_coord(self, x: float, y: float) -> str:
+        """The place under the pointer, such as "48.8600° N, 2.3500° E"; empty beside the globe."""
+        if not np.isfinite([x, y]).all():
+            return ""
+        return f"{abs(y):.4f}° {'N' if y >= 0 else 'S'}, {abs(x):.4f}° {'E' if x >= 0 else 'W'}"
+
+    @contextmanager
+    def _limits_as_data(self) -> Iterator[None]:
+        """While it lasts, matplotlib's zoom and pan take the page, which the limits are on, for the data."""
+        data, self.transData = self.transData, self.transPage
+        try:
+            yield
+        finally:
+            self.transData = data
+
+    def _set_view_from_bbox(self, *args: Any, **kwargs: Any) -> None:
+        with self._limits_as_data():
+            super()._set_view_from_bbox(*args, **kwargs)  # type: ignore[misc]
+
+    def start_pan(self, x: float, y: float, button: Any) -> None:
+        """Begin to move the picture with the pointer."""
+        with self._limits_as_data():
+            super().start_pan(x, y, button)
+
+    # What is shown.
+
+    def set_global(self) -> None:
+        """Show the whole disc of the view."""
+        self.set_xlim(-1.0, 1.0)
+        self.set_ylim(-1.0, 1.0)
+
+    def set_extent(self, extent: Sequence[float]) -> None:
+        """Zoom to what is seen of a box of longitude and latitude.
+
+        Parameters
+        ----------
+        extent : (west, east, south, north)
+            Degrees; over ±180° with an east beyond 180 or a west beyond −180.
+
+        Raises
+        ------
+        ValueError
+            When the borders are no box, or nothing of it is in sight.
+        """
+        west, east, south, north = (as_scalar(value, "extent") for value in extent)
+        if not (west < east <= west + 360 and south < north):
+            raise ValueError(f"extent must be (west, east, south, north), west < east and south < north: {extent}")
+        corners = as_lonlat([(west, south), (east, south), (east, north), (west, north), (west, south)], "extent")
+        border = self._globes[1].transform_path_non_affine(Path(corners, closed=True))
+        if not np.size(border.vertices):
+            raise ValueError(f"extent {tuple(extent)} is out of sight; turn the view there, view=(lon, lat)")
+        box = border.get_extents()
+        self.set_xlim(box.x0, box.x1)
+        self.set_ylim(box.y0, box.y1)
+
+    def grid(self, visible: bool | None = None, which: str = "major", axis: str = "both", **kwargs: Any) -> None:
+        """Show or hide the graticule; `kwargs` are those of `graticule`. `which` and `axis` mean nothing here."""
+        if getattr(self, "patch", None) is None:
+            return  # matplotlib asks while it makes the axes; `clear` asks again
+        shown = self._graticule is not None
+        if self._graticule is not None:
+            self._graticule.remove()
+            self._graticule = None
+        if visible or kwargs or (visible is None and not shown):
+            self.graticule(**kwargs)
+
+    def graticule(self, step: float = 15.0, **kwargs: Any) -> PathPatch:
+        """Draw meridians from pole to pole and parallels, every `step` degrees; 90 must be a multiple of it.
+
+        Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
+        """
+        count = as_steps(90.0, step, "step")
+        heights = np.linspace(-90.0, 90.0, 2 * count + 1)
+        around = np.linspace(-180.0, 180.0, 4 * count + 1)
+        meridians = [[(lon, lat) for lat in (-90.0, 0.0, 90.0)] for lon in around[:-1]]
+        parallels = [[(lon, lat) for lon in around] for lat in heights[1:-1]]
+        sizes = [len(line) for line in meridians + parallels]
+        points = np.concatenate([np.array(line) for line in meridians + parallels])
+        path = compound(points, np.repeat(np.arange(len(sizes)), sizes), closed=False)
+        self._graticule = self._lines(path, self.transStraight, LINES["graticule"], {"zorder": 1.5} | kwargs)
+        return self._graticule
+
+    def coastlines(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
+        """Draw the coasts of Natural Earth, "50m" or "110m", from the package itself.
+
+        Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
+        """
+        lines = data.coastlines(resolution)
+        return self._lines(_path(lines.lonlat, lines.offsets), self.transStraight, LINES["fine"], kwargs)
+
+    def borders(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
+        """Draw the borders between countries of Natural Earth; the arguments are those of `coastlines`."""
+        lines = data.borders(resolution)
+        return self._lines(_path(lines.lonlat, lines.offsets), self.transStraight, LINES["frame"], kwargs)
+
+    def land(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
+        """Fill the land of Natural Earth; the arguments are those of `coastlines`, whose lines go well over it."""
+        areas = data.land(resolution)
+        path = _path(areas.lonlat, areas.ring_offsets, closed=True)
+        look = {"color": LAND, "edgecolor": "none", "zorder": 0.5} | normalize_kwargs(kwargs, PathPatch)
+        return self._added(PathPatch(path, transform=self.transStraight, **{"facecolor": look.pop("color")} | look))
+
+    def _lines(self, path: Path, transform: Transform, usual: LineStyle, given: dict[str, Any]) -> PathPatch:
+        look = {"color": usual.color, "linewidth": usual.width, "joinstyle": "round", "capstyle": "round"}
+        look |= normalize_kwargs(given, PathPatch)
+        return self._added(
+            PathPatch(path, transform=transform, **{"edgecolor": look.pop("color"), "facecolor": "none"} | look)
+        )
+
+    def _added(self, artist: PathPatch) -> PathPatch:
+        # Not by add_patch, which reads every vertex for limits that a globe has no use for.
+        self.add_artist(artist)
+        return artist
+
+    def add_geometries(self, geometries: Any, *, edges: Edges = "straight", **kwargs: Any) -> PathCollection:
+        """Draw Shapely geometries: polygons filled right across the limb, ±180° and the poles, lines and points.
+
+        Parameters
+        ----------
+        geometries : geometry, sequence of geometries, GeoSeries, GeoDataFrame, or anything with ``__geo_interface__``
+            Longitude and latitude in degrees; frames in another coordinate system are transformed.
+        edges : {"straight", "great circle"}
+            What joins vertices; by default as GeoJSON, shapefiles and cartopy's PlateCarree mean it.
+        **kwargs
+            Those of `matplotlib.collections.PathCollection`, for polygons and lines; an `array` with a value for each
+            colours them.
+
+        Returns
+        -------
+        matplotlib.collections.PathCollection
+            The polygons and lines, one path each. Points are drawn by `scatter`.
+        """
+        paths, points = paths_of(geometries)
+        if len(points):
+            self.scatter(
+                points[:, 0],
+                points[:, 1],
+                s=9,
+                **{key: kwargs[key] for key in ("color", "zorder", "alpha") if key in kwargs},
+            )
+        kinds = dict(zip(EDGES, (self.transGreatCircle, self.transStraight), strict=True))
+        transform = kinds[as_choice(edges, EDGES, "edges")]
+        return self._collection(paths, transform, {"edgecolor": "black", "linewidth": 0.5} | kwargs)
+
+
+def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapView:
+    if view is None:
+        return View(*xyz_to_lonlat(lens(lens.focus)).tolist())
+    if isinstance(view, Sequence | np.ndarray):
+        return View(*as_lonlat(view, "view").tolist())
+    return view
+
+
+def _path(lonlat: FloatArray, offsets: IntArray, *, closed: bool = False) -> Path:
+    return compound(lonlat, np.repeat(np.arange(len(offsets) - 1), np.diff(offsets)), closed=closed)
+
+
+register_projection(FisheyeAxes)

@@ -1,0 +1,139 @@
+"""Plots of matplotlib that a globe makes in another way: contours, meshes, hexagons, arrows, pictures."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PathCollection
+from matplotlib.image import AxesImage
+from matplotlib.path import Path
+from matplotlib.quiver import Barbs, Quiver
+from matplotlib.transforms import Transform
+
+from stereodel._arrays import FloatArray
+from stereodel.mpl.mesh import mesh_paths
+from stereodel.mpl.transforms import LonLatToPage
+
+DIRECTION_STEP = 1e-4
+"""Degrees over which the direction of an arrow is measured on the page: a difference of points keeps 9 digits."""
+
+
+class GlobePlots(Axes):
+    """Axes whose data is longitude and latitude, and whose limits are on a page."""
+
+    transGlobe: LonLatToPage  # noqa: N815 (matplotlib's way to name transforms)
+    """Degrees to the unit disc."""
+    transPage: Transform  # noqa: N815
+    """The unit disc to pixels."""
+
+    def contour(self, *args: Any, **kwargs: Any) -> Any:
+        """Contour lines, as in matplotlib; those that are closed are no regions, so they end where the view ends."""
+        return _with_open_lines(super().contour(*args, **kwargs))
+
+    def tricontour(self, *args: Any, **kwargs: Any) -> Any:
+        """Contour lines of scattered points, as in matplotlib; they end where the view ends."""
+        return _with_open_lines(super().tricontour(*args, **kwargs))
+
+    def pcolormesh(self, *args: Any, **kwargs: Any) -> PathCollection:  # type: ignore[override]
+        """Cells of a grid of longitude and latitude, as in matplotlib but for `shading`, which is never "gouraud".
+
+        Returns a PathCollection with the values as its array, cut where the view ends.
+        """
+        mesh = super().pcolormesh(*args, **kwargs)
+        paths = mesh_paths(np.asarray(mesh.get_coordinates()), self.transGlobe)
+        return self._instead(mesh, paths, self.transPage, kwargs)
+
+    def hexbin(self, *args: Any, **kwargs: Any) -> PathCollection:  # type: ignore[override]
+        """Hexagons of the map of longitude and latitude, as in matplotlib; a PathCollection."""
+        cells = super().hexbin(*args, **kwargs)
+        outline, middles = np.asarray(cells.get_paths()[0].vertices), np.asarray(cells.get_offsets())
+        corners = np.clip(middles[:, None] + outline, [-np.inf, -90.0], [np.inf, 90.0])
+        return self._instead(cells, [Path(cell, closed=True) for cell in corners], self.transData, kwargs)
+
+    def _instead(self, old: Any, paths: list[Path], transform: Transform, given: dict[str, Any]) -> PathCollection:
+        """Paths with the colours of a collection that is removed."""
+        old.remove()
+        look = {"norm": old.norm, "cmap": old.cmap, "alpha": old.get_alpha(), "zorder": old.get_zorder()}
+        cells = self._collection(paths, transform, look)
+        cells.set_array(np.ma.ravel(np.ma.asarray(old.get_array())))
+        edges = given.get("edgecolors", given.get("edgecolor"))
+        drawn = edges not in (None, "none", "face")
+        cells.set(edgecolor=edges if drawn else "face", linewidth=old.get_linewidth() if drawn else 0.0)
+        cells.set(antialiased=drawn, rasterized=old.get_rasterized(), label=old.get_label())
+        self._sci(cells)
+        return cells
+
+    def _collection(self, paths: list[Path], transform: Transform, look: dict[str, Any]) -> PathCollection:
+        collection = PathCollection(paths, transform=transform, **look)
+        self.add_collection(collection, autolim=False)
+        return collection
+
+    def quiver(self, *args: Any, **kwargs: Any) -> Quiver:
+        """Arrows at places in degrees, ``quiver(lon, lat, east, north)``, turned to where east and north are."""
+        return super().quiver(*self._turned(args), **kwargs)
+
+    def barbs(self, *args: Any, **kwargs: Any) -> Barbs:
+        """Wind barbs at places in degrees, ``barbs(lon, lat, east, north)``, turned to where east and north are."""
+        return super().barbs(*self._turned(args), **kwargs)
+
+    def _turned(self, args: tuple[Any, ...]) -> tuple[Any, ...]:
+        """The places and components of vectors, these along the axes of the page; their lengths stay."""
+        if len(args) < 4:
+            raise TypeError("give the places of vectors, in degrees, before their components: lon, lat, east, north")
+        lon, lat, east, north = np.broadcast_arrays(*(np.ma.filled(np.ma.asarray(a, float), np.nan) for a in args[:4]))
+        toward_north = _page_step(self.transGlobe, lon, lat, np.array([0.0, DIRECTION_STEP]))
+        # A step along the parallel, of the same length on the sphere.
+        with np.errstate(divide="ignore"):
+            along = DIRECTION_STEP / np.cos(np.radians(lat))
+        toward_east = _page_step(self.transGlobe, lon, lat, np.stack([along, np.zeros_like(along)], axis=-1))
+        vector = east[..., None] * toward_east + north[..., None] * toward_north
+        size = np.hypot(vector[..., 0], vector[..., 1])
+        scale = np.hypot(east, north) / np.where(size > 0, size, 1.0)
+        return (lon, lat, scale * vector[..., 0], scale * vector[..., 1], *args[4:])
+
+    def imshow(self, *args: Any, **kwargs: Any) -> AxesImage:
+        """Pictures of the page, with ``transform=axes.transPage``; a picture of degrees would have to be bent.
+
+        Raises
+        ------
+        ValueError
+            Without that transform: use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` makes a picture of the
+            page.
+        """
+        if kwargs.get("transform") is not self.transPage:
+            raise ValueError(
+                "imshow cannot bend a picture: use pcolormesh, or show stereodel.globe.Raster(picture).warp(…) "
+                "with extent=(-1, 1, -1, 1), transform=axes.transPage"
+            )
+        return super().imshow(*args, **kwargs)
+
+
+def _page_step(globe: LonLatToPage, lon: FloatArray, lat: FloatArray, step: FloatArray) -> FloatArray:
+    """What a small step in degrees is on the page, (..., 2)."""
+    places = np.stack([lon, lat], axis=-1)
+    # Away from the pole, beyond which there is nothing.
+    side = np.where(lat > 0, -1.0, 1.0)[..., None]
+    moved = (globe.transform((places + side * step).reshape(-1, 2)) - globe.transform(places.reshape(-1, 2))).reshape(
+        places.shape
+    )
+    page: FloatArray = side * moved
+    return page
+
+
+def _with_open_lines(contours: Any) -> Any:
+    contours.set_paths([_opened(path) for path in contours.get_paths()])
+    return contours
+
+
+def _opened(path: Path) -> Path:
+    """The path with closing lines that are lines like others."""
+    if path.codes is None:
+        return path
+    codes, points = np.array(path.codes), np.array(path.vertices)
+    begins = np.flatnonzero(codes == Path.MOVETO)
+    closing = np.flatnonzero(codes == Path.CLOSEPOLY)
+    points[closing] = points[begins[np.searchsorted(begins, closing) - 1]]
+    codes[closing] = Path.LINETO
+    return Path(points, codes)

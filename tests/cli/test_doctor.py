@@ -1,0 +1,61 @@
+"""The command `stereodel`: what it prints and its exit codes, also where nothing can draw."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+from typer.testing import CliRunner
+
+import stereodel
+from stereodel.cli import app
+from stereodel.render import gl, provenance
+
+run = CliRunner().invoke
+
+
+def test_version():
+    ran = run(app, ["--version"])
+    assert ran.exit_code == 0
+    assert ran.stdout.strip() == f"stereodel {stereodel.__version__}"
+
+
+def doctor_here(before="", **environment):
+    """In a process of its own: a process draws on one platform only."""
+    kept = {name: value for name, value in os.environ.items() if name not in {"STEREODEL_GL", "PYOPENGL_PLATFORM"}}
+    line = [sys.executable, "-c", f"{before}\nfrom stereodel.cli import app; app(['doctor'])"]
+    return subprocess.run(line, env={**kept, **environment}, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("platform", gl.PLATFORMS)
+def test_doctor_tells_what_draws(platform):
+    ran = doctor_here(STEREODEL_GL=platform)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert f"{platform} (STEREODEL_GL)" in ran.stdout
+    assert "Mesa" in ran.stdout
+    for name, version in provenance.library_versions().items():
+        assert any(line.split() == [name, version] for line in ran.stdout.splitlines())
+    assert ran.stdout.splitlines()[-1] == "Ready: globes can be drawn."
+
+
+def test_doctor_says_how_to_get_what_is_missing():
+    ran = doctor_here(STEREODEL_GL="metal")
+    assert ran.returncode == 1
+    assert "STEREODEL_GL is 'metal'" in ran.stdout
+    assert "Traceback" not in ran.stdout + ran.stderr
+
+
+def test_doctor_without_opengl_names_the_packages():
+    code = "from stereodel.render import gl; gl.can_open = lambda platform: False"
+    ran = doctor_here(code)
+    assert ran.returncode == 1
+    assert "nothing" in ran.stdout
+    assert "apt-get install libosmesa6" in ran.stdout
+
+
+def test_doctor_names_missing_libraries(monkeypatch):
+    monkeypatch.setattr(provenance, "LIBRARIES", ("numpy", "no-such-library"))
+    monkeypatch.setattr(gl, "describe", lambda: gl.Description("osmesa", "found", "4.5 Mesa 22.3.6", "llvmpipe"))
+    ran = run(app, ["doctor"])
+    assert ran.exit_code == 1
+    assert "pip install no-such-library" in ran.stdout

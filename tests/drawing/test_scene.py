@@ -1,0 +1,211 @@
+"""Scenes: what is drawn, what is left out, and in which order."""
+
+import numpy as np
+import pytest
+
+from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke, Surface
+from stereodel.drawing.scene import Scene
+from stereodel.drawing.style import DOTS, LINES, LineStyle
+from stereodel.drawing.things import Layer
+from stereodel.drawing.view import View
+from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
+
+PLANE = np.array([[-2.0, -2.0, -1.0], [2.0, -2.0, -1.0], [2.0, 2.0, -1.0], [-2.0, 2.0, -1.0]])
+FRONT, BACK = View(0, 90), View(0, -90)
+
+
+def of(items, kind, role=None):
+    return [item for item in items if isinstance(item, kind) and (role is None or item.role == role)]
+
+
+def roles(items):
+    return [item.role for item in items]
+
+
+def test_an_opaque_ball_hides_its_far_side():
+    scene = Scene()
+    scene.add_points(lonlat_to_xyz([(0, 60), (0, -60), (0, 0)]))
+    scene.add_edges(lonlat_to_xyz([(0, 60), (90, 60), (0, -60), (90, -60)]), [[0, 1], [2, 3]], role="delaunay")
+    items = scene.layout(FRONT)
+    assert roles(items) == ["ball", "delaunay", "limb", "sites"]
+    assert of(items, Dots)[0].centers.shape == (2, 2)
+
+
+def test_a_glass_ball_shows_it_fainter_and_first():
+    scene = Scene(look="glass")
+    scene.add_arcs(graticule(30), role="graticule")
+    items = scene.layout(View(10, 20))
+    ball = roles(items).index("ball")
+    behind, front = items[:ball], items[ball + 1 : -1]
+    assert behind
+    assert front
+    assert {item.color for item in front} == {LINES["graticule"].color}
+    assert {item.color for item in behind} == {LINES["graticule"].hidden.color}
+    assert items[-1].role == "limb"
+
+
+def test_without_a_ball_nothing_is_hidden():
+    scene = Scene(look="none")
+    scene.add_arcs(graticule(30), role="graticule")
+    items = scene.layout(FRONT)
+    assert len(items) == len(graticule(30))
+    assert all(item.closed == arc.closed for item, arc in zip(items, graticule(30), strict=True))
+
+
+def test_graticule_on_the_page_is_that_of_the_sphere():
+    """Every drawn point, put back on the sphere, lies on its circle; and ends lie on the limb or at the poles."""
+    scene = Scene()
+    scene.add_circles([SphereCircle.around((0, 90), 60)])
+    view = View(0, 20)
+    [stroke] = of(scene.layout(view), Stroke, "circle")
+    on_page = stroke.path[:, 0]
+    on_sphere = np.column_stack([on_page, np.sqrt(1 - np.sum(on_page**2, axis=1))]) @ view.matrix
+    assert np.allclose(on_sphere[1:, 2], 0.5, rtol=0, atol=1e-9)
+
+
+def test_at_and_scale_place_the_origin():
+    scene = Scene(radius=2.0, center=(0.0, 0.0, 2.0))
+    [limb] = of(scene.layout(View(0, 0), at=(10.0, 20.0), scale=0.5), Stroke, "limb")
+    points = limb.path[:, 0]
+    assert np.allclose(points.mean(axis=0), [10.0, 21.0])
+    assert np.allclose(np.hypot(*(points - [10.0, 21.0]).T), 1.0)
+
+
+def test_rays_are_cut_by_the_ball():
+    scene = Scene()
+    scene.add_segments([0.0, 0.0, 1.0], [[1.5, 0.0, -1.0], [0.0, -1.5, -1.0]], role="ray")
+    items = scene.layout(View(-90, 10))
+    outside = of(items, Stroke, "ray")
+    assert len(outside) == 2
+    limb_at = roles(items).index("limb")
+    beside, front = roles(items).index("ray"), len(items) - 1
+    assert beside < limb_at < front
+
+
+def test_a_plane_below_the_ball_is_painted_first_and_from_below_last():
+    scene = Scene()
+    scene.add_flat_polygon(PLANE)
+    scene.add_points([[0, 0, 1], [0, 0, -1]])
+    scene.add_space_points([[1.5, 0, -1]], role="points")
+    assert roles(scene.layout(View(0, 30))) == ["plane", "ball", "limb", "sites", "points"]
+    assert roles(scene.layout(View(0, -30))) == ["ball", "limb", "plane", "sites", "points"]
+
+
+def test_lines_below_a_plane_are_painted_under_it():
+    scene = Scene()
+    scene.add_flat_polygon(PLANE)
+    scene.add_segments([1.8, 0, 1], [1.8, 0, -3], role="ray")
+    items = scene.layout(View(90, 30))
+    assert roles(items)[:3] == ["ray", "plane", "ray"]
+    upper, lower = (item for item in (items[2], items[0]))
+    assert upper.path[0, 3] == pytest.approx(lower.path[0, 0], abs=1e-8)
+
+
+def test_flat_polygons_inside_the_ball():
+    corners = lonlat_to_xyz([(0, 0), (90, 0), (0, 90)])
+    for look, expected in (
+        ("solid", ["ball", "limb"]),
+        ("glass", ["chordal", "chord", "chord", "chord", "ball", "limb"]),
+    ):
+        scene = Scene(look=look)
+        scene.add_flat_polygon(corners, role="chordal")
+        scene.add_outline(corners, role="chord")
+        assert roles(scene.layout(View(45, 30))) == expected
+
+
+def test_a_polygon_that_cuts_the_ball_is_refused():
+    scene = Scene()
+    scene.add_flat_polygon(PLANE * [1, 1, 0.5])
+    with pytest.raises(ValueError, match="cuts the ball"):
+        scene.layout(FRONT)
+
+
+def test_caps_and_triangles_have_outline_and_mesh():
+    scene = Scene(look="glass")
+    circle = SphereCircle.around((0, 40), 30)
+    scene.add_cap(circle, role="small_bubble")
+    scene.add_cap(circle, role="large_bubble", side="outside")
+    scene.add_triangle_patch(*lonlat_to_xyz([(0, 0), (60, 0), (30, 50)]))
+    items = scene.layout(View(0, 40))
+    assert roles(of(items, Surface)) == ["ball", "small_bubble", "large_bubble", "triangle"]
+    assert roles(of(items, Fill)) == ["large_bubble"]
+    ring = of(items, Surface, "large_bubble")[0]
+    assert len(ring.outline) == 2
+    assert np.allclose(np.linalg.norm(ring.normals, axis=1), 1)
+
+
+def test_labels_vanish_with_their_points_unless_told():
+    scene = Scene()
+    scene.add_label("front", (0, 0, 1), offset=(3, 4))
+    scene.add_label("back", (0, 0, -1))
+    scene.add_label("always", (0, 0, -1), always=True)
+    labels = of(scene.layout(FRONT), Label)
+    assert [label.text for label in labels] == ["front", "always"]
+    assert labels[0].anchor == (0.0, 0.0)
+    assert labels[0].offset == (3, 4)
+
+
+def test_style_and_layer_can_be_given():
+    scene = Scene()
+    look = LineStyle((1.0, 0.0, 0.0, 1.0), 3.0, (2.0, 2.0))
+    scene.add_circles([SphereCircle.around((0, 90), 30)], role="mine", style=look, layer=Layer.OVER)
+    items = scene.layout(FRONT)
+    assert roles(items) == ["ball", "limb", "mine"]
+    assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
+
+
+def test_weight_scales_lines_and_dots():
+    scene = Scene(weight=0.5)
+    scene.add_circles([SphereCircle.around((0, 90), 30)])
+    scene.add_points([[0, 0, 1]])
+    _, circle, limb, dots = scene.layout(FRONT)
+    assert (circle.width, limb.width) == (LINES["circle"].width / 2, LINES["limb"].width / 2)
+    assert (dots.radius, dots.rim_width) == (DOTS["sites"].radius / 2, DOTS["sites"].rim_width / 2)
+
+
+def test_layout_is_repeatable_and_leaves_no_trace():
+    scene = Scene(look="glass")
+    scene.add_arcs(graticule(30), role="graticule")
+    scene.add_cap(SphereCircle.around((20, 10), 40), role="small_bubble")
+    first = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
+    scene.layout(View(50, -20))
+    again = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
+    assert first.keys() == again.keys()
+    assert all(np.array_equal(first[key], again[key]) for key in first)
+
+
+def test_input_is_not_modified():
+    points = lonlat_to_xyz([(0, 0), (10, 50)]) * 3
+    before = points.copy()
+    scene = Scene(radius=2.0)
+    scene.add_points(points)
+    scene.add_edges(points, [[0, 1]], role="delaunay")
+    scene.layout(FRONT)
+    assert np.array_equal(points, before)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda s: Scene(look="foggy"), "look must be"),
+        (lambda s: Scene(radius=0), "radius"),
+        (lambda s: s.add_arcs(graticule(30), role="nothing"), "role 'nothing' has no line style"),
+        (lambda s: s.add_points([[0, 0, 1]], role="nothing"), "role 'nothing' has no dot style"),
+        (lambda s: s.add_points([[0, 0, 0]]), "points"),
+        (lambda s: s.add_flat_polygon(PLANE, role="nothing"), "role 'nothing' has no fill style"),
+        (lambda s: s.add_edges([[0, 0, 1]], [[0, 1]], role="delaunay"), "pairs"),
+        (lambda s: s.add_label("x", [0, 1]), "point"),
+        (lambda s: s.layout(FRONT, scale=-1), "scale"),
+    ],
+)
+def test_bad_input_is_named(call, message):
+    with pytest.raises(ValueError, match=message):
+        call(Scene())
+
+
+def test_a_layer_of_ones_own_lifts_lines_inside_a_glass_ball_over_the_tints():
+    scene = Scene(look="glass")
+    scene.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1])
+    scene.add_segments([[1.0, 0, 0]], [[0, 1.0, 0]], role="chord", layer=Layer.LINE)
+    roles = [item.role for item in scene.layout(View(45, 35))]
+    assert roles.index("chord") > roles.index("triangle")

@@ -1,0 +1,139 @@
+"""What a ball hides, against a dense sample of the definition."""
+
+from itertools import pairwise
+
+import numpy as np
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel.drawing.space_curves import CircleArc, Segment
+from stereodel.drawing.view import View
+from stereodel.drawing.visibility import Place, lies_on_ball, place_of, split_by_ball
+from stereodel.sphere import SphereArc, SphereCircle
+
+from .test_curves import arcs, vectors
+
+views = st.builds(View, st.floats(-180, 180), st.floats(-90, 90))
+ORIGIN = np.zeros(3)
+
+
+@st.composite
+def circles_on_the_ball(draw):
+    lonlat = (draw(st.floats(-180, 180)), draw(st.floats(-90, 90)))
+    return CircleArc.circle(SphereCircle.around(lonlat, draw(st.floats(0.01, 179.99))))
+
+
+def covered(points, radius):
+    """Definition: the line toward the viewer meets the open ball."""
+    beside = np.hypot(points[:, 0], points[:, 1])
+    near = np.sqrt(np.maximum(radius**2 - beside**2, 0))
+    return (beside < radius) & (points[:, 2] < near)
+
+
+def margin(points, radius):
+    """How far a point is from where its place may change."""
+    beside = np.hypot(points[:, 0], points[:, 1])
+    return np.minimum(np.abs(beside - radius), np.abs(np.linalg.norm(points, axis=1) - radius))
+
+
+def assert_pieces_cover(curve, pieces):
+    """Pieces follow each other and make up the whole curve."""
+    for (before, _), (after, _) in pairwise(pieces):
+        assert before.stop == after.start
+    span = pieces[-1][0].stop - pieces[0][0].start
+    assert np.isclose(span, curve.stop - curve.start, rtol=1e-12)
+
+
+def assert_matches_definition(curve, radius):
+    pieces = split_by_ball(curve, radius)
+    assert_pieces_cover(curve, pieces)
+    for piece, place in pieces:
+        points = piece.points(np.linspace(piece.start, piece.stop, 203)[1:-1])
+        clear = points[margin(points, radius) > 1e-6]
+        assert np.all(covered(clear, radius) == (place in (Place.BEHIND, Place.INSIDE)))
+        assert (place is Place.INSIDE) or np.all(np.linalg.norm(clear, axis=1) > radius)
+
+
+@given(arcs(), st.floats(0.2, 3))
+def test_circles_of_space(arc, radius):
+    assert_matches_definition(arc, radius)
+
+
+@given(vectors, vectors, st.floats(0.2, 1.5))
+def test_segments(a, b, radius):
+    assert_matches_definition(Segment.between(3 * a, 3 * b), radius)
+
+
+@given(circles_on_the_ball(), views)
+def test_circles_of_the_sphere(circle, view):
+    curve = circle.moved(view.matrix, ORIGIN)
+    assert lies_on_ball(curve, 1.0)
+    pieces = split_by_ball(curve, 1.0)
+    assert_pieces_cover(curve, pieces)
+    assert len(pieces) <= 2
+    for piece, place in pieces:
+        depth = piece.points(np.linspace(piece.start, piece.stop, 201))[:, 2]
+        assert np.all(depth >= -2e-12) if place is Place.FRONT else np.all(depth <= 1e-12)
+
+
+def test_a_curve_on_the_limb_is_seen_and_stays_whole():
+    equator = CircleArc.circle(SphereCircle((0.0, 90.0), 0.0))
+    for view in (View(12, 90), View(77, -90)):
+        [(piece, place)] = split_by_ball(equator.moved(view.matrix, ORIGIN), 1.0)
+        assert place is Place.FRONT
+        assert piece.closed
+    meridian = CircleArc.of(SphereArc(SphereCircle((123, 0), 0.0), (33, -90), (33, 90)))
+    [(_, place)] = split_by_ball(meridian.moved(View(123, 0).matrix, ORIGIN), 1.0)
+    assert place is Place.FRONT
+
+
+def test_a_parallel_that_touches_the_limb_is_not_torn():
+    parallel = CircleArc.circle(SphereCircle.around((0, 90), 50))
+    assert [place for _, place in split_by_ball(parallel.moved(View(0, 50).matrix, ORIGIN), 1.0)] == [Place.FRONT]
+    south = CircleArc.circle(SphereCircle.around((0, -90), 49.999))
+    assert [place for _, place in split_by_ball(south.moved(View(0, 50).matrix, ORIGIN), 1.0)] == [Place.BEHIND]
+
+
+def test_a_meridian_is_cut_where_it_meets_the_equator_from_the_pole():
+    meridian = CircleArc.of(SphereArc(SphereCircle((120, 0), 0.0), (30, -90), (30, 90)))
+    pieces = split_by_ball(meridian.moved(View(0, 90).matrix, ORIGIN), 1.0)
+    assert [place for _, place in pieces] == [Place.BEHIND, Place.FRONT]
+    assert np.isclose(pieces[0][0].stop, np.pi / 2, rtol=0, atol=1e-11)
+
+
+def test_the_visible_piece_of_a_closed_circle_is_one():
+    """Cut at two points, the part across the start of the parameter must not be in two."""
+    for lon in range(0, 360, 15):
+        circle = CircleArc.circle(SphereCircle.around((lon, 0), 60))
+        pieces = split_by_ball(circle.moved(View(40, 10).matrix, ORIGIN), 1.0)
+        assert len(pieces) == len({place for _, place in pieces})
+
+
+def test_a_line_that_crosses_the_limb_in_front_is_one_piece():
+    assert [place for _, place in split_by_ball(Segment.between([-2, 0, 1.5], [2, 0, 1.5]), 1.0)] == [Place.FRONT]
+    behind = split_by_ball(Segment.between([-2, 0, -1.5], [2, 0, -1.5]), 1.0)
+    assert [place for _, place in behind] == [Place.OUTSIDE, Place.BEHIND, Place.OUTSIDE]
+
+
+def test_chords_are_inside_and_tangents_are_not():
+    a, b = np.array([0.6, 0.0, 0.8]), np.array([-0.6, 0.0, 0.8])
+    assert [place for _, place in split_by_ball(Segment.between(a, b), 1.0)] == [Place.INSIDE]
+    along = np.array([0.8, 0.0, -0.6])
+    tangent = Segment.between(a + along, a - along)
+    assert [place for _, place in split_by_ball(tangent, 1.0)] == [Place.FRONT]
+
+
+def test_places_of_points():
+    cases = [
+        ((0, 0, 1), Place.FRONT),
+        ((1, 0, 0), Place.FRONT),
+        ((0.8, 0, -0.6), Place.BEHIND),
+        ((0, 0, 0.5), Place.INSIDE),
+        ((2, 0, -5), Place.OUTSIDE),
+        ((1.001, 0, -3), Place.OUTSIDE),
+        ((0.999, 0, -3), Place.BEHIND),
+        ((0.5, 0, 3), Place.FRONT),
+        ((0.5, 0, -3), Place.BEHIND),
+    ]
+    for point, place in cases:
+        assert place_of(np.array(point, dtype=float), 1.0) is place

@@ -1,0 +1,330 @@
+"""Films: what is drawn is what is written, an interruption costs nothing, and what fails is named."""
+
+import os
+import pickle
+import re
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import stereodel
+from stereodel.film import Film, FrameError, keys, workers
+
+BALLS = """
+import os, time
+from pathlib import Path
+import numpy as np
+from stereodel.drawing import Page
+from stereodel.film import Film
+from stereodel.drawing.page import Dots, Label
+
+LOG = Path(__file__).with_name("log")
+
+def ball(x):
+    "A ball at x; -1 fails, -2 ends the process."
+    with LOG.open("a") as log:
+        log.write(f"{os.getpid()} {x}\\n")
+    if x == -1:
+        raise ValueError("no ball there")
+    if x == -2:
+        os._exit(3)
+    dot = Dots(np.array([[x, 1.0]]), 40.0, (0.8, 0.1, 0.1, 1.0))
+    return Page((0.0, 4.0, 0.0, 2.0), (dot, Label("ball", (0.5, 0.2), size=30.0)), width=160.0)
+
+def wide(x):
+    return Page((0.0, x, 0.0, 1.0))
+
+def slow_ball(x):
+    time.sleep(float(os.environ.get("SLOW", "0")))
+    return ball(x)
+"""
+
+
+@pytest.fixture
+def balls(tmp_path, monkeypatch):
+    """A module with functions that draw; other processes find it by the path of this one."""
+    folder = tmp_path / "code"
+    folder.mkdir()
+    (folder / "balls.py").write_text(BALLS)
+    monkeypatch.syspath_prepend(str(folder))
+    monkeypatch.delitem(sys.modules, "balls", raising=False)
+    import balls
+
+    yield balls
+    sys.modules.pop("balls", None)
+
+
+@pytest.fixture
+def out(tmp_path):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    return folder
+
+
+def drawn(balls):
+    """(process, x) of each frame that was drawn so far."""
+    return [(int(pid), float(x)) for pid, x in (line.split() for line in balls.LOG.read_text().splitlines())]
+
+
+def frames(path):
+    with Image.open(path) as image:
+        return np.stack([np.asarray(image.convert("RGB")) for _ in map(image.seek, range(image.n_frames))])
+
+
+def ended(pid):
+    """Whether a process is gone, or waits for nobody to ask after it."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def wait_until(condition, seconds=60):
+    limit = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < limit
+        time.sleep(0.02)
+
+
+def test_the_file_shows_the_frames(balls, out):
+    film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5), fps=10, size=80)
+    file = film.save(out / "balls.png", jobs=1, progress=False)
+    assert [path.name for path in out.iterdir()] == [file.name]
+    assert np.array_equal(frames(file), [film.picture(number) for number in range(4)])
+    assert (len(film), film.seconds, film.page(2).width) == (4, 0.4, 160.0)
+    bare = replace(film, text=False).save(out / "bare.png", jobs=1, progress=False)
+    assert not np.array_equal(frames(bare), frames(file))
+
+
+def test_several_processes_give_the_same_file_as_one(balls, out):
+    film = Film(balls.ball, np.linspace(1, 3, 6).tolist(), size=80)
+    one, two = (film.save(out / f"{jobs}.webp", jobs=jobs, progress=False) for jobs in (1, 2))
+    assert one.read_bytes() == two.read_bytes()
+    processes = {pid for pid, _ in drawn(balls)[6:]}
+    assert os.getpid() not in processes
+    assert 1 <= len(processes) <= 2
+    wait_until(lambda: all(map(ended, processes)))
+
+
+def test_a_process_draws_so_many_frames_and_then_another_goes_on(balls, out, monkeypatch):
+    monkeypatch.setattr(workers, "FRAMES", 2)
+    film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 3.2), size=80)
+    assert len(frames(film.save(out / "many.png", jobs=2, progress=False))) == 7
+    processes = [pid for pid, _ in drawn(balls)]
+    assert len(processes) == 7
+    assert max(map(processes.count, processes)) == 2
+    wait_until(lambda: all(map(ended, processes)))
+
+
+def test_equal_shots_are_drawn_once(balls, out):
+    film = Film(balls.ball, (1.0, 2.0, 2.0, 2.0, 1.0), size=80)
+    assert len(frames(film.save(out / "held.png", jobs=1, progress=False))) == 5
+    assert [x for _, x in drawn(balls)] == [1.0, 2.0]
+
+
+def test_a_frame_that_fails_is_named_and_the_others_are_kept(balls, out):
+    film = Film(balls.ball, (1.0, 1.5, -1.0, 2.0), size=80)
+    with pytest.raises(FrameError, match="frame 2: ValueError: no ball there") as caught:
+        film.save(out / "balls.png", jobs=1, progress=False)
+    assert 'raise ValueError("no ball there")' in caught.value.__notes__[0]
+    assert [path.name for path in out.iterdir()] == ["balls.png.frames"]
+    good = Film(balls.ball, (1.0, 1.5, 2.5, 2.0), size=80)
+    whole = good.save(out / "balls.png", jobs=1, progress=False)
+    assert [x for _, x in drawn(balls)] == [1.0, 1.5, -1.0, 2.5, 2.0]
+    assert whole.read_bytes() == good.save(out / "again.png", jobs=1, progress=False).read_bytes()
+
+
+@pytest.mark.parametrize(("wrong", "message"), [(-1.0, "ValueError: no ball there"), (-2.0, "ended with code 3")])
+def test_a_frame_that_fails_elsewhere_ends_all_processes(balls, out, wrong, message):
+    film = Film(balls.ball, (1.0, 1.5, wrong, *np.linspace(2, 3, 20)), size=80)
+    with pytest.raises(FrameError, match=f"frame 2: .*{message}"):
+        film.save(out / "balls.png", jobs=2, progress=False)
+    wait_until(lambda: all(ended(pid) for pid, _ in drawn(balls)))
+    assert [path.name for path in out.iterdir()] == ["balls.png.frames"]
+
+
+FILM = """
+import sys
+import balls
+from stereodel.film import Film
+film = Film(balls.slow_ball, [k / 10 for k in range(10, 30)], size=80)
+{guard}film.save(sys.argv[1], jobs=2)
+"""
+
+
+def start(folder, out, *, guard="", code=FILM, slow="0", how=()):
+    script = folder / "film.py"
+    script.write_text(code.format(guard=guard))
+    paths = [str(Path(stereodel.__file__).parents[1]), str(folder)]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "SLOW": slow}
+    command = [sys.executable, *(how or [str(script)]), str(out / "balls.gif")]
+    return subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True)
+
+
+@pytest.mark.parametrize("how", ["interrupted", "killed"])
+def test_an_interruption_costs_nothing(balls, out, how):
+    process = start(Path(balls.__file__).parent, out, slow="0.2")
+    kept = out / "balls.gif.frames"
+    wait_until(lambda: len(list(kept.glob("[!.]*.png"))) >= 3)
+    if how == "killed":
+        process.kill()
+    else:
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does
+    _, said = process.communicate(timeout=60)
+    assert process.returncode != 0
+    assert ("KeyboardInterrupt" in said) == (how == "interrupted")
+    wait_until(lambda: all(ended(pid) for pid, _ in drawn(balls)))
+    assert [path.name for path in out.iterdir()] == ["balls.gif.frames"]
+    finished = len(list(kept.glob("[!.]*.png")))
+    assert 3 <= finished < 20
+
+    before = len(drawn(balls))
+    film = Film(balls.slow_ball, [k / 10 for k in range(10, 30)], size=80)
+    resumed = film.save(out / "balls.gif", jobs=1, progress=False)
+    assert len(drawn(balls)) - before == 20 - finished
+    whole = film.save(out / "whole.gif", jobs=1, progress=False)
+    assert resumed.read_bytes() == whole.read_bytes()
+    assert sorted(path.name for path in out.iterdir()) == ["balls.gif", "whole.gif"]
+
+
+def test_a_plain_script_needs_no_guard(balls, out):
+    process = start(Path(balls.__file__).parent, out)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert said.splitlines()[-2].startswith("drawing 20/20")
+    assert said.splitlines()[-1].startswith("writing 20/20")
+
+
+OWN = """
+import sys
+from stereodel.drawing import Page
+from stereodel.film import Film
+def nothing(x):
+    return Page((0.0, x, 0.0, x))
+{guard}Film(nothing, [1.0, 2.0, 3.0], size=40).save(sys.argv[1], jobs=2)
+"""
+
+
+def test_a_script_that_draws_itself_is_told_of_the_guard(balls, out):
+    process = start(Path(balls.__file__).parent, out, code=OWN)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode != 0
+    assert re.search("FrameError: frame [01]: RuntimeError: the main script makes a film", said)
+    assert 'put the call under `if __name__ == "__main__":`' in said
+
+
+@pytest.mark.parametrize("how", [(), ("-m", "film")])
+def test_with_the_guard_it_draws_itself(balls, out, how):
+    process = start(Path(balls.__file__).parent, out, guard='if __name__ == "__main__": ', code=OWN, how=how)
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 0, said
+    assert len(frames(out / "balls.gif")) == 3
+
+
+def test_an_interactive_session_is_told_of_modules(balls, out):
+    code = OWN.format(guard="")
+    process = start(Path(balls.__file__).parent, out, code=OWN, how=("-c", code))
+    _, said = process.communicate(timeout=60)
+    assert "TypeError: draw or the shots are defined in an interactive session" in said
+    assert "jobs=1" in said
+    one = start(Path(balls.__file__).parent, out, code=OWN, how=("-c", code.replace("jobs=2", "jobs=1")))
+    _, said = one.communicate(timeout=60)
+    assert one.returncode == 0, said
+
+
+@dataclass(frozen=True)
+class Painter:
+    ink: float
+
+    def __call__(self, shot):
+        raise AssertionError
+
+
+def test_names_of_frames_depend_on_all_that_counts(balls, monkeypatch):
+    monkeypatch.setitem(sys.modules, Painter.__module__, sys.modules[__name__])
+    shots = [1.0, (1.0, 2), 1.0]
+    names = keys.frame_names(Painter(1.0), shots)
+    assert names[0] == names[2] != names[1]
+    assert keys.frame_names(Painter(1.0), shots) == names
+    assert set(keys.frame_names(Painter(2.0), shots)).isdisjoint(names)
+    film = Film(balls.ball, shots)
+    cameras = [replace(film, **change)._camera for change in ({}, {"size": 9}, {"text": False}, {"platform": "egl"})]
+    assert len({keys.frame_names(camera, shots)[0] for camera in cameras}) == 4
+    before = keys.frame_names(film._camera, shots)
+    Path(balls.__file__).write_text(BALLS.replace("40.0", "41.0"))
+    assert keys.frame_names(film._camera, shots) != before
+    monkeypatch.setattr(keys, "library_digest", lambda: b"another version")
+    assert set(keys.frame_names(Painter(1.0), shots)).isdisjoint(names)
+
+
+def test_bad_films_are_refused_before_anything_is_drawn(balls, out):
+    with pytest.raises(ValueError, match="shots is empty"):
+        Film(balls.ball, [])
+    for fps in (0.0, -25.0, np.nan, np.inf):
+        with pytest.raises(ValueError, match="fps"):
+            Film(balls.ball, [1.0], fps=fps)
+    for size in (0, 65_536, 99.5):
+        with pytest.raises((ValueError, TypeError), match="size"):
+            Film(balls.ball, [1.0], size=size)
+    film = Film(balls.ball, [1.0], size=80)
+    with pytest.raises(ValueError, match="path must end in"):
+        film.save(out / "balls.mov")
+    with pytest.raises(ValueError, match="jobs"):
+        film.save(out / "balls.gif", jobs=0)
+    with pytest.raises(ValueError, match="at most 50 frames a second"):
+        replace(film, fps=60).save(out / "balls.gif")
+    with pytest.raises(TypeError, match="draw cannot be sent to the processes that draw"):
+        Film(lambda x: None, [1.0]).save(out / "balls.gif")
+    with pytest.raises(TypeError, match=r"shots\[1\] cannot be sent"):
+        Film(balls.ball, [1.0, lambda: None]).save(out / "balls.gif")
+    assert list(out.iterdir()) == []
+    assert not balls.LOG.exists()
+
+
+def test_frames_of_several_sizes_are_named(balls, out):
+    film = Film(balls.wide, [2.0, 4.0], size=40)
+    with pytest.raises(ValueError, match="frame 1 has 40 by 10 pixels and differs from the first with 40 by 20"):
+        film.save(out / "wide.gif", jobs=1, progress=False)
+
+
+def test_what_is_not_of_a_film_stays_in_its_folder(balls, out):
+    kept = out / "balls.gif.frames"
+    kept.mkdir()
+    (kept / "notes.txt").write_text("mine")
+    (kept / f".{'0' * 32}.png.17.tmp").write_text("half a frame")
+    (kept / f"{'0' * 32}.png").write_text("a frame of another film")
+    Film(balls.ball, [1.0], size=40).save(out / "balls.gif", jobs=1, progress=False)
+    assert [path.name for path in kept.iterdir()] == ["notes.txt"]
+
+
+def test_a_kept_frame_that_cannot_be_read_is_named(balls, out):
+    film = Film(balls.ball, [1.0, -1.0], size=40)
+    with pytest.raises(FrameError):
+        film.save(out / "balls.gif", jobs=1, progress=False)
+    (frame,) = (out / "balls.gif.frames").iterdir()
+    frame.write_bytes(frame.read_bytes()[:60])
+    with pytest.raises(OSError, match=rf"{frame.name} cannot be read .*remove it and try again"):
+        replace(film, shots=[1.0]).save(out / "balls.gif", jobs=1, progress=False)
+    assert not (out / "balls.gif").exists()
+
+
+def test_nowhere_to_write_is_noticed_before_drawing(balls, out):
+    film = Film(balls.ball, [1.0], size=40)
+    with pytest.raises(FileNotFoundError):
+        film.save(out / "none" / "balls.gif", jobs=1)
+    (out / "folder.gif").mkdir()
+    with pytest.raises(IsADirectoryError, match=r"folder\.gif is a folder; give the name of a file"):
+        film.save(out / "folder.gif", jobs=1)
+    assert not balls.LOG.exists()
+
+
+def test_films_can_be_pickled(balls):
+    film = pickle.loads(pickle.dumps(Film(balls.ball, (1.0, 2.0), size=80)))
+    assert np.array_equal(film.picture(1), Film(balls.ball, (2.0,), size=80).picture(0))

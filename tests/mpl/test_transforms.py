@@ -1,0 +1,211 @@
+"""Longitude and latitude on matplotlib's page: points against PROJ, lines and regions against brute force."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from matplotlib.path import Path
+from pyproj import Transformer
+
+from stereodel import MoebiusMap, Rotation, fisheye, great_circle_points, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.drawing.view import StereographicView, View, turned
+from stereodel.mpl.transforms import LonLatToPage
+
+VIEWS = [View(20.0, 35.0, 10.0), StereographicView(-60.0, -20.0, extent=140.0), View(0.0, 90.0)]
+LENSES = [MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=6.0), fisheye((-100.0, -40.0), magnification=0.3)]
+
+sights = st.tuples(st.sampled_from(LENSES), st.sampled_from(VIEWS))
+# GEOS warns of distances from lines with parts as small as 1e-167.
+places = st.tuples(st.floats(-180, 180), st.floats(-90, 90)).map(lambda place: tuple(np.round(place, 12).tolist()))
+
+
+def everywhere(n, seed=0):
+    return xyz_to_lonlat(np.random.default_rng(seed).normal(size=(n, 3)))
+
+
+def seen(lens, view, xyz):
+    """Page points, and which of the places are seen, the long way round."""
+    axes = turned(lens(xyz), view.matrix)
+    return view.flattened(axes), axes[:, 2] - view.edge
+
+
+def parts(path):
+    """The lines of a path; `Path.to_polygons` would simplify them for pixels of the size of its unit."""
+    begins = np.flatnonzero(path.codes == Path.MOVETO) if len(path.vertices) else np.zeros(0, dtype=int)
+    return np.split(path.vertices, begins[1:]) if len(begins) else []
+
+
+def distance(points, path):
+    """Of points (n, 2) from a path of lines."""
+    lines = [shapely.LineString(line) for line in parts(path)]
+    with np.errstate(all="ignore"):
+        return shapely.distance(shapely.points(points), shapely.MultiLineString(lines))
+
+
+def test_points_are_those_of_proj():
+    lens = fisheye((10.0, 50.0), magnification=6.0)
+    lonlat = everywhere(500)
+    moved = np.column_stack(Transformer.from_pipeline(lens.to_proj()).transform(*lonlat.T))
+    for view, proj in [
+        (View(20.0, 35.0), "+proj=ortho +lat_0=35 +lon_0=20 +R=1"),
+        (StereographicView(20.0, 35.0, extent=90.0), "+proj=stere +lat_0=35 +lon_0=20 +k_0=0.5 +R=1"),
+    ]:
+        page = LonLatToPage(lens, view).transform(lonlat)
+        shown = ~np.isnan(page[:, 0])
+        to_page = Transformer.from_pipeline(
+            f"+proj=pipeline +step +proj=unitconvert +xy_in=deg +xy_out=rad +step {proj}"
+        )
+        assert np.allclose(page[shown], np.column_stack(to_page.transform(*moved[shown].T)), atol=1e-9)
+        assert np.array_equal(shown, seen(lens, view, lonlat_to_xyz(lonlat))[1] >= 0)
+
+
+def test_what_is_no_place_is_not_a_number():
+    page = LonLatToPage(LENSES[1], VIEWS[0]).transform([(10, 50), (np.nan, 3), (10, 91), (np.inf, 0)])
+    assert np.isnan(page).tolist() == [[False, False]] + [[True, True]] * 3
+
+
+@given(sights, st.floats(0, 0.999999), st.floats(0, 2 * np.pi))
+def test_there_and_back(sight, radius, angle):
+    globe = LonLatToPage(*sight)
+    page = np.array([radius * np.cos(angle), radius * np.sin(angle)])
+    # Near the limb of a ball the height is the square root of what is left of 1.
+    assert np.allclose(globe.transform(globe.inverted().transform(page)), page, atol=1e-9)
+    assert np.isnan(globe.inverted().transform([1.0, 0.1])).all()
+    assert globe.inverted().inverted() is globe
+
+
+@settings(max_examples=60)
+@given(sights, st.lists(places, min_size=2, max_size=6, unique=True))
+def test_lines_stay_within_the_tolerance(sight, vertices):
+    lens, view = sight
+    globe = LonLatToPage(lens, view)
+    xyz = lonlat_to_xyz(vertices)
+    ends = [(a, b) for a, b in pairwise(xyz) if 1e-6 < np.sum((a - b) ** 2) < 4 - 1e-6]
+    if len(ends) < len(xyz) - 1:
+        return
+    path = globe.transform_path(Path(vertices))
+    page, height = seen(lens, view, np.concatenate([great_circle_points(a, b, 200) for a, b in ends]))
+    if (height > 1e-6).any():
+        assert distance(page[height > 1e-6], path).max() <= 1.01 * globe.tolerance
+    for line in parts(path):
+        for end in (line[0], line[-1]):
+            at_vertex = np.abs(page - end).max(axis=1).min() < 1e-9
+            assert at_vertex or np.hypot(*end) == pytest.approx(1, abs=1e-9)
+    assert len(path.vertices) == 0 or np.hypot(*path.vertices.T).max() <= 1 + 1e-12
+
+
+CLOSE = fisheye((155.0, 57.5), magnification=1000.0), View(155.0, 57.5)  # the line passes the focus
+
+
+@pytest.mark.parametrize("sight", [CLOSE, *[(lens, view) for lens in LENSES for view in VIEWS]])
+def test_straight_edges_are_straight_on_the_map(sight):
+    globe = LonLatToPage(*sight, "straight")
+    ends = np.array([(-170.0, 60.0), (120.0, 55.0)])
+    turned_round = np.array([(-170.0, 60.0), (-240.0, 55.0)])  # 290° are more than half the map
+    share = (np.linspace(-1, 1, 3001)[:, None] ** 3 + 1) / 2  # densest half-way
+    page, height = seen(*sight, lonlat_to_xyz((1 - share) * turned_round[0] + share * turned_round[1]))
+    path = globe.transform_path(Path(ends))
+    assert (height > 1e-6).any() == (len(path.vertices) > 0)
+    if len(path.vertices):
+        assert distance(page[height > 1e-6], path).max() <= 2 * globe.tolerance
+
+
+def star(rng, middle, size):
+    """A ring on the map around a place, of no symmetry; all of it between the poles."""
+    angle = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(3, 12)))
+    radius = size * rng.uniform(0.3, 1.0, len(angle))[:, None]
+    ring = np.asarray(middle) + radius * np.stack([2 * np.cos(angle), np.sin(angle)], axis=1)
+    ring[:, 1] = np.clip(ring[:, 1], -90.0, 90.0)
+    return ring[:: rng.choice([-1, 1])]
+
+
+def path_of(polygon):
+    parts = [np.asarray(ring.coords) for ring in (polygon.exterior, *polygon.interiors)]
+    return Path.make_compound_path(*(Path(part, closed=True) for part in parts))
+
+
+def agrees(globe, polygon, path, count=300, seed=1):
+    """Whether places on the page are inside a path where they are inside a polygon on the map, but for its border."""
+    rng = np.random.default_rng(seed)
+    radius, angle = np.sqrt(rng.uniform(0, 1, count)), rng.uniform(0, 2 * np.pi, count)
+    page = np.stack([radius * np.cos(angle), radius * np.sin(angle)], axis=1)
+    lonlat = globe.inverted().transform(page)
+    wanted = np.zeros(count, dtype=bool)
+    for shift in (-360.0, 0.0, 360.0):
+        wanted |= shapely.contains_xy(polygon, lonlat[:, 0] + shift, lonlat[:, 1])
+    loops = [shapely.Polygon(loop) for loop in parts(path)]
+    covered = np.zeros(count, dtype=bool)
+    for loop in loops:
+        covered ^= shapely.contains_xy(loop, *page.T)
+    border = shapely.MultiLineString([loop.exterior for loop in loops])
+    clear = (
+        shapely.distance(shapely.points(page), border) > 3 * globe.tolerance if loops else np.ones(count, dtype=bool)
+    )
+    return np.array_equal(wanted[clear], covered[clear])
+
+
+@settings(max_examples=80)
+@given(sights, st.integers(0, 10**9), st.floats(-180, 180), st.floats(-70, 70), st.floats(5, 80))
+def test_regions_are_those_of_the_map(sight, seed, lon, lat, size):
+    """Stars of all sizes, over ±180° too, some with a hole, in both directions."""
+    rng = np.random.default_rng(seed)
+    ring = star(rng, (lon, lat), size)
+    polygon = shapely.Polygon(ring).buffer(0)
+    if polygon.geom_type != "Polygon" or np.ptp(ring[:, 0]) > 359:
+        return
+    if rng.random() < 0.5:
+        middle = polygon.representative_point()
+        hole = shapely.Polygon(star(rng, (middle.x, middle.y), size / 10)).buffer(0)
+        if hole.geom_type == "Polygon" and polygon.contains_properly(hole):
+            polygon = polygon.difference(hole)
+    if np.abs(np.diff(shapely.get_coordinates(polygon)[:, 0])).max() > 175:
+        return
+    globe = LonLatToPage(*sight, "straight")
+    assert agrees(globe, polygon, globe.transform_path(path_of(polygon)))
+
+
+@pytest.mark.parametrize("sight", [(lens, view) for lens in LENSES for view in VIEWS])
+def test_regions_around_poles_and_of_everything(sight):
+    globe = LonLatToPage(*sight, "straight")
+    lon = np.linspace(-180, 180, 25)
+    coast = np.stack([lon, -70 + 8 * np.cos(np.radians(3 * lon))], axis=1)
+    antarctica = shapely.Polygon([*coast, (180, -90), (-180, -90)])
+    assert agrees(globe, antarctica, globe.transform_path(path_of(antarctica)))
+    # The same without the detour over the pole, whose ring goes round it instead.
+    assert agrees(globe, antarctica, globe.transform_path(Path(coast, closed=True)))
+    north = shapely.Polygon([*(coast + (0, 90)), (180, 90), (-180, 90)])
+    assert agrees(globe, north, globe.transform_path(path_of(north)))
+    world = shapely.box(-180, -90, 180, 90)
+    assert agrees(globe, world, globe.transform_path(path_of(world)))
+    ocean = world.difference(shapely.box(-100, -60, 60, 75)).difference(shapely.box(100, -40, 150, 0))
+    assert agrees(globe, ocean, globe.transform_path(path_of(ocean)))
+
+
+def test_a_turned_picture_is_the_same_picture():
+    """The rotation of everything, and the view that turns with it."""
+    view, turn = View(20.0, 35.0), Rotation.about((70.0, 20.0), 50.0)
+    ring = np.array([(0, 0), (60, 10), (50, 60), (5, 50), (0, 0)], dtype=float)
+    first = LonLatToPage(MoebiusMap.identity(), view).transform_path(Path(ring, closed=True))
+    back = MoebiusMap.rotation(turn.inverse())
+    other = LonLatToPage(back, view).transform_path(Path(xyz_to_lonlat(turn(lonlat_to_xyz(ring))), closed=True))
+    assert np.allclose(first.vertices, other.vertices, atol=1e-12)
+
+
+def test_finer_pieces_when_asked():
+    globe = LonLatToPage(LENSES[1], VIEWS[0])
+    path = Path([(0, 40), (40, 60)])
+    coarse = len(globe.transform_path(path).vertices)
+    globe.tolerance /= 100
+    assert len(globe.transform_path(path).vertices) == pytest.approx(10 * coarse, rel=0.3)
+
+
+def test_curves_and_gaps():
+    globe = LonLatToPage(MoebiusMap.identity(), View(0, 0))
+    circle = globe.transform_path(Path.circle((0, 0), 10))
+    assert np.hypot(*circle.vertices.T).min() > 0.99 * np.sin(np.radians(9.9))
+    gap = globe.transform_path(Path([(0, 0), (10, 0), (np.nan, 0), (20, 0), (30, 0)]))
+    assert len(parts(gap)) == 2
+    assert len(globe.transform_path(Path(np.zeros((0, 2)))).vertices) == 0

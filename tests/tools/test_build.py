@@ -1,0 +1,160 @@
+"""The figure runner: what is drawn again and what is not, what the manifest says, and what happens on errors."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from stereodel.render import provenance
+from tools import build
+
+SCRIPT = """
+import os
+from pathlib import Path
+from _shared import INK
+
+class Drawing:
+    def save(self, out, *, size=None, text=True):
+        temporary = Path(out) / ".{name}.part"  # scripts run at the same time
+        temporary.write_text(INK + str(os.getpid()))
+        os.replace(temporary, Path(out) / "{name}.txt")
+        return {{"pixel_hash": "abc", "renderer": "none"}}
+
+{kind} = Drawing()
+"""
+
+
+@pytest.fixture
+def scripts(tmp_path):
+    folder = tmp_path / "figures"
+    folder.mkdir()
+    (folder / "_shared.py").write_text("INK = 'black'\n")
+    (folder / "fig01_one.py").write_text(SCRIPT.format(name="fig01_one", kind="FIGURE"))
+    (folder / "anim_two.py").write_text(SCRIPT.format(name="anim_two", kind="ANIMATION"))
+    return folder
+
+
+def command(*arguments, cwd):
+    """Run the builder as `make` does."""
+    environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[2])}
+    line = [sys.executable, "-m", "tools.build", *map(str, arguments)]
+    return subprocess.run(line, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
+
+
+def drawn(outcomes):
+    return sorted(outcome.script.stem for outcome in outcomes)
+
+
+def test_only_what_is_out_of_date_runs(scripts, tmp_path):
+    out = tmp_path / "out"
+    assert drawn(build.build(scripts, out)) == ["anim_two", "fig01_one"]
+    assert build.build(scripts, out) == []
+
+    (scripts / "fig01_one.py").touch()
+    assert build.build(scripts, out) == []  # contents decide, not times
+
+    (scripts / "fig01_one.py").write_text((scripts / "fig01_one.py").read_text() + "# changed\n")
+    assert drawn(build.build(scripts, out)) == ["fig01_one"]
+
+    (out / "anim_two.txt").unlink()
+    assert drawn(build.build(scripts, out)) == ["anim_two"]
+
+    (out / "anim_two.txt").write_text("scribbled over")
+    assert drawn(build.build(scripts, out)) == ["anim_two"]
+
+    (scripts / "_shared.py").write_text("INK = 'gray'\n")
+    assert drawn(build.build(scripts, out)) == ["anim_two", "fig01_one"]
+    assert (out / "fig01_one.txt").read_text().startswith("gray")
+
+
+def test_library_and_renderer_count_as_inputs(scripts, tmp_path, monkeypatch):
+    monkeypatch.setenv("STEREODEL_GL", "osmesa")
+    before = build._shared_digest(scripts)
+    monkeypatch.setenv("STEREODEL_GL", "egl")
+    assert build._shared_digest(scripts) != before
+    monkeypatch.setenv("STEREODEL_GL", "osmesa")
+    assert build._shared_digest(scripts) == before
+    monkeypatch.setattr(provenance, "library_versions", lambda: {"numpy": "0"})
+    assert build._shared_digest(scripts) != before
+
+
+def test_manifest_says_what_was_drawn_with_what(scripts, tmp_path):
+    out = tmp_path / "out"
+    build.build(scripts, out)
+    manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+    assert list(manifest) == ["anim_two", "fig01_one"]
+    record = manifest["fig01_one"]
+    assert record["figure"] == "fig01_one"
+    assert record["script"] == "fig01_one.py"
+    assert record["pixel_hash"] == "abc"
+    assert record["renderer"] == "none"
+    assert record["seconds"] >= 0
+    assert set(record["versions"]) == {"python", *provenance.LIBRARIES}
+    assert list(record["files"]) == ["fig01_one.txt"]
+    assert not list(out.glob(".manifest-*"))
+
+    (scripts / "anim_two.py").unlink()
+    (scripts / "fig01_one.py").write_text((scripts / "fig01_one.py").read_text() + "# changed\n")
+    build.build(scripts, out)
+    assert list(build.read_manifest(out)) == ["fig01_one"]  # no script, no record
+
+
+def test_unreadable_manifest_means_draw_again(scripts, tmp_path):
+    out = tmp_path / "out"
+    out.mkdir()
+    (out / "manifest.json").write_text('{"half')
+    assert len(build.build(scripts, out)) == 2
+
+
+def test_failing_scripts_do_not_stop_the_others(scripts, tmp_path):
+    (scripts / "fig00_bad.py").write_text("def helper():\n    raise KeyError('no such site')\n\nhelper()\n")
+    (scripts / "fig02_dies.py").write_text("import os\nos._exit(3)\n")
+    (scripts / "fig03_empty.py").write_text("")
+    ran = command("--scripts", scripts, "--out", "out", cwd=tmp_path)
+    assert ran.returncode == 1
+    assert (tmp_path / "out" / "fig01_one.txt").exists()
+    assert (tmp_path / "out" / "anim_two.txt").exists()
+    assert "2 drawn, 3 failed" in ran.stdout
+    assert "in helper" in ran.stderr
+    assert "no such site" in ran.stderr
+    assert "process died" in ran.stderr
+    assert "defines neither FIGURE nor ANIMATION" in ran.stderr
+    assert sorted(build.read_manifest(tmp_path / "out")) == ["anim_two", "fig01_one"]
+
+
+def test_names_select_scripts(scripts, tmp_path):
+    assert drawn(build.build(scripts, tmp_path / "out", ["fig"])) == ["fig01_one"]
+    with pytest.raises(build.BuildError, match=r"'fig9'; there are anim_two, fig01_one"):
+        build.build(scripts, tmp_path / "out", ["fig9"])
+    assert drawn(build.build(scripts, tmp_path / "out", ["fig"], force=True)) == ["fig01_one"]
+
+
+def test_mistakes_are_one_line(scripts, tmp_path):
+    (tmp_path / "file").write_text("")
+    for arguments, words in [
+        (("--scripts", scripts, "--out", "file/below"), "cannot write to file/below"),
+        (("--scripts", "nowhere"), "no figure scripts in nowhere"),
+    ]:
+        ran = command(*arguments, cwd=tmp_path)
+        assert ran.returncode == 2
+        assert words in ran.stderr
+        assert len(ran.stderr.splitlines()) == 1
+
+
+def test_nothing_to_do_is_quick_and_loads_no_graphics(scripts, tmp_path):
+    command("--scripts", scripts, "--out", "out", cwd=tmp_path)
+    code = (
+        "import sys, time; from stereodel.render import build; build.main(['--out', 'out']); "
+        "print(time.process_time()); "
+        "print(*{'matplotlib', 'scipy', 'OpenGL', 'rich', 'trimesh'} & set(sys.modules))"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[2])}
+    line = [sys.executable, "-c", code]
+    ran = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
+    said, seconds, loaded = ran.stdout.split("\n")[:3]
+    assert "up to date" in said
+    assert float(seconds) < 2.0  # of the processor: the machine may be busy
+    assert loaded == ""

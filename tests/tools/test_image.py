@@ -1,0 +1,229 @@
+"""Hashes, tolerances, stored arrays and the report of differences."""
+
+import hashlib
+
+import numpy as np
+import pytest
+
+from stereodel.constants import PIXEL_LEVELS
+from tools.image import (
+    array_differences,
+    compare,
+    difference_picture,
+    load_arrays,
+    pixel_hash,
+    read_picture,
+    save_arrays,
+    summarised,
+)
+from tools.report import Failure, report_failure, withdraw_failure
+
+
+@pytest.fixture
+def white():
+    return np.full((100, 100, 3), 255, dtype=np.uint8)
+
+
+def test_the_hash_is_of_shape_type_and_values(white):
+    expected = hashlib.sha256(b"(100, 100, 3) |u1\n" + b"\xff" * 30000).hexdigest()
+    assert pixel_hash(white) == expected
+    assert pixel_hash(np.asfortranarray(white)) == expected
+    assert pixel_hash(white[::-1, ::-1]) == expected
+    others = [white.reshape(50, 200, 3), white.view(np.int8), white.astype(np.uint16)]
+    assert len({expected, *map(pixel_hash, others)}) == 4
+
+
+def test_equal_pictures_pass(white):
+    assert compare(white, white.copy()).passes
+
+
+def test_one_pixel_in_ten_thousand_may_be_visibly_other(white):
+    other = white.copy()
+    other[3, 4, 1] = 255 - PIXEL_LEVELS - 1
+    assert compare(white, other).visible == 1e-4
+    assert compare(white, other).passes
+    other[9, 9, 0] = 0
+    assert not compare(white, other).passes
+
+
+def test_one_pixel_in_a_thousand_may_be_a_little_other(white):
+    other = white.copy()
+    other[5::25, 25::40, 2] -= PIXEL_LEVELS
+    other[95, 90:92, 2] -= PIXEL_LEVELS
+    assert compare(white, other).visible == 0
+    assert compare(white, other).any == 1e-3
+    assert compare(white, other).passes
+    other[1, 0, 0] -= 1
+    assert not compare(white, other).passes
+
+
+def blot(large, top, left, size, depth):
+    other = large.copy()
+    other[top : top + size[0], left : left + size[1]] -= np.uint8(depth)
+    return compare(large, other)
+
+
+@pytest.mark.parametrize(("top", "left"), [(0, 0), (30, 47), (500, 600), (996, 996)])
+def test_what_is_lost_in_the_shares_is_seen_in_a_tile(top, left):
+    """Whatever it lies on: seams of tiles are the middles of others."""
+    large = np.full((1000, 1000, 3), 255, dtype=np.uint8)
+    dot = blot(large, top, left, (2, 3), 100)
+    assert (dot.visible, dot.worst.visible, dot.worst.any) == (6e-6, 6, 6)
+    assert not dot.passes
+    assert dot.worst.row <= top < dot.worst.row + 32
+    assert dot.worst.column <= left < dot.worst.column + 32
+    assert blot(large, top, left, (2, 2), 100).passes
+    assert not blot(large, top, left, (3, 3), 1).passes
+    assert blot(large, top, left, (2, 4), 1).passes
+
+
+def test_a_failure_names_the_worst_tile():
+    large = np.full((1000, 1000, 3), 255, dtype=np.uint8)
+    assert str(blot(large, 500, 600, (3, 3), 1)).endswith("in columns 576 to 607, rows 480 to 511: 0 and 9")
+
+
+def test_levels_do_not_wrap_around():
+    dark, light = (np.full((2, 2, 3), level, dtype=np.uint8) for level in (0, 255))
+    assert compare(dark, light).visible == compare(light, dark).visible == 1
+
+
+def test_another_shape_differs_everywhere(white):
+    assert compare(white, white[:50]).visible == 1
+    assert difference_picture(white, white[:50, :70]).shape == (50, 70, 3)
+
+
+def test_the_difference_is_red_where_it_can_be_seen(white):
+    other = white.copy()
+    other[0, 0] = 0
+    other[1, 1] = 250
+    marked = difference_picture(white, other)
+    assert marked[0, 0].tolist() == [220, 0, 0]
+    assert marked[1, 1].tolist() == [240, 160, 0]
+    assert np.ptp(marked[5, 5]) == 0
+
+
+STORED = {
+    "views": np.arange(18.0).reshape(2, 3, 3) / 7,
+    "0001_stroke_path": np.random.default_rng(0).uniform(-1, 1, (5, 4, 2)),
+    "faces": np.array([[0, 1, 2], [2, 1, 3]], dtype=np.int32),
+    "closed": np.array([True, False]),
+    "text": np.array(["$\\phi$", "left"]),
+    "none": np.zeros((0, 3)),
+    "number": np.array(2.5),
+    "again": np.arange(18.0).reshape(2, 3, 3) / 7,
+    "special": np.array([np.nan, np.inf, -0.0]),
+}
+
+
+def test_arrays_come_back_as_they_were(tmp_path):
+    read = load_arrays(save_arrays(STORED, tmp_path / "a.npz"))
+    assert list(read) == list(STORED)
+    for name, array in STORED.items():
+        assert read[name].dtype == array.dtype
+        np.testing.assert_array_equal(read[name], array, strict=True)
+    assert array_differences(STORED, read, tolerance=0.0) == {}
+
+
+def test_the_same_arrays_give_the_same_bytes(tmp_path):
+    first, second = (save_arrays(STORED, tmp_path / name).read_bytes() for name in ("a.npz", "b.npz"))
+    assert first == second
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.npz", "b.npz"]
+
+
+def test_what_is_no_number_and_no_text_is_refused(tmp_path):
+    with pytest.raises(TypeError, match="numbers or text"):
+        save_arrays({"x": np.array([object()])}, tmp_path / "a.npz")
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "change", "says"),
+    [
+        ("views", lambda a: a + 3e-11, "18 of 18 entries differ"),
+        ("faces", lambda a: a[:, ::-1], "4 of 6 entries differ, first at (0, 0): 0 expected, 2 found"),
+        ("text", lambda a: np.array(["$\\phi$", "right"]), "left expected, right found"),
+        ("closed", lambda a: ~a, "2 of 2"),
+        ("none", lambda a: np.zeros((1, 3)), "shape (0, 3) expected, (1, 3) found"),
+        ("faces", lambda a: a.astype(float), "type int32 expected, float64 found"),
+        ("special", lambda a: np.array([0.0, np.inf, 0.0]), "1 of 3"),
+    ],
+)
+def test_each_kind_of_change_is_named(name, change, says):
+    found = array_differences(STORED, {**STORED, name: change(STORED[name])})
+    assert list(found) == [name]
+    assert says in found[name]
+
+
+def test_floats_may_differ_by_rounding_relative_to_the_largest():
+    large = {"x": np.array([1e6, 1.0])}
+    assert array_differences(large, {"x": large["x"] + 5e-7}) == {}
+    assert array_differences(large, {"x": large["x"] + 2e-6}) != {}
+    small = {"x": np.array([1e-3])}
+    assert array_differences(small, {"x": small["x"] + 5e-13}) == {}
+
+
+def test_missing_and_surplus_names_are_told():
+    assert array_differences({"a": np.ones(1)}, {"b": np.ones(1)}) == {"a": "missing", "b": "not expected"}
+
+
+def test_the_report_holds_all_failures_in_one_file(tmp_path, white):
+    other = white.copy()
+    other[:50] = 0
+    report_failure(Failure("fig02", ("T2: <half> of it",), white, other), tmp_path)
+    sheet = report_failure(Failure("fig01", ("T0: missing",), None, white), tmp_path)
+    text = sheet.read_text(encoding="utf-8")
+    assert text.index("fig01") < text.index("fig02")
+    assert text.count("data:image/png;base64,") == 4
+    assert "T2: &lt;half&gt; of it" in text
+    assert "http" not in text
+
+
+def test_what_passes_again_leaves_the_report(tmp_path, white):
+    for name in ("fig01", "fig02"):
+        sheet = report_failure(Failure(name, ("T1",), white, white), tmp_path)
+    withdraw_failure("fig01", tmp_path)
+    withdraw_failure("fig09", tmp_path)
+    text = sheet.read_text(encoding="utf-8")
+    assert "fig01" not in text
+    assert "fig02" in text
+
+
+def test_pictures_are_read_without_opacity(tmp_path):
+    import imageio.v3 as iio
+
+    iio.imwrite(tmp_path / "a.png", np.full((3, 2, 4), 9, dtype=np.uint8))
+    assert read_picture(tmp_path / "a.png").shape == (3, 2, 3)
+
+
+def large_page(change=lambda paths: paths):
+    """Arrays of a page as many lines make them: too many numbers to store."""
+    paths = change(np.random.default_rng(2).random((100, 700, 4, 2)))
+    named = {f"{k:04d}_stroke_coast_path": path for k, path in enumerate(paths)}
+    return {**named, "0100_label_label_text": np.array(["a"]), "geometry_sites": np.arange(9.0)}
+
+
+def moved_by(amount):
+    def change(paths):
+        paths[57, 433, 2, 1] += amount
+        return paths
+
+    return change
+
+
+def test_a_small_picture_is_kept_whole():
+    arrays = {"0000_stroke_limb_path": np.ones((5, 4, 2)), "0001_label_label_text": np.array(["a"])}
+    assert summarised(arrays) == arrays
+
+
+def test_a_summary_is_small_and_does_not_depend_on_the_order_of_the_lines():
+    found = summarised(large_page())
+    assert sum(array.size for array in found.values()) < 2100
+    assert found["0100_label_label_text"] == ["a"]
+    assert array_differences(found, summarised(large_page(lambda paths: paths[::-1]))) == {}
+
+
+@pytest.mark.parametrize(
+    "change", [moved_by(1e-5), lambda paths: paths[:-1], lambda paths: 1.0001 * paths, lambda paths: paths + 1e-9]
+)
+def test_a_summary_tells_of_one_moved_number_a_missing_line_another_scale_and_a_shift(change):
+    assert "stroke_coast_path_totals" in array_differences(summarised(large_page()), summarised(large_page(change)))

@@ -1,0 +1,1 @@
+"""What builds, compares and guards the figures and the repository; not a part of the library."""
