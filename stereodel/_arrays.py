@@ -17,6 +17,9 @@ from stereodel.constants import UNIT_ROUNDOFF
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
+Indices = npt.NDArray[np.intp]
+"""Places in other arrays, as NumPy takes them."""
+Pixels = npt.NDArray[np.uint8]
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 _Word = TypeVar("_Word", bound=str)
 

@@ -36,13 +36,14 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"triangulation"},
     "relaxation": KERNEL | {"triangulation"},
-    "io": BASE | {"_extras", "_files", "conformal", "drawing", "globe", "render", "sphere", "triangulation"},
+    "curves": BASE | {"conformal", "sphere"},
+    "io": BASE | {"_extras", "_files", "conformal", "curves", "drawing", "globe", "render", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
-    "drawing": MATHEMATICS | {"__init__"},
+    "drawing": MATHEMATICS | {"__init__", "curves"},
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "drawing"},
-    "mpl": MATHEMATICS | {"__init__", "_extras", "data", "drawing"},
+    "mpl": MATHEMATICS | {"__init__", "_extras", "curves", "data", "drawing"},
     "film": MATHEMATICS | {"__init__", "_extras", "_files", "drawing", "render"},
-    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "data", "drawing", "film", "render"},
+    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "data", "drawing", "film", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_extras", "_files", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},
 }
@@ -156,7 +157,7 @@ def test_only_pictures_and_cli_use_more_than_numpy_and_scipy():
     foreign = {
         f"{name} imports {target}"
         for name, path in MODULES.items()
-        if part(name) not in {"drawing", "render", "mpl", "film", "globe", "cli"}
+        if part(name) not in {"curves", "drawing", "render", "mpl", "film", "globe", "cli"}
         for target in imported(path)
         if target.split(".")[0] not in {"stereodel", "numpy", "scipy", *sys.stdlib_module_names}
     }

@@ -1,0 +1,312 @@
+"""Borders of charts: where arcs on the sphere meet them, and how a ring goes on along them.
+
+A chart is a disc, and its border a closed curve. A border answers five questions, and clipping asks nothing else:
+`cut`, where arcs cross it and which pieces are in sight; `flat`, where points are on the chart; `place`, how far along
+the border a point of it is, counterclockwise; `between`, what to draw from one place to another; `once`, all round.
+
+Which side of the border an arc ends on is told by the sign of one coordinate of its ends, and zero counts as positive.
+The signs decide *how many* crossings there are, the closed form only *where*; so rounding may move a crossing, but the
+arcs of a ring always leave as often as they enter.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Protocol
+
+import numpy as np
+
+from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel.constants import AT_POLE, LIMB_DEPTH
+from stereodel.curves.ragged import Ragged, offsets_of, spans
+from stereodel.curves.trace import Arcs
+from stereodel.sphere import xyz_to_lonlat
+from stereodel.sphere.latitudes import Latitude
+
+TURN = 2 * np.pi
+FINER = 1e-3
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Arcs that cross no border: which begin and end on it, which are in sight, and which run along it."""
+
+    arcs: Arcs
+    opens: BoolArray
+    shuts: BoolArray
+    seen: BoolArray
+    along: BoolArray
+
+
+class Border(Protocol):
+    """The border of a chart; `length` once round it.
+
+    Coordinates are off by `slack` for rounding, and by `blur` where curves are chords beside a border that is curved.
+    """
+
+    length: float
+    slack: float
+    blur: float
+
+    def cut(self, arcs: Arcs) -> Pieces:
+        """Arcs cut where they cross the border."""
+
+    def flat(self, chains: Ragged) -> FloatArray:
+        """Coordinates (n, 2) on the chart of points (n, 3) in chains."""
+
+    def place(self, flat: FloatArray) -> FloatArray:
+        """How far along the border points (n, 2) of it are, counterclockwise."""
+
+    def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
+        """What to draw of the border strictly between places (k,), either way."""
+
+    def once(self) -> FloatArray:
+        """The whole border, its first point again at its end."""
+
+
+class DiscView(Protocol):
+    """What maps the cap z ≥ edge of the sphere, in its own axes, onto the unit disc of a page."""
+
+    @property
+    def edge(self) -> float:
+        """Cosine of the angular radius of the cap."""
+
+    def flattened(self, axes: FloatArray) -> FloatArray:
+        """Page coordinates (..., 2) of unit vectors (..., 3)."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cap:
+    """The edge of what a view shows, z = view.edge in view axes: the limb of a ball, the rim of a flat map.
+
+    Chains stray from their curves by a tolerance; the rim is drawn `FINER` than that, so that they seldom cross it.
+    """
+
+    view: DiscView
+    tolerance: float
+    length: float = TURN
+    slack: float = 2.0**-50
+
+    @property
+    def blur(self) -> float:
+        """As far as chains and rim may stray: a sliver thinner than that may come out inside out."""
+        return self.tolerance
+
+    def cut(self, arcs: Arcs) -> Pieces:
+        """Arcs in view axes, cut at the rim; what lies on it is in sight."""
+        level = self.view.edge - LIMB_DEPTH
+        arc, t, above = crossings(arcs, np.array([0.0, 0.0, 1.0]), level)
+        points = arcs.points(arc, t)
+        reach = np.sqrt(1 - level**2) / np.hypot(*points[:, :2].T)
+        points = np.concatenate([points[:, :2] * reach[:, None], np.full((len(arc), 1), level)], axis=1)
+        pieces, opens, shuts = _marked(arcs, arc, t, points)
+        # In sight and out of sight by turns, beginning with the side of the start.
+        seen = np.repeat(above, np.bincount(arc, minlength=len(arcs)) + 1)
+        number = np.arange(len(seen)) - np.maximum.accumulate(np.where(opens, 0, np.arange(len(seen))))
+        return Pieces(pieces, opens, shuts, seen ^ (number % 2 == 1), np.zeros(len(seen), dtype=bool))
+
+    def flat(self, chains: Ragged) -> FloatArray:
+        """Page coordinates (n, 2) of points in view axes."""
+        return self.view.flattened(chains.values)
+
+    def place(self, flat: FloatArray) -> FloatArray:
+        """The angle, in [0, 2π)."""
+        return np.mod(np.arctan2(flat[:, 1], flat[:, 0]), TURN)
+
+    def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
+        """Points of the circle strictly between two angles each, either way."""
+        step = 2 * np.arccos(1 - self.tolerance * FINER)
+        pieces = np.maximum(1, np.ceil(np.abs(stop - start) / step)).astype(np.intp)
+        number, way = spans(np.ones_like(pieces), pieces - 1), np.repeat(np.arange(len(pieces)), pieces - 1)
+        angle = start[way] + (stop - start)[way] * number / pieces[way]
+        return Ragged(np.stack([np.cos(angle), np.sin(angle)], axis=1), offsets_of(pieces - 1))
+
+    def once(self) -> FloatArray:
+        """The whole circle, its first point again at its end."""
+        first = np.array([[1.0, 0.0]])
+        return np.concatenate([first, self.between(np.zeros(1), np.array([TURN])).values, first])
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """A rectangle, its border measured from the lower right corner: the frame of a plane, and the map of the Earth."""
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+    length: float = field(init=False)
+    slack: float = field(init=False)
+    blur: float = 0.0
+
+    def __post_init__(self) -> None:
+        width, height = self.right - self.left, self.top - self.bottom
+        object.__setattr__(self, "length", 2 * (width + height))
+        object.__setattr__(self, "slack", 2.0**-50 * max(map(abs, (self.left, self.right, self.bottom, self.top))))
+
+    @property
+    def corners(self) -> FloatArray:
+        """Counterclockwise from the lower right one, (4, 2)."""
+        x, y = np.array([self.right, self.right, self.left, self.left]), np.array([self.bottom, self.top] * 2)
+        return np.stack([x, y[[0, 1, 1, 0]]], axis=1)
+
+    def place(self, flat: FloatArray) -> FloatArray:
+        """How far along the border points of it are; of points off it, the nearest side's."""
+        x, y = np.clip(flat, [self.left, self.bottom], [self.right, self.top]).T
+        width, height = self.right - self.left, self.top - self.bottom
+        away = np.abs([x - self.right, y - self.top, x - self.left, y - self.bottom])
+        along = np.array(
+            [
+                y - self.bottom,
+                height + self.right - x,
+                height + width + self.top - y,
+                2 * height + width + x - self.left,
+            ]
+        )
+        return along[np.argmin(away, axis=0), np.arange(len(x))] % self.length
+
+    def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
+        """The corners strictly between two places each, either way."""
+        height, width = self.top - self.bottom, self.right - self.left
+        marks = np.array([0, height, height + width, 2 * height + width]) + self.length * np.arange(-2, 3)[:, None]
+        ahead = (marks.ravel() - start[:, None]) * np.where(stop < start, -1, 1)[:, None]
+        way, mark = np.nonzero((ahead > 0) & (ahead < np.abs(stop - start)[:, None]))
+        order = np.lexsort((ahead[way, mark], way))
+        return Ragged.grouped(self.corners[mark[order] % 4], way[order], len(start))
+
+    def once(self) -> FloatArray:
+        """All corners, the first one again at the end."""
+        return self.corners[[0, 1, 2, 3, 0]]
+
+
+@dataclass(frozen=True, eq=False)
+class Antimeridian(Box):
+    """The border of the map of longitude and latitude: the 180th meridian from both sides, and both poles.
+
+    The sphere is cut along half a great circle; on the map that is a rectangle, with a whole side for each pole. All is
+    in sight. Points on the meridian count as east of it, at 180°, where their arcs do not tell.
+    """
+
+    left: float = -180.0
+    right: float = 180.0
+    bottom: float = -90.0
+    top: float = 90.0
+    latitude: Latitude = "spherical"
+
+    def cut(self, arcs: Arcs) -> Pieces:
+        """Arcs cut at the 180th meridian and at the poles."""
+        arcs = self._with_poles(_snapped(arcs))
+        arc, t, _ = crossings(arcs, np.array([0.0, 1.0, 0.0]), 0.0, slack=AT_POLE)
+        points = arcs.points(arc, t)
+        west = points[:, 0] < -AT_POLE
+        arc, t, points = arc[west], t[west], points[west]
+        points[:, 1] = 0.0
+        points /= np.sqrt(np.sum(points**2, axis=1, keepdims=True))
+        # A vertex on the meridian is where its arcs cross it, to the last bit.
+        for end, at in ((arcs.start, arcs.begin), (arcs.end, arcs.stop)):
+            same = (t == at[arc]) & (end[arc, 1] == 0)
+            points[same] = end[arc[same]]
+        pieces, _, _ = _marked(arcs, arc, t, points)
+        opens, shuts = _on_border(pieces.start), _on_border(pieces.end)
+        both = np.flatnonzero(opens & shuts)
+        along = np.zeros(len(pieces), dtype=bool)
+        along[both] = _on_border(pieces.points(both, (pieces.begin + pieces.stop)[both] / 2), AT_POLE)
+        return Pieces(pieces, opens, shuts, np.ones(len(pieces), dtype=bool), along)
+
+    def _with_poles(self, arcs: Arcs) -> Arcs:
+        """Arcs cut where they pass a pole within rounding."""
+        for pole in ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]):
+            constant, size, phase = arcs.waves(np.array(pole))
+            t = arcs.begin + np.mod(phase - arcs.begin, TURN)
+            # As far from the pole as its circle is: height 1 − d²/2 would lose half the digits.
+            gap = np.abs(arcs.axis @ pole - arcs.offset)
+            inner = (arcs.start[:, :2] != 0).any(axis=1) & (arcs.end[:, :2] != 0).any(axis=1)
+            arc = np.flatnonzero(
+                inner & (t > arcs.begin) & (t < arcs.stop) & (gap <= AT_POLE) & (constant + size > 0.5)
+            )
+            arcs = arcs.cut(arc, t[arc], np.broadcast_to(pole, (len(arc), 3)))
+        return arcs
+
+    def flat(self, chains: Ragged) -> FloatArray:
+        """Longitude and latitude (n, 2).
+
+        An end on the meridian is on the side from which its chain comes; a pole has its neighbour's longitude.
+        """
+        points = chains.values
+        lonlat = xyz_to_lonlat(points, latitude=self.latitude)
+        if not len(points):
+            return lonlat
+        x, y = points[:, :2].T
+        beside = np.arange(len(points)) + 1
+        beside[chains.offsets[1:] - 1] -= 2
+        beside = np.minimum(beside, len(points) - 1)
+        meridian = (np.abs(y) <= AT_POLE) & (x < -AT_POLE)
+        lonlat[meridian, 0] = np.where(meridian[beside] | (y[beside] >= 0), 180.0, -180.0)[meridian]
+        pole = (np.abs(y) <= AT_POLE) & (np.abs(x) <= AT_POLE)
+        lonlat[pole, 0] = lonlat[beside[pole], 0]
+        return lonlat
+
+
+def _on_border(points: FloatArray, slack: float = 0.0) -> BoolArray:
+    """Which points are on the 180th meridian or at a pole."""
+    return (np.abs(points[:, 1]) <= slack) & (points[:, 0] <= slack)
+
+
+def crossings(
+    arcs: Arcs, direction: FloatArray, level: float, slack: float = 0.0
+) -> tuple[Indices, FloatArray, BoolArray]:
+    """Where arcs cross a plane direction·x = level: arcs (k,) and parameters (k,), in order; and which start above it.
+
+    An arc of less than a turn crosses once when its ends are on different sides, and otherwise never or twice: when its
+    highest (lowest) point is on it, and beyond the level by more than the slack.
+    """
+    first, last = arcs.start @ direction - level, arcs.end @ direction - level
+    above, ending = first >= 0, last >= 0
+    # The sides of the ends and the bound |height − h(start)| ≤ length leave few arcs to look at.
+    reach = np.sqrt(np.sum(arcs.u**2, axis=1)) * (arcs.stop - arcs.begin)
+    near = np.flatnonzero((above != ending) | (np.abs(first) + np.abs(last) <= reach))
+    some, begin, stop = arcs.take(near), arcs.begin[near], arcs.stop[near]
+    constant, size, phase = some.waves(direction)
+    constant = constant - level
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = np.nan_to_num(np.arccos(np.clip(-constant / size, -1.0, 1.0)))
+    rising, falling = (_from(begin, stop, phase + turn) for turn in (-half, half))
+    once = above[near] != ending[near]
+    # At an end that is on the plane, exactly there.
+    single = np.where(above[near], falling, rising)
+    single = np.where(last[near] == 0, stop, np.where(first[near] == 0, begin, single))
+    bulge = begin + np.mod(phase + np.where(above[near], np.pi, 0) - begin, TURN)
+    far = np.where(above[near], size - constant, size + constant) > slack
+    twice = ~once & (bulge > begin) & (bulge < stop) & far
+    out = np.where(above[near], np.pi - half, half)
+    both = np.stack([np.maximum(bulge - out, begin), np.minimum(bulge + out, stop)], axis=1)
+    arc = np.concatenate([near[once], np.repeat(near[twice], 2)])
+    t = np.concatenate([single[once], both[twice].ravel()])
+    order = np.lexsort((t, arc))
+    return arc[order], t[order], above
+
+
+def _from(begin: FloatArray, stop: FloatArray, t: FloatArray) -> FloatArray:
+    """Angles brought into the stretch from `begin` to `stop`, to the nearer end of it where rounding leads beyond."""
+    t = begin + np.mod(t - begin, TURN)
+    return np.where(t <= stop, t, np.where(t - stop < begin + TURN - t, stop, begin))
+
+
+def _marked(arcs: Arcs, arc: Indices, t: FloatArray, points: FloatArray) -> tuple[Arcs, BoolArray, BoolArray]:
+    """Arcs cut at parameters, and which pieces begin and end at a cut."""
+    pieces = arcs.cut(arc, t, points)
+    opens = np.zeros(len(pieces), dtype=bool)
+    opens[arc + np.arange(1, len(arc) + 1)] = True
+    return pieces, opens, np.append(opens[1:], False)
+
+
+def _snapped(arcs: Arcs) -> Arcs:
+    """Arcs whose ends within rounding of a plane of two axes are exactly there, those near a pole at the pole."""
+    ends = []
+    for given in (arcs.start, arcs.end):
+        points = np.where(np.abs(given) <= AT_POLE, 0.0, given)
+        pole = (points[:, 0] == 0) & (points[:, 1] == 0)
+        points[pole, 2] = np.sign(points[pole, 2])
+        ends.append(points)
+    start, end = ends
+    return replace(arcs, start=start, end=end)

@@ -1,0 +1,105 @@
+"""Rows of different lengths, one after the other: the one container of lines, rings, chains and loops.
+
+Row i is ``values[offsets[i]:offsets[i + 1]]``. Whatever is done to rows is done to all of them at once, by index
+arithmetic on the offsets; no other file of this package needs a loop over rows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, Indices
+
+
+@dataclass(frozen=True, eq=False)
+class Ragged:
+    """Values (n, ...) in rows, offsets (m + 1,)."""
+
+    values: npt.NDArray[Any]
+    offsets: Indices
+
+    @classmethod
+    def of(cls, rows: Sequence[npt.NDArray[Any]], like: npt.NDArray[Any] | None = None) -> Ragged:
+        """Rows given one by one; `like` tells the shape of a value where there may be no row."""
+        nothing = [] if like is None else [like[:0]]
+        return cls(np.concatenate([*nothing, *rows]), offsets_of([len(row) for row in rows]))
+
+    @classmethod
+    def grouped(cls, values: npt.NDArray[Any], row: Indices, count: int) -> Ragged:
+        """Values whose rows are told by number, in order; rows without a value are empty."""
+        return cls(values, offsets_of(np.bincount(row, minlength=count)))
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __iter__(self) -> Iterator[npt.NDArray[Any]]:
+        return iter(np.split(self.values, self.offsets[1:-1]) if len(self) else [])
+
+    @property
+    def sizes(self) -> Indices:
+        """Values of each row, (m,)."""
+        return np.diff(self.offsets)
+
+    @property
+    def row(self) -> Indices:
+        """The row of each value, (n,)."""
+        return np.repeat(np.arange(len(self)), self.sizes)
+
+    @property
+    def following(self) -> Indices:
+        """For each value the place of the next one of its row; after the last comes the first."""
+        after = np.arange(1, len(self.values) + 1)
+        held = self.sizes > 0
+        after[self.offsets[1:][held] - 1] = self.offsets[:-1][held]
+        return after
+
+    def take(self, rows: Indices | BoolArray) -> Ragged:
+        """Some of the rows, in the order given."""
+        chosen = np.arange(len(self))[rows]
+        sizes = self.sizes[chosen]
+        return Ragged(self.values[spans(self.offsets[chosen], sizes)], offsets_of(sizes))
+
+    def kept(self, values: BoolArray) -> Ragged:
+        """The same rows without some of their values."""
+        return Ragged(self.values[values], np.concatenate([[0], np.cumsum(values)])[self.offsets])
+
+    def rotated(self, first: Indices) -> Ragged:
+        """Each row begun at one of its values, as a closed ring may be; `first` (m,) are places in the rows."""
+        sizes = self.sizes
+        turned = spans(np.zeros_like(sizes), sizes) + np.repeat(first, sizes)
+        base, size = np.repeat(self.offsets[:-1], sizes), np.repeat(sizes, sizes)
+        return Ragged(self.values[base + turned % np.maximum(size, 1)], self.offsets)
+
+
+def offsets_of(sizes: npt.ArrayLike) -> Indices:
+    """Offsets of rows of given sizes."""
+    return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.intp))]).astype(np.intp)
+
+
+def spans(starts: Indices, sizes: Indices, step: Indices | int = 1) -> Indices:
+    """The numbers start, start + step, … of several stretches, one stretch after the other."""
+    within = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+    return np.repeat(starts, sizes) + within * (step if isinstance(step, int) else np.repeat(step, sizes))
+
+
+def cycles(successor: Indices) -> Ragged:
+    """The cycles of a permutation, each from its smallest member on.
+
+    By doubling: after k rounds each member knows the smallest of the 2ᵏ members ahead of it; once all agree on a
+    leader, the cycle is cut before it and the way to the cut is counted in the same manner.
+    """
+    leader, jump = np.arange(len(successor)), successor
+    for _ in range(len(successor).bit_length()):
+        leader, jump = np.minimum(leader, leader[jump]), jump[jump]
+    last = successor == leader
+    ahead, jump = np.where(last, 0, 1), np.where(last, np.arange(len(successor)), successor)
+    for _ in range(len(successor).bit_length()):
+        ahead, jump = ahead + ahead[jump], jump[jump]
+    order = np.lexsort((-ahead, leader))
+    _, sizes = np.unique(leader, return_counts=True)
+    return Ragged(order, offsets_of(sizes))

@@ -1,0 +1,205 @@
+"""Edges on the sphere as arcs of circles, and their images under a lens: exact, until they are sampled.
+
+A conformal map sends circles to circles. So an edge is kept as its circle, axis·x = offset, and the stretch of it that
+is meant; a lens moves the circle in closed form and the ends as points, and points in between are made last, as many as
+the image needs. Three kinds of edges become arcs: great circles (exact), parallels and other circles (exact), and edges
+straight in longitude and latitude (exact along parallels, otherwise great circles that stray by a tolerance at most).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel.conformal import MoebiusMap
+from stereodel.conformal.polylines import largest_scale
+from stereodel.constants import LONGEST_EDGE
+from stereodel.curves.ragged import Ragged, offsets_of, spans
+from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.vectors import turned
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """Arcs of circles of the unit sphere: center + cos t·u + sin t·v for t from `begin` to `stop`, a turn at most.
+
+    The circle is axis·x = offset, counterclockwise about its axis: center = offset·axis, v = axis × u.
+    """
+
+    start: FloatArray
+    """(n, 3): what the arcs share with their neighbours, bit for bit; so are `end`."""
+    end: FloatArray
+    axis: FloatArray
+    offset: FloatArray
+    u: FloatArray
+    begin: FloatArray
+    stop: FloatArray
+    edge: Indices
+    """(n,), in order: the edge that each is a piece of."""
+
+    def __len__(self) -> int:
+        return len(self.edge)
+
+    def take(self, chosen: Indices | BoolArray) -> Arcs:
+        """Some of the arcs."""
+        return Arcs(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
+
+    def turned(self, matrix: FloatArray) -> Arcs:
+        """The arcs in other axes, the rows of a rotation matrix."""
+        start, end, axis, u = (turned(vectors, matrix) for vectors in (self.start, self.end, self.axis, self.u))
+        return replace(self, start=start, end=end, axis=axis, u=u)
+
+    def waves(self, direction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Along each arc direction·x is constant + size·cos(t − phase)."""
+        cosine, sine = self.u @ direction, np.cross(self.axis, self.u) @ direction
+        return self.offset * (self.axis @ direction), np.hypot(cosine, sine), np.arctan2(sine, cosine)
+
+    def points(self, arc: Indices, t: FloatArray) -> FloatArray:
+        """Points (k, 3) of arcs (k,) at parameters (k,)."""
+        axis, u = self.axis[arc], self.u[arc]
+        return axis * self.offset[arc, None] + np.cos(t)[:, None] * u + np.sin(t)[:, None] * np.cross(axis, u)
+
+    def cut(self, arc: Indices, t: FloatArray, points: FloatArray) -> Arcs:
+        """The same arcs in pieces, at parameters t (k,) of arcs (k,), in order; neighbours share the points (k, 3)."""
+        if not len(arc):
+            return self
+        pieces = self.take(np.repeat(np.arange(len(self)), np.bincount(arc, minlength=len(self)) + 1))
+        after = arc + np.arange(1, len(arc) + 1)  # the k-th cut has k cuts before it, each one more piece
+        pieces.start[after], pieces.end[after - 1] = points, points
+        pieces.begin[after], pieces.stop[after - 1] = t, t
+        return pieces
+
+    def through(self, lens: MoebiusMap) -> Arcs:
+        """The images under a lens.
+
+        Arcs are cut where they are nearest to the focus and farthest from it, whose images are opposite on the image
+        circle, by symmetry: between them an image sweeps half a turn at most, and its ends tell how far.
+        """
+        if lens.magnification == 1:
+            return self.turned(lens.left.matrix @ lens.right.matrix)
+        # Both apsides, each in the turn from `begin` on; those beyond `stop` are not on the arc.
+        _, _, phase = self.waves(lens.focus)
+        t = self.begin[:, None] + np.sort(np.mod(phase[:, None] + [0, np.pi] - self.begin[:, None], 2 * np.pi), axis=1)
+        arc, which = np.nonzero((t > self.begin[:, None]) & (t < self.stop[:, None]))
+        arcs = self.cut(arc, t[arc, which], self.points(arc, t[arc, which]))
+        # (axis, offset) is a vector of Minkowski space, which a lens boosts along the focus.
+        size = lens.magnification
+        axis = turned(arcs.axis, lens.right.matrix)
+        even, odd = (1 / size + size) / 2, (1 / size - size) / 2
+        height, offset = axis[:, 2] * even + arcs.offset * odd, axis[:, 2] * odd + arcs.offset * even
+        axis[:, 2] = height
+        length = np.sqrt(np.sum(axis**2, axis=1))
+        length[length == 0] = 1.0  # an arc without length has no axis
+        axis, offset = turned(axis, lens.left.matrix) / length[:, None], offset / length
+        start, end = lens(arcs.start), lens(arcs.end)
+        center = axis * offset[:, None]
+        u, w = start - center, end - center
+        return Arcs(start, end, axis, offset, u, np.zeros(len(u)), _swept(axis, u, w), arcs.edge)
+
+    def sampled(self, tolerance: float) -> Ragged:
+        """Points of each arc, both ends included, whose chords stray from it by a tolerance at most.
+
+        A chord of the angle a is off a circle of radius r by r(1 − cos(a/2)).
+        """
+        radius = np.sqrt(np.sum(self.u**2, axis=1))
+        step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), -1.0, 1.0))
+        return self.spread(np.maximum(1, np.ceil((self.stop - self.begin) / step)).astype(np.intp))
+
+    def spread(self, pieces: Indices) -> Ragged:
+        """Points at equal steps, so many steps for each arc."""
+        offsets = offsets_of(pieces + 1)
+        points = np.empty((offsets[-1], 3))
+        points[offsets[:-1]], points[offsets[1:] - 1] = self.start, self.end
+        arc = np.repeat(np.arange(len(self)), pieces - 1)
+        number = spans(np.ones_like(pieces), pieces - 1)
+        t = self.begin[arc] + (self.stop - self.begin)[arc] * number / pieces[arc]
+        points[offsets[arc] + number] = self.points(arc, t)
+        return Ragged(points, offsets)
+
+
+def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) -> Arcs:
+    """The shorter great-circle arcs between unit vectors (n, 3); `normal` tells which, where ends may be opposite."""
+    # a × b = (a − b) × (a + b) / 2, whose first factor is exact for close points.
+    axis = np.cross(start - end, start + end)
+    length = np.sqrt(np.sum(axis**2, axis=1, keepdims=True))
+    axis = np.divide(axis, length, out=np.zeros_like(axis), where=length > 0)
+    if normal is not None:
+        far = (np.sum(start * end, axis=1) < 0) & normal.any(axis=1)
+        axis[far] = normal[far]
+    count = len(start)
+    return Arcs(
+        start, end, axis, np.zeros(count), start.copy(), np.zeros(count), _swept(axis, start, end), np.arange(count)
+    )
+
+
+def _swept(axis: FloatArray, u: FloatArray, w: FloatArray) -> FloatArray:
+    """Angle about an axis from u to w, at most half a turn: rounding must not make −π of π."""
+    return np.arctan2(np.abs(np.sum(np.cross(axis, u) * w, axis=1)), np.sum(u * w, axis=1))
+
+
+def sides_of(lines: Ragged) -> tuple[Indices, Ragged]:
+    """Of lines of vertices: the vertices that another follows, and the edges of each line, numbered so."""
+    inner = np.ones(len(lines.values), dtype=bool)
+    inner[lines.offsets[1:] - 1] = False
+    first = np.flatnonzero(inner)
+    return first, Ragged(np.arange(len(first)), lines.offsets - np.arange(len(lines) + 1))
+
+
+def straight(
+    a: FloatArray, b: FloatArray, lens: MoebiusMap, tolerance: float, latitude: Latitude = "spherical"
+) -> Arcs:
+    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within a tolerance of theirs, radii."""
+    p, q = lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude)
+    length, bend = measures_in_lonlat(a, b, p, q)
+    # A parallel is a circle: followed exactly. At the poles it is a point.
+    level = (a[:, 1] == b[:, 1]) & (a[:, 0] != b[:, 0]) & (np.abs(a[:, 1]) < 90) & (np.abs(b - a)[:, 0] <= 360)
+    wanted = np.maximum(np.sqrt(bend * largest_scale(lens, p, length) / tolerance), length / np.radians(LONGEST_EDGE))
+    pieces = np.where(level, 1, np.maximum(1, np.ceil(wanted))).astype(np.intp)
+    edge = np.repeat(np.arange(len(a)), pieces)
+    number = spans(np.zeros_like(pieces), pieces)
+    cut = np.flatnonzero(number)
+    share = (number[cut] / pieces[edge[cut]])[:, None]
+    start, end = p[edge], q[edge]
+    # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
+    start[cut] = end[cut - 1] = lonlat_to_xyz(a[edge[cut]] + share * (b - a)[edge[cut]], latitude=latitude)
+    arcs = replace(great(start, end), edge=edge)
+    which = np.flatnonzero(level[edge])
+    east = np.sign((b - a)[edge[which], 0])
+    arcs.axis[which] = np.stack([0 * east, 0 * east, east], axis=1)
+    arcs.offset[which] = east * start[which, 2]
+    arcs.u[which] = start[which] * [1, 1, 0]
+    arcs.stop[which] = np.radians(np.abs((b - a)[edge[which], 0]))
+    return arcs
+
+
+def unwrapped(lines: Ragged) -> Ragged:
+    """Lines of degrees whose longitude goes on where it jumps across ±180°, but for steps along a pole."""
+    step = np.diff(lines.values, axis=0, prepend=lines.values[:1])
+    step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
+    polar = (np.abs(lines.values[:, 1]) == 90) & (step[:, 1] == 0)
+    jumps = np.where(
+        (np.abs(step[:, 0]) > 180) & (np.abs(step[:, 0]) < 360) & ~polar, -360.0 * np.sign(step[:, 0]), 0.0
+    )
+    if not jumps.any():
+        return lines
+    total = np.cumsum(jumps)
+    shift = total - np.repeat(total[lines.offsets[:-1]], lines.sizes)
+    return Ragged(np.stack([lines.values[:, 0] + shift, lines.values[:, 1]], axis=1), lines.offsets)
+
+
+def measures_in_lonlat(
+    start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Upper bounds, radians: of the length of edges straight in (lon, lat), and how far they stray from a great circle.
+
+    With steps a in longitude and b in latitude the covariant acceleration is (sin φ cos φ a², −2 sin φ a b) northwards
+    and eastwards; a curve strays by an eighth of it from the great-circle arc between its ends.
+    """
+    a, b = np.abs(np.radians(end - start)).T
+    sine = np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))
+    lowest = np.where(p[:, 2] * q[:, 2] < 0, 0.0, np.minimum(np.abs(p[:, 2]), np.abs(q[:, 2])))
+    cosine = np.sqrt(np.maximum(0.0, 1 - lowest**2))
+    return np.hypot(cosine * a, b), sine * np.hypot(cosine * a**2, 2 * a * b) / 8
