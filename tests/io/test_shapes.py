@@ -1,0 +1,146 @@
+"""The taker of shapes: GeoJSON, frames, geometries; the same from each; what is none of them is refused in words."""
+
+import json
+
+import geopandas
+import numpy as np
+import pytest
+import shapely
+
+from stereodel.io.shapes import shapes_of
+
+RING = [[0, 0], [10, 0], [10, 10], [0, 0]]
+
+
+def feature(geometry, **properties):
+    return {"type": "Feature", "properties": properties, "geometry": geometry}
+
+
+EVERYTHING = {
+    "type": "FeatureCollection",
+    "features": [
+        feature({"type": "Point", "coordinates": [1, 2, 300.0]}, size=3),
+        feature({"type": "MultiPoint", "coordinates": [[1, 2], [3, 4]]}, size=None),
+        feature({"type": "LineString", "coordinates": [[1, 2], [3, 4]]}),
+        feature({"type": "MultiLineString", "coordinates": [[[1, 2], [3, 4]], [[5, 6], [7, 8], [9, 10]]]}, size=4.5),
+        feature({"type": "Polygon", "coordinates": [RING, [[1, 1], [2, 1], [2, 2], [1, 1]]]}),
+        feature({"type": "MultiPolygon", "coordinates": [[RING], [RING]]}),
+        feature(None),
+        feature(
+            {
+                "type": "GeometryCollection",
+                "geometries": [{"type": "Point", "coordinates": [5, 5]}, {"type": "Polygon", "coordinates": [RING]}],
+            }
+        ),
+        feature({"type": "Point", "coordinates": []}),
+        feature({"type": "MultiPolygon", "coordinates": []}),
+    ],
+}
+
+
+def assert_everything(shapes, heights=True):
+    assert len(shapes.properties) == len(EVERYTHING["features"])
+    assert shapes.points.tolist() == [[1, 2], [1, 2], [3, 4], [5, 5]]
+    assert shapes.point_feature.tolist() == [0, 1, 1, 7]
+    assert [line.tolist() for line in shapes.lines] == [
+        [[1, 2], [3, 4]],
+        [[1, 2], [3, 4]],
+        [[5, 6], [7, 8], [9, 10]],
+    ]
+    assert shapes.line_feature.tolist() == [2, 3, 3]
+    assert [ring.tolist() for ring in shapes.rings] == [RING, [[1, 1], [2, 1], [2, 2], [1, 1]], RING, RING, RING]
+    assert shapes.ring_polygon.tolist() == [0, 0, 1, 2, 3]
+    assert shapes.polygon_feature.tolist() == [4, 5, 5, 7]
+
+
+def test_every_kind_is_sorted_with_its_feature():
+    shapes = shapes_of(EVERYTHING)
+    assert_everything(shapes)
+    np.testing.assert_array_equal(shapes.column("size"), [3, np.nan, np.nan, 4.5] + [np.nan] * 6)
+
+
+def test_files_frames_and_geometries_are_the_same(tmp_path):
+    path = tmp_path / "all.geojson"
+    path.write_text(json.dumps(EVERYTHING))
+    frame = geopandas.GeoDataFrame.from_features(EVERYTHING, crs="EPSG:4326")
+    for source in (path, str(path), frame, frame.geometry, list(frame.geometry), iter(frame.geometry)):
+        assert_everything(shapes_of(source))
+    np.testing.assert_array_equal(shapes_of(frame).column("size"), shapes_of(EVERYTHING).column("size"))
+    assert_everything(shapes_of(EVERYTHING["features"]))
+
+
+def test_other_coordinates_are_transformed(tmp_path):
+    assert shapes_of(shapely.Point(3, 4)).points.tolist() == [[3.0, 4.0]]
+    series = geopandas.GeoSeries([shapely.Point(10, 50)], crs="EPSG:4326").to_crs("EPSG:3857")
+    np.testing.assert_allclose(shapes_of(series).points, [[10, 50]], atol=1e-9)
+    path = tmp_path / "points.gpkg"
+    geopandas.GeoDataFrame({"a": [1]}, geometry=series.array, crs="EPSG:3857").to_file(path)
+    shapes = shapes_of(path)
+    np.testing.assert_allclose(shapes.points, [[10, 50]], atol=1e-9)
+    assert shapes.column("a").tolist() == [1]
+
+
+def test_nested_collections_and_closed_lines():
+    line = shapely.LinearRing(RING)
+    nested = shapely.GeometryCollection([shapely.GeometryCollection([line, shapely.MultiPoint([(1, 2), (3, 4)])])])
+    for source in (nested, nested.__geo_interface__, [nested], [nested.__geo_interface__]):
+        shapes = shapes_of(source)
+        assert [row.tolist() for row in shapes.lines] == [RING]
+        assert shapes.points.tolist() == [[1, 2], [3, 4]]
+        assert not len(shapes.rings)
+
+
+def test_open_rings_are_closed():
+    shapes = shapes_of({"type": "Polygon", "coordinates": [RING[:-1]]})
+    assert shapes.rings.values.tolist() == RING
+
+
+@pytest.mark.parametrize("source", [[], {"type": "FeatureCollection", "features": []}, geopandas.GeoSeries([])])
+def test_nothing(source):
+    shapes = shapes_of(source)
+    assert (len(shapes.points), len(shapes.lines), len(shapes.rings), len(shapes.properties)) == (0, 0, 0, 0)
+    assert shapes.points.shape == shapes.lines.values.shape == shapes.rings.values.shape == (0, 2)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ("{", "is not JSON"),
+        ("[1, 2]", "is not GeoJSON"),
+        ('{"type": "Topology"}', "is not GeoJSON: its type is 'Topology'"),
+        ('{"type": "FeatureCollection"}', "without a list of features"),
+        ('{"type": "FeatureCollection", "features": [{"type": "Point"}]}', "feature 0 is not of type Feature"),
+        ('{"type": "Feature", "geometry": {"type": "Circle", "coordinates": [1, 2]}}', "of type 'Circle'"),
+        ('{"type": "Polygon"}', "Polygon without coordinates"),
+        ('{"type": "Polygon", "coordinates": [[[1, 2], [3, 4], [1, 2]]]}', "a ring of 2 points; a ring needs three"),
+        ('{"type": "LineString", "coordinates": [[1, 2], [3]]}', "are not two or three numbers"),
+        ('{"type": "LineString", "coordinates": [[1, 2], ["a", 4]]}', "are not two or three numbers"),
+        ('{"type": "LineString", "coordinates": [[1, 2], [3, 95]]}', r"bad.geojson: LineString.* latitude 95"),
+        ('{"type": "Point", "coordinates": [NaN, 2]}', "NaN|nan|finite"),
+    ],
+)
+def test_what_is_not_geojson_is_refused(tmp_path, content, message):
+    path = tmp_path / "bad.geojson"
+    path.write_text(content)
+    with pytest.raises(ValueError, match=message) as error:
+        shapes_of(path)
+    assert "bad.geojson" in str(error.value)
+
+
+def test_other_objects_and_missing_files_are_refused(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"nowhere\.geojson"):
+        shapes_of(tmp_path / "nowhere.geojson")
+    with pytest.raises(TypeError, match="source must be a file"):
+        shapes_of(3)
+    with pytest.raises(TypeError, match=r"source\[1\] must be a geometry"):
+        shapes_of([EVERYTHING, 3])
+    with pytest.raises(ValueError, match="latitude 95"):
+        shapes_of(shapely.Point(0, 95))
+
+
+def test_columns_must_be_there_and_hold_numbers():
+    shapes = shapes_of(feature({"type": "Point", "coordinates": [0, 0]}, name="here"))
+    with pytest.raises(ValueError, match="'depth' is not a property of the features; they have name"):
+        shapes.column("depth")
+    with pytest.raises(ValueError, match="'name' holds something that is not a number"):
+        shapes.column("name")
