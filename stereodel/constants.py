@@ -58,6 +58,19 @@ A hundred times the rounding of a turned unit vector, so that a curve on the lim
 the viewer it lies within 1e-24 of the limb.
 """
 
+RIM_FINENESS: Final = 1e-3
+"""How far the rim of a chart may stray from its circle, in terms of what the curves that end on it may.
+
+Were it as coarse as they are, it would cross them, and a region's outline itself: ears of such outlines cover a
+thousandth of the disc too much. A rim 32 times as fine leaves less than a millionth, and has few points.
+"""
+
+CHART_ROUNDING: Final = 2.0**-50
+"""How far coordinates on a chart may be off for rounding, in terms of its size: four units in the last place of 1.
+
+A loop whose area is less than that times its length has no side to speak of, and is no region.
+"""
+
 ON_BALL: Final = 1e-9
 """Distance from a sphere, relative to its radius, within which a drawn arc is taken to lie on it, and a plane to touch.
 

@@ -15,16 +15,18 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 import numpy as np
+import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, Indices
-from stereodel.constants import AT_POLE, LIMB_DEPTH
+from stereodel._arrays import BoolArray, FloatArray, Indices, as_floats
+from stereodel.constants import AT_POLE, CHART_ROUNDING, LIMB_DEPTH, RIM_FINENESS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.curves.trace import Arcs
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
 TURN = 2 * np.pi
-FINER = 1e-3
+MARGIN = 0.1
+"""What `frame_of` adds on each side of the points, in terms of their longer side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,18 +40,20 @@ class Pieces:
     along: BoolArray
 
 
-class Border(Protocol):
-    """The border of a chart; `length` once round it.
+class Outline(Protocol):
+    """The border of a chart, of which the curves are cut already."""
 
-    Coordinates are off by `slack` for rounding, and by `blur` where curves are chords beside a border that is curved.
-    """
+    @property
+    def length(self) -> float:
+        """Once round it."""
 
-    length: float
-    slack: float
-    blur: float
+    @property
+    def slack(self) -> float:
+        """How far coordinates may be off for rounding."""
 
-    def cut(self, arcs: Arcs) -> Pieces:
-        """Arcs cut where they cross the border."""
+    @property
+    def blur(self) -> float:
+        """How far curves may be off, as chords beside a border that is curved."""
 
     def flat(self, chains: Ragged) -> FloatArray:
         """Coordinates (n, 2) on the chart of points (n, 3) in chains."""
@@ -62,6 +66,13 @@ class Border(Protocol):
 
     def once(self) -> FloatArray:
         """The whole border, its first point again at its end."""
+
+
+class Border(Outline, Protocol):
+    """The border of a chart, and where arcs cross it."""
+
+    def cut(self, arcs: Arcs) -> Pieces:
+        """Arcs cut where they cross the border."""
 
 
 class DiscView(Protocol):
@@ -79,13 +90,13 @@ class DiscView(Protocol):
 class Cap:
     """The edge of what a view shows, z = view.edge in view axes: the limb of a ball, the rim of a flat map.
 
-    Chains stray from their curves by a tolerance; the rim is drawn `FINER` than that, so that they seldom cross it.
+    Chains stray from their curves by a tolerance, the rim by `RIM_FINENESS` of that, so that they seldom cross it.
     """
 
     view: DiscView
     tolerance: float
     length: float = TURN
-    slack: float = 2.0**-50
+    slack: float = CHART_ROUNDING
 
     @property
     def blur(self) -> float:
@@ -95,6 +106,7 @@ class Cap:
     def cut(self, arcs: Arcs) -> Pieces:
         """Arcs in view axes, cut at the rim; what lies on it is in sight."""
         level = self.view.edge - LIMB_DEPTH
+        # Points where the planes of circle and rim meet, moved onto the rim itself, which all that closes it shares.
         arc, t, above = crossings(arcs, np.array([0.0, 0.0, 1.0]), level)
         points = arcs.points(arc, t)
         reach = np.sqrt(1 - level**2) / np.hypot(*points[:, :2].T)
@@ -115,7 +127,7 @@ class Cap:
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
         """Points of the circle strictly between two angles each, either way."""
-        step = 2 * np.arccos(1 - self.tolerance * FINER)
+        step = 2 * np.arccos(1 - self.tolerance * RIM_FINENESS)
         pieces = np.maximum(1, np.ceil(np.abs(stop - start) / step)).astype(np.intp)
         number, way = spans(np.ones_like(pieces), pieces - 1), np.repeat(np.arange(len(pieces)), pieces - 1)
         angle = start[way] + (stop - start)[way] * number / pieces[way]
@@ -142,13 +154,18 @@ class Box:
     def __post_init__(self) -> None:
         width, height = self.right - self.left, self.top - self.bottom
         object.__setattr__(self, "length", 2 * (width + height))
-        object.__setattr__(self, "slack", 2.0**-50 * max(map(abs, (self.left, self.right, self.bottom, self.top))))
+        reach = max(map(abs, (self.left, self.right, self.bottom, self.top)))
+        object.__setattr__(self, "slack", CHART_ROUNDING * reach)
 
     @property
     def corners(self) -> FloatArray:
         """Counterclockwise from the lower right one, (4, 2)."""
         x, y = np.array([self.right, self.right, self.left, self.left]), np.array([self.bottom, self.top] * 2)
         return np.stack([x, y[[0, 1, 1, 0]]], axis=1)
+
+    def flat(self, chains: Ragged) -> FloatArray:
+        """Points of the plane (n, 2), as they are."""
+        return chains.values
 
     def place(self, flat: FloatArray) -> FloatArray:
         """How far along the border points of it are; of points off it, the nearest side's."""
@@ -179,6 +196,26 @@ class Box:
         return self.corners[[0, 1, 2, 3, 0]]
 
 
+def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
+    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default that of points of the plane (n, 2) and a margin.
+
+    Raises
+    ------
+    ValueError
+        Unless xmin < xmax and ymin < ymax.
+    """
+    if bounds is not None:
+        given = as_floats(bounds, "bounds")
+        if given.shape != (4,) or not (given[:2] < given[2:]).all():
+            raise ValueError(f"bounds must be (xmin, ymin, xmax, ymax) with xmin < xmax and ymin < ymax, got {bounds}")
+        left, bottom, right, top = given.tolist()
+        return Box(left, right, bottom, top)
+    low, high = (points.min(axis=0), points.max(axis=0)) if len(points) else (np.zeros(2), np.zeros(2))
+    margin = MARGIN * float((high - low).max()) or 1.0
+    (left, bottom), (right, top) = (low - margin).tolist(), (high + margin).tolist()
+    return Box(left, right, bottom, top)
+
+
 @dataclass(frozen=True, eq=False)
 class Antimeridian(Box):
     """The border of the map of longitude and latitude: the 180th meridian from both sides, and both poles.
@@ -196,6 +233,7 @@ class Antimeridian(Box):
     def cut(self, arcs: Arcs) -> Pieces:
         """Arcs cut at the 180th meridian and at the poles."""
         arcs = self._with_poles(_snapped(arcs))
+        # The plane of the meridian cuts arcs on its near side too, at longitude 0; those cuts are left out.
         arc, t, _ = crossings(arcs, np.array([0.0, 1.0, 0.0]), 0.0, slack=AT_POLE)
         points = arcs.points(arc, t)
         west = points[:, 0] < -AT_POLE
@@ -207,6 +245,7 @@ class Antimeridian(Box):
             same = (t == at[arc]) & (end[arc, 1] == 0)
             points[same] = end[arc[same]]
         pieces, _, _ = _marked(arcs, arc, t, points)
+        # Vertices on the border cut, too; what has both ends and its middle there runs along it.
         opens, shuts = _on_border(pieces.start), _on_border(pieces.end)
         both = np.flatnonzero(opens & shuts)
         along = np.zeros(len(pieces), dtype=bool)
@@ -215,16 +254,18 @@ class Antimeridian(Box):
 
     def _with_poles(self, arcs: Arcs) -> Arcs:
         """Arcs cut where they pass a pole within rounding."""
-        for pole in ([0.0, 0.0, 1.0], [0.0, 0.0, -1.0]):
-            constant, size, phase = arcs.waves(np.array(pole))
-            t = arcs.begin + np.mod(phase - arcs.begin, TURN)
+        for up in (1.0, -1.0):
+            pole = np.array([0.0, 0.0, up])
             # As far from the pole as its circle is: height 1 − d²/2 would lose half the digits.
-            gap = np.abs(arcs.axis @ pole - arcs.offset)
-            inner = (arcs.start[:, :2] != 0).any(axis=1) & (arcs.end[:, :2] != 0).any(axis=1)
-            arc = np.flatnonzero(
-                inner & (t > arcs.begin) & (t < arcs.stop) & (gap <= AT_POLE) & (constant + size > 0.5)
-            )
-            arcs = arcs.cut(arc, t[arc], np.broadcast_to(pole, (len(arc), 3)))
+            near = np.flatnonzero(np.abs(arcs.axis[:, 2] * up - arcs.offset) <= AT_POLE)
+            some = arcs.take(near)
+            constant, size, phase = some.waves(pole)
+            t = some.begin + np.mod(phase - some.begin, TURN)
+            # An arc that ends at a pole needs no cut; the middle of its circle tells which pole the circle passes.
+            inner = (some.start[:, :2] != 0).any(axis=1) & (some.end[:, :2] != 0).any(axis=1)
+            passing = inner & (t > some.begin) & (t < some.stop) & (constant + size > 0.5)
+            arc, t = near[passing], t[passing]
+            arcs = arcs.cut(arc, t, np.broadcast_to(pole, (len(arc), 3)))
         return arcs
 
     def flat(self, chains: Ragged) -> FloatArray:
@@ -236,6 +277,7 @@ class Antimeridian(Box):
         lonlat = xyz_to_lonlat(points, latitude=self.latitude)
         if not len(points):
             return lonlat
+        # The next point of the chain, of the last one the point before.
         x, y = points[:, :2].T
         beside = np.arange(len(points)) + 1
         beside[chains.offsets[1:] - 1] -= 2
@@ -272,9 +314,11 @@ def crossings(
         half = np.nan_to_num(np.arccos(np.clip(-constant / size, -1.0, 1.0)))
     rising, falling = (_from(begin, stop, phase + turn) for turn in (-half, half))
     once = above[near] != ending[near]
-    # At an end that is on the plane, exactly there.
+    # Ends on different sides: the one crossing is where the height passes the level downwards from an arc that starts
+    # above, upwards from one below; at an end that is on the plane, exactly there.
     single = np.where(above[near], falling, rising)
     single = np.where(last[near] == 0, stop, np.where(first[near] == 0, begin, single))
+    # Ends on the same side: two crossings about the lowest (highest) point, if it is on the arc and beyond the level.
     bulge = begin + np.mod(phase + np.where(above[near], np.pi, 0) - begin, TURN)
     far = np.where(above[near], size - constant, size + constant) > slack
     twice = ~once & (bulge > begin) & (bulge < stop) & far

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
-from stereodel.curves.borders import Border, Pieces
+from stereodel.curves.borders import Outline, Pieces
 from stereodel.curves.ragged import Ragged, cycles, offsets_of, spans
 from stereodel.curves.trace import Arcs
 
@@ -41,20 +41,23 @@ class Chains:
 def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
     """Lines and rings, given by their edges (~edge where backwards), as chains of pieces."""
     arcs = pieces.arcs
-    edge, back = np.where(sides.values < 0, ~sides.values, sides.values), sides.values < 0
-    pieces_of = np.searchsorted(arcs.edge, np.arange(edge.max(initial=-1) + 2))
-    sizes = np.diff(pieces_of)[edge]
-    piece = spans(np.where(back, pieces_of[edge + 1] - 1, pieces_of[edge]), sizes, np.where(back, -1, 1))
-    run = Ragged(np.where(np.repeat(back, sizes), ~piece, piece), offsets_of(sizes)[sides.offsets])
+    # Pieces are in the order of their edges: those of an edge are a stretch, run from its end where it is backwards.
+    edge, back = np.maximum(sides.values, ~sides.values), sides.values < 0
+    lowest = edge.min(initial=len(arcs))
+    pieces_of = np.searchsorted(arcs.edge, np.arange(lowest, max(lowest, edge.max(initial=-1)) + 2))
+    first, last = pieces_of[edge - lowest], pieces_of[edge - lowest + 1]
+    piece = spans(np.where(back, last - 1, first), last - first, np.where(back, -1, 1))
+    run = Ragged(np.where(np.repeat(back, last - first), ~piece, piece), offsets_of(last - first)[sides.offsets])
     # A closed line has no beginning of its own: it is begun at its first cut.
     held = run.sizes > 0
-    first, last = run.values[run.offsets[:-1][held]], run.values[run.offsets[1:][held] - 1]
+    heads, tails = run.values[run.offsets[:-1][held]], run.values[run.offsets[1:][held] - 1]
     closed = np.zeros(len(run), dtype=bool)
-    closed[held] = (_begin(arcs, first) == _begin(arcs, ~last)).all(axis=1)
+    closed[held] = (_begin(arcs, heads) == _begin(arcs, ~tails)).all(axis=1)
     at = np.flatnonzero(_flag(pieces.opens, pieces.shuts, run.values))
     turn = np.zeros(len(run), dtype=np.intp)
     turn[run.row[at[::-1]]] = at[::-1] - run.offsets[run.row[at[::-1]]]
     run = run.rotated(np.where(closed, turn, 0))
+    # Chains begin at cuts and at the beginnings of rows.
     cut = _flag(pieces.opens, pieces.shuts, run.values)
     begins = cut.copy()
     begins[run.offsets[:-1][held]] = True
@@ -65,25 +68,21 @@ def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
         Ragged(run.values, np.append(starts, len(run.values))),
         row,
         closed[row] & ~cut[starts],
-        pieces.seen[np.where(head < 0, ~head, head)],
+        pieces.seen[np.maximum(head, ~head)],
     )
 
 
 def points_along(chains: Ragged, samples: Ragged) -> Ragged:
     """Points of chains from the samples of their pieces, of which neighbours share their ends."""
-    piece, back = np.where(chains.values < 0, ~chains.values, chains.values), chains.values < 0
+    piece, back = np.maximum(chains.values, ~chains.values), chains.values < 0
     counts = samples.sizes[piece] - 1
-    counts[chains.offsets[1:] - 1] += 1  # the last piece of a chain brings its end
+    counts[chains.offsets[1:][chains.sizes > 0] - 1] += 1  # the last piece of a chain brings its end
     start = np.where(back, samples.offsets[piece + 1] - 1, samples.offsets[piece])
     points = samples.values[spans(start, counts, np.where(back, -1, 1))]
-    found = Ragged(points, offsets_of(counts)[chains.offsets])
-    fresh = np.ones(len(points), dtype=bool)
-    fresh[1:] = (points[1:] != points[:-1]).any(axis=1)
-    fresh[found.offsets[:-1]] = True
-    return found.kept(fresh)
+    return without_repeats(Ragged(points, offsets_of(counts)[chains.offsets]))
 
 
-def lines(sides: Ragged, pieces: Pieces, samples: Ragged, border: Border) -> tuple[Ragged, Indices]:
+def lines(sides: Ragged, pieces: Pieces, samples: Ragged, border: Outline) -> tuple[Ragged, Indices]:
     """What is in sight of lines, on the chart, and the line that each part belongs to."""
     chains = chains_of(sides, pieces)
     points = points_along(chains.pieces.take(chains.seen), samples)
@@ -92,7 +91,7 @@ def lines(sides: Ragged, pieces: Pieces, samples: Ragged, border: Border) -> tup
 
 
 def regions(
-    rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Border
+    rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline
 ) -> tuple[Ragged, Indices]:
     """What is in sight of regions with their rings' left inside: closed loops on the chart, and the region of each.
 
@@ -132,7 +131,7 @@ def regions(
     return together(loops, Ragged.of([once] * len(borders), once)), np.concatenate([loop_owner, borders])
 
 
-def closed_along(border: Border, chains: Ragged, owner: Indices) -> tuple[Ragged, Indices]:
+def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragged, Indices]:
     """Loops of chains (k, 2) from border to border, each region's closed along it; and the region of each loop."""
     if not len(chains):
         return chains, owner
@@ -142,9 +141,8 @@ def closed_along(border: Border, chains: Ragged, owner: Indices) -> tuple[Ragged
     # Loops alternate between chains, in the first half of the rows, and walks along the border, in the second.
     loops = cycles(follower)
     rows = together(chains, border.between(ends, stop)).take((loops.values[:, None] + [0, len(chains)]).ravel())
-    return with_first_again(Ragged(rows.values, rows.offsets[2 * loops.offsets])), owner[
-        loops.values[loops.offsets[:-1]]
-    ]
+    closed = without_repeats(with_first_again(Ragged(rows.values, rows.offsets[2 * loops.offsets])))
+    return closed, owner[loops.values[loops.offsets[:-1]]]
 
 
 def followers(starts: FloatArray, ends: FloatArray, length: float, owner: Indices) -> tuple[Indices, FloatArray]:
@@ -191,6 +189,14 @@ def signed_areas(loops: Ragged) -> tuple[FloatArray, FloatArray]:
 def together(a: Ragged, b: Ragged) -> Ragged:
     """The rows of both."""
     return Ragged(np.concatenate([a.values, b.values]), np.concatenate([a.offsets, a.offsets[-1] + b.offsets[1:]]))
+
+
+def without_repeats(rows: Ragged) -> Ragged:
+    """Rows of points without those that are equal to the one before them."""
+    fresh = np.ones(len(rows.values), dtype=bool)
+    fresh[1:] = (rows.values[1:] != rows.values[:-1]).any(axis=1)
+    fresh[rows.offsets[:-1][rows.sizes > 0]] = True
+    return rows.kept(fresh)
 
 
 def _surround(chains: Chains, region: Indices, unseen: Indices, samples: Ragged) -> BoolArray:

@@ -68,6 +68,12 @@ class Ragged:
         """The same rows without some of their values."""
         return Ragged(self.values[values], np.concatenate([[0], np.cumsum(values)])[self.offsets])
 
+    def inserted(self, places: Indices, values: npt.NDArray[Any]) -> Ragged:
+        """The same rows with further values (k, ...) before those at places (k,), in order."""
+        return Ragged(
+            np.insert(self.values, places, values, axis=0), self.offsets + np.searchsorted(places, self.offsets)
+        )
+
     def rotated(self, first: Indices) -> Ragged:
         """Each row begun at one of its values, as a closed ring may be; `first` (m,) are places in the rows."""
         sizes = self.sizes

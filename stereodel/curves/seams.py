@@ -10,8 +10,31 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, Indices
+from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.curves.ragged import Ragged, cycles, spans
+
+
+def left_inside(rings: Ragged, outer: BoolArray) -> Ragged:
+    """Closed rings (k, 2) in degrees, in either direction, turned so that their region is on the left.
+
+    Outer rings then run counterclockwise and holes clockwise. A ring whose longitudes go on round the Earth, as
+    `unwrapped` makes them, has no side of its own: it holds the pole on its smaller side.
+    """
+    points, after = rings.values, rings.following
+    last = np.zeros(len(points), dtype=bool)
+    last[rings.offsets[1:] - 1] = True
+    # Twice the area on the map, from the first point of each, and how far each goes round.
+    p = points - np.repeat(points[rings.offsets[:-1]], rings.sizes, axis=0)
+    step = np.where(last[:, None], 0.0, points[after] - points)
+    area = np.bincount(rings.row, p[:, 0] * step[:, 1] - p[:, 1] * step[:, 0], minlength=len(rings))
+    turns = np.round(np.bincount(rings.row, step[:, 0], minlength=len(rings)) / 360)
+    # The area on the left of a ring round the Earth is 2π − ∫ sin φ dλ, whichever way it runs.
+    sine = np.sin(np.radians(points[:, 1]))
+    height = np.bincount(rings.row, (sine + sine[after]) / 2 * step[:, 0], minlength=len(rings))
+    backwards = np.where(turns != 0, height < 0, area < 0) == outer
+    place = np.arange(len(points))
+    mirrored = (rings.offsets[:-1] + rings.offsets[1:] - 1)[rings.row] - place
+    return Ragged(points[np.where(backwards[rings.row], mirrored, place)], rings.offsets)
 
 
 def stitched(rings: Ragged, owner: Indices) -> tuple[FloatArray, FloatArray, Ragged, Indices]:

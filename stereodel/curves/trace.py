@@ -154,7 +154,8 @@ def straight(
     """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within a tolerance of theirs, radii."""
     p, q = lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude)
     length, bend = measures_in_lonlat(a, b, p, q)
-    # A parallel is a circle: followed exactly. At the poles it is a point.
+    # A parallel is a circle: followed exactly. At the poles it is a point. All others are cut in as many great circles
+    # as keep their images within the tolerance, by the largest scale along them.
     level = (a[:, 1] == b[:, 1]) & (a[:, 0] != b[:, 0]) & (np.abs(a[:, 1]) < 90) & (np.abs(b - a)[:, 0] <= 360)
     wanted = np.maximum(np.sqrt(bend * largest_scale(lens, p, length) / tolerance), length / np.radians(LONGEST_EDGE))
     pieces = np.where(level, 1, np.maximum(1, np.ceil(wanted))).astype(np.intp)
@@ -166,6 +167,7 @@ def straight(
     # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
     start[cut] = end[cut - 1] = lonlat_to_xyz(a[edge[cut]] + share * (b - a)[edge[cut]], latitude=latitude)
     arcs = replace(great(start, end), edge=edge)
+    # In place of a parallel's great circle its own: about the Earth's axis, east or west, as far as the longitudes say.
     which = np.flatnonzero(level[edge])
     east = np.sign((b - a)[edge[which], 0])
     arcs.axis[which] = np.stack([0 * east, 0 * east, east], axis=1)

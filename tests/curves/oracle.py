@@ -1,0 +1,106 @@
+"""What the tests of curves compare with: winding numbers by counting, stars told in a gnomonic plane, whole circles."""
+
+import numpy as np
+
+from stereodel import SphereArc
+from stereodel.curves import clip
+from stereodel.curves.borders import Cap
+from stereodel.curves.ragged import Ragged, offsets_of
+from stereodel.curves.trace import Arcs, great
+
+
+def units(vectors):
+    """Directions (..., 3) as unit vectors."""
+    vectors = np.asarray(vectors, dtype=float)
+    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+
+
+def winding(loops, places):
+    """Winding numbers of closed loops about places (n, 2)."""
+    total = np.zeros(len(places), dtype=int)
+    for loop in loops:
+        (x0, y0), (x1, y1) = (ends.T[:, None] for ends in (loop[:-1], loop[1:]))
+        x, y = places.T[:, :, None]
+        left = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
+        total += ((y0 <= y) & (y1 > y) & (left > 0)).sum(axis=1) - ((y0 > y) & (y1 <= y) & (left < 0)).sum(axis=1)
+    return total
+
+
+def ring(points):
+    """One ring of great-circle edges through directions, and its row of edges."""
+    points = units(points)
+    return great(points, np.roll(points, -1, axis=0)), rows(len(points))
+
+
+def rings(parts):
+    """Several of them."""
+    parts = [units(part) for part in parts]
+    start, end = np.concatenate(parts), np.concatenate([np.roll(part, -1, axis=0) for part in parts])
+    return great(start, end), rows(*map(len, parts))
+
+
+def rows(*sizes):
+    """Edges in rows of given sizes, counted through."""
+    return Ragged(np.arange(sum(sizes)), offsets_of(sizes))
+
+
+def whole_circles(circles):
+    """Circles as two arcs each, and a row for each circle."""
+    frames = [SphereArc.whole(circle).frame() for circle in circles]
+    center, u, _ = (np.repeat(np.array([frame[k] for frame in frames]), 2, axis=0) for k in range(3))
+    axis = np.repeat(np.array([circle.normal for circle in circles]), 2, axis=0)
+    offset = np.repeat([circle.offset for circle in circles], 2)
+    first = np.tile([True, False], len(circles))
+    a, b = center + u, center - u
+    arcs = Arcs(
+        np.where(first[:, None], a, b),
+        np.where(first[:, None], b, a),
+        axis,
+        offset,
+        u,
+        np.where(first, 0.0, np.pi),
+        np.where(first, np.pi, 2 * np.pi),
+        np.arange(len(first)),
+    )
+    return arcs, rows(*[2] * len(circles))
+
+
+def in_sight(arcs, sides, view, tolerance=1e-4, owner=None, count=1):
+    """Loops on a page of regions whose rings are rows of edges, their arcs in the axes of the Earth."""
+    cap = Cap(view, tolerance)
+    pieces = cap.cut(arcs.turned(view.matrix))
+    samples = pieces.arcs.sampled(tolerance / view.stretch)
+    owner = np.zeros(len(sides), dtype=np.intp) if owner is None else owner
+    return clip.regions(sides, owner, count, pieces, samples, cap)
+
+
+class Star:
+    """A star about a centre, all of it nearer than 80°, with great-circle sides: in a gnomonic plane straight ones."""
+
+    def __init__(self, rng, center, low, high, count):
+        angle = np.sort(rng.uniform(0, 2 * np.pi, count))
+        angle = angle[np.append(True, np.diff(angle) > 1e-3)]
+        reach = np.tan(np.radians(rng.uniform(low, high, len(angle))))
+        across = units(np.cross(center, rng.normal(size=3)))
+        self.axes = np.stack([across, np.cross(center, across), center])
+        self.plane = np.stack([reach * np.cos(angle), reach * np.sin(angle)], axis=1)
+        # A gap of more than half a turn has the centre outside.
+        self.round = np.diff(np.append(angle, angle[0] + 2 * np.pi)).max() < 2.9
+
+    @property
+    def points(self):
+        """Vertices counterclockwise as unit vectors."""
+        return units(np.column_stack([self.plane, np.ones(len(self.plane))]) @ self.axes)
+
+    def holds(self, xyz):
+        """Which unit vectors (n, 3) lie inside."""
+        local = xyz @ self.axes.T
+        ahead = local[:, 2] > 0
+        flat = np.where(ahead[:, None], local[:, :2] / np.where(ahead, local[:, 2], 1.0)[:, None], 1e9)
+        return winding([np.concatenate([self.plane, self.plane[:1]])], flat).astype(bool)
+
+    def surrounds(self, other):
+        """Whether another star about the same centre lies inside, sides and all."""
+        steps = np.linspace(0, 1, 50)[:, None, None]
+        after = np.roll(other.points, -1, axis=0)
+        return self.holds(((1 - steps) * other.points + steps * after).reshape(-1, 3)).all()

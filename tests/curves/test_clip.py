@@ -1,0 +1,342 @@
+"""Lines and regions clipped and closed: ends of lines, membership told in a gnomonic plane, tilings, hard cases."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import SphereCircle, SphericalVoronoi, fisheye
+from stereodel.curves import clip
+from stereodel.curves.borders import Antimeridian, Box, Cap
+from stereodel.curves.fill import triangles
+from stereodel.curves.ragged import Ragged, offsets_of
+from stereodel.curves.trace import Arcs, great
+from stereodel.drawing.view import StereographicView, View
+from tests.curves.oracle import Star, in_sight, ring, rings, rows, units, whole_circles, winding
+
+SEEDS = st.integers(0, 10**9)
+X, Y, Z = np.eye(3)
+FRONT = View(0, 0)
+
+
+def area(loops):
+    return clip.signed_areas(loops)[0].sum()
+
+
+def any_view(rng):
+    place = rng.uniform(-180, 180), rng.uniform(-90, 90)
+    return (
+        View(*place) if rng.random() < 0.5 else StereographicView(*place, extent=float(rng.choice([10.0, 90.0, 170.0])))
+    )
+
+
+def distances(places, loops):
+    """From places (n, 2) to the nearest side of loops."""
+    best = np.full(len(places), np.inf)
+    for loop in loops:
+        a, chord = loop[:-1], np.diff(loop, axis=0)
+        share = np.einsum("ijk,jk->ij", places[:, None] - a, chord) / np.maximum(np.sum(chord**2, axis=1), 1e-300)
+        nearest = a + np.clip(share, 0, 1)[:, :, None] * chord
+        best = np.minimum(best, np.linalg.norm(places[:, None] - nearest, axis=2).min(axis=1))
+    return best
+
+
+@settings(max_examples=250)
+@given(SEEDS)
+def test_regions_hold_what_they_hold_on_the_sphere(seed):
+    """Stars of half a degree to a hemisphere and their complements, with holes, under lenses from 0.1 to 1000."""
+    rng = np.random.default_rng(seed)
+    center = units(rng.normal(size=3))
+    high = rng.choice([0.5, 20, 80])
+    outer = Star(rng, center, high / 3, high, rng.integers(3, 14))
+    if not outer.round:
+        return
+    inner = Star(rng, center, high / 40, high / 5, rng.integers(3, 9)) if rng.random() < 0.5 else None
+    if inner is not None and not (inner.round and outer.surrounds(inner)):
+        inner = None
+    parts = [outer.points] + ([inner.points[::-1]] if inner is not None else [])
+    everything_else = rng.random() < 0.5
+    arcs, sides = rings([part[::-1] if everything_else else part for part in parts])
+    lens = fisheye(units(rng.normal(size=3)), magnification=float(10 ** rng.uniform(-1, 3)))
+    view, tolerance = any_view(rng), 1e-4
+    loops, _ = in_sight(arcs.through(lens), sides, view, tolerance)
+    places = rng.uniform(-1, 1, (200, 2))
+    places = places[np.hypot(*places.T) < 0.999]
+    there = lens.inverse()(view.raised(places) @ view.matrix)
+    wanted = outer.holds(there) & ~(inner.holds(there) if inner is not None else False)
+    wanted = wanted != everything_else
+    found = winding(loops, places)
+    clear = distances(places, loops) > 3 * tolerance
+    assert set(found[clear].tolist()) <= {0, 1}
+    assert ((found > 0) == wanted)[clear].all()
+
+
+@settings(max_examples=100)
+@given(SEEDS)
+def test_ends_of_lines_are_exact(seed):
+    """Images of great arcs against points of the image that are found by bisection."""
+    rng = np.random.default_rng(seed)
+    view, (p, q) = View(rng.uniform(-180, 180), rng.uniform(-90, 90)), units(rng.normal(size=(2, 3)))
+    lens = fisheye(units(rng.normal(size=3)), magnification=float(10 ** rng.uniform(-1, 2)))
+    cap = Cap(view, 1e-4)
+    pieces = cap.cut(great(p[None], q[None]).through(lens).turned(view.matrix))
+    found, line = clip.lines(rows(1), pieces, pieces.arcs.sampled(1e-4), cap)
+    assert (line == 0).all()
+    # Heights along the image, at points that get closer wherever they change sign.
+    share = np.linspace(0, 1, 4001)
+    height = lambda s: (lens(units((1 - s)[:, None] * p + s[:, None] * q)) @ view.matrix.T)[:, 2]  # noqa: E731
+    h = height(share)
+    at = np.flatnonzero((h[1:] >= 0) != (h[:-1] >= 0))
+    low, high = share[at], share[at + 1]
+    for _ in range(60):
+        middle = (low + high) / 2
+        same = (height(middle) >= 0) == (height(low) >= 0)
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    wanted = (lens(units((1 - low)[:, None] * p + low[:, None] * q)) @ view.matrix.T)[:, :2]
+    rims = [end for row in found for end in (row[0], row[-1]) if abs(np.hypot(*end) - 1) < 1e-12]
+    assert len(rims) >= len(wanted)
+    if len(rims) == len(wanted):
+        gaps = np.abs(np.array(rims)[:, None] - wanted[None]).max(axis=2).min(axis=1) if len(rims) else np.zeros(1)
+        assert gaps.max() < 1e-9
+    else:
+        # More only where the image all but touches the limb.
+        assert np.abs(h).min() < 1e-4
+
+
+def test_a_line_that_begins_in_sight_and_a_closed_one():
+    cap = Cap(FRONT, 1e-4)
+    arcs = great(units([[1, 1, 0], [0, 1, 0]]), units([[0, 1, 0], [-1, 1, 0]])).turned(FRONT.matrix)
+    pieces = cap.cut(arcs)
+    found, line = clip.lines(rows(2), pieces, pieces.arcs.sampled(1e-4), cap)
+    assert len(found) == 1
+    np.testing.assert_allclose(found.values[[0, -1]], [[0.5**0.5, 0], [1, 0]], atol=1e-11)
+    # A circle over the limb that is given from its hidden half on is one line, not two.
+    circle, sides = whole_circles([SphereCircle.around((90, 0), 30.0)])
+    for begun in (sides, Ragged(sides.values[::-1].copy(), sides.offsets)):
+        pieces = cap.cut(circle.turned(FRONT.matrix))
+        found, _ = clip.lines(begun, pieces, pieces.arcs.sampled(1e-4), cap)
+        assert len(found) == 1
+    assert line.tolist() == [0]
+
+
+def test_lines_run_backwards_have_the_same_points():
+    rng = np.random.default_rng(2)
+    points = units(rng.normal(size=(9, 3)))
+    cap = Cap(FRONT, 1e-3)
+    pieces = cap.cut(great(points[:-1], points[1:]).turned(FRONT.matrix))
+    samples = pieces.arcs.sampled(1e-3)
+    there, _ = clip.lines(rows(8), pieces, samples, cap)
+    back, _ = clip.lines(Ragged(~np.arange(8)[::-1], np.array([0, 8])), pieces, samples, cap)
+    for ours, theirs in zip(there, list(back)[::-1], strict=True):
+        np.testing.assert_array_equal(ours, theirs[::-1])
+
+
+@pytest.mark.parametrize(
+    ("points", "wanted"),
+    [
+        ([X, Y, Z], np.pi / 4),
+        ([-X, Z, Y], 0.0),
+        ([X, Z, Y], 3 * np.pi / 4),
+        ([-X, Y, Z], np.pi),
+        ([Y, Z, -Y, (1, 0, 1)], np.pi / 2 - np.pi / 2 * 0.5**0.5),
+    ],
+    ids=["octant", "hidden octant", "all but an octant", "all but a hidden octant", "sides on the limb"],
+)
+def test_vertices_on_the_limb(points, wanted):
+    loops, _ = in_sight(*ring(points), FRONT, 1e-6)
+    assert area(loops) == pytest.approx(wanted, abs=1e-5)
+
+
+@pytest.mark.parametrize("lon", [60.0, 60 - 1e-10, 60 + 1e-10, 120.0, 120 - 1e-10, 120 + 1e-10])
+def test_circles_that_touch_the_limb(lon):
+    """A sliver at the limb thinner than the tolerance runs clockwise as chords; that must not add the whole disc."""
+    circle = SphereCircle.around((lon, 0.0), 30.0)
+    inside = np.pi * 0.25 * np.cos(np.radians(lon)) if lon < 90 else 0.0
+    assert area(in_sight(*whole_circles([circle]), FRONT, 1e-6)[0]) == pytest.approx(inside, abs=1e-5)
+    assert area(in_sight(*whole_circles([circle.complement]), FRONT, 1e-6)[0]) == pytest.approx(
+        np.pi - inside, abs=1e-5
+    )
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
+def test_slivers_at_the_limb_do_not_add_the_disc(tolerance):
+    """Triangles that reach in front of the limb by a part of the tolerance, many at once."""
+    rng = np.random.default_rng(6)
+    angle = rng.uniform(0, 2 * np.pi, 3000)
+    depth = tolerance * rng.uniform(0, 1.5, 3000)
+    width = rng.uniform(0.01, 0.4, 3000)
+    corner = lambda a, z: np.stack([np.sin(z), np.cos(a) * np.cos(z), np.sin(a) * np.cos(z)], axis=1)  # noqa: E731
+    # The front is x > 0; a horizontal side just in front, the third corner behind.
+    parts = np.stack(
+        [corner(angle, depth), corner(angle + width, depth), corner(angle + width / 2, -0.2 + 0 * angle)], axis=1
+    )
+    back = np.einsum("ij,ij->i", np.cross(parts[:, 0], parts[:, 1]), parts[:, 2]) < 0
+    parts[back] = parts[back][:, ::-1]
+    start, end = parts.reshape(-1, 3), np.roll(parts, -1, axis=1).reshape(-1, 3)
+    loops, owner = in_sight(great(start, end), rows(*[3] * 3000), FRONT, tolerance, np.arange(3000), 3000)
+    covered = np.bincount(owner, clip.signed_areas(loops)[0], minlength=3000)
+    assert covered.max() < 0.1
+    assert covered.min() > -1e-3
+
+
+def test_both_sides_of_the_limb_itself():
+    assert area(in_sight(*whole_circles([SphereCircle.around((0, 0), 90.0)]), FRONT, 1e-6)[0]) == pytest.approx(
+        np.pi, abs=1e-5
+    )
+    assert area(in_sight(*whole_circles([SphereCircle.around((180, 0), 90.0)]), FRONT, 1e-6)[0]) == pytest.approx(
+        0, abs=1e-5
+    )
+
+
+@settings(max_examples=100)
+@given(st.sampled_from([0, 90, 180, -90]), st.sampled_from([-90, 0, 90]), SEEDS)
+def test_a_cap_and_the_rest_fill_the_disc(lon, lat, seed):
+    rng = np.random.default_rng(seed)
+    circle = SphereCircle.around(rng.uniform((-180, -90), (180, 90)), rng.uniform(1, 179))
+    if rng.random() < 0.5:
+        place = float(rng.choice([0, 90, 180, -90])), float(rng.choice([-90, 0, 90]))
+        circle = SphereCircle.around(place, float(rng.choice([30.0, 60.0, 90.0, 120.0])))
+    both = sum(area(in_sight(*whole_circles([c]), View(lon, lat), 1e-5)[0]) for c in (circle, circle.complement))
+    assert both == pytest.approx(np.pi, abs=2e-4)
+
+
+@pytest.mark.parametrize("size", [1.0, 4.0, 300.0])
+@pytest.mark.parametrize("view", [View(10, 40), StereographicView(10, 40, extent=120.0)])
+def test_cells_tile_the_disc(size, view):
+    """All regions at once, sides traced once: no gap, no overlap, the areas of all loops are the disc."""
+    diagram = SphericalVoronoi(np.random.default_rng(9).normal(size=(2000, 3)))
+    ends = diagram.vertices[diagram.ridge_vertices]
+    arcs = great(ends[:, 0], ends[:, 1], diagram.ridge_normals())
+    pairs = diagram.ridge_points
+    sides, owner = (
+        np.concatenate([np.arange(len(pairs)), ~np.arange(len(pairs))]),
+        np.concatenate([pairs[:, 0], pairs[:, 1]]),
+    )
+    # Sides of a cell in the order of its vertices.
+    row, tail = (
+        np.argsort(owner, kind="stable"),
+        np.concatenate([diagram.ridge_vertices[:, 0], diagram.ridge_vertices[:, 1]]),
+    )
+    ordered = []
+    for members in np.split(row, np.cumsum(np.bincount(owner))[:-1]):
+        vertices = diagram.regions[owner[members[0]]]
+        ordered.append(sides[members[np.argsort([vertices.index(v) for v in tail[members]])]])
+    lens = fisheye((10.0, 50.0), magnification=size)
+    loops, belongs = in_sight(arcs.through(lens), Ragged.of(ordered), view, 1e-4, np.arange(2000), 2000)
+    assert area(loops) == pytest.approx(np.pi, abs=3e-4)
+    assert (clip.signed_areas(loops)[0] > 0).all()
+    assert len(np.unique(belongs)) == len(belongs)
+    places = np.random.default_rng(1).uniform(-1, 1, (300, 2))
+    places = places[np.hypot(*places.T) < 0.99]
+    deep = winding(loops, places)
+    assert (deep == 1).mean() > 0.98
+    assert (deep[distances(places, loops) > 3e-4] == 1).all()
+
+
+def test_the_rim_is_finer_than_the_chains():
+    """A rim as coarse as the chains crosses them, and ears then cover 1.8e-3 too much."""
+    rng = np.random.default_rng(3)
+    for _ in range(10):
+        circle = SphereCircle.around((rng.uniform(40, 140), rng.uniform(-60, 60)), rng.uniform(20, 80))
+        loops, owner = in_sight(*whole_circles([circle]), FRONT, 1e-3)
+        corners, _ = triangles(loops, owner)
+        (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+        assert np.abs(ax * by - ay * bx).sum() / 2 == pytest.approx(area(loops), abs=3e-7)
+
+
+def test_a_region_whose_rings_are_empty_is_not_hidden():
+    """Duplicates have no cell: their rings have no side, and nothing of them is in sight or out of sight."""
+    arcs, sides = ring([X, Y, Z])
+    some = Ragged(sides.values, np.array([0, 0, 3, 3]))
+    loops, owner = in_sight(arcs, some, FRONT, 1e-5, np.arange(3), 3)
+    assert owner.tolist() == [1]
+    assert area(loops) == pytest.approx(np.pi / 4, abs=1e-4)
+    hidden, owner = in_sight(*[ring([-X, Z, Y])[0], some], FRONT, 1e-5, np.arange(3), 3)
+    assert not len(owner)
+    assert not len(hidden)
+
+
+def test_regions_whose_rings_are_all_hidden_are_all_or_nothing():
+    small = Star(np.random.default_rng(0), -X, 5, 30, 8).points
+    hole = Star(np.random.default_rng(1), -X, 1, 3, 8).points
+    for parts, wanted in (
+        ([small], 0.0),
+        ([small[::-1]], np.pi),
+        ([small, hole[::-1]], 0.0),
+        ([small[::-1], hole], np.pi),
+    ):
+        loops, _ = in_sight(*rings(parts), FRONT, 1e-6)
+        assert area(loops) == pytest.approx(wanted, abs=1e-5)
+
+
+def on_map(points, step=0.02):
+    """Loops on the map of a ring of great-circle edges."""
+    arcs, sides = ring(points)
+    border = Antimeridian()
+    pieces = border.cut(arcs)
+    samples = pieces.arcs.spread(np.maximum(1, np.ceil((pieces.arcs.stop - pieces.arcs.begin) / step)).astype(np.intp))
+    return clip.regions(sides, np.zeros(1, dtype=np.intp), 1, pieces, samples, border)[0]
+
+
+def test_rings_on_the_map():
+    """Octants at ±180°, with a pole as a vertex; sides on the meridian come back on the right side of the map."""
+    for a, b, low, high in ((X, Y, 0, 90), (Y, -X, 90, 180), (-X, -Y, -180, -90), (-Y, X, -90, 0)):
+        loops = on_map([a, b, Z])
+        assert len(loops) == 1
+        assert area(loops) == pytest.approx(90 * 90, abs=1e-9)
+        assert (loops.values[:, 0].min(), loops.values[:, 0].max()) == (low, high)
+        assert loops.values[:, 1].max() == 90
+        assert area(on_map([b, a, Z])) == pytest.approx(360 * 180 - 90 * 90, abs=1e-9)
+    assert len(on_map(units([[-1, 0.2, -0.2], [-1, -0.2, -0.2], [-1, 0, 0.2]]))) == 2
+    polar = on_map(units([[1, 0, 2], [-1, 1, 2], [-1, -1, 2]]))
+    assert len(polar) == 1
+    assert polar.values[:, 1].max() == 90
+
+
+@settings(max_examples=60)
+@given(SEEDS)
+def test_a_ring_and_its_reverse_fill_the_map(seed):
+    rng = np.random.default_rng(seed)
+    grid = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], dtype=float)
+    points = units(grid)[rng.permutation(26)[:3]]
+    if abs(np.linalg.det(points)) < 0.1:
+        return
+    assert area(on_map(points)) + area(on_map(points[::-1])) == pytest.approx(360 * 180, abs=1e-6)
+
+
+def test_chains_are_joined_by_their_order_along_the_border():
+    """Strips through a box: ends and starts sorted, no search; what overlaps counts twice."""
+    box = Box(0.0, 4.0, 0.0, 4.0)
+    up, down = lambda x: np.array([[x, 0.0], [x, 4.0]]), lambda x: np.array([[x, 4.0], [x, 0.0]])
+    one, beside = [up(2), down(1)], [up(3.5), down(3)]
+    loops, owner = clip.closed_along(box, Ragged.of(one + beside), np.zeros(4, dtype=np.intp))
+    assert owner.tolist() == [0, 0]
+    assert clip.signed_areas(loops)[0].tolist() == [4.0, 2.0]
+    loops, owner = clip.closed_along(box, Ragged.of([*one, up(3), down(1.5)]), np.zeros(4, dtype=np.intp))
+    assert area(loops) == 4 + 6
+    loops, owner = clip.closed_along(box, Ragged.of(one + beside), np.array([0, 0, 1, 1]))
+    assert np.bincount(owner, clip.signed_areas(loops)[0]).tolist() == [4.0, 2.0]
+    # What is left and right of a strip, with the corners of the box.
+    loops, _ = clip.closed_along(box, Ragged.of([up(1), down(3)]), np.zeros(2, dtype=np.intp))
+    assert clip.signed_areas(loops)[0].tolist() == [4.0, 4.0]
+
+
+def test_arcs_of_other_circles_are_regions_too():
+    """A half disc: half of a parallel and the great circle through its ends."""
+    c, h = np.cos(0.5), np.sin(0.5)
+    a, b, u, axis = np.array([c, 0, h]), np.array([-c, 0, h]), np.array([c, 0, 0]), Z
+    back = great(b[None], a[None], np.array([[0.0, 1.0, 0.0]]))
+    half = Arcs(
+        a[None],
+        b[None],
+        axis[None],
+        np.array([h]),
+        u[None],
+        np.zeros(1),
+        np.array([np.pi]),
+        np.zeros(1, int),
+    )
+    both = Arcs(*(np.concatenate([getattr(half, f), getattr(back, f)]) for f in half.__dataclass_fields__))
+    both = Arcs(*(getattr(both, f) for f in list(half.__dataclass_fields__)[:-1]), np.arange(2))
+    loops, _ = in_sight(both, Ragged(np.arange(2), offsets_of([2])), View(0, 90), 1e-6)
+    assert area(loops) == pytest.approx(np.pi / 2 * np.cos(0.5) ** 2, abs=1e-5)

@@ -1,0 +1,145 @@
+"""Edges as arcs and their images: on their circles, ends bit for bit, chords within the tolerance."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.trace import great, sides_of, straight, unwrapped
+from tests.curves.oracle import units
+
+SEEDS = st.integers(0, 10**9)
+AXES = np.eye(3)
+
+
+def any_lens(rng):
+    return fisheye(units(rng.normal(size=3)), magnification=float(10 ** rng.uniform(-2, 3)))
+
+
+def off_lines(points, samples):
+    """How far points (n, 3) are from chords between the samples of one arc."""
+    start, end = samples.values[:-1], samples.values[1:]
+    chord = end - start
+    share = np.einsum("ijk,jk->ij", points[:, None] - start, chord) / np.maximum(np.sum(chord**2, axis=1), 1e-300)
+    nearest = start + np.clip(share, 0, 1)[:, :, None] * chord
+    return np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1)
+
+
+def between(p, q, share):
+    """Points of great-circle arcs from p to q, not evenly."""
+    return units((1 - share)[:, None] * p + share[:, None] * q)
+
+
+@settings(max_examples=60)
+@given(SEEDS)
+def test_images_of_great_arcs_lie_on_their_arcs(seed):
+    rng = np.random.default_rng(seed)
+    lens, (p, q) = any_lens(rng), units(rng.normal(size=(2, 3)))
+    arcs = great(p[None], q[None]).through(lens)
+    # The ends are the images of the ends, and pieces share theirs, bit for bit.
+    assert (arcs.start[0] == lens(p)).all()
+    assert (arcs.end[-1] == lens(q)).all()
+    assert (arcs.start[1:] == arcs.end[:-1]).all()
+    assert (arcs.stop - arcs.begin <= np.pi + 1e-9).all()
+    # Images of points between lie on one of the circles, and no farther from the chords than the tolerance.
+    images = lens(between(p, q, np.linspace(0, 1, 300)))
+    assert np.abs(images @ arcs.axis.T - arcs.offset).min(axis=1).max() < 1e-9
+    tolerance = 10.0 ** rng.uniform(-6, -1)
+    samples = arcs.sampled(tolerance)
+    joined = Ragged(samples.values, np.array([0, len(samples.values)]))
+    assert off_lines(images, joined).max() < tolerance * (1 + 1e-6) + 1e-9
+
+
+def test_half_turns_keep_their_angle():
+    """Rounding makes of a half turn's sine a tiny negative number, whose arc tangent is −π: no arc at all."""
+    rng = np.random.default_rng(8)
+    start = units(rng.normal(size=(2000, 3)))
+    normal = units(np.cross(start, rng.normal(size=(2000, 3))))
+    arcs = great(start, -start, normal)
+    assert np.abs(arcs.stop - np.pi).max() < 1e-7
+    middle = arcs.points(np.arange(2000), arcs.stop / 2)
+    assert np.abs(middle - np.cross(normal, start)).max() < 1e-7
+    # The apsides of an image are half a turn apart.
+    for lens in (fisheye(AXES[0], magnification=5.0), fisheye(AXES[2], magnification=0.2)):
+        images = great(np.array([[0.6, 0.8, 0.0]]), np.array([[-0.6, -0.8, 0.0]]), np.array([[0.0, 0.0, 1.0]])).through(
+            lens
+        )
+        assert (images.stop > 0.1).all()
+        assert images.sampled(1e-3).sizes.min() > 3
+
+
+def test_a_lens_that_magnifies_nothing_turns():
+    lens = MoebiusMap.rotation((30.0, 20.0), 130.0)
+    arcs = great(AXES[:1], AXES[1:2]).through(lens)
+    np.testing.assert_allclose(arcs.start, lens(AXES[:1]), atol=1e-15)
+    np.testing.assert_allclose(arcs.points(np.array([0]), arcs.stop / 2), lens(units([[1.0, 1.0, 0.0]])), atol=1e-15)
+
+
+def test_edges_without_length_stay():
+    for lens in (MoebiusMap.identity(), fisheye(AXES[0], magnification=3.0)):
+        samples = great(AXES[:1], AXES[:1]).through(lens).sampled(1e-4)
+        np.testing.assert_allclose(samples.values, lens(AXES[[0, 0]]), atol=1e-15)
+
+
+@settings(max_examples=80)
+@given(SEEDS, st.sampled_from(["spherical", "geodetic", "authalic"]))
+def test_edges_straight_in_degrees(seed, latitude):
+    rng = np.random.default_rng(seed)
+    lens = any_lens(rng)
+    a, b = rng.uniform((-180, -90), (180, 90), size=(2, 2))
+    if rng.random() < 0.3:
+        b[1] = a[1]
+    if rng.random() < 0.2:
+        b = b.copy()
+        b[1] = 90.0
+    tolerance = 10.0 ** rng.uniform(-4, -2)
+    arcs = straight(a[None], b[None], lens, tolerance / 2, latitude).through(lens)
+    samples = arcs.sampled(tolerance / 2)
+    share = np.linspace(0, 1, 400)[:, None]
+    images = lens(lonlat_to_xyz((1 - share) * a + share * b, latitude=latitude))
+    assert off_lines(images, Ragged(samples.values, np.array([0, len(samples.values)]))).max() < tolerance
+    ends = lens(lonlat_to_xyz(np.stack([a, b]), latitude=latitude))
+    assert (samples.values[[0, -1]] == ends).all()
+
+
+def test_parallels_are_followed_exactly():
+    a, b = np.array([[-100.0, 60.0], [100.0, 60.0]]), np.array([[200.0, 60.0], [-200.0, 60.0]])
+    arcs = straight(a, b, MoebiusMap.identity(), 1e-2)
+    assert len(arcs) == 2
+    np.testing.assert_allclose(arcs.stop, np.radians(300))
+    points = arcs.sampled(1e-6).values
+    np.testing.assert_allclose(points[:, 2], np.sin(np.radians(60)), atol=1e-15)
+
+
+def test_arcs_cut_in_pieces_share_points():
+    arcs = great(AXES, AXES[[1, 2, 0]])
+    arc, t = np.array([0, 0, 2]), np.array([0.3, 0.9, 0.5])
+    points = arcs.points(arc, t)
+    pieces = arcs.cut(arc, t, points)
+    assert pieces.edge.tolist() == [0, 0, 0, 1, 2, 2]
+    np.testing.assert_array_equal(pieces.end[[0, 1, 4]], points)
+    np.testing.assert_array_equal(pieces.start[[1, 2, 5]], points)
+    np.testing.assert_allclose(np.bincount(pieces.edge, pieces.stop - pieces.begin), np.pi / 2)
+
+
+@pytest.mark.parametrize("count", [1, 2, 7])
+def test_points_at_equal_steps(count):
+    samples = great(AXES[:1], AXES[1:2]).spread(np.array([count]))
+    assert samples.sizes.tolist() == [count + 1]
+    np.testing.assert_allclose(angular_distance(samples.values[1:], samples.values[:-1]), 90 / count)
+
+
+def test_sides_of_lines_and_longitudes_that_go_on():
+    lines = Ragged.of(
+        [np.array([[170.0, 0], [-170, 5], [-160, 0]]), np.array([[0.0, 1]]), np.array([[5.0, 5], [6, 6]])]
+    )
+    going_on = unwrapped(lines)
+    assert going_on.values[:, 0].tolist() == [170, 190, 200, 0, 5, 6]
+    first, sides = sides_of(going_on)
+    assert first.tolist() == [0, 1, 4]
+    assert [row.tolist() for row in sides] == [[0, 1], [], [2]]
+    # Along a pole map files run from one side of the map to the other, and 360° are a whole turn.
+    seam = Ragged.of([np.array([[180.0, -60], [180, -90], [-180, -90], [-180, -60], [180, -60]])])
+    assert unwrapped(seam) is seam
