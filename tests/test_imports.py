@@ -37,7 +37,7 @@ MAY_IMPORT = {
     "graphs": KERNEL | {"triangulation"},
     "relaxation": KERNEL | {"triangulation"},
     "curves": BASE | {"conformal", "sphere"},
-    "io": BASE | {"_extras", "_files", "conformal", "curves", "drawing", "globe", "render", "sphere", "triangulation"},
+    "io": BASE | {"_extras", "_files", "conformal", "curves", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "drawing": MATHEMATICS | {"__init__", "curves"},
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "drawing"},

@@ -13,7 +13,8 @@ from stereodel.cli.tables import TABLES, save_table
 from stereodel.io import to_geodataframe, write
 from stereodel.triangulation.topology import edges_of
 
-MESHES = ("nc", "glb", "ply", "vtp", "svg", "pdf")
+PICTURES = ("svg", "pdf")
+MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 SHAPES = TABLES + MESHES
 
 
@@ -71,7 +72,13 @@ def save_mesh(
         return False
     if not faces:
         raise ValueError(f"{path.name}: holds faces, not edges; leave out --edges or choose {', '.join(TABLES)}")
-    write(path, mesh, **({"latitude": latitude.value} if kind == "nc" else {}))
+    if kind in PICTURES:
+        from stereodel.drawing import diagram_page
+        from stereodel.render import save_page
+
+        save_page(diagram_page(mesh), path)
+    else:
+        write(path, mesh, **({"latitude": latitude.value} if kind == "nc" else {}))
     return True
 
 

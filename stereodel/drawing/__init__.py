@@ -1,6 +1,7 @@
 """What lies where on a picture, before anything draws it: pages and their items, scenes, sketches, views, styles."""
 
 from stereodel.drawing.colors import ColorScale
+from stereodel.drawing.diagrams import diagram_page
 from stereodel.drawing.page import Label, Page
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.sketch import Sketch
@@ -22,4 +23,5 @@ __all__ = [
     "Sketch",
     "StereographicView",
     "View",
+    "diagram_page",
 ]

@@ -2,40 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any, Literal
 
-import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_scalar
+from stereodel._arrays import as_choice, as_scalar
 from stereodel._extras import optional
-from stereodel.io.arcs import Arcs
-from stereodel.io.faces import triangle_faces, voronoi_faces
-from stereodel.io.lines import sphere_lines
-from stereodel.io.plane import frame_of, plane_cells
-from stereodel.io.polygons import Geometries, sphere_polygons
-from stereodel.io.rings import WORLD
-from stereodel.sphere import angular_distance, solid_angle, xyz_to_lonlat
+from stereodel.curves.borders import frame_of
+from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
 from stereodel.sphere.latitudes import KINDS, Latitude
-from stereodel.sphere.vectors import units
-from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]
-Mesh = PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi
-Columns = dict[str, npt.NDArray[Any]]
+WHAT = ("cells", "triangles", "edges", "ridges", "sites")
 LARGEST_SEGMENT = 90.0
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """How geometries are made: the options of `to_geodataframe`."""
-
-    max_segment: float
-    latitude: Latitude
-    radius: float
-    extent: npt.ArrayLike | None
 
 
 def to_geodataframe(
@@ -46,7 +26,7 @@ def to_geodataframe(
     latitude: Latitude = "spherical",
     radius: float = 1.0,
     max_segment: float = 1.0,
-    extent: npt.ArrayLike | None = None,
+    bounds: npt.ArrayLike | None = None,
     crs: Any = None,
 ) -> Any:
     """Cells, triangles, edges, ridges or sites as a GeoDataFrame.
@@ -67,9 +47,9 @@ def to_geodataframe(
         `stereodel.earth.AUTHALIC_RADIUS_KM`, km² and km. In the plane the length of the unit of the coordinates.
     max_segment : float, optional
         Longest chord in degrees, in (0, 90], on the great circle and in longitude. Sphere only.
-    extent : (4,) array_like, optional
-        (xmin, xmax, ymin, ymax) to which cells and ridges of the plane are cut; by default the points' own with a
-        tenth of its longer side around it.
+    bounds : (4,) array_like, optional
+        (xmin, ymin, xmax, ymax) to which cells and ridges of the plane are cut; by default the rectangle of the points
+        with a tenth of its longer side around it.
     crs : optional
         Coordinate system of the plane's coordinates, as GeoPandas takes it. The sphere's is EPSG:4326.
 
@@ -78,7 +58,7 @@ def to_geodataframe(
     geopandas.GeoDataFrame
         ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
         corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites; then
-        `columns`, then ``geometry``, longitude before latitude. Duplicates and cells outside the extent have no row.
+        `columns`, then ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row.
 
     Raises
     ------
@@ -111,170 +91,21 @@ def to_geodataframe(
     5      5    S  2.094       Polygon
     """
     geopandas = optional("geopandas", "geo")
-    wanted = as_choice(what or usual_kind(mesh), tuple(SPHERE), "what")
-    drawing = Drawing(
-        as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True),
-        as_choice(latitude, KINDS, "latitude"),
-        as_scalar(radius, "radius", low=0.0, open_low=True),
-        extent,
-    )
-    found, geometry = (SPHERE if is_spherical(mesh) else PLANE)[wanted](mesh, drawing)
+    wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
+    as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+    as_choice(latitude, KINDS, "latitude")
+    as_scalar(radius, "radius", low=0.0, open_low=True)
+    from stereodel.io import geometries
+
+    if is_spherical(mesh):
+        found, shapes = geometries.on_sphere(mesh, wanted, max_segment, latitude, radius)
+    else:
+        found, shapes = geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
     given = point_columns(columns, len(mesh.points))
     if "point" in found:
         found |= {name: values[found["point"]] for name, values in given.items()}
     elif given:
         raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
-    kept = ~optional("shapely", "geo").is_empty(geometry)
+    kept = ~optional("shapely", "geo").is_empty(shapes)
     table = {name: values[kept] for name, values in found.items()}
-    return geopandas.GeoDataFrame(table, geometry=geometry[kept], crs="EPSG:4326" if is_spherical(mesh) else crs)
-
-
-def usual_kind(mesh: Mesh) -> str:
-    """Cells of a diagram, triangles of a triangulation; a TypeError for anything else."""
-    if not isinstance(mesh, Mesh):
-        raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
-    return "cells" if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else "triangles"
-
-
-def is_spherical(mesh: Mesh) -> bool:
-    """Whether the mesh is on the sphere."""
-    return isinstance(mesh, SphericalDelaunay | SphericalVoronoi)
-
-
-def point_columns(columns: Mapping[str, npt.ArrayLike] | None, count: int) -> Columns:
-    """A caller's columns as arrays with a value for each of `count` points."""
-    given = {name: np.asarray(values) for name, values in (columns or {}).items()}
-    for name, values in given.items():
-        if values.ndim < 1 or len(values) != count:
-            raise ValueError(f"columns[{name!r}] has shape {values.shape}, but there are {count} points")
-    return given
-
-
-def diagram_of(mesh: Mesh) -> Any:
-    """The Voronoi diagram of a triangulation, or the diagram itself."""
-    if isinstance(mesh, PlanarDelaunay):
-        return PlanarVoronoi(mesh)
-    return SphericalVoronoi(mesh) if isinstance(mesh, SphericalDelaunay) else mesh
-
-
-def triangulation_of(mesh: Mesh) -> Any:
-    """The triangulation of a Voronoi diagram, or the triangulation itself."""
-    return mesh.delaunay() if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else mesh
-
-
-def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:
-    """The ridges as arcs."""
-    ends = diagram.vertices[diagram.ridge_vertices] if len(diagram.vertices) else np.zeros((0, 2, 3))
-    normals = diagram.ridge_normals() if len(ends) else np.zeros((0, 3))
-    return Arcs(ends[:, 0], ends[:, 1], normals, units(diagram.points)[diagram.ridge_points[:, 0]])
-
-
-def edge_arcs(points: FloatArray, edges: npt.NDArray[Any]) -> Arcs:
-    """The shorter arcs between pairs of points, given as directions."""
-    unit = units(points)
-    return Arcs(unit[edges[:, 0]], unit[edges[:, 1]], np.zeros((len(edges), 3)))
-
-
-def _sphere_cells(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    diagram = diagram_of(mesh)
-    geometry = sphere_polygons(ridge_arcs(diagram), voronoi_faces(diagram), drawing.max_segment, drawing.latitude)
-    alone = np.flatnonzero(diagram._is_kept)
-    if len(alone) == 1:
-        geometry[alone] = optional("shapely", "geo").Polygon(WORLD.corners())
-    return {"point": np.arange(len(geometry)), "area": diagram.areas(radius=drawing.radius)}, geometry
-
-
-def _sphere_triangles(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    triangulation = triangulation_of(mesh)
-    chosen = np.flatnonzero(~triangulation.closing)
-    simplices = triangulation.simplices[chosen]
-    faces, edges = triangle_faces(simplices)
-    geometry = sphere_polygons(edge_arcs(mesh.points, edges), faces, drawing.max_segment, drawing.latitude)
-    corners = mesh.points[simplices]
-    area = solid_angle(corners[:, 0], corners[:, 1], corners[:, 2]) * drawing.radius**2
-    return _triangle_columns(chosen, simplices) | {"area": area}, geometry
-
-
-def _sphere_edges(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    triangulation = triangulation_of(mesh)
-    edges = triangle_faces(triangulation.simplices[~triangulation.closing])[1]
-    return _lines(edges, edge_arcs(mesh.points, edges), drawing)
-
-
-def _sphere_ridges(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    diagram = diagram_of(mesh)
-    return _lines(diagram.ridge_points, ridge_arcs(diagram), drawing)
-
-
-def _lines(pairs: npt.NDArray[Any], arcs: Arcs, drawing: Drawing) -> tuple[Columns, Geometries]:
-    length = np.radians(angular_distance(arcs.start, arcs.end)) * drawing.radius
-    return _pair_columns(pairs) | {"length": length}, sphere_lines(arcs, drawing.max_segment, drawing.latitude)
-
-
-def _sphere_sites(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    return _sites(xyz_to_lonlat(mesh.points, latitude=drawing.latitude))
-
-
-def _plane_cells(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    diagram = diagram_of(mesh)
-    geometry = plane_cells(diagram, frame_of(diagram.points, drawing.extent))
-    return {"point": np.arange(len(geometry)), "area": diagram.areas(radius=drawing.radius)}, geometry
-
-
-def _plane_triangles(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    simplices = triangulation_of(mesh).simplices
-    corners = mesh.points[simplices]
-    (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
-    area = (ux * vy - uy * vx) / 2 * drawing.radius**2
-    columns = _triangle_columns(np.arange(len(simplices)), simplices) | {"area": area}
-    return columns, np.asarray(optional("shapely", "geo").polygons(corners))
-
-
-def _plane_edges(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    edges = triangulation_of(mesh).edges
-    return _segments(edges, mesh.points[edges], drawing)
-
-
-def _plane_ridges(mesh: Mesh, drawing: Drawing) -> tuple[Columns, Geometries]:
-    diagram = diagram_of(mesh)
-    box = frame_of(diagram.points, drawing.extent)
-    segments, ridge = diagram.segments((box.left, box.right, box.bottom, box.top))
-    return _segments(diagram.ridge_points[ridge], segments, drawing)
-
-
-def _segments(pairs: npt.NDArray[Any], ends: FloatArray, drawing: Drawing) -> tuple[Columns, Geometries]:
-    length = np.hypot(*(ends[:, 1] - ends[:, 0]).T) * drawing.radius
-    return _pair_columns(pairs) | {"length": length}, np.asarray(optional("shapely", "geo").linestrings(ends))
-
-
-def _plane_sites(mesh: Mesh, _: Drawing) -> tuple[Columns, Geometries]:
-    return _sites(mesh.points)
-
-
-def _sites(points: FloatArray) -> tuple[Columns, Geometries]:
-    return {"point": np.arange(len(points))}, np.asarray(optional("shapely", "geo").points(points))
-
-
-def _triangle_columns(numbers: npt.NDArray[Any], simplices: npt.NDArray[Any]) -> Columns:
-    return {"triangle": numbers} | {name: simplices[:, k] for k, name in enumerate("abc")}
-
-
-def _pair_columns(pairs: npt.NDArray[Any]) -> Columns:
-    return {"a": pairs[:, 0], "b": pairs[:, 1]}
-
-
-Maker = Callable[[Mesh, Drawing], tuple[Columns, Geometries]]
-SPHERE: dict[str, Maker] = {
-    "cells": _sphere_cells,
-    "triangles": _sphere_triangles,
-    "edges": _sphere_edges,
-    "ridges": _sphere_ridges,
-    "sites": _sphere_sites,
-}
-PLANE: dict[str, Maker] = {
-    "cells": _plane_cells,
-    "triangles": _plane_triangles,
-    "edges": _plane_edges,
-    "ridges": _plane_ridges,
-    "sites": _plane_sites,
-}
+    return geopandas.GeoDataFrame(table, geometry=shapes[kept], crs="EPSG:4326" if is_spherical(mesh) else crs)

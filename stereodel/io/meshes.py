@@ -8,20 +8,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_floats, as_scalar
+from stereodel._arrays import FloatArray, Indices, as_choice, as_floats, as_scalar
 from stereodel._extras import optional
-from stereodel.io.arcs import sample
-from stereodel.io.faces import Indices, spans, voronoi_faces
-from stereodel.io.frames import (
-    LARGEST_SEGMENT,
-    Mesh,
-    diagram_of,
-    is_spherical,
-    ridge_arcs,
-    triangulation_of,
-    usual_kind,
-)
-from stereodel.io.rings import around
+from stereodel.curves.clip import points_along
+from stereodel.curves.ragged import Ragged, spans
+from stereodel.io.diagrams import Mesh, diagram_of, is_spherical, ridge_arcs, triangulation_of, usual_kind
+from stereodel.io.faces import voronoi_sides
+from stereodel.io.frames import LARGEST_SEGMENT
 from stereodel.io.surfaces import surface_of
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalVoronoi
@@ -113,7 +106,8 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     (6, 8, 4.0)
     """
     surface = surface_of(mesh, what)
-    faces = np.insert(surface.corners, surface.offsets[:-1], np.diff(surface.offsets))
+    polygons = surface.polygons
+    faces = np.insert(polygons.values, polygons.offsets[:-1], polygons.sizes)
     result = optional("pyvista", "mesh").PolyData(_space(surface.nodes), faces=faces)
     result.cell_data["point" if surface.cells else "triangle"] = surface.number
     if surface.cells:
@@ -128,9 +122,13 @@ def _space(points: FloatArray) -> FloatArray:
 
 def _sphere_fans(diagram: SphericalVoronoi, max_segment: float) -> tuple[FloatArray, Indices, Indices]:
     """Triangles around each site in rings no further apart than `max_segment`; the point of each vertex."""
-    chains = sample(ridge_arcs(diagram), max_segment, "spherical")
-    index, owner, _ = around(voronoi_faces(diagram), chains)
-    border, center = chains.xyz[index], units(diagram.points)
+    arcs = ridge_arcs(diagram)
+    pieces = np.maximum(np.ceil(np.degrees(arcs.stop) / max_segment), 1).astype(np.intp)
+    # Around each cell, its first point again at the end, which is left out.
+    around = points_along(voronoi_sides(diagram), arcs.spread(pieces))
+    inner = np.ones(len(around.values), dtype=bool)
+    inner[around.offsets[1:] - 1] = False
+    border, owner, center = around.values[inner], around.row[inner], units(diagram.points)
     reach = np.zeros(len(center))
     np.maximum.at(reach, owner, np.degrees(np.arccos(np.clip(np.sum(border * center[owner], axis=1), -1, 1))))
     levels = np.maximum(np.ceil(reach / max_segment), 1).astype(np.intp)
@@ -139,8 +137,8 @@ def _sphere_fans(diagram: SphericalVoronoi, max_segment: float) -> tuple[FloatAr
 
 def _plane_fans(mesh: Mesh) -> tuple[FloatArray, Indices, Indices]:
     surface = surface_of(mesh, "cells")
-    owner = np.repeat(surface.number, np.diff(surface.offsets))
-    return _rings(surface.nodes[surface.corners], owner, mesh.points, np.ones(len(mesh.points), dtype=np.intp))
+    owner = surface.number[surface.polygons.row]
+    return _rings(surface.nodes[surface.polygons.values], owner, mesh.points, np.ones(len(mesh.points), dtype=np.intp))
 
 
 def _rings(
@@ -157,9 +155,7 @@ def _rings(
     vertices = center[owner[source]] * (1 - share) + border[source] * share
     if border.shape[1] == 3:
         vertices = units(vertices)
-    after = np.arange(1, len(owner) + 1)
-    last = np.append(np.flatnonzero(np.diff(owner)), len(owner) - 1) if len(owner) else after
-    after[last] = np.concatenate([[0], last[:-1] + 1]) if len(owner) else after
+    after = Ragged.grouped(owner, owner, len(center)).following
     here, there = first[source] + level, first[after[source]] + level
     outer, inner = level > 0, level > 1
     return (

@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice
-from stereodel.io.faces import Indices, spans, voronoi_faces
-from stereodel.io.frames import Mesh, diagram_of, is_spherical, ridge_arcs, triangulation_of, usual_kind
+from stereodel._arrays import FloatArray, Indices, as_choice
+from stereodel.curves.ragged import Ragged, spans
+from stereodel.io.diagrams import Mesh, diagram_of, is_spherical, ridge_arcs, triangulation_of, usual_kind
+from stereodel.io.faces import voronoi_sides
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalVoronoi
 
@@ -23,9 +24,8 @@ class Surface:
     ----------
     nodes : (n, 2) or (n, 3) array
         Points of the plane, unit vectors of the sphere.
-    corners : (k,) array of int
-    offsets : (f + 1,) array of int
-        Polygon i has the nodes ``corners[offsets[i]:offsets[i + 1]]``.
+    polygons : Ragged of int
+        The nodes of each polygon.
     number : (f,) array of int
         The point of each cell, the triangle of each triangle.
     cells : bool
@@ -33,25 +33,24 @@ class Surface:
     """
 
     nodes: FloatArray
-    corners: Indices
-    offsets: Indices
+    polygons: Ragged
     number: Indices
     cells: bool
 
     @property
     def table(self) -> npt.NDArray[np.int32]:
         """The polygons as rows, (f, largest number of corners), the rest of each row -1."""
-        lengths = np.diff(self.offsets)
-        rows = np.full((len(lengths), int(lengths.max(initial=3))), -1, dtype=np.int32)
-        rows[np.repeat(np.arange(len(lengths)), lengths), spans(np.zeros_like(lengths), lengths)] = self.corners
+        sizes = self.polygons.sizes
+        rows = np.full((len(sizes), int(sizes.max(initial=3))), -1, dtype=np.int32)
+        rows[self.polygons.row, spans(np.zeros_like(sizes), sizes)] = self.polygons.values
         return rows
 
     @property
     def edges(self) -> npt.NDArray[np.int32]:
         """Pairs of nodes with a side between them, (e, 2), each once."""
-        after = np.arange(1, len(self.corners) + 1)
-        after[self.offsets[1:] - 1] = self.offsets[:-1]
-        return np.unique(np.sort(np.column_stack([self.corners, self.corners[after]]), axis=1), axis=0).astype(np.int32)
+        here = self.polygons.values
+        sides = np.column_stack([here, here[self.polygons.following]])
+        return np.unique(np.sort(sides, axis=1), axis=0).astype(np.int32)
 
 
 def surface_of(mesh: Mesh, what: str | None) -> Surface:
@@ -65,26 +64,24 @@ def _triangles(mesh: Mesh) -> Surface:
     number = np.flatnonzero(~triangulation.closing) if spherical else np.arange(len(triangulation.simplices))
     corners = triangulation.simplices[number].astype(np.intp).ravel()
     nodes = units(mesh.points) if spherical else mesh.points
-    return Surface(nodes, corners, 3 * np.arange(len(number) + 1), number, cells=False)
+    return Surface(nodes, Ragged(corners, 3 * np.arange(len(number) + 1)), number, cells=False)
 
 
 def _cells(diagram: Any) -> Surface:
     if isinstance(diagram, SphericalVoronoi) and len(diagram.vertices) == 2:
         return _lunes(diagram)
-    lengths = np.diff(diagram.region_offsets)
-    cell = np.repeat(np.arange(len(lengths)), lengths)
-    unbounded = np.bincount(cell, diagram.region_indices < 0, minlength=len(lengths)) > 0
-    number = np.flatnonzero((lengths > 0) & ~unbounded)
-    corners = diagram.region_indices[spans(diagram.region_offsets[number], lengths[number])].astype(np.intp)
-    return Surface(diagram.vertices, corners, np.concatenate([[0], np.cumsum(lengths[number])]), number, cells=True)
+    regions = Ragged(diagram.region_indices.astype(np.intp), diagram.region_offsets)
+    unbounded = np.bincount(regions.row, regions.values < 0, minlength=len(regions)) > 0
+    number = np.flatnonzero((regions.sizes > 0) & ~unbounded)
+    return Surface(diagram.vertices, regions.take(number), number, cells=True)
 
 
 def _lunes(diagram: SphericalVoronoi) -> Surface:
     """Cells between two opposite vertices, with the middle of each ridge as a further node."""
-    faces, arcs = voronoi_faces(diagram), ridge_arcs(diagram)
-    lengths = np.diff(faces.offsets)
-    start = diagram.ridge_vertices[faces.arcs, faces.reverse.astype(np.intp)].astype(np.intp)
-    corners = np.column_stack([start, 2 + faces.arcs]).ravel()
-    number = np.flatnonzero(lengths)
-    offsets = 2 * np.concatenate([[0], np.cumsum(lengths[number])])
-    return Surface(np.concatenate([diagram.vertices, arcs.middles()]), corners, offsets, number, cells=True)
+    sides, arcs = voronoi_sides(diagram), ridge_arcs(diagram)
+    ridge = np.maximum(sides.values, ~sides.values)
+    start = diagram.ridge_vertices[ridge, (sides.values < 0).astype(np.intp)].astype(np.intp)
+    corners = Ragged(np.column_stack([start, 2 + ridge]).ravel(), 2 * sides.offsets)
+    number = np.flatnonzero(sides.sizes)
+    middles = arcs.points(np.arange(len(arcs)), arcs.stop / 2)
+    return Surface(np.concatenate([diagram.vertices, middles]), corners.take(number), number, cells=True)

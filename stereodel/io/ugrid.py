@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import optional
-from stereodel.io.frames import Mesh, diagram_of, is_spherical
+from stereodel.io.diagrams import Mesh, diagram_of, is_spherical
 from stereodel.io.surfaces import Surface, surface_of
 from stereodel.sphere import lonlat_to_xyz, solid_angle, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
@@ -106,7 +106,7 @@ def _areas(mesh: Mesh, surface: Surface) -> FloatArray:
     if surface.cells:
         areas: FloatArray = diagram_of(mesh).areas()[surface.number]
         return areas
-    corners = surface.nodes[surface.corners.reshape(-1, 3)]
+    corners = surface.nodes[surface.polygons.values.reshape(-1, 3)]
     return solid_angle(corners[:, 0], corners[:, 1], corners[:, 2])
 
 

@@ -14,19 +14,10 @@ from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.io.csv_text import write_csv
-from stereodel.io.frames import (
-    Columns,
-    Mesh,
-    diagram_of,
-    is_spherical,
-    point_columns,
-    to_geodataframe,
-    triangulation_of,
-    usual_kind,
-)
+from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
+from stereodel.io.frames import to_geodataframe
 from stereodel.io.geojson import to_geojson
 from stereodel.io.meshes import to_polydata, to_trimesh
-from stereodel.io.pictures import page_of
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
 from stereodel.io.ugrid import to_ugrid
@@ -44,8 +35,6 @@ ENDINGS = {
     ".glb": "glb",
     ".ply": "ply",
     ".vtp": "vtp",
-    ".svg": "svg",
-    ".pdf": "pdf",
 }
 
 
@@ -68,8 +57,7 @@ def write(
         By default what the ending of the path says. For a stream it is needed.
     **options
         Of the function that makes the content of the file: `to_geodataframe` for csv, geojson (and ``decimals`` of
-        `to_geojson`), parquet and gpkg; `to_ugrid` for nc; `to_trimesh` for glb and ply; `to_polydata` for vtp; for svg
-        and pdf ``what`` ("cells" or "triangles"), ``view`` (lon, lat) of a globe and ``extent`` of the plane.
+        `to_geojson`), parquet and gpkg; `to_ugrid` for nc; `to_trimesh` for glb and ply; `to_polydata` for vtp.
 
     Raises
     ------
@@ -187,12 +175,6 @@ def _write_polydata(content: Any, path: Path, options: dict[str, Any]) -> None:
     to_polydata(content, **options).save(path)
 
 
-def _write_picture(content: Any, path: Path, options: dict[str, Any]) -> None:
-    from stereodel.render.vector import save_vector
-
-    save_vector(page_of(content, **options), path)
-
-
 WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {
     "csv": _write_csv,
     "geojson": _write_geojson,
@@ -202,6 +184,4 @@ WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {
     "glb": _write_trimesh,
     "ply": _write_trimesh,
     "vtp": _write_polydata,
-    "svg": _write_picture,
-    "pdf": _write_picture,
 }

@@ -21,7 +21,7 @@ from stereodel.io import from_geodataframe, to_geodataframe
 
 SPHERE = np.random.default_rng(5).normal(size=(40, 3))
 PLANE = np.random.default_rng(6).uniform(size=(40, 2)) * (3, 2)
-EXTENT = (0.5, 2.5, 0.25, 1.5)
+BOUNDS = (0.5, 0.25, 2.5, 1.5)
 PLANES = {
     "random": PLANE,
     "one": PLANE[:1],
@@ -116,7 +116,7 @@ def test_a_line_over_the_pole_and_along_the_180th_meridian():
 
 
 def assert_fills(frame, box):
-    area = (box[1] - box[0]) * (box[3] - box[2])
+    area = (box[2] - box[0]) * (box[3] - box[1])
     assert frame.is_valid.all()
     assert frame.geometry.area.sum() == pytest.approx(area, rel=1e-9)
     assert shapely.area(shapely.union_all(frame.geometry.values)) == pytest.approx(area, rel=1e-9)
@@ -124,9 +124,9 @@ def assert_fills(frame, box):
 
 
 @pytest.mark.parametrize("name", PLANES)
-def test_cells_of_the_plane_fill_the_extent(name):
-    frame = to_geodataframe(PlanarVoronoi(PLANES[name]), extent=EXTENT)
-    assert_fills(frame, EXTENT)
+def test_cells_of_the_plane_fill_the_bounds(name):
+    frame = to_geodataframe(PlanarVoronoi(PLANES[name]), bounds=BOUNDS)
+    assert_fills(frame, BOUNDS)
     for point, cell in zip(frame["point"], frame.geometry, strict=True):
         corners = shapely.get_coordinates(cell)
         gaps = np.hypot(*(corners[:, None] - np.asarray(PLANES[name])[None]).T).T
@@ -134,25 +134,31 @@ def test_cells_of_the_plane_fill_the_extent(name):
 
 
 @pytest.mark.parametrize("name", PLANES)
-def test_usual_extent_holds_all_points(name):
+def test_usual_bounds_hold_all_points(name):
     points = np.asarray(PLANES[name], dtype=float)
     diagram = PlanarVoronoi(points)
     frame = to_geodataframe(diagram)
-    left, bottom, right, top = frame.total_bounds
-    assert_fills(frame, (left, right, bottom, top))
+    assert_fills(frame, frame.total_bounds)
+    left, _, right, _ = frame.total_bounds
     assert left < points[:, 0].min() <= points[:, 0].max() < right
     assert len(frame) == len(np.unique(points, axis=0))
 
 
 @settings(max_examples=60)
 @given(st.lists(st.tuples(st.integers(-3, 6), st.integers(-3, 6)), min_size=1, max_size=12))
-def test_cells_of_grid_points_fill_the_extent(points):
-    """Vertices and ridges on the border of the extent, cells that it misses, cells that fill it."""
-    assert_fills(to_geodataframe(PlanarVoronoi(points), extent=(0, 3, 0, 2)), (0, 3, 0, 2))
+def test_cells_of_grid_points_fill_the_bounds(points):
+    """Vertices and ridges on the border of the rectangle, cells that it misses, cells that fill it."""
+    assert_fills(to_geodataframe(PlanarVoronoi(points), bounds=(0, 0, 3, 2)), (0, 0, 3, 2))
+
+
+@pytest.mark.parametrize("bounds", [(0, 0, 1), (0, 1, 2, 1), (3, 0, 0, 2)])
+def test_wrong_bounds(bounds):
+    with pytest.raises(ValueError, match=r"bounds must be \(xmin, ymin, xmax, ymax\)"):
+        to_geodataframe(PlanarVoronoi(PLANE), bounds=bounds)
 
 
 def test_cells_of_the_plane_share_points():
-    frame = to_geodataframe(PlanarVoronoi(PLANE), extent=EXTENT)
+    frame = to_geodataframe(PlanarVoronoi(PLANE), bounds=BOUNDS)
     assert shapely.coverage_is_valid(frame.geometry.values)
 
 
@@ -166,7 +172,7 @@ def test_triangles_and_lines_of_the_plane():
     edges = to_geodataframe(triangulation, what="edges")
     assert (edges[["a", "b"]].to_numpy() == triangulation.edges).all()
     assert np.allclose(edges["length"], edges.geometry.length)
-    ridges = to_geodataframe(triangulation, what="ridges", extent=EXTENT)
+    ridges = to_geodataframe(triangulation, what="ridges", bounds=BOUNDS)
     assert np.allclose(ridges["length"], ridges.geometry.length)
 
 

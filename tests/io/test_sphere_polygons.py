@@ -7,7 +7,14 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stereodel import SphericalDelaunay, SphericalVoronoi, angular_distance, check_delaunay, lonlat_to_xyz
+from stereodel import (
+    SphericalDelaunay,
+    SphericalVoronoi,
+    angular_distance,
+    check_delaunay,
+    lonlat_to_xyz,
+    xyz_to_lonlat,
+)
 from stereodel.data import airports
 from stereodel.io import to_geodataframe
 
@@ -211,19 +218,26 @@ def unwrapped(ring):
 
 def test_cuts_are_those_of_antimeridian():
     """Where that package has an answer: no vertex at a pole or on the 180th meridian itself."""
-    from stereodel.io.arcs import sample
-    from stereodel.io.faces import voronoi_faces
-    from stereodel.io.frames import ridge_arcs
-    from stereodel.io.rings import around
+    from stereodel.curves.borders import Antimeridian
+    from stereodel.curves.clip import points_along
+    from stereodel.curves.ragged import Ragged
+    from stereodel.io.diagrams import ridge_arcs
+    from stereodel.io.faces import voronoi_sides
+    from stereodel.io.on_map import close_in_longitude
+    from stereodel.io.tiles import sphere_polygons
 
     diagram = SphericalVoronoi(RANDOM)
-    frame = to_geodataframe(diagram)
-    chains, faces = sample(ridge_arcs(diagram), 1.0, "spherical"), voronoi_faces(diagram)
-    index, face, _ = around(faces, chains)
-    for point, cell in zip(frame["point"], frame.geometry, strict=True):
-        ring = index[(face == point) & ~chains.seam[index]]
+    arcs, sides, step = ridge_arcs(diagram), voronoi_sides(diagram), np.radians(1)
+    cells = sphere_polygons(arcs, sides, 1.0, "spherical")
+    pieces = Antimeridian().cut(arcs).arcs
+    samples = close_in_longitude(pieces.spread(np.ceil((pieces.stop - pieces.begin) / step).astype(int)), step)
+    for cell, row in zip(cells, sides, strict=True):
+        parts = [np.flatnonzero(pieces.edge == max(side, ~side)) for side in row]
+        run = np.concatenate([part if side >= 0 else ~part[::-1] for part, side in zip(parts, row, strict=True)])
+        ring = points_along(Ragged(run, np.array([0, len(run)])), samples).values
+        ring = ring[(ring[:, 1] != 0) | (ring[:, 0] > 0)]
         theirs = antimeridian.fix_polygon(
-            shapely.Polygon(unwrapped(chains.lonlat[ring])), fix_winding=False, great_circle=True
+            shapely.Polygon(unwrapped(xyz_to_lonlat(ring))), fix_winding=False, great_circle=True
         )
         assert shapely.symmetric_difference(theirs, cell).area < 1e-6  # that package rounds crossings to 1e-7 degrees
 

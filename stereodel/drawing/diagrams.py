@@ -1,0 +1,84 @@
+"""Pages of diagrams and triangulations: a globe, or a rectangle of the plane, with true curves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import as_lonlat
+from stereodel.curves.borders import frame_of
+from stereodel.drawing.page import Page
+from stereodel.drawing.scene import Scene
+from stereodel.drawing.sketch import Sketch
+from stereodel.drawing.view import View
+from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel.triangulation.topology import edges_of
+
+MARGIN = 0.02
+"""White space around the picture, in terms of its half width."""
+
+
+def diagram_page(
+    mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi,
+    *,
+    view: npt.ArrayLike = (0.0, 20.0),
+    bounds: npt.ArrayLike | None = None,
+) -> Page:
+    """The ridges of a diagram, or the edges of a triangulation, with the points.
+
+    Parameters
+    ----------
+    mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi or PlanarDelaunay
+    view : array_like, shape (2,)
+        (lon, lat) in degrees of the place above which the globe is seen. Sphere only.
+    bounds : (4,) array_like, optional
+        (xmin, ymin, xmax, ymax) of what is shown of the plane; by default the rectangle of the points with a tenth of
+        its longer side around it.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For a latitude outside [−90, 90], an empty rectangle, or another mesh.
+
+    Examples
+    --------
+    >>> from stereodel import SphericalVoronoi
+    >>> page = diagram_page(SphericalVoronoi.from_lonlat([[10, 50], [10, -50], [190, 0]]), view=(10, 30))
+    >>> page.width
+    340.0
+    """
+    if isinstance(mesh, SphericalDelaunay | SphericalVoronoi):
+        return _globe(mesh, view)
+    if isinstance(mesh, PlanarDelaunay | PlanarVoronoi):
+        return _plane(mesh, bounds)
+    raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
+
+
+def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Page:
+    scene = Scene()
+    if isinstance(mesh, SphericalVoronoi):
+        scene.add_arcs(mesh.ridge_arcs(), role="voronoi")
+    else:
+        scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), role="delaunay")
+    scene.add_points(mesh.points, role="sites")
+    side = 1 + MARGIN
+    seen: Any = View(*as_lonlat(view, "view").tolist())
+    return Page((-side, side, -side, side), scene.layout(seen), width=340.0)
+
+
+def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -> Page:
+    box = frame_of(mesh.points, bounds)
+    sketch = Sketch()
+    if isinstance(mesh, PlanarVoronoi):
+        segments, _ = mesh.segments((box.left, box.right, box.bottom, box.top))
+        sketch.add_segments(segments, role="voronoi")
+    else:
+        sketch.add_edges(mesh.points, mesh.edges, role="delaunay")
+    low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
+    inside = ((low < mesh.points) & (mesh.points < high)).all(axis=1)
+    sketch.add_points(mesh.points[inside], role="sites")
+    sketch.add_polyline(box.corners, closed=True, role="frame")
+    pad = MARGIN * (box.right - box.left) / 2
+    return sketch.page((box.left - pad, box.right + pad, box.bottom - pad, box.top + pad))

@@ -1,0 +1,99 @@
+"""Images of Shapely geometries under conformal maps, one function for each kind of geometry.
+
+Imported where something needs Shapely, and not before.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from stereodel._arrays import Indices, as_lonlat
+from stereodel.conformal import MoebiusMap
+from stereodel.constants import FINER_WARPS
+from stereodel.curves import clip
+from stereodel.curves.borders import Antimeridian, Pieces
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.seams import left_inside, stitched
+from stereodel.curves.trace import sides_of, straight, unwrapped
+from stereodel.io.on_map import Geometries, close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
+from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
+
+POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
+"""Types of geometries in Shapely's numbering."""
+BORDER = Antimeridian()
+
+
+def images_of(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
+    """The images of geometries (n,), those of one kind together; chords on the map are off them by `slack` at most."""
+    images = np.array(shapely.force_2d(geometries), dtype=object)
+    as_lonlat(shapely.get_coordinates(images), "shapes")
+    kinds = np.where(shapely.is_empty(images), -1, shapely.get_type_id(images))
+    for wanted, image in (
+        ((POINT, MULTIPOINT), _points),
+        ((LINE, RING, MULTILINE), _lines),
+        ((POLYGON, MULTIPOLYGON), _polygons),
+        ((COLLECTION,), _collections),
+    ):
+        chosen = np.flatnonzero(np.isin(kinds, wanted))
+        if len(chosen):
+            images[chosen] = image(images[chosen], lens, slack)
+    return images
+
+
+def _points(geometries: Geometries, lens: MoebiusMap, _: float) -> Geometries:
+    return np.asarray(shapely.transform(geometries, lambda lonlat: xyz_to_lonlat(lens(lonlat_to_xyz(lonlat)))))
+
+
+def _collections(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
+    parts, owner = shapely.get_parts(geometries, return_index=True)
+    images = images_of(parts, lens, slack)
+    return np.array([shapely.GeometryCollection(images[owner == number].tolist()) for number in range(len(geometries))])
+
+
+def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
+    parts, owner = shapely.get_parts(geometries, return_index=True)
+    lonlat, part = shapely.get_coordinates(parts, return_index=True)
+    lines = unwrapped(Ragged.grouped(lonlat, part, len(parts)))
+    first, sides = sides_of(lines)
+    pieces = BORDER.cut(straight(lines.values[first], lines.values[first + 1], lens, slack / 4).through(lens))
+    return lines_on_map(sides, owner, len(geometries), pieces, _sampled(pieces, slack), BORDER)
+
+
+def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
+    """The images of polygons; those that cross themselves, where they are narrow, are followed more closely."""
+    polygons, geometry = shapely.get_parts(geometries, return_index=True)
+    rings, polygon = shapely.get_rings(polygons, return_index=True)
+    lonlat, ring = shapely.get_coordinates(rings, return_index=True)
+    outer = np.append(True, polygon[1:] != polygon[:-1])
+    outlines, owner = left_inside(Ragged.grouped(lonlat, ring, len(rings)), outer), geometry[polygon]
+    images = _filled(outlines, owner, len(geometries), lens, slack)
+    wrong = ~shapely.is_valid(images)
+    for finer in FINER_WARPS:
+        if not wrong.any():
+            break
+        some = np.flatnonzero(wrong)
+        chosen = np.isin(owner, some)
+        number = np.searchsorted(some, owner[chosen])
+        images[some] = _filled(outlines.take(chosen), number, len(some), lens, slack * finer)
+        wrong[some] = ~shapely.is_valid(images[some])
+    return repaired(images, wrong)
+
+
+def _filled(outlines: Ragged, owner: Indices, count: int, lens: MoebiusMap, slack: float) -> Geometries:
+    start, end, rings, owner = stitched(outlines, owner)
+    pieces = BORDER.cut(straight(start, end, lens, slack / 4).through(lens))
+    loops, region = clip.regions(rings, owner, count, pieces, _sampled(pieces, slack), BORDER)
+    images, _ = polygons_on_map(loops, region, count)
+    # What had no border on the sphere covers all of it.
+    images[np.setdiff1d(np.arange(count), owner)] = shapely.box(-180.0, -90.0, 180.0, 90.0)
+    return images
+
+
+def _sampled(pieces: Pieces, slack: float) -> Ragged:
+    """Points of pieces, joined on the map by chords that are off the images of edges by the slack, at most.
+
+    A quarter of it is used up by `straight`, another one by chords off their circles: with chords of the length c, off
+    a circle of radius r ≤ 1 by c²/(8 r), so that c² ≤ 2 slack. The rest is for the map: there, with such chords in
+    longitude and latitude, a great circle strays from what is straight by |sin φ|·√((c² cos φ)² + (2 c²)²)/8 ≤ c²/4.
+    """
+    return close_in_longitude(pieces.arcs.sampled(slack / 4), float(np.sqrt(2 * slack)))

@@ -1,0 +1,120 @@
+"""Arcs of the sphere on the map of longitude and latitude: points that straight lines may join, Shapely geometries."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel._extras import optional
+from stereodel.constants import AT_POLE
+from stereodel.curves import clip
+from stereodel.curves.borders import Antimeridian, Pieces
+from stereodel.curves.ragged import Ragged, spans
+
+shapely = optional("shapely", "geo")
+
+Geometries = npt.NDArray[np.object_]
+Rule = Callable[[Ragged, Indices], tuple[Indices, FloatArray]]
+"""Given some rows of points and their numbers: behind which points there should be new ones, and the new ones."""
+
+
+def refined(samples: Ragged, rule: Rule) -> Ragged:
+    """Rows of points with new ones in between until a rule wants none; rows that got none are not looked at again."""
+    rows = np.arange(len(samples))
+    while True:
+        some = samples.take(rows)
+        places, points = rule(some, rows)
+        if not len(places):
+            return samples
+        samples = samples.inserted(spans(samples.offsets[rows], some.sizes)[places] + 1, points)
+        rows = rows[np.unique(some.row[places])]
+
+
+def steps_of(samples: Ragged) -> Indices:
+    """The points that another one of their row follows."""
+    inner = np.ones(len(samples.values), dtype=bool)
+    inner[samples.offsets[1:] - 1] = False
+    return np.flatnonzero(inner)
+
+
+def close_in_longitude(samples: Ragged, step_rad: float) -> Ragged:
+    """Points of arcs with further ones between those that are too far apart in longitude, as close to a pole."""
+
+    def rule(some: Ragged, _: Indices) -> tuple[Indices, FloatArray]:
+        step = steps_of(some)
+        reach = np.hypot(some.values[:, 0], some.values[:, 1])
+        # Raised or lowered to the equator's cylinder; a pole has no longitude to be far from.
+        level = some.values / np.where(reach > AT_POLE, reach, 1.0)[:, None]
+        p, q = level[step], level[step + 1]
+        turn = np.abs(np.arctan2(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0], p[:, 0] * q[:, 0] + p[:, 1] * q[:, 1]))
+        apart = (turn > step_rad) & (reach[step] > AT_POLE) & (reach[step + 1] > AT_POLE)
+        # Half-way in longitude, in the plane of the chord and so on its great circle.
+        return step[apart], unit(p[apart] + q[apart])
+
+    return refined(samples, rule)
+
+
+def unit(vectors: FloatArray) -> FloatArray:
+    """Vectors (n, 3), none of them zero, with length 1."""
+    return vectors / np.sqrt(np.sum(vectors**2, axis=1, keepdims=True))
+
+
+def lines_on_map(
+    sides: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Antimeridian
+) -> Geometries:
+    """LineStrings (count,) of rows of edges, a MultiLineString for one that has several or crosses ±180° or a pole."""
+    rows, line = clip.lines(sides, pieces, samples, border)
+    # What runs along ±180° is cut at each vertex, as at a border: put together where it goes on.
+    first = rows.offsets[1:-1]
+    goes_on = (line[1:] == line[:-1]) & (rows.values[first] == rows.values[first - 1]).all(axis=1)
+    begins = np.append(True, ~goes_on)[: len(rows)]
+    rows = clip.without_repeats(Ragged(rows.values, np.append(rows.offsets[:-1][begins], rows.offsets[-1])))
+    parts = shapely.linestrings(rows.values, indices=rows.row) if len(rows) else np.zeros(0, dtype=object)
+    return grouped(parts, owner[line[begins]], np.full(count, shapely.LineString()), shapely.multilinestrings)
+
+
+def polygons_on_map(loops: Ragged, owner: Indices, count: int) -> tuple[Geometries, BoolArray]:
+    """Polygons and MultiPolygons (count,) of closed loops, and which loops run counterclockwise.
+
+    Loops that run clockwise are holes of the smallest shell that holds their first point; without one they are nothing.
+    """
+    result = np.full(count, shapely.Polygon())
+    if not len(loops):
+        return result, np.zeros(0, dtype=bool)
+    outlines = shapely.linearrings(loops.values, indices=loops.row)
+    outer = shapely.is_ccw(outlines)
+    parts = shapely.polygons(outlines)
+    for region in np.unique(owner[~outer]):
+        shells, holes = np.flatnonzero((owner == region) & outer), np.flatnonzero((owner == region) & ~outer)
+        solid = parts[shells]
+        hole, shell = shapely.STRtree(solid).query(shapely.get_point(outlines[holes], 0), predicate="intersects")
+        order = np.lexsort((shapely.area(solid)[shell], hole))
+        hole, first = np.unique(hole[order], return_index=True)
+        shell = shell[order][first]
+        for k in np.unique(shell):
+            parts[shells[k]] = shapely.polygons(outlines[shells[k]], holes=outlines[holes[hole[shell == k]]])
+    return grouped(parts[outer], owner[outer], result, shapely.multipolygons), outer
+
+
+def grouped(parts: Geometries, owner: Indices, empty: Geometries, collect: Any) -> Geometries:
+    """One geometry for each owner, several parts as one of `collect`, and `empty` where there are none."""
+    counts, result = np.bincount(owner, minlength=len(empty)), empty.copy()
+    alone = counts[owner] == 1
+    result[owner[alone]] = parts[alone]
+    several, number = np.unique(owner[~alone], return_inverse=True)
+    if len(several):
+        order = np.argsort(number, kind="stable")
+        result[several] = collect(parts[~alone][order], indices=number[order])
+    return result
+
+
+def repaired(geometries: Geometries, wrong: BoolArray) -> Geometries:
+    """Valid polygons in place of those that are smaller than the spacing of degrees as doubles."""
+    for place in np.flatnonzero(wrong).tolist():
+        parts = shapely.get_parts(shapely.make_valid(geometries[place]))
+        geometries[place] = shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
+    return geometries
