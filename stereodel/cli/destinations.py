@@ -8,6 +8,24 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel._extras import optional
+from stereodel._files import replacing
+from stereodel.cli.options import Latitude
+from stereodel.cli.sources import LONLAT, Column, Columns
+from stereodel.io import write
+from stereodel.io.csv_text import write_csv
+
+TABLES = ("csv", "geojson", "parquet", "gpkg")
+PICTURES = ("svg", "pdf")
+MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
+EXACT_INTEGERS = 2.0**53
+"""Larger ones would be written with digits that doubles do not have."""
 
 
 @dataclass(frozen=True)
@@ -47,3 +65,41 @@ class Destination:
 
 def _listed(kinds: tuple[str, ...]) -> str:
     return ", ".join(f".{kind}" for kind in kinds)
+
+
+def save_table(path: Path, axes: tuple[str, str], columns: Columns) -> None:
+    """Write a table of points, as the extension says; `axes` are the columns that hold the places."""
+    if path.suffix.lower() == ".csv":
+        with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+            write_csv({name: _cells(values) for name, values in columns.items()}, file)
+        return
+    geopandas = optional("geopandas", "geo")
+    others = {name: values for name, values in columns.items() if name not in axes}
+    geometry = geopandas.points_from_xy(*(columns[axis] for axis in axes))
+    write(path, geopandas.GeoDataFrame(others, geometry=geometry, crs="EPSG:4326" if axes == LONLAT else None))
+
+
+def save_mesh(
+    path: Path, mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi, latitude: Latitude
+) -> None:
+    """Write cells or triangles as a mesh or a picture."""
+    kind = path.suffix.lower().removeprefix(".")
+    if kind not in PICTURES:
+        write(path, mesh, **({"latitude": latitude.value} if kind == "nc" else {}))
+        return
+    from stereodel.drawing import diagram_page
+    from stereodel.render import save_page
+
+    save_page(diagram_page(mesh), path)
+
+
+def _cells(values: Column) -> Column:
+    """What a text table says: nothing where there is no number, and no fraction where a column has none."""
+    if values.dtype.kind != "f":
+        return values
+    known = np.isfinite(values)
+    numbers = values[known]
+    cells: npt.NDArray[Any] = np.full(len(values), None, dtype=object)
+    whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
+    cells[known] = list(map(int, numbers.tolist())) if whole else numbers.tolist()
+    return cells

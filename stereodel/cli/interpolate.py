@@ -11,9 +11,12 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from stereodel._arrays import FloatArray
     from stereodel.cli.sources import Table
 
+GRIDS = ("csv", "nc")
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 
 
@@ -53,10 +56,11 @@ def command(
 
     Give either --at or --grid. Where the points do not reach, linear, smooth and natural leave the value empty.
     """
-    from stereodel.cli.destinations import Destination
-    from stereodel.cli.grids import GRIDS, Grid, save_grid
+    import numpy as np
+
+    from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.sources import read
-    from stereodel.cli.tables import TABLES, save_table
+    from stereodel.sphere import lonlat_to_xyz
 
     if (at is None) == (grid is None):
         raise ValueError("give either --at, a table of points, or --grid, a spacing in degrees")
@@ -65,12 +69,13 @@ def command(
     if at == points == "-":
         raise ValueError("POINTS and --at cannot both be stdin")
     destination = Destination.of(out, format, TABLES if grid is None else GRIDS)
-    wanted = None if grid is None else Grid.of(grid, box)
+    wanted = None if grid is None else _grid(grid, box)
     table = read(points, lon=lon, lat=lat, plane=plane)
     interpolated = _interpolator(table, value, method, latitude, skip_missing)
     if wanted is not None:
-        values = interpolated(wanted.points(latitude))
-        destination.write(lambda path: save_grid(path, wanted, dict(zip(value, values.T, strict=True))))
+        places = np.stack(np.meshgrid(*wanted), axis=-1).reshape(-1, 2)
+        values = dict(zip(value, interpolated(lonlat_to_xyz(places, latitude=latitude.value)).T, strict=True))
+        destination.write(lambda path: _save_grid(path, *wanted, values))
         return
     asking = read(str(at), lon=lon, lat=lat, plane=plane)
     columns = asking.all_columns()
@@ -119,3 +124,52 @@ def _values(table: Table, names: list[str], skip_missing: bool) -> tuple[FloatAr
     kept = np.ones(len(values), dtype=np.bool_)
     kept[missing[:, 0]] = False
     return values[kept], table.subset(kept)
+
+
+def _grid(spacing: float, box: str | None) -> tuple[FloatArray, FloatArray]:
+    """Longitudes from west to east, running on past 180, and latitudes from south to north.
+
+    Of the whole Earth, −180 without 180, or of a box "W,S,E,N" with its borders.
+    """
+    import numpy as np
+
+    from stereodel._arrays import as_scalar, as_steps
+
+    if box is None:
+        steps = as_steps(180.0, spacing, "--grid")
+        return np.arange(-steps, steps) * 180.0 / steps, np.linspace(-90.0, 90.0, steps + 1)
+
+    def steps_between(low: float, high: float) -> FloatArray:
+        step = as_scalar(spacing, "--grid", low=0.0, high=high - low, open_low=True)
+        # A border that the steps miss by rounding alone is reached.
+        count = int(np.floor((high - low) / step + 1e-9))
+        return np.minimum(low + step * np.arange(count + 1), high)
+
+    west, south, east, north = options.box_of(box, "--box")
+    return steps_between(west, east), steps_between(south, north)
+
+
+def _save_grid(path: Path, lon: FloatArray, lat: FloatArray, columns: dict[str, FloatArray]) -> None:
+    """Write values (h·w,) by name, in rows from south to north, as a table or as NetCDF with CF attributes."""
+    import numpy as np
+
+    from stereodel._files import replacing
+    from stereodel.cli.destinations import save_table
+    from stereodel.cli.sources import LONLAT
+
+    if path.suffix.lower() == ".csv":
+        grid = (axis.ravel() for axis in np.meshgrid(lon, lat))
+        save_table(path, LONLAT, dict(zip(LONLAT, grid, strict=True)) | columns)
+        return
+    from scipy.io import netcdf_file
+
+    with replacing(path) as temporary, netcdf_file(temporary, "w", version=2) as file:
+        file.Conventions = "CF-1.8"
+        axes = (("lat", lat, "degrees_north", "latitude"), ("lon", lon, "degrees_east", "longitude"))
+        for name, places, units, meaning in axes:
+            file.createDimension(name, len(places))
+            axis = file.createVariable(name, "f8", (name,))
+            axis[:], axis.units, axis.standard_name = places, units, meaning
+        for name, values in columns.items():
+            variable = file.createVariable(name, "f8", ("lat", "lon"))
+            variable[:], variable._FillValue = values.reshape(len(lat), len(lon)), np.nan

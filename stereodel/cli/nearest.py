@@ -37,10 +37,9 @@ def command(
     Writes the columns of the points that ask, then the row of each site in its table, the columns kept of it, and the
     distance. With several sites a point has several rows, ranked from 1.
     """
-    from stereodel.cli.destinations import Destination
+    from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.progress import say
     from stereodel.cli.sources import read
-    from stereodel.cli.tables import TABLES, save_table
 
     destination = Destination.of(out, format, TABLES)
     if sites == queries == "-":

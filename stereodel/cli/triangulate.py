@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from stereodel.cli import options
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from stereodel import PlanarDelaunay, SphericalDelaunay
+    from stereodel.cli.sources import Columns, Table
 
 EXAMPLE = "stereodel triangulate stations.csv -o triangles.geojson"
 
@@ -28,23 +34,57 @@ def command(
     points in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel import PlanarDelaunay, SphericalDelaunay
-    from stereodel.cli.destinations import Destination
+    from stereodel.cli.destinations import MESHES, TABLES, Destination
     from stereodel.cli.failures import NothingToDoError
     from stereodel.cli.progress import say, stage
-    from stereodel.cli.shapes import SHAPES, corner_rows, save_simplices
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, SHAPES)
+    destination = Destination.of(out, format, TABLES + MESHES)
     table = read(points, lon=lon, lat=lat, plane=plane)
     with stage(f"triangulating {len(table)} points"):
         kind = PlanarDelaunay if table.planar else SphericalDelaunay
         triangulation = kind(table.points(latitude))
-    count = len(corner_rows(triangulation, "triangles", table)["a"])
+    count = len(_corner_rows(triangulation, "triangles", table)["a"])
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
     what: Literal["triangles", "edges"] = "edges" if edges else "triangles"
     with stage(f"writing {out}"):
-        destination.write(
-            lambda path: save_simplices(path, triangulation, what, table, max_segment=max_segment, latitude=latitude)
-        )
+        destination.write(lambda path: _save(path, triangulation, what, table, max_segment, latitude))
     say(f"{out}: {count} triangles of {len(table)} points")
+
+
+def _save(
+    path: Path,
+    triangulation: PlanarDelaunay | SphericalDelaunay,
+    what: Literal["triangles", "edges"],
+    table: Table,
+    max_segment: float,
+    latitude: options.Latitude,
+) -> None:
+    """Write the rows in the table of each triangle's corners, or of each edge's ends."""
+    from stereodel.cli.destinations import MESHES, TABLES, save_mesh, save_table
+    from stereodel.io import to_geodataframe, write
+
+    kind = path.suffix.lower().removeprefix(".")
+    if kind == "csv":
+        save_table(path, ("a", "b"), _corner_rows(triangulation, what, table))
+    elif kind in MESHES and what == "edges":
+        raise ValueError(f"{path.name}: holds faces, not edges; leave out --edges or choose {', '.join(TABLES)}")
+    elif kind in MESHES:
+        save_mesh(path, triangulation, latitude)
+    else:
+        frame = to_geodataframe(triangulation, what=what, latitude=latitude.value, max_segment=max_segment)
+        corners = [name for name in "abc" if name in frame]
+        write(path, frame[[*corners, "geometry"]].assign(**{name: table.rows[frame[name]] for name in corners}))
+
+
+def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: Table) -> Columns:
+    """Rows of the corners of all triangles that are no part of the far side, or of their edges."""
+    from stereodel import SphericalDelaunay
+    from stereodel.triangulation.topology import edges_of
+
+    simplices = triangulation.simplices
+    if isinstance(triangulation, SphericalDelaunay):
+        simplices = simplices[~triangulation.closing]
+    corners = simplices if what == "triangles" else edges_of(simplices)
+    return dict(zip("abc", table.rows[corners].T, strict=False))

@@ -10,8 +10,11 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel._arrays import FloatArray
+    from stereodel.cli.sources import Columns, Table
 
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
@@ -40,21 +43,18 @@ def command(
     the first has the cell, the others none and the area 0.
     """
     from stereodel import PlanarVoronoi, SphericalVoronoi
-    from stereodel.cli.destinations import Destination
+    from stereodel.cli.destinations import MESHES, TABLES, Destination
     from stereodel.cli.progress import say, stage
-    from stereodel.cli.shapes import SHAPES, save_cells
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, SHAPES)
+    destination = Destination.of(out, format, TABLES + MESHES)
     table = read(points, lon=lon, lat=lat, plane=plane)
     with stage(f"cells of {len(table)} points"):
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
         areas = dict([_areas(diagram, area_unit)])
     with stage(f"writing {out}"):
-        destination.write(
-            lambda path: save_cells(path, diagram, table, areas, max_segment=max_segment, latitude=latitude)
-        )
+        destination.write(lambda path: _save(path, diagram, table, areas, max_segment, latitude))
     say(f"{out}: cells of {len(table)} points")
 
 
@@ -67,3 +67,28 @@ def _areas(diagram: PlanarVoronoi | SphericalVoronoi, unit: AreaUnit) -> tuple[s
         return "area", diagram.areas()
     radius = AUTHALIC_RADIUS_KM if unit is AreaUnit.km2 else 1.0
     return f"area_{unit.value}", diagram.areas(radius=radius)
+
+
+def _save(
+    path: Path,
+    diagram: PlanarVoronoi | SphericalVoronoi,
+    table: Table,
+    areas: Columns,
+    max_segment: float,
+    latitude: options.Latitude,
+) -> None:
+    """Write the cells of a table's points with the table's columns and their areas, (n,)."""
+    from stereodel._extras import optional
+    from stereodel.cli.destinations import MESHES, save_mesh, save_table
+    from stereodel.io import to_geodataframe, write
+
+    kind = path.suffix.lower().removeprefix(".")
+    if kind == "csv":
+        save_table(path, table.axes, table.all_columns() | areas)
+    elif kind in MESHES:
+        save_mesh(path, diagram, latitude)
+    else:
+        cells = to_geodataframe(diagram, latitude=latitude.value, max_segment=max_segment)
+        point = cells["point"].to_numpy()
+        columns = {name: values[point] for name, values in ({"row": table.rows} | table.columns | areas).items()}
+        write(path, optional("geopandas", "geo").GeoDataFrame(columns, geometry=cells.geometry, crs=cells.crs))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from stereodel.cli.tables import TABLES
+from stereodel.cli.destinations import TABLES
 from stereodel.io import read_points
 
 

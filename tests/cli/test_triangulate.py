@@ -6,7 +6,7 @@ import pytest
 import trimesh
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
-from stereodel.cli.shapes import MESHES
+from stereodel.cli.destinations import MESHES
 
 
 def corners(rows, text):
