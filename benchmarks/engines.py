@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from stereodel.drawing.page import Color
+from stereodel.drawing.colors import Color
 from stereodel.drawing.style import BLACK, BLUE, GRAY, GREEN, ORANGE, SKY, VERMILION
 
 HERE = Path(__file__).resolve().parent

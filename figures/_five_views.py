@@ -45,6 +45,6 @@ class FiveViews:
 def globe(g: dict) -> Scene:
     """One globe with both grids, coarse gray, fine black."""
     scene = Scene(weight=WEIGHT)
-    scene.add_arcs(from_rows(g["coarse"]), role="graticule")
-    scene.add_arcs(from_rows(g["fine"]), role="fine")
+    scene.add_arcs(from_rows(g["coarse"]), name="graticule")
+    scene.add_arcs(from_rows(g["fine"]), name="fine")
     return scene

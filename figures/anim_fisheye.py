@@ -32,8 +32,8 @@ def frame(magnification: float, coarse: list[SphereArc], fine: list[SphereArc]) 
     """The globe with both grids at one magnification."""
     bend = fisheye(FOCUS, magnification=magnification)
     scene = Scene()
-    for arcs, role in ((coarse, "graticule"), (fine, "fine")):
-        scene.add_arcs((bend.image_of(arc) for arc in arcs), role=role)
+    for arcs, name in ((coarse, "graticule"), (fine, "fine")):
+        scene.add_arcs((bend.image_of(arc) for arc in arcs), name=name)
     caption = Label(f"$S = {magnification:.1f}$", (-1.0, 0.99), align="left", valign="top")
     return Page((-1.04, 1.04, -1.04, 1.04), (*scene.layout(VIEW), caption), width=150.0, views=(VIEW.matrix,))
 

@@ -50,15 +50,15 @@ def frame(sites: np.ndarray, facets: np.ndarray, marked: int, inserted: int) -> 
     tints = np.full(len(facets), "facet", dtype=object)
     if marked:
         tints[slice(marked, None) if marked < 0 else slice(-marked, None)] = "visible" if marked < 0 else "new"
-    scene = Scene(look="glass")
+    scene = Scene(style="glass")
     for facet, normal, tint in zip(corners[facing], normals[facing], tints[facing], strict=True):
-        scene.add_flat_polygon(facet, role=str(tint), tint=shaded(str(tint), normal))
+        scene.add_flat_polygon(facet, name=str(tint), color=shaded(str(tint), normal))
     for facet in corners[facing]:
-        scene.add_outline(facet, role="delaunay")
-    scene.add_points(sites[np.unique(facets)], role="vertices")
+        scene.add_outline(facet, name="delaunay")
+    scene.add_points(sites[np.unique(facets)], name="vertices")
     if inserted >= 0:
-        scene.add_points(sites[[inserted]], role="points")
-    return Page((-1.04, 1.04, -1.04, 1.04), scene.layout(VIEW), width=150.0, views=(VIEW.matrix,))
+        scene.add_points(sites[[inserted]], name="points")
+    return scene.page(VIEW, extent=(-1.04, 1.04, -1.04, 1.04), width=150.0)
 
 
 def shaded(tint: str, normal: np.ndarray) -> tuple:

@@ -39,14 +39,14 @@ def frame(curvature: float) -> Page:
     lifted = sphere.inverse(points)
     scene = Scene(radius=radius, center=(0.0, 0.0, radius))
     plane = sphere.in_space(CORNERS) + [0.0, 0.0, radius]
-    scene.add_flat_polygon(plane, role="plane")
-    scene.add_outline(plane, role="frame")
-    scene.add_edges(lifted, PlanarDelaunay(points).edges, role="delaunay")
+    scene.add_flat_polygon(plane, name="plane")
+    scene.add_outline(plane, name="frame")
+    scene.add_edges(lifted, PlanarDelaunay(points).edges, name="delaunay")
     scene.add_arcs(
-        [lifted_side(sphere, a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, 0), strict=True)], role="chord"
+        [lifted_side(sphere, a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, 0), strict=True)], name="chord"
     )
-    scene.add_points(lifted, role="sites")
-    return Page(EXTENT, scene.layout(VIEW), width=200.0, views=(VIEW.matrix,))
+    scene.add_points(lifted, name="sites")
+    return scene.page(VIEW, extent=EXTENT, width=200.0)
 
 
 def lifted_side(sphere: Stereographic, a: np.ndarray, b: np.ndarray) -> CircleArc:

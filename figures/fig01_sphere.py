@@ -36,10 +36,10 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """Both graphs on an opaque ball."""
     scene = Scene()
-    scene.add_edges(g["sites"], g["edges"], role="delaunay")
-    scene.add_edges(g["vertices"], g["ridges"], role="voronoi")
-    scene.add_points(g["sites"], role="sites")
-    return Page((-1.02, 1.02, -1.02, 1.02), scene.layout(VIEW), width=340.0, views=(VIEW.matrix,))
+    scene.add_edges(g["sites"], g["edges"], name="delaunay")
+    scene.add_edges(g["vertices"], g["ridges"], name="voronoi")
+    scene.add_points(g["sites"], name="sites")
+    return scene.page(VIEW, width=340.0)
 
 
 FIGURE = Figure("fig01_sphere", geometry, draw)

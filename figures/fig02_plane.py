@@ -31,10 +31,10 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """Delaunay below, Voronoi above, sites on top."""
     left, right, bottom, top = FRAME
-    sketch = Sketch().add_edges(g["sites"], g["edges"], role="delaunay").add_segments(g["ridges"], role="voronoi")
-    sketch.add_points(g["sites"], role="sites")
+    sketch = Sketch().add_edges(g["sites"], g["edges"], name="delaunay").add_segments(g["ridges"], name="voronoi")
+    sketch.add_points(g["sites"], name="sites")
     corners = [(left, bottom), (right, bottom), (right, top), (left, top)]
-    sketch.add_polyline(corners, closed=True, role="frame")
+    sketch.add_polyline(corners, closed=True, name="frame")
     return sketch.page((left - 0.02, right + 0.02, bottom - 0.02, top + 0.02))
 
 

@@ -29,12 +29,12 @@ def draw(g: dict) -> Page:
     """The two tints, the circle between them, their names."""
     circle = SphereCircle(g["normal"], float(g["offset"]))
     scene = Scene()
-    scene.add_cap(circle, side="outside", role="large_bubble")
-    scene.add_cap(circle, side="inside", role="small_bubble")
-    scene.add_circles([circle], role="circle")
-    scene.add_label("small bubble", circle.center, size=12.0)
-    scene.add_label("large bubble", g["below"], size=12.0)
-    return Page((-1.03, 1.03, -1.03, 1.03), scene.layout(VIEW), width=260.0, views=(VIEW.matrix,))
+    scene.add_cap(circle, side="outside", name="large_bubble")
+    scene.add_cap(circle, side="inside", name="small_bubble")
+    scene.add_circles([circle], name="circle")
+    scene.add_label(circle.center, "small bubble", size=12.0)
+    scene.add_label(g["below"], "large bubble", size=12.0)
+    return scene.page(VIEW, extent=(-1.03, 1.03, -1.03, 1.03), width=260.0)
 
 
 FIGURE = Figure("fig03_bubbles", geometry, draw)

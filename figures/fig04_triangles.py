@@ -28,15 +28,15 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """The chordal triangle inside a glass ball, the spherical one on it."""
     vertices, sides = g["vertices"], np.array([[0, 1], [1, 2], [2, 0]])
-    scene = Scene(look="glass")
-    scene.add_flat_polygon(vertices, role="chordal")
-    scene.add_triangle_patch(*vertices, role="triangle")
-    scene.add_segments(vertices, vertices[[1, 2, 0]], role="chord", layer=Layer.LINE)
-    scene.add_edges(vertices, sides, role="arc")
-    scene.add_points(vertices, role="sites")
+    scene = Scene(style="glass")
+    scene.add_flat_polygon(vertices, name="chordal")
+    scene.add_triangle_patch(*vertices, name="triangle")
+    scene.add_segments(vertices, vertices[[1, 2, 0]], name="chord", layer=Layer.LINE)
+    scene.add_edges(vertices, sides, name="arc")
+    scene.add_points(vertices, name="sites")
     for (name, offset), vertex in zip(NAMES, vertices, strict=True):
-        scene.add_label(name, vertex, offset=offset, size=12.0)
-    return Page((-1.03, 1.03, -1.03, 1.03), scene.layout(VIEW), width=260.0, views=(VIEW.matrix,))
+        scene.add_label(vertex, name, offset=offset, size=12.0)
+    return scene.page(VIEW, extent=(-1.03, 1.03, -1.03, 1.03), width=260.0)
 
 
 FIGURE = Figure("fig04_triangles", geometry, draw)

@@ -63,19 +63,19 @@ def draw(g: dict) -> Page:
 def panel(g: dict, name: str) -> Scene:
     """Glass ball, translucent plane, rays from the antipode through the points to the plane."""
     tangent, points, images = (g[f"{name}_{key}"] for key in ("tangent", "points", "images"))
-    scene = Scene(look="glass")
-    scene.add_flat_polygon(g[f"{name}_plane"], role="plane")
-    scene.add_outline(g[f"{name}_plane"], role="plane")
-    scene.add_circles([SphereCircle(g[f"{name}_circle"][:3], float(g[f"{name}_circle"][3]))], role="arc")
-    scene.add_curves([CircleArc(*g[f"{name}_image_circle"])], role="arc")
-    scene.add_segments(-tangent, images, role="ray")
-    scene.add_points(points, role="sites")
-    scene.add_points(np.array([-tangent, tangent]), role="pole")
-    scene.add_space_points(images, role="points")
+    scene = Scene(style="glass")
+    scene.add_flat_polygon(g[f"{name}_plane"], name="plane")
+    scene.add_outline(g[f"{name}_plane"], name="plane")
+    scene.add_circles([SphereCircle(g[f"{name}_circle"][:3], float(g[f"{name}_circle"][3]))], name="arc")
+    scene.add_curves([CircleArc(*g[f"{name}_image_circle"])], name="arc")
+    scene.add_segments(-tangent, images, name="ray")
+    scene.add_points(points, name="sites")
+    scene.add_points(np.array([-tangent, tangent]), name="pole")
+    scene.add_space_points(images, name="points")
     for text, point, offset in zip(NAMES[name], (-tangent, tangent), ((-7, 6), (6, -8)), strict=True):
-        scene.add_label(text, point, offset=offset, always=True)
-    scene.add_label("$p$", points[1], offset=(-7, 3), always=True)
-    scene.add_label(r"$\pi(p)$", images[1], offset=(0, -9))
+        scene.add_label(point, text, offset=offset, always=True)
+    scene.add_label(points[1], "$p$", offset=(-7, 3), always=True)
+    scene.add_label(images[1], r"$\pi(p)$", offset=(0, -9))
     return scene
 
 

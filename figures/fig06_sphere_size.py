@@ -35,28 +35,28 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """Circles, projection lines from each top point, covered arcs thick, extents written."""
     sketch = Sketch()
-    sketch.add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.2, 0), role="axis")
+    sketch.add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.2, 0), name="axis")
     for number, radius in enumerate(RADII):
         add_sphere(sketch, number, radius, g)
-    sketch.add_segment(*g["ends"], role="outline").add_points(g["ends"], role="pole")
-    sketch.add_label("plane", (EXTENT[1] - 0.2, 0), (0, -8), align="right")
+    sketch.add_segment(*g["ends"], name="outline").add_points(g["ends"], name="pole")
+    sketch.add_label((EXTENT[1] - 0.2, 0), "plane", (0, -8), align="right")
     return sketch.page(EXTENT)
 
 
 def add_sphere(sketch: Sketch, number: int, radius: float, g: dict) -> None:
     """One tangent sphere in cross-section with the lift of the segment."""
     center, top = (0.0, radius), (0.0, 2 * radius)
-    role = f"accent{number + 1}"
+    name = f"accent{number + 1}"
     half = g["extents"][number] / 2
-    sketch.add_circle(center, radius, role="frame")
+    sketch.add_circle(center, radius, name="frame")
     for end in g["ends"]:
-        sketch.add_segment(top, end, role="construction")
-    sketch.add_arc(center, radius, -90 - half, -90 + half, role=f"covered{number + 1}")
-    sketch.add_points(g["lifted"][number], role=role).add_points(top, role="pole")
+        sketch.add_segment(top, end, name="construction")
+    sketch.add_arc(center, radius, -90 - half, -90 + half, name=f"covered{number + 1}")
+    sketch.add_points(g["lifted"][number], name=name).add_points(top, name="pole")
     row = np.array(KEY) - [0.0, ROW * number]
-    sketch.add_segment(row, row + [0.3, 0.0], role=f"covered{number + 1}")
+    sketch.add_segment(row, row + [0.3, 0.0], name=f"covered{number + 1}")
     text = rf"$R = {radius:g}$, extent ${g['extents'][number]:.1f}°$"
-    sketch.add_label(text, row + [0.3, 0.0], (6, 0), align="left")
+    sketch.add_label(row + [0.3, 0.0], text, (6, 0), align="left")
 
 
 FIGURE = Figure("fig06_sphere_size", geometry, draw, renderer="agg")

@@ -28,10 +28,10 @@ def geometry() -> dict:
 
 def draw(g: dict) -> Page:
     """The map, the diagonal and the footprint."""
-    sketch = Sketch().add_edges(g["sites"], g["edges"], role="delaunay").add_segments(g["ridges"], role="voronoi")
-    sketch.add_circle((0, 0), float(g["radius"]), role="footprint")
-    sketch.add_points(g["sites"], role="sites")
-    sketch.add_polyline(CORNERS, closed=True, role="outline")
+    sketch = Sketch().add_edges(g["sites"], g["edges"], name="delaunay").add_segments(g["ridges"], name="voronoi")
+    sketch.add_circle((0, 0), float(g["radius"]), name="footprint")
+    sketch.add_points(g["sites"], name="sites")
+    sketch.add_polyline(CORNERS, closed=True, name="outline")
     half = np.array([WIDTH, HEIGHT]) / 2 + MARGIN
     return sketch.page((-half[0], half[0], -half[1], half[1]))
 

@@ -48,13 +48,13 @@ def draw(g: dict) -> Page:
     """The ball behind the plane."""
     radius = float(g["radius"])
     scene = Scene(radius=radius)
-    scene.add_edges(g["lifted"], g["edges"], role="delaunay")
-    scene.add_edges(g["vertices"], g["ridges"], role="voronoi")
-    scene.add_arcs(from_rows(g["sides"]), role="chord")
-    scene.add_points(g["lifted"], role="sites")
-    scene.add_flat_polygon(g["plane"], role="plane")
-    scene.add_outline(g["plane"], role="outline")
-    return Page((-1.56, 1.56, -1.22, 0.95), scene.layout(VIEW), views=(VIEW.matrix,))
+    scene.add_edges(g["lifted"], g["edges"], name="delaunay")
+    scene.add_edges(g["vertices"], g["ridges"], name="voronoi")
+    scene.add_arcs(from_rows(g["sides"]), name="chord")
+    scene.add_points(g["lifted"], name="sites")
+    scene.add_flat_polygon(g["plane"], name="plane")
+    scene.add_outline(g["plane"], name="outline")
+    return scene.page(VIEW, extent=(-1.56, 1.56, -1.22, 0.95))
 
 
 FIGURE = Figure("fig08_hemisphere", geometry, draw)

@@ -47,17 +47,17 @@ def add_section(sketch: Sketch, g: dict) -> None:
     """Sphere, plane and the two similar triangles."""
     north, center, south = (0.0, 2 * RADIUS), (0.0, RADIUS), (0.0, 0.0)
     foot = (0.0, float(g["point"][1]))
-    sketch.add_polygon([foot, south, g["projected"], g["point"]], role="accent1")
-    sketch.add_polygon([north, foot, g["point"]], role="accent2")
-    sketch.add_segment((-1.2, 0), (2.1, 0), role="axis").add_circle(center, RADIUS, role="circle")
-    sketch.add_segment((-RADIUS, RADIUS), (RADIUS, RADIUS), role="construction")
-    sketch.add_segment(north, south, role="axis").add_segment(north, g["projected"], role="ray")
-    sketch.add_segment(foot, g["point"], role="chord").add_segment(center, g["point"], role="axis")
-    sketch.add_angle(center, g["point"], (RADIUS, RADIUS), 0.34, r"$\varphi$", role="axis")
-    sketch.add_points([north, center, south], role="pole").add_points([g["point"], g["projected"]], role="points")
-    sketch.add_label("$N$", north, (0, 5), valign="bottom").add_label("$S$", south, (0, -5), valign="top")
-    sketch.add_label("$p$", g["point"], (6, 2), align="left").add_label(
-        r"$\pi(p)$", g["projected"], (0, -5), valign="top"
+    sketch.add_polygon([foot, south, g["projected"], g["point"]], name="accent1")
+    sketch.add_polygon([north, foot, g["point"]], name="accent2")
+    sketch.add_segment((-1.2, 0), (2.1, 0), name="axis").add_circle(center, RADIUS, name="circle")
+    sketch.add_segment((-RADIUS, RADIUS), (RADIUS, RADIUS), name="construction")
+    sketch.add_segment(north, south, name="axis").add_segment(north, g["projected"], name="ray")
+    sketch.add_segment(foot, g["point"], name="chord").add_segment(center, g["point"], name="axis")
+    sketch.add_angle(center, g["point"], (RADIUS, RADIUS), 0.34, r"$\varphi$", name="axis")
+    sketch.add_points([north, center, south], name="pole").add_points([g["point"], g["projected"]], name="points")
+    sketch.add_label(north, "$N$", (0, 5), valign="bottom").add_label(south, "$S$", (0, -5), valign="top")
+    sketch.add_label(g["point"], "$p$", (6, 2), align="left").add_label(
+        g["projected"], r"$\pi(p)$", (0, -5), valign="top"
     )
     add_dimension(sketch, -1.12, 0.0, 2 * RADIUS, "$2R$")
     add_dimension(sketch, -0.16, foot[1], 2 * RADIUS, r"$R + R\,\sin\varphi$", rotation=90.0)
@@ -66,12 +66,12 @@ def add_section(sketch: Sketch, g: dict) -> None:
 def add_dimension(sketch: Sketch, x: float, low: float, high: float, text: str, *, rotation: float = 0.0) -> None:
     """A vertical measure with ticks and its name on the left."""
     tick = 0.035
-    sketch.add_segment((x, low), (x, high), role="frame")
+    sketch.add_segment((x, low), (x, high), name="frame")
     for y in (low, high):
-        sketch.add_segment((x - tick, y), (x + tick, y), role="frame")
+        sketch.add_segment((x - tick, y), (x + tick, y), name="frame")
     sketch.add_label(
-        text,
         (x, (low + high) / 2),
+        text,
         (-7, 9 if rotation else 0),
         align="center" if rotation else "right",
         rotation=rotation,
@@ -84,20 +84,20 @@ def add_graph(sketch: Sketch, g: dict) -> None:
     rise = HEIGHT * np.radians(90.0) / WIDTH  # page slope of a derivative by φ in radians
     sine, cosine = np.sin(np.radians(KNOTS)), np.cos(np.radians(KNOTS))
     for y in (0.5, 1.0):
-        sketch.add_segment(ORIGIN + [0, HEIGHT * y], ORIGIN + [WIDTH, HEIGHT * y], role="grid")
-    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["scale"], rise * cosine / 2, role="accent1")
-    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["rate"], -rise * sine / 2, role="accent2")
-    sketch.add_segment(ORIGIN, ORIGIN + [WIDTH, 0], role="axis").add_segment(ORIGIN, ORIGIN + [0, HEIGHT], role="axis")
+        sketch.add_segment(ORIGIN + [0, HEIGHT * y], ORIGIN + [WIDTH, HEIGHT * y], name="grid")
+    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["scale"], rise * cosine / 2, name="accent1")
+    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["rate"], -rise * sine / 2, name="accent2")
+    sketch.add_segment(ORIGIN, ORIGIN + [WIDTH, 0], name="axis").add_segment(ORIGIN, ORIGIN + [0, HEIGHT], name="axis")
     for phi in (0, 30, 60, 90):
-        sketch.add_segment(ORIGIN + [WIDTH * phi / 90, 0], ORIGIN + [WIDTH * phi / 90, -0.035], role="axis")
-        sketch.add_label(f"${phi}°$", ORIGIN + [WIDTH * phi / 90, -0.035], (0, -3), valign="top")
+        sketch.add_segment(ORIGIN + [WIDTH * phi / 90, 0], ORIGIN + [WIDTH * phi / 90, -0.035], name="axis")
+        sketch.add_label(ORIGIN + [WIDTH * phi / 90, -0.035], f"${phi}°$", (0, -3), valign="top")
     for value, text in ((0.0, "$0$"), (0.5, "$1/2$"), (1.0, "$1$")):
-        sketch.add_segment(ORIGIN + [-0.035, HEIGHT * value], ORIGIN + [0, HEIGHT * value], role="axis")
-        sketch.add_label(text, ORIGIN + [-0.035, HEIGHT * value], (-3, 0), align="right")
-    sketch.add_label(r"$\varphi$", ORIGIN + [WIDTH, 0], (10, 0), align="left")
-    sketch.add_label(r"$s = (1 + \sin\varphi)/2$", ORIGIN + [0.4 * WIDTH, 0.7 * HEIGHT], align="left")
+        sketch.add_segment(ORIGIN + [-0.035, HEIGHT * value], ORIGIN + [0, HEIGHT * value], name="axis")
+        sketch.add_label(ORIGIN + [-0.035, HEIGHT * value], text, (-3, 0), align="right")
+    sketch.add_label(ORIGIN + [WIDTH, 0], r"$\varphi$", (10, 0), align="left")
+    sketch.add_label(ORIGIN + [0.4 * WIDTH, 0.7 * HEIGHT], r"$s = (1 + \sin\varphi)/2$", align="left")
     sketch.add_label(
-        r"$\partial s/\partial\varphi = \cos\varphi/2$", ORIGIN + [0.58 * WIDTH, 0.4 * HEIGHT], align="left"
+        ORIGIN + [0.58 * WIDTH, 0.4 * HEIGHT], r"$\partial s/\partial\varphi = \cos\varphi/2$", align="left"
     )
 
 

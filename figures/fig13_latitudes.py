@@ -36,40 +36,40 @@ def geometry() -> dict:
 
 def draw(g: dict) -> Page:
     """Both circles, both rays, the arcs that the inscribed angles see."""
-    sketch = Sketch().add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.15, 0), role="axis")
+    sketch = Sketch().add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.15, 0), name="axis")
     target = (DISTANCE, 0.0)
-    sketch.add_segment((0, 0), (0, 2 * RADIUS), role="axis")
+    sketch.add_segment((0, 0), (0, 2 * RADIUS), name="axis")
     for number, (radius, point, arc) in enumerate(zip(g["radii"], g["points"], g["arcs"], strict=True)):
         add_sphere(sketch, float(radius), point, float(arc), f"accent{number + 1}", NAMES[number])
-    sketch.add_points([target], role="points").add_points([(0, 0)], role="pole")
+    sketch.add_points([target], name="points").add_points([(0, 0)], name="pole")
     add_distance(sketch)
     return sketch.page(EXTENT)
 
 
-def add_sphere(sketch: Sketch, radius: float, point: np.ndarray, arc: float, role: str, names: tuple) -> None:
+def add_sphere(sketch: Sketch, radius: float, point: np.ndarray, arc: float, name: str, names: tuple) -> None:
     """One circle with its ray, its inscribed angle and the arc that the angle sees."""
     inscribed, latitude, size = names
     center, top = (0.0, radius), (0.0, 2 * radius)
-    sketch.add_circle(center, radius, role="frame")
+    sketch.add_circle(center, radius, name="frame")
     equator = (radius, radius)
-    sketch.add_segment(center, equator, role="construction").add_segment(center, point, role="construction")
-    sketch.add_segment(top, (DISTANCE, 0.0), role=role)
-    sketch.add_arc(center, radius, -90, -90 + arc, role=f"covered{role[-1]}")
-    sketch.add_angle(top, (0, 0), (DISTANCE, 0), 0.5 * radius, "", role=role)
-    sketch.add_label(inscribed, (0, 1.5 * radius), (-4, 0), align="right")
+    sketch.add_segment(center, equator, name="construction").add_segment(center, point, name="construction")
+    sketch.add_segment(top, (DISTANCE, 0.0), name=name)
+    sketch.add_arc(center, radius, -90, -90 + arc, name=f"covered{name[-1]}")
+    sketch.add_angle(top, (0, 0), (DISTANCE, 0), 0.5 * radius, "", name=name)
+    sketch.add_label((0, 1.5 * radius), inscribed, (-4, 0), align="right")
     first, second = (point, equator) if arc < 90 else (equator, point)
-    sketch.add_angle(center, first, second, 0.55 * radius, latitude, role="frame", gap=7.0)
-    sketch.add_label(size, (0.25 * radius, radius), (0, -7 if arc > 90 else 7))
-    sketch.add_points([top, center], role="pole").add_points([point], role=role)
+    sketch.add_angle(center, first, second, 0.55 * radius, latitude, name="frame", gap=7.0)
+    sketch.add_label((0.25 * radius, radius), size, (0, -7 if arc > 90 else 7))
+    sketch.add_points([top, center], name="pole").add_points([point], name=name)
 
 
 def add_distance(sketch: Sketch) -> None:
     """The measure d below the plane."""
     y, tick = -0.42, 0.06
-    sketch.add_segment((0, y), (DISTANCE, y), role="frame")
+    sketch.add_segment((0, y), (DISTANCE, y), name="frame")
     for x in (0.0, DISTANCE):
-        sketch.add_segment((x, y - tick), (x, y + tick), role="frame")
-    sketch.add_label("$d$", (DISTANCE / 2, y), (0, -4), valign="top")
+        sketch.add_segment((x, y - tick), (x, y + tick), name="frame")
+    sketch.add_label((DISTANCE / 2, y), "$d$", (0, -4), valign="top")
 
 
 FIGURE = Figure("fig13_latitudes", geometry, draw, renderer="agg")

@@ -16,10 +16,23 @@ from stereodel.constants import UNIT_ROUNDOFF
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int32]
+LongArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
+SignArray = npt.NDArray[np.int8]
+"""−1, 0 or 1."""
 Indices = npt.NDArray[np.intp]
 """Places in other arrays, as NumPy takes them."""
+AnyIndices = npt.NDArray[np.integer]
+"""Places in other arrays, of any width: as NumPy or the kernel gives them."""
+BigIntegers = npt.NDArray[Any]
+"""Python integers of any size, dtype object."""
+Bytes = npt.NDArray[np.uint8]
 Pixels = npt.NDArray[np.uint8]
+Texts = npt.NDArray[np.str_]
+Column = npt.NDArray[np.generic]
+"""One value a row, of any type."""
+Geometries = npt.NDArray[np.object_]
+"""Those of Shapely."""
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 _Word = TypeVar("_Word", bound=str)
 

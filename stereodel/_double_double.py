@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import BoolArray, FloatArray
 
 _SPLITTER = 2.0**27 + 1.0  # Veltkamp: cuts a 53-bit significand into two halves of at most 26 bits
 
@@ -134,7 +134,7 @@ class DoubleDouble:
         return f"DoubleDouble({self.hi!r}, {self.lo!r})"
 
 
-def where(condition: npt.NDArray[np.bool_], a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+def where(condition: BoolArray, a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """Entries of `a` where `condition` holds, else those of `b`."""
     return DoubleDouble(np.where(condition, a.hi, b.hi), np.where(condition, a.lo, b.lo))
 

@@ -10,13 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-_Doubles = npt.NDArray[np.float64]
-_Flags = npt.NDArray[np.bool_]
 _WHOLE = 2**53
 """Up to here every whole number is a double."""
 
 
-def as_doubles(values: npt.ArrayLike, name: str) -> _Doubles:
+def as_doubles(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
     """Real numbers of any shape, NaN and infinities among them."""
     refuse_masked(values, name)
     try:
@@ -53,7 +51,7 @@ def _may_hide_others(array: npt.NDArray[Any], values: list[Any] | tuple[Any, ...
     return not kinds <= {float, int, np.float64} or bool((np.abs(array) >= _WHOLE).any())
 
 
-def _from_wide(array: npt.NDArray[Any], name: str) -> _Doubles:
+def _from_wide(array: npt.NDArray[Any], name: str) -> npt.NDArray[np.float64]:
     """Integers and long doubles as the doubles that equal them."""
     with np.errstate(over="ignore"):
         doubles = array.astype(np.float64)
@@ -66,7 +64,7 @@ def _from_wide(array: npt.NDArray[Any], name: str) -> _Doubles:
     return doubles
 
 
-def _from_objects(array: npt.NDArray[Any], name: str) -> _Doubles:
+def _from_objects(array: npt.NDArray[Any], name: str) -> npt.NDArray[np.float64]:
     """Real numbers in an object array (Fraction, Decimal, huge int) as doubles; anything else is a TypeError."""
     if array.dtype.kind != "O":
         raise TypeError(f"{name} must hold real numbers, not {array.dtype}")
@@ -110,7 +108,7 @@ def _equal(number: Any, double: float) -> bool:
     return not isinstance(number, np.longdouble) or bool(np.longdouble(double) == number or number != number)
 
 
-def _refuse_rounded(rounded: _Flags, array: npt.NDArray[Any], name: str) -> None:
+def _refuse_rounded(rounded: npt.NDArray[np.bool_], array: npt.NDArray[Any], name: str) -> None:
     if rounded.any():
         index = tuple(int(i) for i in np.argwhere(rounded)[0])
         raise ValueError(

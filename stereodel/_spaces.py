@@ -7,16 +7,14 @@ from __future__ import annotations
 
 from typing import Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, IntArray
+from stereodel._arrays import BoolArray, FloatArray, IntArray, LongArray, SignArray
 
-Offsets = npt.NDArray[np.int64]
-Signs = npt.NDArray[np.int8]
 Triangulated = tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]
 """Simplices, neighbors or None, duplicates, dimension, inconclusive tests."""
+Diagram = tuple[LongArray, IntArray, IntArray, IntArray, IntArray, IntArray | None, IntArray | None, IntArray | None]
+"""Offsets of the cells, vertices and neighbors of their entries, sites along a curve, the vertex of each triangle;
+where triangles share vertices its rank there, rows of three sites, and the vertex of each row."""
 
 
 class Mesh(Protocol):
@@ -108,11 +106,13 @@ class Space(Protocol):
         neighbors: IntArray,
         workers: int = 1,
         checked: bool = False,
-    ) -> tuple[Offsets, IntArray, IntArray, IntArray, IntArray, IntArray | None, IntArray | None, IntArray | None]: ...
+    ) -> tuple[
+        LongArray, IntArray, IntArray, IntArray, IntArray, IntArray | None, IntArray | None, IntArray | None
+    ]: ...
     def delaunay_of(
         self,
         points: FloatArray,
-        offsets: Offsets,
+        offsets: LongArray,
         vertices: IntArray,
         neighbors: IntArray,
         vertex_count: int,
@@ -123,7 +123,7 @@ class Space(Protocol):
     def cell_areas(
         self,
         points: FloatArray,
-        offsets: Offsets,
+        offsets: LongArray,
         vertices: IntArray,
         neighbors: IntArray,
         vertex_count: int,
@@ -134,7 +134,7 @@ class Space(Protocol):
     def cell_centroids(
         self,
         points: FloatArray,
-        offsets: Offsets,
+        offsets: LongArray,
         vertices: IntArray,
         neighbors: IntArray,
         vertex_count: int,
@@ -152,7 +152,7 @@ class Space(Protocol):
         checked: bool = False,
     ) -> IntArray: ...
     def spanning_tree(self, points: FloatArray, edges: IntArray) -> IntArray: ...
-    def turn(self, a: FloatArray, b: FloatArray, c: FloatArray, workers: int = 1) -> Signs: ...
+    def turn(self, a: FloatArray, b: FloatArray, c: FloatArray, workers: int = 1) -> SignArray: ...
 
 
 def space_of(points: FloatArray) -> Space:

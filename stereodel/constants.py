@@ -39,6 +39,12 @@ TRANSFORM_CONDITION: Final = 1000 * 2.0**-52
 Three digits of the coordinates are right there at least.
 """
 
+UNDECIDED: Final = 2.0**-100
+"""Distance of unit vectors in double-double that cannot be told from none: each component is off by up to 2⁻¹⁰²."""
+
+PLAIN_SQUARES: Final = (2.0**-480, 2.0**510)
+"""Lengths between which squares are summed as they are: none overflows, and one below the least double is nothing."""
+
 FILTER_RANGE: Final = 2.0**200
 """Planar filters trust differences d with 1/FILTER_RANGE < |d| < FILTER_RANGE or d = 0 (units of the input).
 
@@ -85,6 +91,12 @@ A product of some thousand maps with rounded parameters is that near to the exac
 
 LARGEST_MAGNIFICATION: Final = 1e100
 """Largest S (and largest 1/S) of a `MoebiusMap`: S·|t|² of any point stays in the range of double-double arithmetic."""
+
+SMALL_ANGLE: Final = 1e-9
+"""Sine |s| of half a map's angle below which its powers come from series: θ/s is 1 + s²/6 to a double there.
+
+The angle tθ of a power is then below 1e-3 (`LARGEST_EXPONENT`), so that the first term left out, z³/720, is below 2⁻⁶⁹.
+"""
 
 LARGEST_EXPONENT: Final = 1e6
 """Largest exponent (and its negative) of `MoebiusMap.power`: the angle of a rotation's power is known to 1e-9 rad."""
@@ -135,6 +147,15 @@ THIN_TRIANGLE: Final = 2.0**-12
 A doubled area is off by about 2⁻⁵¹ in these units, so that weights keep 39 bits above it.
 """
 
+LEAST_WEIGHT: Final = 2.0**-200
+"""Least barycentric coordinate in smooth interpolation: at a corner the sum of the two others must not be zero."""
+
+NEEDLE: Final = 2.0**-4
+"""Length of a side, relative to the longest (a power of two near it), below which slopes start from another corner.
+
+The two long sides are then nearly the same, and their difference has lost four bits.
+"""
+
 UNDETERMINED: Final = 1e-12
 """Part of a column's square that must be left after the columns before it, for neighbours to determine its unknown.
 
@@ -145,6 +166,12 @@ QUADRATURE_CHORD: Final = 0.2
 """Longest side of a spherical triangle over which a rule of degree five is used, as a chord: 11.5°.
 
 The whole sphere, cut into such triangles, has its area within 1e-8 of itself.
+"""
+
+SEEN_FACE_ON: Final = 2.0**-240
+"""Sine of the angle between a circle's axis and the view's, below which an orthographic image is a circle to a double.
+
+Smaller ones have squares beyond the range of double-double arithmetic.
 """
 
 CLOSE_SITES: Final = 1e-4
@@ -229,6 +256,9 @@ LONGEST_EDGE: Final = 30.0
 
 SHORTEST_SIDE: Final = 1e-14
 """Length of a side, radians, below which it is not halved: its middle would be one of its ends, rounded."""
+
+GRID_ROUNDING: Final = 1e-9
+"""Part of a step by which the last line of a grid may miss the border of its box, for rounding: it is reached then."""
 
 INNER_TOLERANCE: Final = 0.005
 """How far sides of triangles inside a region may stray from their images, radii: where nothing shows but the light.

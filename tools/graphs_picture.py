@@ -55,17 +55,17 @@ def geometry() -> dict[str, object]:
 def graph_globe(g: dict[str, object], name: str) -> Scene:
     """One graph over the triangulation."""
     scene = Scene(weight=0.6)
-    scene.add_edges(g["sites"], g["edges"], role="delaunay", style=LineStyle(LIGHT_GRAY, 0.6))
-    scene.add_edges(g["sites"], g[name], role="graph", style=LineStyle(BLUE, 1.4))
-    scene.add_points(g["sites"], role="sites")
+    scene.add_edges(g["sites"], g["edges"], name="delaunay", style=LineStyle(LIGHT_GRAY, 0.6))
+    scene.add_edges(g["sites"], g[name], name="graph", style=LineStyle(BLUE, 1.4))
+    scene.add_points(g["sites"], name="sites")
     return scene
 
 
 def cell_globe(g: dict[str, object], prefix: str, sites: str) -> Scene:
     """Cells and sites."""
     scene = Scene(weight=0.6)
-    scene.add_edges(g[f"{prefix}vertices"], g[f"{prefix}ridges"], role="voronoi")
-    scene.add_points(g[sites], role="sites")
+    scene.add_edges(g[f"{prefix}vertices"], g[f"{prefix}ridges"], name="voronoi")
+    scene.add_points(g[sites], name="sites")
     return scene
 
 

@@ -165,7 +165,7 @@ def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GO
 def summarised(arrays: Arrays) -> dict[str, npt.NDArray[Any]]:
     """Named arrays as they are if they are small together; else what a few numbers tell of them.
 
-    Numbers of items of one kind and role (whose names begin with a number each) are joined. Of each such row are kept:
+    Numbers of items of one kind and name (whose names begin with a number each) are joined. Of each such row are kept:
     how many they are, their sum, the sum of their squares, and every so many-th of them in the order of their size, so
     that another order of rows does not count. Texts are kept as they are.
 

@@ -53,12 +53,12 @@ def globe(g: dict[str, object], lines: list[Contour], *, triangles: bool) -> Sce
     """Contours, red above zero and blue below, over the sites."""
     scene = Scene(weight=0.7)
     if triangles:
-        scene.add_edges(g["sites"], g["edges"], role="delaunay", style=LineStyle(LIGHT_GRAY, 0.6))
+        scene.add_edges(g["sites"], g["edges"], name="delaunay", style=LineStyle(LIGHT_GRAY, 0.6))
     for line in lines:
         steps = np.arange(len(line.points) - 1)
         color = VERMILION if line.level > 0 else BLUE
-        scene.add_edges(line.points, np.stack([steps, steps + 1], axis=1), role="contour", style=LineStyle(color, 1.3))
-    scene.add_points(g["sites"], role="sites")
+        scene.add_edges(line.points, np.stack([steps, steps + 1], axis=1), name="contour", style=LineStyle(color, 1.3))
+    scene.add_points(g["sites"], name="sites")
     return scene
 
 

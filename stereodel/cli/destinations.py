@@ -14,10 +14,11 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
+from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.cli.options import Latitude
-from stereodel.cli.sources import LONLAT, Column, Columns
+from stereodel.cli.sources import LONLAT, Columns
 from stereodel.io import write
 from stereodel.io.csv_text import write_csv
 
@@ -97,8 +98,8 @@ def _cells(values: Column) -> Column:
     """What a text table says: nothing where there is no number, and no fraction where a column has none."""
     if values.dtype.kind != "f":
         return values
-    known = np.isfinite(values)
-    numbers = values[known]
+    known = np.isfinite(values.astype(np.float64))
+    numbers = values[known].astype(np.float64)
     cells: npt.NDArray[Any] = np.full(len(values), None, dtype=object)
     whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
     cells[known] = list(map(int, numbers.tolist())) if whole else numbers.tolist()

@@ -134,6 +134,7 @@ def _grid(spacing: float, box: str | None) -> tuple[FloatArray, FloatArray]:
     import numpy as np
 
     from stereodel._arrays import as_scalar, as_steps
+    from stereodel.constants import GRID_ROUNDING
 
     if box is None:
         steps = as_steps(180.0, spacing, "--grid")
@@ -141,8 +142,7 @@ def _grid(spacing: float, box: str | None) -> tuple[FloatArray, FloatArray]:
 
     def steps_between(low: float, high: float) -> FloatArray:
         step = as_scalar(spacing, "--grid", low=0.0, high=high - low, open_low=True)
-        # A border that the steps miss by rounding alone is reached.
-        count = int(np.floor((high - low) / step + 1e-9))
+        count = int(np.floor((high - low) / step + GRID_ROUNDING))
         return np.minimum(low + step * np.arange(count + 1), high)
 
     west, south, east, north = options.box_of(box, "--box")
@@ -159,7 +159,7 @@ def _save_grid(path: Path, lon: FloatArray, lat: FloatArray, columns: dict[str, 
 
     if path.suffix.lower() == ".csv":
         grid = (axis.ravel() for axis in np.meshgrid(lon, lat))
-        save_table(path, LONLAT, dict(zip(LONLAT, grid, strict=True)) | columns)
+        save_table(path, LONLAT, {**dict(zip(LONLAT, grid, strict=True)), **columns})
         return
     from scipy.io import netcdf_file
 

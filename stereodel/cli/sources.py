@@ -6,20 +6,18 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import lonlat_to_xyz
-from stereodel._arrays import FloatArray
+from stereodel._arrays import Column, FloatArray
 from stereodel.cli.failures import NothingToDoError
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import stage
 from stereodel.io import read_points
 from stereodel.io.reading import read_plane_points
 
-Column = npt.NDArray[Any]
 Columns = dict[str, Column]
 
 LONLAT = ("lon", "lat")

@@ -52,9 +52,9 @@ def command(
     with stage(f"cells of {len(table)} points"):
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
-        areas = dict([_areas(diagram, area_unit)])
+        name, area = _areas(diagram, area_unit)
     with stage(f"writing {out}"):
-        destination.write(lambda path: _save(path, diagram, table, areas, max_segment, latitude))
+        destination.write(lambda path: _save(path, diagram, table, {name: area}, max_segment, latitude))
     say(f"{out}: cells of {len(table)} points")
 
 

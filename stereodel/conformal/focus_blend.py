@@ -86,7 +86,7 @@ class FocusBlend:
     @property
     def core_radii(self) -> FloatArray:
         """Angular radii in degrees, (n,), of the cores: inside them the map is the conformal fisheye."""
-        return np.asarray(np.degrees(2 * np.arctan(np.exp(-self._ring) * self._rim)))
+        return np.degrees(2 * np.arctan(np.exp(-self._ring) * self._rim))
 
     def __call__(self, xyz: npt.ArrayLike) -> FloatArray:
         """Images of directions (..., 3) as unit vectors."""

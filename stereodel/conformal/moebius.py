@@ -176,9 +176,6 @@ class MoebiusMap:
             as_lonlat(array)  # raises as above
         return images.reshape(array.shape)
 
-    def _image(self, points: DoubleDouble) -> DoubleDouble:
-        return self.left.apply(boost_points(self.right.apply(points), self._size))
-
     @property
     def _size(self) -> DoubleDouble:
         return DoubleDouble(self.magnification)
@@ -215,7 +212,8 @@ class MoebiusMap:
         normal, offset, radius = self._circle_image(curve.circle)
         circle = SphereCircle.rounded(normal, offset, radius)
         # The ends are drawn onto the circle first: what they are off would be magnified, too.
-        start, end = (self._image(on_circle(curve.circle, unit(point))) for point in (curve.start, curve.end))
+        ends = (self.right.apply(on_circle(curve.circle, unit(point))) for point in (curve.start, curve.end))
+        start, end = (self.left.apply(boost_points(point, self._size)) for point in ends)
         angle = curve.angle_rad if curve.closed else swept_angle(normal / dot(normal, normal).sqrt(), start, end)
         return SphereArc(circle, start.round() + 0.0, end.round() + 0.0, angle)
 

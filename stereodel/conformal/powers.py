@@ -11,16 +11,14 @@ import numpy as np
 
 from stereodel.conformal.biquaternions import Biquaternion, from_parts
 from stereodel.conformal.complex_pairs import Complex
-from stereodel.constants import LARGEST_MAGNIFICATION
-
-_NO_ANGLE = 1e-9  # |s| below which θ/s is 1 + s²/6 to a double, and |tθ| below 1e-3: z³/720 is below 2⁻⁶⁹
+from stereodel.constants import LARGEST_MAGNIFICATION, SMALL_ANGLE
 
 
 def power(element: Biquaternion, exponent: float) -> Biquaternion:
     """The real power of an element of determinant 1; of the two signs the one of the smaller rotation is taken."""
     element = principal(element)
     square = complex(element.vector_square)
-    if abs(square) <= _NO_ANGLE**2:
+    if abs(square) <= SMALL_ANGLE**2:
         ratio = exponent * (1 + square / 6)  # tθ/s
         z = square * ratio**2
         cosine, factor = 1 - z / 2 + z**2 / 24, ratio * (1 - z / 6 + z**2 / 120)
@@ -53,12 +51,8 @@ def sine_of(element: Biquaternion) -> Complex:
     return root if float(lead.re.hi) >= 0 else -root
 
 
-def _excess(element: Biquaternion, sine: Complex) -> float:
-    """|c + i s|² − 1."""
-    return float(((element.scalar + sine.times_i()).square_size() - 1.0).round())
-
-
 def _angle(element: Biquaternion, sine: Complex) -> complex:
     """θ with c = cos θ and s = sin θ, from the logarithm of exp(iθ) = c + i s."""
-    value = complex(element.scalar + sine.times_i())
-    return complex(np.arctan2(value.imag, value.real), -0.5 * np.log1p(_excess(element, sine)))
+    exponential = element.scalar + sine.times_i()
+    value, excess = complex(exponential), float((exponential.square_size() - 1.0).round())
+    return complex(np.arctan2(value.imag, value.real), -0.5 * np.log1p(excess))

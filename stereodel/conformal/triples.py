@@ -9,8 +9,8 @@ from stereodel._double_double import DoubleDouble, unit
 from stereodel.conformal.biquaternions import Spinors, from_spinors
 from stereodel.conformal.complex_pairs import Complex
 from stereodel.conformal.moebius import MoebiusMap
+from stereodel.constants import UNDECIDED
 from stereodel.sphere.coordinates import as_sphere_points
-from stereodel.sphere.quaternions import UNDECIDED
 
 Spinor = tuple[Complex, Complex]
 

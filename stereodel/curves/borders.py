@@ -310,7 +310,7 @@ def crossings(
     some, begin, stop = arcs.take(near), arcs.begin[near], arcs.stop[near]
     constant, size, phase = some.waves(direction)
     constant = constant - level
-    with np.errstate(divide="ignore", invalid="ignore"):
+    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         half = np.nan_to_num(np.arccos(np.clip(-constant / size, -1.0, 1.0)))
     rising, falling = (_from(begin, stop, phase + turn) for turn in (-half, half))
     once = above[near] != ending[near]

@@ -6,14 +6,13 @@ import io
 from functools import cache
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import locked
+from stereodel._arrays import Pixels, locked
 from stereodel.data import stored
 
 
 @cache
-def blue_marble() -> npt.NDArray[np.uint8]:
+def blue_marble() -> Pixels:
     """The Earth without clouds, in a northern winter: NASA's Blue Marble, Next Generation, with the sea floor's relief.
 
     Returns

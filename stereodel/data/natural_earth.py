@@ -14,22 +14,38 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_choice, locked
+from stereodel._arrays import BoolArray, Bytes, FloatArray, IntArray, Texts, as_choice, locked
+from stereodel._docs import shared
 from stereodel.data import stored
 from stereodel.data.shapes import Lines, Polygons
-from stereodel.data.stored import Texts
 
-RESOLUTIONS: Final = ("10m", "50m", "110m")
-"""Maps of 1 : 10, 1 : 50 and 1 : 110 million."""
-
-SHARED: Final = ("50m", "110m")
-"""Those at which there are countries that share their borders."""
+STORED: Final = {
+    "coastlines": {"10m": "land_10m", "50m": "coastlines_50m", "110m": "coastlines_110m"},
+    "land": {"10m": "land_10m", "50m": "countries_50m", "110m": "countries_110m"},
+    "countries": {"50m": "countries_50m", "110m": "countries_110m"},
+    "borders": {"10m": "borders_10m", "50m": "countries_50m", "110m": "countries_110m"},
+    "rivers": {"10m": "rivers_10m", "50m": "rivers_50m", "110m": "rivers_110m"},
+    "lakes": {"10m": "lakes_10m", "50m": "lakes_50m", "110m": "lakes_110m"},
+}
+"""The file that holds each set for maps of 1 : 10, 1 : 50 and 1 : 110 million."""
 
 DEGREE_DIGITS: Final = 4
 """Digits behind the point of the stored degrees: 11 m."""
 
 WATER_DIGITS: Final = 3
 """The same of rivers, lakes and the borders at 1 : 10 million: 111 m."""
+
+
+_SHARED = {
+    "resolution": """
+        resolution : {"10m", "50m", "110m"}, optional
+            Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
+        """,
+    "raises": """
+        ValueError
+            For another resolution.
+        """,
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,46 +117,44 @@ class Countries(Polygons):
 
 
 @cache
+@shared(**_SHARED)
 def coastlines(resolution: str = "50m") -> Coastlines:
     """Coastlines of Natural Earth (public domain).
 
     Parameters
     ----------
-    resolution : {"10m", "50m", "110m"}, optional
-        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
+    {resolution}
 
     Raises
     ------
-    ValueError
-        For another resolution.
+    {raises}
 
     Examples
     --------
     >>> [len(coastlines(resolution).lines()) for resolution in ("10m", "50m", "110m")]
     [6841, 1422, 128]
     """
-    if _checked(resolution) == "10m":
+    if resolution == "10m":
         outlines = land("10m")
         lines = [coast for ring in np.split(outlines.lonlat, outlines.ring_offsets[1:-1]) for coast in _coasts(ring)]
         return Coastlines(locked(np.concatenate(lines)), _offsets([len(line) for line in lines]))
-    columns = stored.load(f"coastlines_{resolution}")
+    columns = _columns("coastlines", resolution)
     degrees = [stored.decimals(columns[key], DEGREE_DIGITS) for key in ("lon", "lat")]
     return Coastlines(locked(np.stack(degrees, axis=-1)), _offsets(stored.integers(columns["sizes"])))
 
 
 @cache
+@shared(**_SHARED)
 def land(resolution: str = "50m") -> Land:
     """Land as polygons, after Natural Earth (public domain).
 
     Parameters
     ----------
-    resolution : {"10m", "50m", "110m"}, optional
-        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
+    {resolution}
 
     Raises
     ------
-    ValueError
-        For another resolution.
+    {raises}
 
     Examples
     --------
@@ -148,11 +162,11 @@ def land(resolution: str = "50m") -> Land:
     >>> len(table.polygons()), table.lonlat.shape
     (127, (5137, 2))
     """
-    columns = stored.load("land_10m" if _checked(resolution) == "10m" else f"countries_{resolution}")
-    return Land(*_polygons(columns, "land"))
+    return Land(*_polygons(_columns("land", resolution), "land"))
 
 
 @cache
+@shared(**_SHARED)
 def countries(resolution: str = "50m") -> Countries:
     """Countries as polygons, after Natural Earth (public domain); codes and continents after GeoNames (CC BY 4.0).
 
@@ -163,8 +177,7 @@ def countries(resolution: str = "50m") -> Countries:
 
     Raises
     ------
-    ValueError
-        For another resolution.
+    {raises}
 
     Examples
     --------
@@ -172,25 +185,24 @@ def countries(resolution: str = "50m") -> Countries:
     >>> int((table.continent == "EU").sum()), len(table.name)
     (50, 241)
     """
-    columns = stored.load(f"countries_{as_choice(resolution, SHARED, 'resolution')}")
+    columns = _columns("countries", resolution)
     name, *codes = (locked(stored.texts(columns[key])) for key in ("name", "alpha2", "alpha3", "continent"))
     sizes, number = (stored.integers(columns[key]) for key in ("country_sizes", "number"))
     return Countries(*_polygons(columns, "country"), _offsets(sizes), name, locked(number), *codes)
 
 
 @cache
+@shared(**_SHARED)
 def borders(resolution: str = "50m") -> Borders:
     """Borders between countries, after Natural Earth (public domain).
 
     Parameters
     ----------
-    resolution : {"10m", "50m", "110m"}, optional
-        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
+    {resolution}
 
     Raises
     ------
-    ValueError
-        For another resolution.
+    {raises}
 
     Examples
     --------
@@ -198,10 +210,10 @@ def borders(resolution: str = "50m") -> Borders:
     >>> print(np.unique(sides[(sides == "Spain").any(axis=1)]))
     ['France' 'Portugal' 'Spain']
     """
-    if _checked(resolution) == "10m":
-        lonlat, offsets = _lines(stored.load("borders_10m"))
+    columns = _columns("borders", resolution)
+    if resolution == "10m":
+        lonlat, offsets = _lines(columns)
         return Borders(lonlat, offsets, locked(np.full((len(offsets) - 1, 2), -1, dtype=np.int32)))
-    columns = stored.load(f"countries_{resolution}")
     owners = _owners(columns)
     shared = [arc for arc in sorted(owners) if arc >= 0 and ~arc in owners]
     arcs = _arcs(columns, DEGREE_DIGITS)
@@ -211,78 +223,79 @@ def borders(resolution: str = "50m") -> Borders:
 
 
 @cache
+@shared(**_SHARED)
 def rivers(resolution: str = "50m") -> Rivers:
     """Rivers, and the ways on through lakes, after Natural Earth (public domain).
 
     Parameters
     ----------
-    resolution : {"10m", "50m", "110m"}, optional
-        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
+    {resolution}
 
     Raises
     ------
-    ValueError
-        For another resolution.
+    {raises}
 
     Examples
     --------
     >>> print(*rivers("110m").name[:5], sep=", ")
     Lena, Chang (Yangtze), Nile, Amazon, Mississippi
     """
-    columns = stored.load(f"rivers_{_checked(resolution)}")
+    columns = _columns("rivers", resolution)
     name = locked(stored.texts(columns["name"]))
     rank, in_lake = (stored.integers(columns[key]) for key in ("rank", "in_lake"))
     return Rivers(*_lines(columns), name, locked(rank), locked(in_lake.astype(bool)))
 
 
 @cache
+@shared(**_SHARED)
 def lakes(resolution: str = "50m") -> Lakes:
     """Lakes as polygons, after Natural Earth (public domain).
 
+    The latter two resolutions lie on a grid of 0.036° by 0.018°.
+
     Parameters
     ----------
-    resolution : {"10m", "50m", "110m"}, optional
-        Made for maps of 1 : 10, 1 : 50 or 1 : 110 million; the latter two lie on a grid of 0.036° by 0.018°.
+    {resolution}
 
     Raises
     ------
-    ValueError
-        For another resolution.
+    {raises}
 
     Examples
     --------
     >>> [len(lakes(resolution).polygons()) for resolution in ("10m", "50m", "110m")]
     [1352, 280, 25]
     """
-    return Lakes(*_polygons(stored.load(f"lakes_{_checked(resolution)}"), "lakes", WATER_DIGITS))
+    return Lakes(*_polygons(_columns("lakes", resolution), "lakes", WATER_DIGITS))
 
 
-def _checked(resolution: str) -> str:
-    return as_choice(resolution, RESOLUTIONS, "resolution")
+def _columns(kind: str, resolution: str) -> dict[str, Bytes]:
+    """The stored columns of a set, by name."""
+    return stored.load(STORED[kind][as_choice(resolution, tuple(STORED[kind]), "resolution")])
 
 
 def _offsets(sizes: Any) -> IntArray:
     return locked(np.concatenate([[0], np.cumsum(sizes)]).astype(np.int32))
 
 
-def _lonlat(columns: dict[str, stored.Bytes], digits: int) -> FloatArray:
+def _lonlat(columns: dict[str, Bytes], digits: int) -> FloatArray:
     """Coordinates, stored as steps from one point to the next, which are small numbers."""
     steps = np.stack([stored.integers(columns[key]) for key in ("lon", "lat")], axis=-1)
     return np.cumsum(steps, axis=0) / 10.0**digits
 
 
-def _lines(columns: dict[str, stored.Bytes]) -> tuple[FloatArray, IntArray]:
+def _lines(columns: dict[str, Bytes]) -> tuple[FloatArray, IntArray]:
     """Coordinates and offsets of lines."""
     return locked(_lonlat(columns, WATER_DIGITS)), _offsets(stored.integers(columns["sizes"]))
 
 
-def _arcs(columns: dict[str, stored.Bytes], digits: int) -> list[FloatArray]:
+def _arcs(columns: dict[str, Bytes], digits: int) -> list[FloatArray]:
     """The lines that rings are made of."""
     return np.split(_lonlat(columns, digits), np.cumsum(stored.integers(columns["sizes"]))[:-1])
 
 
 def _polygons(
-    columns: dict[str, stored.Bytes], kind: str, digits: int = DEGREE_DIGITS
+    columns: dict[str, Bytes], kind: str, digits: int = DEGREE_DIGITS
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Coordinates, offsets of rings and offsets of polygons."""
     arcs = _arcs(columns, digits)
@@ -309,7 +322,7 @@ def _ring(arcs: list[FloatArray], used: list[int]) -> FloatArray:
     return np.concatenate([*(part[:-1] for part in parts), parts[-1][-1:]])
 
 
-def _owners(columns: dict[str, stored.Bytes]) -> dict[int, int]:
+def _owners(columns: dict[str, Bytes]) -> dict[int, int]:
     """The country on the left of each arc, and of each arc backwards, ~i."""
     rings, polygons, sizes = (stored.integers(columns[f"country_{key}"]) for key in ("rings", "polygons", "sizes"))
     ring_country = np.repeat(np.repeat(np.arange(len(sizes)), sizes), polygons)

@@ -9,9 +9,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, IntArray, locked
+from stereodel._arrays import Bytes, FloatArray, IntArray, Texts, locked
 from stereodel.data import stored
-from stereodel.data.stored import Texts
 
 DEGREE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5}
 """Digits behind the point of the stored degrees: for airports and cities all that the sources have."""
@@ -119,6 +118,6 @@ def stars() -> Stars:
     return Stars(_lonlat(columns, "stars"), locked(stored.integers(columns["hip"])), *fractions)
 
 
-def _lonlat(columns: dict[str, stored.Bytes], kind: str) -> FloatArray:
+def _lonlat(columns: dict[str, Bytes], kind: str) -> FloatArray:
     degrees = (stored.decimals(columns[key], DEGREE_DIGITS[kind]) for key in ("lon", "lat"))
     return locked(np.stack(list(degrees), axis=-1))

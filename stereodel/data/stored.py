@@ -19,11 +19,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
-
-Bytes = npt.NDArray[np.uint8]
-Integers = npt.NDArray[np.int32]
-Texts = npt.NDArray[np.str_]
+from stereodel._arrays import Bytes, FloatArray, IntArray, Texts
 
 TABLE: Final = "sources.json"
 """Name of the file that says where each set is from."""
@@ -71,7 +67,7 @@ def dump(columns: Mapping[str, Sequence[int] | npt.NDArray[np.integer[Any]] | Se
     return lzma.compress(archive.getvalue(), preset=9 | lzma.PRESET_EXTREME)
 
 
-def integers(planes: Bytes) -> Integers:
+def integers(planes: Bytes) -> IntArray:
     """A column of integers."""
     return np.ascontiguousarray(planes.T).view("<i4")[:, 0].astype(np.int32)
 

@@ -1,13 +1,13 @@
 """What lies where on a picture, before anything draws it: pages and their items, scenes, sketches, views, styles."""
 
-from stereodel.drawing.colors import ColorScale
 from stereodel.drawing.diagrams import diagram_page
 from stereodel.drawing.page import Label, Page
+from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.scene import Scene
+from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.sketch import Sketch
 from stereodel.drawing.space_curves import CircleArc, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
-from stereodel.drawing.things import Layer
 from stereodel.drawing.view import StereographicView, View
 
 __all__ = [

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
@@ -59,13 +57,11 @@ def diagram_page(
 def _globe(mesh: SphericalDelaunay | SphericalVoronoi, view: npt.ArrayLike) -> Page:
     scene = Scene()
     if isinstance(mesh, SphericalVoronoi):
-        scene.add_arcs(mesh.ridge_arcs(), role="voronoi")
+        scene.add_arcs(mesh.ridge_arcs(), name="voronoi")
     else:
-        scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), role="delaunay")
-    scene.add_points(mesh.points, role="sites")
-    side = 1 + MARGIN
-    seen: Any = View(*as_lonlat(view, "view").tolist())
-    return Page((-side, side, -side, side), scene.layout(seen), width=340.0)
+        scene.add_edges(mesh.points, edges_of(mesh.simplices[~mesh.closing]), name="delaunay")
+    scene.add_points(mesh.points, name="sites")
+    return scene.page(View(*as_lonlat(view, "view").tolist()), width=340.0)
 
 
 def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -> Page:
@@ -73,12 +69,12 @@ def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -
     sketch = Sketch()
     if isinstance(mesh, PlanarVoronoi):
         segments, _ = mesh.segments((box.left, box.right, box.bottom, box.top))
-        sketch.add_segments(segments, role="voronoi")
+        sketch.add_segments(segments, name="voronoi")
     else:
-        sketch.add_edges(mesh.points, mesh.edges, role="delaunay")
+        sketch.add_edges(mesh.points, mesh.edges, name="delaunay")
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
     inside = ((low < mesh.points) & (mesh.points < high)).all(axis=1)
-    sketch.add_points(mesh.points[inside], role="sites")
-    sketch.add_polyline(box.corners, closed=True, role="frame")
+    sketch.add_points(mesh.points[inside], name="sites")
+    sketch.add_polyline(box.corners, closed=True, name="frame")
     pad = MARGIN * (box.right - box.left) / 2
     return sketch.page((box.left - pad, box.right + pad, box.bottom - pad, box.top + pad))

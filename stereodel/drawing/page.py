@@ -14,10 +14,8 @@ from typing import Literal, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray
-
-Color = tuple[float, float, float, float]
-"""Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
+from stereodel._arrays import BoolArray, FloatArray, as_scalar
+from stereodel.drawing.colors import Color
 
 Beziers = FloatArray
 """A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins; straight: controls at thirds."""
@@ -35,17 +33,37 @@ class Stroke:
     """Length of dash and gap in points."""
     cap: Literal["round", "butt"] = "round"
     closed: bool = False
-    role: str = ""
+    name: str = ""
     """What it is, in the words of the figure: "delaunay", "voronoi", "limb" …; becomes the group's id in SVG."""
+
+
+@dataclass(frozen=True)
+class Ball:
+    """The light of a ball as a function of the place on the page: what lies on it is darker where it turns away.
+
+    The brightness at a place is that of the near side of the ball, whose normal the place tells; it is between 0.64 and
+    1, brightest in the upper left. Pixels are lit so, paper is not.
+
+    Parameters
+    ----------
+    center : tuple of float
+        Page coordinates of its middle.
+    radius : float
+        In page units, positive.
+    """
+
+    center: tuple[float, float]
+    radius: float
 
 
 @dataclass(frozen=True, eq=False)
 class Fill:
-    """A filled region, bounded by one or more closed runs (even-odd rule)."""
+    """A filled region, bounded by one or more closed runs (even-odd rule), which may lie on a ball."""
 
     paths: tuple[Beziers, ...]
     color: Color
-    role: str = ""
+    name: str = ""
+    ball: Ball | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +75,7 @@ class Dots:
     color: Color
     rim: Color = (1.0, 1.0, 1.0, 1.0)
     rim_width: float = 0.0
-    role: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +92,7 @@ class Surface:
     faces: npt.NDArray[np.int32]
     outline: tuple[Beziers, ...]
     color: Color
-    role: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,7 +107,7 @@ class Mosaic:
     normals: FloatArray | None
     colors: FloatArray
     outline: tuple[Beziers, ...]
-    role: str = ""
+    name: str = ""
 
 
 class Painter(Protocol):
@@ -116,7 +134,7 @@ class Picture:
 
     outline: tuple[Beziers, ...]
     painter: Painter
-    role: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +151,7 @@ class Polylines:
     color: Color
     width: float
     """In points."""
-    role: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,7 +172,7 @@ class Patch:
     """(n,): whether a corner lies on the edge of what is seen."""
     middle: tuple[float, float] = (0.0, 0.0)
     normals: FloatArray | None = None
-    role: str = ""
+    name: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,7 +187,7 @@ class Label:
     size: float = 9.0
     color: Color = (0.0, 0.0, 0.0, 1.0)
     rotation: float = 0.0
-    role: str = "label"
+    name: str = "label"
     halo: float = 0.0
     """Width of a line round the letters, points."""
     halo_color: Color = (1.0, 1.0, 1.0, 1.0)
@@ -193,6 +211,11 @@ class Page:
     background : Color
     views : tuple of (3, 3) arrays
         The view matrices that made it (rows right, up, toward), kept for the golden tests.
+
+    Raises
+    ------
+    ValueError
+        For an extent without area, and a width that is not positive.
     """
 
     extent: tuple[float, float, float, float]
@@ -200,6 +223,12 @@ class Page:
     width: float = 481.89
     background: Color = (1.0, 1.0, 1.0, 1.0)
     views: tuple[FloatArray, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        left, right, bottom, top = self.extent
+        as_scalar(right - left, "extent[1] - extent[0]", low=0.0, open_low=True)
+        as_scalar(top - bottom, "extent[3] - extent[2]", low=0.0, open_low=True)
+        as_scalar(self.width, "width", low=0.0, open_low=True)
 
     @property
     def points_per_unit(self) -> float:
@@ -227,9 +256,13 @@ class Page:
             "views": np.array(self.views).reshape(-1, 3, 3),
         }
         for number, item in enumerate(self.items):
-            prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.role}"
+            prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.name}"
             named.update({f"{prefix}_{key}": value for key, value in _arrays_of(item).items()})
         return named
+
+
+def _light(ball: Ball | None) -> dict[str, npt.NDArray[np.generic]]:
+    return {} if ball is None else {"ball": np.array([*ball.center, ball.radius])}
 
 
 def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
@@ -248,6 +281,7 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
                 "path": np.concatenate(item.paths),
                 "sizes": np.array([len(p) for p in item.paths]),
                 "style": np.array(item.color),
+                **_light(item.ball),
             }
         case Dots():
             return {"centers": item.centers, "style": np.array([item.radius, *item.color, *item.rim, item.rim_width])}

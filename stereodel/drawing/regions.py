@@ -66,14 +66,14 @@ class SphereRegion:
         if self._deepest_toward() <= ON_BALL * self.radius:
             return [[limb(self.radius)]] if self.contains(np.array([0.0, 0.0, self.radius])) else []
         if all(front):
-            around = self.contains(limb(self.radius).points(np.linspace(0, 2 * np.pi, 8))).all()
+            around = self.contains(limb(self.radius).sample(np.linspace(0, 2 * np.pi, 8))).all()
             runs: list[list[Curve]] = [[curve for curve, _ in pieces]]
             return [*runs, [limb(self.radius)]] if around else runs
         return self._closed_along_limb(_runs([curve for curve, _ in pieces], front))
 
     def _deepest_toward(self) -> float:
         """How far the boundary comes toward the viewer, seen at sampled points."""
-        return max(float(arc.points(np.linspace(arc.start, arc.stop, 65))[:, 2].max()) for arc in self.boundary)
+        return max(float(arc.sample(np.linspace(arc.start, arc.stop, 65))[:, 2].max()) for arc in self.boundary)
 
     def _closed_along_limb(self, runs: list[list[Curve]]) -> list[list[Curve]]:
         """Join runs that start and end on the limb: from each end counterclockwise along it to the nearest start.
@@ -81,7 +81,7 @@ class SphereRegion:
         The region is on the left of its boundary and the near side on the left of the limb, so the boundary of both
         together turns left at the limb.
         """
-        starts = np.array([_page_angle(run[0].points(run[0].start)) for run in runs])
+        starts = np.array([_page_angle(run[0].sample(run[0].start)) for run in runs])
         loops, waiting = [], set(range(len(runs)))
         while waiting:
             number = min(waiting)
@@ -89,7 +89,7 @@ class SphereRegion:
             while number in waiting:
                 waiting.remove(number)
                 loop += runs[number]
-                end = _page_angle(loop[-1].points(loop[-1].stop))
+                end = _page_angle(loop[-1].sample(loop[-1].stop))
                 number = int(np.argmin(np.mod(starts - end, 2 * np.pi)))
                 loop.append(limb(self.radius).part(end, end + float(np.mod(starts[number] - end, 2 * np.pi))))
             loops.append(loop)
@@ -110,7 +110,7 @@ class SphereRegion:
     def _sampled_boundary(self) -> FloatArray:
         steps = [max(2, int(np.ceil((arc.stop - arc.start) / MESH_STEP_RAD))) for arc in self.boundary]
         sampled = [
-            arc.points(np.linspace(arc.start, arc.stop, n + 1)[:-1])
+            arc.sample(np.linspace(arc.start, arc.stop, n + 1)[:-1])
             for arc, n in zip(self.boundary, steps, strict=True)
         ]
         return np.concatenate(sampled)
@@ -132,7 +132,7 @@ def near_hemisphere(radius: float) -> tuple[FloatArray, npt.NDArray[np.int32]]:
     """Mesh of the half of the ball that the viewer sees: vertices (n, 3), faces (m, 3)."""
     rings, around = round(np.pi / 2 / RING_STEP_RAD), round(2 * np.pi / MESH_STEP_RAD)
     depth = np.linspace(0, np.pi / 2, rings + 1)[1:, None, None]
-    rim = limb(1.0).points(np.linspace(0, 2 * np.pi, around + 1)[:-1])
+    rim = limb(1.0).sample(np.linspace(0, 2 * np.pi, around + 1)[:-1])
     grid = np.sin(depth) * rim + np.cos(depth) * np.array([0.0, 0.0, 1.0])
     vertices = np.concatenate([[[0.0, 0.0, 1.0]], grid.reshape(-1, 3)])
     return radius * vertices, fan_faces(rings, around)

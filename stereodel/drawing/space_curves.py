@@ -48,7 +48,7 @@ class Curve(Protocol):
     def closed(self) -> bool:
         """Whether the end is the start."""
 
-    def points(self, t: npt.ArrayLike) -> FloatArray:
+    def sample(self, t: npt.ArrayLike) -> FloatArray:
         """Points (..., 3) at parameters (...)."""
 
     def beziers(self) -> FloatArray:
@@ -93,13 +93,13 @@ class Segment:
         """Never."""
         return False
 
-    def points(self, t: npt.ArrayLike) -> FloatArray:
+    def sample(self, t: npt.ArrayLike) -> FloatArray:
         """Points (..., 3) at parameters (...)."""
         return self.origin + np.asarray(t, dtype=np.float64)[..., None] * self.direction
 
     def beziers(self) -> FloatArray:
         """One cubic with its controls at thirds, (1, 4, 3)."""
-        return self.points(np.linspace(self.start, self.stop, 4))[None]
+        return self.sample(np.linspace(self.start, self.stop, 4))[None]
 
     def moved(self, matrix: FloatArray, origin: FloatArray) -> Segment:
         """The image under x → matrix·(x − origin)."""
@@ -137,7 +137,7 @@ class CircleArc:
     Examples
     --------
     >>> quarter = CircleArc.great([1, 0, 0], [0, 1, 0])
-    >>> quarter.points(quarter.stop).round(12).tolist(), quarter.closed
+    >>> quarter.sample(quarter.stop).round(12).tolist(), quarter.closed
     ([0.0, 1.0, 0.0], False)
     """
 
@@ -182,7 +182,7 @@ class CircleArc:
         # start + 2π was rounded once and so is the difference, each time by at most UNIT_ROUNDOFF·(|start| + 2π).
         return abs(self.stop - self.start - 2 * np.pi) <= 2 * UNIT_ROUNDOFF * (abs(self.start) + 2 * np.pi)
 
-    def points(self, t: npt.ArrayLike) -> FloatArray:
+    def sample(self, t: npt.ArrayLike) -> FloatArray:
         """Points (..., 3) at parameters (...)."""
         angle = np.asarray(t, dtype=np.float64)[..., None]
         return self.center + np.cos(angle) * self.u + np.sin(angle) * self.v
@@ -191,7 +191,7 @@ class CircleArc:
         """Cubics of at most 30° each, (k, 4, 3), within 3.8e-7 of the radius (see the module's notes)."""
         pieces = max(1, int(np.ceil((self.stop - self.start) / LONGEST_PIECE_RAD - 1e-9)))
         t = np.linspace(self.start, self.stop, pieces + 1)
-        ends = self.points(t)
+        ends = self.sample(t)
         if self.closed:
             ends[-1] = ends[0]
         reach = 4 / 3 * np.tan((self.stop - self.start) / pieces / 4)

@@ -11,7 +11,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Final, TypeVar
 
-from stereodel.drawing.page import Color
+from stereodel._arrays import as_scalar
+from stereodel.drawing.colors import Color, ColorLike, as_color
 
 T = TypeVar("T")
 
@@ -56,13 +57,38 @@ def with_opacity(color: Color, opacity: float) -> Color:
     return (*color[:3], opacity)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class LineStyle:
-    """How a line looks: colour, width in points, dash and gap in points."""
+    """How a line looks.
+
+    Parameters
+    ----------
+    color : color-like
+        As matplotlib understands it, see `as_color`.
+    width : float
+        In points.
+    dash : (float, float), optional
+        Length of dash and gap in points.
+
+    Raises
+    ------
+    ValueError
+        For what is no colour, and for a negative width.
+
+    Examples
+    --------
+    >>> LineStyle("black", 0.5).scaled(2)
+    LineStyle(color=(0.0, 0.0, 0.0, 1.0), width=1.0, dash=None)
+    """
 
     color: Color
     width: float
     dash: tuple[float, float] | None = None
+
+    def __init__(self, color: ColorLike, width: float, dash: tuple[float, float] | None = None) -> None:
+        object.__setattr__(self, "color", as_color(color))
+        object.__setattr__(self, "width", as_scalar(width, "width", low=0.0))
+        object.__setattr__(self, "dash", dash)
 
     def scaled(self, weight: float) -> LineStyle:
         """The same line for a smaller or larger picture."""
@@ -74,14 +100,37 @@ class LineStyle:
         return replace(self, color=fainter(self.color), width=0.8 * self.width)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, init=False)
 class DotStyle:
-    """How a dot looks: colour, radius in points with the rim, width and colour of the rim."""
+    """How a dot looks.
+
+    Parameters
+    ----------
+    color : color-like
+        As matplotlib understands it, see `as_color`.
+    radius : float
+        In points, with the rim.
+    rim : color-like
+        Of a rim, which lies inside the radius.
+    rim_width : float
+        In points; 0 for none.
+
+    Raises
+    ------
+    ValueError
+        For what is no colour, and for a negative radius or width.
+    """
 
     color: Color
     radius: float
     rim: Color = WHITE
     rim_width: float = 0.0
+
+    def __init__(self, color: ColorLike, radius: float, rim: ColorLike = WHITE, rim_width: float = 0.0) -> None:
+        object.__setattr__(self, "color", as_color(color))
+        object.__setattr__(self, "radius", as_scalar(radius, "radius", low=0.0))
+        object.__setattr__(self, "rim", as_color(rim, "rim"))
+        object.__setattr__(self, "rim_width", as_scalar(rim_width, "rim_width", low=0.0))
 
     def scaled(self, weight: float) -> DotStyle:
         """The same dot for a smaller or larger picture."""
@@ -167,28 +216,28 @@ TYPE: Final[Mapping[str, Any]] = {
 """matplotlib settings under which every page is drawn; fonts are those that matplotlib ships."""
 
 
-def line(role: str | LineStyle) -> LineStyle:
-    """The style of a line.
+def line(name: str, style: LineStyle | None = None) -> LineStyle:
+    """The style of a line: the one given, or else that of its name.
 
     Raises
     ------
     ValueError
-        For a role that has no style.
+        For a name that has no style, when none is given.
     """
-    return role if isinstance(role, LineStyle) else _look_up(LINES, role, "line")
+    return _look_up(LINES, name, "line", "style") if style is None else style
 
 
-def dot(role: str | DotStyle) -> DotStyle:
-    """The style of a dot; a ValueError for a role that has none."""
-    return role if isinstance(role, DotStyle) else _look_up(DOTS, role, "dot")
+def dot(name: str, style: DotStyle | None = None) -> DotStyle:
+    """The style of a dot, as `line`."""
+    return _look_up(DOTS, name, "dot", "style") if style is None else style
 
 
-def fill(role: str | Color) -> Color:
-    """The tint of a region; a ValueError for a role that has none."""
-    return role if isinstance(role, tuple) else _look_up(FILLS, role, "fill")
+def fill(name: str, color: ColorLike | None = None) -> Color:
+    """The colour of a region, as `line`."""
+    return _look_up(FILLS, name, "fill", "color") if color is None else as_color(color)
 
 
-def _look_up(table: Mapping[str, T], role: str, kind: str) -> T:
-    if role not in table:
-        raise ValueError(f"role {role!r} has no {kind} style; known are {', '.join(table)}")
-    return table[role]
+def _look_up(table: Mapping[str, T], name: str, kind: str, remedy: str) -> T:
+    if name not in table:
+        raise ValueError(f"name {name!r} has no {kind} style; give {remedy}=, or one of the names {', '.join(table)}")
+    return table[name]

@@ -42,7 +42,7 @@ def lies_on_ball(curve: Curve, radius: float) -> bool:
     """
     if not isinstance(curve, CircleArc):
         return False
-    lengths = np.sqrt(np.sum(curve.points([0.0, 2.0, 4.0]) ** 2, axis=-1))
+    lengths = np.sqrt(np.sum(curve.sample([0.0, 2.0, 4.0]) ** 2, axis=-1))
     return bool(np.all(np.abs(lengths - radius) <= ON_BALL * radius))
 
 
@@ -102,7 +102,7 @@ def _joined_at_limb(pieces: list[tuple[Curve, Place]]) -> list[tuple[Curve, Plac
 def cut(curve: Curve, parameters: FloatArray, kind: Callable[[FloatArray], K]) -> list[tuple[Curve, K]]:
     """The curve cut at parameters, each piece with the kind of its middle; neighbours of one kind stay together."""
     bounds = np.array([curve.start, *parameters, curve.stop])
-    kinds = [kind(point) for point in curve.points((bounds[:-1] + bounds[1:]) / 2)]
+    kinds = [kind(point) for point in curve.sample((bounds[:-1] + bounds[1:]) / 2)]
     changes = [i for i in range(1, len(kinds)) if kinds[i] != kinds[i - 1]]
     if not changes:
         return [(curve, kinds[0])]

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel import data
 from stereodel._arrays import FloatArray, as_floats
-from stereodel.drawing.colors import ColorScale
+from stereodel.drawing.scales import ColorScale
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.polygons import Polygons
 from stereodel.globe.regions import SphereMesh

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from stereodel._arrays import as_count, as_scalar
-from stereodel.drawing.page import Color, Page
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Page
 from stereodel.drawing.style import WHITE
 from stereodel.film.film import Film
 from stereodel.globe.flights import Motion, Shot

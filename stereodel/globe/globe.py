@@ -13,9 +13,10 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.colors import ColorScale
+from stereodel.drawing.colors import Color
 from stereodel.drawing.label import placed_label
-from stereodel.drawing.page import Color, Item, Label, Page
+from stereodel.drawing.page import Item, Label, Page
+from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotStyle, LineStyle
 from stereodel.drawing.view import MapView
 from stereodel.globe import features, looks

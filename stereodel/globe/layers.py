@@ -10,7 +10,8 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.page import Color, Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
 from stereodel.drawing.regions import near_hemisphere
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.globe.chart import Chart
@@ -56,7 +57,7 @@ class Rim:
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """A circle."""
-        yield Stroke(chart.outline[0], self.look.color, self.look.width, closed=True, role=self.role)
+        yield Stroke(chart.outline[0], self.look.color, self.look.width, closed=True, name=self.role)
 
 
 @dataclass(frozen=True, eq=False)

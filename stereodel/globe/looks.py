@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Final
 
-from stereodel.drawing.page import Color
+from stereodel.drawing.colors import Color
 from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle, LineStyle, with_opacity
 
 OCEAN: Final[Color] = (0.855, 0.910, 0.945, 1.0)

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, as_levels, as_values, read_only
-from stereodel.interpolation.sites import Indices, Places, Triangulation, one_value_a_place
-from stereodel.triangulation.given import as_triangulation
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, as_levels, as_values, read_only
+from stereodel.interpolation.sites import Places, one_value_a_place
+from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,7 +104,7 @@ class _Network:
         self._places = Places(triangulation.points)
         self._values = values
         self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors
-        self._inside: BoolArray = triangulation._open & ~np.isnan(values[self._simplices]).any(axis=1)
+        self._inside: BoolArray = open_triangles(triangulation) & ~np.isnan(values[self._simplices]).any(axis=1)
 
     def contours(self, level: float) -> list[Contour]:
         """All pieces of one level."""
@@ -123,7 +123,7 @@ class _Network:
         pieces = (self._piece(level, chain, closed, ins, outs) for chain, closed in chains(following))
         return [piece for piece in pieces if piece is not None]
 
-    def _crossings(self, level: float, triangles: Indices, opposite: Indices) -> FloatArray:
+    def _crossings(self, level: float, triangles: AnyIndices, opposite: AnyIndices) -> FloatArray:
         """Where the contour crosses the edges opposite these corners, alike from both sides."""
         ends = [self._simplices[triangles, (opposite + k) % 3] for k in (1, 2)]
         swap = self._values[ends[0]] < level
@@ -144,7 +144,7 @@ class _Network:
         return Contour(level, points, closed) if len(points) > 1 else None
 
 
-def chains(following: Indices) -> list[tuple[list[int], bool]]:
+def chains(following: AnyIndices) -> list[tuple[list[int], bool]]:
     """Cut a one-to-one map, -1 where it ends, into chains of numbers, and tell which are rings.
 
     Open chains come first, each kind in the order of its lowest number.

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import AnyIndices, FloatArray
 from stereodel.constants import UNDETERMINED
 from stereodel.interpolation.rings import rings_in_blocks
-from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values
+from stereodel.interpolation.sites import Places, as_site_values
 from stereodel.interpolation.triangles import cross3, dot, lengths
-from stereodel.triangulation.given import as_triangulation
+from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 _UNKNOWNS = 5
 
@@ -80,7 +80,7 @@ def fit_gradients(triangulation: Triangulation, values: FloatArray) -> FloatArra
     return gradients
 
 
-def _fit(sites: Places, values: FloatArray, block: Indices, owners: Indices, others: Indices) -> FloatArray:
+def _fit(sites: Places, values: FloatArray, block: AnyIndices, owners: AnyIndices, others: AnyIndices) -> FloatArray:
     """Gradients (b, d, k) at the points `block`; pairs of a place in it, sorted, and one of its neighbours."""
     axes = _axes(sites, block)
     gradients = np.full((len(block), axes.shape[2], values.shape[1]), np.nan)
@@ -96,7 +96,7 @@ def _fit(sites: Places, values: FloatArray, block: Indices, owners: Indices, oth
     return gradients
 
 
-def _normal_equations(columns: FloatArray, rises: FloatArray, starts: Indices) -> tuple[FloatArray, FloatArray]:
+def _normal_equations(columns: FloatArray, rises: FloatArray, starts: AnyIndices) -> tuple[FloatArray, FloatArray]:
     """Systems (b, 5, 5) and right sides (b, 5, k) of columns (5, p) and (k, p), summed from each start to the next."""
     normal = np.empty((len(starts), _UNKNOWNS, _UNKNOWNS))
     right = np.empty((len(starts), _UNKNOWNS, len(rises)))
@@ -109,7 +109,7 @@ def _normal_equations(columns: FloatArray, rises: FloatArray, starts: Indices) -
 
 
 def _columns(
-    sites: Places, block: Indices, owners: Indices, others: Indices, axes: FloatArray, starts: Indices
+    sites: Places, block: AnyIndices, owners: AnyIndices, others: AnyIndices, axes: FloatArray, starts: AnyIndices
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point.
 
@@ -130,7 +130,7 @@ def _columns(
     return columns * share, share * nearer * nearer, unit
 
 
-def _third_least(size: FloatArray, owners: Indices, starts: Indices) -> FloatArray:
+def _third_least(size: FloatArray, owners: AnyIndices, starts: AnyIndices) -> FloatArray:
     """Of the lengths of each owner, equal ones counted each; the largest if there are fewer than three."""
     rest, counts = size.copy(), np.diff(starts, append=len(owners))
     for _ in range(2):
@@ -139,7 +139,7 @@ def _third_least(size: FloatArray, owners: Indices, starts: Indices) -> FloatArr
     return np.asarray(np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts)))
 
 
-def _axes(sites: Places, block: Indices) -> FloatArray:
+def _axes(sites: Places, block: AnyIndices) -> FloatArray:
     """Two unit vectors of the tangent plane at each point, (b, 2, d)."""
     if not sites.curved:
         return np.broadcast_to(np.eye(2), (len(block), 2, 2))

@@ -8,9 +8,9 @@ from collections.abc import Callable
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_directions, as_vectors, locked
-from stereodel.interpolation.sites import Indices, Places, Triangulation, as_site_values
-from stereodel.triangulation.given import as_triangulation
+from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_directions, as_vectors, locked
+from stereodel.interpolation.sites import Places, as_site_values
+from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 BLOCK = 4096
 """Queries at a time: a temporary of three vectors is 300 KB and stays in the second-level cache."""
@@ -133,8 +133,8 @@ class TriangleInterpolator(Interpolator):
         result: FloatArray,
         queries: FloatArray,
         workers: int | None,
-        function: Callable[[Indices, FloatArray], FloatArray],
-    ) -> Indices:
+        function: Callable[[AnyIndices, FloatArray], FloatArray],
+    ) -> AnyIndices:
         """Fill the rows of `result` for queries inside triangles; returns the other rows."""
         found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = np.flatnonzero(found >= 0)
@@ -144,9 +144,9 @@ class TriangleInterpolator(Interpolator):
         return np.flatnonzero(found < 0)
 
     @abstractmethod
-    def _within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+    def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         """Values (m, k) at queries (m, d) in the triangles of these corners (m, 3)."""
 
     @abstractmethod
-    def _slope_within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+    def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         """Gradients (m, d, k)."""

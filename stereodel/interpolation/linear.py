@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import AnyIndices, FloatArray
 from stereodel.interpolation.interpolator import TriangleInterpolator
-from stereodel.interpolation.sites import Indices
 from stereodel.interpolation.triangles import Holders
 
 
@@ -64,12 +63,12 @@ class LinearInterpolator(TriangleInterpolator):
     6.0
     """
 
-    def _within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+    def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         weights = Holders(self._sites, corners, queries).weights()
         values = self._values[corners]
         # From the heaviest corner: at a point the value is met to the last bit.
         first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
         return np.asarray(first[:, 0] + np.einsum("mi,mik->mk", weights, values - first))
 
-    def _slope_within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+    def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         return Holders(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])

@@ -8,8 +8,9 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import FloatArray
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.sites import Places, Triangulation
+from stereodel.interpolation.sites import Places
 from stereodel.triangulation import SphericalDelaunay
+from stereodel.triangulation.dispatch import threads_of
 
 
 class NaturalNeighborInterpolator(Interpolator):
@@ -78,9 +79,9 @@ class NaturalNeighborInterpolator(Interpolator):
         return np.flatnonzero(np.asarray(self.triangulation.find_simplex(queries, workers=workers)) < 0)
 
     def _ask(self, queries: FloatArray, workers: int | None, *, gradients: bool) -> FloatArray:
-        triangulation: Triangulation = self.triangulation
+        triangulation = self.triangulation
         mesh = triangulation.simplices, triangulation.neighbors
-        crew = triangulation._thread_count(workers, len(queries))
+        crew = threads_of(triangulation, workers, len(queries))
         if not isinstance(triangulation, SphericalDelaunay):
             return _kernel.plane.natural_neighbors(
                 triangulation.points, *mesh, self._values, queries, gradients, crew, True

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.sites import Triangulation
+from stereodel.triangulation.dispatch import Triangulation
 
 
 class NearestInterpolator(Interpolator):

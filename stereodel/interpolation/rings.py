@@ -6,7 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from stereodel.interpolation.sites import Indices, Triangulation
+from stereodel._arrays import AnyIndices
+from stereodel.triangulation.dispatch import Triangulation, open_triangles
 from stereodel.triangulation.topology import edges_of
 
 BLOCK = 4096
@@ -16,13 +17,13 @@ BLOCK = 4096
 class Stars:
     """The points that an edge joins to each point, as flat arrays."""
 
-    def __init__(self, edges: Indices, size: int) -> None:
+    def __init__(self, edges: AnyIndices, size: int) -> None:
         both = np.concatenate([edges, edges[:, ::-1]])
         self._ends = both[np.argsort(both[:, 0], kind="stable"), 1].astype(np.int64)
         self._counts = np.bincount(both[:, 0], minlength=size)
         self._starts = np.cumsum(self._counts) - self._counts
 
-    def around(self, points: Indices) -> tuple[Indices, Indices]:
+    def around(self, points: AnyIndices) -> tuple[AnyIndices, AnyIndices]:
         """Pairs of a place in `points` and a point joined to the point there."""
         counts = self._counts[points]
         owners = np.repeat(np.arange(len(points)), counts)
@@ -30,7 +31,7 @@ class Stars:
         return owners, self._ends[self._starts[points][owners] + steps]
 
 
-def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[Indices, Indices, Indices]]:
+def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, AnyIndices]]:
     """Points that have triangles, in blocks, with the neighbours of each and their neighbours.
 
     Yields
@@ -40,7 +41,7 @@ def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[Indices, Ind
         Pairs of a place in `points`, in order, and a point of the two rings around the point there, each once. Edges of
         triangles that close a set within a hemisphere do not count.
     """
-    simplices = triangulation.simplices[triangulation._open]
+    simplices = triangulation.simplices[open_triangles(triangulation)]
     size = len(triangulation.points)
     stars = Stars(edges_of(simplices), size)
     used = np.unique(simplices)

@@ -20,10 +20,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel.constants import LEAST_WEIGHT
 from stereodel.interpolation.jets import Jet, Number, arctan2, norm, sin_cos, sqrt
 from stereodel.interpolation.triangles import Holders, cross3, dot
-
-_SMALLEST = 2.0**-200  # of barycentric coordinates: at a corner the sum of the two others must not be zero
 
 
 def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
@@ -37,7 +36,7 @@ def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> 
     gradients : (m, 3, d, k) array
         Tangent there.
     """
-    weights = np.maximum(holders.weights(), _SMALLEST)
+    weights = np.maximum(holders.weights(), LEAST_WEIGHT)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     b = [weights[:, k : k + 1] for k in range(3)]
     found = np.asarray(first + _mix(holders, b, values, first, gradients))
@@ -46,7 +45,7 @@ def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> 
 
 def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
     """Gradients (m, d, k) at the queries; parameters as for `side_vertex`."""
-    weights = np.maximum(holders.weights(), _SMALLEST)
+    weights = np.maximum(holders.weights(), LEAST_WEIGHT)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
     b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
@@ -129,7 +128,7 @@ class _Side:
 
 
 def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
-    return np.asarray(np.einsum("mdk,md->mk", gradients, vectors))
+    return np.einsum("mdk,md->mk", gradients, vectors)
 
 
 class _Corner:

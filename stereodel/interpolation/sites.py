@@ -5,13 +5,10 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_values
+from stereodel._arrays import AnyIndices, FloatArray, as_values
 from stereodel._double_double import DoubleDouble, unit
 from stereodel.sphere.chunks import ROWS
-from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
-
-Triangulation = PlanarDelaunay | SphericalDelaunay
-Indices = npt.NDArray[np.integer]
+from stereodel.triangulation.dispatch import Triangulation
 
 
 def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:
@@ -55,7 +52,7 @@ class Places:
         """Points, or unit vectors (n, d)."""
         return self.exact.hi
 
-    def minus(self, a: Indices, other: Places, b: Indices) -> FloatArray:
+    def minus(self, a: AnyIndices, other: Places, b: AnyIndices) -> FloatArray:
         """Points `a` less points `b` of the other places, rounded: errors below 2⁻⁵² of the result and 2⁻¹⁰¹."""
         p, q = self.exact, other.exact
         rough = p.hi.take(a, axis=0) - q.hi.take(b, axis=0)

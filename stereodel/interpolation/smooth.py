@@ -5,12 +5,13 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_values, locked
+from stereodel._arrays import AnyIndices, FloatArray, as_values, locked
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import TriangleInterpolator
 from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
-from stereodel.interpolation.sites import Indices, Triangulation, one_value_a_place
+from stereodel.interpolation.sites import one_value_a_place
 from stereodel.interpolation.triangles import Holders, dot
+from stereodel.triangulation.dispatch import Triangulation
 
 
 class SmoothInterpolator(TriangleInterpolator):
@@ -97,10 +98,10 @@ class SmoothInterpolator(TriangleInterpolator):
             vectors = vectors - up * dot(vectors, np.broadcast_to(up, vectors.shape))
         return np.array(np.moveaxis(vectors, 2, 1))
 
-    def _within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+    def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         holders = Holders(self._sites, corners, queries)
         return side_vertex(holders, self._values[corners], self._gradients[corners])
 
-    def _slope_within(self, corners: Indices, queries: FloatArray) -> FloatArray:
+    def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         holders = Holders(self._sites, corners, queries)
         return side_vertex_slope(holders, self._values[corners], self._gradients[corners])

@@ -9,15 +9,15 @@ from __future__ import annotations
 import numpy as np
 
 from stereodel import _double_double as double_double
-from stereodel._arrays import FloatArray
+from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._double_double import DoubleDouble
-from stereodel.constants import THIN_TRIANGLE
-from stereodel.interpolation.sites import Indices, Places
+from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
+from stereodel.interpolation.sites import Places
 
 
 def cross2(a: FloatArray, b: FloatArray) -> FloatArray:
     """Third component of the product a × b of vectors (..., 2)."""
-    return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
+    return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 def cross3(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -31,22 +31,22 @@ def cross3(a: FloatArray, b: FloatArray) -> FloatArray:
 
 def dot(a: FloatArray, b: FloatArray) -> FloatArray:
     """Inner product along the last axis, which is kept."""
-    return np.asarray(np.einsum("...i,...i->...", a, b)[..., None])
+    return np.einsum("...i,...i->...", a, b)[..., None]
 
 
 def lengths(vectors: FloatArray) -> FloatArray:
     """Lengths along the last axis, which is kept, also where squares would overflow or underflow."""
     with np.errstate(over="ignore"):
         plain = np.sqrt(np.sum(np.square(vectors), axis=-1, keepdims=True))
-    # Between these a square below the least double is nothing to the sum.
-    rows = np.nonzero(~((plain > 2.0**-480) & (plain < 2.0**510))[..., 0])
+    least, largest = PLAIN_SQUARES
+    rows = np.nonzero(~((plain > least) & (plain < largest))[..., 0])
     if len(rows[0]):
         odd = vectors[rows]
         exponent = np.frexp(np.abs(odd).max(axis=-1, keepdims=True))[1]
         odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ alone is no double
         root = np.sqrt(np.sum(np.square(odd), axis=-1, keepdims=True))
         plain[rows] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
-    return np.asarray(plain)
+    return plain
 
 
 class Holders:
@@ -60,7 +60,7 @@ class Holders:
     queries : (m, 2) or (m, 3) array
     """
 
-    def __init__(self, sites: Places, corners: Indices, queries: FloatArray) -> None:
+    def __init__(self, sites: Places, corners: AnyIndices, queries: FloatArray) -> None:
         self.sites, self.corners = sites, corners
         self.given, self.queries = queries, Places(queries)
 
@@ -84,12 +84,12 @@ class Holders:
         if len(thin):
             weights[thin] = self._weights_of_thin(thin, exponent[thin], offsets[thin])
             total = weights.sum(axis=1)
-        return np.asarray(weights / total[:, None])
+        return weights / total[:, None]
 
     def _up(self) -> FloatArray | None:
         return self.queries.rounded if self.queries.curved else None
 
-    def _weights_of_thin(self, rows: Indices, exponent: Indices, offsets: FloatArray) -> FloatArray:
+    def _weights_of_thin(self, rows: AnyIndices, exponent: AnyIndices, offsets: FloatArray) -> FloatArray:
         queries, sites, shift = self.queries.exact[rows], self.sites.exact, -exponent[:, None]
         exact = [sites[self.corners[rows, k]] - queries for k in range(3)]
         scaled = [DoubleDouble(np.ldexp(d.hi, shift), np.ldexp(d.lo, shift)) for d in exact]
@@ -119,7 +119,7 @@ class Holders:
         first, second = derivatives[1] - derivatives[0], derivatives[2] - derivatives[0]
         size = np.frexp(np.maximum(np.abs(d).max(axis=1), np.abs(e).max(axis=1)))[1][:, None]
         d, e = np.ldexp(d, -size), np.ldexp(e, -size)
-        needles = np.flatnonzero(np.abs(e - d).max(axis=1) < 2.0**-4)
+        needles = np.flatnonzero(np.abs(e - d).max(axis=1) < NEEDLE)
         up = self._up()
         if up is None:
             area = cross2(d, e)[:, None]

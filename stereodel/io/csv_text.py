@@ -12,8 +12,9 @@ from typing import TextIO
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._arrays import Column
 from stereodel.io.columns import find_lonlat
-from stereodel.io.tables import MISSING, Column, PointTable, table_of
+from stereodel.io.tables import MISSING, PointTable, table_of
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50

@@ -10,12 +10,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Geometries
 from stereodel.curves.borders import Box
 from stereodel.curves.trace import Arcs, great
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, ridge_arcs, triangulation_of
 from stereodel.io.faces import triangle_sides, voronoi_sides
-from stereodel.io.on_map import Geometries, shapely
+from stereodel.io.on_map import shapely
 from stereodel.io.plane import plane_cells
 from stereodel.io.tiles import sphere_lines, sphere_polygons
 from stereodel.sphere import angular_distance, solid_angle, xyz_to_lonlat
@@ -71,7 +71,7 @@ def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, G
 def _sphere_cells(diagram: Any, max_segment: float, latitude: Latitude, radius: float) -> tuple[Columns, Geometries]:
     sites = units(diagram.points)[diagram.ridge_points[:, 0]]
     cells = sphere_polygons(ridge_arcs(diagram), voronoi_sides(diagram), max_segment, latitude, sites)
-    kept = np.flatnonzero(diagram.point_region == np.arange(len(cells)))
+    kept = np.flatnonzero(diagram.is_kept)
     if len(kept) == 1:
         cells[kept] = shapely.box(-180.0, -90.0, 180.0, 90.0)
     return {"point": np.arange(len(cells)), "area": diagram.areas(radius=radius)}, cells

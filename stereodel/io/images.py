@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import Indices, as_lonlat
+from stereodel._arrays import Geometries, Indices, as_lonlat
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import FINER_WARPS
 from stereodel.curves import clip
@@ -15,7 +15,7 @@ from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import left_inside, stitched
 from stereodel.curves.trace import sides_of, straight, unwrapped
-from stereodel.io.on_map import Geometries, close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
+from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Indices, as_choice, as_floats, as_scalar
+from stereodel._arrays import Bytes, FloatArray, Indices, as_choice, as_floats, as_scalar
 from stereodel._extras import optional
 from stereodel.curves.clip import points_along
 from stereodel.curves.ragged import Ragged, spans
@@ -20,7 +20,6 @@ from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalVoronoi
 
 GOLDEN = (np.sqrt(5.0) - 1) / 2
-Colors = npt.NDArray[np.uint8]
 
 
 def to_trimesh(
@@ -170,7 +169,7 @@ def _rings(
     )
 
 
-def _as_colors(colors: npt.ArrayLike, count: int) -> Colors:
+def _as_colors(colors: npt.ArrayLike, count: int) -> Bytes:
     """Red, green, blue and opacity from 0 to 255, (count, 4)."""
     given = np.asarray(colors)
     values = as_floats(colors, "colors") * (1 if given.dtype.kind in "iu" else 255)
@@ -183,7 +182,7 @@ def _as_colors(colors: npt.ArrayLike, count: int) -> Colors:
     return opaque
 
 
-def _pale(count: int) -> Colors:
+def _pale(count: int) -> Bytes:
     """Hues a golden section of the circle apart, so that successive ones differ much, in three strengths."""
     looks = ((0.20, 0.97), (0.38, 0.93), (0.52, 0.84))
     wheel = np.array([[colorsys.hsv_to_rgb(k / 360, *look) for k in range(360)] for look in looks])

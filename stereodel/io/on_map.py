@@ -6,9 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices
 from stereodel._extras import optional
 from stereodel.constants import AT_POLE
 from stereodel.curves import clip
@@ -17,7 +16,6 @@ from stereodel.curves.ragged import Ragged, spans
 
 shapely = optional("shapely", "geo")
 
-Geometries = npt.NDArray[np.object_]
 Rule = Callable[[Ragged, Indices], tuple[Indices, FloatArray]]
 """Given some rows of points and their numbers: behind which points there should be new ones, and the new ones."""
 

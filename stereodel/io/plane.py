@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.curves import clip
 from stereodel.curves.borders import Box, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Arcs
 from stereodel.io.faces import voronoi_sides
-from stereodel.io.on_map import Geometries, polygons_on_map, repaired, shapely
+from stereodel.io.on_map import polygons_on_map, repaired, shapely
 from stereodel.triangulation import PlanarVoronoi
 
 

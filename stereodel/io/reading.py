@@ -15,11 +15,11 @@ from typing import Any, BinaryIO, Literal, TextIO
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice
+from stereodel._arrays import Column, FloatArray, as_choice
 from stereodel._extras import optional
 from stereodel.io.columns import find_lonlat, listed
 from stereodel.io.csv_text import read_csv, split_columns, typed
-from stereodel.io.tables import Column, PointTable, numbers, table_of
+from stereodel.io.tables import PointTable, numbers, table_of
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
 Format = Literal["csv", "geojson", "parquet", "gpkg"]

@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Indices, as_lonlat
+from stereodel._arrays import FloatArray, Geometries, Indices, as_lonlat
 from stereodel._extras import optional
 from stereodel.curves.ragged import Ragged
 
@@ -159,7 +158,7 @@ def _of_sequence(items: list[Any]) -> Shapes:
     return found.shapes()
 
 
-def _of_geometries(geometries: npt.NDArray[np.object_], properties: list[Mapping[str, Any]] | None = None) -> Shapes:
+def _of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | None = None) -> Shapes:
     """Geometries of Shapely, a feature each."""
     shapely = optional("shapely", "geo")
     parts, feature = geometries, np.arange(len(geometries))

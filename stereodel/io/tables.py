@@ -6,14 +6,11 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_lonlat, as_points, read_only
-
-Column = npt.NDArray[Any]
+from stereodel._arrays import Column, FloatArray, as_lonlat, as_points, read_only
 
 
 @dataclass(frozen=True, eq=False)

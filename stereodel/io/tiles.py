@@ -9,23 +9,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices
 from stereodel._extras import optional
 from stereodel.constants import BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.curves.trace import Arcs
-from stereodel.io.on_map import (
-    Geometries,
-    close_in_longitude,
-    lines_on_map,
-    polygons_on_map,
-    refined,
-    repaired,
-    steps_of,
-    unit,
-)
+from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, refined, repaired, steps_of, unit
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 

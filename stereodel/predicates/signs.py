@@ -9,10 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_directions, as_vectors
+from stereodel._arrays import FloatArray, SignArray, as_directions, as_vectors
 from stereodel._threads import thread_count
-
-SignArray = npt.NDArray[np.int8]
 
 
 def orient2d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> SignArray | int:

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_directions, as_vectors
 from stereodel._double_double import DoubleDouble, dot, stack
+from stereodel.constants import SEEN_FACE_ON
 from stereodel.projections.plane_curves import Conic, ConicKind
 from stereodel.projections.tangent_plane import TangentPlane, nan_where
 from stereodel.sphere import SphereCircle
@@ -67,14 +68,14 @@ class Orthographic(TangentPlane):
     def image_of(self, circle: SphereCircle) -> Conic:
         """The image of a whole circle, its far part included: an ellipse, or a segment when it is seen edge-on.
 
-        `at(t)` runs as the circle does, counterclockwise about its normal: clockwise on the plane if that points away.
+        `sample(t)` runs as the circle does, counterclockwise about its normal: clockwise on the plane where that points
+        away.
         """
         normal, cosine, _ = circle.exact_parts()
         local = transform(self.frame, normal)
         across = dot(local[:2], local[:2]).sqrt()
         a, c, r = float(across.round()), float(local[2].round()), circle.radius
-        # Nearer to the view's axis squares leave the range of double-double, and the ellipse is a circle to all digits.
-        along = (local[:2] / across).round() if a > 2.0**-240 else np.array([1.0, 0.0])
+        along = (local[:2] / across).round() if a > SEEN_FACE_ON else np.array([1.0, 0.0])
         basis = np.array([along, [-along[1], along[0]]])
         center = (across * cosine * self.radius).round()
         # (s − s₀)² + c² p² = c² r², s along the normal's image and p across it.

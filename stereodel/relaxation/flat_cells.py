@@ -8,10 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_floats
+from stereodel._arrays import AnyIndices, FloatArray, as_floats
 from stereodel.triangulation import PlanarVoronoi
-
-Indices = npt.NDArray[np.integer]
 
 
 def as_polygon(extent: npt.ArrayLike | None) -> FloatArray:
@@ -51,10 +49,10 @@ def check_inside(points: FloatArray, polygon: FloatArray) -> None:
         raise ValueError(f"points[{k}] is {points[k].tolist()}, outside extent")
 
 
-def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> tuple[FloatArray, Indices]:
+def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> tuple[FloatArray, AnyIndices]:
     """Triangles (t, 3, 2) relative to their sites, counterclockwise, that make up the cells, and the sites (t,)."""
     diagram = PlanarVoronoi(np.concatenate([points, _far_points(polygon)]), workers=workers)
-    site: Indices = np.repeat(np.arange(len(diagram.points)), np.diff(diagram.region_offsets))
+    site: AnyIndices = np.repeat(np.arange(len(diagram.points)), np.diff(diagram.region_offsets))
     following = np.arange(1, len(site) + 1)
     filled = np.flatnonzero(np.diff(diagram.region_offsets))
     following[diagram.region_offsets[filled + 1] - 1] = diagram.region_offsets[filled]
@@ -86,7 +84,7 @@ def _heights(triangles: FloatArray, sites: FloatArray, start: FloatArray, end: F
     return cast(FloatArray, x * over - y * along)
 
 
-def _clipped(triangles: FloatArray, site: Indices, heights: FloatArray) -> tuple[FloatArray, Indices]:
+def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tuple[FloatArray, AnyIndices]:
     """The parts of triangles with heights above zero: none, one or two triangles each."""
     count = (heights > 0).sum(axis=1)
     (one,), (two,) = np.nonzero(count == 1), np.nonzero(count == 2)
@@ -97,7 +95,7 @@ def _clipped(triangles: FloatArray, site: Indices, heights: FloatArray) -> tuple
     return np.concatenate(corners), np.concatenate([site[whole], site[one], site[two], site[two]])
 
 
-def _cut(triangles: FloatArray, heights: FloatArray, alone: Indices) -> list[FloatArray]:
+def _cut(triangles: FloatArray, heights: FloatArray, alone: AnyIndices) -> list[FloatArray]:
     """Triangles (t, 3, 2) cut at height zero between one corner a and the others, b and c: a, ab, ac, b, c."""
     turn = (alone[:, None] + np.arange(3)) % 3
     a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)

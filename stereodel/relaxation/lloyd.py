@@ -23,7 +23,7 @@ from stereodel.constants import BALANCED
 from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells
 from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes, spherical_nodes
 from stereodel.relaxation.round_cells import RoundCells
-from stereodel.triangulation.given import Triangulation
+from stereodel.triangulation.dispatch import Triangulation
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 

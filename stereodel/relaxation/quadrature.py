@@ -5,12 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import AnyIndices, FloatArray
 from stereodel.constants import QUADRATURE_CHORD
-
-Indices = npt.NDArray[np.integer]
 
 
 class Rule(NamedTuple):
@@ -56,7 +53,7 @@ def spherical_nodes(triangles: FloatArray, rule: Rule) -> tuple[FloatArray, Floa
     return flat / length[..., None], (determinant / 2)[:, None] * rule.shares / length**3
 
 
-def split_long(triangles: FloatArray, number: Indices) -> tuple[FloatArray, Indices]:
+def split_long(triangles: FloatArray, number: AnyIndices) -> tuple[FloatArray, AnyIndices]:
     """Spherical triangles (t, 3, 3) and their numbers (t,), halved until no side is longer than QUADRATURE_CHORD."""
     done = [(triangles[:0], number[:0])]
     while len(triangles):

@@ -5,16 +5,12 @@ from __future__ import annotations
 from typing import cast
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray
+from stereodel._arrays import AnyIndices, FloatArray
 from stereodel.constants import CLOSE_SITES, QUADRATURE_CHORD
 from stereodel.relaxation.quadrature import split_long
 from stereodel.triangulation import SphericalVoronoi
-
-Indices = npt.NDArray[np.integer]
-
 
 _SIGNS = np.array([[x, y, z] for x in (1.0, -1.0) for y in (1.0, -1.0) for z in (1.0, -1.0)])
 _OCTANTS = np.array([np.diag(s) if s.prod() > 0 else np.diag(s)[::-1] for s in _SIGNS])
@@ -58,7 +54,7 @@ class RoundCells:
         count = len(self.sites)
         return np.column_stack([np.bincount(left, t, count) - np.bincount(right, t, count) for t in turned.T])
 
-    def triangles(self) -> tuple[FloatArray, Indices]:
+    def triangles(self) -> tuple[FloatArray, AnyIndices]:
         """Counterclockwise triangles (t, 3, 3) of a site and a piece of a ridge, or parts of them; and the sites (t,).
 
         No side is longer than QUADRATURE_CHORD. The cell of a single site is the whole sphere.
@@ -74,7 +70,7 @@ class RoundCells:
         rights = np.stack([self.sites[right], *ends[::-1]], axis=1)
         return split_long(np.concatenate([lefts, rights]), np.concatenate([left, right]))
 
-    def _along(self, ridge: Indices, angle: FloatArray) -> FloatArray:
+    def _along(self, ridge: AnyIndices, angle: FloatArray) -> FloatArray:
         start, normal = self._start[ridge], self._normals[ridge]
         return cast(FloatArray, start * np.cos(angle)[:, None] + np.cross(normal, start) * np.sin(angle)[:, None])
 

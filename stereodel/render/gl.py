@@ -2,7 +2,7 @@
 
 Everything goes through pyrender (the distribution pyrender2) on a software renderer, without a window: OSMesa first,
 EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
-when it is first imported, so this module chooses before that, once per process.
+when it is first imported, so a process has one `Door`, `DOOR`, which chooses before that and opens when it is needed.
 
 A picture is drawn in windows, so that memory does not grow with it. They lie on one grid, counted from its upper left
 corner, whatever part is asked for: where OpenGL cuts a triangle at the edge of a window it rounds the new corners, and
@@ -11,7 +11,8 @@ so a picture drawn at once and one written row by row are the same bits.
 All triangles of a window go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
 OpenGL draws the triangles of a mesh in their order, so see-through items blend back to front; and since a fragment at
 the depth of what is already there is refused, an item whose triangles overlap blends once, as the union of them. An
-item with a texture is a part of the mesh for itself; a texel is a pixel of the window.
+item with a texture is a part of the mesh for itself; a texel is a pixel of the window. An item on a ball is lit in the
+fragment shader, where the place of the pixel tells the normal.
 """
 
 from __future__ import annotations
@@ -20,18 +21,17 @@ import atexit
 import ctypes
 import os
 import sys
-import types
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, Final, cast
+from typing import Any, Final
 
 import numpy as np
 
-from stereodel._arrays import IntArray
-from stereodel.drawing.page import Color
-from stereodel.render.pyrender_mends import mend
-from stereodel.render.triangles import Pixels, Triangles, Window
+from stereodel._arrays import FloatArray, IntArray, Pixels
+from stereodel.drawing.colors import Color
+from stereodel.render.mends import import_pyrender, mend_offscreen
+from stereodel.render.triangles import Triangles, Window
 
 VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""
@@ -64,11 +64,14 @@ NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
 """How texels are looked up: names of OpenGL's C header."""
 
+SHADERS: Final = os.path.join(os.path.dirname(__file__), "shaders")
+"""Our own, under the names by which pyrender asks for them."""
+
 EGL_EXTENSIONS: Final = 0x3055
 """Name of the extension string in EGL's C header."""
 
 
-class OpenGLError(RuntimeError):
+class OpenGLError(OSError):
     """There is no usable OpenGL, or it was set up before in another way; the message says what to do."""
 
 
@@ -140,8 +143,8 @@ def draw(
 ) -> Pixels:
     """Draw triangles with 4 samples a pixel.
 
-    Colours are drawn as given, without light; those of a triangle's corners are mixed linearly. What is farther back
-    in the order is covered or shows through.
+    Colours are drawn as given, without light but that of `Triangles.balls`; those of a triangle's corners are mixed
+    linearly. What is farther back in the order is covered or shows through.
 
     Parameters
     ----------
@@ -196,52 +199,86 @@ def bands(
     """
     if min(width, height) < 1:
         raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
-    renderer = _renderer(platform)
+    context = DOOR.context(platform)
     for top in range(0, height, BAND):
         rows = min(BAND, height - top)
         lefts = range(0, width, COLUMNS)
         windows = [Window(left, height - top - rows, min(COLUMNS, width - left), rows) for left in lefts]
-        yield np.concatenate([finish(renderer.draw(part(w), w, background)) for w in windows], axis=1)
+        yield np.concatenate([finish(context.draw(part(w), w, background)) for w in windows], axis=1)
 
 
 def describe(platform: str | None = None) -> Description:
-    """What would draw and with which versions; a failure becomes the `problem`, never an exception.
+    """What would draw in this process and with which versions; a failure is the `problem`, never an exception.
 
     Examples
     --------
     >>> describe("osmesa").platform
     'osmesa'
     """
-    name, reason = "", ""
-    try:
-        name, reason = _choose_once(platform)
-        version, renderer = _renderer(platform).strings()
-    except (OpenGLError, ValueError) as error:
-        return Description(name, reason, problem=str(error))
-    return Description(name, reason, version, renderer)
+    return DOOR.describe(platform)
 
 
-def close() -> None:
-    """Give the OpenGL context back; the next picture makes a new one."""
-    global _open
-    if _open is not None:
-        _open.offscreen.delete()
-        _open = None
+class Door:
+    """OpenGL as a process has it: one platform, chosen once, and a context that all its pictures share.
+
+    The context is made when something is drawn or described, given back at the end, and made anew after `close`.
+    """
+
+    def __init__(self) -> None:
+        self._context: _Context | None = None
+        self._chosen: tuple[str, str] | None = None
+
+    def context(self, platform: str | None = None) -> _Context:
+        """The context; an `OpenGLError` if there can be none, or another platform was chosen before."""
+        name, reason = self._choice(platform)
+        if self._context is None:
+            self._context = _Context(name)
+            self._chosen = name, reason
+            atexit.register(self.close)
+        if self._context.platform != name:
+            raise OpenGLError(f"this process draws on {self._context.platform} already; use {name} in a new process")
+        return self._context
+
+    def describe(self, platform: str | None = None) -> Description:
+        """See `describe` of this module."""
+        name, reason = "", ""
+        try:
+            name, reason = self._choice(platform)
+            version, renderer = self.context(platform).strings()
+        except (OpenGLError, ValueError) as error:
+            return Description(name, reason, problem=str(error))
+        return Description(name, reason, version, renderer)
+
+    def close(self) -> None:
+        """Give the context back."""
+        if self._context is not None:
+            self._context.close()
+            self._context = None
+
+    def _choice(self, platform: str | None) -> tuple[str, str]:
+        # What a process began with stays, for its trace in the environment decides nothing.
+        return self._chosen if platform is None and self._chosen is not None else choose(platform)
 
 
-class _Renderer:
-    """A pyrender renderer and its context, kept for all pictures of the process."""
+DOOR: Final = Door()
+"""That of this process."""
+
+
+class _Context:
+    """A pyrender renderer on a platform."""
 
     def __init__(self, platform: str) -> None:
         self.platform = platform
-        self.pyrender = _import_pyrender(platform)
+        self._pyrender = _import_pyrender(platform)
+        from OpenGL import GL
+
+        self._gl = GL
         try:
             if platform == "egl":
                 os.environ["EGL_DEVICE_ID"] = str(_software_device())
-            self.offscreen = self.pyrender.OffscreenRenderer(16, 16)
-            from OpenGL import GL
-
-            mend(self.offscreen._renderer, GL)
+            self._offscreen = self._pyrender.OffscreenRenderer(16, 16)
+            self._offscreen._renderer._program_cache.shader_dir = SHADERS
+            mend_offscreen(self._offscreen, GL)
         except OpenGLError:
             raise
         except Exception as error:
@@ -252,39 +289,20 @@ class _Renderer:
 
     def draw(self, triangles: Triangles, window: Window, background: Color) -> Pixels:
         """What a window shows of triangles, rows from the top."""
-        scene = _scene(self.pyrender, triangles, window, background)
-        self.offscreen.viewport_width, self.offscreen.viewport_height = window.width, window.height
-        flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
-        color, _ = self.offscreen.render(scene, flags=flags)
-        return cast(Pixels, color)
+        scene = _scene(self._pyrender, triangles, window, background)
+        self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
+        flags = self._pyrender.RenderFlags.FLAT | self._pyrender.RenderFlags.SKIP_CULL_FACES
+        color, _ = self._offscreen.render(scene, flags=flags)
+        return color
 
     def strings(self) -> tuple[str, str]:
         """GL_VERSION and GL_RENDERER."""
-        from OpenGL import GL
+        self._offscreen._platform.make_current()
+        return self._gl.glGetString(self._gl.GL_VERSION).decode(), self._gl.glGetString(self._gl.GL_RENDERER).decode()
 
-        self.offscreen._platform.make_current()
-        return GL.glGetString(GL.GL_VERSION).decode(), GL.glGetString(GL.GL_RENDERER).decode()
-
-
-_open: _Renderer | None = None
-_chosen: tuple[str, str] | None = None
-
-
-def _choose_once(platform: str | None) -> tuple[str, str]:
-    """As `choose`, but keeping to what this process began with, whose trace in the environment decides nothing."""
-    return _chosen if platform is None and _chosen is not None else choose(platform)
-
-
-def _renderer(platform: str | None) -> _Renderer:
-    global _chosen, _open
-    name, reason = _choose_once(platform)
-    if _open is None:
-        _open = _Renderer(name)
-        _chosen = name, reason
-        atexit.register(close)
-    if _open.platform != name:
-        raise OpenGLError(f"this process draws on {_open.platform} already; use {name} in a new process")
-    return _open
+    def close(self) -> None:
+        """Give everything back."""
+        self._offscreen.delete()
 
 
 def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Color) -> Any:
@@ -321,8 +339,23 @@ def _primitive(pyrender: Any, triangles: Triangles, faces: IntArray, window: Win
         texels = (points - [window.left, window.bottom]) / [window.width, window.height]
         sampler = pyrender.Sampler(magFilter=NEAREST, minFilter=NEAREST, wrapS=CLAMP_TO_EDGE, wrapT=CLAMP_TO_EDGE)
         material.baseColorTexture = pyrender.Texture(sampler=sampler, source=texture, source_channels="RGBA")
-    vertices = np.column_stack([points - origin, depth])
-    return pyrender.Primitive(vertices, texcoord_0=texels, color_0=triangles.colors[corners], material=material)
+    return pyrender.Primitive(
+        np.column_stack([points - origin, depth]),
+        tangents=_balls(triangles, triangles.slots[corners], window),
+        texcoord_0=texels,
+        color_0=triangles.colors[corners],
+        material=material,
+    )
+
+
+def _balls(triangles: Triangles, slots: IntArray, window: Window) -> FloatArray | None:
+    """For each corner the ball that its item is on, in pixels of the window, as `shaders/flat.frag` wants it."""
+    found = np.zeros((len(slots), 4))
+    for number, ball in triangles.balls.items():
+        found[np.searchsorted(slots, number) : np.searchsorted(slots, number + 1)] = ball
+    lit = found[:, 2] > 0
+    found[lit, :2] -= [window.left, window.bottom]
+    return found if lit.any() else None
 
 
 def _import_pyrender(platform: str) -> Any:
@@ -331,19 +364,10 @@ def _import_pyrender(platform: str) -> Any:
     os.environ["PYOPENGL_PLATFORM"] = platform
     # Mesa must not take a graphics card: its pixels differ.
     os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
-    if "pyrender" not in sys.modules:
-        # The viewer loads a windowing library, which fails on machines without a display.
-        viewer = types.ModuleType("pyrender.viewer")
-        viewer.Viewer = type("Viewer", (), {})  # type: ignore[attr-defined]
-        sys.modules["pyrender.viewer"] = viewer
     try:
-        import pyrender
-        from pyrender.platforms.osmesa import OSMesaPlatform
+        return import_pyrender()
     except (ImportError, OSError, AttributeError) as error:
         raise OpenGLError(_missing(f"pyrender cannot be imported for {platform}: {error}", platform)) from error
-    # OSMesa has framebuffer objects; pyrender denies it, and would draw without multisampling.
-    OSMesaPlatform.supports_framebuffers = lambda self: True
-    return pyrender
 
 
 def _require_platform(platform: str) -> None:

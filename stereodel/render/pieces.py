@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel.render.ribbons import Corners
-from stereodel.render.triangles import Pixels, Triangles, Window
+from stereodel.render.triangles import Disc, Pixels, Triangles, Window
 
 Boxes = npt.NDArray[np.float32]
 """Left, bottom, right, top in pixels, a row each; rounded to float32, of which `MARGIN` takes care."""
@@ -24,12 +24,14 @@ MARGIN = 1.0
 class Piece:
     """Triangles of one item by their corners (n, 3, 2), pixels, and a colour at each corner (n, 3, 4).
 
-    With a texture, which is made for a window when that is drawn, an item must be of one piece.
+    With a texture, which is made for a window when that is drawn, an item must be of one piece; all pieces of an item
+    are in the light of one ball, or of none.
     """
 
     corners: Corners
     colors: FloatArray
     texture: Callable[[Window], Pixels] | None = None
+    ball: Disc | None = None
 
     @cached_property
     def boxes(self) -> Boxes:
@@ -69,13 +71,12 @@ class Pieces:
         colors = np.concatenate([np.zeros((0, 3, 4)), *(piece.colors[rows] for piece, rows in chosen)])
         slots = np.repeat(self._numbers[hit], [3 * len(rows) for _, rows in chosen])
         faces = np.arange(3 * len(corners), dtype=np.int32).reshape(-1, 3)
-        painted = [
-            (int(self._numbers[i]), self._pieces[i].texture)
-            for i, (_, rows) in zip(hit, chosen, strict=True)
-            if len(rows)
+        drawn = [
+            (int(self._numbers[i]), self._pieces[i]) for i, (_, rows) in zip(hit, chosen, strict=True) if len(rows)
         ]
-        textures = {number: texture(window) for number, texture in painted if texture is not None}
-        return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces, textures)
+        textures = {number: piece.texture(window) for number, piece in drawn if piece.texture is not None}
+        balls = {number: piece.ball for number, piece in drawn if piece.ball is not None}
+        return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces, textures, balls)
 
 
 def _around(boxes: Boxes) -> Boxes:

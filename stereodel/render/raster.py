@@ -13,9 +13,10 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel.drawing.colors import Color
 from stereodel.drawing.page import (
+    Ball,
     Beziers,
-    Color,
     Dots,
     Fill,
     Item,
@@ -111,7 +112,7 @@ class _Canvas:
             case Patch():
                 return [self._patch(item)]
             case Fill():
-                return [_flat(region(self._outlines(item.paths)), item.color)]
+                return [self._lit_by(item.ball, region(self._outlines(item.paths)), item.color)]
             case Dots():
                 return self._dots(item)
             case Surface():
@@ -125,6 +126,12 @@ class _Canvas:
     def _place(self, points: FloatArray) -> FloatArray:
         placed: FloatArray = (points - self.origin) * self.scale
         return placed
+
+    def _lit_by(self, ball: Ball | None, corners: Corners, color: Color) -> Piece:
+        if ball is None:
+            return _flat(corners, color)
+        (x, y), (across, up) = self._place(np.array(ball.center)).tolist(), (ball.radius * self.scale).tolist()
+        return Piece(corners, np.broadcast_to(color, (len(corners), 3, 4)), ball=(x, y, across, up))
 
     def _outlines(self, paths: tuple[Beziers, ...]) -> list[FloatArray]:
         return [flatten(self._place(path)) for path in paths]

@@ -12,6 +12,9 @@ from stereodel._arrays import FloatArray, IntArray
 
 Pixels = npt.NDArray[np.uint8]
 
+Disc = tuple[float, float, float, float]
+"""Centre x, y and radius along x and y, in pixels, which need not be quite as high as wide."""
+
 
 @dataclass(frozen=True, eq=False)
 class Triangles:
@@ -30,6 +33,9 @@ class Triangles:
     textures : mapping of int to (height, width, 4) uint8 array
         Number of an item → the window that is drawn as it alone would look, sRGB and opacity, rows from the top: what
         the colours of its triangles are multiplied by, pixel for pixel.
+    balls : mapping of int to tuple of float
+        Number of an item → centre x, y and radius along x and y, pixels from the lower left corner: the ball in whose
+        light it is drawn, see `stereodel.drawing.page.Ball`.
     """
 
     points: FloatArray
@@ -37,6 +43,7 @@ class Triangles:
     slots: IntArray
     faces: IntArray
     textures: Mapping[int, Pixels] = field(default_factory=dict)
+    balls: Mapping[int, Disc] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

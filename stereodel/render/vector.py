@@ -31,9 +31,9 @@ from matplotlib.transforms import ScaledTranslation
 from stereodel._arrays import FloatArray
 from stereodel._files import replacing
 from stereodel.constants import FINEST_POINTS
+from stereodel.drawing.colors import Color
 from stereodel.drawing.page import (
     Beziers,
-    Color,
     Dots,
     Fill,
     Item,
@@ -47,7 +47,7 @@ from stereodel.drawing.page import (
     Surface,
 )
 from stereodel.drawing.style import PRINT_DPI, TYPE
-from stereodel.render.matplotlib_mends import exact_mathtext
+from stereodel.render.mends import exact_mathtext
 from stereodel.render.outlines import patch_outline
 from stereodel.render.sizes import pixel_height
 
@@ -151,9 +151,9 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics
     axes.set_axis_off()
     names: Counter[str] = Counter()
     for number, artist in enumerate(_artists(page, axes, mosaics)):
-        role = artist.get_gid() or "item"
-        names[role] += 1
-        artist.set(gid=role if names[role] == 1 else f"{role}-{names[role]}", zorder=1 + number, snap=False)
+        name = artist.get_gid() or "item"
+        names[name] += 1
+        artist.set(gid=name if names[name] == 1 else f"{name}-{names[name]}", zorder=1 + number, snap=False)
         artist.set_clip_on(isinstance(artist, AxesImage))
         axes.add_artist(artist)
     for label in page.labels:
@@ -171,7 +171,7 @@ def _pixels(canvas: Canvas, background: Color) -> npt.NDArray[np.uint8]:
 
 
 def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | AxesImage]:
-    """Page items as patches; neighbours of one look share one, so that a role is a group and files stay small."""
+    """Page items as patches; neighbours of one look share one, so that a name is a group and files stay small."""
     count = sum(isinstance(item, Mosaic) for item in page.items)
     if len(mosaics) != count:
         raise ValueError(
@@ -187,7 +187,7 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
                 yield _polylines_patch(lines)
             case Patch() as patch:
                 outline = patch_outline(patch, spacing=FINEST_POINTS / page.points_per_unit)
-                yield PathPatch(outline, facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.role)
+                yield PathPatch(outline, facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.name)
             case Fill():
                 yield from (_fill_patch(item.paths, item) for item in items if isinstance(item, Fill))
             case Surface():
@@ -204,7 +204,7 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
 def _look(item: Item) -> tuple[Any, ...]:
     """What neighbours must have in common to be drawn as one; see-through strokes stay apart, as they darken."""
     if isinstance(item, Stroke) and item.color[3] == 1:
-        return (Stroke, item.color, item.width, item.dash, item.cap, item.role)
+        return (Stroke, item.color, item.width, item.dash, item.cap, item.name)
     return (id(item),)
 
 
@@ -219,7 +219,7 @@ def _stroke_patch(strokes: list[Stroke], look: Stroke) -> PathPatch:
         linestyle=dash,
         capstyle=look.cap,
         joinstyle="round",
-        gid=look.role,
+        gid=look.name,
     )
 
 
@@ -240,20 +240,20 @@ def _polylines_patch(lines: Polylines) -> PathPatch:
         linewidth=lines.width,
         capstyle="round",
         joinstyle="round",
-        gid=lines.role,
+        gid=lines.name,
     )
 
 
 def _fill_patch(paths: Iterable[Beziers], item: Fill | Surface) -> PathPatch:
     outline = _outline((path, True) for path in _oriented(list(paths)))
-    return PathPatch(outline, facecolor=item.color, linewidth=0.0, edgecolor="none", gid=item.role)
+    return PathPatch(outline, facecolor=item.color, linewidth=0.0, edgecolor="none", gid=item.name)
 
 
 def _mosaic_image(mosaic: Mosaic, picture: npt.NDArray[np.uint8], page: Page, axes: Axes) -> AxesImage:
     """The part of a picture of the whole page that lies in the outline of a mosaic."""
     image = AxesImage(axes, extent=page.extent, origin="upper", interpolation="none")
     image.set_data(picture)
-    image.set(gid=mosaic.role, transform=axes.transData)
+    image.set(gid=mosaic.name, transform=axes.transData)
     image.set_clip_path(_outline((path, True) for path in mosaic.outline), axes.transData)
     return image
 
@@ -272,7 +272,7 @@ def _picture_image(picture: Picture, page: Page, axes: Axes) -> AxesImage:
     extent = (place[0], corner[0] + right * side, corner[1] - bottom * side, place[1])
     image = AxesImage(axes, extent=extent, origin="upper", interpolation="none")
     image.set_data(picture.painter.paint(place, (int(right - left), int(bottom - top))))
-    image.set(gid=picture.role, transform=axes.transData)
+    image.set(gid=picture.name, transform=axes.transData)
     image.set_clip_path(_outline((path, True) for path in picture.outline), axes.transData)
     return image
 
@@ -284,7 +284,7 @@ def _dot_patches(dots: Dots, points_per_unit: float) -> Iterator[PathPatch]:
         discs.append((dots.radius - dots.rim_width, dots.color))
     for radius, color in discs:
         outline = _outline((_disc(center, radius / points_per_unit), True) for center in dots.centers)
-        yield PathPatch(outline, facecolor=color, linewidth=0.0, edgecolor="none", gid=dots.role)
+        yield PathPatch(outline, facecolor=color, linewidth=0.0, edgecolor="none", gid=dots.name)
 
 
 def _disc(center: FloatArray, radius: float) -> Beziers:
@@ -356,7 +356,7 @@ def _draw_label(axes: Axes, label: Label) -> None:
         rotation=label.rotation,
         rotation_mode="anchor",
         zorder=1e6,
-        gid=label.role,
+        gid=label.name,
         clip_on=False,
         path_effects=[withStroke(linewidth=2 * label.halo, foreground=label.halo_color)] if label.halo else None,
     )

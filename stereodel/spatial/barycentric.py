@@ -5,13 +5,10 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray
+from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray
 from stereodel.constants import INSIDE_TOLERANCE, TRANSFORM_CONDITION
 from stereodel.triangulation import PlanarDelaunay
-
-Indices = npt.NDArray[np.intp]
 
 _PAIRS_AT_ONCE = 2**20
 """Queries times triangles that are compared in one step: 50 MB."""
@@ -38,8 +35,7 @@ def transforms(corners: FloatArray) -> FloatArray:
 
 
 def _larger(p: FloatArray, q: FloatArray, r: FloatArray, s: FloatArray) -> FloatArray:
-    larger: FloatArray = np.maximum(np.abs(p) + np.abs(q), np.abs(r) + np.abs(s))
-    return larger
+    return np.maximum(np.abs(p) + np.abs(q), np.abs(r) + np.abs(s))
 
 
 class NearMisses:
@@ -124,7 +120,7 @@ class NearMisses:
         corners = np.ldexp(points, -size)[self._triangulation.simplices]
         d, e = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
         areas = np.abs(d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0])
-        return np.asarray(np.ldexp(areas / areas.sum() @ corners.mean(axis=1), size))
+        return np.ldexp(areas / areas.sum() @ corners.mean(axis=1), size)
 
     @cached_property
     def _beside_degenerate(self) -> BoolArray:

@@ -44,12 +44,12 @@ class GrowingPoints:
     @cached_property
     def min_bound(self) -> FloatArray:
         """Lowest coordinates, (2,); infinite without points."""
-        return np.asarray(np.min(self._triangulation.points, axis=0, initial=np.inf))
+        return np.min(self._triangulation.points, axis=0, initial=np.inf)
 
     @cached_property
     def max_bound(self) -> FloatArray:
         """Highest coordinates, (2,); minus infinite without points."""
-        return np.asarray(np.max(self._triangulation.points, axis=0, initial=-np.inf))
+        return np.max(self._triangulation.points, axis=0, initial=-np.inf)
 
     def add_points(self, points: npt.ArrayLike, restart: bool = False) -> None:
         """Add points at the end; the result is that of all points at once.

@@ -5,10 +5,9 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 import scipy.spatial
 
-from stereodel._arrays import FloatArray, IntArray
+from stereodel._arrays import FloatArray, Indices, IntArray
 from stereodel.spatial.growing import GrowingPoints
 from stereodel.triangulation import PlanarVoronoi
 
@@ -84,23 +83,22 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
         """Ends of each ridge; -1, which comes first, is at infinity."""
         rows = np.array(self._diagram.ridge_vertices)
         rows[rows[:, 1] < 0] = rows[rows[:, 1] < 0, ::-1]
-        ends: list[list[int]] = rows.tolist()
-        return ends
+        return rows.tolist()
 
     @cached_property
     def regions(self) -> list[list[int]]:
         """Vertices of each region, counterclockwise."""
         cells = self._diagram.regions
         return [[] for _ in range(self._empty)] + [
-            cells[site] for site in np.flatnonzero(self._diagram._is_kept).tolist()
+            cells[site] for site in np.flatnonzero(self._diagram.is_kept).tolist()
         ]
 
     @cached_property
-    def point_region(self) -> npt.NDArray[np.intp]:
+    def point_region(self) -> Indices:
         """Region of each point, (npoints,)."""
-        kept = self._diagram._is_kept
+        kept = self._diagram.is_kept
         number = np.cumsum(kept) - 1 + self._empty
-        result: npt.NDArray[np.intp] = number[self._diagram.point_region].astype(np.intp)
+        result: Indices = number[self._diagram.point_region].astype(np.intp)
         if not self._options.coplanar:
             result[~kept] = -1
         return result

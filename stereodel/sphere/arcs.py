@@ -9,9 +9,9 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_count, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, cross, dot, unit
+from stereodel.constants import UNDECIDED
 from stereodel.sphere.circles import SphereCircle, on_circle, stored_unit
 from stereodel.sphere.coordinates import as_direction
-from stereodel.sphere.quaternions import UNDECIDED
 
 _FULL_TURN = 2 * np.pi
 

@@ -9,12 +9,11 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, as_count, as_directions, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, cross, dot, unit
-from stereodel.constants import STORED_ERROR
+from stereodel.constants import STORED_ERROR, UNDECIDED
 from stereodel.sphere.chunks import by_blocks
 from stereodel.sphere.coordinates import as_direction
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.frames import tangent_frame
-from stereodel.sphere.quaternions import UNDECIDED
 
 _NEAR_POINT = 0.9  # |cos| of the angular radius beyond which 1 − n·x is taken from the chord
 

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_count, as_directions
 from stereodel._double_double import DoubleDouble, dot, unit
-from stereodel.sphere.quaternions import UNDECIDED
+from stereodel.constants import UNDECIDED
 
 
 def angular_distance(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
@@ -76,4 +76,4 @@ def great_circle_points(a: npt.ArrayLike, b: npt.ArrayLike, n: int) -> FloatArra
     size = dot(across, across).sqrt().hi
     towards = across.hi / np.where(size == 0, 1.0, size)[..., None]
     t = np.linspace(0.0, 1.0, as_count(n, "n", low=2))[:, None] * angle
-    return np.asarray(np.cos(t) * p.round()[..., None, :] + np.sin(t) * towards[..., None, :])
+    return np.cos(t) * p.round()[..., None, :] + np.sin(t) * towards[..., None, :]

@@ -121,5 +121,4 @@ def _authalic_step(z: DoubleDouble, rho: DoubleDouble, latitude: FloatArray) -> 
     across = (z * (cosine * r) - rho * (sine * p)).round()
     along = (rho * (cosine * r) + z * (sine * p)).round()
     slope = (1 - _E2.hi * t.hi) ** 2 * r.hi
-    stepped: FloatArray = latitude + np.degrees(across / along * slope)
-    return stepped
+    return latitude + np.degrees(across / along * slope)

@@ -8,9 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from stereodel._double_double import DoubleDouble, cross, dot, stack
-
-UNDECIDED = 2.0**-100
-"""Unit vectors come with errors of 2⁻¹⁰² a component: two at a smaller distance cannot be told apart."""
+from stereodel.constants import UNDECIDED
 
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
 

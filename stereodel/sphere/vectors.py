@@ -14,8 +14,7 @@ def units(vectors: FloatArray) -> FloatArray:
     # By powers of two, so that squares neither overflow nor vanish and nothing is rounded.
     _, exponents = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
     scaled = np.ldexp(vectors, -exponents)
-    directions: FloatArray = scaled / np.sqrt(np.sum(scaled**2, axis=-1, keepdims=True))
-    return directions
+    return scaled / np.sqrt(np.sum(scaled**2, axis=-1, keepdims=True))
 
 
 def determinant(matrix: FloatArray) -> float:

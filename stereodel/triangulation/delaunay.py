@@ -9,7 +9,16 @@ from typing import Any, ClassVar, Self, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, IntArray, as_count, as_indices, as_workers, locked, private
+from stereodel._arrays import (
+    BoolArray,
+    FloatArray,
+    IntArray,
+    as_count,
+    as_indices,
+    as_workers,
+    locked,
+    private,
+)
 from stereodel._spaces import Mesh, Space, Triangulated
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, IntArray, as_directions, as_plane_or_sphere, as_points, read_only
-from stereodel.triangulation.points import insertion_order, spanning_points
+from stereodel.triangulation.order import insertion_order, spanning_points
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites, Sites
 from stereodel.triangulation.topology import Edge, Facet, Surface, as_rows
 

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, IntArray, as_floats, as_scalar, locked
-from stereodel.triangulation.cells import Diagram, Indices
+from stereodel._arrays import FloatArray, Indices, IntArray, as_floats, as_scalar, locked
+from stereodel.triangulation.diagram import Diagram
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 

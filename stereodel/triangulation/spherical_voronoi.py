@@ -11,7 +11,7 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.cells import Diagram
+from stereodel.triangulation.diagram import Diagram
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 

@@ -23,7 +23,7 @@ from stereodel._arrays import FloatArray, IntArray, as_directions, as_points
 from stereodel._double_double import two_prod, two_sum
 from stereodel._spaces import space_of
 from stereodel.predicates import in_bubble
-from stereodel.triangulation.cells import polygons
+from stereodel.triangulation.diagram import polygons
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 from stereodel.triangulation.topology import neighbors_of
@@ -97,8 +97,7 @@ def planar_part(triangulation: SphericalDelaunay, pole: npt.ArrayLike) -> IntArr
     corners = triangulation.points[triangulation.simplices]
     direction = as_directions(pole, "pole")
     outside = np.asarray(in_bubble(corners[:, 0], corners[:, 1], corners[:, 2], direction)) < 0
-    part: IntArray = triangulation.simplices[outside]
-    return part
+    return triangulation.simplices[outside]
 
 
 def merged_polygons(

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, IntArray
+from stereodel._arrays import AnyIndices, BoolArray, IntArray, LongArray
 
 Facet = tuple[int, int, int]
 Edge = tuple[int, int]
-Indices = npt.NDArray[np.integer]
 
 
 class Surface:
@@ -48,14 +46,14 @@ def as_rows(rows: list[Facet] | list[Edge], width: int) -> IntArray:
     return np.array(rows, dtype=np.int32).reshape(-1, width)
 
 
-def canonical(simplices: Indices) -> IntArray:
+def canonical(simplices: AnyIndices) -> IntArray:
     """The same triangles and orientations, (m, 3), smallest index first in each row, rows in lexicographic order."""
     turns = (np.argmin(simplices, axis=1)[:, None] + np.arange(3)) % 3
     rows = np.take_along_axis(np.asarray(simplices, dtype=np.int32), turns, axis=1)
     return np.ascontiguousarray(rows[np.lexsort(rows.T[::-1])])
 
 
-def neighbors_of(simplices: Indices) -> IntArray:
+def neighbors_of(simplices: AnyIndices) -> IntArray:
     """Triangle opposite each corner, (m, 3), -1 where there is none."""
     both = _packed(_directed_edges(simplices))
     order = np.argsort(both, kind="stable")
@@ -66,35 +64,35 @@ def neighbors_of(simplices: Indices) -> IntArray:
     return result.reshape(-1, 3)
 
 
-def edges_of(simplices: Indices) -> IntArray:
+def edges_of(simplices: AnyIndices) -> IntArray:
     """Edges (e, 2) with i < j, in lexicographic order."""
     return _unpacked(_packed(_directed_edges(simplices)))
 
 
-def as_edges(one: Indices, other: Indices) -> IntArray:
+def as_edges(one: AnyIndices, other: AnyIndices) -> IntArray:
     """Pairs of vertices as edges (e, 2), each once, with i < j, in lexicographic order."""
     return _unpacked(_packed(np.stack([one, other], axis=-1)))
 
 
-def _unpacked(edges: npt.NDArray[np.int64]) -> IntArray:
+def _unpacked(edges: LongArray) -> IntArray:
     both = np.sort(edges)
     once = both[np.concatenate([[True], both[1:] != both[:-1]])] if len(both) else both
     return np.column_stack([once >> 32, once & 0xFFFFFFFF]).astype(np.int32)
 
 
-def boundary_of(simplices: Indices, neighbors: Indices, inside: BoolArray) -> IntArray:
+def boundary_of(simplices: AnyIndices, neighbors: AnyIndices, inside: BoolArray) -> IntArray:
     """Directed edges (h, 2) of the triangles `inside` that border others or nothing, in lexicographic order."""
     bordering = inside[:, None] & ((neighbors < 0) | ~inside[neighbors])
     edges = _directed_edges(simplices)[bordering.ravel()]
     return np.ascontiguousarray(edges[np.lexsort(edges.T[::-1])], dtype=np.int32)
 
 
-def _directed_edges(simplices: Indices) -> Indices:
+def _directed_edges(simplices: AnyIndices) -> AnyIndices:
     """Edge opposite each corner, (3m, 2), in counterclockwise direction."""
     return np.stack([np.roll(simplices, -1, axis=1), np.roll(simplices, -2, axis=1)], axis=-1).reshape(-1, 2)
 
 
-def _packed(edges: Indices) -> npt.NDArray[np.int64]:
+def _packed(edges: AnyIndices) -> LongArray:
     """One number for both ends of each edge (e, 2), which is sorted a hundred times as fast as rows."""
     ends = np.sort(edges, axis=1).astype(np.int64)
     return ends[:, 0] << 32 | ends[:, 1]

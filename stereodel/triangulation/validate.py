@@ -23,9 +23,8 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_directions, as_points
+from stereodel._arrays import BoolArray, FloatArray, LongArray, SignArray, as_directions, as_points
 from stereodel.triangulation.validate_mesh import (
-    Indices,
     InvalidTriangulation,
     Mesh,
     as_simplices,
@@ -143,7 +142,7 @@ def _as_surface(points: Any) -> tuple[FloatArray, Literal["plane", "sphere"]]:
     return as_points(points, 2), "plane"
 
 
-def first_occurrences(points: FloatArray) -> Indices:
+def first_occurrences(points: FloatArray) -> LongArray:
     """For each point the lowest index of an equal one; in space, of one with the same direction.
 
     A quotient x/max is the rounding of a real number that depends on the direction alone: equal directions have equal
@@ -162,7 +161,7 @@ def first_occurrences(points: FloatArray) -> Indices:
     return kept
 
 
-def _tell_apart(points: FloatArray, kept: Indices) -> None:
+def _tell_apart(points: FloatArray, kept: LongArray) -> None:
     """Correct `kept` within groups of one key: same direction means same integers after division by their gcd."""
     shared = np.flatnonzero(np.bincount(kept, minlength=len(kept))[kept] > 1)
     seen: dict[tuple[int, ...], int] = {}
@@ -171,7 +170,7 @@ def _tell_apart(points: FloatArray, kept: Indices) -> None:
         kept[index] = seen.setdefault(tuple(k // divisor for k in ray), index)
 
 
-def _check_duplicates(kept_by: Indices, duplicates: npt.ArrayLike | None) -> None:
+def _check_duplicates(kept_by: LongArray, duplicates: npt.ArrayLike | None) -> None:
     if duplicates is None:
         return
     dropped = np.flatnonzero(kept_by != np.arange(len(kept_by)))
@@ -188,7 +187,7 @@ def _check_duplicates(kept_by: Indices, duplicates: npt.ArrayLike | None) -> Non
         raise InvalidTriangulation(f"duplicates leaves out [{i}, {k}]: point {i} repeats point {k}")
 
 
-def _check_flat(signs: PlaneSigns | SphereSigns, kept: Indices) -> None:
+def _check_flat(signs: PlaneSigns | SphereSigns, kept: LongArray) -> None:
     """No simplices are right only for points all on one line (plane) or one great circle (sphere)."""
     if len(kept) < 3:
         return
@@ -207,7 +206,7 @@ def _independent(pair: FloatArray) -> bool:
     return bool(np.any([a[i - 2] * b[i - 1] != a[i - 1] * b[i - 2] for i in range(3)]))
 
 
-def _check_plane(mesh: Mesh, signs: PlaneSigns, kept: Indices) -> int:
+def _check_plane(mesh: Mesh, signs: PlaneSigns, kept: LongArray) -> int:
     positive = signs.turn(mesh.simplices) > 0
     if not positive.all():
         t = int(np.argmin(positive))
@@ -219,7 +218,7 @@ def _check_plane(mesh: Mesh, signs: PlaneSigns, kept: Indices) -> int:
     return _check_edges(mesh, inner, signs.circle(rows))
 
 
-def _check_edges(mesh: Mesh, inner: Indices, inside: npt.NDArray[np.int8]) -> int:
+def _check_edges(mesh: Mesh, inner: LongArray, inside: SignArray) -> int:
     """Refuse an opposite corner inside a circle; return the number of ties."""
     if (inside > 0).any():
         h = int(inner[np.argmax(inside > 0)])
@@ -247,14 +246,13 @@ def _check_convex_boundary(mesh: Mesh, signs: PlaneSigns) -> None:
         raise InvalidTriangulation("the boundary is not one cycle that turns once")
 
 
-def _rises(points: FloatArray, a: Indices, b: Indices) -> npt.NDArray[np.bool_]:
+def _rises(points: FloatArray, a: LongArray, b: LongArray) -> BoolArray:
     """Whether b follows a in lexicographic order."""
     p, q = points[a], points[b]
-    result: npt.NDArray[np.bool_] = (q[:, 0] > p[:, 0]) | ((q[:, 0] == p[:, 0]) & (q[:, 1] > p[:, 1]))
-    return result
+    return (q[:, 0] > p[:, 0]) | ((q[:, 0] == p[:, 0]) & (q[:, 1] > p[:, 1]))
 
 
-def _check_sphere(mesh: Mesh, signs: SphereSigns, kept: Indices) -> int:
+def _check_sphere(mesh: Mesh, signs: SphereSigns, kept: LongArray) -> int:
     if len(mesh.boundary):
         h = int(mesh.boundary[0])
         raise InvalidTriangulation(f"edge {mesh.edge(h)} belongs to simplex {h // 3} only: the surface is not closed")
@@ -273,7 +271,7 @@ def _check_sphere(mesh: Mesh, signs: SphereSigns, kept: Indices) -> int:
     return ties
 
 
-def _check_folds(mesh: Mesh, signs: SphereSigns, tied: Indices) -> None:
+def _check_folds(mesh: Mesh, signs: SphereSigns, tied: LongArray) -> None:
     """Two triangles of one plane must face the same way: det[a, b, c] tells, or `facing` if the centre is in it."""
     first, second = mesh.simplices[tied // 3], mesh.simplices[mesh.twin[tied] // 3]
     folded = signs.side(first) != signs.side(second)

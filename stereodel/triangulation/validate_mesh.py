@@ -8,9 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray
-
-Indices = npt.NDArray[np.int64]
+from stereodel._arrays import BoolArray, IntArray, LongArray
 
 
 class InvalidTriangulation(ValueError):  # noqa: N818 - the name says what is wrong, like SciPy's LinAlgError family
@@ -32,20 +30,20 @@ class Mesh:
         The same edge in the other direction, -1 on the boundary.
     """
 
-    simplices: Indices
-    origin: Indices
-    target: Indices
-    apex: Indices
-    twin: Indices
+    simplices: LongArray
+    origin: LongArray
+    target: LongArray
+    apex: LongArray
+    twin: LongArray
 
     @property
-    def inner(self) -> Indices:
+    def inner(self) -> LongArray:
         """One half-edge of every edge between two triangles."""
         half_edges = np.arange(len(self.twin))
         return half_edges[self.twin > half_edges]
 
     @property
-    def boundary(self) -> Indices:
+    def boundary(self) -> LongArray:
         """Half-edges without a twin."""
         return np.flatnonzero(self.twin < 0)
 
@@ -54,7 +52,7 @@ class Mesh:
         return f"({self.origin[half_edge]}, {self.target[half_edge]})"
 
 
-def as_simplices(simplices: npt.ArrayLike, size: int) -> Indices:
+def as_simplices(simplices: npt.ArrayLike, size: int) -> LongArray:
     """Check that `simplices` is an (m, 3) array of three different point numbers each."""
     array = np.asarray(simplices)
     if array.shape in ((0,), (0, 3)):
@@ -71,7 +69,7 @@ def as_simplices(simplices: npt.ArrayLike, size: int) -> Indices:
     return array
 
 
-def build_mesh(simplices: Indices, size: int) -> Mesh:
+def build_mesh(simplices: LongArray, size: int) -> Mesh:
     """Join the half-edges in pairs of opposite direction, or say which edge cannot be joined."""
     origin, target = np.roll(simplices, -1, axis=1).ravel(), np.roll(simplices, -2, axis=1).ravel()
     key = np.minimum(origin, target) * size + np.maximum(origin, target)
@@ -94,7 +92,7 @@ def build_mesh(simplices: Indices, size: int) -> Mesh:
     return mesh
 
 
-def check_manifold(mesh: Mesh, kept: Indices, euler: int) -> None:
+def check_manifold(mesh: Mesh, kept: LongArray, euler: int) -> None:
     """One connected surface around single vertex fans, using exactly the points `kept`, V - E + F = `euler`."""
     _check_used(mesh, kept)
     _check_fans(mesh)
@@ -118,7 +116,7 @@ def check_neighbors(mesh: Mesh, neighbors: npt.ArrayLike) -> None:
     _refuse(wrong, lambda t: f"neighbors[{t}] is {array[t].tolist()}, but the edges say {expected[t].tolist()}")
 
 
-def link_of(mesh: Mesh, vertex: int) -> Indices:
+def link_of(mesh: Mesh, vertex: int) -> LongArray:
     """Directed edges (k, 2) opposite `vertex` in its triangles, in cyclic order."""
     around = np.flatnonzero(mesh.apex == vertex)
     following = dict(zip(mesh.origin[around].tolist(), mesh.target[around].tolist(), strict=True))
@@ -129,7 +127,7 @@ def link_of(mesh: Mesh, vertex: int) -> Indices:
     return np.array(edges)
 
 
-def _check_used(mesh: Mesh, kept: Indices) -> None:
+def _check_used(mesh: Mesh, kept: LongArray) -> None:
     used = np.unique(mesh.simplices)
     missing = np.setdiff1d(kept, used, assume_unique=True)
     if len(missing):
@@ -145,34 +143,25 @@ def _check_fans(mesh: Mesh) -> None:
     Corners are joined across edges: the corner at the origin of a half-edge with the corner at the target of its twin.
     """
     inner = np.flatnonzero(mesh.twin >= 0)
-    corner, other = _corner_after(inner), _corner_before(mesh.twin[inner])
+    # Half-edge k of a triangle starts at its corner k + 1 and ends at its corner k + 2.
+    twin = mesh.twin[inner]
+    corner, other = inner - inner % 3 + (inner + 1) % 3, twin - twin % 3 + (twin + 2) % 3
     labels = _labels(len(mesh.twin), corner, other)
     _, representative = np.unique(labels, return_index=True)
     vertices, fans = np.unique(mesh.apex[representative], return_counts=True)
     _refuse(fans > 1, lambda i: f"the simplices around point {vertices[i]} form {fans[i]} separate fans")
 
 
-def _corner_after(half_edge: Indices) -> Indices:
-    """Corner number at the origin of a half-edge (corner k + 1 of the triangle)."""
-    return half_edge - half_edge % 3 + (half_edge + 1) % 3
-
-
-def _corner_before(half_edge: Indices) -> Indices:
-    """Corner number at the target of a half-edge (corner k + 2 of the triangle)."""
-    return half_edge - half_edge % 3 + (half_edge + 2) % 3
-
-
-def _components(size: int, a: Indices, b: Indices) -> int:
+def _components(size: int, a: LongArray, b: LongArray) -> int:
     return int(_labels(size, a, b).max()) + 1
 
 
-def _labels(size: int, a: Indices, b: Indices) -> npt.NDArray[np.int32]:
+def _labels(size: int, a: LongArray, b: LongArray) -> IntArray:
     from scipy.sparse import coo_array
     from scipy.sparse.csgraph import connected_components
 
     graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(size, size))
-    labels: npt.NDArray[np.int32] = connected_components(graph, directed=False)[1]
-    return labels
+    return connected_components(graph, directed=False)[1]
 
 
 def _refuse(wrong: BoolArray, message: Callable[[int], str]) -> None:

@@ -9,15 +9,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import BigIntegers, FloatArray, LongArray, SignArray
 from stereodel._double_double import two_prod
 from stereodel.constants import FILTER_RANGE, UNDERFLOW_FLOOR, UNIT_ROUNDOFF
-
-Signs = npt.NDArray[np.int8]
-Indices = npt.NDArray[np.int64]
-Integers = npt.NDArray[Any]  # dtype object: Python integers of any size
 
 _BLOCK = 1 << 16  # rows at a time: the temporaries of one block stay in the cache
 _TURN_BOUND = 4 * UNIT_ROUNDOFF
@@ -38,15 +33,15 @@ class PlaneSigns:
         self.points = points
         self.exact_tests = 0
 
-    def turn(self, rows: Indices) -> Signs:
+    def turn(self, rows: LongArray) -> SignArray:
         """Sign of the area of the triangle a b c, (k,) from (k, 3): > 0 counterclockwise."""
         return self._decide(rows, _turn_filter, _turn_integers)
 
-    def circle(self, rows: Indices) -> Signs:
+    def circle(self, rows: LongArray) -> SignArray:
         """Sign of d against the circle of a counterclockwise triangle a b c, (k,) from (k, 4): > 0 inside."""
         return self._decide(rows, _circle_filter, _circle_integers)
 
-    def _decide(self, rows: Indices, estimate: Any, exact: Any) -> Signs:
+    def _decide(self, rows: LongArray, estimate: Any, exact: Any) -> SignArray:
         signs = np.zeros(len(rows), dtype=np.int8)
         for start in range(0, len(rows), _BLOCK):
             block = rows[start : start + _BLOCK]
@@ -91,12 +86,12 @@ def _outside_range(differences: FloatArray) -> FloatArray:
     return np.where(outside.any(axis=(1, 2)), np.inf, 0.0)
 
 
-def _turn_integers(p: Integers) -> Signs:
+def _turn_integers(p: BigIntegers) -> SignArray:
     d = p[:, 1:] - p[:, :1]
     return _sign(d[:, 0, 0] * d[:, 1, 1] - d[:, 0, 1] * d[:, 1, 0])
 
 
-def _circle_integers(p: Integers) -> Signs:
+def _circle_integers(p: BigIntegers) -> SignArray:
     d = p[:, :3] - p[:, 3:]
     lifted = np.concatenate([d, (d * d).sum(axis=2, keepdims=True)], axis=2)
     return _sign(_determinant(lifted[:, 0], lifted[:, 1], lifted[:, 2]))
@@ -116,7 +111,7 @@ class SphereSigns:
         self.exact_tests = 0
         self._high, self._low = _nearly_unit(points)
 
-    def bubble(self, rows: Indices) -> Signs:
+    def bubble(self, rows: LongArray) -> SignArray:
         """Sign of p against the bubble of a triangle a b c, (k,) from (k, 4).
 
         Positive where p lies in the open bubble on that side of the plane a b c from which they turn counterclockwise.
@@ -132,12 +127,12 @@ class SphereSigns:
             signs[start : start + _BLOCK] = block_signs
         return signs
 
-    def side(self, rows: Indices) -> Signs:
+    def side(self, rows: LongArray) -> SignArray:
         """Sign of det[a, b, c], (k,) from (k, 3): > 0 where the triangle's outer bubble is under a hemisphere."""
         p = ray_integers(self.points[rows])
         return _sign(_determinant(p[:, 0], p[:, 1], p[:, 2]))
 
-    def progress(self, rows: Indices, pole: int, along: Integers) -> Signs:
+    def progress(self, rows: LongArray, pole: int, along: BigIntegers) -> SignArray:
         """Sign of x(b) − x(a) in the projection from the point `pole`, (k,) from (k, 2).
 
         `along` is an integer vector orthogonal to the pole: the lines x = const are images of the circles through the
@@ -151,7 +146,7 @@ class SphereSigns:
         cofactors = [-_determinant(b, v, m), _determinant(a, v, m), -_determinant(a, b, m), none]
         return _sign_of_roots(cofactors, [*_squares(p), none])
 
-    def facing(self, rows: Indices) -> Signs:
+    def facing(self, rows: LongArray) -> SignArray:
         """Signs of the normal's components, (k, 3), for triangles (k, 3) of planes through the centre.
 
         Counterclockwise around the circle at most one of the three steps is a half-turn or more: of the products
@@ -160,7 +155,7 @@ class SphereSigns:
         p = ray_integers(self.points[rows])
         return np.sign(sum(_product_signs(p[:, k - 1], p[:, k]) for k in range(3))).astype(np.int8)
 
-    def _bubble_filter(self, rows: Indices) -> tuple[FloatArray, FloatArray]:
+    def _bubble_filter(self, rows: LongArray) -> tuple[FloatArray, FloatArray]:
         # With v = t·x (exactly high + low, | |v| − 1 | ≤ 8u) and W(x) = |x−a|² − (|x|−|a|)², multiples of a taken off
         # the other rows and det[u v w] = Σ ± (u·a) det[a v w] give, up to a positive factor,
         #   det[b̂−â, ĉ−â, p̂−â] = −W(b) det[a, c−a, p−a] + W(c) det[a, b−a, p−a] − W(p) det[a, b−a, c−a].
@@ -185,7 +180,7 @@ class SphereSigns:
         bound = _BUBBLE_BOUND * (lb * lc * lp) * (lb + lc + lp) + _RADIAL_BOUND * (lb * lc + lc * lp + lp * lb)
         return value, bound + UNDERFLOW_FLOOR
 
-    def _bubble_integers(self, rows: Indices) -> Signs:
+    def _bubble_integers(self, rows: LongArray) -> SignArray:
         """The 4×4 determinant expanded along its column of lengths, a sum of four square roots."""
         p = ray_integers(self.points[rows])
         a, b, c, d = (p[:, k] for k in range(4))
@@ -222,18 +217,18 @@ def _triple(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
     return a[:, 0] * x + a[:, 1] * y + a[:, 2] * z
 
 
-def common_integers(p: FloatArray) -> Integers:
+def common_integers(p: FloatArray) -> BigIntegers:
     """Doubles (k, ...) as integers over one power of two for each row k."""
     return _shifted(p, tuple(range(1, p.ndim)))
 
 
-def ray_integers(p: FloatArray) -> Integers:
+def ray_integers(p: FloatArray) -> BigIntegers:
     """Vectors (..., 3) as integer vectors of the same directions, without a common factor of two."""
     return _shifted(p, (-1,))
 
 
-def _shifted(p: FloatArray, axes: tuple[int, ...]) -> Integers:
-    """Integers p·2^s, the exponent s shared along `axes`."""
+def _shifted(p: FloatArray, axes: tuple[int, ...]) -> BigIntegers:
+    """BigIntegers p·2^s, the exponent s shared along `axes`."""
     fraction, exponent = np.frexp(p)
     mantissa = np.ldexp(fraction, 53).astype(np.int64)
     # The lowest set bit: dropping the zeros below it keeps the integers short.
@@ -243,31 +238,29 @@ def _shifted(p: FloatArray, axes: tuple[int, ...]) -> Integers:
     exponent = np.where(zero, np.iinfo(np.int32).max, exponent + zeros)
     lowest = exponent.min(axis=axes, keepdims=True)
     shift = np.where(zero, 0, exponent - np.where(zero, 0, lowest))
-    integers: Integers = (mantissa >> zeros).astype(object) << shift.astype(object)
-    return integers
+    return (mantissa >> zeros).astype(object) << shift.astype(object)
 
 
-def _determinant(a: Integers, b: Integers, c: Integers) -> Integers:
+def _determinant(a: BigIntegers, b: BigIntegers, c: BigIntegers) -> BigIntegers:
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = a.T, b.T, c.T
-    result: Integers = ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
-    return result
+    return ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
 
 
-def _product_signs(a: Integers, b: Integers) -> Signs:
+def _product_signs(a: BigIntegers, b: BigIntegers) -> SignArray:
     """Signs of the components of a×b, (k, 3)."""
     product = np.roll(a, -1, axis=1) * np.roll(b, -2, axis=1) - np.roll(a, -2, axis=1) * np.roll(b, -1, axis=1)
     return _sign(product)
 
 
-def _squares(p: Integers) -> list[Integers]:
+def _squares(p: BigIntegers) -> list[BigIntegers]:
     return list((p * p).sum(axis=-1).T)
 
 
-def _sign(values: Integers) -> Signs:
+def _sign(values: BigIntegers) -> SignArray:
     return (values > 0).astype(np.int8) - (values < 0).astype(np.int8)
 
 
-def _sign_of_roots(c: list[Integers], n: list[Integers]) -> Signs:
+def _sign_of_roots(c: list[BigIntegers], n: list[BigIntegers]) -> SignArray:
     """Sign of c₀√n₀ + c₁√n₁ + c₂√n₂ + c₃√n₃ for integers c and n ≥ 0.
 
     Two halves of opposite sign compare by their squares, which hold two roots instead of four.
@@ -280,18 +273,18 @@ def _sign_of_roots(c: list[Integers], n: list[Integers]) -> Signs:
     return _combined(first, second, squares)
 
 
-def _sign_of_three(k: Integers, c: Integers, m: Integers, d: Integers, n: Integers) -> Signs:
+def _sign_of_three(k: BigIntegers, c: BigIntegers, m: BigIntegers, d: BigIntegers, n: BigIntegers) -> SignArray:
     """Sign of k + c√m + d√n."""
     first, second = _sign(k), _sign_of_two(c, m, d, n)
     squares = _sign_of_two(k * k - c * c * m - d * d * n, 1, -2 * c * d, m * n)
     return _combined(first, second, squares)
 
 
-def _sign_of_two(c: Integers, m: Integers | int, d: Integers, n: Integers) -> Signs:
+def _sign_of_two(c: BigIntegers, m: BigIntegers | int, d: BigIntegers, n: BigIntegers) -> SignArray:
     """Sign of c√m + d√n: x → x·|x| keeps the order."""
     return _sign(c * abs(c) * m + d * abs(d) * n)
 
 
-def _combined(first: Signs, second: Signs, squares: Signs) -> Signs:
+def _combined(first: SignArray, second: SignArray, squares: SignArray) -> SignArray:
     """Sign of A + B from the signs of A, B and A² − B²."""
     return np.where(first * second >= 0, np.sign(first + second), first * squares).astype(np.int8)

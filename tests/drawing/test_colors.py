@@ -1,52 +1,64 @@
-"""Scales from numbers to colours, and their legends."""
+"""What is taken for a colour: what matplotlib takes, checked at the door."""
+
+import subprocess
+import sys
 
 import numpy as np
 import pytest
-from matplotlib import colormaps
+from hypothesis import given
+from hypothesis import strategies as st
+from matplotlib.colors import to_rgba
 
-from stereodel.drawing import ColorScale, Page
-from stereodel.drawing.page import Fill, Label, Stroke
-from stereodel.render.vector import rasterize
+from stereodel.drawing import DotStyle, LineStyle
+from stereodel.drawing.colors import as_color
 
-
-def test_linear_and_logarithmic_places():
-    values = [1.0, 10.0, 100.0, 1000.0]
-    np.testing.assert_allclose(
-        ColorScale("viridis", 1.0, 1000.0, log=True).place(values), [0, 1 / 3, 2 / 3, 1], atol=1e-15
-    )
-    np.testing.assert_allclose(ColorScale("viridis", 0.0, 1000.0).place([0.0, 250.0, 2000.0, -1.0]), [0, 0.25, 1, 0])
-
-
-def test_colours_are_matplotlibs():
-    found = ColorScale("magma", -1.0, 1.0)(np.linspace(-1, 1, 20).reshape(4, 5))
-    np.testing.assert_array_equal(found, colormaps["magma"](np.linspace(-1, 1, 20).reshape(4, 5) / 2 + 0.5)[..., :3])
-
-
-def test_zero_gets_the_first_colour_of_a_logarithmic_scale():
-    scale = ColorScale("inferno", 0.1, 10.0, log=True)
-    assert np.array_equal(scale(0.0), scale(0.1))
-
-
-def test_legend():
-    scale = ColorScale("cividis", 1.0, 100.0, log=True)
-    items = scale.legend((1.0, 2.0), (4.0, 0.5), {1.0: "one", 10.0: "ten", 100.0: "hundred"}, title="size")
-    assert [item.text for item in items if isinstance(item, Label)] == ["one", "ten", "hundred", "size"]
-    assert [item.path[0, 0, 0] for item in items if isinstance(item, Stroke)] == [1.0, 3.0, 5.0]
-    assert {type(item) for item in items} == {Fill, Stroke, Label}
-    picture = rasterize(Page((1.0, 5.0, 2.0, 2.5), items, width=400.0), size=400, text=False)
-    shown = scale(10 ** (2 * (np.arange(400) + 0.5) / 400))
-    assert np.abs(picture[25] / 255 - shown).max() < 0.02
+shares = st.floats(0, 1)
 
 
 @pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        (("sunset", 0.0, 1.0), "name is 'sunset', which is no colour map of matplotlib"),
-        (("viridis", 1.0, 1.0), "high is 1.0"),
-        (("viridis", 0.0, 1.0, True), "low is 0.0"),
-        (("viridis", np.nan, 1.0), "low is nan"),
-    ],
+    "value",
+    ["tab:red", "#abc", "#aabbcc80", "0.5", "C1", "xkcd:sky blue", ("red", 0.25), ((0.1, 0.2, 0.3), 0.5), "none"],
 )
-def test_refused_scales(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        ColorScale(*arguments)
+def test_words_are_matplotlibs(value):
+    assert as_color(value) == to_rgba(value)
+
+
+@given(st.lists(shares, min_size=3, max_size=4))
+def test_numbers_are_taken_as_they_are_and_are_opaque_by_default(numbers):
+    expected = (*numbers, 1.0)[:4]
+    for given_as in (tuple(numbers), numbers, np.array(numbers)):
+        found = as_color(given_as)
+        assert found == expected
+        assert all(type(part) is float for part in found)
+
+
+@pytest.mark.parametrize(
+    "value",
+    ["sky", "", (0.1, 0.2), (0.1, 0.2, 0.3, 0.4, 0.5), 3, None, np.eye(3), ("red", 2.0), (None, 0.1, 0.2), "1.5"],
+)
+def test_what_is_no_colour_is_named(value):
+    with pytest.raises(ValueError, match=r"ink is .*, which is not a colour; give a name such as"):
+        as_color(value, "ink")
+
+
+@pytest.mark.parametrize("value", [(255, 0, 0), (0.1, -0.1, 0.2), (0.1, 0.2, 0.3, 1.5), (np.nan, 0.0, 0.0)])
+def test_numbers_outside_the_range_are_refused(value):
+    with pytest.raises(ValueError, match=r"ink is \(.*\); red, green, blue and opacity must be in \[0, 1\]"):
+        as_color(value, "ink")
+
+
+def test_styles_take_any_colour():
+    assert LineStyle("k", 1.0) == LineStyle((0.0, 0.0, 0.0, 1.0), 1.0)
+    assert DotStyle("w", 2.0, rim="#000", rim_width=0.5).rim == (0.0, 0.0, 0.0, 1.0)
+    with pytest.raises(ValueError, match="rim is 'sky'"):
+        DotStyle("k", 1.0, "sky")
+    with pytest.raises(ValueError, match="width"):
+        LineStyle("k", -1.0)
+
+
+def test_numbers_do_not_load_matplotlib():
+    code = (
+        "import sys; import stereodel.drawing as d; d.LineStyle((0, 0.5, 1), 1.0); print('matplotlib' in sys.modules)"
+    )
+    found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert found.stdout == "False\n"

@@ -27,7 +27,7 @@ def cap(lonlat, radius):
 def polygons(runs):
     """The outlines as fine polygons, which may be off by 1e-5."""
     for run in runs:
-        points = [c.points(np.linspace(c.start, c.stop, 400)) for c in run]
+        points = [c.sample(np.linspace(c.start, c.stop, 400)) for c in run]
         yield np.concatenate(points)[:, :2]
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke, Surface
 from stereodel.drawing.scene import Scene
+from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.style import DOTS, LINES, LineStyle
-from stereodel.drawing.things import Layer
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
 
@@ -14,39 +14,39 @@ PLANE = np.array([[-2.0, -2.0, -1.0], [2.0, -2.0, -1.0], [2.0, 2.0, -1.0], [-2.0
 FRONT, BACK = View(0, 90), View(0, -90)
 
 
-def of(items, kind, role=None):
-    return [item for item in items if isinstance(item, kind) and (role is None or item.role == role)]
+def of(items, kind, name=None):
+    return [item for item in items if isinstance(item, kind) and (name is None or item.name == name)]
 
 
-def roles(items):
-    return [item.role for item in items]
+def names(items):
+    return [item.name for item in items]
 
 
 def test_an_opaque_ball_hides_its_far_side():
     scene = Scene()
     scene.add_points(lonlat_to_xyz([(0, 60), (0, -60), (0, 0)]))
-    scene.add_edges(lonlat_to_xyz([(0, 60), (90, 60), (0, -60), (90, -60)]), [[0, 1], [2, 3]], role="delaunay")
+    scene.add_edges(lonlat_to_xyz([(0, 60), (90, 60), (0, -60), (90, -60)]), [[0, 1], [2, 3]], name="delaunay")
     items = scene.layout(FRONT)
-    assert roles(items) == ["ball", "delaunay", "limb", "sites"]
+    assert names(items) == ["ball", "delaunay", "limb", "sites"]
     assert of(items, Dots)[0].centers.shape == (2, 2)
 
 
 def test_a_glass_ball_shows_it_fainter_and_first():
-    scene = Scene(look="glass")
-    scene.add_arcs(graticule(30), role="graticule")
+    scene = Scene(style="glass")
+    scene.add_arcs(graticule(30), name="graticule")
     items = scene.layout(View(10, 20))
-    ball = roles(items).index("ball")
+    ball = names(items).index("ball")
     behind, front = items[:ball], items[ball + 1 : -1]
     assert behind
     assert front
     assert {item.color for item in front} == {LINES["graticule"].color}
     assert {item.color for item in behind} == {LINES["graticule"].hidden.color}
-    assert items[-1].role == "limb"
+    assert items[-1].name == "limb"
 
 
 def test_without_a_ball_nothing_is_hidden():
-    scene = Scene(look="none")
-    scene.add_arcs(graticule(30), role="graticule")
+    scene = Scene(style="none")
+    scene.add_arcs(graticule(30), name="graticule")
     items = scene.layout(FRONT)
     assert len(items) == len(graticule(30))
     assert all(item.closed == arc.closed for item, arc in zip(items, graticule(30), strict=True))
@@ -73,12 +73,12 @@ def test_at_and_scale_place_the_origin():
 
 def test_rays_are_cut_by_the_ball():
     scene = Scene()
-    scene.add_segments([0.0, 0.0, 1.0], [[1.5, 0.0, -1.0], [0.0, -1.5, -1.0]], role="ray")
+    scene.add_segments([0.0, 0.0, 1.0], [[1.5, 0.0, -1.0], [0.0, -1.5, -1.0]], name="ray")
     items = scene.layout(View(-90, 10))
     outside = of(items, Stroke, "ray")
     assert len(outside) == 2
-    limb_at = roles(items).index("limb")
-    beside, front = roles(items).index("ray"), len(items) - 1
+    limb_at = names(items).index("limb")
+    beside, front = names(items).index("ray"), len(items) - 1
     assert beside < limb_at < front
 
 
@@ -86,31 +86,31 @@ def test_a_plane_below_the_ball_is_painted_first_and_from_below_last():
     scene = Scene()
     scene.add_flat_polygon(PLANE)
     scene.add_points([[0, 0, 1], [0, 0, -1]])
-    scene.add_space_points([[1.5, 0, -1]], role="points")
-    assert roles(scene.layout(View(0, 30))) == ["plane", "ball", "limb", "sites", "points"]
-    assert roles(scene.layout(View(0, -30))) == ["ball", "limb", "plane", "sites", "points"]
+    scene.add_space_points([[1.5, 0, -1]], name="points")
+    assert names(scene.layout(View(0, 30))) == ["plane", "ball", "limb", "sites", "points"]
+    assert names(scene.layout(View(0, -30))) == ["ball", "limb", "plane", "sites", "points"]
 
 
 def test_lines_below_a_plane_are_painted_under_it():
     scene = Scene()
     scene.add_flat_polygon(PLANE)
-    scene.add_segments([1.8, 0, 1], [1.8, 0, -3], role="ray")
+    scene.add_segments([1.8, 0, 1], [1.8, 0, -3], name="ray")
     items = scene.layout(View(90, 30))
-    assert roles(items)[:3] == ["ray", "plane", "ray"]
+    assert names(items)[:3] == ["ray", "plane", "ray"]
     upper, lower = (item for item in (items[2], items[0]))
     assert upper.path[0, 3] == pytest.approx(lower.path[0, 0], abs=1e-8)
 
 
 def test_flat_polygons_inside_the_ball():
     corners = lonlat_to_xyz([(0, 0), (90, 0), (0, 90)])
-    for look, expected in (
+    for style, expected in (
         ("solid", ["ball", "limb"]),
         ("glass", ["chordal", "chord", "chord", "chord", "ball", "limb"]),
     ):
-        scene = Scene(look=look)
-        scene.add_flat_polygon(corners, role="chordal")
-        scene.add_outline(corners, role="chord")
-        assert roles(scene.layout(View(45, 30))) == expected
+        scene = Scene(style=style)
+        scene.add_flat_polygon(corners, name="chordal")
+        scene.add_outline(corners, name="chord")
+        assert names(scene.layout(View(45, 30))) == expected
 
 
 def test_a_polygon_that_cuts_the_ball_is_refused():
@@ -121,14 +121,14 @@ def test_a_polygon_that_cuts_the_ball_is_refused():
 
 
 def test_caps_and_triangles_have_outline_and_mesh():
-    scene = Scene(look="glass")
+    scene = Scene(style="glass")
     circle = SphereCircle.around((0, 40), 30)
-    scene.add_cap(circle, role="small_bubble")
-    scene.add_cap(circle, role="large_bubble", side="outside")
+    scene.add_cap(circle, name="small_bubble")
+    scene.add_cap(circle, name="large_bubble", side="outside")
     scene.add_triangle_patch(*lonlat_to_xyz([(0, 0), (60, 0), (30, 50)]))
     items = scene.layout(View(0, 40))
-    assert roles(of(items, Surface)) == ["ball", "small_bubble", "large_bubble", "triangle"]
-    assert roles(of(items, Fill)) == ["large_bubble"]
+    assert names(of(items, Surface)) == ["ball", "small_bubble", "large_bubble", "triangle"]
+    assert names(of(items, Fill)) == ["large_bubble"]
     ring = of(items, Surface, "large_bubble")[0]
     assert len(ring.outline) == 2
     assert np.allclose(np.linalg.norm(ring.normals, axis=1), 1)
@@ -136,9 +136,9 @@ def test_caps_and_triangles_have_outline_and_mesh():
 
 def test_labels_vanish_with_their_points_unless_told():
     scene = Scene()
-    scene.add_label("front", (0, 0, 1), offset=(3, 4))
-    scene.add_label("back", (0, 0, -1))
-    scene.add_label("always", (0, 0, -1), always=True)
+    scene.add_label((0, 0, 1), "front", offset=(3, 4))
+    scene.add_label((0, 0, -1), "back")
+    scene.add_label((0, 0, -1), "always", always=True)
     labels = of(scene.layout(FRONT), Label)
     assert [label.text for label in labels] == ["front", "always"]
     assert labels[0].anchor == (0.0, 0.0)
@@ -147,10 +147,10 @@ def test_labels_vanish_with_their_points_unless_told():
 
 def test_style_and_layer_can_be_given():
     scene = Scene()
-    look = LineStyle((1.0, 0.0, 0.0, 1.0), 3.0, (2.0, 2.0))
-    scene.add_circles([SphereCircle.around((0, 90), 30)], role="mine", style=look, layer=Layer.OVER)
+    style = LineStyle((1.0, 0.0, 0.0, 1.0), 3.0, (2.0, 2.0))
+    scene.add_circles([SphereCircle.around((0, 90), 30)], name="mine", style=style, layer=Layer.OVER)
     items = scene.layout(FRONT)
-    assert roles(items) == ["ball", "limb", "mine"]
+    assert names(items) == ["ball", "limb", "mine"]
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
 
 
@@ -164,9 +164,9 @@ def test_weight_scales_lines_and_dots():
 
 
 def test_layout_is_repeatable_and_leaves_no_trace():
-    scene = Scene(look="glass")
-    scene.add_arcs(graticule(30), role="graticule")
-    scene.add_cap(SphereCircle.around((20, 10), 40), role="small_bubble")
+    scene = Scene(style="glass")
+    scene.add_arcs(graticule(30), name="graticule")
+    scene.add_cap(SphereCircle.around((20, 10), 40), name="small_bubble")
     first = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
     scene.layout(View(50, -20))
     again = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
@@ -179,7 +179,7 @@ def test_input_is_not_modified():
     before = points.copy()
     scene = Scene(radius=2.0)
     scene.add_points(points)
-    scene.add_edges(points, [[0, 1]], role="delaunay")
+    scene.add_edges(points, [[0, 1]], name="delaunay")
     scene.layout(FRONT)
     assert np.array_equal(points, before)
 
@@ -187,14 +187,14 @@ def test_input_is_not_modified():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda s: Scene(look="foggy"), "look must be"),
+        (lambda s: Scene(style="foggy"), "style must be"),
         (lambda s: Scene(radius=0), "radius"),
-        (lambda s: s.add_arcs(graticule(30), role="nothing"), "role 'nothing' has no line style"),
-        (lambda s: s.add_points([[0, 0, 1]], role="nothing"), "role 'nothing' has no dot style"),
+        (lambda s: s.add_arcs(graticule(30), name="nothing"), "name 'nothing' has no line style"),
+        (lambda s: s.add_points([[0, 0, 1]], name="nothing"), "name 'nothing' has no dot style"),
         (lambda s: s.add_points([[0, 0, 0]]), "points"),
-        (lambda s: s.add_flat_polygon(PLANE, role="nothing"), "role 'nothing' has no fill style"),
-        (lambda s: s.add_edges([[0, 0, 1]], [[0, 1]], role="delaunay"), "pairs"),
-        (lambda s: s.add_label("x", [0, 1]), "point"),
+        (lambda s: s.add_flat_polygon(PLANE, name="nothing"), "name 'nothing' has no fill style"),
+        (lambda s: s.add_edges([[0, 0, 1]], [[0, 1]], name="delaunay"), "pairs"),
+        (lambda s: s.add_label([0, 1], "x"), "point"),
         (lambda s: s.layout(FRONT, scale=-1), "scale"),
     ],
 )
@@ -204,8 +204,8 @@ def test_bad_input_is_named(call, message):
 
 
 def test_a_layer_of_ones_own_lifts_lines_inside_a_glass_ball_over_the_tints():
-    scene = Scene(look="glass")
+    scene = Scene(style="glass")
     scene.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1])
-    scene.add_segments([[1.0, 0, 0]], [[0, 1.0, 0]], role="chord", layer=Layer.LINE)
-    roles = [item.role for item in scene.layout(View(45, 35))]
-    assert roles.index("chord") > roles.index("triangle")
+    scene.add_segments([[1.0, 0, 0]], [[0, 1.0, 0]], name="chord", layer=Layer.LINE)
+    found = names(scene.layout(View(45, 35)))
+    assert found.index("chord") > found.index("triangle")

@@ -26,14 +26,14 @@ def test_arcs_lie_on_their_circle(start, stop):
 
 def test_graph_of_a_cubic_is_exact():
     x = np.array([-1.0, 0.5, 2.0])
-    (stroke,) = Sketch().add_graph(x, x**3 - x, 3 * x**2 - 1, role="accent1").page((-1, 2, -2, 6)).items
+    (stroke,) = Sketch().add_graph(x, x**3 - x, 3 * x**2 - 1, name="accent1").page((-1, 2, -2, 6)).items
     px, py = bezier_points(stroke.path).T
     assert np.allclose(py, px**3 - px, atol=1e-14)
 
 
 def test_items_come_in_the_order_of_the_calls():
-    sketch = Sketch().add_disc((0, 0), 1, role="accent1").add_segment((0, 0), (1, 1), role="axis")
-    page = sketch.add_points([1.0, 1.0], role="pole").add_label("p", (1, 1), (3, 4)).page((-1, 3, -1, 1), width=400.0)
+    sketch = Sketch().add_disc((0, 0), 1, name="accent1").add_segment((0, 0), (1, 1), name="axis")
+    page = sketch.add_points([1.0, 1.0], name="pole").add_label((1, 1), "p", (3, 4)).page((-1, 3, -1, 1), width=400.0)
     assert [type(item) for item in page.items] == [Fill, Stroke, Dots, Label]
     assert page.height == 200.0
     assert page.labels[0].offset == (3, 4)
@@ -41,14 +41,14 @@ def test_items_come_in_the_order_of_the_calls():
 
 def test_closed_polyline_returns_to_its_start():
     corners = np.array([[0.0, 0.0], [2.0, 0.0], [1.0, 1.0]])
-    (stroke,) = Sketch().add_polyline(corners, role="frame", closed=True).page((0, 2, 0, 1)).items
+    (stroke,) = Sketch().add_polyline(corners, name="frame", closed=True).page((0, 2, 0, 1)).items
     assert stroke.closed
     assert np.array_equal(stroke.path[:, 0], corners)
     assert np.array_equal(stroke.path[-1, 3], corners[0])
 
 
 def test_angle_runs_counterclockwise_with_its_name_on_the_bisector():
-    arc, label = Sketch().add_angle((0, 0), (0, -1), (1, 0), 0.5, "x", role="axis", gap=10).page((-1, 1, -1, 1)).items
+    arc, label = Sketch().add_angle((0, 0), (0, -1), (1, 0), 0.5, "x", name="axis", gap=10).page((-1, 1, -1, 1)).items
     assert np.allclose(arc.path[0, 0], [0, -0.5])
     assert np.allclose(arc.path[-1, 3], [0.5, 0])
     assert np.allclose(label.anchor, 0.5 * np.array([1, -1]) / np.sqrt(2))
@@ -56,7 +56,7 @@ def test_angle_runs_counterclockwise_with_its_name_on_the_bisector():
 
 
 def test_errors_name_what_is_wrong():
-    with pytest.raises(ValueError, match="role 'nothing' has no line style"):
-        Sketch().add_segment((0, 0), (1, 1), role="nothing")
+    with pytest.raises(ValueError, match="name 'nothing' has no line style"):
+        Sketch().add_segment((0, 0), (1, 1), name="nothing")
     with pytest.raises(ValueError, match=r"extent\[1\] - extent\[0\]"):
         Sketch().page((1, 1, 0, 1))

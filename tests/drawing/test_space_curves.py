@@ -50,8 +50,8 @@ def test_beziers_stay_within_the_derived_error_of_the_circle(arc):
     assert error.min() >= -1e-13
     assert error.max() <= 3.8e-7
     assert np.array_equal(path[1:, 0], path[:-1, 3])
-    assert np.allclose(path[0, 0], arc.points(arc.start), rtol=0, atol=1e-12)
-    assert np.allclose(path[-1, 3], arc.points(arc.stop), rtol=0, atol=1e-12)
+    assert np.allclose(path[0, 0], arc.sample(arc.start), rtol=0, atol=1e-12)
+    assert np.allclose(path[-1, 3], arc.sample(arc.stop), rtol=0, atol=1e-12)
 
 
 def test_the_derived_error_is_reached_and_not_by_chance():
@@ -77,7 +77,7 @@ def test_a_whole_turn_is_closed_from_any_start(start):
 @given(arcs(), st.builds(View, angles, st.floats(-90, 90)), vectors)
 def test_moving_a_curve_moves_its_points(arc, view, origin):
     t = np.linspace(arc.start, arc.stop, 7)
-    assert np.allclose(arc.moved(view.matrix, origin).points(t), view.axes(arc.points(t) - origin), rtol=0, atol=1e-13)
+    assert np.allclose(arc.moved(view.matrix, origin).sample(t), view.axes(arc.sample(t) - origin), rtol=0, atol=1e-13)
 
 
 @given(arcs(), vectors, unit_floats)
@@ -106,7 +106,7 @@ def assert_cuts_separate_signs(curve, cuts, function):
     assert np.all((cuts > curve.start) & (cuts < curve.stop))
     bounds = [curve.start, *cuts, curve.stop]
     for low, high in pairwise(bounds):
-        values = function(curve.points(np.linspace(low, high, 203)[1:-1]))
+        values = function(curve.sample(np.linspace(low, high, 203)[1:-1]))
         values = values[np.abs(values) > 1e-9]
         assert len(values) == 0 or np.all(values > 0) or np.all(values < 0)
 
@@ -124,7 +124,7 @@ def test_a_circle_seen_face_on_falls_back_to_the_linear_equation():
 def test_great_arcs_are_the_short_way_at_any_distance():
     arc = CircleArc.great([1, 0, 0], [-1, 1e-3, 0])
     assert arc.stop == pytest.approx(np.pi - 1e-3, abs=1e-9)
-    assert np.allclose(arc.points(arc.stop / 2), [5e-4, 1, 0], atol=1e-6)
+    assert np.allclose(arc.sample(arc.stop / 2), [5e-4, 1, 0], atol=1e-6)
     tiny = CircleArc.great([1, 0, 0], [1, 1e-13, 0])
     assert tiny.stop == pytest.approx(1e-13, rel=1e-6)
 
@@ -140,8 +140,8 @@ def test_arcs_of_the_library_are_followed_in_their_sense():
     curve = CircleArc.of(arc)
     assert curve.stop == pytest.approx(3 * np.pi / 2)
     t = np.linspace(0, curve.stop, 9)
-    assert np.allclose(curve.points(t), arc.points(9), rtol=0, atol=1e-15)
-    assert np.allclose(curve.scaled(2, np.array([1, 2, 3])).points(t), 2 * arc.points(9) + [1, 2, 3], atol=1e-14)
+    assert np.allclose(curve.sample(t), arc.points(9), rtol=0, atol=1e-15)
+    assert np.allclose(curve.scaled(2, np.array([1, 2, 3])).sample(t), 2 * arc.points(9) + [1, 2, 3], atol=1e-14)
 
 
 def test_page_paths_are_connected_exactly():

@@ -48,7 +48,7 @@ def assert_matches_definition(curve, radius):
     pieces = split_by_ball(curve, radius)
     assert_pieces_cover(curve, pieces)
     for piece, place in pieces:
-        points = piece.points(np.linspace(piece.start, piece.stop, 203)[1:-1])
+        points = piece.sample(np.linspace(piece.start, piece.stop, 203)[1:-1])
         clear = points[margin(points, radius) > 1e-6]
         assert np.all(covered(clear, radius) == (place in (Place.BEHIND, Place.INSIDE)))
         assert (place is Place.INSIDE) or np.all(np.linalg.norm(clear, axis=1) > radius)
@@ -72,7 +72,7 @@ def test_circles_of_the_sphere(circle, view):
     assert_pieces_cover(curve, pieces)
     assert len(pieces) <= 2
     for piece, place in pieces:
-        depth = piece.points(np.linspace(piece.start, piece.stop, 201))[:, 2]
+        depth = piece.sample(np.linspace(piece.start, piece.stop, 201))[:, 2]
         assert np.all(depth >= -2e-12) if place is Place.FRONT else np.all(depth <= 1e-12)
 
 

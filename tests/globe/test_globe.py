@@ -99,7 +99,7 @@ def test_what_is_out_of_sight_is_not_there():
     page = globe.page()
     assert [len(item.centers) for item in items_of(page, Dots)] == [1]
     assert [label.text for label in page.labels] == ["front"]
-    assert not [item for item in page.items if item.role == "behind"]
+    assert not [item for item in page.items if item.name == "behind"]
 
 
 def test_labels_make_room_for_those_that_matter_more():
@@ -134,7 +134,7 @@ def test_hemispheres_show_everything_once():
     for flat in (False, True):
         page = globe.page(view=hemispheres(20.0, 30.0, flat=flat))
         assert sum(len(item.centers) for item in items_of(page, Dots)) == 100
-        assert len([item for item in page.items if item.role == "limb"]) == 2
+        assert len([item for item in page.items if item.name == "limb"]) == 2
 
 
 def test_panels_have_titles_and_rows():

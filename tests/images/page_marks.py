@@ -53,7 +53,7 @@ def expected(page, mosaics=()):
     pictures = iter(mosaics)
     place = _Place(page)
     for number, item in enumerate(page.items):
-        name = f"{number} {type(item).__name__} {item.role}".rstrip()
+        name = f"{number} {type(item).__name__} {item.name}".rstrip()
         for mark, check in place.marks(item, pictures):
             yield Expected(name, mark, check)
 

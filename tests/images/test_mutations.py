@@ -86,7 +86,7 @@ def test_a_view_turned_by_half_a_degree(sphere, monkeypatch, lon, lat):
 
 
 def recoloured(page: Page, role: str, color) -> Page:
-    items = [replace(i, color=color) if isinstance(i, Stroke) and i.role == role else i for i in page.items]
+    items = [replace(i, color=color) if isinstance(i, Stroke) and i.name == role else i for i in page.items]
     return replace(page, items=tuple(items))
 
 

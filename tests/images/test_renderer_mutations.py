@@ -33,7 +33,7 @@ def with_items(change):
 
 def with_lines(role, change):
     """A change of the lines of a page that have a role."""
-    return with_items(lambda item: change(item) if isinstance(item, Stroke | Polylines) and item.role == role else item)
+    return with_items(lambda item: change(item) if isinstance(item, Stroke | Polylines) and item.name == role else item)
 
 
 def before(function, change):

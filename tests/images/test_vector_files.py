@@ -77,7 +77,7 @@ def fan(turn, radius=0.4):
         [np.stack([k, k + 1, k + 14], axis=1), np.stack([k, k + 14, k + 13], axis=1), [[26, 27, 28]]]
     )
     rim = np.arange(len(points)) < 13
-    return Patch(points, faces.astype(np.int32), (0.3, 0.6, 0.2, 0.5), rim, (3.0, 0.5), role="fan")
+    return Patch(points, faces.astype(np.int32), (0.3, 0.6, 0.2, 0.5), rim, (3.0, 0.5), name="fan")
 
 
 def everything():
@@ -99,16 +99,16 @@ def everything():
         Fill((*outline, box(1.9, 2.1, 1.4, 1.6)), RED, "island"),
         fan(1.5 * np.pi),
         fan(2.0 * np.pi, radius=0.45),
-        Stroke(bent, RED, 2.0, dash=(6.0, 4.0), cap="butt", role="dashed"),
-        Stroke(bent - [0.0, 0.1], RED, 0.5, dash=(6.0, 4.0), role="dashed"),
-        Stroke(bent - [0.0, 0.2], RED, 1.0, dash=(6.0, 4.0), closed=True, role="dashed"),
-        Stroke(box(-0.5, 4.5, 0.4, 2.5), BLACK, 1.5, closed=True, role="beyond"),
-        Stroke(bent + [0.1, 0.0], BLACK, 1.5, role="beyond"),
-        Stroke(lines((1.0, 1.0), (1.0, 1.0)), BLACK, 1.5, role="speck"),
-        *(Stroke(bent + [0.1 * k, -0.5], (0.0, 0.3, 0.0, 0.5), 3.0, cap="butt", role="veil") for k in range(2)),
+        Stroke(bent, RED, 2.0, dash=(6.0, 4.0), cap="butt", name="dashed"),
+        Stroke(bent - [0.0, 0.1], RED, 0.5, dash=(6.0, 4.0), name="dashed"),
+        Stroke(bent - [0.0, 0.2], RED, 1.0, dash=(6.0, 4.0), closed=True, name="dashed"),
+        Stroke(box(-0.5, 4.5, 0.4, 2.5), BLACK, 1.5, closed=True, name="beyond"),
+        Stroke(bent + [0.1, 0.0], BLACK, 1.5, name="beyond"),
+        Stroke(lines((1.0, 1.0), (1.0, 1.0)), BLACK, 1.5, name="speck"),
+        *(Stroke(bent + [0.1 * k, -0.5], (0.0, 0.3, 0.0, 0.5), 3.0, cap="butt", name="veil") for k in range(2)),
         Polylines(polylines, np.array([0, 3, 7, 8]), (0.0, 0.0, 1.0, 0.6), 0.8, "coast"),
         Polylines(polylines + 0.05, np.array([0, 3, 7, 8]), BLACK, 0.8, "border"),
-        Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, RED, rim_width=1.0, role="sites"),
+        Dots(np.array([[0.5, 1.5], [2.0, 1.0], [2.05, 1.02]]), 4.0, RED, rim_width=1.0, name="sites"),
         Dots(np.array([[3.9, 0.1]]), 2.0, BLACK),
         Label("north", (1.0, 1.0), (3.0, 4.0), align="left", valign="bottom", color=RED),
         Label(r"$\frac{\varphi}{2}$ and $\sqrt{2\pi}$", (2.0, 0.7), size=14.0, rotation=30.0),
@@ -125,20 +125,20 @@ def test_files_hold_each_kind_of_item(tmp_path):
 
 @pytest.mark.parametrize("kind", READERS)
 def test_dashes_have_the_same_length_whatever_the_width(kind, tmp_path):
-    dashed = [item for item in everything().items if item.role == "dashed"]
+    dashed = [item for item in everything().items if item.name == "dashed"]
     _, marks = READERS[kind](save_vector(replace(everything(), items=tuple(dashed)), tmp_path / f"page.{kind}"))
     assert [(mark.width, mark.dash) for mark in marks[1:]] == [(width, (6.0, 4.0)) for width in (2.0, 0.5, 1.0)]
 
 
-def without(page, role):
-    return replace(page, items=tuple(item for item in page.items if item.role != role))
+def without(page, name):
+    return replace(page, items=tuple(item for item in page.items if item.name != name))
 
 
-def changed(page, role, **fields):
-    """A page whose items of a role differ in some fields, each a value or a function of what there is."""
+def changed(page, name, **fields):
+    """A page of whose items those of a name differ in some fields, each a value or a function of what there is."""
     items = []
     for item in page.items:
-        if item.role == role:
+        if item.name == name:
             new = {name: value(getattr(item, name)) if callable(value) else value for name, value in fields.items()}
             item = replace(item, **new)
         items.append(item)
@@ -153,22 +153,22 @@ CHANGES = {
     "the size": lambda page: replace(page, width=300.01),
     "another order": lambda page: replace(page, items=page.items[::-1]),
     **{
-        f"{role} missing": lambda page, role=role: without(page, role)
-        for role in ("ball", "cells", "checks", "ring", "fan", "dashed", "beyond", "veil", "coast", "sites", "speck")
+        f"{name} missing": lambda page, name=name: without(page, name)
+        for name in ("ball", "cells", "checks", "ring", "fan", "dashed", "beyond", "veil", "coast", "sites", "speck")
     },
     **{
-        f"{role} paler": lambda page, role=role: changed(
-            page, role, color=lambda c: (*(v - 2 / 255 if v > 0.5 else v + 2 / 255 for v in c[:3]), c[3])
+        f"{name} paler": lambda page, name=name: changed(
+            page, name, color=lambda c: (*(v - 2 / 255 if v > 0.5 else v + 2 / 255 for v in c[:3]), c[3])
         )
-        for role in ("ball", "ring", "fan", "dashed", "beyond", "veil", "coast", "border", "sites")
+        for name in ("ball", "ring", "fan", "dashed", "beyond", "veil", "coast", "border", "sites")
     },
     **{
-        f"{role} more opaque": lambda page, role=role: changed(page, role, color=lambda c: (*c[:3], c[3] + 2 / 255))
-        for role in ("ring", "fan", "veil", "coast")
+        f"{name} more opaque": lambda page, name=name: changed(page, name, color=lambda c: (*c[:3], c[3] + 2 / 255))
+        for name in ("ring", "fan", "veil", "coast")
     },
     **{
-        f"{role} wider": lambda page, role=role: changed(page, role, width=lambda width: width + 2e-3)
-        for role in ("dashed", "beyond", "veil", "coast", "border")
+        f"{name} wider": lambda page, name=name: changed(page, name, width=lambda width: width + 2e-3)
+        for name in ("dashed", "beyond", "veil", "coast", "border")
     },
     "rim wider": lambda page: changed(page, "sites", rim_width=1.002),
     "rim of another colour": lambda page: changed(page, "sites", rim=(1.0, 1.0, 0.99, 1.0)),

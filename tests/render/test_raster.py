@@ -1,9 +1,12 @@
 """Pages through OpenGL: exact colours, order, widths, and agreement with the same page through Agg."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Dots, Fill, Label, Page, Polylines, Stroke, Surface
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke, Surface
+from stereodel.render import gl
 from stereodel.render.raster import LIGHT, SHADE, SUPERSAMPLING, render, triangulate
 from stereodel.render.triangles import Window
 from stereodel.render.vector import rasterize
@@ -128,13 +131,50 @@ def hemisphere(color=GRAY):
     return Surface(vertices, normals.reshape(-1, 3), faces, (circle((2.0, 1.0), 0.9),), color)
 
 
-def test_a_surface_is_brightest_toward_the_light():
-    picture = render(Page(EXTENT, (hemisphere((1.0, 1.0, 1.0, 1.0)),)), size=400).astype(float)
+@pytest.mark.parametrize("item", ["a mesh", "a disc", "a rectangle", "needles"])
+def test_a_ball_is_brightest_toward_the_light(item):
+    white, ball = (1.0, 1.0, 1.0, 1.0), Ball((2.0, 1.0), 0.9)
+    cuts = np.concatenate([np.linspace(0, 4, 400), [4.0]])
+    items = {
+        "a mesh": [hemisphere(white)],
+        "a disc": [Fill((circle(ball.center, 0.9),), white, ball=ball)],
+        # What is not lit by a ball stays as it is, whatever is drawn with it.
+        "a rectangle": [Fill((box(0, 4, 0, 2),), white, ball=ball), Fill((box(0, 0.5, 0, 1),), GRAY)],
+        "needles": [Fill((box(a, b, 0, 2),), white, ball=ball) for a, b in pairwise(cuts) if b > a],
+    }
+    picture = render(Page(EXTENT, tuple(items[item])), size=400).astype(float)
+    if item == "a rectangle":
+        assert (picture[110:190, 10:40] == 128).all()
     lit = picture[round(100 - 90 * LIGHT[1]), round(200 + 90 * LIGHT[0])]
     assert lit.tolist() == [255, 255, 255]
     for normal in ([0.0, 0.0, 1.0], [0.6, 0.0, 0.8], [0.0, -0.9, np.sqrt(0.19)]):
         there = picture[round(100 - 90 * normal[1]), round(200 + 90 * normal[0]), 0]
         assert there == pytest.approx(255 * (1 - SHADE * ((1 - np.dot(normal, LIGHT)) / 2) ** 2), abs=2)
+
+
+def test_the_light_of_a_ball_is_that_of_its_normals():
+    color = (0.9, 0.3, 0.55, 1.0)
+    ball = Ball((1.7, 0.9), 0.8)
+    picture = render(Page(EXTENT, (Fill((circle(ball.center, 0.8),), color, ball=ball),)), size=401)
+    height, width = picture.shape[:2]
+    x, y = np.meshgrid((np.arange(width) + 0.5) * 4 / width, 2 - (np.arange(height) + 0.5) * 2 / height)
+    x, y = (x - ball.center[0]) / ball.radius, (y - ball.center[1]) / ball.radius
+    inside = x**2 + y**2 < 0.97
+    normal = np.stack([x, y, np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))], axis=-1)
+    brightness = 1 - SHADE * ((1 - normal @ LIGHT) / 2) ** 2
+    exact = 255 * np.array(color[:3]) * brightness[..., None]
+    # Four samples are rounded, and so is their mean.
+    apart = (picture - exact)[inside]
+    assert np.abs(apart).max() < 1
+    assert np.abs(apart.mean(axis=0)).max() < 0.2
+
+
+def test_light_does_not_depend_on_the_window(monkeypatch):
+    page = Page(EXTENT, (Fill((box(0, 4, 0, 2),), GRAY, ball=Ball((2.0, 1.0), 0.9)),))
+    whole = render(page, size=200)
+    monkeypatch.setattr(gl, "BAND", 64)
+    monkeypatch.setattr(gl, "COLUMNS", 96)
+    assert np.array_equal(render(page, size=200), whole)
 
 
 def test_depth_of_a_surface_does_not_matter():

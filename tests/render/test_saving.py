@@ -31,8 +31,8 @@ def globe_page():
     """A lit ball with see-through regions and lines, type in several sizes, also beyond the edge."""
     rng = np.random.default_rng(5)
     scene = Scene()
-    scene.add_cap(SphereCircle([0.9, 0.2, 0.4], 0.7), role="accent1", tint=with_opacity(BLUE, 0.4))
-    scene.add_arcs([CircleArc.great(*pair) for pair in rng.normal(size=(30, 2, 3))], role="delaunay")
+    scene.add_cap(SphereCircle([0.9, 0.2, 0.4], 0.7), name="accent1", color=with_opacity(BLUE, 0.4))
+    scene.add_arcs([CircleArc.great(*pair) for pair in rng.normal(size=(30, 2, 3))], name="delaunay")
     lines = Polylines(rng.uniform(-1.4, 1.4, (300, 2)), np.array([0, 100, 300]), with_opacity(VERMILION, 0.3), 2.0, "x")
     texts = (
         Label(r"$\frac{a}{b}\,S = 4$", (0.0, 0.3), size=30.0),
@@ -99,7 +99,7 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
         for move in ((0, 0), far)
     )
     near, away = Window(0, 0, 40, 40), Window(*far, 40, 40)
-    door = gl._renderer(None)
+    door = gl.DOOR.context()
     expected = door.draw(pieces.within(near), near, (1.0, 1.0, 1.0, 1.0))
     assert len(np.unique(expected)) > 50
     assert np.array_equal(door.draw(moved.within(away), away, (1.0, 1.0, 1.0, 1.0)), expected)

@@ -20,11 +20,11 @@ SVG = "{http://www.w3.org/2000/svg}"
 
 
 def globe():
-    scene = Scene(look="glass")
-    scene.add_arcs(graticule(30), role="graticule")
-    scene.add_cap(SphereCircle.around((20, 10), 40), role="small_bubble")
-    scene.add_points([[1, 0, 0]], role="sites")
-    scene.add_label(r"$\varphi$ north", (0, 0, 1), offset=(0, 6))
+    scene = Scene(style="glass")
+    scene.add_arcs(graticule(30), name="graticule")
+    scene.add_cap(SphereCircle.around((20, 10), 40), name="small_bubble")
+    scene.add_points([[1, 0, 0]], name="sites")
+    scene.add_label((0, 0, 1), r"$\varphi$ north", offset=(0, 6))
     return Page((-1.1, 1.1, -1.1, 1.2), scene.layout(View(20, 35)), width=200.0)
 
 
@@ -39,7 +39,7 @@ def test_bytes_are_the_same_twice_and_under_any_user_settings(tmp_path, kind):
         assert word not in first
 
 
-def test_svg_has_the_exact_size_and_a_group_for_each_role(tmp_path):
+def test_svg_has_the_exact_size_and_a_group_for_each_name(tmp_path):
     root = ET.parse(save_vector(globe(), tmp_path / "globe.svg")).getroot()
     assert root.get("width") == "200pt"
     assert float(root.get("height").removesuffix("pt")) == pytest.approx(globe().height, abs=1e-4)
@@ -59,7 +59,7 @@ def test_pdf_has_the_exact_size_and_text_that_can_be_searched(tmp_path):
 
 def test_curves_stay_curves(tmp_path):
     """A circle is twelve cubics; the one straight piece, of no length, is how matplotlib closes it."""
-    scene = Scene(look="none")
+    scene = Scene(style="none")
     scene.add_circles([SphereCircle.around((0, 90), 30)])
     page = Page((-1, 1, -1, 1), scene.layout(View(0, 60)))
     root = ET.parse(save_vector(page, tmp_path / "circle.svg")).getroot()

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from stereodel import _kernel
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
-from stereodel.triangulation.cells import polygons
+from stereodel.triangulation.diagram import polygons
 
 SQUARE_POINTS = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float)
 DIRECTIONS = st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=3, max_size=24)

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from stereodel import PlanarVoronoi, SphericalVoronoi, _kernel
 from stereodel.graphs import gabriel_graph, hull
-from stereodel.triangulation.cells import polygons
+from stereodel.triangulation.diagram import polygons
 
 SMALL = st.tuples(*[st.integers(-3, 3)] * 2)
 

@@ -41,15 +41,29 @@ inline double excess(const Pair* v) {
     return (square.h - 1.0) + square.l;
 }
 
-// The direction is an exact multiple of the vector, c its correction: hi + (lo + c hi). The last term is at most 2^-48,
-// rounded twice, and half the error of `excess`: 2^-102 for each of the two.
-inline UnitVector unit_vector(const double* vector) {
+// An exact multiple of the vector, of length 1 within 2^-49: most vectors are that themselves.
+inline void near_unit(const double* vector, Pair* v) {
+    if (rays::is_unit(vector)) {
+        for (int k = 0; k < 3; ++k) {
+            v[k] = {vector[k], 0.0};
+        }
+        return;
+    }
     const rays::Direction d(vector);
-    const Pair v[3] = {{d.hi[0], d.lo[0]}, {d.hi[1], d.lo[1]}, {d.hi[2], d.lo[2]}};
+    for (int k = 0; k < 3; ++k) {
+        v[k] = {d.hi[k], d.lo[k]};
+    }
+}
+
+// c is the correction of the length: hi + (lo + c hi). The last term is at most 2^-48, rounded twice, and half the error
+// of `excess`: 2^-102 for each of the two.
+inline UnitVector unit_vector(const double* vector) {
+    Pair v[3];
+    near_unit(vector, v);
     const double correction = inverse_root_less_one(excess(v));
     UnitVector unit;
     for (int k = 0; k < 3; ++k) {
-        const DoubleDouble sum = fast_two_sum(d.hi[k], d.lo[k] + correction * d.hi[k]);
+        const DoubleDouble sum = fast_two_sum(v[k].h, v[k].l + correction * v[k].h);
         unit.hi[k] = sum.hi;
         unit.lo[k] = sum.lo;
     }

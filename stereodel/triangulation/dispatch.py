@@ -6,7 +6,7 @@ import copy
 
 import numpy.typing as npt
 
-from stereodel._arrays import as_plane_or_sphere
+from stereodel._arrays import BoolArray, IntArray, as_plane_or_sphere
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
@@ -19,3 +19,18 @@ def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
         return copy.copy(points)
     array = as_plane_or_sphere(points)
     return SphericalDelaunay(array) if array.shape[1] == 3 else PlanarDelaunay(array)
+
+
+def threads_of(triangulation: Triangulation, workers: int | None, size: int | None = None) -> int:
+    """How many threads a task of `size` points takes, by default of all points; without `workers` as for the points."""
+    return triangulation._thread_count(workers, size)
+
+
+def flat_order(triangulation: Triangulation) -> IntArray:
+    """Without triangles: the different points in the order along their line or great circle."""
+    return triangulation._flat_order
+
+
+def open_triangles(triangulation: Triangulation) -> BoolArray:
+    """Whether a query can lie in a triangle, (m,): all but the closing ones of the sphere."""
+    return triangulation._open

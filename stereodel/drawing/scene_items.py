@@ -1,4 +1,4 @@
-"""The things of a scene, and how each is laid out as page items with its hidden parts removed."""
+"""What a scene holds, and how each of it is laid out as page items with its hidden parts removed."""
 
 from __future__ import annotations
 
@@ -13,14 +13,15 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray
 from stereodel.constants import ON_BALL
 from stereodel.drawing import style as styles
-from stereodel.drawing.page import Beziers, Color, Dots, Fill, Item, Label, Stroke, Surface
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Stroke, Surface
 from stereodel.drawing.regions import SphereRegion, limb, near_hemisphere
 from stereodel.drawing.space_curves import Curve, Segment, page_path
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.visibility import TOWARD, Place, cut, lies_on_ball, place_of, split_by_ball
 from stereodel.sphere.vectors import turned
 
-Look = Literal["solid", "glass", "none"]
+BallStyle = Literal["solid", "glass", "none"]
 
 
 class Layer(IntEnum):
@@ -65,7 +66,7 @@ class Layout:
     matrix: FloatArray
     center: FloatArray
     radius: float
-    look: Look
+    style: BallStyle
     at: tuple[float, float]
     scale: float
     sheets: tuple[tuple[FloatArray, float, Layer], ...] = ()
@@ -91,11 +92,11 @@ class Layout:
 
     def place(self, point: FloatArray) -> Place:
         """Place of a point in view axes; without a ball all is in front."""
-        return Place.FRONT if self.look == "none" else place_of(point, self.radius)
+        return Place.FRONT if self.style == "none" else place_of(point, self.radius)
 
     def split(self, curve: Curve) -> list[tuple[Curve, Place]]:
         """A curve cut by the ball."""
-        return [(curve, Place.FRONT)] if self.look == "none" else split_by_ball(curve, self.radius)
+        return [(curve, Place.FRONT)] if self.style == "none" else split_by_ball(curve, self.radius)
 
     def beyond_sheets(self, point: FloatArray) -> Layer | None:
         """UNDER for a point below a sheet behind the ball, OVER for one on or above a sheet that covers the ball."""
@@ -106,7 +107,7 @@ class Layout:
         return Layer.OVER if any(layer is Layer.SHEET and height >= -slack for height, layer in heights) else None
 
 
-class Thing(Protocol):
+class SceneItem(Protocol):
     """What a scene holds."""
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
@@ -114,27 +115,27 @@ class Thing(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class LineThing:
+class SceneLine:
     """A curve drawn as a line."""
 
     curve: Curve
-    look: LineStyle
-    role: str
+    style: LineStyle
+    name: str
     layer: Layer | None = None
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """Pieces in front as they are, pieces behind fainter, or not at all behind an opaque ball."""
         curve = self.curve.moved(layout.matrix, layout.center)
-        on_ball = layout.look != "none" and lies_on_ball(curve, layout.radius)
+        on_ball = layout.style != "none" and lies_on_ball(curve, layout.radius)
         for piece, place in layout.split(curve):
             covered = place in (Place.BEHIND, Place.INSIDE)
-            if covered and layout.look == "solid":
+            if covered and layout.style == "solid":
                 continue
             for part, beyond in self._by_sheets(piece, layout):
                 layer = _line_layer(place, on_ball) if beyond is None else beyond
                 layer = layer if self.layer is None or place is Place.BEHIND else self.layer
-                look = self.look.hidden if place is Place.BEHIND else self.look
-                yield layer, _stroke(layout.path([part]), look, self.role, closed=part.closed)
+                style = self.style.hidden if place is Place.BEHIND else self.style
+                yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
 
     def _by_sheets(self, curve: Curve, layout: Layout) -> list[tuple[Curve, Layer | None]]:
         slack = ON_BALL * layout.radius
@@ -148,44 +149,44 @@ def _line_layer(place: Place, on_ball: bool) -> Layer:
     return {Place.OUTSIDE: Layer.BESIDE, Place.INSIDE: Layer.INSIDE_LINE, Place.BEHIND: Layer.FAR_LINE}[place]
 
 
-def _stroke(path: Beziers, look: LineStyle, role: str, *, closed: bool) -> Stroke:
-    cap: Literal["round", "butt"] = "butt" if look.dash else "round"
-    return Stroke(path, look.color, look.width, look.dash, cap, closed, role)
+def _stroke(path: Beziers, style: LineStyle, name: str, *, closed: bool) -> Stroke:
+    cap: Literal["round", "butt"] = "butt" if style.dash else "round"
+    return Stroke(path, style.color, style.width, style.dash, cap, closed, name)
 
 
 @dataclass(frozen=True, eq=False)
-class DotsThing:
+class SceneDots:
     """Dots at points of space."""
 
     points: FloatArray
-    look: DotStyle
-    role: str
+    style: DotStyle
+    name: str
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """Dots whose centres are seen; on a glass ball the hidden ones fainter."""
         points = layout.axes(self.points)
         layers = np.array([self._layer(point, layout) for point in points], dtype=int)
         for layer in np.unique(layers[layers >= 0]):
-            look = self.look.hidden if layer == Layer.FAR_DOT else self.look
+            style = self.style.hidden if layer == Layer.FAR_DOT else self.style
             centers = layout.on_page(points[layers == layer])
-            yield Layer(layer), Dots(centers, look.radius, look.color, look.rim, look.rim_width, self.role)
+            yield Layer(layer), Dots(centers, style.radius, style.color, style.rim, style.rim_width, self.name)
 
     def _layer(self, point: FloatArray, layout: Layout) -> int:
         place = layout.place(point)
         if place in (Place.BEHIND, Place.INSIDE):
             hidden = Layer.FAR_DOT if place is Place.BEHIND else Layer.INSIDE_DOT
-            return -1 if layout.look == "solid" else hidden
+            return -1 if layout.style == "solid" else hidden
         beyond = layout.beyond_sheets(point)
         return Layer.OVER_DOT if beyond is Layer.OVER else Layer.DOT if beyond is None else beyond
 
 
 @dataclass(frozen=True, eq=False)
-class RegionThing:
+class SceneRegion:
     """A tinted region of the ball's surface."""
 
     region: SphereRegion
     color: Color
-    role: str
+    name: str
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """The part on the near side lit, the part on the far side of a glass ball flat and faint."""
@@ -194,20 +195,20 @@ class RegionThing:
         if near:
             vertices, faces = region.visible_mesh()
             outline = tuple(layout.path(run) for run in near)
-            yield Layer.TINT, _surface(vertices, faces, outline, layout, self.color, self.role)
-        far = region.far_side().visible_outline() if layout.look != "solid" else []
+            yield Layer.TINT, _surface(vertices, faces, outline, layout, self.color, self.name)
+        far = region.far_side().visible_outline() if layout.style != "solid" else []
         if far:
             faint = styles.fainter(self.color)
-            yield Layer.FAR_TINT, Fill(tuple(layout.path(run) for run in far), faint, self.role)
+            yield Layer.FAR_TINT, Fill(tuple(layout.path(run) for run in far), faint, self.name)
 
 
 @dataclass(frozen=True, eq=False)
-class SheetThing:
+class SceneSheet:
     """A flat polygon, tinted; it does not cut the ball, or lies inside it."""
 
     corners: FloatArray
     color: Color
-    role: str
+    name: str
 
     def plane(self, layout: Layout) -> tuple[FloatArray, float, Layer]:
         """Normal toward the viewer and level of its plane in view axes, and the layer it belongs to.
@@ -222,28 +223,28 @@ class SheetThing:
         normal = -normal if normal[2] < 0 else normal
         level = float(np.mean(np.sum(corners * normal, axis=-1)))
         limit = (1 - ON_BALL) * layout.radius
-        if layout.look == "none" or level <= -limit:
+        if layout.style == "none" or level <= -limit:
             return normal, level, Layer.GROUND
         if level >= limit:
             return normal, level, Layer.SHEET
         if np.all(np.sqrt(np.sum(corners**2, axis=-1)) <= (1 + ON_BALL) * layout.radius):
             return normal, level, Layer.INSIDE_SHEET
         raise ValueError(
-            f"the polygon {self.role!r} cuts the ball; give one that touches it, avoids it or is inside it"
+            f"the polygon {self.name!r} cuts the ball; give one that touches it, avoids it or is inside it"
         )
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """The polygon as one fill; inside an opaque ball nothing."""
         _, _, layer = self.plane(layout)
-        if layer is Layer.INSIDE_SHEET and layout.look == "solid":
+        if layer is Layer.INSIDE_SHEET and layout.style == "solid":
             return
         corners = layout.axes(self.corners)
         edges: list[Curve] = [Segment.between(a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
-        yield layer, Fill((layout.path(edges),), self.color, self.role)
+        yield layer, Fill((layout.path(edges),), self.color, self.name)
 
 
 @dataclass(frozen=True, eq=False)
-class BallThing:
+class SceneBall:
     """The ball itself: a lit surface and its outline."""
 
     color: Color
@@ -263,15 +264,15 @@ def _surface(
     outline: tuple[Beziers, ...],
     layout: Layout,
     color: Color,
-    role: str,
+    name: str,
 ) -> Surface:
     x, y = layout.origin
     placed = vertices * layout.scale + np.array([x, y, 0.0])
-    return Surface(placed, vertices / layout.radius, faces, outline, color, role)
+    return Surface(placed, vertices / layout.radius, faces, outline, color, name)
 
 
 @dataclass(frozen=True, eq=False)
-class LabelThing:
+class SceneLabel:
     """Text at a point of space."""
 
     label: Label

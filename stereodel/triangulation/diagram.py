@@ -6,14 +6,11 @@ from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, IntArray, locked
+from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, locked
 from stereodel._spaces import space_of
 from stereodel.triangulation.delaunay import Delaunay
-
-Indices = npt.NDArray[np.intp]
 
 
 class Diagram:
@@ -107,14 +104,13 @@ class Diagram:
         self.point_region = locked(region)
 
     @property
-    def _is_kept(self) -> BoolArray:
-        """Whether a point has a cell of its own and is no dropped duplicate, (n,)."""
-        is_kept: BoolArray = self.point_region == np.arange(len(self.points))
-        return is_kept
+    def is_kept(self) -> BoolArray:
+        """Whether a point has a cell of its own and is no dropped duplicate, (n,) bool."""
+        return self.point_region == np.arange(len(self.points))
 
     def _duplicates(self) -> IntArray:
         """Pairs [dropped, kept] of equal points, (k, 2)."""
-        dropped = np.flatnonzero(~self._is_kept)
+        dropped = np.flatnonzero(~self.is_kept)
         return np.column_stack([dropped, self.point_region[dropped]]).astype(np.int32)
 
     def __repr__(self) -> str:

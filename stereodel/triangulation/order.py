@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Indices, LongArray
 from stereodel.predicates.rays import units
 from stereodel.triangulation.sites import Sites
 
@@ -26,7 +25,7 @@ def spanning_points(sites: Sites, distinct: Sequence[int]) -> list[int]:
     return [first, second, *([p] if (p := next(third, None)) is not None else [])]
 
 
-def insertion_order(points: FloatArray) -> npt.NDArray[np.intp]:
+def insertion_order(points: FloatArray) -> Indices:
     """An order in which neighbours in the list are mostly neighbours in place, so that walks are short.
 
     Rounds of doubling size, drawn at random with a fixed seed, each along a Morton curve: N. Amenta, S. Choi, G. Rote,
@@ -38,7 +37,7 @@ def insertion_order(points: FloatArray) -> npt.NDArray[np.intp]:
     return np.lexsort([_morton(places), rounds])
 
 
-def _morton(points: FloatArray) -> npt.NDArray[np.int64]:
+def _morton(points: FloatArray) -> LongArray:
     """Interleaved bits of each point's cell in a grid of 2²⁰ cells a side over the bounding box."""
     with np.errstate(over="ignore", invalid="ignore"):
         low, high = points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)

@@ -1,0 +1,48 @@
+"""Docstrings of families: what several objects have in common is written once and put into each when it is defined."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from inspect import cleandoc
+from textwrap import indent
+from typing import TypeVar
+
+_T = TypeVar("_T")
+_LINE = re.compile(r"^( *)\{(\w+)\}$", re.MULTILINE)
+
+
+def shared(**parts: str) -> Callable[[_T], _T]:
+    """Decorate a class or function whose docstring leaves lines to be filled in.
+
+    Parameters
+    ----------
+    **parts : str
+        For each name the text that replaces the line ``{name}``, indented as that line is.
+
+    Raises
+    ------
+    KeyError
+        For a line whose name is not among them.
+
+    Examples
+    --------
+    >>> @shared(unit="In metres.")
+    ... def depth(place):
+    ...     '''Of the sea.
+    ...
+    ...     {unit}
+    ...     '''
+    >>> print(depth.__doc__)
+    Of the sea.
+    <BLANKLINE>
+    In metres.
+    """
+    texts = {name: cleandoc(text) for name, text in parts.items()}
+
+    def fill(target: _T) -> _T:
+        if target.__doc__ is not None:  # as under `python -OO`
+            target.__doc__ = _LINE.sub(lambda line: indent(texts[line[2]], line[1]), cleandoc(target.__doc__))
+        return target
+
+    return fill

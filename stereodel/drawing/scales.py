@@ -1,0 +1,123 @@
+"""Numbers as colours: perceptual scales, linear or logarithmic, and their legends."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_floats, as_scalar
+from stereodel.drawing.colors import Color, ColorLike, as_color
+from stereodel.drawing.page import Fill, Item, Label, Stroke
+from stereodel.drawing.style import BLACK, LABEL_SIZE
+
+STEPS = 256
+"""Of a legend."""
+
+
+@dataclass(frozen=True)
+class ColorScale:
+    """A scale from numbers to colours.
+
+    Parameters
+    ----------
+    name : str
+        A colour map of matplotlib, such as "viridis", "magma" or "cividis", whose lightness rises evenly.
+    low, high : float
+        Numbers that get its first and its last colour; what is beyond gets them too.
+    log : bool
+        Whether equal ratios, instead of equal differences, are equally far apart.
+
+    Raises
+    ------
+    ValueError
+        For an unknown map, limits out of order, or a logarithmic scale that does not begin above 0.
+
+    Examples
+    --------
+    >>> scale = ColorScale("viridis", 1.0, 1e4, log=True)
+    >>> print(scale([1.0, 1e2, 1e9]).round(2))
+    [[0.27 0.   0.33]
+     [0.13 0.57 0.55]
+     [0.99 0.91 0.14]]
+    """
+
+    name: str
+    low: float
+    high: float
+    log: bool = False
+
+    def __post_init__(self) -> None:
+        from matplotlib import colormaps
+
+        if self.name not in colormaps:
+            raise ValueError(f"name is {self.name!r}, which is not a colour map of matplotlib")
+        as_scalar(self.low, "low", low=0.0 if self.log else -np.inf, open_low=True)
+        as_scalar(self.high, "high", low=self.low, open_low=True)
+
+    def place(self, values: npt.ArrayLike) -> FloatArray:
+        """Where numbers lie between `low` (0) and `high` (1), clipped."""
+        numbers = np.clip(as_floats(values, "values"), self.low, self.high)
+        if self.log:
+            return np.asarray(np.log(numbers / self.low) / np.log(self.high / self.low))
+        return (numbers - self.low) / (self.high - self.low)
+
+    def __call__(self, values: npt.ArrayLike) -> FloatArray:
+        """Colours (..., 3), sRGB in [0, 1]."""
+        from matplotlib import colormaps
+
+        return np.asarray(colormaps[self.name](self.place(values)), dtype=np.float64)[..., :3]
+
+    def legend(
+        self,
+        corner: tuple[float, float],
+        size: tuple[float, float],
+        ticks: Mapping[float, str],
+        *,
+        title: str = "",
+        ink: ColorLike = BLACK,
+        type_size: float = LABEL_SIZE,
+    ) -> tuple[Item, ...]:
+        """A horizontal bar with marks.
+
+        Parameters
+        ----------
+        corner, size : (float, float)
+            Lower left corner, width and height of the bar in page units.
+        ticks : mapping of float to str
+            Numbers and what is written below them.
+        title : str
+            Written above.
+        ink : color-like
+            Of lines and type.
+        type_size : float
+            In points.
+        """
+        (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
+        bars = [
+            _box(x + width * number / STEPS, x + width, y, y + height, (red, green, blue, 1.0))
+            # Each step reaches to the right end and is covered by the next: no seams.
+            for number, (red, green, blue) in enumerate(self(self._numbers()).tolist())
+        ]
+        marks: list[Item] = []
+        for number, text in ticks.items():
+            at, foot = x + width * float(self.place(number)), y - 0.35 * height
+            marks.append(Stroke(np.linspace((at, y), (at, foot), 4)[None], ink, 0.5, cap="butt", name="tick"))
+            marks.append(Label(text, (at, foot), (0.0, -2.0), "center", "top", type_size, ink))
+        if title:
+            marks.append(Label(title, (x + width / 2, y + height), (0.0, 4.0), "center", "bottom", type_size, ink))
+        return (*bars, *marks)
+
+    def _numbers(self) -> FloatArray:
+        """The number in the middle of each step of a legend."""
+        place = (np.arange(STEPS) + 0.5) / STEPS
+        numbers = self.low * (self.high / self.low) ** place if self.log else self.low + (self.high - self.low) * place
+        return np.asarray(numbers)
+
+
+def _box(left: float, right: float, bottom: float, top: float, color: Color) -> Fill:
+    corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
+    steps = np.roll(corners, -1, axis=0) - corners
+    return Fill((corners[:, None] + steps[:, None] * (np.arange(4) / 3)[:, None],), color, "scale")

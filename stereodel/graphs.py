@@ -1,0 +1,325 @@
+"""Graphs of nearness and hulls, as parts of a Delaunay triangulation, decided exactly.
+
+Each is part of the next: minimum spanning tree, relative neighbourhood graph, Urquhart graph, Gabriel graph, Delaunay
+triangulation.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel import _kernel
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
+from stereodel._docs import shared
+from stereodel._spaces import space_of
+from stereodel.triangulation.dispatch import Triangulation, as_triangulation, flat_order, threads_of
+from stereodel.triangulation.planar_delaunay import PlanarDelaunay
+from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
+from stereodel.triangulation.topology import as_edges
+
+__all__ = [
+    "gabriel_graph",
+    "hull",
+    "minimum_spanning_tree",
+    "relative_neighborhood_graph",
+    "urquhart_graph",
+]
+
+_SHARED = {
+    "points": """
+        points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
+            Points of the plane, directions, or a triangulation of them.
+        """,
+    "workers": """
+        workers : int, optional
+            Threads; -1 for all processors. By default those of the triangulation. Never changes the result.
+        """,
+    "edges": """
+        (e, 2) array of int32
+            Edges i < j, in lexicographic order; read-only.
+        """,
+    "raises": """
+        ValueError, TypeError
+            For points that cannot be triangulated: see `PlanarDelaunay` and `SphericalDelaunay`.
+        """,
+}
+
+
+@shared(**_SHARED)
+def gabriel_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+    """Edges whose diametral circle holds no other point, neither inside nor on it.
+
+    Parameters
+    ----------
+    {points}
+    {workers}
+
+    Returns
+    -------
+    {edges}
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    The diametral circle of an edge ab has it as diameter; on the sphere it is the smallest circle through a and b, and
+    holds p exactly if (â − p̂)·(b̂ − p̂) ≤ 0. Opposite directions have none and are joined only if they are the only
+    ones. The disk is closed: a point on the circle forbids the edge, so a square has its sides and no diagonal. Hence
+    the graph is a part of every Delaunay triangulation of the points, however ties are decided, and no order of the
+    points changes it. Dropped duplicates have no edges. All decisions are those of exact arithmetic on the given
+    doubles.
+
+    Source: K. Gabriel, R. Sokal, "A new statistical approach to geographic variation analysis" (1969); D. Matula,
+    R. Sokal, "Properties of Gabriel graphs relevant to geographic variation research and the clustering of points in
+    the plane" (1980): of a Delaunay edge the opposite corners alone decide.
+
+    Examples
+    --------
+    >>> from stereodel.graphs import gabriel_graph
+    >>> gabriel_graph([[0, 0], [2, 0], [2, 2], [0, 2]]).tolist()
+    [[0, 1], [0, 3], [1, 2], [2, 3]]
+    >>> gabriel_graph([[0, 0], [3, 0], [0, 4]]).tolist()
+    [[0, 1], [0, 2]]
+    """
+    return locked(_proximity_edges(as_triangulation(points), "gabriel", workers))
+
+
+@shared(**_SHARED)
+def urquhart_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+    """Delaunay edges that are not strictly the longest edge of a triangle.
+
+    Parameters
+    ----------
+    {points}
+    {workers}
+
+    Returns
+    -------
+    {edges}
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    A triangle with two or three equally longest edges loses none of them: so the relative neighbourhood graph is always
+    a part. All facets count on the sphere, those that are closing too. The graph depends on the triangulation where
+    more than three points lie on one empty circle; their triangulation depends on the points alone, so no order of the
+    points changes it. Without triangles it is the Gabriel graph. Dropped duplicates have no edges. All decisions are
+    those of exact arithmetic on the given doubles.
+
+    Source: R. Urquhart, "Algorithms for computation of relative neighbourhood graph" (1980): close to the relative
+    neighbourhood graph, and found in linear time.
+
+    Examples
+    --------
+    >>> from stereodel.graphs import urquhart_graph
+    >>> urquhart_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
+    [[0, 2], [1, 3], [2, 3]]
+    """
+    return locked(_proximity_edges(as_triangulation(points), "urquhart", workers))
+
+
+@shared(**_SHARED)
+def relative_neighborhood_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+    """Pairs of points without a third that is strictly nearer to both than they are to each other.
+
+    Parameters
+    ----------
+    {points}
+    {workers}
+
+    Returns
+    -------
+    {edges}
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Points that are equally near forbid nothing: an equilateral triangle has its three sides. Distances on the sphere
+    are angles. The graph depends on the points alone. Dropped duplicates have no edges. All decisions are those of
+    exact arithmetic on the given doubles.
+
+    Source: G. Toussaint, "The relative neighbourhood graph of a finite planar set" (1980). It is looked for among the
+    edges of the Urquhart graph. A third point in the lune of ab is reached from a along Delaunay edges between points
+    that are nearer to a than b is, and from b alike; both searches go on in turn until one of them is through.
+
+    Examples
+    --------
+    >>> from stereodel.graphs import relative_neighborhood_graph
+    >>> relative_neighborhood_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
+    [[0, 2], [1, 3], [2, 3]]
+    """
+    return locked(_proximity_edges(as_triangulation(points), "relative", workers))
+
+
+@shared(**_SHARED)
+def minimum_spanning_tree(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+    """The tree of least total length that joins all points.
+
+    Parameters
+    ----------
+    {points}
+    {workers}
+
+    Returns
+    -------
+    (k - 1, 2) array of int32
+        Edges i < j between k different points, in lexicographic order; read-only. None for fewer than two.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    Lengths are distances in the plane, angles on the sphere; any function of them that grows, as the chord, has the
+    same tree. Edges are compared exactly, equally long ones by their ends: the one with the lexicographically lower
+    first end comes first (on the sphere in the order of the unit vectors), then the one with the lower second end. So
+    of several trees of the same length one is chosen by the points alone, and no order of the points changes it.
+    Dropped duplicates have no edges.
+
+    Source: J. Kruskal, "On the shortest spanning subtree of a graph and the traveling salesman problem" (1956), on the
+    edges of the Urquhart graph, which holds every minimum spanning tree (M. Shamos, D. Hoey, "Closest-point problems",
+    1975; G. Toussaint, 1980).
+
+    Examples
+    --------
+    >>> from stereodel.graphs import minimum_spanning_tree
+    >>> minimum_spanning_tree([[0, 0], [2, 0], [2, 1], [0, 1]]).tolist()
+    [[0, 1], [0, 3], [1, 2]]
+    """
+    triangulation = as_triangulation(points)
+    edges = _proximity_edges(triangulation, "urquhart", workers)
+    return locked(space_of(triangulation.points).spanning_tree(triangulation.points, edges))
+
+
+@shared(**_SHARED)
+def hull(points: npt.ArrayLike | Triangulation) -> IntArray:
+    """Corners of the convex hull, counterclockwise.
+
+    Parameters
+    ----------
+    {points}
+
+    Returns
+    -------
+    (h,) array of int32
+        Indices of the corners, the smallest first, counterclockwise (seen from outside the sphere); read-only. One
+        corner for one point, the two ends for points of a line or of an arc. On the sphere none if the points do not
+        lie in an open hemisphere.
+
+    Raises
+    ------
+    {raises}
+
+    Notes
+    -----
+    The hull on the sphere is bounded by arcs of great circles; there is one if and only if the points lie in an open
+    hemisphere. Points within a side are no corners, unlike the ends of the edges of `convex_hull`, which points split.
+    A dropped duplicate is never a corner. All decisions are those of exact arithmetic on the given doubles.
+
+    Examples
+    --------
+    >>> from stereodel.graphs import hull
+    >>> hull([[1, 0], [0, 0], [2, 0], [2, 2], [1, 1], [0, 2]]).tolist()
+    [1, 2, 3, 5]
+    >>> hull([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).tolist()
+    []
+    """
+    triangulation = as_triangulation(points)
+    corners = _corners(triangulation) if triangulation.dimension == 2 else _ends(triangulation)
+    return locked(corners.astype(np.int32))
+
+
+def _proximity_edges(
+    triangulation: Triangulation, kind: Literal["gabriel", "urquhart", "relative"], workers: int | None
+) -> IntArray:
+    """Edges (e, 2) with i < j, in lexicographic order."""
+    threads = threads_of(triangulation, workers)
+    points = triangulation.points
+    if triangulation.dimension == 2:
+        return space_of(points).proximity(points, triangulation.simplices, triangulation.neighbors, kind, threads, True)
+    order = flat_order(triangulation)
+    if isinstance(triangulation, PlanarDelaunay) or len(order) < 3:
+        return as_edges(order[:-1], order[1:])
+    steps = _short_steps(points, order)
+    if kind == "relative":
+        steps = steps[[_has_empty_lune(points, order, step) for step in steps]]
+    return as_edges(*steps.T)
+
+
+def _short_steps(points: FloatArray, circle: AnyIndices) -> AnyIndices:
+    """Steps (e, 2) around three or more different directions of a great circle that are less than half-turns.
+
+    A step of less than a half-turn has all other points outside its diametral circle, a longer one inside, a half-turn
+    on it: the next point tells.
+    """
+    three = np.column_stack([circle, np.roll(circle, -1), np.roll(circle, -2)]).astype(np.int32)
+    return three[_kernel.sphere.diametral(points, three) > 0, :2]
+
+
+def _has_empty_lune(points: FloatArray, circle: AnyIndices, step: AnyIndices) -> bool:
+    """Whether no point of a great circle is strictly nearer to both ends of a step than these are to each other.
+
+    That takes a step of more than a third of the circle, the squared chord of which is 3: two steps at most.
+    """
+    a, b = step
+    chord = np.subtract(*(points[[a, b]] / np.linalg.norm(points[[a, b]], axis=1)[:, None]))
+    if chord @ chord < 2.99:
+        return True
+    others = circle[(circle != a) & (circle != b)]
+
+    def nearer(end: int) -> BoolArray:
+        rows = [np.broadcast_to(k, others.shape) for k in (end, others, a, b)]
+        return _kernel.sphere.compare_lengths(points, np.column_stack(rows).astype(np.int32)) < 0
+
+    return not (nearer(a) & nearer(b)).any()
+
+
+def _corners(triangulation: Triangulation) -> AnyIndices:
+    """The hull of points with triangles."""
+    if isinstance(triangulation, SphericalDelaunay):
+        # The points lie in an open hemisphere exactly if the hull of the vectors' tips has a facet with the centre
+        # strictly on its outer side.
+        closing = triangulation.simplices[triangulation.closing]
+        a, b, c = (triangulation.points[closing[:, k]] for k in range(3))
+        if not (_kernel.sphere.turn(a, b, c) < 0).any():
+            return np.zeros(0, dtype=np.int32)
+    # The directed edges of the hull, one from each vertex, in one cycle; what lies within a side does not turn.
+    after = dict(triangulation.convex_hull.tolist())
+    cycle = [min(after)]
+    while (vertex := after[cycle[-1]]) != cycle[0]:
+        cycle.append(vertex)
+    before, here, following = (triangulation.points[np.roll(cycle, shift)] for shift in (1, 0, -1))
+    corners = np.array(cycle)[space_of(here).turn(before, here, following) != 0]
+    return np.roll(corners, -int(np.argmin(corners)))
+
+
+def _ends(triangulation: Triangulation) -> AnyIndices:
+    """The hull of points of one line or great circle."""
+    order, points = flat_order(triangulation), triangulation.points
+    if len(order) < 2:
+        return order
+    if isinstance(triangulation, PlanarDelaunay):
+        return np.sort(order[[0, -1]])
+    # On a great circle the ends of the one step of more than a half-turn, if there is one.
+    if len(order) == 2:
+        ends = np.sort(order)
+    else:
+        steps = _short_steps(points, order)
+        if len(steps) != len(order) - 1:
+            return np.zeros(0, dtype=np.int32)
+        ends = np.setxor1d(*steps.T)
+    a, b = points[ends]
+    are_opposite = _kernel.sphere.compare(a[None], -b[None])[0] == 0
+    return ends[:0] if are_opposite else ends
