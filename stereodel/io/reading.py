@@ -62,7 +62,7 @@ def read_points(
     Raises
     ------
     ValueError
-        For a wrong row, naming its number (the first row of data is 1): a missing value, one that is no number, a
+        For a wrong row, naming its number (the first row of data is 1): a missing value, one that is not a number, a
         latitude outside [−90, 90]; where no column or several look like longitude or latitude, listing the columns;
         for geometries other than points.
     ImportError

@@ -69,7 +69,7 @@ def table_of(lon: Column, lat: Column, columns: Mapping[str, Column], rows: npt.
     Raises
     ------
     ValueError
-        Naming the first row whose longitude or latitude is missing, no number, or out of range.
+        Naming the first row whose longitude or latitude is missing, not a number, or out of range.
     """
     lonlat = np.column_stack([numbers(lon, "longitude", rows), numbers(lat, "latitude", rows)])
     outside = np.flatnonzero(np.abs(lonlat[:, 1]) > 90.0)

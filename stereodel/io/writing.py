@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -36,33 +37,34 @@ ENDINGS = {
     ".ply": "ply",
     ".vtp": "vtp",
 }
+PICTURES = (".svg", ".pdf", ".png")
 
 
 def write(
-    target: str | os.PathLike[str] | BinaryIO,
-    content: Mesh | PointTable | Any,
+    path: str | os.PathLike[str] | BinaryIO,
+    thing: Mesh | PointTable | Any,
     *,
     format: str | None = None,
     **options: Any,
 ) -> None:
-    """Write a triangulation, a diagram, a table of points or a GeoDataFrame.
+    """Write a triangulation, a diagram, a table of points or a GeoDataFrame as data.
 
     Parameters
     ----------
-    target : path-like or binary stream
+    path : path-like or binary stream
         A file is written whole or not at all; an existing one is replaced.
-    content : Mesh, PointTable or geopandas.GeoDataFrame
+    thing : Mesh, PointTable or geopandas.GeoDataFrame
         A triangulation or diagram of plane or sphere; a table or frame where the format holds tables.
     format : str, optional
         By default what the ending of the path says. For a stream it is needed.
     **options
-        Of the function that makes the content of the file: `to_geodataframe` for csv, geojson (and ``decimals`` of
+        Of the function that makes what is in the file: `to_geodataframe` for csv, geojson (and ``decimals`` of
         `to_geojson`), parquet and gpkg; `to_ugrid` for nc; `to_trimesh` for glb and ply; `to_polydata` for vtp.
 
     Raises
     ------
     ValueError, TypeError
-        For another ending or format, content that the format cannot hold, or options that it does not have.
+        For another ending or format, a thing that the format cannot hold, or options that it does not have.
     ImportError
         Where the library for the format is missing, naming the extra that brings it.
     OSError
@@ -85,44 +87,46 @@ def write(
     ['lon,lat,area,name', '10.0,50.0,16.05702911834783,A']
     """
     kind = format
-    if isinstance(target, str | os.PathLike):
-        kind = format or ENDINGS.get(Path(target).suffix.lower(), Path(target).suffix)
+    if isinstance(path, str | os.PathLike):
+        kind = format or ENDINGS.get(Path(path).suffix.lower(), Path(path).suffix)
+    if kind in PICTURES:
+        raise ValueError(f"format is {kind!r}, a picture, but data are written here; save a page, as of `diagram_page`")
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
     with TemporaryDirectory() as folder:
         made = Path(folder, f"made.{kind}")  # libraries look at the ending
-        writer(content, made, options)
-        data = made.read_bytes()
-    if not isinstance(target, str | os.PathLike):
-        target.write(data)
-        return
-    with replacing(target) as temporary:
-        temporary.write_bytes(data)
+        writer(thing, made, options)
+        if isinstance(path, str | os.PathLike):
+            with replacing(path) as temporary:
+                shutil.copyfile(made, temporary)
+        else:
+            with made.open("rb") as stream:
+                shutil.copyfileobj(stream, path)
 
 
-def _frame(content: Any, options: dict[str, Any]) -> Any:
+def _frame(thing: Any, options: dict[str, Any]) -> Any:
     """A GeoDataFrame of whatever was given."""
-    if isinstance(content, Mesh):
-        return to_geodataframe(content, **options)
+    if isinstance(thing, Mesh):
+        return to_geodataframe(thing, **options)
     _no_options(options)
-    if isinstance(content, PointTable):
-        geometry = optional("shapely", "geo").points(content.lonlat)
-        return optional("geopandas", "geo").GeoDataFrame(dict(content.columns), geometry=geometry, crs="EPSG:4326")
-    if not hasattr(content, "geometry"):
-        raise TypeError(f"content must be a mesh, a PointTable or a GeoDataFrame, not {type(content).__name__}")
-    return content
+    if isinstance(thing, PointTable):
+        geometry = optional("shapely", "geo").points(thing.lonlat)
+        return optional("geopandas", "geo").GeoDataFrame(dict(thing.columns), geometry=geometry, crs="EPSG:4326")
+    if not hasattr(thing, "geometry"):
+        raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
+    return thing
 
 
 def _no_options(options: dict[str, Any]) -> None:
     if options:
-        raise TypeError(f"{', '.join(options)} is no option where tables are written")
+        raise TypeError(f"{', '.join(options)} is not an option where tables are written")
 
 
-def _write_csv(content: Any, path: Path, options: dict[str, Any]) -> None:
-    if isinstance(content, Mesh):
-        columns = _mesh_columns(content, **options)
+def _write_csv(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    if isinstance(thing, Mesh):
+        columns = _mesh_columns(thing, **options)
     else:
         _no_options(options)
-        table = content if isinstance(content, PointTable) else from_geodataframe(_frame(content, {}))
+        table = thing if isinstance(thing, PointTable) else from_geodataframe(_frame(thing, {}))
         columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True)) | dict(table.columns)
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
@@ -148,31 +152,31 @@ def _mesh_columns(
     return found | point_columns(columns, len(places))
 
 
-def _write_geojson(content: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_geojson(thing: Any, path: Path, options: dict[str, Any]) -> None:
     decimals = options.pop("decimals", None)
-    path.write_text(to_geojson(_frame(content, options), decimals=decimals) + "\n", encoding="utf-8")
+    path.write_text(to_geojson(_frame(thing, options), decimals=decimals) + "\n", encoding="utf-8")
 
 
-def _write_parquet(content: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_parquet(thing: Any, path: Path, options: dict[str, Any]) -> None:
     optional("pyarrow", "geo")
-    _frame(content, options).to_parquet(path)
+    _frame(thing, options).to_parquet(path)
 
 
-def _write_gpkg(content: Any, path: Path, options: dict[str, Any]) -> None:
-    _frame(content, options).to_file(path, driver="GPKG")
+def _write_gpkg(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    _frame(thing, options).to_file(path, driver="GPKG")
 
 
-def _write_nc(content: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_nc(thing: Any, path: Path, options: dict[str, Any]) -> None:
     optional("netCDF4", "grid")
-    to_ugrid(content, **options).to_netcdf(path, engine="netcdf4")
+    to_ugrid(thing, **options).to_netcdf(path, engine="netcdf4")
 
 
-def _write_trimesh(content: Any, path: Path, options: dict[str, Any]) -> None:
-    path.write_bytes(to_trimesh(content, **options).export(file_type=path.suffix[1:]))
+def _write_trimesh(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    path.write_bytes(to_trimesh(thing, **options).export(file_type=path.suffix[1:]))
 
 
-def _write_polydata(content: Any, path: Path, options: dict[str, Any]) -> None:
-    to_polydata(content, **options).save(path)
+def _write_polydata(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    to_polydata(thing, **options).save(path)
 
 
 WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {

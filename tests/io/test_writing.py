@@ -276,10 +276,10 @@ def test_streams():
 @pytest.mark.parametrize(
     ("name", "content", "options", "error", "message"),
     [
-        ("a.svg", SphericalVoronoi(SPHERE), {}, ValueError, "format is '.svg'"),
+        ("a.svg", SphericalVoronoi(SPHERE), {}, ValueError, "format is '.svg', a picture, .* save a page"),
         ("a.xlsx", PointTable([[1, 2]]), {}, ValueError, "format is '.xlsx'"),
-        ("a.csv", [[1, 2]], {}, TypeError, "content must be a mesh, a PointTable or a GeoDataFrame, not list"),
-        ("a.csv", PointTable([[1, 2]]), {"what": "cells"}, TypeError, "what is no option"),
+        ("a.csv", [[1, 2]], {}, TypeError, "thing must be a mesh, a PointTable or a GeoDataFrame, not list"),
+        ("a.csv", PointTable([[1, 2]]), {"what": "cells"}, TypeError, "what is not an option"),
         ("a.glb", PointTable([[1, 2]]), {}, TypeError, "mesh must be a triangulation"),
         ("a.geojson", SphericalVoronoi(SPHERE), {"radius": -1}, ValueError, "radius"),
         ("a.nc", SphericalVoronoi(SPHERE), {"what": "edges"}, ValueError, "what is 'edges'"),
