@@ -11,55 +11,56 @@ JOBS := auto
 PYTEST_ARGS :=
 FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
-STAMP := $(VENV)/installed
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT)
 
 .PHONY: help install system figures poster animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
-	readme-images docs clean
+	names readme-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
 
-# The script does nothing when the files hold what was installed last, so a touched file needs no network; a changed
-# kernel is built alone. Folders stand for kernel sources that were added or removed.
+# One environment, which grows by what a target needs: tools/install.sh says what that is. The script does nothing when the
+# files hold what was installed last, so a touched file needs no network; a changed kernel is built alone. Folders stand
+# for kernel sources that were added or removed. Two targets must not install at once.
+.NOTPARALLEL:
 KERNEL := $(shell find stereodel/kernel tests/kernel/probe)
-$(STAMP): pyproject.toml constraints.txt CMakeLists.txt $(KERNEL) \
+$(VENV)/installed-%: pyproject.toml constraints.txt CMakeLists.txt $(KERNEL) \
 		tools/install.sh tools/build_kernel.sh tools/find_python.sh tools/compiler.sh
-	@tools/install.sh $(VENV)
+	@tools/install.sh $(VENV) $*
 
-install: $(STAMP) ## create .venv with the pinned libraries and the compiled kernel
+install: $(VENV)/installed-library ## create .venv with the compiled kernel and all that the library can use
 	@:
 
 system: ## get the offscreen OpenGL libraries, or say how
 	@tools/system_libraries.sh
 
-figures: $(STAMP) system ## draw every figure that is out of date into out/
+figures: $(VENV)/installed-figures system ## draw every figure that is out of date into out/
 	@$(BUILD) fig globe earth sky
 
-poster: $(STAMP) system ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory
+poster: $(VENV)/installed-figures system ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory
 	@mkdir -p $(OUT)/poster
 	@$(BIN)/python figures/globe_poster.py --out $(OUT)/poster --size 16384
 
-animations: $(STAMP) system ## draw every animation that is out of date into out/
+animations: $(VENV)/installed-animations system ## draw every animation that is out of date into out/
 	@$(BUILD) anim
 
-test: $(STAMP) system ## all tests, then the image tests once more on EGL
+test: $(VENV)/installed-test system ## all tests, then the image tests once more on EGL
 	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests
 
-test-large: $(STAMP) ## the tests that take minutes or gigabytes
+test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
 
-sanitize: $(STAMP) system ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
+sanitize: $(VENV)/installed-test system ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
 	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
-fuzz: $(STAMP) ## feed random bytes to the kernel for FUZZ_SECONDS
+fuzz: $(VENV)/installed-kernel ## feed random bytes to the kernel for FUZZ_SECONDS
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
 check: lint docs ## format, lint, types, tracked text, the kernel's one-definition rule, then the documentation
 
-lint: $(STAMP) ## what check does, without the documentation
+lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
@@ -67,25 +68,28 @@ lint: $(STAMP) ## what check does, without the documentation
 	$(BIN)/python tools/tracked_text.py
 	tools/one_definition.sh $(VENV)
 
-stub: $(STAMP) ## write the kernel's type stub anew
+stub: $(VENV)/installed-lint ## write the kernel's type stub anew
 	$(BIN)/python tools/kernel_stub.py
 
-bench: $(STAMP) ## measure against other libraries, which are installed into benchmarks/.peers
+bench: $(VENV)/installed-library ## measure against other libraries, which are installed into benchmarks/.peers
 	benchmarks/install_peers.sh
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.rasters
 
-dist: $(STAMP) ## source archive and wheel into dist/, the wheel tried in a new environment
+dist: $(VENV)/installed-kernel ## source archive and wheel into dist/, the wheel tried in a new environment
 	tools/dist.sh $(VENV)
 
-baselines: $(STAMP) system ## draw the stored pictures of the image tests anew: look at what git shows before you commit
+baselines: $(VENV)/installed-animations system ## draw the stored pictures of the image tests anew: look at what git shows before you commit
 	$(BIN)/python -m tools.baselines --scripts figures --store tests/images/baselines
 
-readme-images: $(STAMP) system ## draw the small pictures of the README anew
+names: $(VENV)/installed-animations ## write the tables of docs/names.md from the library anew
+	$(BIN)/python -m tools.names
+
+readme-images: $(VENV)/installed-figures system ## draw the small pictures of the README anew
 	$(BIN)/python tools/readme_images.py
 
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
-docs: $(STAMP) system ## build the documentation into docs/_build/html; warnings are errors
+docs: $(VENV)/installed-docs system ## build the documentation into docs/_build/html; warnings are errors
 	@rm -rf docs/_build docs/gallery docs/api/generated
 	$(BIN)/python -m sphinx -W --keep-going -q -d docs/_build/doctrees -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html

@@ -69,9 +69,9 @@ def others(triangulation: PlanarDelaunay | SphericalDelaunay) -> Calls:
     """A step of relaxation and contours, in the plane beside Matplotlib's."""
     points = triangulation.points
     values = waves(points)
-    extent = {"extent": (0, 1, 0, 1)} if points.shape[1] == 2 else {}
+    bounds = {"bounds": (0, 0, 1, 1)} if points.shape[1] == 2 else {}
     calls: Calls = {
-        f"lloyd {workers}": lambda w=workers: lloyd(points, steps=1, workers=w, **extent) for workers in (1, 2)
+        f"lloyd {workers}": lambda w=workers: lloyd(points, steps=1, workers=w, **bounds) for workers in (1, 2)
     }
     calls["contours 1"] = lambda: contours(triangulation, values, LEVELS)
     if points.shape[1] == 2:

@@ -16,7 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from stereodel.globe import Flight, Globe, Stop, film
+from stereodel.film import Film, Flight, Stop
+from stereodel.globe import Globe
 
 PARIS, NEW_YORK, TOKYO = (2.35, 48.86), (-74.01, 40.71), (139.69, 35.69)
 
@@ -49,7 +50,7 @@ def main() -> int:
     if options.land:
         globe.add_land()
     globe.add_coastlines(resolution="50m")
-    clip = film(globe, flight(options.frames / 25), size=(1280, 720))
+    clip = Film.of_globe(globe, flight(options.frames / 25), size=(1280, 720))
     with tempfile.TemporaryDirectory() as folder:
         path = options.out or Path(folder, "film.mp4")
         wall, used = time.perf_counter(), processor_seconds()

@@ -23,14 +23,13 @@ def largest_memory() -> float:
 
 def measured(script: Path, size: int) -> str:
     """One line about one picture."""
-    from stereodel.render import save_page
     from tools.build import load_drawing
 
     page = load_drawing(script).page()
     with tempfile.TemporaryDirectory() as folder:
-        path = save_page(page, Path(folder, "small.png"), size=64)
+        path = page.save(Path(folder, "small.png"), size=64)
         base, begin, work = largest_memory(), time.perf_counter(), time.process_time()
-        path = save_page(page, Path(folder, "large.png"), size=size)
+        path = page.save(Path(folder, "large.png"), size=size)
         seconds, work = time.perf_counter() - begin, time.process_time() - work
         height = round(size * page.height / page.width)
         memory, file = largest_memory() - base, path.stat().st_size / 1e6

@@ -6,9 +6,10 @@ from pathlib import Path
 
 from sphinx_gallery.scrapers import figure_rst
 
-from stereodel.render.figure import WRITTEN
-
 WRITE_TO = Path(__file__).resolve().parent / "_build" / "gallery-figures"
+
+SHOWN = (".png", ".gif")
+"""Endings of what is shown of the files of a script."""
 
 WIDTH = 1200
 """Pixels across a figure; print size would only make pages heavy."""
@@ -24,13 +25,16 @@ def script_arguments(gallery_conf, script_vars):
 
 
 def written_pictures(block, block_vars, gallery_conf):
-    """Take the pictures that `save` wrote during a block of code and return the markup that shows them."""
+    """Take the picture that a script, after which it is named, has written and return the markup that shows it.
+
+    It is moved, so that it is shown after the block of code that wrote it and no other.
+    """
     targets = []
-    for source in WRITTEN:
-        target = Path(next(block_vars["image_path_iterator"])).with_suffix(source.suffix)
-        shutil.copyfile(source, target)
-        targets.append(str(target))
-    WRITTEN.clear()
+    for source in (WRITE_TO / f"{Path(block_vars['src_file']).stem}{kind}" for kind in SHOWN):
+        if source.is_file():
+            target = Path(next(block_vars["image_path_iterator"])).with_suffix(source.suffix)
+            shutil.move(source, target)
+            targets.append(str(target))
     return figure_rst(targets, gallery_conf["src_dir"])
 
 

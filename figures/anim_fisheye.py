@@ -6,14 +6,13 @@ A globe with the graticule at 5° (gray) and a fine grid at 1/2° about 40° N (
 fisheye runs from 1 to 20 and back, in equal ratios. The focus stays where it is; every line stays a circle.
 """
 
-from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
 
 from stereodel import fisheye
 from stereodel.drawing import Label, Page, Scene, View
-from stereodel.film import Animation
+from stereodel.film import Film
 from stereodel.sphere import SphereArc, graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees
@@ -38,13 +37,11 @@ def frame(magnification: float, coarse: list[SphereArc], fine: list[SphereArc]) 
     return Page((-1.04, 1.04, -1.04, 1.04), (*scene.layout(VIEW), caption), width=150.0, views=(VIEW.matrix,))
 
 
-def frames() -> Iterator[Callable[[], Page]]:
-    """One page for each magnification."""
+def film() -> Film:
+    """One shot for each magnification."""
     coarse, fine = graticule(COARSE), graticule_patch(FOCUS, HALF_WIDTH, FINE)
-    return (partial(frame, float(value), coarse, fine) for value in magnifications())
+    return Film(partial(frame, coarse=coarse, fine=fine), magnifications().tolist(), seconds=0.08, size=480)
 
-
-ANIMATION = Animation("anim_fisheye", frames, seconds=0.08)
 
 if __name__ == "__main__":
-    ANIMATION.main()
+    film().main()

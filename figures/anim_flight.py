@@ -7,14 +7,13 @@ far as the distance asks for. Every frame is conformal and shows the whole Earth
 shortest in hyperbolic space, where a fisheye of magnification S lies at the distance ln S from the globe as it is.
 """
 
-from collections.abc import Callable, Iterator
 from functools import partial
 
 from stereodel.drawing import LineStyle, Page
 from stereodel.drawing.style import BLACK
-from stereodel.film import Animation
-from stereodel.globe import Flight, Globe, Stop
-from stereodel.globe.flights import Shot
+from stereodel.film import Film, Flight, Stop
+from stereodel.film.shots import Shot
+from stereodel.globe import Globe
 
 CITIES = {"Paris": (2.35, 48.86), "New York": (-74.01, 40.71), "Tokyo": (139.69, 35.69)}
 MAGNIFICATION = 8.0
@@ -42,18 +41,17 @@ def earth() -> Globe:
     return globe
 
 
-def frame(globe: Globe, shot: Shot) -> Page:
+def frame(shot: Shot, globe: Globe) -> Page:
     """The globe as it is seen at one moment."""
     return globe.page(*shot, width=WIDTH)
 
 
-def frames() -> Iterator[Callable[[], Page]]:
-    """A page for each moment."""
-    globe, flight = earth(), trip()
-    return (partial(frame, globe, flight(SECONDS * k)) for k in range(round(flight.seconds / SECONDS)))
+def film() -> Film:
+    """A shot for each moment."""
+    flight = trip()
+    shots = [flight(SECONDS * k) for k in range(round(flight.seconds / SECONDS))]
+    return Film(partial(frame, globe=earth()), shots, seconds=SECONDS, size=SIZE)
 
-
-ANIMATION = Animation("anim_flight", frames, seconds=SECONDS, size=SIZE)
 
 if __name__ == "__main__":
-    ANIMATION.main()
+    film().main()

@@ -6,7 +6,7 @@ The paper's pseudo-code at work on 28 points of the sphere. Each step finds the 
 takes them away, and joins the point to the horizon edges by a fan of new facets (blue).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from functools import partial
 
 import numpy as np
@@ -15,7 +15,7 @@ from _sites import on_sphere
 from stereodel import HullInsertion
 from stereodel.drawing import Page, Scene, View
 from stereodel.drawing.style import fainter, fill
-from stereodel.film import Animation
+from stereodel.film import Film
 
 SITES, SEED = 28, 5
 VIEW = View(25, 20)
@@ -42,8 +42,9 @@ def seen(facets: np.ndarray, visible: np.ndarray) -> np.ndarray:
     return np.array([frozenset(row) in names for row in facets.tolist()])
 
 
-def frame(sites: np.ndarray, facets: np.ndarray, marked: int, inserted: int) -> Page:
+def frame(state: tuple[np.ndarray, int, int], sites: np.ndarray) -> Page:
     """The near side of the hull, shaded flat, with the marked facets tinted and the new point large."""
+    facets, marked, inserted = state
     corners = sites[facets]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     facing = VIEW.depth(normals) > 0
@@ -67,13 +68,10 @@ def shaded(tint: str, normal: np.ndarray) -> tuple:
     return fainter(fill(tint), 0.75 * float(light))
 
 
-def frames() -> Iterator[Callable[[], Page]]:
-    """Two pages for each insertion, the finished hull at the end."""
-    sites = on_sphere(SITES, SEED)
-    return (partial(frame, sites, *state) for state in facets_over_time())
+def film() -> Film:
+    """Two shots for each insertion, the finished hull at the end."""
+    return Film(partial(frame, sites=on_sphere(SITES, SEED)), list(facets_over_time()), seconds=0.35, size=480)
 
-
-ANIMATION = Animation("anim_hull", frames, seconds=0.35)
 
 if __name__ == "__main__":
-    ANIMATION.main()
+    film().main()

@@ -7,15 +7,12 @@ diameter is half the diagonal. On the way every lift is an inverse stereographic
 never changes.
 """
 
-from collections.abc import Callable, Iterator
-from functools import partial
-
 import numpy as np
 from _rectangle import CORNERS, lift, sites
 
 from stereodel import PlanarDelaunay, Stereographic
 from stereodel.drawing import CircleArc, Page, Scene, View
-from stereodel.film import Animation
+from stereodel.film import Film
 from stereodel.sphere import SphereArc, SphereCircle
 
 VIEW = View(0, -52)
@@ -55,12 +52,10 @@ def lifted_side(sphere: Stereographic, a: np.ndarray, b: np.ndarray) -> CircleAr
     return CircleArc.of(SphereArc(SphereCircle.through(start, middle, end), start, end))
 
 
-def frames() -> Iterator[Callable[[], Page]]:
-    """One page for each sphere."""
-    return (partial(frame, float(value)) for value in curvatures())
+def film() -> Film:
+    """One shot for each sphere."""
+    return Film(frame, curvatures().tolist(), seconds=0.07, size=480)
 
-
-ANIMATION = Animation("anim_lift", frames, seconds=0.07)
 
 if __name__ == "__main__":
-    ANIMATION.main()
+    film().main()

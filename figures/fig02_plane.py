@@ -17,7 +17,7 @@ from stereodel.render import Figure
 
 SITES, SEED = 60, 2
 WIDTH, HEIGHT, MARGIN = 3.0, 2.0, 0.08
-FRAME = (-WIDTH / 2, WIDTH / 2, -HEIGHT / 2, HEIGHT / 2)
+FRAME = (-WIDTH / 2, -HEIGHT / 2, WIDTH / 2, HEIGHT / 2)
 
 
 def geometry() -> dict:
@@ -30,7 +30,7 @@ def geometry() -> dict:
 
 def draw(g: dict) -> Page:
     """Delaunay below, Voronoi above, sites on top."""
-    left, right, bottom, top = FRAME
+    left, bottom, right, top = FRAME
     sketch = Sketch().add_edges(g["sites"], g["edges"], name="delaunay").add_segments(g["ridges"], name="voronoi")
     sketch.add_points(g["sites"], name="sites")
     corners = [(left, bottom), (right, bottom), (right, top), (left, top)]

@@ -22,7 +22,7 @@ def geometry() -> dict:
     """Sites, Delaunay edges, Voronoi edges inside the rectangle, and the radius of the tangent sphere."""
     points = sites()
     delaunay = PlanarDelaunay(points)
-    ridges, _ = PlanarVoronoi(delaunay).segments((-WIDTH / 2, WIDTH / 2, -HEIGHT / 2, HEIGHT / 2))
+    ridges, _ = PlanarVoronoi(delaunay).segments((-WIDTH / 2, -HEIGHT / 2, WIDTH / 2, HEIGHT / 2))
     return {"sites": points, "edges": delaunay.edges, "ridges": ridges, "radius": np.array(lift().sphere.radius)}
 
 

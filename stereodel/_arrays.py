@@ -76,27 +76,49 @@ def as_levels(values: npt.ArrayLike) -> FloatArray:
     return array
 
 
-def as_vectors(values: npt.ArrayLike, dimension: int, name: str, *, gaps: bool = False) -> FloatArray:
-    """Coordinates of any leading shape, (..., dimension); with `gaps` they may be NaN and infinite."""
+def as_vectors(
+    values: npt.ArrayLike, dimension: int, name: str, *, gaps: bool = False, instead: str = ""
+) -> FloatArray:
+    """Coordinates of any leading shape, (..., dimension); with `gaps` they may be NaN and infinite.
+
+    `instead` is what to do with coordinates of the other space, plane or sphere.
+    """
     array = as_doubles(values, name) if gaps else as_floats(values, name)
     if array.ndim == 0 or array.shape[-1] != dimension:
-        raise ValueError(f"{name} must have shape (..., {dimension}), got {array.shape}")
+        advice = _advice(array, dimension, instead)
+        raise ValueError(f"{name} must have shape (..., {dimension}), got {array.shape}{advice}")
     return array
 
 
-def as_points(values: npt.ArrayLike, dimension: int, name: str = "points", *, hint: str = "") -> FloatArray:
-    """A list of points, (n, dimension); an empty list, (0,), has no points. `hint` ends a message about the shape."""
+def as_points(
+    values: npt.ArrayLike, dimension: int, name: str = "points", *, hint: str = "", instead: str = ""
+) -> FloatArray:
+    """A list of points, (n, dimension); an empty list, (0,), has no points. `hint` ends a message about the shape.
+
+    `instead` is what to do with points of the other space, plane or sphere.
+    """
     array = as_floats(values, name)
     if array.shape == (0,):
         return np.zeros((0, dimension))
     if array.ndim != 2 or array.shape[1] != dimension:
-        raise ValueError(f"{name} must have shape (n, {dimension}), got {array.shape}{hint and '; '}{hint}")
+        advice = f"; {hint}" if hint else _advice(array, dimension, instead)
+        raise ValueError(f"{name} must have shape (n, {dimension}), got {array.shape}{advice}")
     return array
 
 
-def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False) -> FloatArray:
-    """Non-zero vectors of space, (..., 3), or (n, 3) when `points`; their lengths do not matter."""
-    array = as_points(values, 3, name) if points else as_vectors(values, 3, name)
+def _advice(array: FloatArray, dimension: int, instead: str) -> str:
+    """The end of a message about a shape: what the shape means, if it is that of the other space, and what to do."""
+    if not instead or array.shape[-1:] != (5 - dimension,):
+        return ""
+    return f", which means {'the plane' if dimension == 3 else 'directions'}; {instead}"
+
+
+def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False, instead: str = "") -> FloatArray:
+    """Non-zero vectors of space, (..., 3), or (n, 3) when `points`; their lengths do not matter.
+
+    `instead` is what to do with points of the plane.
+    """
+    array = as_points(values, 3, name, instead=instead) if points else as_vectors(values, 3, name, instead=instead)
     zero = array[..., 0] == 0.0  # column by column: ten times as fast as array.any(axis=-1)
     if np.count_nonzero(zero):
         zero &= (array[..., 1] == 0.0) & (array[..., 2] == 0.0)
@@ -249,7 +271,7 @@ def read_only(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
     return locked(np.array(array))
 
 
-def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> npt.NDArray[np.intp]:
+def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> Indices:
     """Point numbers in [0, size), one-dimensional; negative numbers are refused rather than counted from the end."""
     array = np.atleast_1d(np.asarray(values))
     if array.ndim != 1:
@@ -275,7 +297,7 @@ def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArra
     return as_points(array, 2, name)
 
 
-def as_frame(values: npt.ArrayLike, name: str) -> npt.NDArray[np.uint8]:
+def as_frame(values: npt.ArrayLike, name: str) -> Pixels:
     """A picture in three channels of eight bits, (h, w, 3), h and w ≥ 1."""
     array = np.asarray(values)
     if array.ndim != 3 or array.shape[2] != 3 or array.size == 0:
@@ -285,7 +307,7 @@ def as_frame(values: npt.ArrayLike, name: str) -> npt.NDArray[np.uint8]:
     return array
 
 
-def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> npt.NDArray[np.uint8]:
+def as_pixels(values: npt.ArrayLike, name: str, *, most: int) -> Pixels:
     """A picture of at most `most` pixels, (h, w), (h, w, 3) or (h, w, 4) uint8, as a copy with four channels."""
     refuse_masked(values, name)
     array = np.asarray(values)
@@ -313,6 +335,19 @@ def as_edges(values: npt.ArrayLike, name: str) -> tuple[float, float, float, flo
     if not -90 <= south < north <= 90:
         raise ValueError(f"{name} runs from latitude {south:g} to {north:g}; -90 <= south < north <= 90 is needed")
     return west, south, east, north
+
+
+def as_bounds(values: npt.ArrayLike, name: str = "bounds") -> tuple[float, float, float, float]:
+    """(xmin, ymin, xmax, ymax) of a rectangle of the plane that is not empty."""
+    array = as_floats(values, name)
+    if array.shape != (4,):
+        raise ValueError(f"{name} must be (xmin, ymin, xmax, ymax), got shape {array.shape}")
+    left, bottom, right, top = array.tolist()
+    if not (left < right and bottom < top):
+        raise ValueError(
+            f"{name} (xmin, ymin, xmax, ymax) is {(left, bottom, right, top)}; xmin < xmax and ymin < ymax is needed"
+        )
+    return left, bottom, right, top
 
 
 def as_window(value: Any, size: int, name: str) -> tuple[int, int, int, int]:

@@ -83,6 +83,32 @@ ON_BALL: Final = 1e-9
 Far below a pixel, far above the rounding of arcs that were computed through a conformal map.
 """
 
+SPARE_PIECE: Final = 1e-9
+"""Share of a Bézier's longest arc by which an arc may be longer than so many of them, and still be that many.
+
+A whole turn, whose end is a rounded sum, is twelve pieces of 30° and not thirteen; their error grows by 6e-9 of itself.
+"""
+
+ONE_HARMONIC: Final = 2.0**-50
+"""Size of the second harmonic of a function of an angle, relative to its largest coefficient, that counts as none.
+
+It is the leading coefficient of the quartic of its roots. A few roundings of the coefficients are as large; taken for
+true they would send two of the roots anywhere. The function itself changes by as little as its coefficients.
+"""
+
+ROOT_ON_CIRCLE: Final = 1e-4
+"""How far from 1 the modulus of a computed root of the quartic of an angle may be, for its angle to be a root.
+
+Coefficients are off by 2⁻⁵³: a single root by about as much, a double one (two curves that touch) by the square root,
+a fourfold one by the fourth root, 1.03e-4. What is taken without being a root costs a cut that separates nothing.
+"""
+
+TOUCHING_SLOPE: Final = 1e-6
+"""Slope of a function of an angle, relative to its largest coefficient, below which a root is left as it was found.
+
+There two roots are within 1e-6 rad of each other, and Newton's step, value over slope, is rounding: more than 1e-10.
+"""
+
 KIND_TOLERANCE: Final = 2.0**-40
 """How far a `MoebiusMap` may be from one of its `kind`: radians in the points and images, relatively in S.
 
@@ -109,37 +135,6 @@ SHORT_ARC: Final = 1e-4
 
 Longer ones keep their circle to 1e-7 when it is taken through three points in plain doubles.
 """
-
-GOLDEN_ERROR: Final = 1e-12
-"""How far a drawn number may be from the stored one, relative to the largest of its array, or to 1 if that is larger.
-
-Mathematical libraries and processors round sines and fused sums in other ways; a change that a reader could see is
-1e-5 or more.
-"""
-
-PIXEL_LEVELS: Final = 8
-"""Levels of 255 by which a pixel may differ before it counts as visibly other."""
-
-PIXEL_SHARE_VISIBLE: Final = 1e-4
-"""Share of the pixels of a picture that may be visibly other: one missing hairline of a small picture is more."""
-
-PIXEL_SHARE_ANY: Final = 1e-3
-"""Share of the pixels of a picture that may differ at all; a processor without AVX moves 5e-5 of them, by one level."""
-
-PIXEL_TILE: Final = 32
-"""Side in pixels of the tiles in which differences are counted too, so that a small one is not lost in a large picture.
-
-Tiles begin at each multiple of half a side: whatever is no larger than that lies in one of them.
-"""
-
-TILE_VISIBLE: Final = 4
-"""Pixels of a tile that may be visibly other: rounding moves single ones, the smallest dot without its rim has nine."""
-
-TILE_ANY: Final = 8
-"""Pixels of a tile that may differ at all: as many as another processor moves in a picture; a line across it has 32."""
-
-TYPE_PIXELS: Final = 1.0
-"""Pixels of a stored picture by which the ink of a label may lie elsewhere: versions of FreeType round otherwise."""
 
 THIN_TRIANGLE: Final = 2.0**-12
 """Twice the area of a triangle, relative to the square of its size, below which weights are computed in double-double.
@@ -216,6 +211,12 @@ DEGREE_ROUNDING: Final = 2.0**-43
 """Straying of a chord from its arc, in degrees, that may be rounding alone: four units in the last place of 180°.
 
 Three numbers that are rounded to half a unit, and their mean, make less than two.
+"""
+
+WHOLE_TURNS: Final = 2.0**-43
+"""Step of longitudes, degrees, to which whole turns are added without rounding: the last place of 512 to 1024.
+
+Less than 2e-15 rad, or 13 nanometres on Earth.
 """
 
 CHORD_CLEARANCE: Final = 0.125

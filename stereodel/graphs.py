@@ -15,6 +15,8 @@ from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import space_of
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import LONLAT
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, flat_order, threads_of
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
@@ -28,7 +30,7 @@ __all__ = [
     "urquhart_graph",
 ]
 
-_SHARED = {
+_SHARED = LONLAT | {
     "points": """
         points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them.
@@ -43,18 +45,26 @@ _SHARED = {
         """,
     "raises": """
         ValueError, TypeError
-            For points that cannot be triangulated: see `PlanarDelaunay` and `SphericalDelaunay`.
+            For points that cannot be triangulated: see `PlanarDelaunay` and `SphericalDelaunay`; for points and
+            `lonlat` together, and `latitude` without `lonlat`.
         """,
 }
 
 
 @shared(**_SHARED)
-def gabriel_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+def gabriel_graph(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+    workers: int | None = None,
+) -> IntArray:
     """Edges whose diametral circle holds no other point, neither inside nor on it.
 
     Parameters
     ----------
     {points}
+    {instead}
     {workers}
 
     Returns
@@ -86,16 +96,23 @@ def gabriel_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None 
     >>> gabriel_graph([[0, 0], [3, 0], [0, 4]]).tolist()
     [[0, 1], [0, 2]]
     """
-    return locked(_proximity_edges(as_triangulation(points), "gabriel", workers))
+    return locked(_proximity_edges(as_triangulation(points, lonlat=lonlat, latitude=latitude), "gabriel", workers))
 
 
 @shared(**_SHARED)
-def urquhart_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+def urquhart_graph(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+    workers: int | None = None,
+) -> IntArray:
     """Delaunay edges that are not strictly the longest edge of a triangle.
 
     Parameters
     ----------
     {points}
+    {instead}
     {workers}
 
     Returns
@@ -123,16 +140,23 @@ def urquhart_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None
     >>> urquhart_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return locked(_proximity_edges(as_triangulation(points), "urquhart", workers))
+    return locked(_proximity_edges(as_triangulation(points, lonlat=lonlat, latitude=latitude), "urquhart", workers))
 
 
 @shared(**_SHARED)
-def relative_neighborhood_graph(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+def relative_neighborhood_graph(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+    workers: int | None = None,
+) -> IntArray:
     """Pairs of points without a third that is strictly nearer to both than they are to each other.
 
     Parameters
     ----------
     {points}
+    {instead}
     {workers}
 
     Returns
@@ -159,16 +183,23 @@ def relative_neighborhood_graph(points: npt.ArrayLike | Triangulation, *, worker
     >>> relative_neighborhood_graph([[0, 0], [4, 0], [1, 2], [4, 3]]).tolist()
     [[0, 2], [1, 3], [2, 3]]
     """
-    return locked(_proximity_edges(as_triangulation(points), "relative", workers))
+    return locked(_proximity_edges(as_triangulation(points, lonlat=lonlat, latitude=latitude), "relative", workers))
 
 
 @shared(**_SHARED)
-def minimum_spanning_tree(points: npt.ArrayLike | Triangulation, *, workers: int | None = None) -> IntArray:
+def minimum_spanning_tree(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+    workers: int | None = None,
+) -> IntArray:
     """The tree of least total length that joins all points.
 
     Parameters
     ----------
     {points}
+    {instead}
     {workers}
 
     Returns
@@ -198,18 +229,24 @@ def minimum_spanning_tree(points: npt.ArrayLike | Triangulation, *, workers: int
     >>> minimum_spanning_tree([[0, 0], [2, 0], [2, 1], [0, 1]]).tolist()
     [[0, 1], [0, 3], [1, 2]]
     """
-    triangulation = as_triangulation(points)
+    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     edges = _proximity_edges(triangulation, "urquhart", workers)
     return locked(space_of(triangulation.points).spanning_tree(triangulation.points, edges))
 
 
 @shared(**_SHARED)
-def hull(points: npt.ArrayLike | Triangulation) -> IntArray:
+def hull(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+) -> IntArray:
     """Corners of the convex hull, counterclockwise.
 
     Parameters
     ----------
     {points}
+    {instead}
 
     Returns
     -------
@@ -233,10 +270,12 @@ def hull(points: npt.ArrayLike | Triangulation) -> IntArray:
     >>> from stereodel.graphs import hull
     >>> hull([[1, 0], [0, 0], [2, 0], [2, 2], [1, 1], [0, 2]]).tolist()
     [1, 2, 3, 5]
+    >>> hull(lonlat=[[0, 40], [20, 40], [20, 60], [10, 50], [0, 60]]).tolist()
+    [0, 1, 2, 4]
     >>> hull([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]).tolist()
     []
     """
-    triangulation = as_triangulation(points)
+    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _corners(triangulation) if triangulation.dimension == 2 else _ends(triangulation)
     return locked(corners.astype(np.int32))
 

@@ -26,6 +26,23 @@ import stereodel.triangulation
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 PUBLIC = {name: getattr(stereodel, name) for name in stereodel.__all__}
+PACKAGES = [
+    stereodel,
+    stereodel.conformal,
+    stereodel.data,
+    stereodel.drawing,
+    stereodel.film,
+    stereodel.globe,
+    stereodel.graphs,
+    stereodel.interpolation,
+    stereodel.io,
+    stereodel.mpl,
+    stereodel.relaxation,
+    stereodel.render,
+    stereodel.spatial,
+    stereodel.sphere,
+    stereodel.triangulation,
+]
 CLASSES = {name: value for name, value in PUBLIC.items() if inspect.isclass(value)}
 VALUES = {
     "Conic",
@@ -62,8 +79,9 @@ def test_version_is_a_release_number():
 
 
 def test_every_name_is_in_the_contract():
+    """Its tables are compared with the packages in tests/tools/test_names.py."""
     text = (DOCS / "names.md").read_text(encoding="utf-8")
-    assert [name for name in PUBLIC if f"`{name}" not in text] == []
+    assert [name for name in PUBLIC if f"| **`{name}" not in text] == []
 
 
 def reference(module):
@@ -100,6 +118,21 @@ def test_docstring_has_an_example(name):
     text = inspect.getdoc(PUBLIC[name])
     assert text
     assert ">>> " in text, f"{name} shows no example"
+
+
+def documented(owner):
+    """Public objects of a package, and the methods and properties that its classes have, by name."""
+    for name in getattr(owner, "__all__", []):
+        value = getattr(owner, name)
+        yield name, value
+        if inspect.isclass(value):
+            yield from ((f"{name}.{member}", inspect.getattr_static(value, member)) for member in dir(value))
+
+
+@pytest.mark.parametrize("package", PACKAGES, ids=lambda package: package.__name__)
+def test_no_docstring_has_a_line_left_to_be_filled_in(package):
+    texts = {name: inspect.getdoc(value) or "" for name, value in documented(package)}
+    assert [name for name, text in texts.items() if re.search(r"^ *\{\w+\}$", text, re.MULTILINE)] == []
 
 
 def signatures():

@@ -67,6 +67,14 @@ def test_readme_example_prints_what_it_says(capsys):
     assert len([line for line in code.splitlines() if line.strip()]) <= 12
 
 
+@pytest.mark.parametrize("page", ["earth", "interpolation"])
+def test_the_examples_of_a_page_run(page):
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
+    assert code
+    exec(compile(code, f"docs/{page}.md", "exec"), {})
+
+
 @pytest.mark.parametrize("page", ["README.md", "docs/index.md"])
 def test_pictures_are_there(page):
     path = ROOT / page

@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
-BASE = {"constants", "earth", "_arrays", "_docs", "_numbers", "_double_double", "_threads"}
+BASE = {"constants", "earth", "_arrays", "_docs", "_extras", "_numbers", "_double_double", "_threads"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
@@ -40,11 +40,12 @@ MAY_IMPORT = {
     "curves": BASE | {"conformal", "sphere"},
     "io": BASE | {"_extras", "_files", "conformal", "curves", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
+    "__main__": {"_extras", "cli"},
     "drawing": MATHEMATICS | {"__init__", "curves"},
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "drawing"},
     "mpl": MATHEMATICS | {"__init__", "_extras", "curves", "data", "drawing"},
-    "film": MATHEMATICS | {"__init__", "_extras", "_files", "drawing", "render"},
-    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "data", "drawing", "film", "render"},
+    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "data", "drawing", "render"},
+    "film": MATHEMATICS | {"__init__", "_extras", "_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_extras", "_files", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},
 }
@@ -54,8 +55,8 @@ MATPLOTLIB_IN_DRAWING = {"stereodel.drawing.colors", "stereodel.drawing.label"}
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
 NEIGHBOURS = {
     "antimeridian",
+    "av",
     "geopandas",
-    "imageio_ffmpeg",
     "netCDF4",
     "pandas",
     "pyarrow",
@@ -112,8 +113,13 @@ def imported(path, tree=None):
                 yield inner if inner in MODULES else node.module
 
 
+# `Page.save` and `Page.pixels` load what draws pages when they are called, as matplotlib's figures do.
+LOADED_ON_USE = ("stereodel.drawing.page", "stereodel.render.save")
+
+
 def own_imports(name):
-    return sorted({target for target in imported(MODULES[name]) if target in MODULES})
+    found = {target for target in imported(MODULES[name]) if target in MODULES}
+    return sorted(target for target in found if (name, target) != LOADED_ON_USE)
 
 
 def part(name):
@@ -176,6 +182,20 @@ def test_a_wrong_arrow_is_seen():
     assert not wrong_arrows({"stereodel.projections.gnomonic": ["stereodel.sphere.arcs"]})
 
 
+def imported_at_head(path):
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    return set(
+        imported(path, ast.Module([node for node in tree.body if isinstance(node, ast.Import | ast.ImportFrom)], []))
+    )
+
+
+def test_a_page_draws_itself_by_one_module_and_on_use_alone():
+    source, target = LOADED_ON_USE
+    assert {t for t in imported(MODULES[source]) if t.startswith("stereodel.render")} == {target}
+    assert target not in imported_at_head(MODULES[source])
+    assert not loaded_by("import stereodel.drawing") & GRAPHICS
+
+
 def circle(edges):
     """Modules that import one another in a circle, as text; empty if there is none."""
     try:
@@ -226,6 +246,25 @@ def test_opengl_has_one_door():
         name for name, path in MODULES.items() if {t.split(".")[0] for t in imported(path)} & {"OpenGL", "pyrender"}
     }
     assert doors == {"stereodel.render.gl", "stereodel.render.mends"}
+
+
+def test_what_only_pixels_need_is_imported_on_use():
+    """So that SVG and PDF can be written where nothing but matplotlib is installed."""
+    lazy = {"imageio", "OpenGL", "pyrender", "trimesh"}
+    roots = {name: {target.split(".")[0] for target in imported_at_head(path)} for name, path in MODULES.items()}
+    assert [name for name, found in roots.items() if found & lazy] == []
+    code = f"""
+import sys, tempfile
+sys.modules.update(dict.fromkeys({sorted(lazy)}))
+from pathlib import Path
+from stereodel.drawing import Label, Page
+from stereodel.render import Figure
+figure = Figure("ground", dict, lambda geometry: Page((0, 2, 0, 1), (Label("$x$", (1, 0.5)),)), renderer="agg")
+with tempfile.TemporaryDirectory() as folder:
+    print(*figure.save(folder, size=50)["files"])
+"""
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert ran.stdout == "ground.png ground.svg ground.pdf\n", ran.stderr
 
 
 def test_figures_draw_through_the_library():

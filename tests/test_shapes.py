@@ -38,7 +38,7 @@ PLANE_OR_SPHERE = {  # (n, 2) or (n, 3), and [] for none
     "relative_neighborhood_graph": graphs.relative_neighborhood_graph,
     "minimum_spanning_tree": graphs.minimum_spanning_tree,
     "hull": graphs.hull,
-    "lloyd": lambda a: relaxation.lloyd(a, extent=None if np.shape(a)[-1] == 3 else (-9, 9, -9, 9)),
+    "lloyd": lambda a: relaxation.lloyd(a, bounds=None if np.shape(a)[-1] == 3 else (-9, -9, 9, 9)),
     "contours": lambda a: interpolation.contours(a, np.zeros(len(a)), 0.5),
     "estimate_gradients": values_on(interpolation.estimate_gradients),
     "LinearInterpolator": values_on(interpolation.LinearInterpolator),
@@ -84,7 +84,7 @@ ONE_A_POINT = {  # (n, ...) of the five points of PLANE
     "LinearInterpolator": lambda a: interpolation.LinearInterpolator(PLANE, a),
     "SmoothInterpolator": lambda a: interpolation.SmoothInterpolator(PLANE, a),
     "SmoothInterpolator, gradients": lambda a: interpolation.SmoothInterpolator(PLANE, VALUES, gradients=a),
-    "density": lambda a: relaxation.lloyd(PLANE, extent=(-9, 9, -9, 9), density=lambda _: a),
+    "density": lambda a: relaxation.lloyd(PLANE, bounds=(-9, -9, 9, 9), density=lambda _: a),
 }
 INTEGERS = {  # (k,), or (k, width), and [] for none
     "remove": (0, lambda a: s.PlanarDelaunay(PLANE).remove(a)),
@@ -93,7 +93,7 @@ INTEGERS = {  # (k,), or (k, width), and [] for none
 }
 ONE = {  # a point, numbers, a matrix, of a fixed shape that is not empty
     "PlanarVoronoi.segments": lambda a: s.PlanarVoronoi(PLANE).segments(a),
-    "lloyd, extent": lambda a: relaxation.lloyd(PLANE, extent=a),
+    "lloyd, bounds": lambda a: relaxation.lloyd(PLANE, bounds=a),
     "PlanarVoronoi.areas": lambda a: s.PlanarVoronoi(PLANE).areas(radius=a),
     "SphericalVoronoi.areas": lambda a: s.SphericalVoronoi(SPHERE).areas(radius=a),
     "Stereographic": lambda a: s.Stereographic(center=a),

@@ -2,8 +2,8 @@
 
     python -m tools.baselines --scripts figures --store tests/images/baselines [NAME…]
 
-A case is a figure, or one of three frames of an animation: first, middle, last. Of each the store holds NAME.npz, the
-arrays that are drawn and the geometry behind them (T0), its pixel hash in `pixels.json` (T1), NAME.png, the picture
+A case is a figure, or one of three frames of an animation: first, middle, last. Of each the store holds NAME.npz.xz,
+the arrays that are drawn and the geometry behind them (T0), its pixel hash in `pixels.json` (T1), NAME.png, the picture
 without text at 640 pixels (T2), and in `labels.json` the boxes of the ink of its labels (T3); see
 `tools.image`.
 """
@@ -23,28 +23,30 @@ import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Pixels
 from stereodel._files import replacing
-from stereodel.constants import TYPE_PIXELS
 from stereodel.drawing.page import Page
-from stereodel.film.animation import Animation, drawn_page
+from stereodel.film import Film
+from stereodel.render.digest import pixel_hash
 from stereodel.render.figure import Figure
 from tools.build import BuildError, find_scripts, load_drawing
 from tools.image import (
+    TYPE_PIXELS,
     Arrays,
-    Pixels,
     array_differences,
     compare,
+    ink_boxes,
     load_arrays,
-    pixel_hash,
     read_picture,
     save_arrays,
     summarised,
 )
-from tools.report import Failure
 
 SIZE: Final = 640
 """Width of the stored pictures in pixels."""
+
+ARRAYS: Final = "npz.xz"
+"""Ending of stored arrays."""
 
 HASHES: Final = "pixels.json"
 BOXES: Final = "labels.json"
@@ -72,19 +74,11 @@ class Case:
     @cached_property
     def picture(self) -> Pixels:
         """What T1 and T2 compare: the picture without text."""
-        if self.renderer == "agg":
-            from stereodel.render.vector import rasterize
-
-            return rasterize(self.page, size=SIZE, text=False)
-        from stereodel.render.raster import render
-
-        return render(self.page, size=SIZE, text=False)
+        return self.page.pixels(size=SIZE, text=False, renderer=self.renderer)
 
     @cached_property
     def ink(self) -> FloatArray:
-        """What T3 compares: where the ink of each label lies, (n, 4); see `stereodel.render.text.ink_boxes`."""
-        from stereodel.render.text import ink_boxes
-
+        """What T3 compares: where the ink of each label lies, (n, 4)."""
         return ink_boxes(self.page)
 
 
@@ -110,7 +104,7 @@ class Store:
 
     def drawn_otherwise(self, case: Case) -> list[str]:
         """T0: what differs in the arrays, a line each; empty when nothing does."""
-        path = self.folder / f"{case.name}.npz"
+        path = self.folder / f"{case.name}.{ARRAYS}"
         if not path.is_file():
             return [f"T0: {path.name} is missing; look at the picture, then run `make baselines`"]
         return [f"T0: {name}: {wrong}" for name, wrong in array_differences(load_arrays(path), case.arrays).items()]
@@ -139,14 +133,9 @@ class Store:
             if (np.isnan(stored[number]) != np.isnan(case.ink[number])).any() or (apart > limit).any()
         ]
 
-    def failure(self, case: Case, messages: Iterable[str]) -> Failure:
-        """The messages with both pictures, for the report."""
-        path = self.folder / f"{case.name}.png"
-        return Failure(case.name, tuple(messages), read_picture(path) if path.is_file() else None, case.picture)
-
     def write(self, case: Case) -> None:
         """Store a case; its hash and its boxes go into their files with `write_tables`."""
-        save_arrays(case.arrays, self.folder / f"{case.name}.npz")
+        save_arrays(case.arrays, self.folder / f"{case.name}.{ARRAYS}")
         data = iio.imwrite("<bytes>", case.picture, extension=".png", plugin="pillow", optimize=True)
         _replace(self.folder / f"{case.name}.png", data)
         self.hashes[case.name] = pixel_hash(case.picture)
@@ -161,12 +150,13 @@ class Store:
     def forget_others(self, names: Iterable[str]) -> list[str]:
         """Remove what belongs to none of `names`, and say what."""
         kept = set(names)
-        stale = sorted({path.stem for path in self.folder.glob("*.np[zg]")} | set(self.hashes))
+        files = {path.name.partition(".")[0] for kind in (ARRAYS, "png") for path in self.folder.glob(f"*.{kind}")}
+        stale = sorted(files | set(self.hashes))
         stale = [name for name in stale if name not in kept]
         for name in stale:
             self.hashes.pop(name, None)
             self.boxes.pop(name, None)
-            for kind in ("npz", "png"):
+            for kind in (ARRAYS, "png"):
                 (self.folder / f"{name}.{kind}").unlink(missing_ok=True)
         return stale
 
@@ -177,15 +167,12 @@ class Store:
 
 def cases_of(script: Path) -> list[Case]:
     """The cases of one script: its figure, or three frames of its animation."""
-    drawing: Figure | Animation = load_drawing(script)
+    drawing: Figure | Film[Any] = load_drawing(script)
     if isinstance(drawing, Figure):
         geometry = drawing.geometry()
         return [Case(drawing.name, drawing.draw(geometry), geometry, drawing.renderer)]
-    frames = list(drawing.frames())
-    chosen = (0, len(frames) // 2, len(frames) - 1)
-    return [
-        Case(f"{drawing.name}_{which}", drawn_page(frames[at]), {}) for which, at in zip(FRAMES, chosen, strict=True)
-    ]
+    chosen = (0, len(drawing) // 2, len(drawing) - 1)
+    return [Case(f"{script.stem}_{which}", drawing.page(at), {}) for which, at in zip(FRAMES, chosen, strict=True)]
 
 
 def case_names(script: Path) -> list[str]:

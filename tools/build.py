@@ -1,8 +1,9 @@
 """Draw what is out of date: the figure scripts run in parallel, and `manifest.json` says what was drawn with what.
 
-Each script defines `FIGURE`, or `ANIMATION` if its name begins with `anim_`; both have `save(out) -> dict`. Whether a
+Each script defines `FIGURE`, or `film()` if its name begins with `anim_`, which becomes a GIF. Whether a
 script must run again is decided by the contents of everything that its picture depends on and of the files that it
-wrote, before a script is started: when there is nothing to do, that takes a fraction of a second.
+wrote, before a script is started: when there is nothing to do, that takes a fraction of a second. Rules of `make` would
+look at times, and know nothing of versions.
 
     python -m tools.build --scripts figures --out out [NAME…]
 """
@@ -13,25 +14,28 @@ import argparse
 import hashlib
 import importlib.util
 import json
-import multiprocessing
 import sys
 import tempfile
 import time
 import traceback
-from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from stereodel._files import replacing
-from stereodel.render.cores import usable_cores
+from stereodel._threads import thread_count
+from stereodel.film import Film
+from stereodel.film.pool import in_processes
+from stereodel.render.gl import OpenGLError, describe
 from stereodel.render.provenance import library_digest, library_versions
 
 SCRIPTS = ("fig", "globe_", "earth_", "sky_", "anim_")
 """Beginnings of the names of scripts: the paper's figures, globes through lenses, pictures of real data, animations."""
+
+LARGEST_FILM = 3_000_000
+"""Bytes that a film of the gallery may have."""
 
 Record = dict[str, Any]
 
@@ -52,7 +56,7 @@ class Outcome:
 def build(
     scripts: Path, out: Path, names: Iterable[str] = (), *, jobs: int | None = None, force: bool = False
 ) -> list[Outcome]:
-    """Run every script in `scripts` that is out of date, and write the manifest.
+    """Run every script in `scripts` that is out of date, say so in a line for each, and write the manifest.
 
     Parameters
     ----------
@@ -80,20 +84,23 @@ def build(
     chosen = find_scripts(scripts, names)
     _require_writable(out)
     manifest = read_manifest(out)
-    shared = _shared_digest(scripts)
-    digests = {script.stem: _digest_of(shared, script) for script in chosen}
-    late = [s for s in chosen if force or not _is_current(manifest.get(s.stem), digests[s.stem], out)]
-    if not late:
-        return []
+    shared = shared_digest(scripts)
+    inputs = {script.stem: _digest(shared.encode() + script.read_bytes()) for script in chosen}
+    late = [s for s in chosen if force or not _is_current(manifest.get(s.stem, {}), inputs[s.stem], out)]
+    # The longest first, so that none of them is waited for at the end.
     late.sort(key=lambda script: -manifest.get(script.stem, {}).get("seconds", 0.0))
-    outcomes = []
-    with _progress(len(late)) as report:
-        for outcome in _run_all(late, out, jobs or usable_cores()):
-            report(outcome)
-            outcomes.append(outcome)
-            if not outcome.error:
-                manifest[outcome.script.stem] = {**outcome.record, "inputs": digests[outcome.script.stem]}
-                _write_manifest(out, _of_existing(manifest, scripts))
+    outcomes: list[Outcome] = []
+    for outcome in _run_all(late, out, jobs or thread_count(-1, len(late))):
+        outcomes.append(outcome)
+        name, record = outcome.script.stem, outcome.record
+        took = "failed" if outcome.error else f"{record['seconds']:.1f} s"
+        print(f"{len(outcomes):>3}/{len(late)} {name}  {took}", flush=True)
+        if not outcome.error:
+            manifest[name] = {**record, "inputs": inputs[name]}
+            # After each, so that what was finished is kept whatever comes.
+            kept = {name: manifest[name] for name in sorted(manifest) if (scripts / f"{name}.py").is_file()}
+            with replacing(out / "manifest.json") as temporary:
+                temporary.write_text(json.dumps(kept, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     return outcomes
 
 
@@ -111,6 +118,16 @@ def find_scripts(folder: Path, names: Iterable[str] = ()) -> list[Path]:
     return sorted(chosen) or found
 
 
+def _require_writable(out: Path) -> None:
+    """Fail before the work, not after it."""
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out):
+            pass
+    except OSError as error:
+        raise BuildError(f"cannot write to {out}: {error.strerror}; choose another folder with --out") from error
+
+
 # What a picture depends on
 
 
@@ -123,80 +140,31 @@ def read_manifest(out: Path) -> dict[str, Record]:
     return records if isinstance(records, dict) else {}
 
 
-def _shared_digest(scripts: Path) -> str:
+def shared_digest(scripts: Path) -> str:
     """Of all that every script depends on: shared modules, library, kernel, versions, the renderer asked for."""
-    digest = hashlib.sha256(library_digest())
-    for path in sorted(scripts.glob("_*.py")):
-        digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
-    return digest.hexdigest()
+    shared = [path.name.encode() + b"\0" + path.read_bytes() + b"\0" for path in sorted(scripts.glob("_*.py"))]
+    return _digest(library_digest() + b"".join(shared))
 
 
-def _digest_of(shared: str, script: Path) -> str:
-    return hashlib.sha256(shared.encode() + script.read_bytes()).hexdigest()
-
-
-def _is_current(record: Record | None, inputs: str, out: Path) -> bool:
+def _is_current(record: Record, inputs: str, out: Path) -> bool:
     """Whether a script ran on these inputs, and its files are still as it wrote them."""
-    if record is None or record.get("inputs") != inputs or not record.get("files"):
-        return False
-    files: dict[str, str] = record["files"]
-    return all((out / name).is_file() and _file_digest(out / name) == digest for name, digest in files.items())
+    files: dict[str, str] = record.get("files", {})
+    same = ((out / name).is_file() and _digest((out / name).read_bytes()) == digest for name, digest in files.items())
+    return record.get("inputs") == inputs and bool(files) and all(same)
 
 
-def _file_digest(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def _of_existing(manifest: dict[str, Record], scripts: Path) -> dict[str, Record]:
-    return {name: manifest[name] for name in sorted(manifest) if (scripts / f"{name}.py").is_file()}
-
-
-def _write_manifest(out: Path, manifest: dict[str, Record]) -> None:
-    with replacing(out / "manifest.json") as temporary:
-        temporary.write_text(json.dumps(manifest, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
-
-
-def _require_writable(out: Path) -> None:
-    """Fail before the work, not after it."""
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=out):
-            pass
-    except OSError as error:
-        raise BuildError(f"cannot write to {out}: {error.strerror}; choose another folder with --out") from error
+def _digest(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()
 
 
 # Running
 
 
 def _run_all(scripts: list[Path], out: Path, jobs: int) -> Iterator[Outcome]:
-    """Outcomes as they come. Scripts that were cut off because another one's process died run again, each alone."""
-    cut_off = []
-    for script, future in _submit(scripts, out, jobs):
-        try:
-            yield future.result()
-        except BrokenProcessPool:
-            cut_off.append(script)
-    for script in cut_off:
-        for _, future in _submit([script], out, 1):
-            try:
-                yield future.result()
-            except BrokenProcessPool:
-                yield Outcome(
-                    script, {}, "its process died without a Python error, most likely inside a graphics library"
-                )
-
-
-def _submit(scripts: list[Path], out: Path, jobs: int) -> Iterator[tuple[Path, Future[Outcome]]]:
-    # Spawned, not forked: OpenGL contexts and threads do not survive a fork.
-    context = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(min(jobs, len(scripts)), mp_context=context) as pool:
-        futures = {pool.submit(run_script, script, out): script for script in scripts}
-        try:
-            for future in as_completed(futures):
-                yield futures[future], future
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
+    """Outcomes as they come."""
+    for number, done in in_processes(partial(run_script, out=out), scripts, jobs=jobs):
+        # Without a result the process died: most likely inside a graphics library.
+        yield done.result or Outcome(scripts[number], {}, f"{done.error}, without a Python error")
 
 
 def run_script(script: Path, out: Path) -> Outcome:
@@ -204,26 +172,36 @@ def run_script(script: Path, out: Path) -> Outcome:
     begin = time.perf_counter()
     try:
         drawing = load_drawing(script)
-        record = drawing.save(out)
+        record = save_film(drawing, out / f"{script.stem}.gif") if isinstance(drawing, Film) else drawing.save(out)
+    except (BuildError, PermissionError, OpenGLError) as error:
+        return Outcome(script, {}, str(error))  # which the user can mend
     except Exception as error:
-        return Outcome(script, {}, _error_text(error))
+        return Outcome(script, {}, "".join(traceback.format_exception(error)))
     seconds = time.perf_counter() - begin
     if record.get("renderer") == "gl":
-        record["opengl"] = _opengl()
-    files = {path.name: _file_digest(path) for path in sorted(out.glob(f"{script.stem}.*"))}
+        found = describe()
+        record["opengl"] = f"{found.platform}: OpenGL {found.version}, {found.renderer}"
     record = {
         **record,
         "figure": script.stem,
         "script": script.name,
         "seconds": round(seconds, 3),
         "versions": library_versions(),
-        "files": files,
+        "files": {path.name: _digest(path.read_bytes()) for path in sorted(out.glob(f"{script.stem}.*"))},
     }
     return Outcome(script, record)
 
 
+def save_film(film: Film[Any], path: Path) -> Record:
+    """Write a film for a page of the web; a BuildError where it is too large for one."""
+    film.save(path, jobs=1, progress=False)  # scripts run at the same time
+    if path.stat().st_size > LARGEST_FILM:
+        raise BuildError(f"{path.name} has {path.stat().st_size} bytes; give fewer frames or a smaller size")
+    return {"renderer": "gl", "size": film.size, "frames": len(film)}
+
+
 def load_drawing(script: Path) -> Any:
-    """The `FIGURE` or `ANIMATION` of a script."""
+    """The `FIGURE` of a script, or what its `film()` gives."""
     folder = str(script.resolve().parent)
     if folder not in sys.path:
         sys.path.insert(0, folder)
@@ -233,56 +211,11 @@ def load_drawing(script: Path) -> Any:
     module = importlib.util.module_from_spec(spec)
     sys.modules[script.stem] = module
     spec.loader.exec_module(module)
-    for name in ("FIGURE", "ANIMATION"):
-        if hasattr(module, name):
-            return getattr(module, name)
-    raise BuildError(f"{script} defines neither FIGURE nor ANIMATION")
-
-
-def _opengl() -> str:
-    """What this process drew with."""
-    from stereodel.render.gl import describe
-
-    found = describe()
-    return f"{found.platform}: OpenGL {found.version}, {found.renderer}"
-
-
-def _error_text(error: Exception) -> str:
-    """The message alone where the user can mend it (script, folder, no OpenGL), else the whole traceback."""
-    from stereodel.render.gl import OpenGLError
-
-    if isinstance(error, (BuildError, PermissionError, OpenGLError)):
-        return str(error)
-    return "".join(traceback.format_exception(error))
-
-
-# Progress
-
-
-@contextmanager
-def _progress(total: int) -> Iterator[Callable[[Outcome], None]]:
-    """A function that shows each outcome: above a bar on a terminal, as plain lines elsewhere."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    console = Console()
-    done = 0
-
-    def line(outcome: Outcome) -> str:
-        took = "failed" if outcome.error else f"{outcome.record['seconds']:.1f} s"
-        return f"{done:>3}/{total} {outcome.script.stem}  {took}"
-
-    columns = (TextColumn("drawing"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal, transient=True) as progress:
-        task = progress.add_task("drawing", total=total)
-
-        def report(outcome: Outcome) -> None:
-            nonlocal done
-            done += 1
-            progress.console.print(line(outcome), style="red" if outcome.error else None, highlight=False)
-            progress.advance(task)
-
-        yield report
+    if hasattr(module, "FIGURE"):
+        return module.FIGURE
+    if hasattr(module, "film"):
+        return module.film()
+    raise BuildError(f"{script} defines neither FIGURE nor film()")
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -294,30 +227,18 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("--jobs", type=int, default=None, help="scripts that run at once; the cores by default")
     parser.add_argument("--force", action="store_true", help="draw also what is up to date")
     options = parser.parse_args(arguments)
-    return run(options.scripts, options.out, options.names, jobs=options.jobs, force=options.force)
-
-
-def run(scripts: Path, out: Path, names: Iterable[str] = (), *, jobs: int | None = None, force: bool = False) -> int:
-    """`build`, told in words: prints what happened and returns the exit code."""
     begin = time.perf_counter()
     try:
-        outcomes = build(scripts, out, names, jobs=jobs, force=force)
+        outcomes = build(options.scripts, options.out, options.names, jobs=options.jobs, force=options.force)
     except BuildError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         print("interrupted; what was finished is kept", file=sys.stderr)
         return 130
-    return summarise(outcomes, out, time.perf_counter() - begin)
-
-
-def summarise(outcomes: list[Outcome], out: Path, seconds: float) -> int:
-    """Print what happened, the errors last, and return the exit code."""
     failed = [outcome for outcome in outcomes if outcome.error]
-    if not outcomes:
-        print(f"{out}: everything is up to date ({seconds:.1f} s)")
-    else:
-        print(f"{out}: {len(outcomes) - len(failed)} drawn, {len(failed)} failed ({seconds:.1f} s)")
+    done = f"{len(outcomes) - len(failed)} drawn, {len(failed)} failed" if outcomes else "everything is up to date"
+    print(f"{options.out}: {done} ({time.perf_counter() - begin:.1f} s)")
     for outcome in failed:
         print(f"\n{outcome.script}:\n{outcome.error.rstrip()}", file=sys.stderr)
     return 1 if failed else 0

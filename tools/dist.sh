@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Usage: tools/dist.sh VENV
-# Source archive and wheel into dist/, the wheel built from the archive; then the wheel is installed into a new environment
-# and triangulates there.
+# Source archive and wheel into dist/, the wheel built from the archive; then the wheel is tried in a new environment.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,9 +14,20 @@ rm -rf dist
 PATH=$(cd "$venv/bin" && pwd):$PATH python "${pip[@]}" wheel --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz
 "$venv/bin/python" tools/archives.py dist/*.tar.gz dist/*.whl
 
+# As users get it: NumPy alone, then the command line, then all that README's first commands need.
 "$venv/bin/python" -m venv "$work/venv"
-"$work/venv/bin/python" "${pip[@]}" install --constraint constraints.txt dist/*.whl
+pins=$PWD/constraints.txt
+wheel=$(echo "$PWD"/dist/*.whl)
+install() { "$work/venv/bin/python" "${pip[@]}" install --constraint "$pins" "$1"; }
+stereodel() { "$work/venv/bin/stereodel" "$@"; }
+refused() { if "$@" >said 2>&1; then echo "tools/dist.sh: $* should fail" >&2; exit 1; fi; }
+expect() { # FILE WORDS
+    grep -qF -- "$2" "$1" || { echo "tools/dist.sh: no $2 in:" >&2; cat "$1" >&2; exit 1; }
+}
 cd "$work"
+printf 'name,lon,lat\nQuito,-78.5,-0.2\nUlm,10.0,48.4\nKyoto,135.8,35.0\nPerth,115.9,-32.0\n' >cities.csv
+
+install "$wheel"
 venv/bin/python - <<'PYTHON'
 import numpy as np
 import stereodel
@@ -26,6 +36,27 @@ points = np.random.default_rng(1).normal(size=(500, 3))
 triangles = stereodel.SphericalDelaunay(points).simplices
 stereodel.check_delaunay(points, triangles)
 assert len(triangles) == 2 * 500 - 4
-print(f"stereodel {stereodel.__version__} from the wheel: {len(triangles)} triangles")
+print(f"stereodel {stereodel.__version__} from the wheel, with NumPy alone: {len(triangles)} triangles")
 PYTHON
-venv/bin/stereodel --version
+refused stereodel --help
+expect said "pip install 'stereodel[cli]'"
+
+# The extras of what is installed: pip asks no index for stereodel itself.
+install 'stereodel[cli]'
+stereodel --version
+stereodel voronoi cities.csv -o cells.csv
+expect cells.csv Kyoto
+for picture in svg png; do
+    refused stereodel globe cities.csv -o globe.$picture
+    expect said "pip install 'stereodel["
+done
+refused stereodel doctor
+expect said "pip install 'stereodel[render]'"
+
+install 'stereodel[all]'
+stereodel voronoi cities.csv -o cells.geojson
+expect cells.geojson Kyoto
+stereodel globe cities.csv --focus=10,48.4 --magnify 2 -o globe.svg
+expect globe.svg '</svg>'
+stereodel doctor >said || cat said # the machine may have no OpenGL
+if grep ' lacks ' said; then exit 1; fi

@@ -19,8 +19,6 @@ from stereodel.graphs import (
     urquhart_graph,
 )
 from stereodel.relaxation import lloyd
-from stereodel.render import Figure
-from stereodel.render.save import save_png
 
 SITES, SEED, STEPS = 450, 11, 40
 VIEW = View(20, 25)
@@ -80,8 +78,7 @@ def draw(g: dict[str, object]) -> Page:
 
 def main() -> None:
     """Draw it."""
-    figure = Figure("graphs", geometry, draw)
-    path = save_png(figure.pixels(size=WIDTH), ROOT / "docs" / "images" / "graphs.png", page_width=720.0)
+    path = draw(geometry()).save(ROOT / "docs" / "images" / "graphs.png", size=WIDTH)
     print(path.relative_to(ROOT))
 
 

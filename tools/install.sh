@@ -1,15 +1,34 @@
 #!/usr/bin/env bash
-# Usage: tools/install.sh VENV [PYTHON]
-# Create the environment, install the package with the pinned libraries and build its kernel, unless that was done already.
+# Usage: tools/install.sh VENV WHAT [PYTHON]
+# Create the environment, install the package with those pinned libraries that WHAT needs, and build its kernel, unless that
+# was done already: VENV/installed-WHAT holds what it was done with. An environment grows with what is asked of it.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 venv=$1
+what=$2
+case $what in # extras of pyproject.toml
+    kernel) extras= ;;             # NumPy alone, and what builds
+    figures) extras=cli,render ;;  # pictures; the command with its doctor
+    animations) extras=cli,film ;;
+    library) extras=all ;;         # whatever the library can use
+    test | docs) extras=$what ;;
+    lint) extras=dev ;;
+    *) echo "tools/install.sh: there is no $what" >&2; exit 2 ;;
+esac
+stamp=$venv/installed-$what
 wanted=$(cat pyproject.toml constraints.txt tools/install.sh | sha256sum)
-if [[ ! -x $venv/bin/python || ! -f $venv/installed || $(<"$venv/installed") != "$wanted" ]]; then
-    python=${2:-$(tools/find_python.sh)}
-    echo "Installing into $venv ($("$python" --version))" >&2
-    [[ -x $venv/bin/python ]] || "$python" -m venv "$venv"
+if [[ ! -x $venv/bin/python || ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
+    python=${3:-$(tools/find_python.sh)}
+    # Also one that was cut off before pip was in it, or whose Python is gone.
+    if ! "$venv/bin/python" -m pip --version >/dev/null 2>&1; then "$python" -m venv --clear "$venv"; fi
+    echo "Installing what $what needs into $venv ($("$venv/bin/python" --version))" >&2
+    site=$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+    # Of a library whose installation was cut off, pip would take the halves for the whole: the list of its files comes last.
+    for info in "$site"/*.dist-info; do
+        [[ ! -d $info || -f $info/RECORD ]] || rm -rf "$info"
+    done
+    rm -rf "$site"/~*
     pip=("$venv/bin/python" -m pip --disable-pip-version-check -qq)
     build=(scikit-build-core nanobind)
     command -v cmake >/dev/null || build+=(cmake)
@@ -19,9 +38,9 @@ if [[ ! -x $venv/bin/python || ! -f $venv/installed || $(<"$venv/installed") != 
     # Requirements, metadata and the command alone. The package stays here, on a plain path, with no import hook that would
     # hide another copy from PYTHONPATH; its kernel is built beside it below, so that changed sources need no network.
     "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
-        --config-settings wheel.cmake=false --config-settings wheel.packages='[]' '.[test,docs,dev]'
-    pwd >"$("$venv/bin/python" -c 'import sysconfig; print(sysconfig.get_path("purelib"))')/stereodel.pth"
-    printf '%s\n' "$wanted" >"$venv/installed"
+        --config-settings wheel.cmake=false --config-settings wheel.packages='[]' ".${extras:+[$extras]}"
+    pwd >"$site/stereodel.pth"
+    printf '%s\n' "$wanted" >"$stamp"
 fi
 tools/build_kernel.sh "$venv"
-touch "$venv/installed"
+touch "$stamp"

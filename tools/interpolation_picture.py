@@ -14,8 +14,6 @@ from stereodel._arrays import FloatArray
 from stereodel.drawing import LineStyle, Page, Scene, View
 from stereodel.drawing.style import BLUE, LIGHT_GRAY, VERMILION
 from stereodel.interpolation import Contour, SmoothInterpolator, contours
-from stereodel.render import Figure
-from stereodel.render.save import save_png
 
 SITES, FINE, SEED = 500, 40_000, 6
 LEVELS = np.linspace(-0.9, 0.9, 10)  # without zero
@@ -71,8 +69,7 @@ def draw(g: dict[str, object]) -> Page:
 
 def main() -> None:
     """Draw it."""
-    figure = Figure("interpolation", geometry, draw)
-    path = save_png(figure.pixels(size=WIDTH), ROOT / "docs" / "images" / "interpolation.png", page_width=480.0)
+    path = draw(geometry()).save(ROOT / "docs" / "images" / "interpolation.png", size=WIDTH)
     print(path.relative_to(ROOT))
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from stereodel.render.save import save_png
 from tools.build import load_drawing
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,11 +26,8 @@ def main() -> None:
     folder.mkdir(exist_ok=True)
     for name, width in WIDTHS.items():
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
-        print(
-            save_png(figure.pixels(size=width), folder / f"{name}.png", page_width=figure.page().width).relative_to(
-                ROOT
-            )
-        )
+        path = figure.page().save(folder / f"{name}.png", size=width, renderer=figure.renderer)
+        print(path.relative_to(ROOT))
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ for version in "$@"; do
         summary+=("Python $version: not found here, not tested")
         continue
     fi
-    tools/install.sh ".venvs/$version" "$python"
+    tools/install.sh ".venvs/$version" test "$python"
     if ".venvs/$version/bin/python" -m pytest -n auto; then
         summary+=("$("$python" --version): tests passed")
     else

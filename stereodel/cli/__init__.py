@@ -4,8 +4,11 @@ One module a command, each with a function `command` and an `EXAMPLE`. They impo
 that the help answers at once.
 """
 
-from stereodel.cli import doctor, globe, interpolate, nearest, triangulate, voronoi
-from stereodel.cli.application import app
+from stereodel._extras import of_extra
+
+with of_extra("cli"):
+    from stereodel.cli import doctor, globe, interpolate, nearest, triangulate, voronoi
+    from stereodel.cli.application import app
 
 __all__ = ["app"]
 

@@ -89,9 +89,8 @@ def save_mesh(
         write(path, mesh, **({"latitude": latitude.value} if kind == "nc" else {}))
         return
     from stereodel.drawing import diagram_page
-    from stereodel.render import save_page
 
-    save_page(diagram_page(mesh), path)
+    diagram_page(mesh).save(path)
 
 
 def _cells(values: Column) -> Column:

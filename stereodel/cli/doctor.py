@@ -1,13 +1,15 @@
-"""`stereodel doctor`: what would draw here, and what is missing."""
+"""`stereodel doctor`: what works here, what would draw, and how to get what is missing."""
 
 from __future__ import annotations
 
 import platform
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import typer
 
 import stereodel
+from stereodel._extras import EXTRAS, distributions, installing
 
 if TYPE_CHECKING:
     from stereodel.render import gl
@@ -16,31 +18,53 @@ EXAMPLE = "STEREODEL_GL=egl stereodel doctor"
 
 
 def command() -> None:
-    """Say what would draw here, every version that matters, and what is missing; exit code 1 if nothing can draw."""
-    from rich.console import Console
-    from rich.table import Table
+    """Say which extras work here, what would draw, and how to get the rest; exit code 1 where no globe can be drawn."""
+    from stereodel.render import gl
 
-    from stereodel.render import gl, provenance
-
-    console = Console(highlight=False, soft_wrap=True)
     found = gl.describe()
-    for title, rows in (("Rendering", _rendering_rows(found)), ("Versions", _version_rows())):
-        table = Table(title=title, title_justify="left", show_header=False, box=None, pad_edge=False)
-        for row in rows:
-            table.add_row(*row)
-        console.print(table)
-    missing = [name for name, version in provenance.library_versions().items() if version == "not installed"]
-    if missing:
-        console.print(f"Missing: {', '.join(missing)}. Install with: pip install {' '.join(missing)}")
+    for title, rows in (("Versions", _versions()), ("Extras", _extras()), ("Rendering", _rendering(found))):
+        typer.echo(f"{title}\n{_table(rows)}\n")
     if found.problem:
-        console.print(f"Globes cannot be drawn as PNG: {found.problem}.")
-        console.print("Plane figures, SVG and PDF files and all computations work without OpenGL.")
-    else:
-        console.print("Ready: globes can be drawn.")
-    raise typer.Exit(1 if found.problem or missing else 0)
+        typer.echo(f"Globes cannot be drawn as PNG: {found.problem}.")
+        if not _missing("draw"):
+            typer.echo("Plane figures, SVG and PDF files and all computations work without OpenGL.")
+        raise typer.Exit(1)
+    typer.echo("Ready: globes can be drawn.")
 
 
-def _rendering_rows(found: gl.Description) -> list[tuple[str, str]]:
+def _versions() -> list[tuple[str, str]]:
+    """The library, what it always needs, and the system."""
+    from stereodel.render.provenance import library_version
+
+    return [
+        ("stereodel", stereodel.__version__),
+        ("python", platform.python_version()),
+        ("numpy", library_version("numpy")),
+        ("system", platform.platform()),
+    ]
+
+
+def _extras() -> list[tuple[str, str, str]]:
+    """Each extra: the versions of what it brings itself, or what it lacks, what for, and how to get it."""
+    from stereodel.render.provenance import library_version
+
+    rows = []
+    for name, extra in EXTRAS.items():
+        if missing := _missing(name):
+            rows.append((name, "lacks", f"{', '.join(missing)}, for {extra.purpose}: {installing(name)}"))
+        else:
+            rows.append((name, "works", ", ".join(f"{brought} {library_version(brought)}" for brought in extra.brings)))
+    return rows
+
+
+def _missing(extra: str) -> list[str]:
+    """Distributions of an extra, and of those that come along, which are not installed."""
+    from stereodel.render.provenance import NOT_INSTALLED, library_version
+
+    return [name for name in distributions(extra) if library_version(name) == NOT_INSTALLED]
+
+
+def _rendering(found: gl.Description) -> list[tuple[str, str]]:
     """What draws and why, and which libraries are there."""
     from stereodel.render import gl
 
@@ -56,9 +80,8 @@ def _rendering_rows(found: gl.Description) -> list[tuple[str, str]]:
     return rows
 
 
-def _version_rows() -> list[tuple[str, str]]:
-    """The library, the system, and the libraries that pictures and files depend on."""
-    from stereodel.render import provenance
-
-    rows = [("stereodel", stereodel.__version__), ("system", platform.platform())]
-    return rows + list(provenance.library_versions().items())
+def _table(rows: Sequence[tuple[str, ...]]) -> str:
+    """Rows as lines, each column as wide as it must be."""
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = ("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows)
+    return "\n".join(f"  {line.rstrip()}" for line in lines)

@@ -10,9 +10,9 @@ from stereodel import MoebiusMap
 from stereodel.cli.globe_aim import Aim, Place
 from stereodel.cli.globe_options import Projection
 from stereodel.conformal import path_between
-from stereodel.film import FrameError
-from stereodel.globe import Flight, Globe, Morph, Spin, Stop, film
-from stereodel.globe.flights import Motion
+from stereodel.film import Film, Flight, FrameError, Morph, Spin, Stop
+from stereodel.film.shots import Motion
+from stereodel.globe import Globe
 
 KEPT = "interrupted; the same command goes on with the frames that are missing"
 
@@ -34,7 +34,7 @@ def motion_of(aim: Aim, *, spin: bool, stops: Sequence[Place], seconds: float) -
 def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float, kept: bool) -> None:
     """Draw the frames and write the file; after an interruption those that are finished may be kept beside it."""
     try:
-        film(globe, motion, size=(size, size), fps=fps).save(path, progress=sys.stderr.isatty())
+        Film.of_globe(globe, motion, size=(size, size), fps=fps).save(path, progress=sys.stderr.isatty())
     except FrameError as error:
         raise OSError(str(error)) from error
     except KeyboardInterrupt:

@@ -124,6 +124,8 @@ class FocusBlend:
         points = units(rows)
         result = points.copy()
         for disc in self._discs(points):
+            # Along its ray from the focus a point goes from χ to Ξ: cos Ξ from tan(Ξ/2), and the part across the axis,
+            # of length sin χ, times sin Ξ / sin χ; from the difference to the focus, so that near ones keep digits.
             away = points[disc.inside] - disc.focus
             across = away - disc.focus * (away @ disc.focus)[:, None]
             square = (self._rim * disc.tau * disc.growth) ** 2

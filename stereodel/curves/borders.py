@@ -90,11 +90,13 @@ class DiscView(Protocol):
 class Cap:
     """The edge of what a view shows, z = view.edge in view axes: the limb of a ball, the rim of a flat map.
 
-    Chains stray from their curves by a tolerance, the rim by `RIM_FINENESS` of that, so that they seldom cross it.
+    Chains stray from their curves by a tolerance, the rim by `fineness` of that: so little that chains seldom cross it.
+    Where outlines are filled by the nonzero rule that does no harm, and the rim may be as coarse as the chains.
     """
 
     view: DiscView
     tolerance: float
+    fineness: float = RIM_FINENESS
     length: float = TURN
     slack: float = CHART_ROUNDING
 
@@ -127,7 +129,7 @@ class Cap:
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
         """Points of the circle strictly between two angles each, either way."""
-        step = 2 * np.arccos(1 - self.tolerance * RIM_FINENESS)
+        step = 2 * np.arccos(1 - self.tolerance * self.fineness)
         pieces = np.maximum(1, np.ceil(np.abs(stop - start) / step)).astype(np.intp)
         number, way = spans(np.ones_like(pieces), pieces - 1), np.repeat(np.arange(len(pieces)), pieces - 1)
         angle = start[way] + (stop - start)[way] * number / pieces[way]

@@ -11,7 +11,7 @@ Two things are left to tell, and signed areas tell both, without a point to ask 
 * w is what makes the border nowhere less than outside: minus the smallest sum of ends and starts passed.
 * A chart that a region surrounds without touching the border is inside when the loops on it have a negative area
   together (holes without a shell). Where nothing of a region's border is in sight, the same question is asked of the
-  hidden rings, on the chart that shows all but the middle of the view.
+  hidden rings, on the chart that shows all but the middle of the view, unless the caller knows.
 """
 
 from __future__ import annotations
@@ -91,7 +91,13 @@ def lines(sides: Ragged, pieces: Pieces, samples: Ragged, border: Outline) -> tu
 
 
 def regions(
-    rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline
+    rings: Ragged,
+    owner: Indices,
+    count: int,
+    pieces: Pieces,
+    samples: Ragged,
+    border: Outline,
+    middle: BoolArray | None = None,
 ) -> tuple[Ragged, Indices]:
     """What is in sight of regions with their rings' left inside: closed loops on the chart, and the region of each.
 
@@ -105,6 +111,9 @@ def regions(
         Of regions.
     pieces, samples
         The edges' arcs, cut by the border, and points of them.
+    middle : (count,) array, optional
+        Which regions hold the middle of the view. Where this is known, edges that are hidden from end to end may be
+        left out of the rings.
     """
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
@@ -123,12 +132,16 @@ def regions(
     )
     loops, loop_owner = loops.take(there), loop_owner[there]
     around = np.bincount(loop_owner, area[there], minlength=count) < 0
-    unseen = np.setdiff1d(region[~chains.seen], shown)
-    if len(unseen):
-        around[unseen[_surround(chains, region, unseen, samples)]] = True
+    if middle is None:
+        unseen = np.setdiff1d(region[~chains.seen], shown)
+        if len(unseen):
+            around[unseen[_surround(chains, region, unseen, samples)]] = True
+    else:
+        around |= middle & (np.bincount(loop_owner, minlength=count) == 0)
     borders = np.flatnonzero(around)
-    once = border.once()
-    return together(loops, Ragged.of([once] * len(borders), once)), np.concatenate([loop_owner, borders])
+    if len(borders):
+        loops = together(loops, Ragged.of([border.once()] * len(borders)))
+    return loops, np.concatenate([loop_owner, borders])
 
 
 def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragged, Indices]:

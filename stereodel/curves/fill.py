@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from mapbox_earcut import triangulate_float64
 
 from stereodel._arrays import Indices
+from stereodel._extras import of_extra
 from stereodel.curves.clip import signed_areas
 from stereodel.curves.ragged import Ragged
 
@@ -16,6 +16,9 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[np.ndarray, Indices]:
     Ear clipping wants a shell with its holes. A hole belongs to the smallest shell of its region that holds its first
     point; most regions have shells alone.
     """
+    with of_extra("draw"):
+        from mapbox_earcut import triangulate_float64
+
     area, _ = signed_areas(loops)
     shells = np.flatnonzero(area > 0)
     held: dict[int, list[int]] = {int(shell): [] for shell in shells}

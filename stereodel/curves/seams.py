@@ -37,8 +37,10 @@ def left_inside(rings: Ragged, outer: BoolArray) -> Ragged:
     return Ragged(points[np.where(backwards[rings.row], mirrored, place)], rings.offsets)
 
 
-def stitched(rings: Ragged, owner: Indices) -> tuple[FloatArray, FloatArray, Ragged, Indices]:
+def stitched(rings: Ragged, owner: Indices, seam: float = 180.0) -> tuple[FloatArray, FloatArray, Ragged, Indices]:
     """Closed rings (k, 2) in degrees, their first point at their end again, of regions on their left.
+
+    The map is cut at the meridian `seam`, degrees.
 
     Returns
     -------
@@ -54,14 +56,14 @@ def stitched(rings: Ragged, owner: Indices) -> tuple[FloatArray, FloatArray, Rag
     first = np.flatnonzero(inner)
     start, end = rings.values[first], rings.values[first + 1]
     sides = Ragged(np.arange(len(first)), rings.offsets - np.arange(len(rings) + 1))
-    border = (np.mod(rings.values[:, 0], 360) == 180) | (np.abs(rings.values[:, 1]) == 90)
+    border = _on_meridian(rings.values, seam) | (np.abs(rings.values[:, 1]) == 90)
     if not border.any():
         return start, end, sides, owner
     # Rings that touch no seam stay as they are.
     touched = np.zeros(len(rings), dtype=bool)
     touched[rings.row[border]] = True
     opened, whole = sides.take(touched).values, sides.take(~touched)
-    a, b, belongs = _without_seams(start[opened], end[opened], owner[sides.row[opened]])
+    a, b, belongs = _without_seams(start[opened], end[opened], owner[sides.row[opened]], seam)
     loops = cycles(_followers(a, b, belongs))
     return (
         np.concatenate([start[whole.values], a]),
@@ -74,13 +76,19 @@ def stitched(rings: Ragged, owner: Indices) -> tuple[FloatArray, FloatArray, Rag
     )
 
 
-def _without_seams(a: FloatArray, b: FloatArray, owner: Indices) -> tuple[FloatArray, FloatArray, Indices]:
-    """Edges but those along a pole, and those along ±180° that run both ways."""
+def _on_meridian(places: FloatArray, seam: float) -> BoolArray:
+    return np.mod(places[:, 0], 360) == seam % 360
+
+
+def _without_seams(
+    a: FloatArray, b: FloatArray, owner: Indices, meridian: float
+) -> tuple[FloatArray, FloatArray, Indices]:
+    """Edges but those along a pole, and those along the meridian of the cut that run both ways."""
     pole = (np.abs(a[:, 1]) == 90) & (a[:, 1] == b[:, 1])
-    along = (np.mod(a[:, 0], 360) == 180) & (a[:, 0] == b[:, 0]) & ~pole
+    along = _on_meridian(a, meridian) & (a[:, 0] == b[:, 0]) & ~pole
     # Edges along the meridian end wherever another one begins, on either side of the map.
     seam = np.flatnonzero(along)
-    heights = np.unique(np.concatenate([p[np.mod(p[:, 0], 360) == 180, 1] for p in (a, b)]))
+    heights = np.unique(np.concatenate([p[_on_meridian(p, meridian), 1] for p in (a, b)]))
     low, high = np.minimum(a[seam, 1], b[seam, 1]), np.maximum(a[seam, 1], b[seam, 1])
     lowest = np.searchsorted(heights, low)
     steps = np.searchsorted(heights, high) - lowest
@@ -93,7 +101,7 @@ def _without_seams(a: FloatArray, b: FloatArray, owner: Indices) -> tuple[FloatA
     ends = np.stack([heights[keys[left, 1]], heights[keys[left, 1] + 1]], axis=1)
     ends = np.where((excess[left] > 0)[:, None], ends, ends[:, ::-1])
     real = ~(pole | along)
-    added = [np.stack([np.full(len(left), 180.0), ends[:, k]], axis=1) for k in (0, 1)]
+    added = [np.stack([np.full(len(left), meridian), ends[:, k]], axis=1) for k in (0, 1)]
     return (
         np.concatenate([a[real], added[0]]),
         np.concatenate([b[real], added[1]]),

@@ -15,7 +15,7 @@ import numpy as np
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.conformal.polylines import largest_scale
-from stereodel.constants import LONGEST_EDGE
+from stereodel.constants import LONGEST_EDGE, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -81,7 +81,7 @@ class Arcs:
         if lens.magnification == 1:
             return self.turned(lens.left.matrix @ lens.right.matrix)
         # Both apsides, each in the turn from `begin` on; those beyond `stop` are not on the arc.
-        _, _, phase = self.waves(lens.focus)
+        _, _, phase = self.waves(lens.right.matrix[2])  # the focus
         t = self.begin[:, None] + np.sort(np.mod(phase[:, None] + [0, np.pi] - self.begin[:, None], 2 * np.pi), axis=1)
         arc, which = np.nonzero((t > self.begin[:, None]) & (t < self.stop[:, None]))
         arcs = self.cut(arc, t[arc, which], self.points(arc, t[arc, which]))
@@ -149,10 +149,18 @@ def sides_of(lines: Ragged) -> tuple[Indices, Ragged]:
 
 
 def straight(
-    a: FloatArray, b: FloatArray, lens: MoebiusMap, tolerance: float, latitude: Latitude = "spherical"
+    a: FloatArray,
+    b: FloatArray,
+    lens: MoebiusMap,
+    tolerance: float,
+    latitude: Latitude = "spherical",
+    ends: tuple[FloatArray, FloatArray] | None = None,
 ) -> Arcs:
-    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within a tolerance of theirs, radii."""
-    p, q = lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude)
+    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within a tolerance of theirs, radii.
+
+    `ends` are their ends on the sphere, for callers that have them.
+    """
+    p, q = ends or (lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude))
     length, bend = measures_in_lonlat(a, b, p, q)
     # A parallel is a circle: followed exactly. At the poles it is a point. All others are cut in as many great circles
     # as keep their images within the tolerance, by the largest scale along them.
@@ -178,7 +186,11 @@ def straight(
 
 
 def unwrapped(lines: Ragged) -> Ragged:
-    """Lines of degrees whose longitude goes on where it jumps across ±180°, but for steps along a pole."""
+    """Lines of degrees whose longitude goes on where it jumps across ±180°, but for steps along a pole.
+
+    Where one jumps, longitudes are rounded to `WHOLE_TURNS`: a ring around the Earth then ends where it began, to the
+    last bit, a whole turn on.
+    """
     step = np.diff(lines.values, axis=0, prepend=lines.values[:1])
     step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
     polar = (np.abs(lines.values[:, 1]) == 90) & (step[:, 1] == 0)
@@ -189,7 +201,8 @@ def unwrapped(lines: Ragged) -> Ragged:
         return lines
     total = np.cumsum(jumps)
     shift = total - np.repeat(total[lines.offsets[:-1]], lines.sizes)
-    return Ragged(np.stack([lines.values[:, 0] + shift, lines.values[:, 1]], axis=1), lines.offsets)
+    lon = np.rint(lines.values[:, 0] / WHOLE_TURNS) * WHOLE_TURNS + shift
+    return Ragged(np.stack([lon, lines.values[:, 1]], axis=1), lines.offsets)
 
 
 def measures_in_lonlat(

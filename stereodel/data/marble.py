@@ -8,6 +8,7 @@ from functools import cache
 import numpy as np
 
 from stereodel._arrays import Pixels, locked
+from stereodel._extras import of_extra
 from stereodel.data import stored
 
 
@@ -31,7 +32,8 @@ def blue_marble() -> Pixels:
     >>> blue > 2 * red
     True
     """
-    from PIL import Image
+    with of_extra("draw"):
+        from PIL import Image
 
     with Image.open(io.BytesIO(stored.read("blue_marble"))) as picture:
         return locked(np.asarray(picture.convert("RGB")).copy())

@@ -76,10 +76,10 @@ def airports() -> Airports:
 
     Examples
     --------
-    >>> from stereodel import SphericalDelaunay, lonlat_to_xyz
+    >>> from stereodel import SphericalDelaunay
     >>> table = airports()
     >>> cells = SphericalDelaunay.from_lonlat(table.lonlat, latitude="geodetic")
-    >>> nearest = cells.nearest(lonlat_to_xyz((10.0, 48.4), latitude="geodetic"))
+    >>> nearest = cells.nearest(lonlat=(10.0, 48.4))
     >>> print(table.name[nearest], table.country[nearest], len(cells.duplicates))
     Erbach Airport DE 5
     """

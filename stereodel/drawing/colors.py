@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel._extras import of_extra
 
 Color = tuple[float, float, float, float]
 """Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
@@ -54,7 +55,8 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
         if not all(0 <= part <= 1 for part in (red, green, blue, opacity)):
             raise ValueError(f"{name} is {value!r}; red, green, blue and opacity must be in [0, 1]")
         return (red, green, blue, opacity)
-    from matplotlib.colors import to_rgba
+    with of_extra("draw"):
+        from matplotlib.colors import to_rgba
 
     try:
         red, green, blue, opacity = map(float, to_rgba(given))

@@ -68,7 +68,7 @@ def _plane(mesh: PlanarDelaunay | PlanarVoronoi, bounds: npt.ArrayLike | None) -
     box = frame_of(mesh.points, bounds)
     sketch = Sketch()
     if isinstance(mesh, PlanarVoronoi):
-        segments, _ = mesh.segments((box.left, box.right, box.bottom, box.top))
+        segments, _ = mesh.segments((box.left, box.bottom, box.right, box.top))
         sketch.add_segments(segments, name="voronoi")
     else:
         sketch.add_edges(mesh.points, mesh.edges, name="delaunay")

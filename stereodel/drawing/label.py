@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
-from typing import Literal
+from typing import Final, Literal
 
 import numpy as np
 
 from stereodel._arrays import FloatArray
+from stereodel._extras import of_extra
 from stereodel.drawing.page import Item, Label
+from stereodel.drawing.style import TYPE
 
-GAP = 1.0
+GAP: Final = 1.0
 """Least distance between labels, points."""
 
 
@@ -26,25 +28,25 @@ def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], 
     """Page items without labels that would cover a label before them or leave (left, right, bottom, top)."""
     low, high = points_per_unit * np.array(extent[::2]), points_per_unit * np.array(extent[1::2])
     kept: list[Item] = []
-    boxes: list[FloatArray] = []
+    boxes = np.zeros((0, 2, 2))
     for item in items:
         if isinstance(item, Label):
             box = label_box(item, points_per_unit)
-            off_page = (box[0] < low).any() or (box[1] > high).any()
-            if off_page or any((box[0] < other[1] + GAP).all() and (other[0] < box[1] + GAP).all() for other in boxes):
+            # Boxes meet where they do in both directions.
+            meets = (box[0] < boxes[:, 1] + GAP).all(axis=1) & (boxes[:, 0] < box[1] + GAP).all(axis=1)
+            if meets.any() or (box[0] < low).any() or (box[1] > high).any():
                 continue
-            boxes.append(box)
+            boxes = np.concatenate([boxes, box[None]])
         kept.append(item)
     return kept
 
 
 def label_box(label: Label, points_per_unit: float) -> FloatArray:
     """Lower left and upper right corner of a label that is not turned, in points, (2, 2)."""
-    from matplotlib import rc_context
-    from matplotlib.font_manager import FontProperties
-    from matplotlib.textpath import text_to_path
-
-    from stereodel.drawing.style import TYPE
+    with of_extra("draw"):
+        from matplotlib import rc_context
+        from matplotlib.font_manager import FontProperties
+        from matplotlib.textpath import text_to_path
 
     with rc_context({"mathtext.fontset": TYPE["mathtext.fontset"]}):
         font = FontProperties(family=TYPE["font.family"], size=label.size)

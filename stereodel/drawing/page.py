@@ -8,13 +8,16 @@ unit; `width` says how many points the extent is wide.
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, as_scalar
+from stereodel._arrays import BoolArray, FloatArray, Pixels, as_scalar
+from stereodel._extras import of_extra
 from stereodel.drawing.colors import Color
 
 Beziers = FloatArray
@@ -75,23 +78,6 @@ class Dots:
     color: Color
     rim: Color = (1.0, 1.0, 1.0, 1.0)
     rim_width: float = 0.0
-    name: str = ""
-
-
-@dataclass(frozen=True, eq=False)
-class Surface:
-    """A lit surface: a mesh with normals for OpenGL, its outline for paper.
-
-    `vertices` (n, 3) and `normals` (n, 3) are in view axes (right, up, toward the viewer), vertices in page units; only
-    faces turned to the viewer are given. `outline` bounds its image. The raster backend lights it, the vector backend
-    fills it flat.
-    """
-
-    vertices: FloatArray
-    normals: FloatArray
-    faces: npt.NDArray[np.int32]
-    outline: tuple[Beziers, ...]
-    color: Color
     name: str = ""
 
 
@@ -193,7 +179,7 @@ class Label:
     halo_color: Color = (1.0, 1.0, 1.0, 1.0)
 
 
-Item = Stroke | Polylines | Fill | Patch | Dots | Surface | Mosaic | Picture | Label
+Item = Stroke | Polylines | Fill | Patch | Dots | Mosaic | Picture | Label
 
 
 @dataclass(frozen=True, eq=False)
@@ -249,6 +235,104 @@ class Page:
         """The picture without its text, which is what pixel tests compare."""
         return replace(self, items=tuple(item for item in self.items if not isinstance(item, Label)))
 
+    def save(
+        self,
+        path: str | os.PathLike[str],
+        *,
+        size: int | None = None,
+        text: bool = True,
+        renderer: Literal["gl", "agg"] = "gl",
+        platform: str | None = None,
+    ) -> Path:
+        """Write the page as PNG, SVG or PDF, as the ending of `path` says.
+
+        Lines, dots and type are measured in points: more pixels show the same page finer. A poster with thinner lines
+        is a page with more points, ``dataclasses.replace(page, width=...)``.
+
+        Parameters
+        ----------
+        path : path-like
+            Written under a temporary name in the same folder first; an existing file is replaced.
+        size : int, optional
+            Width in pixels of a PNG, at most 65 535; by default that of print at 300 dpi, 2008 for 17 cm.
+        text : bool
+            Whether labels are drawn.
+        renderer : {"gl", "agg"}
+            What draws a PNG: OpenGL, or matplotlib, which needs no OpenGL, but does not light what is round and has no
+            mosaics.
+        platform : {"osmesa", "egl"}, optional
+            See `stereodel.render.gl`.
+
+        Returns
+        -------
+        Path
+            The file.
+
+        Raises
+        ------
+        ValueError
+            For another ending or renderer, and for a size that is out of range.
+        OSError
+            Where the file cannot be written; where there is no OpenGL, which a PNG needs, and cells in vector files.
+
+        Notes
+        -----
+        A PNG 16 384 pixels wide and high is drawn in less than a gigabyte; at once, its pixels alone would take that
+        much.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from stereodel.drawing import Scene, View
+        >>> page = Page((-1.1, 1.1, -1.1, 1.1), Scene().layout(View(0, 0)))
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     page.save(Path(folder, "ball.png"), size=50).stat().st_size > 1000
+        True
+        """
+        # Loaded on use, as matplotlib loads what draws its figures: all else of this room knows nothing of rendering.
+        with of_extra("render" if renderer == "gl" and Path(path).suffix.lower() == ".png" else "draw"):
+            from stereodel.render.save import save_page
+
+            save_page(self, path, size=size, text=text, renderer=renderer, platform=platform)
+        return Path(path)
+
+    def pixels(
+        self,
+        *,
+        size: int | None = None,
+        text: bool = True,
+        renderer: Literal["gl", "agg"] = "gl",
+        platform: str | None = None,
+    ) -> Pixels:
+        """Draw the page: what `save` writes as PNG, at once.
+
+        Parameters
+        ----------
+        size, text, renderer, platform
+            As for `save`.
+
+        Returns
+        -------
+        (height, width, 3) uint8 array
+            sRGB, rows from the top.
+
+        Raises
+        ------
+        ValueError
+            For another renderer, and for a size that is out of range.
+        stereodel.render.gl.OpenGLError
+            If there is no usable OpenGL.
+
+        Examples
+        --------
+        >>> Page((0.0, 2.0, 0.0, 1.0), background=(1.0, 0.0, 0.0, 1.0)).pixels(size=40)[0, 0].tolist()
+        [255, 0, 0]
+        """
+        with of_extra("render" if renderer == "gl" else "draw"):
+            from stereodel.render.save import draw_page
+
+            return draw_page(self, size=size, text=text, renderer=renderer, platform=platform)
+
     def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
         """Everything drawn as named arrays, for the golden tests: a number per thing that a reader could see change."""
         named: dict[str, npt.NDArray[np.generic]] = {
@@ -285,14 +369,6 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             }
         case Dots():
             return {"centers": item.centers, "style": np.array([item.radius, *item.color, *item.rim, item.rim_width])}
-        case Surface():
-            return {
-                "outline": np.concatenate(item.outline),
-                "vertices": item.vertices,
-                "normals": item.normals,
-                "faces": item.faces,
-                "style": np.array(item.color),
-            }
         case Mosaic():
             return {"outline": np.concatenate(item.outline), "corners": item.corners, "colors": item.colors}
         case Picture():

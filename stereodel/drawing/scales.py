@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
+from stereodel._extras import of_extra
 from stereodel.drawing.colors import Color, ColorLike, as_color
 from stereodel.drawing.page import Fill, Item, Label, Stroke
 from stereodel.drawing.style import BLACK, LABEL_SIZE
@@ -50,7 +51,8 @@ class ColorScale:
     log: bool = False
 
     def __post_init__(self) -> None:
-        from matplotlib import colormaps
+        with of_extra("draw"):
+            from matplotlib import colormaps
 
         if self.name not in colormaps:
             raise ValueError(f"name is {self.name!r}, which is not a colour map of matplotlib")
@@ -66,7 +68,8 @@ class ColorScale:
 
     def __call__(self, values: npt.ArrayLike) -> FloatArray:
         """Colours (..., 3), sRGB in [0, 1]."""
-        from matplotlib import colormaps
+        with of_extra("draw"):
+            from matplotlib import colormaps
 
         return np.asarray(colormaps[self.name](self.place(values)), dtype=np.float64)[..., :3]
 

@@ -26,7 +26,7 @@ from stereodel.drawing.scene_items import (
     SceneDots,
     SceneItem,
     SceneLabel,
-    SceneLine,
+    SceneLines,
     SceneRegion,
     SceneSheet,
 )
@@ -160,7 +160,7 @@ class Scene:
     ) -> None:
         """Draw curves of space, not necessarily on the ball."""
         drawn = styles.line(name, style).scaled(self.weight)
-        self._items += [SceneLine(curve, drawn, name, layer) for curve in curves]
+        self._items.append(SceneLines(tuple(curves), drawn, name, layer))
 
     def add_points(self, points: npt.ArrayLike, *, name: str = "sites", style: DotStyle | None = None) -> None:
         """Draw dots at points of the ball, given as directions (n, 3)."""
@@ -176,7 +176,7 @@ class Scene:
     def add_region(
         self, boundary: Iterable[SphereArc | CircleArc], *, name: str, color: ColorLike | None = None
     ) -> None:
-        """Tint the region to the left of each arc of a connected loop, counterclockwise as seen from outside."""
+        """Tint what lies on the left of a loop of arcs, as seen from outside: a region of any size and shape."""
         region = SphereRegion(tuple(_circle_arc(arc).scaled(self.radius, np.zeros(3)) for arc in boundary), self.radius)
         self._items.append(SceneRegion(region, styles.fill(name, color), name))
 
@@ -238,7 +238,7 @@ class Scene:
         view: View,
         *,
         extent: tuple[float, float, float, float] | None = None,
-        width: float = styles.PRINT_WIDTH,
+        width: float = Page.width,
         background: ColorLike = styles.WHITE,
     ) -> Page:
         """The picture of the scene from one side.

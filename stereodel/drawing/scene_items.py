@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from typing import Literal, Protocol
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel.constants import ON_BALL
 from stereodel.drawing import style as styles
 from stereodel.drawing.colors import Color
-from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Stroke, Surface
-from stereodel.drawing.regions import SphereRegion, limb, near_hemisphere
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Label, Stroke
+from stereodel.drawing.regions import SphereRegion, limb
 from stereodel.drawing.space_curves import Curve, Segment, page_path
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.visibility import TOWARD, Place, cut, lies_on_ball, place_of, split_by_ball
@@ -86,7 +85,7 @@ class Layout:
         placed: FloatArray = points[..., :2] * self.scale + np.array(self.origin)
         return placed
 
-    def path(self, curves: list[Curve]) -> Beziers:
+    def path(self, curves: Iterable[Curve]) -> Beziers:
         """Page path of connected curves in view axes about the ball's centre."""
         return page_path(curves, self.origin, self.scale)
 
@@ -94,9 +93,16 @@ class Layout:
         """Place of a point in view axes; without a ball all is in front."""
         return Place.FRONT if self.style == "none" else place_of(point, self.radius)
 
-    def split(self, curve: Curve) -> list[tuple[Curve, Place]]:
-        """A curve cut by the ball."""
-        return [(curve, Place.FRONT)] if self.style == "none" else split_by_ball(curve, self.radius)
+    @property
+    def light(self) -> Ball:
+        """That of the ball, for what lies on it."""
+        return Ball(self.origin, self.scale * self.radius)
+
+    def split(self, curves: Sequence[Curve]) -> list[list[tuple[Curve, Place]]]:
+        """Curves in view axes, each cut by the ball."""
+        if self.style == "none":
+            return [[(curve, Place.FRONT)] for curve in curves]
+        return split_by_ball(curves, self.radius)
 
     def beyond_sheets(self, point: FloatArray) -> Layer | None:
         """UNDER for a point below a sheet behind the ball, OVER for one on or above a sheet that covers the ball."""
@@ -115,32 +121,36 @@ class SceneItem(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class SceneLine:
-    """A curve drawn as a line."""
+class SceneLines:
+    """Curves drawn as lines of one style."""
 
-    curve: Curve
+    curves: tuple[Curve, ...]
     style: LineStyle
     name: str
     layer: Layer | None = None
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """Pieces in front as they are, pieces behind fainter, or not at all behind an opaque ball."""
-        curve = self.curve.moved(layout.matrix, layout.center)
-        on_ball = layout.style != "none" and lies_on_ball(curve, layout.radius)
-        for piece, place in layout.split(curve):
-            covered = place in (Place.BEHIND, Place.INSIDE)
-            if covered and layout.style == "solid":
-                continue
-            for part, beyond in self._by_sheets(piece, layout):
-                layer = _line_layer(place, on_ball) if beyond is None else beyond
-                layer = layer if self.layer is None or place is Place.BEHIND else self.layer
-                style = self.style.hidden if place is Place.BEHIND else self.style
-                yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
+        curves = [curve.moved(layout.matrix, layout.center) for curve in self.curves]
+        for curve, pieces in zip(curves, layout.split(curves), strict=True):
+            on_ball = layout.style != "none" and lies_on_ball(curve, layout.radius)
+            for piece, place in pieces:
+                if layout.style != "solid" or place not in (Place.BEHIND, Place.INSIDE):
+                    yield from self._piece(piece, place, layout, on_ball=on_ball)
+
+    def _piece(self, piece: Curve, place: Place, layout: Layout, *, on_ball: bool) -> Iterator[Laid]:
+        style = self.style.hidden if place is Place.BEHIND else self.style
+        for part, beyond in self._by_sheets(piece, layout):
+            layer = _line_layer(place, on_ball) if beyond is None else beyond
+            layer = layer if self.layer is None or place is Place.BEHIND else self.layer
+            yield layer, _stroke(layout.path([part]), style, self.name, closed=part.closed)
 
     def _by_sheets(self, curve: Curve, layout: Layout) -> list[tuple[Curve, Layer | None]]:
+        if not layout.sheets:
+            return [(curve, None)]
         slack = ON_BALL * layout.radius
         crossings = [curve.level_parameters(normal, level - slack) for normal, level, _ in layout.sheets]
-        return cut(curve, np.unique(np.concatenate([*crossings, np.zeros(0)])), layout.beyond_sheets)
+        return cut(curve, np.unique(np.concatenate(crossings)), layout.beyond_sheets)
 
 
 def _line_layer(place: Place, on_ball: bool) -> Layer:
@@ -193,13 +203,10 @@ class SceneRegion:
         region = self.region.turned(layout.matrix)
         near = region.visible_outline()
         if near:
-            vertices, faces = region.visible_mesh()
-            outline = tuple(layout.path(run) for run in near)
-            yield Layer.TINT, _surface(vertices, faces, outline, layout, self.color, self.name)
+            yield Layer.TINT, Fill(tuple(map(layout.path, near)), self.color, self.name, layout.light)
         far = region.far_side().visible_outline() if layout.style != "solid" else []
         if far:
-            faint = styles.fainter(self.color)
-            yield Layer.FAR_TINT, Fill(tuple(layout.path(run) for run in far), faint, self.name)
+            yield Layer.FAR_TINT, Fill(tuple(map(layout.path, far)), styles.fainter(self.color), self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,30 +252,16 @@ class SceneSheet:
 
 @dataclass(frozen=True, eq=False)
 class SceneBall:
-    """The ball itself: a lit surface and its outline."""
+    """The ball itself, lit, and its outline."""
 
     color: Color
     outline: LineStyle
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """Its near half, and the limb on top."""
-        vertices, faces = near_hemisphere(layout.radius)
         path = layout.path([limb(layout.radius)])
-        yield Layer.BALL, _surface(vertices, faces, (path,), layout, self.color, "ball")
+        yield Layer.BALL, Fill((path,), self.color, "ball", layout.light)
         yield Layer.LIMB, _stroke(path, self.outline, "limb", closed=True)
-
-
-def _surface(
-    vertices: FloatArray,
-    faces: npt.NDArray[np.int32],
-    outline: tuple[Beziers, ...],
-    layout: Layout,
-    color: Color,
-    name: str,
-) -> Surface:
-    x, y = layout.origin
-    placed = vertices * layout.scale + np.array([x, y, 0.0])
-    return Surface(placed, vertices / layout.radius, faces, outline, color, name)
 
 
 @dataclass(frozen=True, eq=False)

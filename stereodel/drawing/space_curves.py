@@ -25,7 +25,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_directions, as_vectors
-from stereodel.constants import UNIT_ROUNDOFF
+from stereodel.constants import ONE_HARMONIC, ROOT_ON_CIRCLE, SPARE_PIECE, TOUCHING_SLOPE, UNIT_ROUNDOFF
 from stereodel.drawing.page import Beziers
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import turned
@@ -189,7 +189,7 @@ class CircleArc:
 
     def beziers(self) -> FloatArray:
         """Cubics of at most 30° each, (k, 4, 3), within 3.8e-7 of the radius (see the module's notes)."""
-        pieces = max(1, int(np.ceil((self.stop - self.start) / LONGEST_PIECE_RAD - 1e-9)))
+        pieces = max(1, int(np.ceil((self.stop - self.start) / LONGEST_PIECE_RAD - SPARE_PIECE)))
         t = np.linspace(self.start, self.stop, pieces + 1)
         ends = self.sample(t)
         if self.closed:
@@ -222,6 +222,9 @@ class CircleArc:
         def form(a: FloatArray, b: FloatArray) -> float:
             return float(np.sum(weights * a * b))
 
+        # With ⟨a, b⟩ = Σ weightsᵢ·aᵢ·bᵢ the form ⟨x, x⟩ of x = c + cos t·u + sin t·v is a constant, ⟨c, c⟩ +
+        # (⟨u, u⟩ + ⟨v, v⟩)/2, a first harmonic, 2⟨c, u⟩ cos t + 2⟨c, v⟩ sin t, and a second one, from cos² t =
+        # (1 + cos 2t)/2 and so on. Each harmonic is twice the real part of a coefficient times eⁱᵗ or e²ⁱᵗ.
         c, u, v = self.center, self.u, self.v
         constant = form(c, c) + (form(u, u) + form(v, v)) / 2 - level
         first = complex(form(c, u), -form(c, v))
@@ -245,16 +248,20 @@ def trigonometric_roots(constant: float, first: complex, second: complex) -> lis
     as the function allows. A touching (double) root may be missed or come twice: it separates nothing.
     """
     scale = max(abs(constant), abs(first), abs(second))
-    if abs(second) <= 2.0**-50 * scale:
+    if abs(second) <= ONE_HARMONIC * scale:
         return linear_roots(constant, 2 * first.real, -2 * first.imag)
+    # Times z² the function is second·z⁴ + first·z³ + constant·z² + conj(first)·z + conj(second), as conj(z) = 1/z on
+    # the unit circle. Roots off the circle come in pairs z, 1/conj(z) and are of no use.
     roots = np.roots([second, first, constant, np.conj(first), np.conj(second)])
-    t = np.angle(roots[np.abs(np.abs(roots) - 1) < 1e-4])
+    t = np.angle(roots[np.abs(np.abs(roots) - 1) < ROOT_ON_CIRCLE])
+    # Newton's method on t, whose function is real, undoes what the eigenvalues of the companion matrix have lost.
     for _ in range(3):
         z = np.exp(1j * t)
         value = constant + 2 * (first * z + second * z**2).real
         slope = -2 * (first * z + 2 * second * z**2).imag
-        t = t - np.where(np.abs(slope) > 1e-6 * scale, value / np.where(slope == 0, 1, slope), 0)
-    return [float(angle) for angle in t]
+        steep = np.abs(slope) > TOUCHING_SLOPE * scale
+        t = t - np.divide(value, slope, out=np.zeros_like(t), where=steep)
+    return t.tolist()
 
 
 def _within(curve: Curve, parameters: Iterable[float], *, period: bool = False) -> FloatArray:

@@ -3,27 +3,37 @@
 Everything here is in view axes (right, up, toward the viewer) about the ball's centre. With ρ the distance of a point x
 from the line of sight through the centre, the ball of radius r covers x when ρ < r and x lies deeper than the near
 surface. The places can change only where |x| = r or ρ = r: for a segment two quadratic equations, for a circle one
-equation linear in cos t, sin t and one quartic; for a circle *on* the sphere, where |x| = r says nothing, depth = 0.
+equation linear in cos t, sin t and one quartic. Arcs of circles *on* the sphere, where |x| = r says nothing, are cut at
+the limb, all at once, by the engine of `stereodel.curves`; they stay arcs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from enum import Enum
 from itertools import pairwise
-from typing import TypeVar
+from typing import Final, TypeVar
 
 import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.constants import LIMB_DEPTH, ON_BALL
+from stereodel.curves.borders import Cap
+from stereodel.curves.clip import chains_of
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.trace import Arcs
 from stereodel.drawing.space_curves import CircleArc, Curve
+from stereodel.drawing.view import View
 
 K = TypeVar("K")
 
 TOWARD = np.array([0.0, 0.0, 1.0])
 ALL_AXES = np.array([1.0, 1.0, 1.0])
 PAGE_AXES = np.array([1.0, 1.0, 0.0])
+
+LIMB: Final = Cap(View(0.0, 0.0), ON_BALL)
+"""The edge of the near side of the unit sphere, for the engine of curves. In its own axes every view is the same."""
 
 
 class Place(Enum):
@@ -58,28 +68,106 @@ def place_of(point: FloatArray, radius: float) -> Place:
     return Place.FRONT if point[2] > 0 else Place.BEHIND
 
 
-def split_on_ball(curve: Curve, radius: float) -> list[tuple[Curve, Place]]:
-    """An arc on the sphere, cut at the limb; an arc along the limb counts as front."""
-    limb = -LIMB_DEPTH * radius
+@dataclass(frozen=True, eq=False)
+class Run:
+    """Arcs of a sphere, each from the end of the one before it, that are in sight from end to end, or out of it."""
 
-    def place(point: FloatArray) -> Place:
-        return Place.FRONT if point[2] >= limb else Place.BEHIND
+    arcs: list[CircleArc]
+    seen: bool
+    whole: bool
+    """Closed, and nowhere cut."""
+    row: int
+    """The line that it is a part of."""
 
-    return cut(curve, curve.level_parameters(TOWARD, limb), place)
+
+def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> list[Run]:
+    """Lines on a sphere about the origin, cut at the limb; what runs along it is in sight.
+
+    Parameters
+    ----------
+    curves : sequence of CircleArc
+        On the sphere.
+    lines : Ragged
+        Numbers of the curves of each line, in order: every curve in one line. Of a closed one the last ends where the
+        first begins.
+    radius : float
+        Of the sphere.
+    """
+    if not curves:
+        return []
+    pieces = LIMB.cut(_joined(_as_arcs(curves, radius), lines))
+    edge, begin, stop = (values.tolist() for values in (pieces.arcs.edge, pieces.arcs.begin, pieces.arcs.stop))
+    chains = chains_of(lines, pieces)
+    runs = []
+    for numbers, row, seen, whole in zip(chains.pieces, chains.row, chains.seen, chains.whole, strict=True):
+        arcs: list[CircleArc] = []
+        before = -1
+        for number in numbers.tolist():
+            if edge[number] == before:
+                # Of a circle that was cut, the piece up to its first point and the one from there are one arc.
+                arcs[-1] = arcs[-1].part(arcs[-1].start, stop[number] + 2 * np.pi)
+            elif stop[number] > begin[number]:
+                arcs.append(curves[edge[number]].part(begin[number], stop[number]))
+                before = edge[number]
+        if arcs:
+            runs.append(Run(arcs, bool(seen), bool(whole), int(row)))
+    return runs
 
 
-def split_by_ball(curve: Curve, radius: float) -> list[tuple[Curve, Place]]:
-    """A curve cut into pieces of one `Place` each, in order; a closed curve that needs no cut stays closed.
+def _as_arcs(curves: Sequence[CircleArc], radius: float) -> Arcs:
+    """Arcs of the sphere as the engine of curves has them, on the unit sphere."""
+    center, u, v = (
+        np.array([getattr(curve, name) for curve in curves]).reshape(-1, 3) / radius for name in ("center", "u", "v")
+    )
+    begin, stop = (np.array([getattr(curve, name) for curve in curves], dtype=np.float64) for name in ("start", "stop"))
+    axis = np.cross(u, v)
+    # The circle of a point has no axis of its own.
+    axis = np.where(axis.any(axis=1, keepdims=True), axis, center)
+    axis /= np.sqrt(np.sum(axis**2, axis=1, keepdims=True))
+    start, end = (center + np.cos(t)[:, None] * u + np.sin(t)[:, None] * v for t in (begin, stop))
+    return Arcs(start, end, axis, np.sum(center * axis, axis=1), u, begin, stop, np.arange(len(begin)))
+
+
+def _joined(arcs: Arcs, lines: Ragged) -> Arcs:
+    """The same arcs with ends that are the beginnings of those that follow them, where rounding alone is between.
+
+    The engine counts how often a ring is cut by the sides of its corners, which must have one side each.
+    """
+    after = lines.values[lines.following]
+    meets = np.sqrt(np.sum((arcs.end[lines.values] - arcs.start[after]) ** 2, axis=1)) <= ON_BALL
+    arcs.end[lines.values[meets]] = arcs.start[after[meets]]
+    return arcs
+
+
+def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Curve, Place]]]:
+    """Curves cut into pieces of one `Place` each, in order; a closed curve that needs no cut stays closed.
 
     Examples
     --------
     >>> from stereodel.drawing.space_curves import Segment
-    >>> ray = Segment.between([0, 0, 2], [0, 0, -3])
-    >>> [(piece.start, piece.stop, place.name) for piece, place in split_by_ball(ray, 1.0)]
+    >>> [pieces] = split_by_ball([Segment.between([0, 0, 2], [0, 0, -3])], 1.0)
+    >>> [(piece.start, piece.stop, place.name) for piece, place in pieces]
     [(0.0, 0.2, 'FRONT'), (0.2, 0.6, 'INSIDE'), (0.6, 1.0, 'BEHIND')]
     """
-    if lies_on_ball(curve, radius):
-        return split_on_ball(curve, radius)
+    split: list[list[tuple[Curve, Place]]] = []
+    on_ball: list[CircleArc] = []
+    numbers: list[int] = []
+    for number, curve in enumerate(curves):
+        if isinstance(curve, CircleArc) and lies_on_ball(curve, radius):
+            split.append([])
+            on_ball.append(curve)
+            numbers.append(number)
+        else:
+            split.append(_split_in_space(curve, radius))
+    each = np.arange(len(on_ball) + 1)
+    for run in cut_at_limb(on_ball, Ragged(each[:-1], each), radius):
+        split[numbers[run.row]] += [(arc, Place.FRONT if run.seen else Place.BEHIND) for arc in run.arcs]
+    return split
+
+
+def _split_in_space(curve: Curve, radius: float) -> list[tuple[Curve, Place]]:
+    # A place changes where the curve goes through the surface, x² + y² + z² = r², and where it passes through the
+    # cylinder of all that the limb covers or is covered by, x² + y² = r². What it is, the middle of each piece tells.
     surface = curve.quadric_parameters(ALL_AXES, radius**2)
     outline = curve.quadric_parameters(PAGE_AXES, radius**2)
     pieces = cut(curve, np.union1d(surface, outline), lambda point: place_of(point, radius))

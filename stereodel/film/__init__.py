@@ -1,8 +1,6 @@
-"""Films: many pages, drawn in several processes and written as one file."""
+"""Moving pictures: pages drawn in several processes and written as one file; ways to move over a globe."""
 
-from stereodel.film.animation import Animation
-from stereodel.film.film import Film
-from stereodel.film.formats import save_pictures
-from stereodel.film.workers import FrameError
+from stereodel.film.film import Film, FrameError
+from stereodel.film.shots import Flight, Morph, Spin, Stop
 
-__all__ = ["Animation", "Film", "FrameError", "save_pictures"]
+__all__ = ["Film", "Flight", "FrameError", "Morph", "Spin", "Stop"]

@@ -2,44 +2,63 @@
 
 from __future__ import annotations
 
+import inspect
 import os
-from collections.abc import Callable, Sequence
-from dataclasses import KW_ONLY, dataclass
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+from functools import partial
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Any, Final, Generic, TypeVar, cast
 
 import numpy as np
 
-from stereodel._arrays import as_count, as_scalar
+from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
+from stereodel._files import replacing
+from stereodel._threads import thread_count
+from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.page import Page
-from stereodel.film.formats import format_of
-from stereodel.film.kept_frames import KeptFrames, store_frame
-from stereodel.film.keys import frame_names
+from stereodel.drawing.style import WHITE
+from stereodel.film.frames import KeptFrames, frame_names, store_frame
+from stereodel.film.pool import Done, attempt, in_processes, refuse_in_import
 from stereodel.film.progress import counting
-from stereodel.film.reels import Pixels, Reel
-from stereodel.film.workers import draw_all, refuse_in_worker
-from stereodel.render.cores import usable_cores
+from stereodel.film.shots import GlobePages, Motion, Shot, sampled
+from stereodel.film.writers import Reel, format_of, frame_seconds
+from stereodel.globe.globe import Globe
+from stereodel.render.script import run_script
 from stereodel.render.sizes import LARGEST_SIZE
 
-Shot = TypeVar("Shot")
+T = TypeVar("T")
+
+FPS: Final = 25.0
+"""Frames a second where neither a rate nor times are given."""
+
+LIFETIME: Final = 32
+"""Frames that a process draws before another takes its place, so that what graphics libraries keep does not add up."""
+
+
+class FrameError(RuntimeError):
+    """A frame could not be drawn; the message has its number, and a note the traceback from where it was drawn."""
 
 
 @dataclass(frozen=True)
-class Film(Generic[Shot]):
-    """A moving picture of many frames: drawn in parallel, resumed where it was interrupted, written in any format.
+class Film(Generic[T]):
+    """A moving picture: drawn in parallel, resumed where it was interrupted, written in any format.
 
     Parameters
     ----------
     draw : callable
-        shot → `Page`, all of one extent. Frames are drawn in other processes, so it is a function of a module, an
-        instance of a class of a module, or a `functools.partial` of one.
+        shot → `Page`, or pixels, (h, w, 3) uint8; all of one extent or size. Frames are drawn in other processes, so it
+        is a function of a module, an instance of a class of a module, or a `functools.partial` of one.
     shots : sequence
         What each frame shows: the arguments of `draw`, which can be pickled too. Equal shots are drawn once; repeat one
         to hold it.
-    fps : float
-        Frames a second.
+    fps : float, optional
+        Frames a second; by default 25.
+    seconds : float or sequence of float, optional
+        How long every frame, or each of them, is shown; in place of `fps`.
     size : int
-        Width in pixels; the height is that of the pages.
+        Width in pixels; the height is that of the pages. Pixels keep the size that they have.
     text : bool
         Whether labels are drawn.
     platform : {"osmesa", "egl"}, optional
@@ -48,7 +67,8 @@ class Film(Generic[Shot]):
     Raises
     ------
     ValueError
-        For no shots, an `fps` that is not positive, or a `size` outside 1 to 20000.
+        For no shots, `fps` and `seconds` at once, those that are not positive or as many as the shots, or a `size`
+        outside 1 to 65535.
 
     Examples
     --------
@@ -57,14 +77,15 @@ class Film(Generic[Shot]):
     >>> def ball(x):
     ...     return Page((0.0, 4.0, 0.0, 2.0), (Dots(np.array([[x, 1.0]]), 40.0, (0.8, 0.1, 0.1, 1.0)),))
     >>> film = Film(ball, [1.0, 2.0, 3.0], fps=10, size=80)
-    >>> film.seconds, film.picture(1).shape
+    >>> round(film.duration, 9), film.picture(1).shape
     (0.3, (40, 80, 3))
     """
 
-    draw: Callable[[Shot], Page]
-    shots: Sequence[Shot]
+    draw: Callable[[T], Page | Pixels]
+    shots: Sequence[T]
     _: KW_ONLY
-    fps: float = 25.0
+    fps: float | None = None
+    seconds: float | Sequence[float] | None = None
     size: int = 1280
     text: bool = True
     platform: str | None = None
@@ -72,28 +93,118 @@ class Film(Generic[Shot]):
     def __post_init__(self) -> None:
         if len(self.shots) == 0:
             raise ValueError("shots is empty; give what at least one frame shows")
-        as_scalar(self.fps, "fps", low=0.0, open_low=True)
+        if self.fps is not None and self.seconds is not None:
+            raise ValueError("fps and seconds both say how long a frame is shown; give one of them")
         as_count(self.size, "size", high=LARGEST_SIZE)
+        self.times  # noqa: B018  # checks them
+
+    @classmethod
+    def of_globe(
+        cls,
+        globe: Globe,
+        motion: Motion,
+        *,
+        size: tuple[int, int] = (1280, 720),
+        fps: float = FPS,
+        text: bool = True,
+        background: ColorLike = WHITE,
+    ) -> Film[Shot]:
+        """A film of a globe along a motion; ``Film.of_globe(...).save("flight.mp4")`` draws it.
+
+        Parameters
+        ----------
+        globe : Globe
+        motion : Flight, Spin, Morph, or any object with `seconds` that maps a time to (lens, view)
+        size : (int, int)
+            Width and height in pixels; the globe is as large as they allow, in the middle.
+        fps : float
+            Frames a second.
+        text : bool
+            Whether labels are drawn.
+        background : color
+            Behind the globe.
+
+        Returns
+        -------
+        Film
+            Frame k shows the motion at the time k / fps, the last one before or at its end.
+
+        Raises
+        ------
+        ValueError
+            For a size that is not positive, or a motion or `fps` that gives no frame.
+
+        Examples
+        --------
+        >>> from stereodel.film import Flight, Stop
+        >>> globe = Globe()
+        >>> globe.add_coastlines(resolution="110m")
+        >>> trip = Flight([Stop((2.35, 48.86)), Stop((2.35, 48.86), 8.0)])
+        >>> film = Film.of_globe(globe, trip, size=(320, 180), fps=10)
+        >>> len(film), film.picture(0).shape
+        (41, (180, 320, 3))
+        """
+        width, height = (as_count(side, "size") for side in size)
+        rate = as_scalar(fps, "fps", low=0.0, open_low=True)
+        pages = GlobePages(globe, width, height, as_color(background, "background"))
+        return Film(pages, sampled(motion, rate), fps=rate, size=width, text=text)
+
+    @classmethod
+    def of_pictures(
+        cls, pictures: Reel, *, fps: float | None = None, seconds: float | Sequence[float] | None = None
+    ) -> Film[Pixels]:
+        """A film of pictures that there are already.
+
+        Parameters
+        ----------
+        pictures : sequence of (h, w, 3) uint8 arrays
+            sRGB, rows from the top, all of one size. Anything with a length and items by number will do: one picture
+            after the other is asked for (for a GIF some of them twice), and none is kept.
+        fps, seconds
+            As for `Film`.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> grays = [np.full((4, 6, 3), level, dtype=np.uint8) for level in (0, 128, 255)]
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     file = Film.of_pictures(grays, seconds=0.5).save(Path(folder, "grays.gif"), progress=False)
+        ...     print(file.name, file.read_bytes()[:6])
+        grays.gif b'GIF89a'
+        """
+        width = as_frame(pictures[0], "pictures[0]").shape[1] if len(pictures) else 1
+        return Film(_as_it_is, cast(Sequence[Pixels], pictures), fps=fps, seconds=seconds, size=width)
 
     def __len__(self) -> int:
         """The number of frames."""
         return len(self.shots)
 
     @property
-    def seconds(self) -> float:
-        """How long it takes to see it."""
-        return len(self.shots) / self.fps
+    def times(self) -> FloatArray:
+        """How long each frame is shown, (n,), seconds."""
+        if self.seconds is not None:
+            return frame_seconds(self.seconds, len(self))
+        rate = FPS if self.fps is None else as_scalar(self.fps, "fps", low=0.0, open_low=True)
+        return np.full(len(self), 1 / rate)
+
+    @property
+    def duration(self) -> float:
+        """How long it takes to see it, seconds."""
+        return float(self.times.sum())
 
     def page(self, number: int) -> Page:
-        """One frame as a page."""
-        return self.draw(self.shots[number])
+        """One frame as a page; a TypeError where `draw` gives pixels."""
+        drawn = self.draw(self.shots[number])
+        if not isinstance(drawn, Page):
+            raise TypeError(f"draw gives {type(drawn).__name__}, not a Page; picture({number}) is the frame as pixels")
+        return drawn
 
     def picture(self, number: int) -> Pixels:
         """One frame as pixels, (h, w, 3), drawn now."""
         return self._camera.picture(self.shots[number])
 
     @property
-    def _camera(self) -> _Camera[Shot]:
+    def _camera(self) -> _Camera[T]:
         return _Camera(self.draw, self.size, self.text, self.platform)
 
     def save(self, path: str | os.PathLike[str], *, jobs: int | None = None, progress: bool = True) -> Path:
@@ -122,46 +233,97 @@ class Film(Generic[Shot]):
         stereodel.film.FrameError
             If a frame cannot be drawn, with its number.
         ValueError, TypeError, ImportError
-            Before anything is drawn: if the ending is another one, the format cannot hold the frames (see
-            `save_pictures`), `draw` or a shot cannot be pickled, or ffmpeg is missing.
+            Before anything is drawn: if the ending is another one, the format cannot hold the frames, `draw` or a shot
+            cannot be pickled, or the library that encodes is missing, which comes with
+            ``pip install 'stereodel[film]'``.
         OSError
             If the file or the folder cannot be written.
+
+        Notes
+        -----
+        A GIF has 255 colours, chosen from frames spread over the whole film, and keeps times in hundredths of a second,
+        a WebP in thousandths: the sum of the first n times is the best there is for every n. An APNG is lossless; WebP
+        and MP4 are not. An MP4 has an even number of rows and columns: the last one is repeated where a picture's is
+        odd.
         """
-        refuse_in_worker()
-        target = Path(path)
+        refuse_in_import()
+        target, times = Path(path), self.times
         kind = format_of(target)
-        seconds = np.full(len(self), 1 / self.fps)
-        kind.check(target.name, (self.size,), seconds)
-        processes = usable_cores() if jobs is None else as_count(jobs, "jobs")
+        if self.draw is _as_it_is:  # there already: neither drawn nor kept
+            kind.check(target.name, self.picture(0).shape[:2], times)
+            with replacing(target) as temporary, counting("writing", len(self), shown=progress) as count:
+                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times)
+            return target
+        kind.check(target.name, (self.size,), times)
+        processes = thread_count(-1, 0) if jobs is None else as_count(jobs, "jobs")
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
         missing = kept.missing()
         with counting("drawing", len(missing), shown=progress) as count:
-            for _ in draw_all(self._camera, [(n, self.shots[n], kept.path(n)) for n in missing], processes):
+            for number, done in self._drawn([(self.shots[n], kept.path(n)) for n in missing], processes):
+                if done.error:
+                    error = FrameError(f"frame {missing[number]}: {done.error}; what was finished is kept")
+                    error.add_note(done.trace)
+                    raise error
                 count()
         whole = kept.folder / target.name
         with counting("writing", len(self), shown=progress) as count:
-            kind.write(_Counted(kept, count), whole, seconds)
+            kind.write(_Counted(kept, count), whole, times)
         os.replace(whole, target)
         kept.remove()
         return target
 
+    def _drawn(self, tasks: Sequence[tuple[T, Path]], processes: int) -> Iterator[tuple[int, Done]]:
+        """Store the frames of shots; the number of each task and what became of it, as they are done."""
+        if min(processes, len(tasks)) <= 1:
+            return ((number, attempt(self._camera, task)) for number, task in enumerate(tasks))
+        return in_processes(self._camera, tasks, jobs=processes, lifetime=LIFETIME)
+
+    def main(self, argv: Sequence[str] | None = None) -> None:
+        """Run as a script: write a GIF with the script's name, say where; what goes wrong becomes a message.
+
+        The script is the file that defines `draw`. Its options are the folder to write to, by default ``out`` beside
+        the script's own, the width, and whether labels are drawn.
+        """
+        draw = self.draw.func if isinstance(self.draw, partial) else self.draw
+        script = _Script(self, Path(inspect.getfile(draw)).stem)
+        run_script(script, argv, source=draw, kind="a looping GIF", usual_size=f"{self.size}")
+
 
 @dataclass(frozen=True)
-class _Camera(Generic[Shot]):
+class _Camera(Generic[T]):
     """What draws a frame, in whichever process."""
 
-    draw: Callable[[Shot], Page]
+    draw: Callable[[T], Page | Pixels]
     size: int
     text: bool
     platform: str | None
 
-    def picture(self, shot: Shot) -> Pixels:
-        from stereodel.render.raster import render
+    def picture(self, shot: T) -> Pixels:
+        drawn = self.draw(shot)
+        if not isinstance(drawn, Page):
+            return as_frame(drawn, "a picture")
+        return drawn.pixels(size=self.size, text=self.text, platform=self.platform)
 
-        return render(self.draw(shot), size=self.size, text=self.text, platform=self.platform)
-
-    def __call__(self, shot: Shot, path: Path) -> None:
+    def __call__(self, task: tuple[T, Path]) -> None:
+        shot, path = task
         store_frame(self.picture(shot), path)
+
+
+@dataclass(frozen=True)
+class _Script(Generic[T]):
+    """A film as what a script draws."""
+
+    film: Film[T]
+    name: str
+
+    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
+        """Write NAME.gif into a folder, which is made when it is missing."""
+        begun = time.perf_counter()
+        folder = Path(out)
+        folder.mkdir(parents=True, exist_ok=True)
+        film = replace(self.film, size=self.film.size if size is None else size, text=text)
+        file = film.save(folder / f"{self.name}.gif", progress=False)
+        return {"files": [file.name], "seconds": time.perf_counter() - begun}
 
 
 class _Counted:
@@ -178,3 +340,7 @@ class _Counted:
             self._next += 1
             self._count()
         return self._reel[number]
+
+
+def _as_it_is(picture: Pixels) -> Pixels:
+    return picture

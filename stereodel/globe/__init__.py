@@ -1,9 +1,7 @@
 """Globes that bend: maps of the sphere in layers, through a conformal lens, as balls and flat maps."""
 
-from stereodel.globe.films import film
-from stereodel.globe.flights import Flight, Morph, Spin, Stop
 from stereodel.globe.globe import Globe
 from stereodel.globe.pages import Panel, hemispheres, panels
 from stereodel.globe.raster import Raster
 
-__all__ = ["Flight", "Globe", "Morph", "Panel", "Raster", "Spin", "Stop", "film", "hemispheres", "panels"]
+__all__ = ["Globe", "Panel", "Raster", "hemispheres", "panels"]

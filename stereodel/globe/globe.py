@@ -27,7 +27,6 @@ from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.polygons import Polygons, Rings
 from stereodel.globe.raster import Raster
-from stereodel.render.save import save_page
 from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
@@ -58,7 +57,7 @@ class Globe:
     >>> globe.add_graticule(30)
     >>> page = globe.page(fisheye((2.35, 48.86), magnification=20.0))
     >>> [type(item).__name__ for item in page.items]
-    ['Surface', 'Patch', 'Polylines', 'Stroke']
+    ['Fill', 'Patch', 'Polylines', 'Stroke']
     """
 
     def __init__(
@@ -376,7 +375,7 @@ class Globe:
         """
         pixels = as_count(size, "size", high=LARGEST_SIZE)
         page = self.page(lens, view, width=width, tolerance=min(0.02, 0.2 * width / pixels))
-        return save_page(page, path, size=pixels)
+        return page.save(path, size=pixels)
 
     def _xyz(self, places: npt.ArrayLike, name: str) -> FloatArray:
         """Unit vectors of places in degrees, (n, 2), or of directions, (n, 3); one place may come alone."""

@@ -10,6 +10,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
+from stereodel._extras import of_extra
 from stereodel.constants import MOST_TEXELS
 
 Pixels = npt.NDArray[np.uint8]
@@ -31,7 +32,8 @@ def read_image(path: str | os.PathLike[str]) -> Pixels:
     ValueError
         When it is no picture, has more than `MOST_TEXELS` pixels, is damaged, or holds floating-point numbers.
     """
-    from PIL import Image, UnidentifiedImageError
+    with of_extra("draw"):
+        from PIL import Image, UnidentifiedImageError
 
     name = os.fspath(path)
     # Pillow warns of half of what it refuses, which is more than our own limit.

@@ -11,8 +11,7 @@ import numpy as np
 from stereodel._arrays import BoolArray, FloatArray
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.colors import Color
-from stereodel.drawing.page import Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
-from stereodel.drawing.regions import near_hemisphere
+from stereodel.drawing.page import Ball, Dots, Fill, Item, Label, Mosaic, Patch, Picture, Polylines, Stroke
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
@@ -39,13 +38,9 @@ class Ground:
     role: str = "ball"
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """A lit half of the ball, or a flat disc."""
-        if not chart.view.round:
-            yield Fill(chart.outline, self.color, self.role)
-            return
-        vertices, faces = near_hemisphere(1.0)
-        placed = vertices * chart.scale + np.array([*chart.at, 0.0])
-        yield Surface(placed, vertices, faces, chart.outline, self.color, self.role)
+        """The whole disc; that of a ball is lit."""
+        ball = Ball(chart.at, chart.scale) if chart.view.round else None
+        yield Fill(chart.outline, self.color, self.role, ball)
 
 
 @dataclass(frozen=True)

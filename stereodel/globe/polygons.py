@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_lonlat
+from stereodel._extras import of_extra
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereMesh
 from stereodel.sphere.latitudes import Latitude
@@ -99,7 +100,8 @@ def _unwrapped(ring: FloatArray) -> FloatArray:
 
 def _ears(points: FloatArray, sizes: list[int]) -> npt.NDArray[np.intp]:
     """Triangles of a polygon in the plane, counterclockwise."""
-    from mapbox_earcut import triangulate_float64
+    with of_extra("draw"):
+        from mapbox_earcut import triangulate_float64
 
     found = triangulate_float64(np.ascontiguousarray(points), np.cumsum(sizes).astype(np.uint32))
     faces = found.reshape(-1, 3).astype(np.intp)

@@ -8,7 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, as_levels, as_values, read_only
-from stereodel.interpolation.sites import Places, one_value_a_place
+from stereodel._docs import shared
+from stereodel.interpolation.sites import FAMILY, Places, one_value_a_place
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import as_told
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles
 
 
@@ -26,6 +29,13 @@ class Contour:
     closed : bool
         Whether it is a ring; then the last of the points is the first again. Otherwise it ends at the hull, or beside a
         value that is NaN.
+    latitude : str, optional
+        The kind of latitude by which the points of the triangulation were given.
+
+    Attributes
+    ----------
+    lonlat : (k, 2) array
+        `points` in degrees, of that latitude.
 
     Examples
     --------
@@ -36,6 +46,7 @@ class Contour:
     level: float
     points: FloatArray
     closed: bool
+    latitude: Latitude | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "points", read_only(self.points))
@@ -43,20 +54,25 @@ class Contour:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Contour):
             return NotImplemented
-        same = self.level == other.level and self.closed == other.closed
-        return same and np.array_equal(self.points, other.points)
+        mine, others = ((each.level, each.closed, each.latitude) for each in (self, other))
+        return mine == others and np.array_equal(self.points, other.points)
 
     def __hash__(self) -> int:
-        return hash((self.level, self.closed, self.points.tobytes()))
+        return hash((self.level, self.closed, self.latitude, self.points.tobytes()))
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """Longitude and latitude of `points`, (k, 2) in degrees, if the triangulation is one of such points."""
+        return as_told(self.points, self.latitude)
 
 
+@shared(**FAMILY)
 def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, levels: npt.ArrayLike) -> list[Contour]:
     """Contours of the function that is linear in each triangle, `LinearInterpolator`.
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-        Points of the plane, directions, or a triangulation of them.
+    {sites}
     values : (n,) array_like
         A number for each point; triangles with a NaN are left out.
     levels : float or (l,) array_like
@@ -65,7 +81,7 @@ def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, level
     Returns
     -------
     list of Contour
-        Level after level in the order given.
+        Level after level in the order given; with `lonlat`, if the triangulation was made from longitude and latitude.
 
     Raises
     ------
@@ -102,6 +118,7 @@ class _Network:
 
     def __init__(self, triangulation: Triangulation, values: FloatArray) -> None:
         self._places = Places(triangulation.points)
+        self._latitude = triangulation.latitude
         self._values = values
         self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors
         self._inside: BoolArray = open_triangles(triangulation) & ~np.isnan(values[self._simplices]).any(axis=1)
@@ -135,13 +152,12 @@ class _Network:
         points = start + fraction[:, None] * self._places.minus(low, self._places, high)
         if self._places.curved:
             points = np.where(fraction[:, None] > 0, points / np.sqrt((points**2).sum(axis=1, keepdims=True)), start)
-        return np.asarray(points)
+        return points
 
-    @staticmethod
-    def _piece(level: float, chain: list[int], closed: bool, ins: FloatArray, outs: FloatArray) -> Contour | None:
+    def _piece(self, level: float, chain: list[int], closed: bool, ins: FloatArray, outs: FloatArray) -> Contour | None:
         points = np.concatenate([ins[chain], outs[chain[-1:]]])
         points = points[np.concatenate([[True], (points[1:] != points[:-1]).any(axis=1)])]
-        return Contour(level, points, closed) if len(points) > 1 else None
+        return Contour(level, points, closed, self._latitude) if len(points) > 1 else None
 
 
 def chains(following: AnyIndices) -> list[tuple[list[int], bool]]:

@@ -6,24 +6,24 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray
+from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.interpolation.rings import rings_in_blocks
-from stereodel.interpolation.sites import Places, as_site_values
+from stereodel.interpolation.sites import FAMILY, Places, as_site_values
 from stereodel.interpolation.triangles import cross3, dot, lengths
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 _UNKNOWNS = 5
 
 
+@shared(**FAMILY)
 def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> FloatArray:
     """Gradients at the points of a function known at these points alone.
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-        Points of the plane, directions, or a triangulation of them.
-    values : (n, ...) array_like
-        A number or an array of numbers for each point; NaN where it is not known.
+    {sites}
+    {values}
 
     Returns
     -------
@@ -33,8 +33,7 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
 
     Raises
     ------
-    ValueError, TypeError
-        For points as the triangulation does; for values that are infinite, no real numbers, or not one for each point.
+    {raises}
 
     Notes
     -----
@@ -86,11 +85,13 @@ def _fit(sites: Places, values: FloatArray, block: AnyIndices, owners: AnyIndice
     gradients = np.full((len(block), axes.shape[2], values.shape[1]), np.nan)
     if len(owners) == 0:
         return gradients
+    # Pairs are sorted by owner: sums over an owner's neighbours run from its start to the next.
     starts = np.flatnonzero(np.diff(owners, prepend=-1))
     fitted = owners[starts]
     columns, weights, unit = _columns(sites, block, owners, others, axes, starts)
     rises = (values[others] - values[block[owners]]).T * weights
     slopes = _solve(*_normal_equations(columns, np.ascontiguousarray(rises), starts))[:, :2]
+    # The first two unknowns are the slopes along the axes, per unit of length of each point.
     with np.errstate(over="ignore", invalid="ignore"):
         gradients[fitted] = np.einsum("bij,bik->bjk", axes[fitted], slopes / unit[:, None, None])
     return gradients
@@ -122,8 +123,10 @@ def _columns(
     unit = _third_least(size, owners, starts)
     of_pair = np.repeat(unit, counts)
     longer = np.maximum(size, of_pair)
+    # (1 − r/R)², R a tenth beyond the farthest: the weight but for its 1/r², for which (u/max(u, r))² stands below.
     share = (1.0 - size / np.repeat(1.1 * np.maximum.reduceat(size, starts), counts)) ** 2
-    nearer = of_pair / longer  # 1/t
+    # Coordinates along the axes of the owner, of d over max(u, r).
+    nearer = of_pair / longer
     xi, eta = np.einsum("pij,pj->ip", axes[owners], differences / longer[:, None])
     r = size / longer
     columns = np.stack([xi * nearer, eta * nearer, r * r, xi * xi - eta * eta, 2.0 * xi * eta])
@@ -132,11 +135,12 @@ def _columns(
 
 def _third_least(size: FloatArray, owners: AnyIndices, starts: AnyIndices) -> FloatArray:
     """Of the lengths of each owner, equal ones counted each; the largest if there are fewer than three."""
+    # Twice the least of what remains is put aside, one of them where several are equal; the least of the rest is third.
     rest, counts = size.copy(), np.diff(starts, append=len(owners))
     for _ in range(2):
         least = np.flatnonzero(rest == np.repeat(np.minimum.reduceat(rest, starts), counts))
         rest[least[np.flatnonzero(np.diff(owners[least], prepend=-1))]] = np.inf
-    return np.asarray(np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts)))
+    return np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts))
 
 
 def _axes(sites: Places, block: AnyIndices) -> FloatArray:

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_directions, as_vectors, locked
+from stereodel._docs import shared
 from stereodel.interpolation.sites import Places, as_site_values
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import LONLAT, as_asked
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 BLOCK = 4096
@@ -25,6 +29,8 @@ class Interpolator(ABC):
         Of the points; a copy, which later changes of the given one do not reach.
     values : (n, ...) array
         As used, read-only: equal points have the mean of their values.
+    latitude : str or None
+        The kind of latitude by which the points were given (`from_lonlat`).
     """
 
     triangulation: Triangulation
@@ -41,13 +47,56 @@ class Interpolator(ABC):
         self._sites = Places(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
-    def __call__(self, queries: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
+    @classmethod
+    @shared(**LONLAT)
+    def from_lonlat(
+        cls, lonlat: npt.ArrayLike, values: npt.ArrayLike, *, latitude: Latitude = "spherical", **options: Any
+    ) -> Self:
+        """From values at points given by longitude and latitude; queries then speak them too.
+
+        Parameters
+        ----------
+        {lonlat}
+        values : (n, ...) array_like
+            As for the constructor.
+        {latitude}
+        **options
+            As for the constructor.
+
+        Raises
+        ------
+        {lonlat_raises}
+
+        Examples
+        --------
+        >>> from stereodel.interpolation import LinearInterpolator
+        >>> lonlat, celsius = [(10.0, 48.4), (2.3, 48.9), (12.5, 41.9)], [8.1, 11.4, 15.9]
+        >>> temperature = LinearInterpolator.from_lonlat(lonlat, celsius, latitude="geodetic")
+        >>> round(float(temperature(lonlat=(9.2, 45.5))), 2)
+        12.8
+        """
+        return cls(as_triangulation(None, lonlat=lonlat, latitude=latitude), values, **options)
+
+    @property
+    def latitude(self) -> Latitude | None:
+        """The kind of latitude by which the points were given, None if they were not given by one."""
+        return self.triangulation.latitude
+
+    @shared(**LONLAT)
+    def __call__(
+        self,
+        queries: npt.ArrayLike | None = None,
+        *,
+        lonlat: npt.ArrayLike | None = None,
+        workers: int | None = None,
+    ) -> FloatArray:
         """Interpolated values.
 
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
             Points of the plane, or directions.
+        {asked}
         workers : int, optional
             Threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
 
@@ -59,39 +108,50 @@ class Interpolator(ABC):
         Raises
         ------
         ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, or another last axis.
+            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
+            points were not given by longitude and latitude.
         """
-        array, flat = self._as_queries(queries)
+        array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = self._evaluate(flat, workers)
         return result.reshape(array.shape[:-1] + self._value_shape)
 
-    def gradient(self, queries: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
+    def gradient(
+        self,
+        queries: npt.ArrayLike | None = None,
+        *,
+        lonlat: npt.ArrayLike | None = None,
+        workers: int | None = None,
+    ) -> FloatArray:
         """Gradients of the interpolated function, per unit of length of the plane or per radian.
 
         Parameters
         ----------
-        queries, workers
+        queries, lonlat, workers
             As for a call.
 
         Returns
         -------
         array of the leading shape, then the shape of one value, then 2 or 3
-            Last axis: a vector of the plane, or a tangent vector of the unit sphere at the query. NaN as for a call.
+            Last axis: a vector of the plane, or a tangent vector of the unit sphere at the query, (x, y, z), for
+            `lonlat` too. NaN as for a call.
 
         Raises
         ------
         ValueError, TypeError
             As a call does.
         """
-        array, flat = self._as_queries(queries)
+        array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = np.moveaxis(self._evaluate_gradient(flat, workers), 1, 2)
         return result.reshape(array.shape[:-1] + self._value_shape + array.shape[-1:])
 
-    def _as_queries(self, queries: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        dimension = self.triangulation.points.shape[1]
-        array = as_directions(queries, "queries") if dimension == 3 else as_vectors(queries, 2, "queries")
+    def _as_queries(self, queries: npt.ArrayLike | None, lonlat: npt.ArrayLike | None) -> tuple[FloatArray, FloatArray]:
+        given, dimension = as_asked(queries, lonlat, self.latitude), self.triangulation.points.shape[1]
+        if dimension == 3:
+            array = as_directions(given, "queries", instead="for longitude and latitude write lonlat=…")
+        else:
+            array = as_vectors(given, 2, "queries", instead="the points of this function are of the plane")
         return array, array.reshape(-1, dimension)
 
     @abstractmethod
@@ -105,7 +165,7 @@ class Interpolator(ABC):
     def _of_nearest(self, queries: FloatArray, workers: int | None) -> FloatArray:
         if len(self._values) == 0:
             return np.full((len(queries), self._values.shape[1]), np.nan)
-        return np.asarray(self._values[self.triangulation.nearest(queries, workers=workers)])
+        return self._values[self.triangulation.nearest(queries, workers=workers)]
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({self.triangulation!r}, values {self.values.shape})"

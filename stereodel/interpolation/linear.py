@@ -5,32 +5,29 @@ from __future__ import annotations
 import numpy as np
 
 from stereodel._arrays import AnyIndices, FloatArray
+from stereodel._docs import shared
 from stereodel.interpolation.interpolator import TriangleInterpolator
+from stereodel.interpolation.sites import FAMILY
 from stereodel.interpolation.triangles import Holders
 
 
+@shared(**FAMILY)
 class LinearInterpolator(TriangleInterpolator):
     """Linear in each triangle, continuous over all of them.
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-        Points of the plane, directions, or a triangulation of them.
-    values : (n, ...) array_like
-        A number or an array of numbers for each point; NaN where it is not known.
-    extrapolate : "nearest", optional
-        The value of the nearest point where there is no triangle, with gradient zero. Without it, NaN.
+    {points}
+    {values}
+    {extrapolate}
 
     Attributes
     ----------
-    triangulation : PlanarDelaunay or SphericalDelaunay
-    values : (n, ...) array
-        As used: equal points have the mean of their values.
+    {attributes}
 
     Raises
     ------
-    ValueError, TypeError
-        For points as the triangulation does; for values that are infinite, no real numbers, or not one for each point.
+    {raises}
 
     Notes
     -----
@@ -68,7 +65,7 @@ class LinearInterpolator(TriangleInterpolator):
         values = self._values[corners]
         # From the heaviest corner: at a point the value is met to the last bit.
         first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
-        return np.asarray(first[:, 0] + np.einsum("mi,mik->mk", weights, values - first))
+        return first[:, 0] + np.einsum("mi,mik->mk", weights, values - first)
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         return Holders(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])

@@ -3,38 +3,33 @@
 from __future__ import annotations
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Indices
+from stereodel._docs import shared
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.sites import Places
+from stereodel.interpolation.sites import FAMILY, Places
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.triangulation.dispatch import threads_of
 
 
+@shared(**FAMILY)
 class NaturalNeighborInterpolator(Interpolator):
     """Each point counts with the area that a Voronoi cell around the query would take from its own (Sibson).
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-        Points of the plane, directions, or a triangulation of them.
-    values : (n, ...) array_like
-        A number or an array of numbers for each point; NaN where it is not known.
-    extrapolate : "nearest", optional
-        The value of the nearest point where there is no triangle, with gradient zero. Without it, NaN.
+    {points}
+    {values}
+    {extrapolate}
 
     Attributes
     ----------
-    triangulation : PlanarDelaunay or SphericalDelaunay
-    values : (n, ...) array
-        As used: equal points have the mean of their values.
+    {attributes}
 
     Raises
     ------
-    ValueError, TypeError
-        For points as the triangulation does; for values that are infinite, no real numbers, or not one for each point.
+    {raises}
 
     Notes
     -----
@@ -75,7 +70,7 @@ class NaturalNeighborInterpolator(Interpolator):
             result[self._outside(queries, workers)] = 0.0
         return result
 
-    def _outside(self, queries: FloatArray, workers: int | None) -> npt.NDArray[np.intp]:
+    def _outside(self, queries: FloatArray, workers: int | None) -> Indices:
         return np.flatnonzero(np.asarray(self.triangulation.find_simplex(queries, workers=workers)) < 0)
 
     def _ask(self, queries: FloatArray, workers: int | None, *, gradients: bool) -> FloatArray:

@@ -6,30 +6,29 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
+from stereodel._docs import shared
 from stereodel.interpolation.interpolator import Interpolator
+from stereodel.interpolation.sites import FAMILY
 from stereodel.triangulation.dispatch import Triangulation
 
 
+@shared(**FAMILY)
 class NearestInterpolator(Interpolator):
     """The value of the nearest point, exactly the nearest: constant on Voronoi cells.
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-        Points of the plane, directions, or a triangulation of them.
+    {points}
     values : (n, ...) array_like
         A number or an array of numbers for each point; NaN is a value like others.
 
     Attributes
     ----------
-    triangulation : PlanarDelaunay or SphericalDelaunay
-    values : (n, ...) array
-        As used: equal points have the mean of their values.
+    {attributes}
 
     Raises
     ------
-    ValueError, TypeError
-        For points as the triangulation does; for values that are infinite, no real numbers, or not one for each point.
+    {raises}
 
     Notes
     -----

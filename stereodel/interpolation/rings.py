@@ -18,6 +18,7 @@ class Stars:
     """The points that an edge joins to each point, as flat arrays."""
 
     def __init__(self, edges: AnyIndices, size: int) -> None:
+        # Every edge in both directions, sorted by its first end: the row of a point is a range of second ends.
         both = np.concatenate([edges, edges[:, ::-1]])
         self._ends = both[np.argsort(both[:, 0], kind="stable"), 1].astype(np.int64)
         self._counts = np.bincount(both[:, 0], minlength=size)
@@ -27,6 +28,7 @@ class Stars:
         """Pairs of a place in `points` and a point joined to the point there."""
         counts = self._counts[points]
         owners = np.repeat(np.arange(len(points)), counts)
+        # 0, 1, … within the row of each owner.
         steps = np.arange(len(owners)) - np.repeat(np.cumsum(counts) - counts, counts)
         return owners, self._ends[self._starts[points][owners] + steps]
 
@@ -49,6 +51,7 @@ def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, 
         points = used[first : first + BLOCK]
         owners, ring = stars.around(points)
         places, second = stars.around(ring)
+        # A pair is one number, owner · size + neighbour, so that sorting finds what both rings have twice.
         pairs = np.sort(np.concatenate([owners * size + ring, owners[places] * size + second]))
         owners, others = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], size)
         apart = others != points[owners]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 import numpy.typing as npt
 
@@ -9,6 +11,39 @@ from stereodel._arrays import AnyIndices, FloatArray, as_values
 from stereodel._double_double import DoubleDouble, unit
 from stereodel.sphere.chunks import ROWS
 from stereodel.triangulation.dispatch import Triangulation
+
+FAMILY: Final = {
+    "points": """
+        points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
+            Points of the plane, directions, or a triangulation of them. Longitude and latitude come by `from_lonlat`.
+        """,
+    "sites": """
+        points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
+            Points of the plane, directions, or a triangulation of them: for longitude and latitude that of
+            `SphericalDelaunay.from_lonlat`.
+        """,
+    "values": """
+        values : (n, ...) array_like
+            A number or an array of numbers for each point; NaN where it is not known.
+        """,
+    "extrapolate": """
+        extrapolate : "nearest", optional
+            The value of the nearest point where there is no triangle, with gradient zero. Without it, NaN.
+        """,
+    "attributes": """
+        triangulation : PlanarDelaunay or SphericalDelaunay
+        values : (n, ...) array
+            As used: equal points have the mean of their values.
+        latitude : str or None
+            The kind of latitude by which the points were given.
+        """,
+    "raises": """
+        ValueError, TypeError
+            For points as the triangulation does; for values that are infinite, no real numbers, or not one for each
+            point.
+        """,
+}
+"""What the docstrings of this package have in common."""
 
 
 def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:

@@ -6,34 +6,31 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_values, locked
+from stereodel._docs import shared
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import TriangleInterpolator
 from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
-from stereodel.interpolation.sites import one_value_a_place
+from stereodel.interpolation.sites import FAMILY, one_value_a_place
 from stereodel.interpolation.triangles import Holders, dot
 from stereodel.triangulation.dispatch import Triangulation
 
 
+@shared(**FAMILY)
 class SmoothInterpolator(TriangleInterpolator):
     """Smooth: the function and its gradient are continuous, by Renka's method on the sphere, by Nielson's in the plane.
 
     Parameters
     ----------
-    points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-        Points of the plane, directions, or a triangulation of them.
-    values : (n, ...) array_like
-        A number or an array of numbers for each point; NaN where it is not known.
+    {points}
+    {values}
     gradients : (n, ..., 2) or (n, ..., 3) array_like, optional
         Gradients at the points, per unit of length or per radian; on the sphere the part along the vector of the point
         is left out. By default those of `estimate_gradients`.
-    extrapolate : "nearest", optional
-        The value of the nearest point where there is no triangle, with gradient zero. Without it, NaN.
+    {extrapolate}
 
     Attributes
     ----------
-    triangulation : PlanarDelaunay or SphericalDelaunay
-    values : (n, ...) array
-        As used: equal points have the mean of their values.
+    {attributes}
     gradients : (n, ..., 2) or (n, ..., 3) array
         As used, read-only.
 

@@ -1,6 +1,7 @@
 """Files and neighbours: tables of points in; GeoPandas, GeoJSON, UGRID, meshes and pictures out.
 
-Every other library is imported when a function needs it; the extras ``geo``, ``grid`` and ``mesh`` bring them.
+Every other library is imported when a function needs it; the extras ``draw``, ``geo``, ``grid`` and ``mesh`` bring
+them.
 """
 
 from stereodel.io.frames import to_geodataframe

@@ -23,7 +23,7 @@ def to_geodataframe(
     *,
     what: What | None = None,
     columns: Mapping[str, npt.ArrayLike] | None = None,
-    latitude: Latitude = "spherical",
+    latitude: Latitude | None = None,
     radius: float = 1.0,
     max_segment: float = 1.0,
     bounds: npt.ArrayLike | None = None,
@@ -41,7 +41,7 @@ def to_geodataframe(
     columns : mapping of str to (n,) array_like, optional
         Further columns for cells and sites, one value for each point, such as ``read_points(path).columns``.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        What the points were made with, as in `xyz_to_lonlat`. Sphere only.
+        Which latitude results have, as in `xyz_to_lonlat`; by default that by which the points were given. Sphere only.
     radius : float, optional
         Of the sphere: areas are steradians times its square, lengths radians times it; with
         `stereodel.earth.AUTHALIC_RADIUS_KM`, km² and km. In the plane the length of the unit of the coordinates.
@@ -93,12 +93,12 @@ def to_geodataframe(
     geopandas = optional("geopandas", "geo")
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
     as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
-    as_choice(latitude, KINDS, "latitude")
+    chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
     as_scalar(radius, "radius", low=0.0, open_low=True)
     from stereodel.io import geometries
 
     if is_spherical(mesh):
-        found, shapes = geometries.on_sphere(mesh, wanted, max_segment, latitude, radius)
+        found, shapes = geometries.on_sphere(mesh, wanted, max_segment, chosen, radius)
     else:
         found, shapes = geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
     given = point_columns(columns, len(mesh.points))

@@ -62,7 +62,7 @@ def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, G
         ends = mesh.points[pairs]
     else:
         diagram = diagram_of(mesh)
-        ends, ridge = diagram.segments((box.left, box.right, box.bottom, box.top))
+        ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
         pairs = diagram.ridge_points[ridge]
     length = np.hypot(*(ends[:, 1] - ends[:, 0]).T) * radius
     return _pair_columns(pairs) | {"length": length}, np.asarray(shapely.linestrings(ends))

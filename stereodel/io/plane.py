@@ -45,7 +45,7 @@ def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:
     A vertex within rounding of the border is on it, for all its ridges alike; parts along the border are left out.
     """
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
-    pieces, ridge = diagram.segments((box.left, box.right, box.bottom, box.top))
+    pieces, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
     ends = diagram.ridge_vertices[ridge]
     vertices = diagram.vertices[ends] if len(diagram.vertices) else np.full_like(pieces, np.nan)
     size = max(map(abs, (box.left, box.right, box.bottom, box.top)))

@@ -18,7 +18,7 @@ FILL = -1
 _NAMES = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
 
 
-def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude = "spherical") -> Any:
+def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None = None) -> Any:
     """Triangles or cells as an xarray Dataset with a UGRID mesh topology.
 
     Parameters
@@ -27,7 +27,7 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude = "spher
     what : {"triangles", "cells"}, optional
         By default triangles of a triangulation and cells of a diagram.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        What the points were made with, as in `xyz_to_lonlat`.
+        Which latitude the nodes have, as in `xyz_to_lonlat`; by default that by which the points were given.
 
     Returns
     -------
@@ -58,7 +58,7 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude = "spher
     surface, spherical = surface_of(mesh, what), is_spherical(mesh)
     table, edges = surface.table, surface.edges
     width = "three" if table.shape[1] == 3 else "max_corners"
-    variables = _nodes(surface.nodes, spherical, latitude) | {
+    variables = _nodes(surface.nodes, spherical, latitude or mesh.latitude or "spherical") | {
         "face_node_connectivity": (("face", width), table, _links("face")),
         "edge_node_connectivity": (("edge", "two"), edges, _links("edge")),
     }

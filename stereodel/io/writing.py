@@ -137,7 +137,7 @@ def _mesh_columns(
     *,
     what: str | None = None,
     columns: Mapping[str, npt.ArrayLike] | None = None,
-    latitude: Latitude = "spherical",
+    latitude: Latitude | None = None,
     radius: float = 1.0,
 ) -> Columns:
     kind = as_choice(what or usual_kind(mesh), ("cells", "sites", "triangles", "edges"), "what")
@@ -145,7 +145,11 @@ def _mesh_columns(
         triangulation = triangulation_of(mesh)
         rows = triangulation.edges if kind == "edges" else triangulation.simplices
         return {name: rows[:, k] for k, name in enumerate("abc"[: rows.shape[1]])}
-    places = xyz_to_lonlat(mesh.points, latitude=latitude) if is_spherical(mesh) else mesh.points
+    places = (
+        xyz_to_lonlat(mesh.points, latitude=latitude or mesh.latitude or "spherical")
+        if is_spherical(mesh)
+        else mesh.points
+    )
     found = dict(zip(("lon", "lat") if is_spherical(mesh) else ("x", "y"), places.T, strict=True))
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)

@@ -29,12 +29,13 @@ from stereodel import data
 from stereodel._arrays import FloatArray, IntArray, as_choice, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.constants import PAGE_TOLERANCE
+from stereodel.curves.ragged import Ragged
 from stereodel.drawing.style import LINES, LineStyle
 from stereodel.drawing.view import MapView, View
 from stereodel.mpl.frame import Disc, Limb
-from stereodel.mpl.geometries import compound, paths_of
+from stereodel.mpl.geometries import paths_of
 from stereodel.mpl.plots import GlobePlots
-from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage
+from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage, compound
 from stereodel.sphere import xyz_to_lonlat
 
 __all__ = ["FisheyeAxes"]
@@ -124,11 +125,11 @@ class FisheyeAxes(GlobePlots):
 
     def get_xaxis_transform(self, which: str = "grid") -> Transform:
         """Across by the limits, up by the height of the axes: there are no ticks, but `axvline` and others ask."""
-        return self._xaxis_transform  # type: ignore[attr-defined, no-any-return]
+        return self._xaxis_transform  # type: ignore[attr-defined]
 
     def get_yaxis_transform(self, which: str = "grid") -> Transform:
         """Up by the limits, across by the width of the axes."""
-        return self._yaxis_transform  # type: ignore[attr-defined, no-any-return]
+        return self._yaxis_transform  # type: ignore[attr-defined]
 
     def _gen_axes_patch(self) -> Patch:
         return Disc(self)
@@ -238,9 +239,7 @@ class FisheyeAxes(GlobePlots):
         around = np.linspace(-180.0, 180.0, 4 * count + 1)
         meridians = [[(lon, lat) for lat in (-90.0, 0.0, 90.0)] for lon in around[:-1]]
         parallels = [[(lon, lat) for lon in around] for lat in heights[1:-1]]
-        sizes = [len(line) for line in meridians + parallels]
-        points = np.concatenate([np.array(line) for line in meridians + parallels])
-        path = compound(points, np.repeat(np.arange(len(sizes)), sizes), closed=False)
+        path = compound(Ragged.of([np.array(line) for line in meridians + parallels]), closed=False)
         self._graticule = self._lines(path, self.transStraight, LINES["graticule"], {"zorder": 1.5} | kwargs)
         return self._graticule
 
@@ -316,7 +315,7 @@ def _view_of(view: MapView | Sequence[float] | None, lens: MoebiusMap) -> MapVie
 
 
 def _path(lonlat: FloatArray, offsets: IntArray, *, closed: bool = False) -> Path:
-    return compound(lonlat, np.repeat(np.arange(len(offsets) - 1), np.diff(offsets)), closed=closed)
+    return compound(Ragged(lonlat, offsets.astype(np.intp)), closed=closed)
 
 
 register_projection(FisheyeAxes)

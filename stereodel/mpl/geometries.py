@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 from matplotlib.path import Path
 
 from stereodel._arrays import FloatArray, as_lonlat
 from stereodel._extras import optional
+from stereodel.curves.ragged import Ragged
+from stereodel.mpl.transforms import compound
 
 POINT, POLYGON = 0, 3
 """Types of geometries in Shapely's numbering."""
@@ -45,14 +46,5 @@ def _shapes(given: dict[str, Any]) -> list[Any]:
 def _path(shapely: Any, part: Any) -> Path:
     lines = shapely.get_rings(part) if shapely.get_type_id(part) == POLYGON else np.array([part])
     coordinates, line = shapely.get_coordinates(lines, return_index=True)
-    return compound(as_lonlat(coordinates, "geometries"), line, closed=len(lines) > 0 and lines[0] is not part)
-
-
-def compound(points: FloatArray, line: npt.NDArray[np.intp], *, closed: bool) -> Path:
-    """One path of lines given one after the other, the number of the line beside each of its points."""
-    codes = np.full(len(points), Path.LINETO, dtype=Path.code_type)
-    begins = np.append(True, line[1:] != line[:-1])
-    codes[begins] = Path.MOVETO
-    if closed:
-        codes[np.append(begins[1:], True)] = Path.CLOSEPOLY
-    return Path(points, codes)
+    rows = Ragged.grouped(as_lonlat(coordinates, "geometries"), line, len(lines))
+    return compound(rows, closed=lines[0] is not part)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from matplotlib.path import Path
 
-from stereodel._arrays import BoolArray, FloatArray
-from stereodel.mpl.great_paths import Indices, Lines, chains_of
-from stereodel.mpl.transforms import LonLatToPage
-from stereodel.sphere import lonlat_to_xyz
+from stereodel._arrays import FloatArray
+from stereodel.curves.ragged import Ragged
+from stereodel.mpl.transforms import LonLatToPage, compound
 
 NOTHING = Path(np.zeros((0, 2)))
 
@@ -27,32 +28,15 @@ def mesh_paths(corners: FloatArray, globe: LonLatToPage) -> list[Path]:
     small = sides < np.sqrt(8 * globe.tolerance / globe.view.stretch)
     paths = [Path(outline, closed=True) if whole else NOTHING for outline, whole in zip(page, small, strict=True)]
     large = np.flatnonzero(~small)
-    outlines, others = _whole_outlines(cells[large], globe)
-    for number, outline in outlines.items():
-        paths[large[number]] = Path(outline, closed=True)
-    for number in others.tolist():
-        paths[large[number]] = globe.transform_path_non_affine(Path(cells[large[number]], closed=True))
+    rings = Ragged(cells[large].reshape(-1, 2), 5 * np.arange(len(large) + 1))
+    loops, cell = globe.regions(rings, np.arange(len(large)), len(large))
+    order = np.argsort(cell, kind="stable")
+    loops, cell = loops.take(order), cell[order]
+    # The outline of all cells, in stretches.
+    outline = compound(loops, closed=True)
+    vertices, codes = np.asarray(outline.vertices), np.asarray(outline.codes)
+    shown, first = np.unique(cell, return_index=True)
+    ends = loops.offsets[np.append(first, len(cell))].tolist()
+    for number, (begin, stop) in zip(large[shown].tolist(), pairwise(ends), strict=True):
+        paths[number] = Path(vertices[begin:stop], codes[begin:stop])
     return paths
-
-
-def _whole_outlines(cells: FloatArray, globe: LonLatToPage) -> tuple[dict[int, FloatArray], Indices]:
-    """The outlines of the cells that are seen whole, and the cells that are seen in part."""
-    count = len(cells)
-    lines = Lines(lonlat_to_xyz(cells.reshape(-1, 2)), np.arange(0, 5 * count + 1, 5))
-    chains = chains_of(lines, globe.lens, globe.view, globe.tolerance)
-    outlines = {
-        int(ring): piece for ring, piece, whole in zip(chains.ring, chains.split(), chains.whole, strict=True) if whole
-    }
-    partial = np.unique(chains.ring[~chains.whole])
-    middle = globe.inverted().transform((0.0, 0.0))
-    # A cell whose border is hidden covers the whole view or nothing of it.
-    unseen = np.setdiff1d(np.flatnonzero(_surrounds(cells, middle)), chains.ring)
-    return outlines, np.union1d(partial, unseen)
-
-
-def _surrounds(cells: FloatArray, place: FloatArray) -> BoolArray:
-    """Whether a place is within the bounds in longitude and latitude of cells (k, 5, 2)."""
-    low, high = cells.min(axis=1), cells.max(axis=1)
-    lon = low[:, 0] + np.mod(place[0] - low[:, 0], 360.0)
-    within: BoolArray = (lon <= high[:, 0]) & (low[:, 1] <= place[1]) & (place[1] <= high[:, 1])
-    return within

@@ -9,20 +9,20 @@ import numpy.typing as npt
 from matplotlib.path import Path
 from matplotlib.transforms import Transform
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.conformal.polylines import largest_scale
-from stereodel.constants import LIMB_DEPTH, PAGE_TOLERANCE
+from stereodel.constants import DEGREE_ROUNDING, LIMB_DEPTH, ON_BALL, PAGE_TOLERANCE, STORED_ERROR, WHOLE_TURNS
+from stereodel.curves import clip
+from stereodel.curves.borders import Cap, Pieces
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.seams import stitched
+from stereodel.curves.trace import great, measures_in_lonlat, sides_of, straight, unwrapped
 from stereodel.drawing.view import MapView
-from stereodel.mpl.great_paths import Indices, Lines, chains_of
-from stereodel.mpl.page_regions import inverse_of, region_loops
-from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
+from stereodel.mpl.insides import on_the_left
+from stereodel.sphere import SphereCircle, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.vectors import turned
 
 Edges = Literal["great circle", "straight"]
-COARSE_STEP: Final = 2.0
-"""Degrees of straight edges over which the largest scale of a lens is asked for."""
-
 EDGES: Final[tuple[Edges, ...]] = ("great circle", "straight")
 
 
@@ -46,7 +46,12 @@ class LonLatToPage(Transform):
     def __init__(self, lens: MoebiusMap, view: MapView, edges: Edges = "great circle") -> None:
         super().__init__()
         self.lens, self.view, self.edges = lens, view, edges
-        self._tolerance = PAGE_TOLERANCE
+        self.back = lens.inverse()
+        self._tolerance, self._matrix = PAGE_TOLERANCE, view.matrix
+        toward = self._matrix[2]
+        self._middle = xyz_to_lonlat(self.back(toward))
+        # What the lens brings into sight: a cap, too.
+        self._shown = self.back.image_of(SphereCircle(toward, view.edge - ON_BALL))
 
     @property
     def tolerance(self) -> float:
@@ -65,24 +70,108 @@ class LonLatToPage(Transform):
         rows = lonlat.reshape(-1, 2)
         page = np.full(rows.shape, np.nan)
         place = np.flatnonzero(_is_place(rows))
-        axes = turned(self.lens(lonlat_to_xyz(rows[place])), self.view.matrix)
+        axes = turned(self.lens(lonlat_to_xyz(rows[place])), self._matrix)
         seen = axes[:, 2] >= self.view.edge - LIMB_DEPTH
         page[place[seen]] = self.view.flattened(axes[seen])
         return page.reshape(lonlat.shape)
 
     def transform_path_non_affine(self, path: Path) -> Path:
         """The visible part of a path, with its curves, as straight pieces."""
-        lonlat, offsets, closed = _vertices(path)
-        if not len(lonlat):
-            return Path(np.zeros((0, 2)))
+        lines, closed = _parts(path)
+        if not len(lines.values):
+            return Path(lines.values)
+        if not closed.any():
+            return compound(self.lines(lines), closed=False)
+        rings = lines.take(closed)
+        return compound(self.regions(rings, np.zeros(len(rings), dtype=np.intp), 1)[0], closed=True)
+
+    def lines(self, lines: Ragged) -> Ragged:
+        """What is in sight of lines (k, 2) in degrees, as polylines on the page."""
+        lines = unwrapped(lines) if self.edges == "straight" else self._led(lines)
+        first, sides = sides_of(lines)
+        xyz = lonlat_to_xyz(lines.values)
+        edges = lines.values[first], lines.values[first + 1], xyz[first], xyz[first + 1]
+        sides, pieces, samples = self._traced(*edges, sides, self._near(*edges))
+        return clip.lines(sides, pieces, samples, self._border)[0]
+
+    def regions(self, rings: Ragged, owner: Indices, count: int) -> tuple[Ragged, Indices]:
+        """What is in sight of regions, as closed loops on the page that follow its edge, and the region of each.
+
+        Parameters
+        ----------
+        rings : Ragged of (k, 2)
+            Degrees, in any direction; the first point again at the end.
+        owner : (r,) array
+            The region of each ring.
+        count : int
+            Of regions.
+        """
+        # So that places a turn apart are one place, to the last bit.
+        lon = np.rint(rings.values[:, 0] / WHOLE_TURNS) * WHOLE_TURNS
+        rings = Ragged(np.stack([lon, rings.values[:, 1]], axis=1), rings.offsets)
+        rings = rings if self.edges == "straight" else self._led(rings)
+        rings, middle = on_the_left(rings, owner, count, self._middle, straight=self.edges == "straight")
+        rings = unwrapped(rings)
+        # Where the map is cut: at its own western border if it is as wide as the Earth, otherwise at ±180°.
+        lon = rings.values[:, 0]
+        west, east = lon.min(initial=np.inf), lon.max(initial=-np.inf)
+        start, end, sides, owner = stitched(rings, owner, west if east - west == 360.0 else 180.0)
+        # On the sphere an edge ends where the next one of its ring starts, whatever the longitudes of the two.
+        p, q = lonlat_to_xyz(start), np.empty((len(start), 3))
+        q[sides.values] = p[sides.values[sides.following]]
+        near = self._near(start, end, p, q)
+        if not near.any():
+            whole = np.flatnonzero(middle)
+            return Ragged.of([self._border.once()] * len(whole), lon[:0].reshape(0, 2)), whole
+        sides, pieces, samples = self._traced(start, end, p, q, sides, near)
+        return clip.regions(sides, owner, count, pieces, samples, self._border, middle)
+
+    @property
+    def _border(self) -> Cap:
+        return Cap(self.view, self.tolerance, fineness=1.0)
+
+    def _led(self, lines: Ragged) -> Ragged:
+        """The same lines; great circles between opposite places lead over the north, from a pole down its meridian."""
+        lon, lat = lines.values.T
+        across = np.abs(np.mod(np.diff(lon), 360.0) - 180.0) <= DEGREE_ROUNDING
+        opposite = (np.abs(lat[:-1] + lat[1:]) <= DEGREE_ROUNDING) & (across | (np.abs(lat[:-1]) == 90.0))
+        opposite[lines.offsets[1:-1] - 1] = False
+        if not opposite.any():
+            return lines
+        at = np.flatnonzero(opposite)
+        between = np.stack([lon[at], np.where(np.abs(lat[at]) == 90.0, 0.0, 90.0)], axis=1)
+        return lines.inserted(at + 1, between)
+
+    def _near(self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray) -> BoolArray:
+        """Edges of which something may be in sight: from p to q on the sphere, from start to end in degrees."""
         if self.edges == "straight":
-            lonlat, offsets = _followed(lonlat, offsets, self.lens, self.tolerance / self.view.stretch)
-        lines = Lines(lonlat_to_xyz(lonlat), offsets)
-        if closed.any():
-            rings, places = _chosen(lines, lonlat, closed)
-            loops = region_loops(rings, places, self.lens, self.view, self.tolerance)
-            return _compound(loops, closed=True)
-        return _compound(chains_of(lines, self.lens, self.view, self.tolerance).split(), closed=False)
+            length, _ = measures_in_lonlat(start, end, p, q)
+        else:
+            length = (
+                np.pi / 2 * np.sqrt(np.sum((p - q) ** 2, axis=1))
+            )  # an arc is at most so much longer than its chord
+        reach = np.arctan2(self._shown.radius, self._shown.offset) + length + STORED_ERROR
+        return np.sum((p - self._shown.normal) ** 2, axis=1) <= (2 * np.sin(np.minimum(reach, np.pi) / 2)) ** 2
+
+    def _traced(
+        self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray, sides: Ragged, near: BoolArray
+    ) -> tuple[Ragged, Pieces, Ragged]:
+        """What is left of lines without edges that are out of reach; the others in view axes, cut where the view ends.
+
+        Their points, too. Where a line has a gap it is hidden on both sides.
+        """
+        sides = sides.kept(near[sides.values])
+        sides = Ragged((np.cumsum(near) - 1)[sides.values], sides.offsets)
+        p, q = p[near], q[near]
+        # In space chords may stray by so much.
+        slack = self.tolerance / self.view.stretch
+        if self.edges == "straight":
+            slack /= 2  # each, of the arcs from the edges and of the chords from the arcs
+            arcs = straight(start[near], end[near], self.lens, slack, ends=(p, q))
+        else:
+            arcs = great(p, q)
+        pieces = self._border.cut(arcs.through(self.lens).turned(self._matrix))
+        return sides, pieces, pieces.arcs.sampled(slack)
 
     def inverted(self) -> Transform:
         """From the page to longitude and latitude."""
@@ -97,7 +186,7 @@ class PageToLonLat(Transform):
 
     def __init__(self, forward: LonLatToPage) -> None:
         super().__init__()
-        self._forward, self._back = forward, inverse_of(forward.lens)
+        self._forward = forward
 
     def transform_non_affine(self, values: npt.ArrayLike) -> FloatArray:
         """Longitude and latitude (n, 2) in degrees."""
@@ -105,7 +194,7 @@ class PageToLonLat(Transform):
         axes = self._forward.view.raised(page.reshape(-1, 2))
         lonlat = np.full((len(axes), 2), np.nan)
         inside = np.isfinite(axes).all(axis=1)
-        lonlat[inside] = xyz_to_lonlat(self._back(turned(axes[inside], self._forward.view.matrix.T)))
+        lonlat[inside] = xyz_to_lonlat(self._forward.back(turned(axes[inside], self._forward.view.matrix.T)))
         return lonlat.reshape(page.shape)
 
     def inverted(self) -> Transform:
@@ -113,14 +202,13 @@ class PageToLonLat(Transform):
         return self._forward
 
 
-def _is_place(lonlat: FloatArray) -> npt.NDArray[np.bool_]:
+def _is_place(lonlat: FloatArray) -> BoolArray:
     with np.errstate(invalid="ignore"):
-        place: npt.NDArray[np.bool_] = np.isfinite(lonlat[:, 0]) & (np.abs(lonlat[:, 1]) <= 90.0)
-    return place
+        return np.isfinite(lonlat[:, 0]) & (np.abs(lonlat[:, 1]) <= 90.0)
 
 
-def _vertices(path: Path) -> tuple[FloatArray, Indices, npt.NDArray[np.bool_]]:
-    """Vertices (n, 2) of the parts of a path, offsets (m + 1,), and which parts are closed, with equal ends.
+def _parts(path: Path) -> tuple[Ragged, BoolArray]:
+    """The parts of a path, rows of vertices (k, 2), and which are closed, with equal ends.
 
     What is no place ends a part, as NaN does everywhere in matplotlib.
     """
@@ -128,7 +216,7 @@ def _vertices(path: Path) -> tuple[FloatArray, Indices, npt.NDArray[np.bool_]]:
     codes = path.codes
     known = np.where(_is_place(points)[:, None], points, np.nan)
     if codes is None and np.isfinite(known).all():
-        return known, np.array([0, len(known)]), np.zeros(1, dtype=np.bool_)
+        return Ragged(known, np.array([0, len(known)])), np.zeros(1, dtype=np.bool_)
     flat = Path(known, codes).cleaned(remove_nans=True, curves=False)
     points, kinds = np.asarray(flat.vertices), np.asarray(cast(Any, flat.codes))
     points, kinds = points[kinds != Path.STOP], kinds[kinds != Path.STOP]
@@ -138,66 +226,14 @@ def _vertices(path: Path) -> tuple[FloatArray, Indices, npt.NDArray[np.bool_]]:
     points = np.where(closing[:, None], points[starts][part], points)
     closed = np.zeros(len(starts), dtype=np.bool_)
     closed[part[closing]] = True
-    return points, np.append(starts, len(points)), closed
+    return Ragged(points, np.append(starts, len(points))), closed
 
 
-def _chosen(lines: Lines, lonlat: FloatArray, kept: npt.NDArray[np.bool_]) -> tuple[Lines, FloatArray]:
-    """Some of the lines, with their vertices in degrees."""
-    sizes = np.diff(lines.offsets)
-    rows = np.repeat(kept, sizes)
-    return Lines(lines.vertices[rows], np.concatenate([[0], np.cumsum(sizes[kept])])), lonlat[rows]
-
-
-def _followed(lonlat: FloatArray, offsets: Indices, lens: MoebiusMap, tolerance: float) -> tuple[FloatArray, Indices]:
-    """The same lines with vertices whose great circles, after the lens, stray from the straight edges by a tolerance.
-
-    A point that moves by (a, b) radians in unit time has an acceleration across the great circle of
-    |sin φ|·√((a² cos φ)² + (2ab)²) and strays from it by an eighth of that at most, times the largest scale on the way.
-    """
-    lonlat, offsets = _subdivided(lonlat, offsets, _steps(lonlat, offsets), np.full(len(lonlat), 1 / COARSE_STEP))
-    step, xyz = _steps(lonlat, offsets), lonlat_to_xyz(lonlat)
-    a, b = np.radians(step).T
-    cosine, sine = np.hypot(xyz[:, 0], xyz[:, 1]), np.minimum(np.abs(xyz[:, 2]) + np.abs(b), 1.0)
-    cosine = np.minimum(cosine + np.abs(b), 1.0)  # the largest on the edge, as the sine
-    bend = sine * np.hypot(cosine * a**2, 2 * a * b) / 8
-    scale = largest_scale(lens, xyz, np.hypot(cosine * a, b))
-    size = np.abs(step).max(axis=1)
-    return _subdivided(lonlat, offsets, step, np.sqrt(bend * scale / tolerance) / np.where(size > 0, size, 1.0))
-
-
-def _steps(lonlat: FloatArray, offsets: Indices) -> FloatArray:
-    """From each vertex to the next of its line, (n, 2); zero from the last.
-
-    A jump of more than half the map goes the other way round, as in files that cut nothing at ±180°; at a pole it is a
-    stretch of the upper or lower border.
-    """
-    step = np.diff(lonlat, axis=0, append=lonlat[-1:])
-    pole = (np.abs(lonlat[:, 1]) == 90.0) & (step[:, 1] == 0.0)
-    jump = (np.abs(step[:, 0]) > 180.0) & (np.abs(step[:, 0]) < 360.0) & ~pole
-    step[jump, 0] -= np.copysign(360.0, step[jump, 0])
-    step[offsets[1:] - 1] = 0.0
-    return step
-
-
-def _subdivided(
-    lonlat: FloatArray, offsets: Indices, step: FloatArray, density: FloatArray
-) -> tuple[FloatArray, Indices]:
-    """The same lines with further vertices on their straight edges: `density` for a degree of the longer coordinate."""
-    counts = np.maximum(1, np.ceil(np.abs(step).max(axis=1) * density)).astype(np.intp)
-    before = np.concatenate([[0], np.cumsum(counts)])
-    row = np.repeat(np.arange(len(lonlat)), counts)
-    share = (np.arange(before[-1]) - before[row]) / counts[row]
-    return lonlat[row] + share[:, None] * step[row], before[offsets]
-
-
-def _compound(pieces: list[FloatArray], *, closed: bool) -> Path:
-    """One path of polylines (k, 2) each."""
-    if not pieces:
-        return Path(np.zeros((0, 2)))
-    sizes = np.array([len(piece) for piece in pieces])
-    codes = np.full(int(sizes.sum()), Path.LINETO, dtype=Path.code_type)
-    ends = np.cumsum(sizes)
-    codes[ends - sizes] = Path.MOVETO
+def compound(lines: Ragged, *, closed: bool) -> Path:
+    """One path of several lines (k, 2)."""
+    codes = np.full(len(lines.values), Path.LINETO, dtype=Path.code_type)
+    held = lines.sizes > 0
+    codes[lines.offsets[:-1][held]] = Path.MOVETO
     if closed:
-        codes[ends - 1] = Path.CLOSEPOLY
-    return Path(np.concatenate(pieces), codes)
+        codes[lines.offsets[1:][held] - 1] = Path.CLOSEPOLY
+    return Path(lines.values, codes)

@@ -41,7 +41,7 @@ class PlaneCircle:
     def sample(self, n: int) -> FloatArray:
         """Points on the circle, (n, 2), counterclockwise from the direction +x."""
         t = np.linspace(0.0, 2 * np.pi, as_count(n, "n"), endpoint=False)
-        return np.asarray(self.center + self.radius * np.stack([np.cos(t), np.sin(t)], axis=-1))
+        return self.center + self.radius * np.stack([np.cos(t), np.sin(t)], axis=-1)
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, PlaneCircle) else NotImplemented
@@ -115,7 +115,7 @@ class Conic:
     center : array, shape (2,)
         Centre; the vertex of a parabola; a point of a line; NaN when empty.
     axes : array, shape (2, 2)
-        Rows: the vectors that `at` combines. NaN when empty.
+        Rows: the vectors that `sample` combines. NaN when empty.
     matrix : array, shape (3, 3)
         Symmetric Q with (x, y, 1) Q (x, y, 1)ᵀ = 0 on the curve; of a hyperbola this includes the other branch, of a
         line and a segment it is the line twice.
@@ -138,7 +138,7 @@ class Conic:
         for name in ("center", "axes", "matrix"):
             object.__setattr__(self, name, read_only(getattr(self, name)))
 
-    def at(self, t: npt.ArrayLike) -> FloatArray:
+    def sample(self, t: npt.ArrayLike) -> FloatArray:
         """Points of the curve, (..., 2), at parameters t.
 
         center + f(t)·axes[0] + g(t)·axes[1] with (f, g) = (cos t, sin t) for an ellipse or a segment, (cosh t, sinh t)
@@ -146,7 +146,7 @@ class Conic:
         """
         values = as_floats(t, "t")
         f, g = _PARAMETRIC[self.kind](values)
-        return np.asarray(self.center + f[..., None] * self.axes[0] + g[..., None] * self.axes[1])
+        return self.center + f[..., None] * self.axes[0] + g[..., None] * self.axes[1]
 
     def __eq__(self, other: object) -> bool:
         return self._key == other._key if isinstance(other, Conic) else NotImplemented

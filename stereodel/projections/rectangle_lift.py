@@ -37,7 +37,7 @@ class RectangleLift:
     Examples
     --------
     >>> lift = RectangleLift(4.0, 3.0)
-    >>> lift.sphere.radius, round(lift.extent, 12)
+    >>> lift.sphere.radius, round(lift.angular_radius, 12)
     (1.25, 90.0)
     >>> print(lift.forward([[0.0, 0.0], [2.0, 1.5]]))
     [[ 0.   0.  -1. ]
@@ -81,9 +81,9 @@ class RectangleLift:
         return Stereographic((0.0, -90.0), radius=self.diagonal / 4)
 
     @property
-    def extent(self) -> float:
+    def angular_radius(self) -> float:
         """Angular radius of the lifted rectangle about the south pole, degrees: its corners are on the equator."""
-        return float(self.sphere.extent(self.diagonal / 2))
+        return float(self.sphere.angular_radius(self.diagonal / 2))
 
     def forward(self, xy: npt.ArrayLike) -> FloatArray:
         """Unit vectors (..., 3) of plane points (..., 2); points outside the rectangle land north of its image."""
@@ -94,7 +94,7 @@ class RectangleLift:
 
     def inverse(self, xyz: npt.ArrayLike) -> FloatArray:
         """Plane points (..., 2) of directions (..., 3); NaN at the north pole."""
-        return np.asarray(self.sphere.forward(xyz) + np.array(self.center))
+        return self.sphere.forward(xyz) + np.array(self.center)
 
     def scale_factor(self, xy: npt.ArrayLike) -> FloatArray:
         """Length on the sphere of radius R over length in the plane at plane points (..., 2): 4R² / (4R² + d²).

@@ -93,7 +93,7 @@ class Stereographic(TangentPlane):
         east, north, up = self.frame.round()
         points = as_vectors(xy, 2, "xy")
         height = self.radius if self.plane == "tangent" else 0.0
-        return np.asarray(points[..., :1] * east + points[..., 1:] * north + height * up)
+        return points[..., :1] * east + points[..., 1:] * north + height * up
 
     def lift(self, plane: DoubleDouble) -> FloatArray:
         """Unit vectors of plane points (m, 2) in double-double."""
@@ -120,10 +120,10 @@ class Stereographic(TangentPlane):
         with np.errstate(over="ignore"):
             return np.asarray(np.ldexp((size / above).round(), shift - 2 * exponent))
 
-    def extent(self, distance: npt.ArrayLike) -> FloatArray:
+    def angular_radius(self, distance: npt.ArrayLike) -> FloatArray:
         """Angular radius in degrees of a disc of the plane around the centre, of radius `distance`.
 
-        Claim P9, Figure 6: the smaller the sphere, the larger the extent.
+        Claim P9, Figure 6: the smaller the sphere, the larger the angular radius.
         """
         return np.asarray(np.degrees(2 * np.arctan2(as_lengths(distance, "distance"), self.unit_distance)))
 

@@ -2,40 +2,32 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import AnyIndices, FloatArray, as_floats
+from stereodel._arrays import AnyIndices, FloatArray, SignArray, as_bounds, as_floats
 from stereodel.triangulation import PlanarVoronoi
 
 
-def as_polygon(extent: npt.ArrayLike | None) -> FloatArray:
-    """Corners (k, 2), counterclockwise, of (xmin, xmax, ymin, ymax) or of a convex polygon."""
-    if extent is None:
-        raise ValueError("extent is needed in the plane: (xmin, xmax, ymin, ymax), or the corners of a convex polygon")
-    values = as_floats(extent, "extent")
+def as_polygon(bounds: npt.ArrayLike | None) -> FloatArray:
+    """Corners (k, 2), counterclockwise, of (xmin, ymin, xmax, ymax) or of a convex polygon."""
+    if bounds is None:
+        raise ValueError("bounds are needed in the plane: (xmin, ymin, xmax, ymax), or the corners of a convex polygon")
+    values = as_floats(bounds, "bounds")
     if values.shape == (4,):
-        (left, right, bottom, top) = values
+        left, bottom, right, top = as_bounds(values)
         values = np.array([[left, bottom], [right, bottom], [right, top], [left, top]])
     if values.ndim != 2 or values.shape[1] != 2 or len(values) < 3:
-        raise ValueError(f"extent must be (xmin, xmax, ymin, ymax) or corners (k, 2), k >= 3, got shape {values.shape}")
+        raise ValueError(f"bounds must be (xmin, ymin, xmax, ymax) or corners (k, 2), k >= 3, got shape {values.shape}")
     turns = _kernel.plane.turn(values, np.roll(values, -1, axis=0), np.roll(values, -2, axis=0))
-    if (turns <= 0).any() or not _turns_once(values):
-        raise ValueError(
-            "extent must be a rectangle with xmin < xmax and ymin < ymax, or a convex counterclockwise polygon"
-        )
+    # Left turns alone could go around more than once: each corner must lie left of all sides too.
+    if (turns <= 0).any() or any((sides < 0).any() for sides in _sides(values, values)):
+        raise ValueError("bounds must be the corners of a convex polygon, counterclockwise")
     return values
 
 
-def _turns_once(polygon: FloatArray) -> bool:
-    """Whether all corners lie left of all sides: left turns alone could go around more than once."""
-    return all(bool((sides >= 0).all()) for sides in _sides(polygon, polygon))
-
-
-def _sides(points: FloatArray, polygon: FloatArray) -> list[npt.NDArray[np.int8]]:
+def _sides(points: FloatArray, polygon: FloatArray) -> list[SignArray]:
     """For each side of the polygon the signs (n,) of the points, 1 inside."""
     starts, ends = (np.repeat(p[:, None], len(points), axis=1) for p in (polygon, np.roll(polygon, -1, axis=0)))
     return [_kernel.plane.turn(start, end, points) for start, end in zip(starts, ends, strict=True)]
@@ -46,21 +38,25 @@ def check_inside(points: FloatArray, polygon: FloatArray) -> None:
     outside = np.any([sides < 0 for sides in _sides(points, polygon)], axis=0)
     if outside.any():
         k = int(np.argmax(outside))
-        raise ValueError(f"points[{k}] is {points[k].tolist()}, outside extent")
+        raise ValueError(f"points[{k}] is {points[k].tolist()}, outside bounds")
 
 
 def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> tuple[FloatArray, AnyIndices]:
     """Triangles (t, 3, 2) relative to their sites, counterclockwise, that make up the cells, and the sites (t,)."""
+    # Four more sites bound every cell, so that all are fans of triangles around their sites.
     diagram = PlanarVoronoi(np.concatenate([points, _far_points(polygon)]), workers=workers)
+    # For each entry of the flat cells its site and the next entry of the same cell: the last one's is the first.
     site: AnyIndices = np.repeat(np.arange(len(diagram.points)), np.diff(diagram.region_offsets))
     following = np.arange(1, len(site) + 1)
     filled = np.flatnonzero(np.diff(diagram.region_offsets))
     following[diagram.region_offsets[filled + 1] - 1] = diagram.region_offsets[filled]
+    # A triangle for each side of a cell: its site at the origin, then both ends of the side. The four have none.
     own = site < len(points)
     corners = diagram.region_indices[own], diagram.region_indices[following[own]]
     site = site[own]
     here, there = (diagram.vertices[vertex] - points[site] for vertex in corners)
     triangles = np.stack([np.zeros_like(here), here, there], axis=1)
+    # Cells are convex and so is the polygon: cutting the triangles at one side after the other leaves what is in both.
     for start, end in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
         triangles, site = _clipped(triangles, site, _heights(triangles, points[site], start, end))
     return triangles, site
@@ -73,7 +69,7 @@ def _far_points(polygon: FloatArray) -> FloatArray:
     """
     low, high = polygon.min(axis=0), polygon.max(axis=0)
     middle, radius = low + (high - low) / 2, float(np.hypot(*(high - low))) / 2
-    return cast(FloatArray, middle + 8 * radius * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]]))
+    return middle + 8 * radius * np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]])
 
 
 def _heights(triangles: FloatArray, sites: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
@@ -81,11 +77,12 @@ def _heights(triangles: FloatArray, sites: FloatArray, start: FloatArray, end: F
     x, y = end - start
     inside = sites - start
     over, along = triangles[..., 1] + inside[:, None, 1], triangles[..., 0] + inside[:, None, 0]
-    return cast(FloatArray, x * over - y * along)
+    return x * over - y * along
 
 
 def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tuple[FloatArray, AnyIndices]:
     """The parts of triangles with heights above zero: none, one or two triangles each."""
+    # One corner inside leaves its tip, a and the two cuts; one corner d outside leaves a quadrangle, in two triangles.
     count = (heights > 0).sum(axis=1)
     (one,), (two,) = np.nonzero(count == 1), np.nonzero(count == 2)
     a, ab, ac, _, _ = _cut(triangles[one], heights[one], np.argmax(heights[one] > 0, axis=1))
@@ -97,7 +94,9 @@ def _clipped(triangles: FloatArray, site: AnyIndices, heights: FloatArray) -> tu
 
 def _cut(triangles: FloatArray, heights: FloatArray, alone: AnyIndices) -> list[FloatArray]:
     """Triangles (t, 3, 2) cut at height zero between one corner a and the others, b and c: a, ab, ac, b, c."""
+    # Corners and heights in the same order, turned so that the lone one comes first: the orientation stays.
     turn = (alone[:, None] + np.arange(3)) % 3
     a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
     at_a, at_b, at_c = np.take_along_axis(heights, turn, axis=1).T[:, :, None]
+    # Heights of different sign, of which one may be zero: their difference is not.
     return [a, a + (b - a) * (at_a / (at_a - at_b)), a + (c - a) * (at_a / (at_a - at_c)), b, c]

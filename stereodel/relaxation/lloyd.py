@@ -3,26 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import (
-    FloatArray,
-    as_count,
-    as_plane_or_sphere,
-    as_scalar,
-    as_weights,
-    as_workers,
-    locked,
-)
+from stereodel._arrays import AnyIndices, FloatArray, as_count, as_scalar, as_weights, as_workers, locked
+from stereodel._docs import shared
 from stereodel._double_double import unit
 from stereodel.constants import BALANCED
 from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells
 from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes, spherical_nodes
 from stereodel.relaxation.round_cells import RoundCells
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import LONLAT, as_sites, as_told, refuse_lonlat
 from stereodel.triangulation.dispatch import Triangulation
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
@@ -51,11 +46,15 @@ class Relaxation:
         The longest way of a point in each step: in units of the plane, on the sphere in degrees.
     converged : bool
         Whether the last step moved no point farther than the tolerance.
+    latitude : str or None
+        The kind of latitude by which the points were given.
+    lonlat : (n, 2) array
+        `points` in degrees, of that latitude.
 
     Examples
     --------
     >>> from stereodel.relaxation import lloyd
-    >>> lloyd([[0.1, 0.5], [0.3, 0.5]], extent=(0, 1, 0, 1), steps=99, tolerance=1e-9).converged
+    >>> lloyd([[0.1, 0.5], [0.3, 0.5]], bounds=(0, 0, 1, 1), steps=99, tolerance=1e-9).converged
     True
     """
 
@@ -63,14 +62,23 @@ class Relaxation:
     energies: FloatArray
     moves: FloatArray
     converged: bool
+    latitude: Latitude | None = None
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """Longitude and latitude of `points`, (n, 2) in degrees, if the points were given by them."""
+        return as_told(self.points, self.latitude)
 
 
+@shared(**LONLAT)
 def lloyd(
-    points: npt.ArrayLike | Triangulation,
+    points: npt.ArrayLike | Triangulation | None = None,
     *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
     steps: int = 20,
     density: Density | None = None,
-    extent: npt.ArrayLike | None = None,
+    bounds: npt.ArrayLike | None = None,
     tolerance: float = 0.0,
     workers: int | None = None,
 ) -> Relaxation:
@@ -80,13 +88,14 @@ def lloyd(
     ----------
     points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
         Points of the plane, directions, or a triangulation of them.
+    {instead}
     steps : int, optional
         How many times at most, 0 or more.
     density : callable, optional
         The weight of places: takes points (m, 2), or unit vectors (m, 3), and returns m finite numbers, 0 or more. By
         default all places weigh the same.
-    extent : array_like, (4,) or (k, 2)
-        In the plane the part that the cells divide: (xmin, xmax, ymin, ymax), or the corners of a convex polygon,
+    bounds : array_like, (4,) or (k, 2)
+        In the plane the part that the cells divide: (xmin, ymin, xmax, ymax), or the corners of a convex polygon,
         counterclockwise. On the sphere none: the cells divide it all.
     tolerance : float, optional
         Stop after a step that moves no point farther: in units of the plane, on the sphere in degrees.
@@ -96,13 +105,14 @@ def lloyd(
     Returns
     -------
     Relaxation
-        `points`, `energies`, `moves` and `converged`.
+        `points`, `energies`, `moves` and `converged`; `lonlat` if the points were given by longitude and latitude.
 
     Raises
     ------
     ValueError, TypeError
-        For points that are not finite real numbers, or outside `extent`; for an `extent` that is missing, or given on
-        the sphere, or not convex; for a density with other values; for other options out of range.
+        For points that are not finite real numbers, or outside `bounds`; for `bounds` that are missing, or given on
+        the sphere, or not convex; for a density with other values; for other options out of range; for points and
+        `lonlat` together, and `latitude` without `lonlat`.
 
     Notes
     -----
@@ -125,21 +135,29 @@ def lloyd(
     Examples
     --------
     >>> from stereodel.relaxation import lloyd
-    >>> relaxed = lloyd([[0.1, 0.5], [0.3, 0.5]], extent=(0, 1, 0, 1), steps=60)
+    >>> relaxed = lloyd([[0.1, 0.5], [0.3, 0.5]], bounds=(0, 0, 1, 1), steps=60)
     >>> print(relaxed.points.round(6))
     [[0.25 0.5 ]
      [0.75 0.5 ]]
     >>> print(lloyd([[1, 0, 0], [0, 1, 0]], steps=1).points.round(3))
     [[ 0.707 -0.707  0.   ]
      [-0.707  0.707  0.   ]]
+    >>> print(lloyd(lonlat=[(0, 0), (90, 0)], steps=1).lonlat.round(3))
+    [[-45.   0.]
+     [135.   0.]]
     """
-    given = points.points if isinstance(points, PlanarDelaunay | SphericalDelaunay) else as_plane_or_sphere(points)
+    if isinstance(points, PlanarDelaunay | SphericalDelaunay):
+        refuse_lonlat(lonlat, latitude)
+        given, kind = points.points, points.latitude
+    else:
+        given, kind = as_sites(points, lonlat, latitude)
     limit, threads = as_scalar(tolerance, "tolerance", low=0.0), as_workers(workers)
     if given.shape[1] == 3:
-        if extent is not None:
-            raise ValueError("extent is for points of the plane; on the sphere leave it out")
-        return _relax(unit(given).hi, lambda p: _step_on_sphere(p, density, threads), steps, limit, _ways_on_sphere)
-    polygon = as_polygon(extent)
+        if bounds is not None:
+            raise ValueError("bounds are for points of the plane; on the sphere leave them out")
+        relaxed = _relax(unit(given).hi, lambda p: _step_on_sphere(p, density, threads), steps, limit, _ways_on_sphere)
+        return replace(relaxed, latitude=kind)
+    polygon = as_polygon(bounds)
     check_inside(given, polygon)
     return _relax(given, lambda p: _step_in_plane(p, polygon, density, threads), steps, limit, _ways_in_plane)
 
@@ -164,11 +182,11 @@ def _relax(
 
 
 def _ways_in_plane(one: FloatArray, other: FloatArray) -> FloatArray:
-    return np.asarray(np.hypot(*(other - one).T))
+    return np.hypot(*(other - one).T)
 
 
 def _ways_on_sphere(one: FloatArray, other: FloatArray) -> FloatArray:
-    return np.asarray(np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0))))
+    return np.degrees(2 * np.arcsin(np.minimum(np.linalg.norm(other - one, axis=1) / 2, 1.0)))
 
 
 def _step_in_plane(points: FloatArray, polygon: FloatArray, density: Density | None, workers: int | None) -> Step:
@@ -203,9 +221,7 @@ def _where_pulled(points: FloatArray, mass: FloatArray, moments: FloatArray, cen
     )
 
 
-def _sums(
-    nodes: FloatArray, weights: FloatArray, site: npt.NDArray[np.integer], count: int
-) -> tuple[FloatArray, FloatArray]:
+def _sums(nodes: FloatArray, weights: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
     """Mass (n,) and first moments (n, d) of each site's triangles."""
     mass: FloatArray = np.bincount(site, weights.sum(axis=1), count).astype(np.float64)
     first = np.einsum("tk,tkd->td", weights, nodes)

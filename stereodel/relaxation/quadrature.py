@@ -57,6 +57,7 @@ def split_long(triangles: FloatArray, number: AnyIndices) -> tuple[FloatArray, A
     """Spherical triangles (t, 3, 3) and their numbers (t,), halved until no side is longer than QUADRATURE_CHORD."""
     done = [(triangles[:0], number[:0])]
     while len(triangles):
+        # Side k is the one opposite corner k: from the corner after it to the corner before it.
         sides = np.linalg.norm(np.roll(triangles, -1, axis=1) - np.roll(triangles, 1, axis=1), axis=2)
         long = sides.max(axis=1) > QUADRATURE_CHORD
         done.append((triangles[~long], number[~long]))
@@ -66,6 +67,7 @@ def split_long(triangles: FloatArray, number: AnyIndices) -> tuple[FloatArray, A
 
 def _halves(triangles: FloatArray, sides: FloatArray) -> FloatArray:
     """Both halves (2t, 3, 3) of triangles cut from the middle of the longest side, which is opposite its corner."""
+    # Corners turned so that the longest side is bc; its middle on the sphere is the direction of b + c.
     turn = (np.argmax(sides, axis=1)[:, None] + np.arange(3)) % 3
     a, b, c = np.moveaxis(np.take_along_axis(triangles, turn[:, :, None], axis=1), 1, 0)
     middle = b + c

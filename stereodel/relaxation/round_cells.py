@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import cast
-
 import numpy as np
 
 from stereodel import _kernel
@@ -33,6 +31,7 @@ class RoundCells:
         self.ridges = self._diagram.ridge_points
         self._start, end = np.moveaxis(self._diagram.vertices[self._diagram.ridge_vertices], 1, 0)
         self._normals = _normals(sites[self.ridges[:, 0]], sites[self.ridges[:, 1]])
+        # The angle from start to end about the normal, from 0 up to a whole turn.
         side = np.einsum("ri,ri->r", self._normals, np.cross(self._start, end))
         self._angles = np.mod(np.arctan2(side, np.einsum("ri,ri->r", self._start, end)), 2 * np.pi)
 
@@ -49,6 +48,7 @@ class RoundCells:
 
         Half the sum of the ridges' normals times their angles, by Stokes' theorem.
         """
+        # The boundary of the left cell runs along a ridge, that of the right cell against it.
         turned = self._normals * (self._angles / 2)[:, None]
         left, right = self.ridges.T
         count = len(self.sites)
@@ -61,10 +61,12 @@ class RoundCells:
         """
         if len(self.sites) and not len(self.ridges):
             return split_long(_OCTANTS, np.zeros(8, dtype=np.intp))
+        # Each ridge in pieces of equal angle, none longer than the chord: ridge by ridge, step 0, 1, … of each.
         pieces = np.ceil(self._angles / QUADRATURE_CHORD).astype(int)
         ridge = np.repeat(np.arange(len(pieces)), pieces)
         step = np.arange(len(ridge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
         ends = [self._along(ridge, (step + k) * self._angles[ridge] / pieces[ridge]) for k in (0, 1)]
+        # A piece runs with its left site on the left: the triangle with the right one takes it backwards.
         left, right = self.ridges[ridge].T
         lefts = np.stack([self.sites[left], *ends], axis=1)
         rights = np.stack([self.sites[right], *ends[::-1]], axis=1)
@@ -72,7 +74,7 @@ class RoundCells:
 
     def _along(self, ridge: AnyIndices, angle: FloatArray) -> FloatArray:
         start, normal = self._start[ridge], self._normals[ridge]
-        return cast(FloatArray, start * np.cos(angle)[:, None] + np.cross(normal, start) * np.sin(angle)[:, None])
+        return start * np.cos(angle)[:, None] + np.cross(normal, start) * np.sin(angle)[:, None]
 
 
 def _normals(left: FloatArray, right: FloatArray) -> FloatArray:
@@ -83,4 +85,4 @@ def _normals(left: FloatArray, right: FloatArray) -> FloatArray:
     lengths[close] = 1.0
     normals = differences / lengths
     normals[close] = _kernel.sphere.bisector_normals(left[close], right[close])
-    return cast(FloatArray, normals)
+    return normals

@@ -1,6 +1,5 @@
-"""Pages as files: pixels through OpenGL, SVG and PDF through matplotlib."""
+"""Pages as files: pixels through OpenGL, SVG and PDF through matplotlib; `stereodel.drawing.Page.save` calls it."""
 
 from stereodel.render.figure import Figure
-from stereodel.render.save import save_page
 
-__all__ = ["Figure", "save_page"]
+__all__ = ["Figure"]

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from stereodel._arrays import Pixels
 
 
 class PixelDigest:
@@ -18,6 +21,12 @@ class PixelDigest:
     def add(self, rows: npt.NDArray[Any]) -> None:
         """Add the next rows."""
         self._digest.update(np.ascontiguousarray(rows).data)
+
+    def passed(self, rows: Iterable[Pixels]) -> Iterator[Pixels]:
+        """The rows of a picture as they are, each added on its way."""
+        for part in rows:
+            self.add(part)
+            yield part
 
     def __str__(self) -> str:
         return self._digest.hexdigest()

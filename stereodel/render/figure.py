@@ -9,19 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
-import numpy as np
-import numpy.typing as npt
-
+from stereodel._arrays import Pixels, as_choice
 from stereodel.drawing.page import Page
-from stereodel.render.save import bare_rows, mosaic_pictures, write_png
 from stereodel.render.script import run_script
-from stereodel.render.sizes import as_width, pixel_height
 
 Geometry = Mapping[str, Any]
-Pixels = npt.NDArray[np.uint8]
-
-WRITTEN: list[Path] = []
-"""PNG files that this process wrote, in order; the gallery shows them."""
 
 
 @dataclass(frozen=True)
@@ -52,31 +44,15 @@ class Figure:
     renderer: Literal["gl", "agg"] = "gl"
 
     def __post_init__(self) -> None:
-        if self.renderer not in ("gl", "agg"):
-            raise ValueError(f'renderer must be "gl" or "agg", got {self.renderer!r}')
+        as_choice(self.renderer, ("gl", "agg"), "renderer")
 
     def page(self) -> Page:
         """The picture before any renderer sees it."""
         return self.draw(self.geometry())
 
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
-        """The picture, (height, width, 3), rows from the top.
-
-        Parameters
-        ----------
-        size : int, optional
-            Width in pixels; by default that of print at 300 dpi, 2008 for 17 cm. Large ones are better saved.
-        text : bool
-            Whether labels are drawn.
-        """
-        from stereodel.render.text import with_labels
-
-        page = self.page()
-        width = as_width(page, size)
-        bare = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
-        for top, rows in bare_rows(page, width, renderer=self.renderer):
-            bare[top : top + len(rows)] = rows
-        return with_labels(bare, page) if text else bare
+        """The picture, (height, width, 3), rows from the top; `size` and `text` as for `Page.pixels`."""
+        return self.page().pixels(size=size, text=text, renderer=self.renderer)
 
     def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
         """Write NAME.png, NAME.svg and NAME.pdf into a folder.
@@ -86,7 +62,7 @@ class Figure:
         out : path-like
             The folder; made when it is missing.
         size, text
-            As for `pixels`; `text` holds for the vector files too.
+            As for `Page.save`.
 
         Returns
         -------
@@ -98,20 +74,13 @@ class Figure:
         OSError
             When the folder cannot be made or written to.
         """
-        from stereodel.render.vector import save_vector
+        from stereodel.render.save import save_page
 
         begun = time.perf_counter()
-        page = self.page()
-        width = as_width(page, size)
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
-        shown = page if text else page.without_labels()
         files = [folder / f"{self.name}.{kind}" for kind in ("png", "svg", "pdf")]
-        digest = write_png(page, files[0], width=width, text=text, renderer=self.renderer)
-        mosaics = mosaic_pictures(page, width)
-        for file in files[1:]:
-            save_vector(shown, file, mosaics=mosaics)
-        WRITTEN.append(files[0])
+        width, digest = save_page(self.page(), *files, size=size, text=text, renderer=self.renderer)
         return {
             "figure": self.name,
             "files": [file.name for file in files],

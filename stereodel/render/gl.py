@@ -29,6 +29,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray, IntArray, Pixels
+from stereodel._extras import MissingExtraError
 from stereodel.drawing.colors import Color
 from stereodel.render.mends import import_pyrender, mend_offscreen
 from stereodel.render.triangles import Triangles, Window
@@ -245,7 +246,7 @@ class Door:
         try:
             name, reason = self._choice(platform)
             version, renderer = self.context(platform).strings()
-        except (OpenGLError, ValueError) as error:
+        except (OpenGLError, MissingExtraError, ValueError) as error:
             return Description(name, reason, problem=str(error))
         return Description(name, reason, version, renderer)
 
@@ -366,6 +367,8 @@ def _import_pyrender(platform: str) -> Any:
     os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
     try:
         return import_pyrender()
+    except MissingExtraError:
+        raise
     except (ImportError, OSError, AttributeError) as error:
         raise OpenGLError(_missing(f"pyrender cannot be imported for {platform}: {error}", platform)) from error
 

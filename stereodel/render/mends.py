@@ -23,6 +23,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import Pixels
+from stereodel._extras import of_extra
 
 FINER: Final = 64
 """By how much the pixels are smaller to which the size of a formula is rounded up: then it is 1/64 of a point."""
@@ -34,7 +35,8 @@ def import_pyrender() -> Any:
         viewer: Any = types.ModuleType("pyrender.viewer")
         viewer.Viewer = type("Viewer", (), {})
         sys.modules["pyrender.viewer"] = viewer
-    import pyrender
+    with of_extra("render"):
+        import pyrender
 
     return pyrender
 

@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from matplotlib.path import Path as Outline
 
 from stereodel._arrays import FloatArray
+from stereodel._extras import of_extra
 from stereodel.drawing.page import Patch
+
+with of_extra("draw"):
+    from matplotlib.path import Path as Outline
 
 Indices = npt.NDArray[np.intp]
 

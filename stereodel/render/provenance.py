@@ -19,6 +19,10 @@ NOT_DRAWN_WITH: Final = ("cli",)
 """Modules and packages of the library that no picture depends on."""
 
 
+NOT_INSTALLED: Final = "not installed"
+"""In place of a version."""
+
+
 def library_versions() -> dict[str, str]:
     """Version of Python and of every library that a picture depends on."""
     return {"python": platform.python_version(), **{name: library_version(name) for name in LIBRARIES}}
@@ -29,7 +33,7 @@ def library_version(name: str) -> str:
     try:
         return version(name)
     except PackageNotFoundError:
-        return "not installed"
+        return NOT_INSTALLED
 
 
 def library_digest() -> bytes:

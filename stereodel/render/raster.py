@@ -1,12 +1,7 @@
-"""Pages as pixels: every item becomes triangles for OpenGL, in painter's order, and the labels are laid on top.
-
-The picture is drawn twice as large with four samples a pixel, then averaged: sixteen samples. Averages are taken of
-sRGB values as they stand, as OpenGL's own multisampling and matplotlib do, so that thin dark lines keep their weight.
-"""
+"""A page as triangles for OpenGL: every item but labels, in painter's order."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -26,64 +21,16 @@ from stereodel.drawing.page import (
     Picture,
     Polylines,
     Stroke,
-    Surface,
 )
-from stereodel.render import gl
 from stereodel.render.pieces import Piece, Pieces
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon, ribbons
-from stereodel.render.sizes import as_width, pixel_height
-from stereodel.render.text import LabelLayer
 from stereodel.render.triangles import Pixels, Window
-
-SUPERSAMPLING: Final = 2
-"""Pixels drawn per pixel of the picture, each way."""
 
 LIGHT: Final = np.array([-0.35, 0.45, 0.82]) / np.linalg.norm([-0.35, 0.45, 0.82])
 """Direction toward the light in view axes: from the upper left, in front."""
 
 SHADE: Final = 0.36
 """How much darker a surface is that is turned away from the light."""
-
-
-def render(page: Page, *, size: int | None = None, text: bool = True, platform: str | None = None) -> Pixels:
-    """Draw a page through OpenGL.
-
-    Parameters
-    ----------
-    page : Page
-    size : int, optional
-        Width in pixels; by default that of print at 300 dpi, 2008 for 17 cm.
-    text : bool
-        Whether labels are drawn.
-    platform : {"osmesa", "egl"}, optional
-        See `stereodel.render.gl`.
-
-    Returns
-    -------
-    (height, width, 3) uint8 array
-        sRGB, rows from the top.
-
-    Raises
-    ------
-    stereodel.render.gl.OpenGLError
-        If there is no usable OpenGL.
-    """
-    width = as_width(page, size)
-    layer = LabelLayer(page if text else page.without_labels(), width)
-    picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
-    top = 0
-    for rows in bands(page, width, platform=platform):
-        picture[top : top + len(rows)] = layer.over(rows, top)
-        top += len(rows)
-    return picture
-
-
-def bands(page: Page, width: int, *, platform: str | None = None) -> Iterator[Pixels]:
-    """Draw a page without its labels, rows (k, width, 3) after rows from the top."""
-    large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
-    pieces = triangulate(page, *large)
-    background = _over_white(page.background)
-    return gl.bands(pieces.within, *large, background=background, platform=platform, finish=_averaged)
 
 
 def triangulate(page: Page, width: int, height: int) -> Pieces:
@@ -115,8 +62,6 @@ class _Canvas:
                 return [self._lit_by(item.ball, region(self._outlines(item.paths)), item.color)]
             case Dots():
                 return self._dots(item)
-            case Surface():
-                return [self._lit(item)]
             case Mosaic():
                 return [self._mosaic(item)]
             case Picture():
@@ -161,11 +106,6 @@ class _Canvas:
             pieces.append(_flat(discs(centers, outer), dots.rim))
         return pieces
 
-    def _lit(self, surface: Surface) -> Piece:
-        colors = np.repeat([surface.color], len(surface.vertices), axis=0)
-        colors[:, :3] *= _brightness(surface.normals)[:, None]
-        return Piece(self._place(surface.vertices[:, :2])[surface.faces], colors[surface.faces])
-
     def _mosaic(self, mosaic: Mosaic) -> Piece:
         colors = np.ones((len(mosaic.corners), 3, 4))
         colors[..., :3] = mosaic.colors[:, None]
@@ -194,19 +134,3 @@ def _flat(corners: Corners, color: Color) -> Piece:
     # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
     levels = np.floor(255 * np.array(color) + 0.5) / 255
     return Piece(corners, np.broadcast_to(levels, (len(corners), 3, 4)))
-
-
-def _over_white(color: Color) -> Color:
-    red, green, blue = (np.floor(255 * (1 - color[3] * (1 - value)) + 0.5) / 255 for value in color[:3])
-    return (red, green, blue, 1.0)
-
-
-def _averaged(large: Pixels) -> Pixels:
-    """Each block of SUPERSAMPLING² pixels as one, rounded half up."""
-    n = SUPERSAMPLING
-    # Plane by plane: a sum over two axes of a reshaped array takes ten times as long.
-    total = np.full((large.shape[0] // n, large.shape[1] // n, 3), n * n // 2, dtype=np.uint16)
-    for row, column in np.ndindex(n, n):
-        total += large[row::n, column::n]
-    picture: Pixels = (total // np.uint16(n * n)).astype(np.uint8)
-    return picture

@@ -1,27 +1,34 @@
-"""Pages as files: PNG of any size, SVG and PDF.
+"""From a page to a file or an array, one way for every picture.
 
-A PNG is drawn and written some rows at a time, so that memory does not grow with the square of its width.
+    page → triangles → rows of pixels → labels over them → encoder
+
+Each stage takes from the one before and hands on; what comes after the triangles takes and gives rows, from the top, so
+that a picture is drawn, lettered and written some rows at a time and memory does not grow with the square of its width.
+SVG and PDF are written from the page itself, but for mosaics, which have too many cells for them: of these they hold
+pixels.
+
+`stereodel.drawing.Page` loads this module where it is saved or drawn.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Final, Literal
+from typing import Final
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import as_choice
+from stereodel._arrays import Pixels
 from stereodel._files import replacing
 from stereodel.drawing.page import Mosaic, Page
 from stereodel.render.digest import PixelDigest
-from stereodel.render.png import PngWriter
+from stereodel.render.gl import OpenGLError
+from stereodel.render.png import png_chunks
+from stereodel.render.rows import Renderer, bare_rows
 from stereodel.render.sizes import as_width, pixel_height, print_pixels
-
-Pixels = npt.NDArray[np.uint8]
+from stereodel.render.text import labelled
+from stereodel.render.vector import save_vector
 
 ENDINGS: Final = (".png", ".svg", ".pdf")
 
@@ -29,132 +36,61 @@ FINEST_DPI: Final = 600
 """Pixels per inch, at most, of what vector files hold as pictures: no press shows more."""
 
 
+def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer, platform: str | None) -> Pixels:
+    """What `Page.pixels` promises."""
+    shown, width = page if text else page.without_labels(), as_width(page, size)
+    picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
+    top = 0
+    for rows in labelled(bare_rows(shown, width, renderer, platform), shown, width):
+        picture[top : top + len(rows)] = rows
+        top += len(rows)
+    return picture
+
+
 def save_page(
     page: Page,
-    path: str | os.PathLike[str],
-    *,
-    size: int | None = None,
-    text: bool = True,
+    *paths: str | os.PathLike[str],
+    size: int | None,
+    text: bool,
+    renderer: Renderer,
     platform: str | None = None,
-) -> Path:
-    """Write a page as PNG, SVG or PDF, as the ending of `path` says.
-
-    Lines, dots and type are measured in points: more pixels show the same page finer. A poster with thinner lines is
-    a page with more points, ``dataclasses.replace(page, width=...)``.
-
-    Parameters
-    ----------
-    page : Page
-    path : path-like
-        Written under a temporary name in the same folder first; an existing file is replaced.
-    size : int, optional
-        Width in pixels of a PNG, at most 65 535; by default that of print at 300 dpi, 2008 for 17 cm.
-    text : bool
-        Whether labels are drawn.
-    platform : {"osmesa", "egl"}, optional
-        See `stereodel.render.gl`.
+) -> tuple[int, str]:
+    """What `Page.save` promises, for several files of one picture; mosaics are drawn once for all of them.
 
     Returns
     -------
-    Path
-        The file.
-
-    Raises
-    ------
-    ValueError
-        For another ending, and for a size that is out of range.
-    OSError
-        Where the file cannot be written; where there is no OpenGL, which a PNG needs, and cells in vector files.
-
-    Notes
-    -----
-    A PNG 16 384 pixels wide and high is drawn in less than a gigabyte; at once, its pixels alone would take that much.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from stereodel.drawing import Scene, View
-    >>> page = Page((-1.1, 1.1, -1.1, 1.1), Scene().layout(View(0, 0)))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     save_page(page, Path(folder, "ball.png"), size=50).stat().st_size > 1000
-    True
+    tuple of int and str
+        Width of the picture in pixels; hash of its pixels without text, empty where there is no PNG.
     """
-    target = Path(path)
-    kind = target.suffix.lower()
-    if kind not in ENDINGS:
-        raise ValueError(f"path must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}, got {target.name!r}")
-    from stereodel.render.gl import OpenGLError
-    from stereodel.render.vector import save_vector
-
-    shown, width = page if text else page.without_labels(), as_width(page, size)
+    files = [(Path(path), Path(path).suffix.lower()) for path in paths]
+    for target, kind in files:
+        if kind not in ENDINGS:
+            raise ValueError(f"path must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}, got {target.name!r}")
+    shown, width, digest = page if text else page.without_labels(), as_width(page, size), ""
     try:
-        if kind == ".png":
-            write_png(shown, target, width=width, platform=platform)
-            return target
-        return save_vector(shown, target, mosaics=mosaic_pictures(page, width, platform=platform))
+        mosaics = mosaic_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
+        for target, kind in files:
+            if kind == ".png":
+                digest = _write_png(shown, target, width, renderer, platform)
+            else:
+                save_vector(shown, target, mosaics=mosaics)
     except OpenGLError as error:
-        raise OSError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
+        raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
+    return width, digest
 
 
-def write_png(
-    page: Page,
-    target: Path,
-    *,
-    width: int,
-    text: bool = True,
-    renderer: Literal["gl", "agg"] = "gl",
-    platform: str | None = None,
-) -> str:
-    """Write a page as PNG, `width` pixels wide, and return the hash of its pixels without text."""
-    from stereodel.render.text import LabelLayer
+def mosaic_pictures(page: Page, width: int, platform: str | None = None) -> list[Pixels]:
+    """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
+    size = min(width, print_pixels(page, FINEST_DPI))
+    alone = [replace(page, items=(item,)) for item in page.items if isinstance(item, Mosaic)]
+    return [draw_page(mosaic, size=size, text=False, renderer="gl", platform=platform) for mosaic in alone]
 
+
+def _write_png(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> str:
+    """Write a page as PNG and return the hash of its pixels without text."""
     height = pixel_height(page, width)
     digest = PixelDigest((height, width, 3))
-    layer = LabelLayer(page if text else page.without_labels(), width)
+    rows = labelled(digest.passed(bare_rows(page, width, renderer, platform)), page, width)
     with replacing(target) as temporary, temporary.open("wb") as file:
-        writer = PngWriter(file, width, height, page_width=page.width)
-        for top, rows in bare_rows(page, width, renderer=renderer, platform=platform):
-            digest.add(rows)
-            writer.write(layer.over(rows, top))
-        writer.finish()
+        file.writelines(png_chunks(rows, width, height, page_width=page.width))
     return str(digest)
-
-
-def bare_rows(
-    page: Page, width: int, *, renderer: Literal["gl", "agg"] = "gl", platform: str | None = None
-) -> Iterator[tuple[int, Pixels]]:
-    """A picture of a page without its labels, from the top: the number of a row, and rows (k, width, 3) from it on."""
-    if as_choice(renderer, ("gl", "agg"), "renderer") == "agg":
-        from stereodel.render import vector
-
-        bands = vector.bands(page.without_labels(), width)
-    else:
-        from stereodel.render import raster
-
-        bands = raster.bands(page, width, platform=platform)
-    top = 0
-    for rows in bands:
-        yield top, rows
-        top += len(rows)
-
-
-def mosaic_pictures(page: Page, width: int, *, platform: str | None = None) -> list[Pixels]:
-    """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
-    mosaics = [item for item in page.items if isinstance(item, Mosaic)]
-    if not mosaics:
-        return []
-    from stereodel.render.raster import render
-
-    size = min(width, print_pixels(page, FINEST_DPI))
-    return [render(replace(page, items=(mosaic,)), size=size, text=False, platform=platform) for mosaic in mosaics]
-
-
-def save_png(picture: Pixels, path: str | os.PathLike[str], *, page_width: float) -> Path:
-    """Write pixels (h, w, 3) as a PNG that knows its print width, `page_width` points; never half a file."""
-    target = Path(path)
-    height, width = picture.shape[:2]
-    with replacing(target) as temporary, temporary.open("wb") as file:
-        writer = PngWriter(file, width, height, page_width=page_width)
-        writer.write(picture)
-        writer.finish()
-    return target

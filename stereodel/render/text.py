@@ -1,4 +1,4 @@
-"""The labels of a page as pixels, some rows at a time.
+"""The labels of a page over the rows of its picture.
 
 Text is drawn by matplotlib's Agg, whose canvas is as large as its picture. Here the canvas has the rows that are asked
 for and the text keeps its place on the page, a whole number of pixels above or below them: the pixels are those of a
@@ -8,26 +8,32 @@ canvas for the whole page.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
-from matplotlib.backends import backend_agg
-from matplotlib.text import Text
-from matplotlib.transforms import Affine2D
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import Pixels
+from stereodel._extras import of_extra
 from stereodel.drawing.page import Page
 from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
 
-Pixels = npt.NDArray[np.uint8]
-
-INK_PER_POINT: Final = 10
-"""Pixels per point at which ink is measured: a twentieth of a point is less than a reader can see."""
+with of_extra("draw"):
+    from matplotlib.backends.backend_agg import RendererAgg
+    from matplotlib.text import Text
+    from matplotlib.transforms import Affine2D
 
 ROWS: Final = 16
 """Rows over which labels are laid at once: that takes 32 bytes a pixel."""
+
+
+def labelled(rows: Iterable[Pixels], page: Page, width: int) -> Iterator[Pixels]:
+    """Rows of a picture `width` pixels wide, from the top, with the labels of its page on them."""
+    layer, top = LabelLayer(page, width), 0
+    for part in rows:
+        yield layer.over(part, top)
+        top += len(part)
 
 
 class LabelLayer:
@@ -55,7 +61,7 @@ class LabelLayer:
         if page.labels:
             with matplotlib_settings():
                 canvas = drawn(replace(page, items=page.labels), self._dpi, (self.width, self.height))
-                ruler = _canvas(1, 1, self._dpi)
+                ruler = _Canvas(1, 1, self._dpi)
                 self._placed = [(text, *_rows_of(text, ruler, self.height)) for text in canvas.axes[0].texts]
 
     def over(self, rows: Pixels, top: int = 0) -> Pixels:
@@ -66,12 +72,15 @@ class LabelLayer:
         composed = rows.copy()
         for first in range(0, len(rows), ROWS):
             part = slice(first, first + ROWS)
-            composed[part] = _laid_over(rows[part], layer[part])
+            opacity = layer[part, :, 3:].astype(np.uint16)
+            # At most 255² + 127, which fits into 16 bits.
+            mixed = layer[part, :, :3] * opacity + rows[part] * (255 - opacity)
+            composed[part] = (mixed + 127) // 255
         return composed
 
-    def rows(self, top: int, bottom: int) -> Pixels:
+    def rows(self, top: int = 0, bottom: int | None = None) -> Pixels:
         """The labels in the rows from `top` to before `bottom`, (bottom − top, width, 4), colours not premultiplied."""
-        return self._drawn(top, bottom).copy()
+        return self._drawn(top, self.height if bottom is None else bottom).copy()
 
     @property
     def span(self) -> tuple[int, int]:
@@ -84,11 +93,9 @@ class LabelLayer:
         """As `rows`, until the next call."""
         # One canvas for all rows: a text keeps the canvas that it was drawn on.
         if self._canvas is None or self._canvas.height != bottom - top:
-            self._canvas = _canvas(self.width, bottom - top, self._dpi)
+            self._canvas = _Canvas(self.width, bottom - top, self._dpi)
         self._canvas.clear()
-        # As high as its rows and what lies below them, for by that the text is placed.
-        size = (self.width, self.height - top)
-        self._canvas.get_canvas_width_height = lambda: size
+        self._canvas.below = self.height - bottom
         with matplotlib_settings():
             for text in self._texts(top, bottom):
                 text.draw(self._canvas)
@@ -98,67 +105,27 @@ class LabelLayer:
         return [text for text, first, last in self._placed if first < bottom and last > top]
 
 
-def label_layer(page: Page, width_px: int) -> Pixels:
-    """The labels alone on a transparent ground, (height, width, 4), colours not premultiplied, rows from the top."""
-    layer = LabelLayer(page, width_px)
-    return layer.rows(0, layer.height)
-
-
-def with_labels(picture: Pixels, page: Page) -> Pixels:
-    """The labels of a page over a picture of it without text, (height, width, 3)."""
-    return LabelLayer(page, picture.shape[1]).over(picture)
-
-
-def ink_boxes(page: Page) -> FloatArray:
-    """Where the ink of each label lies, halos too: left, bottom, right and top in points from the lower left, (n, 4).
-
-    As far as it is at least half as strong as where it is strongest; NaN where a label leaves no ink.
-    """
-    width_px = max(1, round(INK_PER_POINT * page.width))
-    boxes = np.full((len(page.labels), 4), np.nan)
-    for box, label in zip(boxes, page.labels, strict=True):
-        layer = LabelLayer(replace(page, items=(label,)), width_px)
-        top, bottom = layer.span
-        opacity = layer.rows(top, bottom)[..., 3] if top < bottom else np.zeros((0, 0), dtype=np.uint8)
-        if opacity.any():
-            rows, columns = np.nonzero(opacity >= opacity.max() / 2)
-            edges = [
-                columns.min(),
-                layer.height - top - rows.max() - 1,
-                columns.max() + 1,
-                layer.height - top - rows.min(),
-            ]
-            box[:] = np.array(edges) * (page.width / width_px)
-    return boxes
-
-
-def _laid_over(rows: Pixels, layer: Pixels) -> Pixels:
-    opacity = layer[..., 3:].astype(np.uint16)
-    # At most 255² + 127, which fits into 16 bits.
-    mixed = layer[..., :3] * opacity + rows * (255 - opacity)
-    composed: Pixels = ((mixed + 127) // 255).astype(np.uint8)
-    return composed
-
-
-def _canvas(width: int, height: int, dpi: float) -> Any:
-    """A canvas of matplotlib, which has no types; its foot is as far above that of the page as it is lower.
+class _Canvas(RendererAgg):
+    """Some rows of a page, `below` of whose rows lie under them.
 
     Matplotlib turns the place of type round by the height that a canvas says it has, but paths, which type with a halo
-    is drawn as, by the height that it has.
+    is drawn as, by the height that it has. So it says that it is as high as its rows and what lies below them, and
+    lowers paths by the difference.
     """
-    agg: Any = backend_agg
-    canvas = agg.RendererAgg(width, height, dpi)
-    draw_path = canvas.draw_path
 
-    def lowered(gc: Any, path: Any, transform: Any, face: Any = None) -> None:
-        below = canvas.get_canvas_width_height()[1] - height
-        draw_path(gc, path, transform + Affine2D().translate(0.0, -below), face)
+    below = 0
 
-    canvas.draw_path = lowered
-    return canvas
+    def __init__(self, width: int, height: int, dpi: float) -> None:
+        super().__init__(width, height, dpi)  # type: ignore[no-untyped-call]
+
+    def get_canvas_width_height(self) -> tuple[float, float]:
+        return self.width, self.height + self.below
+
+    def draw_path(self, gc: Any, path: Any, transform: Any, rgbFace: Any = None) -> None:
+        super().draw_path(gc, path, transform + Affine2D().translate(0.0, -self.below), rgbFace)  # type: ignore[no-untyped-call]
 
 
-def _rows_of(text: Text, ruler: Any, height: int) -> tuple[float, float]:
+def _rows_of(text: Text, ruler: _Canvas, height: int) -> tuple[float, float]:
     """The rows between which a text lies."""
     box = text.get_window_extent(ruler)
     # Ink may leave the box that a line of type is given, though never by the height of the type.

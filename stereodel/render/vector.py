@@ -1,4 +1,4 @@
-"""Pages on paper: SVG and PDF, and pixels without OpenGL, by matplotlib.
+"""Pages on paper: SVG and PDF, by matplotlib.
 
 The files hold true curves, have the page's size to the last digit, and carry no date, no version and no random
 identifier: the same page always gives the same bytes. Text is outlines in SVG, so that it looks the same everywhere,
@@ -11,27 +11,17 @@ import os
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import AbstractContextManager
-from dataclasses import replace
 from itertools import groupby
 from pathlib import Path
 from typing import Any, Final
 
-import matplotlib as mpl
 import numpy as np
 import numpy.typing as npt
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure as Canvas
-from matplotlib.image import AxesImage
-from matplotlib.patches import PathPatch
-from matplotlib.path import Path as Outline
-from matplotlib.patheffects import withStroke
-from matplotlib.transforms import ScaledTranslation
 
 from stereodel._arrays import FloatArray
+from stereodel._extras import of_extra
 from stereodel._files import replacing
 from stereodel.constants import FINEST_POINTS
-from stereodel.drawing.colors import Color
 from stereodel.drawing.page import (
     Beziers,
     Dots,
@@ -44,21 +34,27 @@ from stereodel.drawing.page import (
     Picture,
     Polylines,
     Stroke,
-    Surface,
 )
 from stereodel.drawing.style import PRINT_DPI, TYPE
 from stereodel.render.mends import exact_mathtext
 from stereodel.render.outlines import patch_outline
 from stereodel.render.sizes import pixel_height
 
+with of_extra("draw"):
+    import matplotlib as mpl
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Canvas
+    from matplotlib.image import AxesImage
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path as Outline
+    from matplotlib.patheffects import withStroke
+    from matplotlib.transforms import ScaledTranslation
+
 CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
 """Reach of the controls of a circle drawn as eight cubics, in radii."""
 
 PAPER_DPI: Final = 72.0
 """Dots per inch of a canvas that is written as paths: points."""
-
-AT_ONCE: Final = 2**25
-"""Pixels that Agg draws at once: with a copy they take 256 MB."""
 
 METADATA = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
@@ -100,34 +96,6 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures =
     return target
 
 
-def rasterize(page: Page, *, size: int, text: bool = True) -> npt.NDArray[np.uint8]:
-    """Pixels of a page through Agg, (height, width, 3), rows from the top.
-
-    Parameters
-    ----------
-    page : Page
-    size : int
-        Width in pixels.
-    text : bool
-        Whether labels are drawn.
-    """
-    return np.concatenate(list(bands(page if text else page.without_labels(), size)))
-
-
-def bands(page: Page, size: int) -> Iterator[npt.NDArray[np.uint8]]:
-    """Draw a page through Agg as `rasterize` does, from the top: arrays (k, size, 3) of about `AT_ONCE` pixels."""
-    dpi, (width, height) = pixel_grid(page, size)
-    left, right, low, high = page.extent
-    rows = max(1, AT_ONCE // width)
-    for top in range(0, height, rows):
-        bottom = min(height, top + rows)
-        # Written so that a page drawn at once keeps its numbers.
-        lower, upper = (low * (row / height) + high * (1 - row / height) for row in (bottom, top))
-        part = replace(page, extent=(left, right, lower, upper))
-        with matplotlib_settings():
-            yield _pixels(drawn(part, dpi, (width, bottom - top)), page.background)[..., :3]
-
-
 def matplotlib_settings() -> AbstractContextManager[None]:
     """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
     # rc_context does not give the backend back, so it stays out.
@@ -163,13 +131,6 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics
     return canvas
 
 
-def _pixels(canvas: Canvas, background: Color) -> npt.NDArray[np.uint8]:
-    canvas.set_facecolor(background)
-    agg: Any = FigureCanvasAgg(canvas)
-    agg.draw()
-    return np.array(agg.buffer_rgba(), dtype=np.uint8)
-
-
 def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | AxesImage]:
     """Page items as patches; neighbours of one look share one, so that a name is a group and files stay small."""
     count = sum(isinstance(item, Mosaic) for item in page.items)
@@ -189,9 +150,7 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
                 outline = patch_outline(patch, spacing=FINEST_POINTS / page.points_per_unit)
                 yield PathPatch(outline, facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.name)
             case Fill():
-                yield from (_fill_patch(item.paths, item) for item in items if isinstance(item, Fill))
-            case Surface():
-                yield from (_fill_patch(item.outline, item) for item in items if isinstance(item, Surface))
+                yield from (_fill_patch(item) for item in items if isinstance(item, Fill))
             case Mosaic() as mosaic:
                 yield _mosaic_image(mosaic, next(pictures), page, axes)
             case Picture() as picture:
@@ -244,8 +203,8 @@ def _polylines_patch(lines: Polylines) -> PathPatch:
     )
 
 
-def _fill_patch(paths: Iterable[Beziers], item: Fill | Surface) -> PathPatch:
-    outline = _outline((path, True) for path in _oriented(list(paths)))
+def _fill_patch(item: Fill) -> PathPatch:
+    outline = _outline((path, True) for path in _oriented(list(item.paths)))
     return PathPatch(outline, facecolor=item.color, linewidth=0.0, edgecolor="none", gid=item.name)
 
 

@@ -7,12 +7,15 @@ them. `QhullError` and every other name of `scipy.spatial` are SciPy's own.
 
 from typing import Any
 
-import scipy.spatial
-from scipy.spatial import QhullError
+from stereodel._extras import of_extra
 
-from stereodel.spatial.delaunay import Delaunay
-from stereodel.spatial.spherical_voronoi import SphericalVoronoi
-from stereodel.spatial.voronoi import Voronoi
+with of_extra("scipy"):
+    import scipy.spatial
+    from scipy.spatial import QhullError
+
+    from stereodel.spatial.delaunay import Delaunay
+    from stereodel.spatial.spherical_voronoi import SphericalVoronoi
+    from stereodel.spatial.voronoi import Voronoi
 
 __all__ = ["Delaunay", "QhullError", "SphericalVoronoi", "Voronoi"]
 

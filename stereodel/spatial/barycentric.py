@@ -22,6 +22,7 @@ def transforms(corners: FloatArray) -> FloatArray:
     |det T| / (‖T‖·‖adj T‖), is below `TRANSFORM_CONDITION`, or when its sides or their inverses exceed doubles.
     """
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        # Sides over a power of two, so that products stay within the range of doubles; the inverse takes it back.
         sides = corners[:, :2] - corners[:, 2:]
         shift = -np.frexp(np.abs(sides).max(axis=(1, 2), initial=0.0))[1]
         (ax, ay), (bx, by) = np.ldexp(sides, shift[:, None, None]).transpose(1, 2, 0)
@@ -99,6 +100,7 @@ class NearMisses:
 
     def _with_neighbors(self, near: list[IntArray]) -> IntArray:
         """Columns of triangles, -1 for none, and of their neighbors, (k, 4c), filled up with what there is."""
+        # Where there is no triangle there are no neighbours; its places are taken by some other candidate of the row.
         columns = np.column_stack(near)
         beside = np.where(columns[:, :, None] < 0, -1, self._triangulation.neighbors[columns])
         around = np.concatenate([columns, beside.reshape(len(columns), -1)], axis=1)
@@ -106,6 +108,7 @@ class NearMisses:
 
     def _first_holding(self, queries: FloatArray, candidates: IntArray, otherwise: IntArray, tol: float) -> IntArray:
         """The first of the candidates (k, c) or (1, c) that holds each query (k, 2)."""
+        # The first column that holds: argmax finds the first True, and any tells whether there is one.
         lowest = np.where(self._beside_degenerate[candidates], -np.sqrt(tol), -tol)
         holds = np.all(coordinates(self._transform[candidates], queries[:, None]) >= lowest, axis=-1)
         first = holds.argmax(axis=1)

@@ -32,7 +32,7 @@ class SphereArc:
     Examples
     --------
     >>> quarter = SphereArc.great((0.0, 0.0), (90.0, 0.0))
-    >>> print(quarter.points(3))
+    >>> print(quarter.sample(3))
     [[1.         0.         0.        ]
      [0.70710678 0.70710678 0.        ]
      [0.         1.         0.        ]]
@@ -102,7 +102,7 @@ class SphereArc:
         u = on_circle(self.circle, unit(self.start)) - center
         return center, u, cross(normal, u)
 
-    def points(self, n: int) -> FloatArray:
+    def sample(self, n: int) -> FloatArray:
         """Points at n equal steps of angle from start to end, both included, (n, 3); n at least 2."""
         center, u, v, sweep_rad = self.frame()
         t = np.linspace(0.0, sweep_rad, as_count(n, "n", low=2))[:, None]

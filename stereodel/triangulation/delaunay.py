@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, Self, TypeVar
+from typing import Any, ClassVar, Final, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -15,17 +15,40 @@ from stereodel._arrays import (
     IntArray,
     as_count,
     as_indices,
+    as_points,
     as_workers,
     locked,
     private,
 )
+from stereodel._docs import shared
 from stereodel._spaces import Mesh, Space, Triangulated
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import LONLAT, as_asked
 from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
 from stereodel.triangulation.versions import Versioned, kept
 
 _T = TypeVar("_T")
+
+FAMILY: Final = {
+    "options": """
+        workers : int, optional
+            Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
+        neighbors : bool, optional
+            Whether to compute `neighbors` at once, which costs little; otherwise when first asked for.
+        """,
+    "edges": """
+        edges : (e, 2) array of int32
+            Edges with i < j, in lexicographic order.
+        """,
+    "changes": """
+        Arrays are read-only; `insert` and `remove` replace them. Several threads may ask at the same time. While one of
+        them changes the triangulation, whatever the others ask of it or change in it is a RuntimeError; copies
+        (`copy.copy`) share the arrays and go their own ways.
+        """,
+}
+"""What the docstrings of both triangulations have in common."""
 
 
 class Delaunay(Versioned, ABC):
@@ -37,6 +60,7 @@ class Delaunay(Versioned, ABC):
 
     _space: ClassVar[Space]
 
+    _latitude: Latitude | None = None
     _workers: int | None
     _eager: bool  # whether neighbors are wanted with the simplices
 
@@ -50,7 +74,7 @@ class Delaunay(Versioned, ABC):
     def __init__(self, points: npt.ArrayLike, *, workers: int | None = None, neighbors: bool = True) -> None:
         self._workers = as_workers(workers)
         self._eager = bool(neighbors)
-        self._hold(self._fresh(private(self._as_points(points), points)))
+        self._hold(self._fresh(private(self._as_points(points, f"{type(self).__name__}.from_lonlat"), points)))
 
     @classmethod
     def _from_simplices(cls, points: FloatArray, simplices: IntArray, duplicates: IntArray) -> Self:
@@ -177,13 +201,20 @@ class Delaunay(Versioned, ABC):
         """The different points in the order along their line or great circle, without triangles."""
         return locked(self._space.flat_order(self.points, checked=True))
 
-    def insert(self, points: npt.ArrayLike) -> IntArray:
+    @property
+    def latitude(self) -> Latitude | None:
+        """The kind of latitude by which the points were given, None if they were not given by one."""
+        return self._latitude
+
+    def insert(self, points: npt.ArrayLike | None = None, *, lonlat: npt.ArrayLike | None = None) -> IntArray:
         """Add points.
 
         Parameters
         ----------
         points : array_like of shape (k, 2) or (k, 3)
             As for the constructor.
+        lonlat : array_like of shape (k, 2), optional
+            In place of `points`: (longitude, latitude) in degrees, of the latitude that the points were given by.
 
         Returns
         -------
@@ -200,7 +231,9 @@ class Delaunay(Versioned, ABC):
         The triangles equal those of all points from scratch; the order of their rows may not. Arrays handed out
         earlier do not change.
         """
-        added = private(self._as_points(points), points)
+        pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
+        given = as_asked(points, pairs, self._latitude, "points")
+        added = private(self._as_points(given, "insert(lonlat=…)"), given)
         with self._change():
             before = self._latest()
             if before.dimension < 2 or REBUILD_INSERTING * len(added) > before._size:
@@ -250,13 +283,21 @@ class Delaunay(Versioned, ABC):
             self._put(before._fresh(rest) if version._mesh.is_flat else version)
         return number
 
-    def find_simplex(self, queries: npt.ArrayLike, *, workers: int | None = None) -> IntArray | int:
+    @shared(**LONLAT)
+    def find_simplex(
+        self,
+        queries: npt.ArrayLike | None = None,
+        *,
+        lonlat: npt.ArrayLike | None = None,
+        workers: int | None = None,
+    ) -> IntArray | int:
         """Triangle that holds each query, exactly.
 
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
             Points of the plane, or directions.
+        {asked}
         workers : int, optional
             Threads; -1 for all processors. By default those of the constructor, for many queries.
 
@@ -268,19 +309,29 @@ class Delaunay(Versioned, ABC):
         Raises
         ------
         ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, or another last axis.
+            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
+            points were not given by longitude and latitude.
         """
         now = self._present()
-        array, flat, threads = now._as_queries(queries, workers)
+        array, flat, threads = now._as_queries(as_asked(queries, lonlat, self._latitude), workers)
         return _shaped(now._space.find_simplex(*now._triangles(), flat, now._closed(), threads, True), array)
 
-    def nearest(self, queries: npt.ArrayLike, *, k: int | None = None, workers: int | None = None) -> IntArray | int:
+    @shared(**LONLAT)
+    def nearest(
+        self,
+        queries: npt.ArrayLike | None = None,
+        *,
+        lonlat: npt.ArrayLike | None = None,
+        k: int | None = None,
+        workers: int | None = None,
+    ) -> IntArray | int:
         """Nearest point of each query, or the k nearest, exactly.
 
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
             Points of the plane, or directions.
+        {asked}
         k : int, optional
             How many points are wanted, 1 to the number of points; by default the nearest alone, without an axis of its
             own.
@@ -298,7 +349,8 @@ class Delaunay(Versioned, ABC):
         ------
         ValueError, TypeError
             For values that are not finite real numbers, zero vectors, another last axis, a triangulation without
-            points, or `k` below 1 or above the number of points.
+            points, or `k` below 1 or above the number of points; for `lonlat` where the points were not given by
+            longitude and latitude.
 
         Notes
         -----
@@ -321,7 +373,7 @@ class Delaunay(Versioned, ABC):
         now = self._present()
         if now._size == 0:
             raise ValueError("nearest needs at least one point; this triangulation has none")
-        array, flat, threads = now._as_queries(queries, workers)
+        array, flat, threads = now._as_queries(as_asked(queries, lonlat, self._latitude), workers)
         count = 1 if k is None else as_count(k, "k", high=now._size)
         if now.dimension < 2:
             found = now._space.nearest_flat(now.points, now._flat_order, now.duplicates, flat, count, threads, True)
@@ -376,11 +428,13 @@ class Delaunay(Versioned, ABC):
 
     @staticmethod
     @abstractmethod
-    def _as_points(points: npt.ArrayLike) -> FloatArray: ...
+    def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        """Checked points; the message about those of the other space names the door for longitude and latitude."""
 
     @staticmethod
     @abstractmethod
-    def _check_queries(queries: npt.ArrayLike) -> FloatArray: ...
+    def _check_queries(queries: npt.ArrayLike) -> FloatArray:
+        """Checked queries of any leading shape."""
 
 
 def _shaped(found: IntArray, queries: FloatArray) -> IntArray | int:

@@ -4,13 +4,35 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import pairwise
+from typing import Final
 
 import numpy as np
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, locked
 from stereodel._spaces import space_of
+from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation.delaunay import Delaunay
+
+FAMILY: Final = {
+    "flat_regions": """
+        region_indices, region_offsets : arrays of int
+            The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+        """,
+    "ridge_points": """
+        ridge_points : (r, 2) array of int32
+            Sites i < j on both sides of each ridge, in lexicographic order.
+        """,
+    "numbers": """
+        point_region : (n,) array of int32
+            Region of each point; a duplicate's is the kept point's.
+        simplex_vertex : (m,) array of int32
+            Voronoi vertex of each Delaunay triangle.
+        is_kept : (n,) array of bool
+            Whether a point has a cell of its own and is no dropped duplicate.
+        """,
+}
+"""What the docstrings of both diagrams have in common."""
 
 
 class Diagram:
@@ -33,6 +55,8 @@ class Diagram:
         The region of each point: its own number, for a duplicate that of the kept point.
     simplex_vertex : (m,) array of int32
         The vertex of each Delaunay triangle; exactly cocircular neighbours share one.
+    latitude : str or None
+        The kind of latitude by which the points were given, None if they were not given by one.
     """
 
     points: FloatArray
@@ -42,6 +66,7 @@ class Diagram:
     region_neighbors: IntArray
     point_region: IntArray
     simplex_vertex: IntArray
+    latitude: Latitude | None = None
     _order: IntArray  # of sites with cells, along the curve of the triangles
     _rank: IntArray | None  # of triangles that share a vertex, by their corners
     _threads: int

@@ -6,19 +6,31 @@ import copy
 
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, IntArray, as_plane_or_sphere
+from stereodel._arrays import BoolArray, IntArray
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import as_sites, refuse_lonlat
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 Triangulation = PlanarDelaunay | SphericalDelaunay
 
 
-def as_triangulation(points: npt.ArrayLike | Triangulation) -> Triangulation:
-    """The triangulation given, as it is now, or that of points (n, 2) of the plane or of directions (n, 3)."""
+def as_triangulation(
+    points: npt.ArrayLike | Triangulation | None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+) -> Triangulation:
+    """The triangulation given, as it is now, or that of points of the plane, of directions, or of `lonlat`."""
     if isinstance(points, PlanarDelaunay | SphericalDelaunay):
+        refuse_lonlat(lonlat, latitude)
         return copy.copy(points)
-    array = as_plane_or_sphere(points)
-    return SphericalDelaunay(array) if array.shape[1] == 3 else PlanarDelaunay(array)
+    array, kind = as_sites(points, lonlat, latitude)
+    if array.shape[1] == 2:
+        return PlanarDelaunay(array)
+    triangulation = SphericalDelaunay(array)
+    triangulation._latitude = kind
+    return triangulation
 
 
 def threads_of(triangulation: Triangulation, workers: int | None, size: int | None = None) -> int:

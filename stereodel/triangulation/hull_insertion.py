@@ -5,11 +5,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, IntArray, as_directions, as_plane_or_sphere, as_points, read_only
+from stereodel._docs import shared
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
 from stereodel.triangulation.order import insertion_order, spanning_points
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites, Sites
 from stereodel.triangulation.topology import Edge, Facet, Surface, as_rows
@@ -60,6 +64,10 @@ class HullInsertion:
     facets : (m, 3) array of int32
         The present surface: counterclockwise seen from outside, smallest index first, rows in lexicographic order. In
         the plane facets with -1 lie beyond the edges of the convex hull.
+    latitude : str or None
+        The kind of latitude by which the points were given (`from_lonlat`).
+    lonlat : (n, 2) array
+        `points` in degrees, of that latitude.
     start : tuple of int
         The points of the first surface; fewer than three if all lie on one line (one great circle).
     dimension : int
@@ -97,6 +105,7 @@ class HullInsertion:
 
     def __init__(self, points: npt.ArrayLike, *, spatial: bool = False) -> None:
         array = as_plane_or_sphere(points)
+        self.latitude: Latitude | None = None
         self._sites: Sites = RaySites() if array.shape[1] == 3 else PlaneSites()
         self._spatial = spatial
         self._surface = Surface()
@@ -108,10 +117,48 @@ class HullInsertion:
         self.start: tuple[int, ...] = ()
         self._append(array)
 
-    def extend(self, points: npt.ArrayLike) -> None:
-        """Append points; iterate (or `run`) to insert them."""
-        check = as_points if self.points.shape[1] == 2 else _as_direction_list
-        self._append(check(points, self.points.shape[1]))
+    @classmethod
+    @shared(**LONLAT)
+    def from_lonlat(cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", spatial: bool = False) -> Self:
+        """The hull of points given by longitude and latitude.
+
+        Parameters
+        ----------
+        {lonlat}
+        {latitude}
+        spatial
+            As for the constructor.
+
+        Raises
+        ------
+        {lonlat_raises}
+
+        Examples
+        --------
+        >>> hull = HullInsertion.from_lonlat([[0, 0], [90, 0], [0, 90]])
+        >>> hull.extend(lonlat=[[-135, -35]])
+        >>> [step.inserted for step in hull], hull.latitude
+        ([3], 'spherical')
+        """
+        xyz, kind = as_sites(None, lonlat, latitude)
+        self = cls(xyz, spatial=spatial)
+        self.latitude = kind
+        return self
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """Longitude and latitude of `points`, (n, 2) in degrees, if the points were given by them."""
+        return as_told(self.points, self.latitude)
+
+    def extend(self, points: npt.ArrayLike | None = None, *, lonlat: npt.ArrayLike | None = None) -> None:
+        """Append points, or `lonlat` of the latitude of those before; iterate (or `run`) to insert them."""
+        pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
+        given = as_asked(points, pairs, self.latitude, "points")
+        if self.points.shape[1] == 2:
+            self._append(as_points(given, 2, instead="this surface is one of the plane"))
+        else:
+            door = "for longitude and latitude use extend(lonlat=…)"
+            self._append(as_directions(given, "points", points=True, instead=door))
 
     def run(self) -> None:
         """Insert all that waits, without a record of the steps."""
@@ -133,8 +180,7 @@ class HullInsertion:
     def simplices(self) -> IntArray:
         """The facets without a ghost, (m, 3)."""
         facets = self.facets
-        simplices: IntArray = facets[facets[:, 0] != GHOST]
-        return simplices
+        return facets[facets[:, 0] != GHOST]
 
     @property
     def duplicates(self) -> IntArray:
@@ -236,7 +282,3 @@ def _end_with(last: int, a: int, b: int, c: int) -> Facet:
     if c == last:
         return a, b, c
     return (b, c, a) if a == last else (c, a, b)
-
-
-def _as_direction_list(points: npt.ArrayLike, dimension: int) -> FloatArray:
-    return as_directions(points, "points", points=True)

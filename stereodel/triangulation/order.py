@@ -42,6 +42,7 @@ def _morton(points: FloatArray) -> LongArray:
     with np.errstate(over="ignore", invalid="ignore"):
         low, high = points.min(axis=0, initial=np.inf), points.max(axis=0, initial=-np.inf)
         fractions = (points / 2 - low / 2) / np.maximum((high / 2 - low / 2).max(), np.finfo(float).tiny)
+    # Bit b of every axis in turn: places whose keys begin alike lie in one cell of a coarser grid.
     cells = (np.nan_to_num(fractions) * (2**20 - 1)).astype(np.int64)
     keys = np.zeros(len(points), dtype=np.int64)
     for bit in range(20):

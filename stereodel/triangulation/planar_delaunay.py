@@ -8,10 +8,12 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_points, as_vectors
+from stereodel._docs import shared
 from stereodel._spaces import Space
-from stereodel.triangulation.delaunay import Delaunay
+from stereodel.triangulation.delaunay import FAMILY, Delaunay
 
 
+@shared(**FAMILY)
 class PlanarDelaunay(Delaunay):
     """Delaunay triangulation of points of the plane: no point lies inside a triangle's circle.
 
@@ -19,10 +21,7 @@ class PlanarDelaunay(Delaunay):
     ----------
     points : (n, 2) array_like
         Finite numbers of any size; y up. Copied.
-    workers : int, optional
-        Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
-    neighbors : bool, optional
-        Whether to compute `neighbors` at once, which costs little; otherwise when first asked for.
+    {options}
 
     Attributes
     ----------
@@ -34,8 +33,7 @@ class PlanarDelaunay(Delaunay):
         `neighbors[i, k]` is the triangle opposite corner k of triangle i; -1 where there is none.
     convex_hull : (h, 2) array of int32
         Directed edges of the hull, counterclockwise, in lexicographic order; points on the hull's sides split them.
-    edges : (e, 2) array of int32
-        Edges with i < j, in lexicographic order.
+    {edges}
     circumcenters : (m, 2) array
         Centres of the triangles' circles, rounded from the exact ones.
     duplicates : (k, 2) array of int32
@@ -56,9 +54,9 @@ class PlanarDelaunay(Delaunay):
     -----
     The answer is that of exact arithmetic on the given doubles. Cocircular points are triangulated as if the first of
     them in lexicographic order were lifted a little above the paraboloid z = x² + y²: a rule on points, so that no
-    order of input changes the triangles. Arrays are read-only; `insert` and `remove` replace them. Several threads may
-    ask at the same time. While one of them changes the triangulation, whatever the others ask of it or change in it is
-    a RuntimeError; copies (`copy.copy`) share the arrays and go their own ways.
+    order of input changes the triangles.
+
+    {changes}
 
     Source: divide and conquer by L. Guibas and J. Stolfi (1985) along a space-filling curve; insertion as in the
     paper's pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is the readable
@@ -77,9 +75,9 @@ class PlanarDelaunay(Delaunay):
     _space: ClassVar[Space] = _kernel.plane
 
     @staticmethod
-    def _as_points(points: npt.ArrayLike) -> FloatArray:
-        return as_points(points, 2)
+    def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        return as_points(points, 2, instead="triangulate directions by SphericalDelaunay")
 
     @staticmethod
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
-        return as_vectors(queries, 2, "xy")
+        return as_vectors(queries, 2, "xy", instead="this triangulation is one of the plane")

@@ -8,11 +8,13 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, Indices, IntArray, as_floats, as_scalar, locked
-from stereodel.triangulation.diagram import Diagram
+from stereodel._arrays import FloatArray, Indices, IntArray, as_bounds, as_scalar, locked
+from stereodel._docs import shared
+from stereodel.triangulation.diagram import FAMILY, Diagram
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 
+@shared(**FAMILY)
 class PlanarVoronoi(Diagram):
     """Voronoi diagram of points of the plane.
 
@@ -31,18 +33,13 @@ class PlanarVoronoi(Diagram):
         sites alone: in the order of the three lowest sites of each circle.
     regions : list of lists of int
         Vertices of each point's cell, counterclockwise; unbounded cells begin with -1, duplicates have [].
-    region_indices, region_offsets : arrays of int
-        The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+    {flat_regions}
     region_neighbors : array of int32
         The site beyond the ridge from each entry of `region_indices` to the next one of its cell; -1 in strips.
-    ridge_points : (r, 2) array of int32
-        Sites i < j on both sides of each ridge, in lexicographic order.
+    {ridge_points}
     ridge_vertices : (r, 2) array of int32
         Start and end of each ridge, such that site i is on its left; -1 at infinity.
-    point_region : (n,) array of int32
-        Region of each point; a duplicate's is the kept point's.
-    simplex_vertex : (m,) array of int32
-        Voronoi vertex of each Delaunay triangle.
+    {numbers}
 
     Raises
     ------
@@ -90,7 +87,7 @@ class PlanarVoronoi(Diagram):
         Parameters
         ----------
         radius : float
-            Length of the unit of the coordinates: areas are multiplied by its square.
+            Length of the unit of the coordinates, above 0: areas are multiplied by its square.
 
         Notes
         -----
@@ -101,7 +98,7 @@ class PlanarVoronoi(Diagram):
         says that doubles may not do, double-double takes over, and then as many digits as are needed. Areas beyond the
         range of doubles are infinite or 0.
         """
-        scale = as_scalar(radius, "radius")
+        scale = as_scalar(radius, "radius", low=0.0, open_low=True)
         if len(self.vertices) == 0:
             return np.where(np.diff(self.region_offsets) > 0, np.inf, 0.0) * scale**2
         return self._cell_areas() * scale**2
@@ -122,13 +119,13 @@ class PlanarVoronoi(Diagram):
             return np.full((len(self.points), 2), np.nan)
         return self._cell_centroids()
 
-    def segments(self, extent: npt.ArrayLike) -> tuple[FloatArray, Indices]:
+    def segments(self, bounds: npt.ArrayLike) -> tuple[FloatArray, Indices]:
         """The ridges as far as they lie in a rectangle, for drawing.
 
         Parameters
         ----------
-        extent : (4,) array_like
-            (xmin, xmax, ymin, ymax), as in matplotlib.
+        bounds : (4,) array_like
+            (xmin, ymin, xmax, ymax).
 
         Returns
         -------
@@ -149,21 +146,24 @@ class PlanarVoronoi(Diagram):
 
         Examples
         --------
-        >>> segments, ridge = PlanarVoronoi([[0, 0], [2, 0]]).segments((-1, 3, -1, 1))
+        >>> segments, ridge = PlanarVoronoi([[0, 0], [2, 0]]).segments((-1, -1, 3, 1))
         >>> print(segments, ridge)
         [[[ 1. -1.]
           [ 1.  1.]]] [0]
         """
-        low, high = _corners(extent)
+        # The line of each ridge: the middle of its sites, and their difference turned left and scaled to about one.
+        left, bottom, right, top = as_bounds(bounds)
         p, q = self.points[self.ridge_points[:, 0]], self.points[self.ridge_points[:, 1]]
         middle = p + (q - p) / 2
         along = np.column_stack([p[:, 1] - q[:, 1], q[:, 0] - p[:, 0]])
         along = np.ldexp(along, -np.frexp(np.abs(along).max(axis=1, keepdims=True))[1])
+        # Two stretches of the line, of the ridge and of the rectangle; what both have is seen.
         start, end = self._stretch(middle, along)
-        enter, leave = _inside(low, high, middle, along)
+        enter, leave = _inside(np.array([left, bottom]), np.array([right, top]), middle, along)
         first, last = np.maximum(start, enter), np.minimum(end, leave)
         seen = np.flatnonzero(first < last)
         ends = middle[seen, None] + np.column_stack([first, last])[seen, :, None] * along[seen, None]
+        # An end that is the ridge's own is its vertex, to the last bit.
         whole = np.column_stack([first == start, last == end])[seen]
         ends[whole] = self.vertices[self.ridge_vertices[seen][whole]]
         return ends, seen
@@ -189,15 +189,6 @@ class PlanarVoronoi(Diagram):
             t[bounded] = (offset * along[bounded]).sum(axis=1) / (along[bounded] ** 2).sum(axis=1)
             ends.append(t)
         return ends[0], ends[1]
-
-
-def _corners(extent: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-    values = as_floats(extent, "extent")
-    if values.shape != (4,) or not (values[0] < values[1] and values[2] < values[3]):
-        raise ValueError(
-            f"extent must be (xmin, xmax, ymin, ymax) with xmin < xmax and ymin < ymax, got {values.tolist()}"
-        )
-    return values[[0, 2]], values[[1, 3]]
 
 
 def _inside(low: FloatArray, high: FloatArray, middle: FloatArray, along: FloatArray) -> tuple[FloatArray, FloatArray]:

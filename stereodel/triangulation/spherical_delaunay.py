@@ -7,14 +7,16 @@ from typing import ClassVar
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import BoolArray, FloatArray, as_directions, as_points, locked
+from stereodel._arrays import BoolArray, FloatArray, as_directions, locked
+from stereodel._docs import shared
 from stereodel._spaces import Space
-from stereodel.sphere.coordinates import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.delaunay import Delaunay
+from stereodel.sphere.lonlat import LONLAT, as_sites, as_told
+from stereodel.triangulation.delaunay import FAMILY, Delaunay
 from stereodel.triangulation.versions import kept
 
 
+@shared(**FAMILY)
 class SphericalDelaunay(Delaunay):
     """Delaunay triangulation of directions: each triangle's bubble on the outer side of its plane is empty.
 
@@ -22,10 +24,7 @@ class SphericalDelaunay(Delaunay):
     ----------
     points : (n, 3) array_like
         Directions: non-zero vectors of any length. Copied.
-    workers : int, optional
-        Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
-    neighbors : bool, optional
-        Whether to compute `neighbors` at once, which costs little; otherwise when first asked for.
+    {options}
 
     Attributes
     ----------
@@ -42,13 +41,16 @@ class SphericalDelaunay(Delaunay):
         `neighbors[i, k]` is the facet opposite corner k of facet i.
     convex_hull : (h, 2) array of int32
         Directed edges between facets that are not closing, on the left, and closing ones, in lexicographic order.
-    edges : (e, 2) array of int32
-        Edges with i < j, in lexicographic order.
+    {edges}
     circumcenters : (m, 3) array
         Unit vectors to the centres of the empty bubbles.
     duplicates : (k, 2) array of int32
         Pairs [dropped, kept] of points with exactly the same direction; the lowest index is kept, and is the one in
         `simplices`.
+    latitude : str or None
+        The kind of latitude by which the points were given (`from_lonlat`); None for directions.
+    lonlat, circumcenters_lonlat : (n, 2) and (m, 2) arrays
+        `points` and `circumcenters` in degrees, of that latitude.
     dimension : int
         -1 without points, 0 for one, 1 if all lie on one great circle, 2 otherwise. Below 2 there are no simplices.
     inconclusive : dict
@@ -66,9 +68,9 @@ class SphericalDelaunay(Delaunay):
     "smaller bubble is empty" holds unless all points lie in a hemisphere: then the closing facets have empty bubbles
     larger than a hemisphere. Points of one circle are triangulated as if the first of them in the order of their
     directions (x̂, then ŷ, then ẑ) were moved a little outward: a rule on points, so that no order of input changes the
-    triangles. `find_simplex` finds triangles that are not closing. Arrays are read-only; `insert` and `remove` replace
-    them. Several threads may ask at the same time. While one of them changes the triangulation, whatever the others ask
-    of it or change in it is a RuntimeError; copies (`copy.copy`) share the arrays and go their own ways.
+    triangles. `find_simplex` finds triangles that are not closing.
+
+    {changes}
 
     Source: the paper's one idea, stereographic projection keeps circles (rows P2, P7, P8): divide and conquer in the
     plane by L. Guibas and J. Stolfi (1985), every sign decided on the rays; insertion as in the paper's pseudo-code
@@ -89,6 +91,7 @@ class SphericalDelaunay(Delaunay):
     _space: ClassVar[Space] = _kernel.sphere
 
     @classmethod
+    @shared(**LONLAT)
     def from_lonlat(
         cls,
         lonlat: npt.ArrayLike,
@@ -97,15 +100,12 @@ class SphericalDelaunay(Delaunay):
         workers: int | None = None,
         neighbors: bool = True,
     ) -> SphericalDelaunay:
-        """Triangulate points given by longitude and latitude.
+        """Triangulate points given by longitude and latitude; queries and results then speak them too.
 
         Parameters
         ----------
-        lonlat : (n, 2) array_like
-            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
-        latitude : {"spherical", "geodetic", "authalic"}, optional
-            As for `lonlat_to_xyz`: "spherical" takes latitudes as they stand; the others take them as geodetic
-            latitudes on WGS84 and use the direction from the Earth's centre, or the point on the sphere of equal area.
+        {lonlat}
+        {latitude}
         workers, neighbors
             As for the constructor.
 
@@ -116,16 +116,34 @@ class SphericalDelaunay(Delaunay):
 
         Raises
         ------
-        ValueError, TypeError
-            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
+        {lonlat_raises}
 
         Examples
         --------
         >>> print(SphericalDelaunay.from_lonlat([[0, 0], [90, 0], [7, 90], [180, 0], [-180, 0]]).duplicates)
         [[4 3]]
+        >>> stations = SphericalDelaunay.from_lonlat([[2.3, 48.9], [13.4, 52.5], [12.5, 41.9]], latitude="geodetic")
+        >>> stations.nearest(lonlat=[[9.2, 45.5], [10.0, 53.6]]).tolist(), stations.find_simplex(lonlat=[9.2, 47.4])
+        ([2, 1], 0)
+        >>> print(stations.lonlat)
+        [[ 2.3 48.9]
+         [13.4 52.5]
+         [12.5 41.9]]
         """
-        xyz = lonlat_to_xyz(as_points(lonlat, 2, "lonlat"), latitude=latitude)
-        return cls(xyz, workers=workers, neighbors=neighbors)
+        xyz, kind = as_sites(None, lonlat, latitude)
+        self = cls(xyz, workers=workers, neighbors=neighbors)
+        self._latitude = kind
+        return self
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """Longitude and latitude of `points`, (n, 2) in degrees, if the points were given by them."""
+        return as_told(self.points, self.latitude)
+
+    @property
+    def circumcenters_lonlat(self) -> FloatArray:
+        """Longitude and latitude of `circumcenters`, (m, 2) in degrees, if the points were given by them."""
+        return as_told(self.circumcenters, self.latitude)
 
     @kept
     def closing(self) -> BoolArray:
@@ -137,12 +155,12 @@ class SphericalDelaunay(Delaunay):
         return locked(~self.closing)
 
     @staticmethod
-    def _as_points(points: npt.ArrayLike) -> FloatArray:
-        return as_directions(points, "points", points=True)
+    def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:
+        return as_directions(points, "points", points=True, instead=f"for longitude and latitude use {lonlat_door}")
 
     @staticmethod
     def _check_queries(queries: npt.ArrayLike) -> FloatArray:
-        return as_directions(queries, "xyz")
+        return as_directions(queries, "xyz", instead="for longitude and latitude write lonlat=…")
 
     def _closed(self) -> BoolArray:
         return self.closing

@@ -9,12 +9,15 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
+from stereodel._docs import shared
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
-from stereodel.triangulation.diagram import Diagram
+from stereodel.sphere.lonlat import LONLAT, as_told
+from stereodel.triangulation.diagram import FAMILY, Diagram
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 
+@shared(**FAMILY)
 class SphericalVoronoi(Diagram):
     """Voronoi diagram of directions, on the unit sphere.
 
@@ -34,18 +37,17 @@ class SphericalVoronoi(Diagram):
         facets share one. Their numbers depend on the sites alone: in the order of the three lowest sites of a circle.
     regions : list of lists of int
         Vertices of each point's cell, counterclockwise seen from outside; [] for duplicates and for a single point.
-    region_indices, region_offsets : arrays of int
-        The same as flat arrays: cell i is ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
+    {flat_regions}
     region_neighbors : array of int32
         The site beyond the ridge from each entry of `region_indices` to the next one of its cell.
-    ridge_points : (r, 2) array of int32
-        Sites i < j on both sides of each ridge, in lexicographic order.
+    {ridge_points}
     ridge_vertices : (r, 2) array of int32
         Start and end of each ridge, such that site i is on its left.
-    point_region : (n,) array of int32
-        Region of each point; a duplicate's is the kept point's.
-    simplex_vertex : (m,) array of int32
-        Voronoi vertex of each Delaunay triangle.
+    {numbers}
+    latitude : str or None
+        The kind of latitude by which the points were given (`from_lonlat`); None for directions.
+    lonlat, vertices_lonlat : (n, 2) and (v, 2) arrays
+        `points` and `vertices` in degrees, of that latitude.
 
     Raises
     ------
@@ -75,10 +77,12 @@ class SphericalVoronoi(Diagram):
 
     def __init__(self, points: npt.ArrayLike | SphericalDelaunay, *, workers: int | None = None) -> None:
         given = isinstance(points, SphericalDelaunay)
-        triangulation = (
-            copy.copy(points) if isinstance(points, SphericalDelaunay) else SphericalDelaunay(points, workers=workers)
-        )
-        self.points = triangulation.points
+        if isinstance(points, SphericalDelaunay):
+            triangulation = copy.copy(points)
+        else:
+            checked = SphericalDelaunay._as_points(points, "SphericalVoronoi.from_lonlat")
+            triangulation = SphericalDelaunay(checked, workers=workers)
+        self.points, self.latitude = triangulation.points, triangulation.latitude
         self._dimension = triangulation.dimension
         self._threads = triangulation._thread_count(workers if given else None)
         self._set_point_region(triangulation.duplicates)
@@ -88,18 +92,18 @@ class SphericalVoronoi(Diagram):
             self._set_circle(triangulation._flat_order)
 
     @classmethod
+    @shared(**LONLAT)
     def from_lonlat(
         cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None
     ) -> SphericalVoronoi:
-        """The diagram of points given by longitude and latitude.
+        """The diagram of points given by longitude and latitude, which results then speak too.
 
         Parameters
         ----------
-        lonlat : (n, 2) array_like
-            (longitude, latitude) in degrees; any finite longitude, latitude in [-90, 90].
-        latitude : {"spherical", "geodetic", "authalic"}, optional
-            As for `lonlat_to_xyz`. With "authalic", ``areas(radius=stereodel.earth.AUTHALIC_RADIUS_KM)`` are areas on
-            the WGS84 ellipsoid in km².
+        {lonlat}
+        {latitude}
+            With "authalic", ``areas(radius=stereodel.earth.AUTHALIC_RADIUS_KM)`` are areas on the WGS84 ellipsoid in
+            km².
         workers : int, optional
             As for the constructor.
 
@@ -110,16 +114,30 @@ class SphericalVoronoi(Diagram):
 
         Raises
         ------
-        ValueError, TypeError
-            For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
+        {lonlat_raises}
 
         Examples
         --------
         >>> diagram = SphericalVoronoi.from_lonlat([(0, 60), (120, 60), (-120, 60), (0, -60)], latitude="geodetic")
         >>> [len(region) for region in diagram.regions]
         [3, 3, 3, 3]
+        >>> print(diagram.vertices_lonlat.round(1))
+        [[   0.    90. ]
+         [  60.     0. ]
+         [ -60.     0. ]
+         [-180.   -23.7]]
         """
         return cls(SphericalDelaunay.from_lonlat(lonlat, latitude=latitude, workers=workers), workers=workers)
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """Longitude and latitude of `points`, (n, 2) in degrees, if the points were given by them."""
+        return as_told(self.points, self.latitude)
+
+    @property
+    def vertices_lonlat(self) -> FloatArray:
+        """Longitude and latitude of `vertices`, (v, 2) in degrees, if the points were given by them."""
+        return as_told(self.vertices, self.latitude)
 
     def _set_circle(self, order: IntArray) -> None:
         """No triangles: two points or more on one great circle, or fewer than two."""
@@ -140,7 +158,7 @@ class SphericalVoronoi(Diagram):
         Parameters
         ----------
         radius : float
-            Radius of the sphere. With the default the areas are steradians.
+            Radius of the sphere, above 0. With the default the areas are steradians.
 
         Notes
         -----
@@ -151,7 +169,7 @@ class SphericalVoronoi(Diagram):
         where a bound says that doubles may not do, double-double takes over, and where its bound says so, as many
         digits as are needed. An area below the least double is 0. Points of one great circle have lunes.
         """
-        scale = as_scalar(radius, "radius")
+        scale = as_scalar(radius, "radius", low=0.0, open_low=True)
         areas = self._cell_areas() if self._dimension == 2 else _kernel.sphere.flat_areas(self.points, self._order)
         return areas * scale**2
 
@@ -202,10 +220,12 @@ class SphericalVoronoi(Diagram):
         triangulation, row by row: `simplex_vertex` belongs to its `simplices`.
         """
         if self._dimension < 2:
-            return SphericalDelaunay(self.points)
-        return SphericalDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
+            triangulation = SphericalDelaunay(self.points)
+        else:
+            triangulation = SphericalDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
+        triangulation._latitude = self.latitude
+        return triangulation
 
 
 def _angles(start: FloatArray, end: FloatArray) -> FloatArray:
-    angles: FloatArray = 2 * np.arctan2(np.linalg.norm(start - end, axis=1), np.linalg.norm(start + end, axis=1))
-    return angles
+    return 2 * np.arctan2(np.linalg.norm(start - end, axis=1), np.linalg.norm(start + end, axis=1))

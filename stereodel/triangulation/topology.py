@@ -48,6 +48,7 @@ def as_rows(rows: list[Facet] | list[Edge], width: int) -> IntArray:
 
 def canonical(simplices: AnyIndices) -> IntArray:
     """The same triangles and orientations, (m, 3), smallest index first in each row, rows in lexicographic order."""
+    # Each row turned so that its smallest index comes first, which keeps the orientation; then rows sorted.
     turns = (np.argmin(simplices, axis=1)[:, None] + np.arange(3)) % 3
     rows = np.take_along_axis(np.asarray(simplices, dtype=np.int32), turns, axis=1)
     return np.ascontiguousarray(rows[np.lexsort(rows.T[::-1])])
@@ -55,6 +56,8 @@ def canonical(simplices: AnyIndices) -> IntArray:
 
 def neighbors_of(simplices: AnyIndices) -> IntArray:
     """Triangle opposite each corner, (m, 3), -1 where there is none."""
+    # Edge number 3t + k is opposite corner k of triangle t. Both sides of an edge have the same packed ends and are
+    # next to each other when sorted: each is the other's neighbour.
     both = _packed(_directed_edges(simplices))
     order = np.argsort(both, kind="stable")
     shared = both[order[1:]] == both[order[:-1]]

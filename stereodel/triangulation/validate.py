@@ -148,6 +148,7 @@ def first_occurrences(points: FloatArray) -> LongArray:
     A quotient x/max is the rounding of a real number that depends on the direction alone: equal directions have equal
     keys. Different directions with one key (closer than half an ulp) are told apart by integers.
     """
+    # Equal keys stand next to each other when sorted, by index within a key (the sort is stable): all take the first.
     keys = points + 0.0  # −0 becomes 0
     if points.shape[1] == 3:
         keys = points / np.abs(points).max(axis=1, keepdims=True) + 0.0

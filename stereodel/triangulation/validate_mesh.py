@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, IntArray, LongArray
+from stereodel._arrays import BoolArray, LongArray
 
 
 class InvalidTriangulation(ValueError):  # noqa: N818 - the name says what is wrong, like SciPy's LinAlgError family
@@ -98,7 +98,8 @@ def check_manifold(mesh: Mesh, kept: LongArray, euler: int) -> None:
     _check_fans(mesh)
     triangles = np.arange(len(mesh.twin)) // 3
     inner = mesh.inner
-    if _components(len(mesh.simplices), triangles[inner], triangles[mesh.twin[inner]]) != 1:
+    # All hang together where the first triangle is the smallest of every one's component.
+    if _labels(len(mesh.simplices), triangles[inner], triangles[mesh.twin[inner]]).any():
         raise InvalidTriangulation("the simplices do not hang together: they form several surfaces")
     edges = len(inner) + len(mesh.boundary)
     found = len(kept) - edges + len(mesh.simplices)
@@ -147,21 +148,28 @@ def _check_fans(mesh: Mesh) -> None:
     twin = mesh.twin[inner]
     corner, other = inner - inner % 3 + (inner + 1) % 3, twin - twin % 3 + (twin + 2) % 3
     labels = _labels(len(mesh.twin), corner, other)
-    _, representative = np.unique(labels, return_index=True)
-    vertices, fans = np.unique(mesh.apex[representative], return_counts=True)
+    first = labels == np.arange(len(labels))
+    vertices, fans = np.unique(mesh.apex[first], return_counts=True)
     _refuse(fans > 1, lambda i: f"the simplices around point {vertices[i]} form {fans[i]} separate fans")
 
 
-def _components(size: int, a: LongArray, b: LongArray) -> int:
-    return int(_labels(size, a, b).max()) + 1
-
-
-def _labels(size: int, a: LongArray, b: LongArray) -> IntArray:
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    graph = coo_array((np.ones(len(a), dtype=np.int8), (a, b)), shape=(size, size))
-    return connected_components(graph, directed=False)[1]
+def _labels(size: int, a: LongArray, b: LongArray) -> LongArray:
+    """The smallest node of the component that each node is in, in the graph of the edges between `a` and `b`."""
+    kind: npt.DTypeLike = np.int32 if size < 2**31 else np.int64  # half the memory is half the time
+    labels = np.arange(size, dtype=kind)
+    a, b = a.astype(kind), b.astype(kind)
+    # The ends of an edge are labels of themselves. The larger one is hooked to the smallest across from it; then all
+    # labels follow the hooks to their ends, and edges within one component fall out. A label that is still its own
+    # after two rounds has at least one other hooked to it, so the rounds are as many as the number of nodes has bits.
+    while len(a):
+        low, high = np.minimum(a, b), np.maximum(a, b)
+        np.minimum.at(labels, high, low)
+        while not np.array_equal(further := labels[labels], labels):
+            labels = further
+        a, b = labels[low], labels[high]
+        apart = a != b
+        a, b = a[apart], b[apart]
+    return labels
 
 
 def _refuse(wrong: BoolArray, message: Callable[[int], str]) -> None:

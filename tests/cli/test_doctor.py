@@ -3,11 +3,13 @@
 import os
 import subprocess
 import sys
+from importlib.metadata import version
 
 import pytest
 from typer.testing import CliRunner
 
 import stereodel
+from stereodel._extras import EXTRAS, installing
 from stereodel.cli import app
 from stereodel.render import gl, provenance
 
@@ -33,8 +35,12 @@ def test_doctor_tells_what_draws(platform):
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert f"{platform} (STEREODEL_GL)" in ran.stdout
     assert "Mesa" in ran.stdout
-    for name, version in provenance.library_versions().items():
-        assert any(line.split() == [name, version] for line in ran.stdout.splitlines())
+    rows = [line.split() for line in ran.stdout.splitlines()]
+    assert ["numpy", version("numpy")] in rows
+    for name, extra in EXTRAS.items():
+        (row,) = [row for row in rows if row[:1] == [name]]
+        assert row[1] == "works"
+        assert " ".join(row[2:]) == ", ".join(f"{brought} {version(brought)}" for brought in extra.brings)
     assert ran.stdout.splitlines()[-1] == "Ready: globes can be drawn."
 
 
@@ -54,8 +60,14 @@ def test_doctor_without_opengl_names_the_packages():
 
 
 def test_doctor_names_missing_libraries(monkeypatch):
-    monkeypatch.setattr(provenance, "LIBRARIES", ("numpy", "no-such-library"))
+    """What is not needed for globes is said and no failure."""
+    found = provenance.library_version
+    monkeypatch.setattr(
+        provenance, "library_version", lambda name: provenance.NOT_INSTALLED if name == "shapely" else found(name)
+    )
     monkeypatch.setattr(gl, "describe", lambda: gl.Description("osmesa", "found", "4.5 Mesa 22.3.6", "llvmpipe"))
     ran = run(app, ["doctor"])
-    assert ran.exit_code == 1
-    assert "pip install no-such-library" in ran.stdout
+    assert ran.exit_code == 0
+    (row,) = [line.strip() for line in ran.stdout.splitlines() if " lacks " in line]
+    assert row.startswith("geo ")
+    assert row.split("lacks")[1].strip() == f"shapely, for {EXTRAS['geo'].purpose}: {installing('geo')}"

@@ -88,7 +88,7 @@ def test_centres_by_default_give_the_fisheye(center, first, second):
 def test_p17_scales_differ_by_at_most_1_to_2(source, chi0, target, xi0):
     bubble = SphereCircle.around(source, chi0)
     conformal = bubble_to_bubble(bubble, SphereCircle.around(target, xi0))
-    radius = SphereArc.great(bubble.center, bubble.sample(1)[0]).points(50)
+    radius = SphereArc.great(bubble.center, bubble.sample(1)[0]).sample(50)
     scale = conformal.scale_factor(radius)
     ratio = np.cos(np.radians(chi0) / 2) ** 2 / np.cos(np.radians(xi0) / 2) ** 2
     assert scale[0] / scale[-1] == pytest.approx(ratio, rel=1e-11)

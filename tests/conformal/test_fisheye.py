@@ -95,7 +95,7 @@ def test_p19_graticule_stays_orthogonal(s):
 @settings(deadline=None, max_examples=50)
 def test_p19_scale_falls_away_from_the_focus(focus, s):
     arc = SphereArc.great(focus, -lonlat_to_xyz(focus) + [0.0, 0.1, 0.1])
-    scale = fisheye(focus, magnification=s).scale_factor(arc.points(20))
+    scale = fisheye(focus, magnification=s).scale_factor(arc.sample(20))
     assert (np.diff(scale) < 0).all()
 
 
@@ -158,7 +158,7 @@ def test_arcs_to_arcs(focus, s, start, end):
 
 def assert_arc_of(image, conformal, arc):
     """The image has the images of the ends as its ends, and the images of points between them between them."""
-    inner = arc.points(7)
+    inner = arc.sample(7)
     slack = 1e-14 * (1 + conformal.scale_factor(inner))
     points = conformal(inner)
     center, u, v, sweep_rad = image.frame()

@@ -30,7 +30,7 @@ def test_images_of_arcs_stay_within_the_tolerance(start, end, focus, size, turn)
     assert offsets.tolist() == [0, len(points)]
     np.testing.assert_allclose(np.linalg.norm(points, axis=1), 1.0, atol=1e-12)
     exact = lens.image_of(arc)
-    truth = exact.points(2000)
+    truth = exact.sample(2000)
     a, b = points[:-1], points[1:]
     way = b - a
     share = np.clip(np.sum((truth[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300), 0.0, 1.0)

@@ -340,3 +340,35 @@ def test_arcs_of_other_circles_are_regions_too():
     both = Arcs(*(getattr(both, f) for f in list(half.__dataclass_fields__)[:-1]), np.arange(2))
     loops, _ = in_sight(both, Ragged(np.arange(2), offsets_of([2])), View(0, 90), 1e-6)
     assert area(loops) == pytest.approx(np.pi / 2 * np.cos(0.5) ** 2, abs=1e-5)
+
+
+def test_hidden_edges_may_be_left_out_where_the_middle_is_known():
+    """A ring that leaves the disc twice and one that is hidden: the same loops without the edges behind the limb."""
+    angle = np.radians(np.arange(0, 360, 5))
+    wave = units(np.stack([0.3 * np.cos(3 * angle), np.cos(angle), np.sin(angle)], axis=1))
+    behind = units(np.stack([-2 + 0 * angle, np.cos(angle), np.sin(angle)], axis=1))
+    arcs, sides = rings([wave, behind])
+    cap = Cap(FRONT, 1e-4)
+    owner = np.array([0, 1])
+    for middle in ([True, False], [False, True]):
+        found = []
+        for kept in (np.ones(len(arcs), dtype=bool), (arcs.start[:, 0] > -0.01) | (arcs.end[:, 0] > -0.01)):
+            left = sides.kept(kept[sides.values])
+            left = Ragged((np.cumsum(kept) - 1)[left.values], left.offsets)
+            some = arcs.take(kept)
+            some = Arcs(
+                some.start, some.end, some.axis, some.offset, some.u, some.begin, some.stop, np.arange(len(some))
+            )
+            pieces = cap.cut(some.turned(FRONT.matrix))
+            samples = pieces.arcs.sampled(1e-4)
+            found.append(clip.regions(left, owner, 2, pieces, samples, cap, np.array(middle)))
+        for (loops, region), (other, again) in [found]:
+            assert region.tolist() == again.tolist()
+            assert abs(area(loops.take(region == 0)) - area(other.take(region == 0))) < 1e-12
+            assert (region == 1).sum() == middle[1]
+
+
+def test_a_rim_may_be_as_coarse_as_the_chains():
+    fine, coarse = (Cap(FRONT, 1e-4, *fineness).once() for fineness in ((), (1.0,)))
+    assert 30 < len(fine) / len(coarse) < 33
+    assert np.hypot(*((coarse[1:] + coarse[:-1]) / 2).T).min() > 1 - 1.01e-4

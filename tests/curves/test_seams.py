@@ -134,3 +134,31 @@ def test_a_ring_round_a_pole_holds_the_smaller_side(height, outer, east):
     for given_ring in (ring, ring[::-1]):
         (turned,) = left_inside(unwrapped(Ragged.of([given_ring])), np.array([outer]))
         assert (turned[-1, 0] - turned[0, 0] > 0) == east
+
+
+@pytest.mark.parametrize("seam", [0.0, 20.25, -180.0])
+def test_a_map_may_be_cut_elsewhere(seam):
+    """A band around the Earth from its own western border is two parallels; at 180° it has no seam then."""
+    rings = Ragged.of([box(seam, -60, seam + 360, 60)])
+    start, end, rows, _ = stitched(rings, np.zeros(1, dtype=np.intp), seam)
+    assert sorted(row.tolist() for row in rows) == [[0], [1]]
+    assert (start[:, 1] == end[:, 1]).all()
+    kept = stitched(Ragged.of([box(170, 0, 180, 10)]), np.zeros(1, dtype=np.intp), seam)[2]
+    assert len(kept.values) == 4
+
+
+@given(st.lists(st.floats(-180, 179), min_size=3, max_size=30, unique=True), st.integers(0, 100), st.booleans())
+def test_rings_round_the_earth_end_where_they_began(lon, first, east):
+    """To the last bit, a turn on: so they close, though a vertex on the seam has all edges sorted by their ends."""
+    lon = np.sort(np.append(lon, -180.0))
+    lon = np.unique(np.round(lon, 9))
+    lon = np.roll(lon, first % len(lon))[:: 1 if east else -1]
+    if np.diff(np.sort(lon), append=lon.min() + 360).max() > 170:
+        return
+    ring = np.stack([lon, 60 + 10 * np.cos(np.radians(lon))], axis=1)
+    ring = np.vstack([ring, ring[:1]])
+    whole = unwrapped(Ragged.of([ring]))
+    assert whole.values[-1, 0] - whole.values[0, 0] == (360 if east else -360)
+    start, end, rows, _ = stitched(whole, np.zeros(1, dtype=np.intp))
+    assert len(rows) == 1
+    np.testing.assert_array_equal(np.mod(end[rows.values, 0], 360), np.mod(start[rows.values[rows.following], 0], 360))

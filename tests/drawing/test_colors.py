@@ -37,7 +37,7 @@ def test_numbers_are_taken_as_they_are_and_are_opaque_by_default(numbers):
     ["sky", "", (0.1, 0.2), (0.1, 0.2, 0.3, 0.4, 0.5), 3, None, np.eye(3), ("red", 2.0), (None, 0.1, 0.2), "1.5"],
 )
 def test_what_is_no_colour_is_named(value):
-    with pytest.raises(ValueError, match=r"ink is .*, which is not a colour; give a name such as"):
+    with pytest.raises(ValueError, match=r"(?s)ink is .*, which is not a colour; give a name such as"):
         as_color(value, "ink")
 
 

@@ -1,4 +1,4 @@
-"""Visible parts of regions: the outline encloses what the definition says, and the mesh covers it."""
+"""Visible parts of regions: the outline encloses what the definition says, however the region lies."""
 
 import numpy as np
 import pytest
@@ -6,13 +6,14 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from matplotlib.path import Path as Polygon
 
-from stereodel.drawing.regions import SphereRegion, near_hemisphere
+from stereodel.drawing.regions import SphereRegion, limb, page_area
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 
 lonlats = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
 views = st.builds(View, st.floats(-180, 180), st.floats(-90, 90))
+sides = st.sampled_from([1, -1])
 RNG = np.random.default_rng(5)
 DISC = np.sqrt(RNG.uniform(0, 1, 500))[:, None] * np.column_stack(
     [f(RNG.uniform(0, 2 * np.pi, 500)) for f in (np.cos, np.sin)]
@@ -24,74 +25,121 @@ def cap(lonlat, radius):
     return SphereRegion((CircleArc.circle(SphereCircle.around(lonlat, radius)),), 1.0)
 
 
-def polygons(runs):
-    """The outlines as fine polygons, which may be off by 1e-5."""
-    for run in runs:
-        points = [c.sample(np.linspace(c.start, c.stop, 400)) for c in run]
-        yield np.concatenate(points)[:, :2]
+def ring(corners):
+    """The region on the left of great-circle arcs."""
+    return SphereRegion(
+        tuple(CircleArc.great(*pair) for pair in zip(corners, np.roll(corners, -1, 0), strict=True)), 1.0
+    )
 
 
-def assert_outline_is_right(region, sign):
-    """Points of the page off every boundary are enclosed an odd number of times where the region is seen."""
-    height = sign * np.sqrt(1 - np.sum(ON_PAGE**2, axis=1))
-    expected = region.contains(np.column_stack([ON_PAGE, height]))
-    outline = list(polygons((region if sign > 0 else region.far_side()).visible_outline()))
-    count = np.zeros(len(ON_PAGE), dtype=int)
-    clear = np.ones(len(ON_PAGE), dtype=bool)
-    for polygon in outline:
-        count += Polygon(polygon).contains_points(ON_PAGE)
-        clear &= np.min(np.linalg.norm(ON_PAGE[:, None] - polygon[None, ::4], axis=2), axis=1) > 0.03
-    assert np.array_equal((count % 2 == 1)[clear], expected[clear])
-    for polygon in outline:
+def left_of_all(region):
+    """Membership in a convex region, or a cap: on the left of each arc's plane."""
+
+    def holds(points):
+        inside = np.ones(len(points), dtype=bool)
+        for arc in region.boundary:
+            inside &= (points - arc.center) @ np.cross(arc.u, arc.v) > 0
+        return inside
+
+    return holds
+
+
+def polygon_of(run):
+    """A loop as a fine polygon, which may be off by 1e-5."""
+    return np.concatenate([c.sample(np.linspace(c.start, c.stop, 400)) for c in run])[:, :2]
+
+
+def assert_outline_is_right(region, holds, sign):
+    """Points of the page off every boundary are enclosed once where the region is seen, and otherwise not at all."""
+    points = np.column_stack([ON_PAGE, sign * np.sqrt(1 - np.sum(ON_PAGE**2, axis=1))])
+    loops = (region if sign > 0 else region.far_side()).visible_outline()
+    count, clear = np.zeros(len(points), dtype=int), np.ones(len(points), dtype=bool)
+    for loop in loops:
+        polygon = polygon_of(loop)
         assert np.linalg.norm(polygon[0] - polygon[-1]) < 1e-9
+        count += np.where(Polygon(polygon).contains_points(ON_PAGE), np.sign(page_area(loop)), 0).astype(int)
+        clear &= np.min(np.linalg.norm(ON_PAGE[:, None] - polygon[None, ::4], axis=2), axis=1) > 0.03
+    np.testing.assert_array_equal(count[clear], holds(points)[clear].astype(int))
 
 
-@given(lonlats, st.floats(5, 175), views, st.sampled_from([1, -1]))
+@given(lonlats, st.floats(5, 175), views, sides)
 def test_caps(lonlat, radius, view, sign):
-    assert_outline_is_right(cap(lonlat, radius).turned(view.matrix), sign)
+    region = cap(lonlat, radius).turned(view.matrix)
+    assert_outline_is_right(region, left_of_all(region), sign)
 
 
-@given(lonlats, lonlats, lonlats, views, st.sampled_from([1, -1]))
+@given(lonlats, lonlats, lonlats, views, sides)
 def test_triangles(first, second, third, view, sign):
     a, b, c = lonlat_to_xyz([first, second, third])
     determinant = np.dot(a, np.cross(b, c))  # np.linalg.det divides by pivots, which may be subnormal
     assume(abs(determinant) > 0.05)
-    corners = [a, b, c] if determinant > 0 else [a, c, b]
-    arcs = tuple(CircleArc.great(corners[i], corners[(i + 1) % 3]) for i in range(3))
-    assert_outline_is_right(SphereRegion(arcs, 1.0).turned(view.matrix), sign)
+    region = ring([a, b, c] if determinant > 0 else [a, c, b]).turned(view.matrix)
+    assert_outline_is_right(region, left_of_all(region), sign)
+
+
+@given(
+    st.lists(st.tuples(st.floats(0.3, 1.0), st.floats(10, 85)), min_size=4, max_size=12),
+    lonlats,
+    st.booleans(),
+    views,
+    sides,
+)
+def test_stars_and_all_but_stars(corners, lonlat, inside_out, view, sign):
+    """Not convex: a star about a point, whose sides are straight in the gnomonic plane there, or all but the star."""
+    steps, radii = np.array(corners).T
+    assume(2 * np.pi * steps.max() / steps.sum() < 2.8)
+    angle = 2 * np.pi * np.cumsum(steps) / steps.sum()
+    axes = View(*lonlat).matrix
+    flat = np.tan(np.radians(radii))[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])
+    vertices = np.column_stack([flat, np.ones(len(flat))]) @ axes
+    region = ring(vertices[::-1] if inside_out else vertices).turned(view.matrix)
+    star = Polygon(np.concatenate([flat, flat[:1]]), closed=True)
+
+    def holds(points):
+        local = points @ view.matrix @ axes.T
+        before = local[:, 2] > 0
+        held = before & star.contains_points(local[:, :2] / np.where(before, local[:, 2], 1.0)[:, None])
+        return held != inside_out
+
+    assert_outline_is_right(region, holds, sign)
 
 
 @pytest.mark.parametrize("radius", [20, 90, 160])
 @pytest.mark.parametrize("lonlat", [(0, 90), (0, -90), (0, 0), (0, 20)])
-def test_symmetric_caps_from_the_pole(lonlat, radius):
+@pytest.mark.parametrize("sign", [1, -1])
+def test_symmetric_caps_from_the_pole(lonlat, radius, sign):
     """The limb itself, tangent circles and concentric ones: no tie tears the outline."""
     region = cap(lonlat, radius).turned(View(0, 90).matrix)
-    assert_outline_is_right(region, 1)
-    assert_outline_is_right(region, -1)
+    assert_outline_is_right(region, left_of_all(region), sign)
 
 
-def area_of_mesh(vertices, faces):
-    a, b, c = (vertices[faces[:, i], :2] for i in range(3))
-    return np.sum((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
+@pytest.mark.parametrize("tilt", [0.0, 1e-13, 1e-11, 1e-10])
+def test_a_hemisphere_bounded_by_the_limb_is_all_or_nothing(tilt):
+    """However rounding, or a conformal map, has turned its boundary: no slivers along the limb."""
+    u, v = np.array([np.cos(tilt), 0.0, np.sin(tilt)]), np.array([0.0, 1.0, 0.0])
+    near = SphereRegion((CircleArc(np.zeros(3), u, v),), 1.0)
+    far = SphereRegion((CircleArc(np.zeros(3), u, -v),), 1.0)
+    assert sum(map(page_area, near.visible_outline())) == pytest.approx(np.pi, rel=1e-9)
+    assert far.visible_outline() == []
 
 
-def area_of_outline(runs):
-    return sum(np.sum(p[:, 0] * np.roll(p[:, 1], -1) - p[:, 1] * np.roll(p[:, 0], -1)) / 2 for p in polygons(runs))
+def test_a_cap_much_smaller_than_a_pixel_is_there():
+    loops = cap((10, 20), 1e-6).turned(View(20, 30).matrix).visible_outline()
+    assert sum(map(page_area, loops)) == pytest.approx(np.pi * np.radians(1e-6) ** 2, rel=0.1)
 
 
-@given(lonlats, st.floats(10, 170), views)
-def test_mesh_covers_the_outline(lonlat, radius, view):
-    region = cap(lonlat, radius).turned(view.matrix)
-    vertices, faces = region.visible_mesh()
-    runs = region.visible_outline()
-    # Where the limb surrounds a hidden hole, its run and the hole's have opposite turns, and the sum is the area.
-    assert area_of_mesh(vertices, faces) == pytest.approx(area_of_outline(runs), abs=5e-3)
-    assert np.allclose(np.linalg.norm(vertices, axis=1), 1, rtol=0, atol=1e-9)
-    assert np.all(vertices[:, 2] >= -1e-12)
+@given(lonlats, st.floats(1, 179), views)
+def test_areas_on_the_page_are_those_of_fine_polygons(lonlat, radius, view):
+    for loop in cap(lonlat, radius).turned(view.matrix).visible_outline():
+        x, y = polygon_of(loop).T
+        assert page_area(loop) == pytest.approx(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2, abs=2e-4)
+    assert page_area([limb(2.0)]) == pytest.approx(4 * np.pi)
 
 
-def test_hemisphere_of_the_viewer():
-    vertices, faces = near_hemisphere(2.0)
-    assert area_of_mesh(vertices, faces) == pytest.approx(4 * np.pi, rel=1e-4)
-    assert np.allclose(np.linalg.norm(vertices, axis=1), 2)
-    assert faces.dtype == np.int32
+def test_a_boundary_with_a_gap_is_refused():
+    a, b, c = np.eye(3)
+    arcs = (CircleArc.great(a, b), CircleArc.great(b, c))
+    with pytest.raises(
+        ValueError, match=r"boundary\[1\] does not end where boundary\[0\] begins; give the arcs of a closed"
+    ):
+        SphereRegion(arcs, 1.0)

@@ -6,7 +6,6 @@ from matplotlib import colormaps
 
 from stereodel.drawing import ColorScale, Page
 from stereodel.drawing.page import Fill, Label, Stroke
-from stereodel.render.vector import rasterize
 
 
 def test_linear_and_logarithmic_places():
@@ -33,7 +32,7 @@ def test_legend():
     assert [item.text for item in items if isinstance(item, Label)] == ["one", "ten", "hundred", "size"]
     assert [item.path[0, 0, 0] for item in items if isinstance(item, Stroke)] == [1.0, 3.0, 5.0]
     assert {type(item) for item in items} == {Fill, Stroke, Label}
-    picture = rasterize(Page((1.0, 5.0, 2.0, 2.5), items, width=400.0), size=400, text=False)
+    picture = Page((1.0, 5.0, 2.0, 2.5), items, width=400.0).pixels(size=400, text=False, renderer="agg")
     shown = scale(10 ** (2 * (np.arange(400) + 0.5) / 400))
     assert np.abs(picture[25] / 255 - shown).max() < 0.02
 

@@ -3,9 +3,11 @@
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke, Surface
+from stereodel.drawing.colors import as_color
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
+from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.style import DOTS, LINES, LineStyle
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
@@ -120,18 +122,34 @@ def test_a_polygon_that_cuts_the_ball_is_refused():
         scene.layout(FRONT)
 
 
-def test_caps_and_triangles_have_outline_and_mesh():
-    scene = Scene(style="glass")
+def test_caps_and_triangles_are_lit_in_front_and_faint_behind():
+    scene = Scene(style="glass", radius=2.0, center=(0.0, 0.0, 1.0))
     circle = SphereCircle.around((0, 40), 30)
     scene.add_cap(circle, name="small_bubble")
     scene.add_cap(circle, name="large_bubble", side="outside")
-    scene.add_triangle_patch(*lonlat_to_xyz([(0, 0), (60, 0), (30, 50)]))
-    items = scene.layout(View(0, 40))
-    assert names(of(items, Surface)) == ["ball", "small_bubble", "large_bubble", "triangle"]
-    assert names(of(items, Fill)) == ["large_bubble"]
-    ring = of(items, Surface, "large_bubble")[0]
-    assert len(ring.outline) == 2
-    assert np.allclose(np.linalg.norm(ring.normals, axis=1), 1)
+    scene.add_triangle_patch(*lonlat_to_xyz([(0, 0), (60, 0), (30, 50)]), color="tab:red")
+    view = View(0, 40)
+    fills = of(scene.layout(view, at=(5.0, 6.0), scale=0.5), Fill)
+    lit, flat = [item for item in fills if item.ball], [item for item in fills if not item.ball]
+    assert names(lit) == ["ball", "small_bubble", "large_bubble", "triangle"]
+    assert names(flat) == ["large_bubble"]
+    assert len(of(lit, Fill, "large_bubble")[0].paths) == 2
+    assert lit[-1].color == as_color("tab:red")
+    assert {item.ball for item in lit} == {Ball((5.0, 6.0 + 0.5 * view.project((0, 0, 1))[1]), 1.0)}
+
+
+def test_pages_hold_the_ball_by_default():
+    scene = Scene(radius=2.0, center=(0.0, 0.0, 2.0))
+    scene.add_points([[0, 0, 1]])
+    view = View(0, 0)
+    page = scene.page(view, width=300.0, background="k")
+    assert page.extent == pytest.approx((-2.04, 2.04, -0.04, 4.04))
+    assert (page.width, page.background) == (300.0, (0.0, 0.0, 0.0, 1.0))
+    assert np.array_equal(page.views, [view.matrix])
+    other = Page((-3.0, 3.0, -1.0, 4.0), scene.layout(view), views=(view.matrix,)).arrays()
+    found = scene.page(view, extent=(-3.0, 3.0, -1.0, 4.0)).arrays()
+    assert found.keys() == other.keys()
+    assert all(np.array_equal(found[key], other[key]) for key in other)
 
 
 def test_labels_vanish_with_their_points_unless_told():
@@ -196,6 +214,13 @@ def test_input_is_not_modified():
         (lambda s: s.add_edges([[0, 0, 1]], [[0, 1]], name="delaunay"), "pairs"),
         (lambda s: s.add_label([0, 1], "x"), "point"),
         (lambda s: s.layout(FRONT, scale=-1), "scale"),
+        (lambda s: s.page(FRONT, extent=(1, -1, -1, 1)), r"extent\[1\] - extent\[0\]"),
+        (lambda s: s.page(FRONT, extent=(-1, 1, 1, 1)), r"extent\[3\] - extent\[2\]"),
+        (lambda s: s.page(FRONT, width=0), "width"),
+        (lambda s: s.page(FRONT, background="sky"), "background is 'sky'"),
+        (lambda s: s.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1], color=(1, 2, 3)), "color is"),
+        (lambda s: s.add_label([0, 0, 1], "x", color="sky"), "color is 'sky'"),
+        (lambda s: s.add_region([CircleArc.great([1, 0, 0], [0, 1, 0])], name="cell"), "boundary"),
     ],
 )
 def test_bad_input_is_named(call, message):

@@ -6,12 +6,13 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from stereodel.constants import LIMB_DEPTH
 from stereodel.drawing.space_curves import CircleArc, Segment
 from stereodel.drawing.view import View
 from stereodel.drawing.visibility import Place, lies_on_ball, place_of, split_by_ball
 from stereodel.sphere import SphereArc, SphereCircle
 
-from .test_curves import arcs, vectors
+from .test_space_curves import arcs, vectors
 
 views = st.builds(View, st.floats(-180, 180), st.floats(-90, 90))
 ORIGIN = np.zeros(3)
@@ -36,6 +37,12 @@ def margin(points, radius):
     return np.minimum(np.abs(beside - radius), np.abs(np.linalg.norm(points, axis=1) - radius))
 
 
+def places(curve):
+    """The places of the pieces of one curve, about a ball of radius 1."""
+    [pieces] = split_by_ball([curve], 1.0)
+    return [place for _, place in pieces]
+
+
 def assert_pieces_cover(curve, pieces):
     """Pieces follow each other and make up the whole curve."""
     for (before, _), (after, _) in pairwise(pieces):
@@ -45,7 +52,7 @@ def assert_pieces_cover(curve, pieces):
 
 
 def assert_matches_definition(curve, radius):
-    pieces = split_by_ball(curve, radius)
+    [pieces] = split_by_ball([curve], radius)
     assert_pieces_cover(curve, pieces)
     for piece, place in pieces:
         points = piece.sample(np.linspace(piece.start, piece.stop, 203)[1:-1])
@@ -68,7 +75,7 @@ def test_segments(a, b, radius):
 def test_circles_of_the_sphere(circle, view):
     curve = circle.moved(view.matrix, ORIGIN)
     assert lies_on_ball(curve, 1.0)
-    pieces = split_by_ball(curve, 1.0)
+    [pieces] = split_by_ball([curve], 1.0)
     assert_pieces_cover(curve, pieces)
     assert len(pieces) <= 2
     for piece, place in pieces:
@@ -79,24 +86,24 @@ def test_circles_of_the_sphere(circle, view):
 def test_a_curve_on_the_limb_is_seen_and_stays_whole():
     equator = CircleArc.circle(SphereCircle((0.0, 90.0), 0.0))
     for view in (View(12, 90), View(77, -90)):
-        [(piece, place)] = split_by_ball(equator.moved(view.matrix, ORIGIN), 1.0)
+        [[(piece, place)]] = split_by_ball([equator.moved(view.matrix, ORIGIN)], 1.0)
         assert place is Place.FRONT
         assert piece.closed
     meridian = CircleArc.of(SphereArc(SphereCircle((123, 0), 0.0), (33, -90), (33, 90)))
-    [(_, place)] = split_by_ball(meridian.moved(View(123, 0).matrix, ORIGIN), 1.0)
+    [[(_, place)]] = split_by_ball([meridian.moved(View(123, 0).matrix, ORIGIN)], 1.0)
     assert place is Place.FRONT
 
 
 def test_a_parallel_that_touches_the_limb_is_not_torn():
     parallel = CircleArc.circle(SphereCircle.around((0, 90), 50))
-    assert [place for _, place in split_by_ball(parallel.moved(View(0, 50).matrix, ORIGIN), 1.0)] == [Place.FRONT]
+    assert places(parallel.moved(View(0, 50).matrix, ORIGIN)) == [Place.FRONT]
     south = CircleArc.circle(SphereCircle.around((0, -90), 49.999))
-    assert [place for _, place in split_by_ball(south.moved(View(0, 50).matrix, ORIGIN), 1.0)] == [Place.BEHIND]
+    assert places(south.moved(View(0, 50).matrix, ORIGIN)) == [Place.BEHIND]
 
 
 def test_a_meridian_is_cut_where_it_meets_the_equator_from_the_pole():
     meridian = CircleArc.of(SphereArc(SphereCircle((120, 0), 0.0), (30, -90), (30, 90)))
-    pieces = split_by_ball(meridian.moved(View(0, 90).matrix, ORIGIN), 1.0)
+    [pieces] = split_by_ball([meridian.moved(View(0, 90).matrix, ORIGIN)], 1.0)
     assert [place for _, place in pieces] == [Place.BEHIND, Place.FRONT]
     assert np.isclose(pieces[0][0].stop, np.pi / 2, rtol=0, atol=1e-11)
 
@@ -105,22 +112,40 @@ def test_the_visible_piece_of_a_closed_circle_is_one():
     """Cut at two points, the part across the start of the parameter must not be in two."""
     for lon in range(0, 360, 15):
         circle = CircleArc.circle(SphereCircle.around((lon, 0), 60))
-        pieces = split_by_ball(circle.moved(View(40, 10).matrix, ORIGIN), 1.0)
+        [pieces] = split_by_ball([circle.moved(View(40, 10).matrix, ORIGIN)], 1.0)
         assert len(pieces) == len({place for _, place in pieces})
 
 
 def test_a_line_that_crosses_the_limb_in_front_is_one_piece():
-    assert [place for _, place in split_by_ball(Segment.between([-2, 0, 1.5], [2, 0, 1.5]), 1.0)] == [Place.FRONT]
-    behind = split_by_ball(Segment.between([-2, 0, -1.5], [2, 0, -1.5]), 1.0)
-    assert [place for _, place in behind] == [Place.OUTSIDE, Place.BEHIND, Place.OUTSIDE]
+    assert places(Segment.between([-2, 0, 1.5], [2, 0, 1.5])) == [Place.FRONT]
+    assert places(Segment.between([-2, 0, -1.5], [2, 0, -1.5])) == [Place.OUTSIDE, Place.BEHIND, Place.OUTSIDE]
 
 
 def test_chords_are_inside_and_tangents_are_not():
     a, b = np.array([0.6, 0.0, 0.8]), np.array([-0.6, 0.0, 0.8])
-    assert [place for _, place in split_by_ball(Segment.between(a, b), 1.0)] == [Place.INSIDE]
+    assert places(Segment.between(a, b)) == [Place.INSIDE]
     along = np.array([0.8, 0.0, -0.6])
-    tangent = Segment.between(a + along, a - along)
-    assert [place for _, place in split_by_ball(tangent, 1.0)] == [Place.FRONT]
+    assert places(Segment.between(a + along, a - along)) == [Place.FRONT]
+
+
+@given(st.lists(st.one_of(circles_on_the_ball(), arcs()), max_size=6), views)
+def test_curves_are_cut_together_as_one_by_one(curves, view):
+    moved = [curve.moved(view.matrix, ORIGIN) for curve in curves]
+    together = split_by_ball(moved, 1.0)
+    assert len(together) == len(moved)
+    for curve, pieces in zip(moved, together, strict=True):
+        [alone] = split_by_ball([curve], 1.0)
+        found, expected = ([(p.start, p.stop, place) for p, place in some] for some in (pieces, alone))
+        assert found == expected
+
+
+def test_an_arc_that_leaves_at_the_limb_has_no_piece_of_no_length():
+    """Its first point is the limb's, exactly or up to the depth that counts as seen; the rest of it is behind."""
+    for depth in (0.0, -LIMB_DEPTH):
+        start = np.array([np.sqrt(1 - depth**2), 0.0, depth])
+        [pieces] = split_by_ball([CircleArc.great(start, [0.0, 0.6, -0.8])], 1.0)
+        assert all(piece.stop > piece.start for piece, _ in pieces)
+        assert pieces[-1][1] is Place.BEHIND
 
 
 def test_places_of_points():

@@ -49,7 +49,7 @@ def test_figure_1_shows_dual_graphs():
 def test_figure_2_ridges_are_perpendicular_bisectors_inside_the_frame():
     module = script("fig02_plane")
     g = module["geometry"]()
-    left, right, bottom, top = module["FRAME"]
+    left, bottom, right, top = module["FRAME"]
     assert (g["ridges"] >= [left, bottom]).all()
     assert (g["ridges"] <= [right, top]).all()
     middles = g["ridges"].mean(axis=1)
@@ -131,7 +131,7 @@ def test_graticule_images_are_the_images_of_its_points(name):
     bend = fisheye((0, 40), magnification=panels.magnification)
     for arc, row in zip(graticule(panels.coarse), panels.geometry()["coarse"], strict=True):
         drawn = arc_points(row[None])[0]
-        image = bend(arc.points(5))
+        image = bend(arc.sample(5))
         center, u, v = row[0:3], row[3:6], row[6:9]
         axis = np.cross(u, v) / np.linalg.norm(np.cross(u, v))
         assert np.allclose((image - center) @ axis, 0, atol=1e-12)

@@ -15,7 +15,9 @@ import pytest
 from PIL import Image
 
 import stereodel
-from stereodel.film import Film, FrameError, keys, workers
+from stereodel.film import Film, FrameError
+from stereodel.film import film as film_module
+from stereodel.film import frames as frames_module
 
 BALLS = """
 import os, time
@@ -98,7 +100,7 @@ def test_the_file_shows_the_frames(balls, out):
     file = film.save(out / "balls.png", jobs=1, progress=False)
     assert [path.name for path in out.iterdir()] == [file.name]
     assert np.array_equal(frames(file), [film.picture(number) for number in range(4)])
-    assert (len(film), film.seconds, film.page(2).width) == (4, 0.4, 160.0)
+    assert (len(film), film.duration, film.page(2).width) == (4, pytest.approx(0.4), 160.0)
     bare = replace(film, text=False).save(out / "bare.png", jobs=1, progress=False)
     assert not np.array_equal(frames(bare), frames(file))
 
@@ -114,7 +116,7 @@ def test_several_processes_give_the_same_file_as_one(balls, out):
 
 
 def test_a_process_draws_so_many_frames_and_then_another_goes_on(balls, out, monkeypatch):
-    monkeypatch.setattr(workers, "FRAMES", 2)
+    monkeypatch.setattr(film_module, "LIFETIME", 2)
     film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 3.2), size=80)
     assert len(frames(film.save(out / "many.png", jobs=2, progress=False))) == 7
     processes = [pid for pid, _ in drawn(balls)]
@@ -250,18 +252,18 @@ class Painter:
 def test_names_of_frames_depend_on_all_that_counts(balls, monkeypatch):
     monkeypatch.setitem(sys.modules, Painter.__module__, sys.modules[__name__])
     shots = [1.0, (1.0, 2), 1.0]
-    names = keys.frame_names(Painter(1.0), shots)
+    names = frames_module.frame_names(Painter(1.0), shots)
     assert names[0] == names[2] != names[1]
-    assert keys.frame_names(Painter(1.0), shots) == names
-    assert set(keys.frame_names(Painter(2.0), shots)).isdisjoint(names)
+    assert frames_module.frame_names(Painter(1.0), shots) == names
+    assert set(frames_module.frame_names(Painter(2.0), shots)).isdisjoint(names)
     film = Film(balls.ball, shots)
     cameras = [replace(film, **change)._camera for change in ({}, {"size": 9}, {"text": False}, {"platform": "egl"})]
-    assert len({keys.frame_names(camera, shots)[0] for camera in cameras}) == 4
-    before = keys.frame_names(film._camera, shots)
+    assert len({frames_module.frame_names(camera, shots)[0] for camera in cameras}) == 4
+    before = frames_module.frame_names(film._camera, shots)
     Path(balls.__file__).write_text(BALLS.replace("40.0", "41.0"))
-    assert keys.frame_names(film._camera, shots) != before
-    monkeypatch.setattr(keys, "library_digest", lambda: b"another version")
-    assert set(keys.frame_names(Painter(1.0), shots)).isdisjoint(names)
+    assert frames_module.frame_names(film._camera, shots) != before
+    monkeypatch.setattr(frames_module, "library_digest", lambda: b"another version")
+    assert set(frames_module.frame_names(Painter(1.0), shots)).isdisjoint(names)
 
 
 def test_bad_films_are_refused_before_anything_is_drawn(balls, out):

@@ -15,7 +15,7 @@ from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots, Label, Mosaic, Patch, Polylines, Stroke
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render.outlines import patch_outline
-from stereodel.render.text import label_layer
+from stereodel.render.text import LabelLayer
 from stereodel.sphere import SphereCircle
 
 PARIS = (2.35, 48.86)
@@ -302,7 +302,7 @@ def test_a_halo_has_the_colour_that_is_asked_for():
     globe = Globe()
     globe.add_labels(["Paris"], [PARIS], halo=3.0, halo_color=(0.0, 0.4, 0.0, 1.0))
     page = globe.page()
-    letters = label_layer(page, 400)
+    letters = LabelLayer(page, 400).rows()
     np.testing.assert_array_equal(np.median(letters[letters[..., 3] == 255], axis=0), [0, 102, 0, 255])
     (label,) = page.labels
     pages = [replace(page, items=(item,)) for item in (label, replace(label, halo_color=Label.halo_color))]

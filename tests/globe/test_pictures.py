@@ -3,6 +3,7 @@
 import base64
 import io
 import re
+from functools import partial
 
 import numpy as np
 import pytest
@@ -15,9 +16,11 @@ from stereodel.globe import Globe, Raster
 from stereodel.globe.chart import Chart
 from stereodel.globe.layers import Image
 from stereodel.globe.raster import RasterOnDisc
-from stereodel.render.raster import SUPERSAMPLING, render
-from stereodel.render.vector import rasterize, save_vector
+from stereodel.render.rows import SUPERSAMPLING
+from stereodel.render.vector import save_vector
 from tests.globe.supersampling import noise, zone_plate
+
+render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")
 
 LENS = fisheye((10.0, 50.0), magnification=3.0)
 COLOURED = Raster(np.dstack([zone_plate(128), noise(128), np.full((128, 256), 80, np.uint8)]))

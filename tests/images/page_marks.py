@@ -6,7 +6,7 @@ from itertools import groupby
 
 import numpy as np
 
-from stereodel.drawing.page import Dots, Fill, Label, Mosaic, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.drawing.page import Dots, Fill, Label, Mosaic, Patch, Picture, Polylines, Stroke
 from stereodel.drawing.style import PRINT_DPI
 from tests.images.marks import PLACE, Mark, Path, area, distances, tidy, together
 from tests.images.patch_boundary import PatchBoundary
@@ -95,8 +95,6 @@ class _Place:
                 yield _stroke(item, self.lines(item), (), "round"), None
             case Fill():
                 yield Mark("fill", levels_of(item.color), self.path(item.paths, closed=True)), None
-            case Surface():
-                yield Mark("fill", levels_of(item.color), self.path(item.outline, closed=True)), None
             case Dots():
                 yield from self.dots(item)
             case Patch():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.page import Dots, Label, Page
+from tests.images.report import Failure
 from tools.baselines import Case, Store, cases_of, main, write_baselines
 
 FIGURE = """
@@ -20,14 +21,15 @@ def draw(g):
 FIGURE = Figure("NAME", geometry, draw, renderer="agg")
 """
 
-ANIMATION = """
+FILM = """
 import numpy as np
 from stereodel.drawing import Page
-from stereodel.film import Animation
+from stereodel.film import Film
 from stereodel.drawing.page import Dots
-def frames():
-    return [Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[x, 0.5]]), 9.0, (0.0, 0.0, 1.0, 1.0)),)) for x in range(5)]
-ANIMATION = Animation("anim_dot", frames)
+def frame(x):
+    return Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[x, 0.5]]), 9.0, (0.0, 0.0, 1.0, 1.0)),))
+def film():
+    return Film(frame, range(5))
 """
 
 
@@ -37,7 +39,7 @@ def project(tmp_path):
     scripts = tmp_path / "figures"
     scripts.mkdir()
     write_figure(scripts, "fig90_dot", 9.0)
-    (scripts / "anim_dot.py").write_text(ANIMATION)
+    (scripts / "anim_dot.py").write_text(FILM)
     return scripts, tmp_path / "store"
 
 
@@ -64,7 +66,7 @@ def test_what_was_written_passes(project):
 def test_a_missing_baseline_fails_and_names_the_command(project):
     scripts, folder = project
     t1, t3, t0 = check(scripts, folder, "fig90_dot")
-    assert t0.startswith("T0: fig90_dot.npz is missing")
+    assert t0.startswith("T0: fig90_dot.npz.xz is missing")
     assert t1.startswith("T1: fig90_dot.png or its hash is missing")
     assert t3.startswith("T3: labels.json has no fig90_dot")
     assert all("make baselines" in message for message in (t0, t1, t3))
@@ -84,9 +86,9 @@ def test_a_change_fails_until_it_is_stored(project):
 def test_what_passes_is_left_as_it_was(project):
     scripts, folder = project
     list(write_baselines(scripts, folder))
-    before = {path.name: path.stat().st_mtime_ns for path in folder.glob("*.np*")}
+    before = {path.name: path.stat().st_mtime_ns for path in folder.iterdir() if path.suffix != ".json"}
     assert list(write_baselines(scripts, folder))[-1] == "fig90_dot: as it was"
-    assert {path.name: path.stat().st_mtime_ns for path in folder.glob("*.np*")} == before
+    assert {path.name: path.stat().st_mtime_ns for path in folder.iterdir() if path.suffix != ".json"} == before
 
 
 def test_what_no_script_draws_any_more_is_removed(project):
@@ -95,7 +97,7 @@ def test_what_no_script_draws_any_more_is_removed(project):
     (scripts / "anim_dot.py").unlink()
     assert "anim_dot_last: removed, no script draws it" in list(write_baselines(scripts, folder))
     assert sorted(path.name for path in folder.iterdir()) == [
-        *("fig90_dot.npz", "fig90_dot.png", "labels.json", "pixels.json")
+        *("fig90_dot.npz.xz", "fig90_dot.png", "labels.json", "pixels.json")
     ]
 
 
@@ -121,10 +123,10 @@ def test_a_failure_carries_both_pictures(project):
     scripts, folder = project
     list(write_baselines(scripts, folder))
     page = Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[1.0, 0.5]]), 9.0, (1.0, 0.0, 0.0, 1.0)),))
-    failure = Store(folder).failure(Case("fig90_dot", page, {}, "agg"), ["T2: red"])
+    failure = Failure.of(Store(folder), Case("fig90_dot", page, {}, "agg"), ["T2: red"])
     assert failure.expected is not None
     assert failure.expected.shape == failure.actual.shape
-    assert Store(folder / "none").failure(Case("fig90_dot", page, {}, "agg"), []).expected is None
+    assert Failure.of(Store(folder / "none"), Case("fig90_dot", page, {}, "agg"), []).expected is None
 
 
 def test_the_command_reports_and_its_exit_code_tells(project, capsys):

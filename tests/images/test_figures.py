@@ -8,10 +8,10 @@ stored.
 import numpy as np
 import pytest
 
-from stereodel.render.text import label_layer
+from stereodel.render.text import LabelLayer
+from tests.images.report import Failure, report_failure, withdraw_failure
 from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases
-from tools.baselines import SIZE, case_names
-from tools.report import report_failure, withdraw_failure
+from tools.baselines import ARRAYS, SIZE, case_names
 
 pytestmark = pytest.mark.images
 
@@ -24,7 +24,7 @@ def test_a_script_draws_what_was_stored(script):
     for case in cases(script):
         messages = STORE.otherwise(case)
         if messages:
-            report_failure(STORE.failure(case, messages), REPORT)
+            report_failure(Failure.of(STORE, case, messages), REPORT)
             found[case.name] = messages[:8]
         else:
             withdraw_failure(case.name, REPORT)
@@ -40,7 +40,7 @@ def test_a_drawing_is_named_after_its_script(script):
 def test_no_text_is_cut_off(script):
     for case in cases(script):
         if case.page.labels:
-            ink = label_layer(case.page, SIZE)[..., 3]
+            ink = LabelLayer(case.page, SIZE).rows()[..., 3]
             assert ink.any()
             border = np.concatenate([ink[0], ink[-1], ink[:, 0], ink[:, -1]])
             assert not border.any(), case.name
@@ -50,7 +50,7 @@ def test_no_text_is_cut_off(script):
 def test_labels_lie_together_where_each_lies_alone(script):
     for case in cases(script):
         if case.page.labels:
-            ink = label_layer(case.page, SIZE)[..., 3] > 0
+            ink = LabelLayer(case.page, SIZE).rows()[..., 3] > 0
             boxes = case.ink[~np.isnan(case.ink).any(axis=1)] * (SIZE / case.page.width)
             for left, bottom, right, top in boxes:
                 # Two pixels more: the boxes hold what is at least half as strong.
@@ -63,5 +63,5 @@ def test_nothing_is_stored_that_no_script_draws():
     names = sorted(name for script in SCRIPTS for name in case_names(script))
     assert sorted(STORE.hashes) == sorted(STORE.boxes) == names
     assert sorted(path.name for path in STORE.folder.iterdir()) == sorted(
-        [*(f"{name}.{kind}" for name in names for kind in ("npz", "png")), "labels.json", "pixels.json"]
+        [*(f"{name}.{kind}" for name in names for kind in (ARRAYS, "png")), "labels.json", "pixels.json"]
     )

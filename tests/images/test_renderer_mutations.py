@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Fill, Label, Patch, Polylines, Stroke, Surface
-from stereodel.render import raster, vector
+from stereodel.drawing.page import Fill, Label, Patch, Polylines, Stroke
+from stereodel.render import raster, rows, vector
 from stereodel.render import text as labels
 from stereodel.render.ribbons import discs, ribbon, ribbons
 from tests.images.scripts import STORE, case
@@ -79,14 +79,14 @@ def test_one_site_missing_in_opengl(name, monkeypatch):
 def test_lines_of_one_look_two_levels_paler_in_opengl(name, role, monkeypatch):
     """The thinnest, of a quarter of a point and see-through, cover less than a hundredth of their picture."""
     change = with_lines(role, lambda line: replace(line, color=paler(line.color)))
-    monkeypatch.setattr(raster, "triangulate", before(raster.triangulate, change))
+    monkeypatch.setattr(rows, "triangulate", before(rows.triangulate, change))
     assert nets(name) == {"T2"}
 
 
 @pytest.mark.parametrize("role", ["axis", "construction", "ray", "grid"])
 def test_lines_of_one_look_two_levels_paler_in_agg(role, monkeypatch):
     change = with_lines(role, lambda line: replace(line, color=paler(line.color)))
-    monkeypatch.setattr(vector, "drawn", before(vector.drawn, change))
+    monkeypatch.setattr(rows, "drawn", before(rows.drawn, change))
     assert nets("fig09_scale") == {"T2"}
 
 
@@ -116,9 +116,9 @@ def test_labels_two_pixels_aside_everywhere(monkeypatch):
 
 
 def test_rows_of_labels_that_slip(monkeypatch):
-    rows = labels.LabelLayer._drawn
+    draw = labels.LabelLayer._drawn
     monkeypatch.setattr(
-        labels.LabelLayer, "_drawn", lambda self, *span: np.roll(rows(self, *span), self.width // 300, 0)
+        labels.LabelLayer, "_drawn", lambda self, *span: np.roll(draw(self, *span), self.width // 300, 0)
     )
     assert nets("fig03_bubbles") == {"T3"}
 
@@ -133,7 +133,7 @@ FILE_CHANGES = {
     "lines twice as wide": of(Polylines, lambda item: {"width": 2 * item.width}),
     "type a twentieth larger": of(Label, lambda item: {"size": 1.05 * item.size}),
     "labels two pixels aside": aside,
-    "fills two levels paler": of(Surface | Patch | Fill, lambda item: {"color": paler(item.color)}),
+    "fills two levels paler": of(Patch | Fill, lambda item: {"color": paler(item.color)}),
     "lines two levels paler": of(Stroke | Polylines, lambda item: {"color": paler(item.color)}),
     "lines a tenth wider": of(Stroke, lambda item: {"width": 1.1 * item.width}),
 }

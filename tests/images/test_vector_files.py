@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Dots, Fill, Label, Mosaic, Page, Patch, Picture, Polylines, Stroke, Surface
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Mosaic, Page, Patch, Picture, Polylines, Stroke
 from stereodel.render.save import mosaic_pictures
 from stereodel.render.text import ink_boxes
 from stereodel.render.vector import save_vector
@@ -87,12 +87,11 @@ def everything():
     )
     outline = (box(1.6, 2.4, 1.1, 1.9), box(1.8, 2.2, 1.3, 1.7))
     corners = np.array([[[2.6, 1.1], [3.4, 1.1], [3.4, 1.9]], [[2.6, 1.1], [3.4, 1.9], [2.6, 1.9]]])
-    ball = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
     polylines = np.array(
         [(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)]
     )
     items = (
-        Surface(ball, ball, np.array([[0, 1, 2]], np.int32), (box(0.1, 1.5, 0.1, 1.9),), (0.9, 0.95, 1.0, 1.0), "ball"),
+        Fill((box(0.1, 1.5, 0.1, 1.9),), (0.9, 0.95, 1.0, 1.0), "ball", Ball((0.8, 1.0), 0.7)),
         Mosaic(corners, None, np.array([[0.2, 0.5, 0.5], [0.5, 0.5, 0.9]]), (box(2.6, 3.4, 1.1, 1.9),), "cells"),
         Picture((box(0.3, 1.2, 0.2, 1.0),), Checks(), "checks"),
         Fill(outline, (0.9, 0.6, 0.1, 0.4), "ring"),

@@ -14,7 +14,6 @@ import stereodel.mpl
 from stereodel import MoebiusMap, data, fisheye
 from stereodel.drawing.view import StereographicView, View
 from stereodel.mpl import FisheyeAxes
-from stereodel.mpl.page_regions import doubled_area
 
 PARIS = (2.35, 48.86)
 GRID = np.linspace(-180, 180, 37), np.linspace(-90, 90, 19)
@@ -27,7 +26,8 @@ def axes_of(**options):
 def area(path):
     """Of the closed parts of a path, holes off."""
     begins = np.flatnonzero(path.codes == Path.MOVETO) if len(path.vertices) else []
-    return sum(doubled_area(loop) for loop in np.split(path.vertices, begins[1:])) / 2 if len(begins) else 0.0
+    loops = [loop.T for loop in np.split(path.vertices, begins[1:])] if len(begins) else []
+    return sum(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) for x, y in loops) / 2
 
 
 def pixels(axes):

@@ -70,7 +70,7 @@ def test_circles_to_conics(view, center, middle, angular_radius, radius):
     near = angular_distance(points, lonlat_to_xyz(center)) < 85
     if conic.kind == "empty":
         assert not near.any()
-        assert np.isnan(conic.at(0.5)).all()
+        assert np.isnan(conic.sample(0.5)).all()
         return
     tilt = abs(circle.normal @ lonlat_to_xyz(center))
     if not near.any() or tilt < 1e-3 or conic.kind in ("parabola", "segment"):
@@ -84,7 +84,7 @@ def test_circles_to_conics(view, center, middle, angular_radius, radius):
     if conic.kind != "line" and abs(np.linalg.det(conic.axes)) > 1e-4:
         # The axes reproduce the very points: the right branch, the right place.
         size = np.abs(conic.center).max() + np.abs(conic.axes).max() + np.abs(plane).max()
-        assert np.abs(conic.at(parameters(plane, conic)) - plane).max() < 1e-9 * size
+        assert np.abs(conic.sample(parameters(plane, conic)) - plane).max() < 1e-9 * size
 
 
 def test_conic_kinds():
@@ -114,7 +114,7 @@ def test_every_parameter_gives_a_point_of_the_circle(name, flip):
     circle = SphereCircle.around(view.inverse([2 * np.tan(np.radians(center)), 0.0]), radius)
     conic = view.image_of(circle.complement if flip else circle)
     assert conic.kind == name
-    back = view.inverse(conic.at(np.linspace(-2, 2, 9)))
+    back = view.inverse(conic.sample(np.linspace(-2, 2, 9)))
     assert np.abs(back @ circle.normal - circle.offset).max() < 1e-14
 
 
@@ -128,7 +128,7 @@ def test_orthographic_parameter_runs_with_the_circle(center, middle, radius):
     facing = circle.normal @ lonlat_to_xyz(center)
     assert np.linalg.det(conic.axes) == pytest.approx(facing * circle.radius**2, abs=1e-12)
     t = np.linspace(0, 2 * np.pi, 9)
-    assert np.hypot(*conic.at(t).T).max() <= 1 + 1e-15
+    assert np.hypot(*conic.sample(t).T).max() <= 1 + 1e-15
 
 
 def test_value_objects():

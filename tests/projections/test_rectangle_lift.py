@@ -29,7 +29,7 @@ def test_p10_corners_on_the_equator_and_scale_1_to_half(sides):
     assert lift.scale_factor(corners) == pytest.approx(0.5, rel=1e-13)
     assert lift.scale_factor(CENTER) == 1.0
     assert lift.forward(CENTER).tolist() == [0, 0, -1]
-    assert lift.extent == pytest.approx(90.0, abs=1e-12)
+    assert lift.angular_radius == pytest.approx(90.0, abs=1e-12)
 
 
 @given(SIDES, PAIRS)

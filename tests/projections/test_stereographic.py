@@ -230,12 +230,12 @@ def test_tiny_circles_stay_round(radius):
     assert np.hypot(*(image.sample(5) - image.center).T) == pytest.approx(image.radius, rel=1e-3)
 
 
-def test_p9_smaller_spheres_give_larger_extents():
-    extents = [float(Stereographic((0, -90), radius=r).extent(1.0)) for r in (4.0, 2.0, 1.0, 0.5)]
-    assert extents == sorted(extents)
-    assert extents[-1] == pytest.approx(90.0)
+def test_p9_smaller_spheres_give_larger_caps():
+    radii = [float(Stereographic((0, -90), radius=r).angular_radius(1.0)) for r in (4.0, 2.0, 1.0, 0.5)]
+    assert radii == sorted(radii)
+    assert radii[-1] == pytest.approx(90.0)
     projection = Stereographic((0, -90), radius=1.0)
-    assert angular_distance(projection.inverse([1.0, 0.0]), [0, 0, -1]) == pytest.approx(extents[2])
+    assert angular_distance(projection.inverse([1.0, 0.0]), [0, 0, -1]) == pytest.approx(radii[2])
 
 
 def test_axes_are_east_and_north():
@@ -286,7 +286,7 @@ def test_shapes():
         (lambda: Stereographic((0, 0), plane="oblique"), "plane is 'oblique', but must be one of 'tangent'"),
         (lambda: Stereographic((0, 0)).forward([0, 0, 0]), "xyz is the zero vector"),
         (lambda: Stereographic((0, 0)).inverse([np.inf, 0]), r"xy\[0\] is inf"),
-        (lambda: Stereographic((0, 0)).extent(-1), "cannot be negative"),
+        (lambda: Stereographic((0, 0)).angular_radius(-1), "cannot be negative"),
     ],
 )
 def test_bad_input(call, message):

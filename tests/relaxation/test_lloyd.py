@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
 from stereodel.relaxation import lloyd
 
-SQUARE = (0, 8, 0, 8)
+SQUARE = (0, 0, 8, 8)
 ROUNDING = 1e-12
 GRID_POINT = st.tuples(st.integers(0, 8), st.integers(0, 8))
 DIRECTION = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
@@ -56,7 +56,7 @@ def never_grows(relaxed):
 
 @given(st.lists(GRID_POINT, min_size=1, max_size=9))
 def test_step_in_a_square(points):
-    relaxed = lloyd(points, steps=1, extent=SQUARE)
+    relaxed = lloyd(points, steps=1, bounds=SQUARE)
     energy, centroids = exact_step(points, [(0, 0), (8, 0), (8, 8), (0, 8)])
     assert relaxed.energies[0] == pytest.approx(energy, rel=ROUNDING)
     assert relaxed.points == pytest.approx(np.array(centroids), abs=1e-11)
@@ -66,7 +66,7 @@ def test_step_in_a_square(points):
 def test_step_in_a_triangle():
     triangle = [(0, 0), (9, 1), (2, 8)]
     points = [(0, 0), (2, 2), (2.5, 2.25), (2, 8), (4, 3)]
-    relaxed = lloyd(points, steps=1, extent=triangle)
+    relaxed = lloyd(points, steps=1, bounds=triangle)
     energy, centroids = exact_step(points, triangle)
     assert relaxed.energies[0] == pytest.approx(energy, rel=ROUNDING)
     assert relaxed.points == pytest.approx(np.array(centroids), abs=1e-12)
@@ -75,7 +75,7 @@ def test_step_in_a_triangle():
 @given(st.lists(GRID_POINT, min_size=1, max_size=12))
 @settings(max_examples=30)
 def test_energy_never_grows_in_the_plane(points):
-    relaxed = lloyd(points, steps=12, extent=SQUARE)
+    relaxed = lloyd(points, steps=12, bounds=SQUARE)
     assert never_grows(relaxed)
     check_delaunay(PlanarDelaunay(relaxed.points))
 
@@ -132,13 +132,13 @@ def test_turning_the_sphere_turns_the_result():
 def test_order_changes_nothing():
     rng = np.random.default_rng(4)
     points, order = rng.random((50, 2)), rng.permutation(50)
-    one, other = lloyd(points, steps=5, extent=(0, 1, 0, 1)), lloyd(points[order], steps=5, extent=(0, 1, 0, 1))
+    one, other = lloyd(points, steps=5, bounds=(0, 0, 1, 1)), lloyd(points[order], steps=5, bounds=(0, 0, 1, 1))
     assert other.points == pytest.approx(one.points[order], abs=1e-12)
 
 
 def test_density_in_the_plane():
     """One cell of weight x: the mean of x is 2/3."""
-    relaxed = lloyd([[0.1, 0.9]], steps=2, density=lambda xy: xy[:, 0], extent=(0, 1, 0, 1))
+    relaxed = lloyd([[0.1, 0.9]], steps=2, density=lambda xy: xy[:, 0], bounds=(0, 0, 1, 1))
     assert relaxed.points == pytest.approx(np.array([[2 / 3, 1 / 2]]))
     assert relaxed.energies[-1] == pytest.approx((1 / 4 - 2 / 9) + 1 / 24)
 
@@ -150,26 +150,26 @@ def test_density_on_the_sphere():
     assert relaxed.energies[-1] == pytest.approx(8 * np.pi - 8 * np.pi / 3, rel=1e-6)
 
 
-@pytest.mark.parametrize("extent", [None, (0, 1, 0, 1)])
-def test_constant_density_is_that_of_none(extent):
+@pytest.mark.parametrize("bounds", [None, (0, 0, 1, 1)])
+def test_constant_density_is_that_of_none(bounds):
     rng = np.random.default_rng(5)
-    points = rng.random((60, 2)) if extent else rng.normal(size=(60, 3))
-    one = lloyd(points, steps=4, extent=extent)
-    other = lloyd(points, steps=4, extent=extent, density=lambda places: np.full(len(places), 3.0))
+    points = rng.random((60, 2)) if bounds else rng.normal(size=(60, 3))
+    one = lloyd(points, steps=4, bounds=bounds)
+    other = lloyd(points, steps=4, bounds=bounds, density=lambda places: np.full(len(places), 3.0))
     assert other.points == pytest.approx(one.points, abs=1e-6)
     assert other.energies == pytest.approx(3 * one.energies, rel=1e-6)
 
 
 def test_points_gather_where_the_density_is_large():
     points = np.random.default_rng(6).random((300, 2))
-    relaxed = lloyd(points, steps=40, density=lambda xy: np.exp(4 * xy[:, 0]), extent=(0, 1, 0, 1))
+    relaxed = lloyd(points, steps=40, density=lambda xy: np.exp(4 * xy[:, 0]), bounds=(0, 0, 1, 1))
     assert (np.diff(relaxed.energies) <= 1e-6 * relaxed.energies[0]).all()
     assert points[:, 0].mean() + 0.02 < relaxed.points[:, 0].mean() < 0.8
 
 
 def test_cells_without_weight_stay():
     points = [[0.25, 0.5], [0.75, 0.5]]
-    relaxed = lloyd(points, steps=3, density=lambda xy: np.where(xy[:, 0] < 0.25, 1.0, 0.0), extent=(0, 1, 0, 1))
+    relaxed = lloyd(points, steps=3, density=lambda xy: np.where(xy[:, 0] < 0.25, 1.0, 0.0), bounds=(0, 0, 1, 1))
     assert relaxed.points[1].tolist() == points[1]
     nothing = lloyd([[0, 0, 1], [1, 0, 0]], steps=1, density=lambda xyz: 0 * xyz[:, 0])
     assert nothing.moves.tolist() == [0]
@@ -177,19 +177,19 @@ def test_cells_without_weight_stay():
 
 @pytest.mark.parametrize("width", [2, 3])
 def test_no_points_and_no_steps(width):
-    extent = SQUARE if width == 2 else None
-    none = lloyd(np.zeros((0, width)), steps=2, extent=extent)
+    bounds = SQUARE if width == 2 else None
+    none = lloyd(np.zeros((0, width)), steps=2, bounds=bounds)
     assert none.points.shape == (0, width)
     assert none.energies.tolist() == [0, 0]  # the first step moves nothing
     points = np.full((1, width), 2.0)
-    still = lloyd(points, steps=0, extent=extent)
+    still = lloyd(points, steps=0, bounds=bounds)
     assert still.points == pytest.approx(points if width == 2 else points / np.sqrt(12))
     assert (len(still.energies), len(still.moves), still.converged) == (1, 0, False)
 
 
 def test_stops_when_nothing_moves_far():
     points = np.random.default_rng(7).random((5, 2))
-    relaxed = lloyd(points, steps=1000, extent=(0, 1, 0, 1), tolerance=1e-5)
+    relaxed = lloyd(points, steps=1000, bounds=(0, 0, 1, 1), tolerance=1e-5)
     assert relaxed.converged
     assert len(relaxed.moves) < 1000
     assert relaxed.moves[-1] <= 1e-5 < relaxed.moves[-2]
@@ -199,8 +199,8 @@ def test_stops_when_nothing_moves_far():
 def test_takes_triangulations_and_changes_nothing():
     points = np.random.default_rng(8).random((9, 2))
     before = points.copy()
-    relaxed = lloyd(PlanarDelaunay(points), extent=(0, 1, 0, 1))
-    assert np.array_equal(relaxed.points, lloyd(points, extent=(0, 1, 0, 1)).points)
+    relaxed = lloyd(PlanarDelaunay(points), bounds=(0, 0, 1, 1))
+    assert np.array_equal(relaxed.points, lloyd(points, bounds=(0, 0, 1, 1)).points)
     assert np.array_equal(points, before)
     assert not any(array.flags.writeable for array in (relaxed.points, relaxed.energies, relaxed.moves))
 
@@ -208,16 +208,16 @@ def test_takes_triangulations_and_changes_nothing():
 @pytest.mark.parametrize(
     ("points", "options", "error", "message"),
     [
-        ([[0, 0]], {}, ValueError, "extent is needed"),
-        ([[0, 0, 1]], {"extent": SQUARE}, ValueError, "leave it out"),
-        ([[0, 0], [9, 1]], {"extent": SQUARE}, ValueError, r"points\[1\] is \[9.0, 1.0\], outside extent"),
-        ([[0, 0]], {"extent": (8, 0, 0, 8)}, ValueError, "xmin < xmax"),
-        ([[0, 0]], {"extent": [(0, 0), (0, 1), (1, 0)]}, ValueError, "counterclockwise"),
-        ([[0, 0]], {"extent": [(0, 0), (1, 1)]}, ValueError, "shape"),
-        ([[0, 0]], {"extent": SQUARE, "steps": -1}, ValueError, "steps is -1"),
-        ([[0, 0]], {"extent": SQUARE, "tolerance": -1}, ValueError, "tolerance"),
-        ([[0, 0]], {"extent": SQUARE, "density": lambda x: -x[:, 0]}, ValueError, "weight cannot be negative"),
-        ([[0, 0]], {"extent": SQUARE, "density": lambda x: x}, ValueError, "one number a point"),
+        ([[0, 0]], {}, ValueError, "bounds are needed"),
+        ([[0, 0, 1]], {"bounds": SQUARE}, ValueError, "leave them out"),
+        ([[0, 0], [9, 1]], {"bounds": SQUARE}, ValueError, r"points\[1\] is \[9.0, 1.0\], outside bounds"),
+        ([[0, 0]], {"bounds": (8, 0, 0, 8)}, ValueError, "xmin < xmax"),
+        ([[0, 0]], {"bounds": [(0, 0), (0, 1), (1, 0)]}, ValueError, "counterclockwise"),
+        ([[0, 0]], {"bounds": [(0, 0), (1, 1)]}, ValueError, "shape"),
+        ([[0, 0]], {"bounds": SQUARE, "steps": -1}, ValueError, "steps is -1"),
+        ([[0, 0]], {"bounds": SQUARE, "tolerance": -1}, ValueError, "tolerance"),
+        ([[0, 0]], {"bounds": SQUARE, "density": lambda x: -x[:, 0]}, ValueError, "weight cannot be negative"),
+        ([[0, 0]], {"bounds": SQUARE, "density": lambda x: x}, ValueError, "one number a point"),
         ([[0, 0, 1]], {"density": lambda x: x[:, 0] * np.nan}, ValueError, "must be a finite number"),
     ],
 )
@@ -229,4 +229,4 @@ def test_wrong_input(points, options, error, message):
 def test_a_star_is_not_convex_though_it_always_turns_left():
     angles = np.arange(5) * 4 * np.pi / 5
     with pytest.raises(ValueError, match="convex"):
-        lloyd([[0, 0]], extent=np.column_stack([np.cos(angles), np.sin(angles)]))
+        lloyd([[0, 0]], bounds=np.column_stack([np.cos(angles), np.sin(angles)]))

@@ -11,7 +11,6 @@ import pytest
 
 from stereodel.drawing.page import Dots, Label, Page
 from stereodel.drawing.style import BLACK
-from stereodel.render import figure as module
 from stereodel.render.digest import pixel_hash
 from stereodel.render.figure import Figure
 from stereodel.render.script import default_folder
@@ -39,7 +38,6 @@ def test_save_writes_three_files_and_a_record(figure, tmp_path):
     assert (record["figure"], record["renderer"], record["size"]) == ("small", "agg", 100)
     assert record["seconds"] >= 0
     assert record["pixel_hash"] == pixel_hash(figure.pixels(size=100, text=False))
-    assert module.WRITTEN[-1] == folder / "small.png"
 
 
 def test_the_hash_does_not_depend_on_text(figure, tmp_path):
@@ -104,5 +102,5 @@ def test_a_failure_on_the_way_leaves_no_half_written_file(figure, tmp_path, monk
 
 
 def test_an_unknown_renderer_is_refused():
-    with pytest.raises(ValueError, match='"gl" or "agg"'):
+    with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
         Figure("small", geometry, draw, renderer="svg")

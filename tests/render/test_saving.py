@@ -1,23 +1,25 @@
 """Pictures written some rows at a time: the same bits as drawn at once, any size, whole or not at all."""
 
+import hashlib
 import itertools
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 from stereodel.drawing import Label, Page, Scene, View
 from stereodel.drawing.page import Dots, Fill, Mosaic, Polylines, Stroke
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
-from stereodel.render import gl, raster, save_page, vector
+from stereodel.render import gl, raster, rows, vector
 from stereodel.render import save as saving
 from stereodel.render import text as labels
 from stereodel.render.digest import PixelDigest, pixel_hash
 from stereodel.render.figure import Figure
-from stereodel.render.raster import render, triangulate
-from stereodel.render.text import LabelLayer, label_layer
+from stereodel.render.raster import triangulate
+from stereodel.render.text import LabelLayer, labelled
 from stereodel.render.triangles import Window
 from stereodel.sphere import SphereCircle
 
@@ -53,10 +55,12 @@ def small_windows(request, monkeypatch):
 @pytest.mark.parametrize("size", [1, 33, 200, 301])
 def test_a_file_has_the_bits_of_the_picture_drawn_at_once(small_windows, tmp_path, size):
     page = globe_page()
-    path = save_page(page, tmp_path / "globe.png", size=size)
-    assert np.array_equal(decoded(path), render(page, size=size))
-    bare = save_page(page, tmp_path / "bare.png", size=size, text=False)
-    assert np.array_equal(decoded(bare), render(page, size=size, text=False))
+    path = page.save(tmp_path / "globe.png", size=size)
+    assert path == tmp_path / "globe.png"
+    assert np.array_equal(decoded(path), page.pixels(size=size))
+    bare = page.save(str(tmp_path / "bare.png"), size=size, text=False)
+    assert np.array_equal(decoded(bare), page.pixels(size=size, text=False))
+    assert np.array_equal(page.pixels(size=size, text=False), page.without_labels().pixels(size=size))
 
 
 def test_a_window_needs_the_triangles_that_touch_it_and_no_other(small_windows):
@@ -72,14 +76,14 @@ def test_a_window_needs_the_triangles_that_touch_it_and_no_other(small_windows):
 
 def test_windows_leave_no_seam(monkeypatch):
     page = globe_page()
-    whole = render(page, size=300)
+    whole = page.pixels(size=300)
     ground = Page(page.extent, (Fill((_box(page.extent),), with_opacity(BLUE, 0.5)),))
-    even = render(ground, size=100)
+    even = ground.pixels(size=100)
     monkeypatch.setattr(gl, "COLUMNS", 64)
     monkeypatch.setattr(gl, "BAND", 32)
-    assert np.array_equal(render(ground, size=100), even)
+    assert np.array_equal(ground.pixels(size=100), even)
     # OpenGL cuts triangles at the edges of windows and rounds the new corners: one sample here and there.
-    apart = np.abs(render(page, size=300).astype(int) - whole)
+    apart = np.abs(page.pixels(size=300).astype(int) - whole)
     assert (apart.max(axis=-1) > 0).mean() < 0.01
     assert (apart.max(axis=-1) > 48).mean() < 1e-4
 
@@ -105,6 +109,16 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
     assert np.array_equal(door.draw(moved.within(away), away, (1.0, 1.0, 1.0, 1.0)), expected)
 
 
+def by_matplotlib(page, size):
+    """The labels on a canvas for the whole page."""
+    with vector.matplotlib_settings():
+        canvas = vector.drawn(replace(page, items=page.labels), *vector.pixel_grid(page, size))
+        canvas.set_facecolor((1.0, 1.0, 1.0, 0.0))
+        agg = FigureCanvasAgg(canvas)
+        agg.draw()
+    return np.array(agg.buffer_rgba())
+
+
 @pytest.mark.parametrize("cuts", [(1,), (100, 101, 150), (64, 128, 192, 256)])
 def test_labels_are_the_same_in_any_rows(cuts):
     page = globe_page()
@@ -126,32 +140,47 @@ def test_labels_with_halos_are_the_same_in_any_rows(cuts):
     parts = np.concatenate([layer.rows(*pair) for pair in itertools.pairwise(ends)])
     assert np.abs(parts - whole).max() <= 1
     assert (whole[..., 3] > 0).mean() > 0.01
-    with vector.matplotlib_settings():
-        canvas = vector.drawn(replace(page, items=page.labels), *vector.pixel_grid(page, 297))
-        assert np.array_equal(whole, vector._pixels(canvas, (1.0, 1.0, 1.0, 0.0)))
+    assert np.array_equal(whole, by_matplotlib(page, 297))
 
 
 def test_labels_are_those_of_matplotlib():
     page = globe_page()
-    with vector.matplotlib_settings():
-        canvas = vector.drawn(replace(page, items=page.labels), *vector.pixel_grid(page, 297))
-        expected = vector._pixels(canvas, (1.0, 1.0, 1.0, 0.0))
-    assert np.array_equal(label_layer(page, 297), expected)
+    assert np.array_equal(LabelLayer(page, 297).rows(), by_matplotlib(page, 297))
 
 
 def test_rows_without_labels_are_left_alone():
     layer = LabelLayer(globe_page(), 300)
-    rows = np.zeros((5, 300, 3), dtype=np.uint8)
-    assert layer.over(rows, 220) is not None
-    assert layer.over(rows, 47) is rows
+    part = np.zeros((5, 300, 3), dtype=np.uint8)
+    assert layer.over(part, 220) is not part
+    assert layer.over(part, 47) is part
+    assert not part.any()
+
+
+def test_a_stage_hands_rows_on_as_they_come():
+    """Nothing is held back or asked for before it is wanted."""
+    page, asked = globe_page(), []
+    picture = page.pixels(size=100, text=False)
+
+    def drawn():
+        for top in range(0, 100, 30):
+            asked.append(top)
+            yield picture[top : top + 30]
+
+    digest = PixelDigest(picture.shape)
+    stages = labelled(digest.passed(drawn()), page, 100)
+    assert asked == []
+    first = next(stages)
+    assert asked == [0]
+    assert np.array_equal(np.concatenate([first, *stages]), page.pixels(size=100))
+    assert str(digest) == pixel_hash(picture)
 
 
 def test_agg_draws_large_pictures_in_parts(monkeypatch):
     page = replace(globe_page(), items=tuple(i for i in globe_page().items if isinstance(i, (Stroke, Polylines, Dots))))
-    whole = vector.rasterize(page, size=300)
-    monkeypatch.setattr(vector, "AT_ONCE", 300 * 70)
-    assert [len(rows) for rows in vector.bands(page, 300)] == [70, 70, 70, 70, 20]
-    apart = np.abs(vector.rasterize(page, size=300).astype(int) - whole)
+    whole = page.pixels(size=300, renderer="agg")
+    monkeypatch.setattr(rows, "AT_ONCE", 300 * 70)
+    assert [len(part) for part in rows.agg_rows(page, 300)] == [70, 70, 70, 70, 20]
+    apart = np.abs(page.pixels(size=300, renderer="agg").astype(int) - whole)
     # Agg cuts lines at the edge of its canvas and rounds the new corners to a 256th of a pixel.
     assert (apart > 0).mean() < 0.01
     assert (apart > 32).mean() < 1e-4
@@ -159,7 +188,7 @@ def test_agg_draws_large_pictures_in_parts(monkeypatch):
 
 @pytest.mark.parametrize("renderer", ["gl", "agg"])
 def test_a_figure_is_written_in_rows_and_knows_its_hash(small_windows, monkeypatch, tmp_path, renderer):
-    monkeypatch.setattr(vector, "AT_ONCE", 150 * 40)
+    monkeypatch.setattr(rows, "AT_ONCE", 150 * 40)
     figure = Figure("globe", dict, lambda g: globe_page(), renderer=renderer)
     record = figure.save(tmp_path, size=150)
     assert np.array_equal(decoded(tmp_path / "globe.png"), figure.pixels(size=150))
@@ -167,11 +196,21 @@ def test_a_figure_is_written_in_rows_and_knows_its_hash(small_windows, monkeypat
     assert record["size"] == 150
 
 
+def test_the_hash_is_of_shape_type_and_values():
+    white = np.full((100, 100, 3), 255, dtype=np.uint8)
+    expected = hashlib.sha256(b"(100, 100, 3) |u1\n" + b"\xff" * 30000).hexdigest()
+    assert pixel_hash(white) == expected
+    assert pixel_hash(np.asfortranarray(white)) == expected
+    assert pixel_hash(white[::-1, ::-1]) == expected
+    others = [white.reshape(50, 200, 3), white.view(np.int8), white.astype(np.uint16)]
+    assert len({expected, *map(pixel_hash, others)}) == 4
+
+
 def test_the_hash_of_rows_is_that_of_the_picture():
     picture = np.random.default_rng(0).integers(0, 256, (9, 4, 3)).astype(np.uint8)
     digest = PixelDigest(picture.shape)
-    for rows in (picture[:4], picture[4:5], picture[5:]):
-        digest.add(rows)
+    for part in (picture[:4], picture[4:5], picture[5:]):
+        digest.add(part)
     assert str(digest) == pixel_hash(picture)
 
 
@@ -181,16 +220,16 @@ def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monke
     path.write_bytes(b"the picture of yesterday")
     calls = []
 
-    def fails(layer, rows, top=0):
+    def fails(layer, part, top=0):
         calls.append(top)
         if top:
             raise error
-        return rows
+        return part
 
     monkeypatch.setattr(labels.LabelLayer, "over", fails)
     monkeypatch.setattr(gl, "BAND", 64)
     with pytest.raises(error):
-        save_page(globe_page(), path, size=100)
+        globe_page().save(path, size=100)
     assert calls == [0, 32]
     assert path.read_bytes() == b"the picture of yesterday"
     assert [file.name for file in tmp_path.iterdir()] == ["globe.png"]
@@ -199,9 +238,9 @@ def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monke
 def test_vector_files_by_their_endings(tmp_path):
     page = globe_page()
     for kind in ("svg", "PDF"):
-        path = save_page(page, tmp_path / f"globe.{kind}")
+        path = page.save(tmp_path / f"globe.{kind}")
         assert path.read_bytes()[:5] in (b"<?xml", b"%PDF-")
-    bare = save_page(page, tmp_path / "bare.svg", text=False).read_bytes()
+    bare = page.save(tmp_path / "bare.svg", text=False).read_bytes()
     assert b'id="label"' in (tmp_path / "globe.svg").read_bytes()
     assert b'id="label"' not in bare
 
@@ -229,5 +268,26 @@ def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
 )
 def test_what_cannot_be_written_is_explained(tmp_path, name, size, error, message):
     with pytest.raises(error, match=message):
-        save_page(globe_page(), tmp_path / name, size=size)
+        globe_page().save(tmp_path / name, size=size)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unknown_renderer_is_named(tmp_path):
+    with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
+        globe_page().save(tmp_path / "globe.png", size=10, renderer="svg")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_without_opengl_the_error_says_what_needs_none(tmp_path, monkeypatch):
+    monkeypatch.setattr(gl, "DOOR", gl.Door())
+    monkeypatch.setattr(gl, "can_open", lambda platform: False)
+    for variable in (gl.VARIABLE, "PYOPENGL_PLATFORM"):
+        monkeypatch.delenv(variable, raising=False)
+    page = globe_page()
+    with pytest.raises(OSError, match=r"install it.*\.svg and \.pdf of lines and plain fills need no OpenGL"):
+        page.save(tmp_path / "globe.png", size=10)
+    assert list(tmp_path.iterdir()) == []
+    page.save(tmp_path / "globe.svg")
+    page.save(tmp_path / "globe.png", size=10, renderer="agg")
+    with pytest.raises(gl.OpenGLError, match="neither OSMesa nor EGL"):
+        page.pixels(size=10)

@@ -2,6 +2,7 @@
 
 import re
 import xml.etree.ElementTree as ET
+from functools import partial
 
 import matplotlib as mpl
 import numpy as np
@@ -11,10 +12,13 @@ from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.style import BLACK
 from stereodel.drawing.view import View
+from stereodel.render.rows import agg_rows
 from stereodel.render.sizes import pixel_height
-from stereodel.render.text import label_layer, with_labels
-from stereodel.render.vector import rasterize, save_vector
+from stereodel.render.text import LabelLayer
+from stereodel.render.vector import save_vector
 from stereodel.sphere import SphereCircle, graticule
+
+rasterize = partial(Page.pixels, renderer="agg")
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -110,25 +114,23 @@ def test_pixel_sizes_are_whole_and_agree(size):
     page = Page((0, 3, 0, 2), (Label("x", (1, 1)),), width=481.89)
     height = pixel_height(page, size)
     assert rasterize(page, size=size).shape == (height, size, 3)
-    assert label_layer(page, size).shape == (height, size, 4)
+    assert LabelLayer(page, size).rows().shape == (height, size, 4)
 
 
 def test_the_label_layer_holds_the_labels_alone():
     page = globe()
-    bare, full, layer = (
-        rasterize(page, size=400, text=False),
-        rasterize(page, size=400),
-        label_layer(page, 400),
-    )
+    bare, (full,), layer = rasterize(page, size=400, text=False), agg_rows(page, 400), LabelLayer(page, 400)
+    ink = layer.rows()[..., 3]
     touched = np.any(bare != full, axis=2)
     assert touched.any()
-    assert np.array_equal(touched & (layer[..., 3] == 0), np.zeros_like(touched))
-    assert np.abs(with_labels(bare, page).astype(int) - full).max() <= 3
-    assert with_labels(bare, page.without_labels()) is bare
+    assert not (touched & (ink == 0)).any()
+    assert np.abs(layer.over(bare).astype(int) - full).max() <= 3
+    assert np.array_equal(layer.over(bare), rasterize(page, size=400))
+    assert LabelLayer(page.without_labels(), 400).over(bare) is bare
 
 
 def test_labels_are_placed_and_aligned():
     page = Page((0, 10, 0, 10), (Label("MM", (5, 5), offset=(10, 0), align="left", valign="bottom"),), width=100.0)
-    rows, columns = np.nonzero(label_layer(page, 100)[..., 3])
+    rows, columns = np.nonzero(LabelLayer(page, 100).rows()[..., 3])
     assert 60 <= columns.min() <= 62
     assert 46 <= rows.max() <= 50

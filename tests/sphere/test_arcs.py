@@ -30,7 +30,7 @@ def test_great_arc(start, end):
     assert (center == 0).all()
     assert np.abs(center + u - a).max() < 4e-16
     assert np.abs(np.cos(sweep_rad) * u + np.sin(sweep_rad) * v - b).max() < 1e-15
-    assert np.abs(arc.points(5) - great_circle_points(a, b, 5)).max() < 1e-15
+    assert np.abs(arc.sample(5) - great_circle_points(a, b, 5)).max() < 1e-15
     assert np.linalg.det([u, v, arc.circle.normal]) == pytest.approx(1)
 
 
@@ -41,7 +41,7 @@ def test_arc_of_any_circle(center, radius, first, sweep):
     start, end = (middle + np.cos(t) * u + np.sin(t) * v for t in (first, first + sweep))
     arc = SphereArc(circle, start, end)
     assert arc.angle_rad == pytest.approx(sweep, abs=1e-15 / circle.radius + 1e-15)
-    points = arc.points(6)
+    points = arc.sample(6)
     assert np.abs(points @ circle.normal - circle.offset).max() < 1e-15
     middle, u, v, sweep_rad = arc.frame()
     assert np.abs(middle + np.cos(sweep_rad) * u + np.sin(sweep_rad) * v - end).max() < 2e-15
@@ -52,7 +52,7 @@ def test_whole_circle_is_closed():
     arc = SphereArc.whole(circle)
     assert arc.closed
     assert arc.length == pytest.approx(2 * np.pi * np.sin(np.radians(40)))
-    assert (arc.points(9)[0] == arc.points(9)[-1]).all()
+    assert (arc.sample(9)[0] == arc.sample(9)[-1]).all()
     assert SphereArc(circle, arc.start, arc.start).closed
     assert arc == SphereArc.whole(circle)
     assert hash(arc) == hash(SphereArc.whole(circle))
@@ -73,13 +73,13 @@ def test_great_arc_of_neighbours_one_step_apart():
 
 @given(st.floats(-180, 179), st.floats(-89, 89))
 def test_meridians_and_parallels(lon, lat):
-    line = meridian(lon).points(9)
+    line = meridian(lon).sample(9)
     assert (line[0] == [0, 0, -1]).all()
     assert (line[-1] == [0, 0, 1]).all()
     inner = xyz_to_lonlat(line[1:-1])
     assert np.abs((inner[:, 0] - lon + 180) % 360 - 180).max() < 1e-12
     assert (np.diff(inner[:, 1]) > 0).all()
-    ring = xyz_to_lonlat(parallel(lat).points(5))
+    ring = xyz_to_lonlat(parallel(lat).sample(5))
     assert ring[:, 1] == pytest.approx(lat, abs=1e-12)
     assert np.abs(ring[:4, 0] - [0, 90, -180, -90]).max() < 1e-12
 
@@ -100,11 +100,11 @@ def test_graticule_patch(half_width, spacing, lines):
     assert len(arcs) == 2 * lines
     for arc in arcs:
         assert np.degrees(arc.angle_rad) == pytest.approx(2 * half_width)
-        lonlat = xyz_to_lonlat(arc.points(5))
+        lonlat = xyz_to_lonlat(arc.sample(5))
         assert np.abs(lonlat - [0, 40]).max() <= half_width + 1e-12
         center, u, v, sweep = arc.frame()
         assert np.abs(center + np.cos(sweep) * u + np.sin(sweep) * v - arc.end).max() < 1e-15
-    first_meridian, first_parallel = xyz_to_lonlat(arcs[0].points(2)), xyz_to_lonlat(arcs[lines].points(2))
+    first_meridian, first_parallel = xyz_to_lonlat(arcs[0].sample(2)), xyz_to_lonlat(arcs[lines].sample(2))
     assert np.abs(first_meridian - [[-half_width, 40 - half_width], [-half_width, 40 + half_width]]).max() < 1e-12
     assert np.abs(first_parallel - [[-half_width, 40 - half_width], [half_width, 40 - half_width]]).max() < 1e-12
 

@@ -33,13 +33,13 @@ def scripts(tmp_path):
     folder.mkdir()
     (folder / "_shared.py").write_text("INK = 'black'\n")
     (folder / "fig01_one.py").write_text(SCRIPT.format(name="fig01_one", kind="FIGURE"))
-    (folder / "anim_two.py").write_text(SCRIPT.format(name="anim_two", kind="ANIMATION"))
+    (folder / "anim_two.py").write_text(SCRIPT.format(name="anim_two", kind="FIGURE"))
     return folder
 
 
 def command(*arguments, cwd):
     """Run the builder as `make` does."""
-    environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[2])}
+    environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[1])}
     line = [sys.executable, "-m", "tools.build", *map(str, arguments)]
     return subprocess.run(line, cwd=cwd, env=environment, capture_output=True, text=True, check=False)
 
@@ -72,13 +72,13 @@ def test_only_what_is_out_of_date_runs(scripts, tmp_path):
 
 def test_library_and_renderer_count_as_inputs(scripts, tmp_path, monkeypatch):
     monkeypatch.setenv("STEREODEL_GL", "osmesa")
-    before = build._shared_digest(scripts)
+    before = build.shared_digest(scripts)
     monkeypatch.setenv("STEREODEL_GL", "egl")
-    assert build._shared_digest(scripts) != before
+    assert build.shared_digest(scripts) != before
     monkeypatch.setenv("STEREODEL_GL", "osmesa")
-    assert build._shared_digest(scripts) == before
+    assert build.shared_digest(scripts) == before
     monkeypatch.setattr(provenance, "library_versions", lambda: {"numpy": "0"})
-    assert build._shared_digest(scripts) != before
+    assert build.shared_digest(scripts) != before
 
 
 def test_manifest_says_what_was_drawn_with_what(scripts, tmp_path):
@@ -120,9 +120,34 @@ def test_failing_scripts_do_not_stop_the_others(scripts, tmp_path):
     assert "2 drawn, 3 failed" in ran.stdout
     assert "in helper" in ran.stderr
     assert "no such site" in ran.stderr
-    assert "process died" in ran.stderr
-    assert "defines neither FIGURE nor ANIMATION" in ran.stderr
+    assert "its process ended with code 3, without a Python error" in ran.stderr
+    assert "defines neither FIGURE nor film()" in ran.stderr
     assert sorted(build.read_manifest(tmp_path / "out")) == ["anim_two", "fig01_one"]
+
+
+FILM = """
+import numpy as np
+from stereodel.drawing import Page
+from stereodel.drawing.page import Dots
+from stereodel.film import Film
+def frame(x):
+    return Page((0.0, 2.0, 0.0, 1.0), (Dots(np.array([[x, 0.5]]), 9.0, (0.0, 0.0, 1.0, 1.0)),))
+def film():
+    return Film(frame, [0.5, 1.0, 1.5], seconds=0.1, size=60)
+"""
+
+
+def test_a_film_becomes_a_gif(scripts, tmp_path, monkeypatch):
+    (scripts / "anim_two.py").write_text(FILM)
+    out = tmp_path / "out"
+    (outcome,) = build.build(scripts, out, ["anim"])
+    assert outcome.error == ""
+    assert sorted(path.name for path in out.iterdir()) == ["anim_two.gif", "manifest.json"]
+    record = build.read_manifest(out)["anim_two"]
+    assert (record["frames"], record["size"], list(record["files"])) == (3, 60, ["anim_two.gif"])
+    monkeypatch.setattr(build, "LARGEST_FILM", 100)
+    outcome = build.run_script(scripts / "anim_two.py", out)
+    assert "give fewer frames or a smaller size" in outcome.error
 
 
 def test_names_select_scripts(scripts, tmp_path):
@@ -147,11 +172,11 @@ def test_mistakes_are_one_line(scripts, tmp_path):
 def test_nothing_to_do_is_quick_and_loads_no_graphics(scripts, tmp_path):
     command("--scripts", scripts, "--out", "out", cwd=tmp_path)
     code = (
-        "import sys, time; from stereodel.render import build; build.main(['--out', 'out']); "
+        "import sys, time; from tools import build; build.main(['--out', 'out']); "
         "print(time.process_time()); "
         "print(*{'matplotlib', 'scipy', 'OpenGL', 'rich', 'trimesh'} & set(sys.modules))"
     )
-    environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[2])}
+    environment = {**os.environ, "PYTHONPATH": str(Path(build.__file__).parents[1])}
     line = [sys.executable, "-c", code]
     ran = subprocess.run(line, cwd=tmp_path, env=environment, capture_output=True, text=True, check=True)
     said, seconds, loaded = ran.stdout.split("\n")[:3]

@@ -92,10 +92,10 @@ def test_simplex_vertex_is_the_circumcentre():
 @pytest.mark.parametrize("points", [random_points(120, seed=7), GRID, GRID[::4] * [1, 0], GRID[[0, 5]]])
 def test_segments_are_the_places_with_two_nearest_sites(points):
     diagram = PlanarVoronoi(points)
-    extent = np.array([-0.3, 1.2, -0.1, 0.8]) * points.max()
-    segments, ridge = diagram.segments(extent)
-    assert (segments >= extent[[0, 2]] - 1e-12).all()
-    assert (segments <= extent[[1, 3]] + 1e-12).all()
+    bounds = np.array([-0.3, -0.1, 1.2, 0.8]) * points.max()
+    segments, ridge = diagram.segments(bounds)
+    assert (segments >= bounds[:2] - 1e-12).all()
+    assert (segments <= bounds[2:] + 1e-12).all()
     t = np.random.default_rng(0).random((len(segments), 1))
     places = segments[:, 0] * (1 - t) + segments[:, 1] * t
     distance, sites = cKDTree(points).query(places, k=2)
@@ -109,7 +109,7 @@ def test_segments_are_the_places_with_two_nearest_sites(points):
 
 def test_ridges_inside_the_rectangle_end_in_vertices_exactly():
     diagram = PlanarVoronoi(random_points(100))
-    segments, ridge = diagram.segments((-1, 2, -1, 2))
+    segments, ridge = diagram.segments((-1, -1, 2, 2))
     bounded = (diagram.ridge_vertices[ridge] >= 0).all(axis=1)
     ends = diagram.vertices[diagram.ridge_vertices[ridge[bounded]]]
     inside = ((ends > -1) & (ends < 2)).all(axis=(1, 2))
@@ -120,23 +120,23 @@ def test_ridges_inside_the_rectangle_end_in_vertices_exactly():
 def test_every_visible_ridge_is_there():
     points = random_points(120, seed=8)
     diagram = PlanarVoronoi(points)
-    segments, _ = diagram.segments((0.2, 0.7, 0.3, 0.6))
+    segments, _ = diagram.segments((0.2, 0.3, 0.7, 0.6))
     x, y = np.meshgrid(np.linspace(0.2, 0.7, 400), np.linspace(0.3, 0.6, 400), indexing="ij")
     owner = cKDTree(points).query(np.column_stack([x.ravel(), y.ravel()]))[1].reshape(400, 400)
     changes = {tuple(sorted(p)) for p in zip(owner[1:].ravel(), owner[:-1].ravel(), strict=True) if p[0] != p[1]}
-    assert changes <= {tuple(p) for p in diagram.ridge_points[diagram.segments((0.2, 0.7, 0.3, 0.6))[1]].tolist()}
+    assert changes <= {tuple(p) for p in diagram.ridge_points[diagram.segments((0.2, 0.3, 0.7, 0.6))[1]].tolist()}
     assert len(segments) >= len(changes)
 
 
-@pytest.mark.parametrize("extent", [(0, 1, 2), (1, 0, 0, 1), (0, 1, 1, 1)])
-def test_segments_refuse_an_empty_rectangle(extent):
-    with pytest.raises(ValueError, match="extent must be"):
-        PlanarVoronoi(GRID).segments(extent)
+@pytest.mark.parametrize("bounds", [(0, 1, 2), (1, 0, 0, 1), (0, 1, 1, 1)])
+def test_segments_refuse_an_empty_rectangle(bounds):
+    with pytest.raises(ValueError, match=r"bounds .*\(xmin, ymin, xmax, ymax\)"):
+        PlanarVoronoi(GRID).segments(bounds)
 
 
 def test_a_very_far_vertex_does_not_disturb_the_picture():
     points = np.array([[0, 0], [1, 2.0**-50], [2, 0], [1, 3]])
-    segments, ridge = PlanarVoronoi(points).segments((-1, 3, -1, 2))
+    segments, ridge = PlanarVoronoi(points).segments((-1, -1, 3, 2))
     places = dict(zip(map(tuple, PlanarVoronoi(points).ridge_points[ridge].tolist()), segments.tolist(), strict=True))
     assert places[0, 1] == [pytest.approx([0.5, -1.0]), pytest.approx([0.5, 1.5], abs=1e-12)]
 

@@ -96,12 +96,12 @@ def test_ridges_are_the_places_with_two_nearest_sites(name):
     diagram = SphericalVoronoi(points)
     tree = spatial.cKDTree(units(points))
     for (i, j), arc in zip(diagram.ridge_points.tolist(), diagram.ridge_arcs(), strict=True):
-        places = arc.points(5)[1:4]
+        places = arc.sample(5)[1:4]
         distance = tree.query(places)[0]
         own = np.linalg.norm(places[:, None] - units(points)[[i, j]], axis=2)
         assert own == pytest.approx(np.column_stack([distance, distance]), abs=1e-14)
         if arc.angle_rad > 1e-8:
-            left = np.cross(places[1], arc.points(5)[3] - places[1])
+            left = np.cross(places[1], arc.sample(5)[3] - places[1])
             assert left @ (units(points)[i] - units(points)[j]) > 0
 
 
@@ -157,7 +157,7 @@ def test_two_points_have_two_half_circles():
     assert diagram.vertices.tolist() == [[0, 0, 1], [0, 0, -1]]
     assert diagram.ridge_points.tolist() == [[0, 1], [0, 1]]
     assert diagram.ridge_vertices.tolist() == [[0, 1], [1, 0]]
-    middles = {tuple(np.round(arc.points(3)[1], 12)) for arc in diagram.ridge_arcs()}
+    middles = {tuple(np.round(arc.sample(3)[1], 12)) for arc in diagram.ridge_arcs()}
     assert middles == {(0.707106781187, 0.707106781187, 0), (-0.707106781187, -0.707106781187, 0)}
     assert diagram.areas() == pytest.approx(2 * np.pi, rel=1e-15)
 

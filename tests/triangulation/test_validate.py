@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 
 from stereodel.triangulation.validate import (
     InvalidTriangulation,
     check_delaunay,
     first_occurrences,
 )
+from stereodel.triangulation.validate_mesh import _labels
 from tests.triangulation.meshes import (
     CUBE,
     cube_simplices,
@@ -175,3 +178,20 @@ def test_directions_closer_than_an_ulp_are_different():
     assert first_occurrences(points).tolist() == [0, 1, 0, 3, 4, 5, 5]
     underflown = [[1e300, 1e-30, 0], [1e300, 2e-30, 0], [1, 0, 0], [2e300, 2e-30, 0]]  # all quotients are (1, 0, 0)
     assert first_occurrences(np.array(underflown)).tolist() == [0, 1, 2, 0]
+
+
+@given(st.integers(1, 40), st.data())
+def test_components_are_those_of_scipy(size, data):
+    """Each node has the smallest of its component."""
+    edges = data.draw(st.lists(st.tuples(*[st.integers(0, size - 1)] * 2), max_size=2 * size))
+    a, b = np.array(edges, dtype=np.int64).reshape(-1, 2).T
+    components = connected_components(coo_array((np.ones(len(a)), (a, b)), shape=(size, size)), directed=False)[1]
+    smallest = [int(np.flatnonzero(components == component)[0]) for component in components]
+    assert _labels(size, a, b).tolist() == smallest
+
+
+def test_components_of_long_chains_take_few_rounds():
+    """A path through nodes in any order; as many rounds as nodes would take minutes."""
+    order = np.random.default_rng(1).permutation(200_000)
+    assert not _labels(len(order), order[:-1], order[1:]).any()
+    assert not _labels(len(order), np.arange(len(order) - 1), np.arange(1, len(order))).any()

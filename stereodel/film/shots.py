@@ -1,0 +1,352 @@
+"""What the frames of a film of a globe show: flights from focus to focus, globes that turn, paths from lens to lens.
+
+A motion is a function of time; a shot is what it shows at one.
+
+A flight's lens follows the shortest way in hyperbolic space (`stereodel.conformal.flight`): it shrinks no more than the
+distance asks for. The view follows a like way of its own, on which every stop lies farther out, as if it were magnified
+`WIDE` times more: where nothing is magnified a lens has no focus, but the view must come from somewhere.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import KW_ONLY, dataclass, replace
+from functools import cached_property
+from typing import Final, Protocol
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, as_lonlat, as_scalar
+from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
+from stereodel.constants import OPPOSITE
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Page
+from stereodel.drawing.view import MapView, View
+from stereodel.globe.globe import Globe
+from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
+
+Shot = tuple[MoebiusMap, MapView]
+"""What a frame shows of a globe: the lens and the view."""
+
+WIDE: Final = 2.0
+"""By how much more the view's path magnifies than the lens's."""
+
+PACE: Final = 1.0
+"""Seconds for magnifying e times on the spot."""
+
+TURN: Final = 2.0
+"""What a turn of the globe by 1 rad takes, in times of magnifying e times.
+
+At constant hyperbolic speed a flight would spend its time on the zoom, and the globe would whirl round in between.
+"""
+
+STEPS: Final = 256
+"""Parts of a leg in which its speed is measured."""
+
+POINTS_PER_PIXEL: Final = 0.375
+"""Of a page of a film: lines keep their width in pixels whatever the size, 1 pt being 2⅔ of them."""
+
+FINE: Final = 0.2
+"""How far what is drawn may be from what it stands for, pixels."""
+
+
+class Motion(Protocol):
+    """What a film of a globe shows, from 0 to `seconds`."""
+
+    @property
+    def seconds(self) -> float:
+        """How long it takes."""
+
+    def __call__(self, time: float) -> Shot:
+        """Lens and view at a time."""
+
+
+def sampled(motion: Motion, rate: float) -> list[Shot]:
+    """What a motion shows at the times k / `rate`; a ValueError where it is too short for one frame."""
+    count = round(motion.seconds * rate)
+    if count < 1:
+        raise ValueError(
+            f"a motion of {motion.seconds:g} s has no frame at {rate:g} frames a second; give a larger fps"
+        )
+    return [motion(number / rate) for number in range(count)]
+
+
+@dataclass(frozen=True, eq=False)
+class GlobePages:
+    """Draws a globe in the middle of a page of any shape."""
+
+    globe: Globe
+    width: int
+    height: int
+    background: Color
+
+    def __call__(self, shot: Shot) -> Page:
+        """The page of a shot."""
+        square = min(self.width, self.height)
+        page = self.globe.page(*shot, width=square * POINTS_PER_PIXEL, tolerance=FINE * POINTS_PER_PIXEL)
+        left, right, bottom, top = page.extent
+        x, y, half = (left + right) / 2, (bottom + top) / 2, (right - left) / 2 / square
+        extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
+        return replace(page, extent=extent, width=self.width * POINTS_PER_PIXEL, background=self.background)
+
+
+@dataclass(frozen=True)
+class Stop:
+    """A place on a flight.
+
+    Parameters
+    ----------
+    focus : (float, float)
+        Longitude and latitude, degrees: what is magnified and in the middle.
+    magnification : float
+        S ≥ 1 of the fisheye there; 1 is the globe as it is.
+    hold : float
+        Seconds to stay.
+
+    Raises
+    ------
+    ValueError
+        For a magnification below 1 or not finite, a latitude outside [−90, 90], or a negative time.
+    """
+
+    focus: tuple[float, float]
+    magnification: float = 1.0
+    hold: float = 1.0
+
+    def __post_init__(self) -> None:
+        as_lonlat(self.focus, "focus")
+        as_scalar(self.magnification, "magnification", low=1.0)
+        as_scalar(self.hold, "hold", low=0.0)
+
+    @property
+    def lens(self) -> MoebiusMap:
+        """The fisheye."""
+        return fisheye(self.focus, magnification=self.magnification)
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A flight from stop to stop: the lens lets go, the globe turns, the lens takes hold of the next place.
+
+    Parameters
+    ----------
+    stops : sequence of Stop
+        Two or more; neighbours are not opposite on the globe. North is up at each.
+    pace : float
+        Seconds for magnifying e times on the spot; a turn of the globe by 1 rad takes twice as long.
+
+    Raises
+    ------
+    ValueError
+        For fewer than two stops, neighbours opposite each other, or a pace that is not positive.
+
+    Examples
+    --------
+    >>> trip = Flight([Stop((2.35, 48.86), 8.0), Stop((-74.0, 40.7), 8.0, hold=2.0)])
+    >>> lens, view = trip(0.5)
+    >>> round(lens.magnification, 12), round(view.lon, 12), round(view.lat, 12)
+    (8.0, 2.35, 48.86)
+    >>> lens, view = trip(trip.seconds / 2 - 0.5)  # half-way: as far from one as from the other
+    >>> round(lens.magnification, 3), round(view.lon, 1), round(view.lat, 1)
+    (3.782, -39.0, 51.6)
+    """
+
+    stops: Sequence[Stop]
+    _: KW_ONLY
+    pace: float = PACE
+
+    def __post_init__(self) -> None:
+        as_scalar(self.pace, "pace", low=0.0, open_low=True)
+        object.__setattr__(self, "stops", tuple(self.stops))
+        if len(self.stops) < 2:
+            raise ValueError(f"stops has {len(self.stops)} entries, but a flight has two or more")
+        for number, (one, other) in enumerate(zip(self.stops, self.stops[1:], strict=False)):
+            if _opposite(one.focus, other.focus):
+                raise ValueError(
+                    f"stops[{number + 1}] is opposite stops[{number}], and no way is the shortest; put a stop between"
+                )
+
+    @property
+    def seconds(self) -> float:
+        """How long it takes, with the time at the stops."""
+        return sum(stop.hold for stop in self.stops) + sum(leg.seconds for leg in self._legs)
+
+    def __call__(self, time: float) -> Shot:
+        """Lens and view at a time; before 0 and after the end those of the first and the last stop."""
+        left = max(as_scalar(time, "time") - self.stops[0].hold, 0.0)
+        for leg, stop in zip(self._legs, self.stops[1:], strict=True):
+            if left < leg.seconds:
+                return leg(left / leg.seconds)
+            left -= leg.seconds
+            if left < stop.hold:
+                return leg(1.0)
+            left -= stop.hold
+        return self._legs[-1](1.0)
+
+    @cached_property
+    def _legs(self) -> list[_Leg]:
+        return [_Leg(a, b, self.pace) for a, b in zip(self.stops, self.stops[1:], strict=False)]
+
+
+class _Leg:
+    """From one stop to the next."""
+
+    def __init__(self, start: Stop, end: Stop, pace: float) -> None:
+        self._start, self._end = start, end
+        self._lens = flight(start.focus, end.focus, magnification=start.magnification, arrival=end.magnification)
+        wide = flight(
+            start.focus, end.focus, magnification=WIDE * start.magnification, arrival=WIDE * end.magnification
+        )
+        self._middle_length = wide.length
+        self._times = np.linspace(0.0, 1.0, STEPS + 1)
+        self._way = self._measured()
+        self.seconds = pace * float(self._way[-1])
+
+    def __call__(self, share: float) -> Shot:
+        t = float(np.interp(eased(share) * self._way[-1], self._way, self._times))
+        return self._lens(t), self._view(t)
+
+    def _measured(self) -> FloatArray:
+        """How far the eye has travelled at each of the times."""
+        places = self._middles(self._times)
+        sizes = np.linalg.norm(places, axis=1)
+        zoom = np.diff(np.arcsinh(sizes))
+        turn = np.radians(angular_distance(places[1:], places[:-1]))
+        way: FloatArray = np.concatenate([[0.0], np.cumsum(np.hypot(zoom, TURN * turn))])
+        return way
+
+    def _middles(self, t: FloatArray) -> FloatArray:
+        """The middle of the view at times (n,) times sinh η, (n, 3), η the distance of the view's path from no lens.
+
+        A point of the hyperboloid has the parts sinh η · f and cosh η; the geodesic divides them in the ratio of
+        sinh (1 − t) d and sinh t d.
+        """
+        stops = (self._start, self._end)
+        start, end = (np.sinh(np.log(WIDE * stop.magnification)) * lonlat_to_xyz(stop.focus) for stop in stops)
+        d = self._middle_length
+        if d == 0:
+            return np.tile(start, (len(t), 1))
+        middles: FloatArray = (np.sinh((1 - t[:, None]) * d) * start + np.sinh(t[:, None] * d) * end) / np.sinh(d)
+        return middles
+
+    def _view(self, t: float) -> View:
+        """From above the middle; up turns evenly against the great circle from stop to stop, from north to north."""
+        if t in {0.0, 1.0}:
+            return View(*(self._end if t else self._start).focus)
+        middle = self._middles(np.array([t]))[0]
+        lon, lat = (float(angle) for angle in xyz_to_lonlat(middle))
+        start, end = lonlat_to_xyz([self._start.focus, self._end.focus])
+        normal = np.cross(start, end)
+        if not normal.any():
+            return View(lon, lat)
+        normal /= np.linalg.norm(normal)
+        before, now, after = (_north(place, normal) for place in (self._start.focus, (lon, lat), self._end.focus))
+        share = float(angular_distance(start, middle) / angular_distance(start, end))
+        # Where up is to be, counterclockwise from north: the picture is turned by as much the other way.
+        up = before + share * _half_turns(after - before) - now
+        return View(lon, lat, _half_turns(-up))
+
+
+@dataclass(frozen=True)
+class Spin:
+    """A globe that turns, and its lens with it.
+
+    Parameters
+    ----------
+    lens : MoebiusMap, optional
+        By default none.
+    seconds : float
+        For all turns.
+    turns : float
+        Eastward, as the Earth does; negative: westward.
+    lon, lat : float
+        The point above which the view begins, degrees; it stays at its latitude.
+
+    Examples
+    --------
+    >>> Spin(seconds=10.0)(2.5)[1]
+    View(lon=-90.0, lat=20.0, roll=0.0)
+    """
+
+    lens: MoebiusMap | None = None
+    _: KW_ONLY
+    seconds: float = 10.0
+    turns: float = 1.0
+    lon: float = 0.0
+    lat: float = 20.0
+
+    def __post_init__(self) -> None:
+        as_scalar(self.seconds, "seconds", low=0.0, open_low=True)
+        as_scalar(self.turns, "turns")
+        View(self.lon, self.lat)
+
+    def __call__(self, time: float) -> Shot:
+        """Lens and view at a time."""
+        lens = MoebiusMap.identity() if self.lens is None else self.lens
+        return lens, View(self.lon - 360.0 * self.turns * time / self.seconds, self.lat)
+
+
+@dataclass(frozen=True)
+class Morph:
+    """From one lens to another along a path in the group, seen from where one stands.
+
+    Parameters
+    ----------
+    path : GroupPath
+        See `stereodel.conformal.path_between`.
+    view : View or StereographicView
+    seconds : float
+        There, or there and back.
+    back : bool
+        Whether it returns, so that the film can loop.
+
+    Examples
+    --------
+    >>> from stereodel.conformal import path_between
+    >>> grow = Morph(path_between(MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=16.0)), View(10.0, 50.0))
+    >>> [round(grow(time)[0].magnification, 9) for time in (0.0, 2.0, 4.0)]
+    [1.0, 4.0, 16.0]
+    """
+
+    path: GroupPath
+    view: MapView
+    _: KW_ONLY
+    seconds: float = 4.0
+    back: bool = False
+
+    def __post_init__(self) -> None:
+        as_scalar(self.seconds, "seconds", low=0.0, open_low=True)
+
+    def __call__(self, time: float) -> Shot:
+        """Lens and view at a time; before 0 and after the end those of the ends."""
+        share = min(max(as_scalar(time, "time") / self.seconds, 0.0), 1.0)
+        return self.path(eased(1.0 - abs(2.0 * share - 1.0) if self.back else share)), self.view
+
+
+def eased(share: float) -> float:
+    """From 0 to 1 in time with no jolt at either end: 3s² − 2s³.
+
+    Examples
+    --------
+    >>> [eased(share) for share in (0.0, 0.25, 0.5, 1.0)]
+    [0.0, 0.15625, 0.5, 1.0]
+    """
+    return share * share * (3.0 - 2.0 * share)
+
+
+def _north(lonlat: tuple[float, float], normal: FloatArray) -> float:
+    """Degrees counterclockwise from the direction of travel on the great circle about `normal` to north, at a point."""
+    right, up, toward = View(*lonlat).matrix
+    ahead = np.cross(normal, toward)
+    return 90.0 - math.degrees(math.atan2(float(ahead @ up), float(ahead @ right)))
+
+
+def _half_turns(angle: float) -> float:
+    """The same direction in [−180, 180), degrees."""
+    return (angle + 180.0) % 360.0 - 180.0
+
+
+def _opposite(one: tuple[float, float], other: tuple[float, float]) -> bool:
+    a, b = lonlat_to_xyz([one, other])
+    return float(np.linalg.norm(a + b)) < OPPOSITE

@@ -1,0 +1,373 @@
+"""Moving pictures as files, by the ending of the name: GIF, APNG, WebP or MP4, with one frame in memory at a time.
+
+GIF, APNG and MP4 are encoded by FFmpeg's libraries through PyAV, on which imageio's plugin ``pyav`` is built. Neither
+plugin of imageio serves: that one passes no options to an encoder (a rate factor of 5 and of 40 give the same MP4) and
+shows all frames equally long; ``ffmpeg``, which starts the program, does not look at its exit code, so that a full disk
+gives half a film and no error. WebP is written by Pillow: FFmpeg's encoder loses how long the last frame is shown.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+from typing import Any, Final, Protocol
+
+import numpy as np
+from PIL import Image
+
+from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
+from stereodel._extras import optional
+
+
+class Reel(Protocol):
+    """Pictures (h, w, 3) by number; a list is one, and so is a folder of files that are read when asked for."""
+
+    def __len__(self) -> int:
+        """How many there are."""
+
+    def __getitem__(self, number: int, /) -> Pixels:
+        """One of them."""
+
+
+Writer = Callable[[Reel, Path, FloatArray], None]
+
+
+@dataclass(frozen=True)
+class Format:
+    """A file format: what writes it and what it cannot hold.
+
+    Parameters
+    ----------
+    write : callable
+        (reel, path, seconds) writes the file.
+    largest : int
+        Pixels that a side may have.
+    shortest : float
+        Seconds that a frame is shown at least.
+    library, extra : str
+        The module that encodes, and the extra that it comes with.
+    """
+
+    write: Writer
+    largest: int
+    shortest: float
+    library: str = "av"
+    extra: str = "film"
+
+    def check(self, name: str, sides: Sequence[int], seconds: FloatArray) -> None:
+        """A ValueError or ImportError if pictures of these sides, shown so long each, cannot be written to `name`."""
+        optional(self.library, self.extra)
+        if max(sides) > self.largest:
+            raise ValueError(f"size of {name} is {max(sides)} pixels, but the format has at most {self.largest}")
+        # A millionth, because 1/50 as a double may lie below or above.
+        if seconds.min() < self.shortest * (1 - 1e-6):
+            raise ValueError(
+                f"frames of {name} would be shown for {seconds.min():.4f} s each, but the format has at least "
+                f"{self.shortest:g} s: at most {1 / self.shortest:g} frames a second"
+            )
+
+
+def format_of(path: str | os.PathLike[str]) -> Format:
+    """The format that the ending of a path asks for; a ValueError that lists the endings for another one."""
+    ending = Path(path).suffix.lower()
+    if ending not in FORMATS:
+        raise ValueError(f"path must end in {', '.join(FORMATS)}, got {Path(path).name!r}")
+    return FORMATS[ending]
+
+
+def frames_of(reel: Reel) -> Iterator[Pixels]:
+    """All pictures in order, one in memory at a time; a ValueError where one has another size than the first."""
+    shape: tuple[int, ...] = ()
+    for number in range(len(reel)):
+        picture = as_frame(reel[number], f"frame {number}")
+        shape = shape or picture.shape
+        if picture.shape != shape:
+            raise ValueError(
+                f"frame {number} has {picture.shape[1]} by {picture.shape[0]} pixels and differs from the first with "
+                f"{shape[1]} by {shape[0]}; give all frames one size"
+            )
+        yield picture
+
+
+def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
+    """How long each of `count` frames is shown, (count,), from one number for all or one for each.
+
+    Raises
+    ------
+    ValueError
+        For another number of entries, or a time that is not positive.
+
+    Examples
+    --------
+    >>> frame_seconds(0.5, 3).tolist()
+    [0.5, 0.5, 0.5]
+    """
+    times = as_floats(seconds, "seconds")
+    if times.ndim and times.shape != (count,):
+        raise ValueError(f"seconds has {times.size} entries for {count} frames; give one number, or one for each")
+    if (times <= 0).any():
+        raise ValueError(f"seconds must be positive, got {times.min()}")
+    return np.broadcast_to(times, (count,))
+
+
+def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
+    """Times in whole ticks of a clock, so that the sum of the first n is the best there is for every n.
+
+    Examples
+    --------
+    >>> whole_ticks(np.full(6, 1 / 30), 100)
+    [3, 4, 3, 3, 4, 3]
+    """
+    ends = np.floor(np.cumsum(seconds) * per_second + 0.5).astype(np.int64)
+    return [int(tick) for tick in np.diff(ends, prepend=0)]
+
+
+# By FFmpeg's libraries
+
+SAMPLED: Final = 12
+"""Frames of which the palette of a GIF is made."""
+
+
+@dataclass(frozen=True)
+class _Encoder:
+    """What FFmpeg's libraries are told for a format.
+
+    Parameters
+    ----------
+    container, codec, pixels : str
+        FFmpeg's names of the file format, the encoder, and how the encoder takes pixels.
+    filters : sequence of (str, str)
+        What is done to a frame before: names of filters and their options.
+    options, muxing : dict
+        Options of the encoder and of the file format.
+    threads : int
+        Of the encoder.
+    """
+
+    container: str
+    codec: str
+    pixels: str
+    filters: Sequence[tuple[str, str]] = ()
+    options: dict[str, str] = field(default_factory=dict)
+    muxing: dict[str, str] = field(default_factory=dict)
+    threads: int = 1
+
+    def write(
+        self,
+        pictures: Iterator[Pixels],
+        path: Path,
+        ticks: Sequence[int],
+        tick: Fraction,
+        *,
+        muxing: dict[str, str] | None = None,
+        palette: Any = None,
+    ) -> None:
+        """Write pictures that are shown so many ticks each, of so many seconds."""
+        av = optional("av", "film")
+        try:
+            with av.open(str(path), "w", self.container, container_options=self.muxing | (muxing or {})) as file:
+                # The mean rate: what the encoder of MP4 spends on a frame depends on how long it is shown.
+                stream = file.add_stream(self.codec, len(ticks) / (sum(ticks) * tick), self.options)
+                stream.pix_fmt, stream.thread_count = self.pixels, self.threads
+                stream.time_base = stream.codec_context.time_base = tick
+                chain, now = None, 0
+                for picture, shown in zip(pictures, ticks, strict=True):
+                    frame = av.VideoFrame.from_ndarray(picture, format="rgb24")
+                    frame.time_base, frame.pts, frame.duration = tick, now, shown
+                    now += shown
+                    if chain is None:
+                        stream.width, stream.height = frame.width, frame.height
+                        chain = _Chain(frame, self.filters, palette)
+                    for filtered in chain(frame):
+                        file.mux(stream.encode(filtered))
+                for filtered in chain(None) if chain else ():
+                    file.mux(stream.encode(filtered))
+                file.mux(stream.encode(None))
+        except av.FFmpegError as error:
+            raise OSError(f"{path.name} cannot be written: {error}") from error
+
+
+class _Chain:
+    """FFmpeg's filters one behind the other: frames in, frames out.
+
+    Parameters
+    ----------
+    first : VideoFrame
+        A frame like those to come.
+    filters : sequence of (str, str)
+    palette : VideoFrame, optional
+        Second input of the last filter, as that of `palettegen`.
+    """
+
+    def __init__(self, first: Any, filters: Sequence[tuple[str, str]], palette: Any = None) -> None:
+        av = optional("av", "film")
+        self._ends = av.BlockingIOError, av.EOFError
+        self._graph = av.filter.Graph()  # to which the filters do not hold on
+        self._source = self._buffer(first)
+        chain = [self._source, *(self._graph.add(name, options) for name, options in filters)]
+        self._sink = self._graph.add("buffersink")
+        for one, other in pairwise([*chain, self._sink]):
+            one.link_to(other)
+        second = None if palette is None else self._buffer(palette)
+        if second is not None:
+            second.link_to(chain[-1], 0, 1)
+        self._graph.configure()
+        if second is not None:
+            second.push(palette)
+            second.push(None)
+
+    def _buffer(self, like: Any) -> Any:
+        """Where frames like one go in."""
+        return self._graph.add_buffer(
+            width=like.width, height=like.height, format=like.format, time_base=like.time_base
+        )
+
+    def __call__(self, frame: Any) -> Iterator[Any]:
+        """Frames that come out when one is put in, or, at the end, None."""
+        self._source.push(frame)
+        while True:
+            try:
+                yield self._sink.pull()
+            except self._ends:
+                return
+
+
+_GIF_ENCODER = _Encoder(
+    "gif",
+    "gif",
+    "pal8",
+    # No dithering, so that still parts stay still: of each frame the rectangle that changed is stored.
+    filters=[("format", "bgra"), ("paletteuse", "dither=none:diff_mode=rectangle")],
+    muxing={"loop": "0"},
+)
+
+_APNG_ENCODER = _Encoder("apng", "apng", "rgb24", options={"pred": "mixed"}, muxing={"plays": "0"})
+
+_MP4_ENCODER = _Encoder(
+    "mp4",
+    "libx264",
+    "yuv420p",
+    # Matrix and range written out: left alone, FFmpeg takes those of standard television and players those of HD.
+    filters=[
+        ("scale", "out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact"),
+        ("format", "yuv420p"),
+    ],
+    # The eye sees no loss at a rate factor of 17 or 18. No version and no date in the file.
+    options={
+        "crf": "17",
+        "preset": "medium",
+        "flags": "+bitexact+frame_duration",
+        "color_range": "tv",
+        "colorspace": "bt709",
+        "color_primaries": "bt709",
+        "color_trc": "iec61966-2-1",
+    },
+    muxing={"movflags": "+faststart", "fflags": "+bitexact"},
+    threads=4,  # the file depends on their number, so it is the same on every machine
+)
+
+
+def write_gif(reel: Reel, path: Path, seconds: FloatArray) -> None:
+    """Write frames as a GIF of 255 colours that loops for ever; times are kept in hundredths of a second."""
+    ticks = whole_ticks(seconds, 100)
+    last = {"final_delay": str(ticks[-1])}
+    _GIF_ENCODER.write(frames_of(reel), path, ticks, Fraction(1, 100), muxing=last, palette=_shared_palette(reel))
+
+
+def _shared_palette(reel: Reel) -> Any:
+    """255 colours that serve frames spread over the whole film, as a frame of FFmpeg's; the last one is see-through."""
+    av = optional("av", "film")
+    chain = None
+    for now, number in enumerate(np.linspace(0, len(reel) - 1, min(len(reel), SAMPLED)).round()):
+        frame = av.VideoFrame.from_ndarray(as_frame(reel[int(number)], f"frame {number:.0f}"), format="rgb24")
+        frame.time_base, frame.pts = Fraction(1, 100), now
+        chain = chain or _Chain(frame, [("palettegen", "stats_mode=full")])
+        list(chain(frame))  # nothing comes out before the end
+    assert chain is not None
+    (palette,) = chain(None)
+    palette.time_base, palette.pts = Fraction(1, 100), 0
+    return palette
+
+
+def write_apng(reel: Reel, path: Path, seconds: FloatArray) -> None:
+    """Write frames without loss as an APNG that loops for ever; times are kept in milliseconds."""
+    ticks = whole_ticks(seconds, 1000)
+    last = {"final_delay": f"{ticks[-1]}/1000"}
+    _APNG_ENCODER.write(frames_of(reel), path, ticks, Fraction(1, 1000), muxing=last)
+
+
+def write_mp4(reel: Reel, path: Path, seconds: FloatArray) -> None:
+    """Write frames as H.264 in an MP4, which plays in every browser; rows and columns are made even in number."""
+    even = (_even(picture) for picture in frames_of(reel))
+    if np.ptp(seconds):
+        # With frames that refer to later ones the film would end before the last one has had its time.
+        encoder = replace(_MP4_ENCODER, options=_MP4_ENCODER.options | {"bf": "0"})
+        encoder.write(even, path, whole_ticks(seconds, 1000), Fraction(1, 1000))
+    else:
+        rate = Fraction(1 / float(seconds[0])).limit_denominator(1001)
+        _MP4_ENCODER.write(even, path, [1] * len(reel), 1 / rate)
+
+
+def _even(picture: Pixels) -> Pixels:
+    """The picture with its last row and column repeated where their number is odd: colours are kept for 2 by 2."""
+    height, width = picture.shape[:2]
+    return np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
+
+
+# By Pillow
+
+WEBP_QUALITY: Final = 90
+"""Of 100: thin coloured lines keep their colour."""
+
+
+def write_webp(reel: Reel, path: Path, seconds: FloatArray) -> None:
+    """Write frames as an animated WebP that loops for ever; times are kept in milliseconds."""
+    with path.open("wb") as file:
+        if len(reel) == 1:
+            Image.fromarray(reel[0]).save(file, format="webp", quality=WEBP_QUALITY)
+            return
+        ticks = whole_ticks(seconds, 1000)
+        _OneAtATime(reel).save(
+            file, format="webp", save_all=True, duration=ticks, loop=0, quality=WEBP_QUALITY, method=4
+        )
+
+
+class _OneAtATime(Image.Image):
+    """A picture of many frames for Pillow, which asks for them in order and keeps none."""
+
+    def __init__(self, reel: Reel) -> None:
+        super().__init__()
+        self.n_frames = len(reel)
+        self._frames = frames_of(reel)
+        self._number = -1
+        self.seek(0)
+
+    def seek(self, frame: int) -> None:
+        """Go to the next frame; those before it are gone, and Pillow's return to the first changes nothing."""
+        if frame > self._number:
+            shown = Image.fromarray(next(self._frames))
+            self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
+
+    def tell(self) -> int:
+        """The number of the frame that is shown."""
+        return self._number
+
+    def load(self) -> Any:
+        """The pixels, which are there already."""
+        return self.im.pixel_access(self.readonly)
+
+
+_APNG: Final = Format(write_apng, 2**31 - 1, 0.001)
+
+FORMATS: Final = {
+    # Browsers show frames of less than 2/100 s five times as long.
+    ".gif": Format(write_gif, 65535, 0.02),
+    ".png": _APNG,
+    ".apng": _APNG,
+    ".webp": Format(write_webp, 16383, 0.001, library="PIL", extra="draw"),
+    ".mp4": Format(write_mp4, 16384, 0.001),
+}

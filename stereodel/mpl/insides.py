@@ -1,0 +1,166 @@
+"""Which side of a ring is its inside: rings in any direction, turned so that their region is on the left.
+
+That is told on the map of longitude and latitude, where matplotlib, GeoJSON and shapefiles mean it: the inside is the
+bounded side, whichever way the ring runs, and rings within rings are holes and islands by turns, which is the even-odd
+rule. A ring that goes once around the Earth without visiting a pole is not closed on that map; of its two sides the
+smaller one is meant.
+
+All measures are taken on the map of equal areas, (λ, sin φ). The area on the left of a ring that is closed there is
+−∮ sin φ dλ, which both kinds of edges have in closed form.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel.constants import DEGREE_ROUNDING
+from stereodel.curves.ragged import Ragged, spans
+from stereodel.curves.trace import sides_of, unwrapped
+
+POLAR_LATITUDE: Final = 80.0
+"""Degrees beyond which an edge that is given the long way round leads along the border of the map, over the pole.
+
+So it is in the hull of scattered points, and in rings cut at ±180° that were not led along ±90°.
+"""
+
+PROBE: Final = (3 - 5**0.5) / 2
+"""Share of an edge at which its ring is asked for its depth: no simple fraction, so that no vertex has the meridian."""
+
+
+def on_the_left(
+    rings: Ragged, owner: Indices, count: int, spot: FloatArray, *, straight: bool
+) -> tuple[Ragged, BoolArray]:
+    """Closed rings with their region on the left, and which regions hold a spot.
+
+    Parameters
+    ----------
+    rings : Ragged of (k, 2)
+        Degrees; the first point again at the end.
+    owner : (r,) array
+        The region of each ring.
+    count : int
+        Of regions.
+    spot : (2,) array
+        Degrees.
+    straight : bool
+        Whether edges are straight on the map; otherwise they are the shorter great-circle arcs.
+    """
+    edges = _Edges.of(rings, straight=straight)
+
+    def total(of_edges: FloatArray) -> FloatArray:
+        return np.bincount(edges.ring, of_edges, minlength=len(rings)).astype(np.float64)
+
+    area = -total(edges.swept() + edges.border * np.sign(edges.lat))
+    # Whole turns, but for rounding.
+    around = np.abs(total(edges.turn + edges.border)) > 180.0
+    # Eastwards around the Earth the left is the north, 360 + area large where the sphere is 720; westwards it is the
+    # south, again 360 + area: in both cases the smaller side where the area is negative.
+    left = (area > 0) ^ around
+    # Above all edges is the upper border of the map: rings may lead along it, or hold the pole without visiting it.
+    over = np.rint(total(np.where(edges.lat > 0, edges.border, 0.0)) / 360.0).astype(np.intp)
+    over += around & ((total(edges.turn) > 0) == left)
+    hole = _is_hole(edges, rings, owner, count, left, over)
+    backwards = left == hole
+    sizes = rings.sizes
+    order = spans(np.where(backwards, rings.offsets[1:] - 1, rings.offsets[:-1]), sizes, np.where(backwards, -1, 1))
+    edge, _, ahead = edges.passing(spot[:1])
+    # Of the pole itself a place beside it is asked, below the border of the map.
+    lat = min(spot[1], 90.0 - DEGREE_ROUNDING)
+    above = np.bincount(owner[edges.ring[edge]], edges.height(edge, ahead) > lat, minlength=count)
+    return Ragged(rings.values[order], rings.offsets), (above + np.bincount(owner, over, minlength=count)) % 2 == 1
+
+
+@dataclass(frozen=True, eq=False)
+class _Edges:
+    """Edges of rings on the map, degrees, (e,) each: from (lon, lat) by `turn` and `rise`."""
+
+    ring: Indices
+    lon: FloatArray
+    lat: FloatArray
+    turn: FloatArray
+    rise: FloatArray
+    border: FloatArray
+    """What the edge leads along the upper or lower border of the map besides: whole turns."""
+    straight: bool
+
+    @classmethod
+    def of(cls, rings: Ragged, *, straight: bool) -> _Edges:
+        first, sides = sides_of(rings)
+        (lon, lat), (given, rise) = rings.values[first].T, np.diff(rings.values, axis=0)[first].T
+        shorter = given - 360.0 * np.rint(given / 360.0)
+        turn = np.diff(unwrapped(rings).values[:, 0])[first] if straight else shorter
+        polar = np.minimum(np.abs(lat), np.abs(lat + rise)) > POLAR_LATITUDE
+        return cls(
+            sides.row, lon, lat, turn, rise, np.where(polar & (lat * (lat + rise) > 0), given - turn, 0.0), straight
+        )
+
+    def swept(self) -> FloatArray:
+        """∫ sin φ dλ along the edges, degrees: what is between them and the equator."""
+        middle, half = np.radians(self.lat + self.rise / 2), np.radians(self.rise / 2)
+        if self.straight:
+            return self.turn * np.sin(middle) * np.sinc(half / np.pi)
+        turn = np.radians(self.turn / 2)
+        return 2 * np.degrees(np.arctan2(np.sin(turn) * np.sin(middle), np.cos(turn) * np.cos(half)))
+
+    def height(self, edge: Indices, ahead: FloatArray) -> FloatArray:
+        """Latitudes of edges (k,) where they have gone so far in longitude, from 0 to `turn`, (k,)."""
+        lat, turn, rise = self.lat[edge], self.turn[edge], self.rise[edge]
+        if self.straight:
+            return lat + rise * (ahead / turn)
+        whole, gone = np.radians(np.abs(turn)), np.radians(np.abs(ahead))
+        start, end = np.tan(np.radians(lat)), np.tan(np.radians(lat + rise))
+        # On a great circle tan φ is a sine of the longitude.
+        return np.degrees(np.arctan2(start * np.sin(whole - gone) + end * np.sin(gone), np.sin(whole)))
+
+    def passing(self, lon: FloatArray) -> tuple[Indices, Indices, FloatArray]:
+        """Pairs of edges and meridians (m,) that they pass: the edges, the meridians' numbers, how far ahead they are.
+
+        Of meridians in order, said once for each turn, an edge passes a stretch. Its eastern end belongs to it, its
+        western one does not, so that of two edges that meet one passes.
+        """
+        west = np.mod(np.minimum(self.lon, self.lon + self.turn), 360.0)
+        east = west + np.abs(self.turn)
+        lon = np.mod(lon, 360.0)
+        order = np.argsort(lon)
+        turns = np.arange(int(east.max(initial=0.0) // 360.0) + 1)
+        meridians = (lon[order] + 360.0 * turns[:, None]).ravel()
+        first, last = np.searchsorted(meridians, west, side="right"), np.searchsorted(meridians, east, side="right")
+        edge, at = np.repeat(np.arange(len(west)), last - first), spans(first, last - first)
+        since, turn = meridians[at] - west[edge], self.turn[edge]
+        return edge, np.tile(order, len(turns))[at], np.where(turn > 0, since, since + turn)
+
+
+def _is_hole(edges: _Edges, rings: Ragged, owner: Indices, count: int, left: BoolArray, over: Indices) -> BoolArray:
+    """Which rings lie within an odd number of other rings of their region.
+
+    A place of each ring, on its widest edge, looks along the meridian to the north pole and counts what is above it.
+    """
+    hole = np.zeros(len(rings), dtype=np.bool_)
+    several = np.bincount(owner, minlength=count)[owner] > 1
+    if not several.any():
+        return hole
+    # The widest edge of each ring on the sphere; those at a pole have no width.
+    width = np.abs(edges.turn) * np.cos(np.radians(edges.lat + edges.rise / 2))
+    width[np.minimum(np.abs(edges.lat), np.abs(edges.lat + edges.rise)) == 90.0] = 0.0
+    order = np.lexsort((-width, edges.ring))
+    ring, at = np.unique(edges.ring[order], return_index=True)
+    own = order[at][several[ring] & (width[order[at]] > 0)]
+    mine = edges.ring[own]
+    ahead = PROBE * edges.turn[own]
+    lat = edges.height(own, ahead)
+    # The inside of a ring is on its left, north of edges that run eastwards, once it is turned as `left` tells.
+    north = (edges.turn[own] > 0) == left[mine]
+    edge, place, ahead = edges.passing(edges.lon[own] + ahead)
+    theirs = edges.ring[edge]
+    others = (theirs != mine[place]) & (owner[theirs] == owner[mine[place]])
+    edge, place, ahead = edge[others], place[others], ahead[others]
+    above = edges.height(edge, ahead) - lat[place]
+    # Where two rings have the edge in common, the place is taken to be a little inside its own ring.
+    crossed = np.where(np.abs(above) <= DEGREE_ROUNDING, ~north[place], above > 0)
+    depth = np.bincount(place[crossed], minlength=len(own)) - over[mine]
+    hole[mine] = (depth + np.bincount(owner, over, minlength=count)[owner[mine]]) % 2 == 1
+    return hole

@@ -1,0 +1,82 @@
+"""A page without its labels as rows of pixels, from the top: through OpenGL, or through matplotlib's Agg.
+
+OpenGL draws the picture twice as large with four samples a pixel, then it is averaged: sixteen samples. Averages are
+taken of sRGB values as they stand, as OpenGL's own multisampling and matplotlib do, so that thin dark lines keep their
+weight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from stereodel._arrays import Pixels, as_choice
+from stereodel._extras import of_extra
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Page
+from stereodel.render import gl
+from stereodel.render.raster import triangulate
+from stereodel.render.sizes import pixel_height
+from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
+
+with of_extra("draw"):
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+Renderer = Literal["gl", "agg"]
+
+SUPERSAMPLING: Final = 2
+"""Pixels drawn per pixel of the picture, each way."""
+
+AT_ONCE: Final = 2**25
+"""Pixels that Agg draws at once: with a copy they take 256 MB."""
+
+
+def bare_rows(page: Page, width: int, renderer: Renderer, platform: str | None = None) -> Iterator[Pixels]:
+    """A picture of a page, `width` pixels wide, without its labels: rows (k, width, 3) after rows."""
+    bare = page.without_labels()
+    if as_choice(renderer, ("gl", "agg"), "renderer") == "agg":
+        return agg_rows(bare, width)
+    return gl_rows(bare, width, platform)
+
+
+def gl_rows(page: Page, width: int, platform: str | None = None) -> Iterator[Pixels]:
+    """All but the labels of a page, by OpenGL."""
+    large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
+    part, ground = triangulate(page, *large).within, _over_white(page.background)
+    return gl.bands(part, *large, background=ground, platform=platform, finish=averaged)
+
+
+def agg_rows(page: Page, width: int) -> Iterator[Pixels]:
+    """A page with its labels, by Agg."""
+    dpi, (width, height) = pixel_grid(page, width)
+    left, right, low, high = page.extent
+    rows = max(1, AT_ONCE // width)
+    for top in range(0, height, rows):
+        bottom = min(height, top + rows)
+        # Written so that a page drawn at once keeps its numbers.
+        lower, upper = (low * (row / height) + high * (1 - row / height) for row in (bottom, top))
+        part = replace(page, extent=(left, right, lower, upper))
+        with matplotlib_settings():
+            canvas = drawn(part, dpi, (width, bottom - top))
+            canvas.set_facecolor(page.background)
+            agg: Any = FigureCanvasAgg(canvas)
+            agg.draw()
+            yield np.array(agg.buffer_rgba(), dtype=np.uint8)[..., :3]
+
+
+def averaged(large: Pixels) -> Pixels:
+    """Each block of SUPERSAMPLING² pixels as one, rounded half up."""
+    n = SUPERSAMPLING
+    # Plane by plane: a sum over two axes of a reshaped array takes ten times as long.
+    total = np.full((large.shape[0] // n, large.shape[1] // n, 3), n * n // 2, dtype=np.uint16)
+    for row, column in np.ndindex(n, n):
+        total += large[row::n, column::n]
+    return (total // np.uint16(n * n)).astype(np.uint8)
+
+
+def _over_white(color: Color) -> Color:
+    red, green, blue = (np.floor(255 * (1 - color[3] * (1 - value)) + 0.5) / 255 for value in color[:3])
+    return (red, green, blue, 1.0)

@@ -1,0 +1,72 @@
+"""Films as scripts: a looping GIF with the script's name, in its true colours, whole or not at all."""
+
+import sys
+
+import imageio.v3 as iio
+import numpy as np
+import pytest
+from PIL import Image
+
+from stereodel.render.figure import WRITTEN
+
+SCRIPT = """
+from functools import partial
+import numpy as np
+from stereodel.drawing.page import Dots, Label, Page
+from stereodel.film import Film
+
+def frame(x, color):
+    items = Dots(np.array([[x, 0.5]]), 10.0, color), Label("x", (0.2, 0.8), size=30.0)
+    return Page((0.0, 2.0, 0.0, 1.0), items, width=120.0)
+
+def film():
+    return Film(partial(frame, color=(0.8, 0.1, 0.1, 1.0)), [0.5, 1.0, 1.5], seconds=(0.1, 0.2, 1.0), size=120)
+"""
+
+
+@pytest.fixture
+def moving(tmp_path, monkeypatch):
+    """The film of a script in a folder of its own."""
+    folder = tmp_path / "scripts"
+    folder.mkdir()
+    (folder / "moving.py").write_text(SCRIPT)
+    monkeypatch.syspath_prepend(str(folder))
+    monkeypatch.delitem(sys.modules, "moving", raising=False)
+    import moving
+
+    yield moving.film()
+    sys.modules.pop("moving", None)
+
+
+def test_it_writes_a_looping_gif_beside_its_folder(moving, tmp_path, capsys):
+    moving.main([])
+    (file,) = (tmp_path / "out").iterdir()
+    assert file.name == "moving.gif"
+    assert f"moving: moving.gif in {tmp_path / 'out'}" in capsys.readouterr().out
+    assert WRITTEN.pop() == file
+    with Image.open(file) as gif:
+        times = [gif.seek(k) or gif.info["duration"] for k in range(gif.n_frames)]
+        assert (times, gif.info["loop"]) == ([100, 200, 1000], 0)
+
+
+def test_frames_keep_their_colours(moving, tmp_path):
+    stored = iio.imread(moving.save(tmp_path / "moving.gif", jobs=1, progress=False))[..., :3].astype(int)
+    drawn = np.stack([moving.picture(number) for number in range(3)]).astype(int)
+    assert np.abs(stored - drawn).max() <= 8
+    assert np.array_equal(stored[drawn.min(axis=-1) == 255], drawn[drawn.min(axis=-1) == 255])
+
+
+def test_it_takes_folder_size_and_text(moving, tmp_path):
+    def frames(*arguments):
+        moving.main(["--out", str(tmp_path / "new"), "--size", "60", *arguments])
+        return iio.imread(tmp_path / "new" / "moving.gif")[..., :3]
+
+    assert frames("--no-text").shape == (3, 30, 60, 3)
+    assert (frames("--no-text")[0, :12, :10] == 255).all()
+    assert (frames()[0, :12, :10] < 128).any()
+
+
+def test_a_folder_that_cannot_be_made_is_a_message(moving, tmp_path):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(SystemExit, match=r"moving: .*file"):
+        moving.main(["--out", str(tmp_path / "file" / "out")])

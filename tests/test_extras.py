@@ -1,0 +1,336 @@
+"""A core of NumPy alone: what works without the extras, what each of them brings, and who names them where they lack.
+
+The environments are real ones, made of links to what is installed here: NumPy, what an extra brings, and what that
+needs. Nothing else is to be found in them.
+"""
+
+import ast
+import json
+import re
+import subprocess
+import sys
+import tomllib
+import venv
+from importlib.metadata import PackageNotFoundError, distribution
+from pathlib import Path
+
+import pytest
+from packaging.requirements import Requirement
+
+import stereodel
+from stereodel._extras import EXTRAS, MissingExtraError, distributions, installing, of_extra
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = Path(stereodel.__file__).parent
+
+PRELUDE = """
+import io, os
+import numpy as np
+from stereodel import *
+
+POINTS = np.random.default_rng(1).normal(size=(20, 3))
+MESH = SphericalDelaunay(POINTS)
+PICTURES = [np.full((8, 6, 3), level, dtype=np.uint8) for level in (0, 128, 255)]
+
+def picture():
+    from stereodel.drawing import Label, Page
+    return Page((0.0, 2.0, 0.0, 1.0), (Label("a", (1.0, 0.5)),), width=144.0)
+
+LENS = fisheye((0, 0), magnification=2)
+RINGS = [[[0, 0], [10, 0], [0, 10], [0, 0]]]
+TABLE = io.StringIO("lon,lat\\n1,2\\n3,4\\n")
+"""
+
+DOORS = {
+    "from stereodel.cli import app": ["cli"],
+    "import stereodel.mpl": ["draw"],
+    "import stereodel.spatial; stereodel.spatial.Delaunay(POINTS[:, :2])": ["scipy"],
+    # Pictures
+    "from stereodel.drawing import ColorScale; ColorScale('viridis', 0, 1)": ["draw"],
+    "from stereodel.drawing.label import label_box; label_box(picture().labels[0], 1.0)": ["draw"],
+    "from stereodel.render import save_page; save_page(picture(), 'page.svg')": ["draw"],
+    "from stereodel.render import save_page; save_page(picture(), 'page.pdf')": ["draw"],
+    "from stereodel.render import save_page; save_page(picture(), 'page.png', size=100)": ["render"],
+    "from stereodel.render import Figure; Figure('a', dict, lambda _: picture(), renderer='agg').save('.')": ["draw"],
+    "from stereodel.data import blue_marble; blue_marble()": ["draw"],
+    "from stereodel.globe import Globe; g = Globe(); g.add_polygons([RINGS]); g.save('a.svg')": ["draw"],
+    "from stereodel.globe import Globe; g = Globe(); g.add_land(); g.add_coastlines(); g.save('a.svg')": ["draw"],
+    "from stereodel.globe import Globe; g = Globe(); g.add_coastlines(); g.save('a.png', size=200)": ["render"],
+    "from stereodel.globe import Globe; Globe().add_raster('file.jpg')": ["draw"],
+    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.gif')": ["film"],
+    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.png')": ["film"],
+    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.webp')": ["film"],
+    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.mp4')": ["film"],
+    # Files and neighbours
+    "from stereodel.io import to_geodataframe; to_geodataframe(MESH)": ["geo"],
+    "from stereodel.io import to_geodataframe, to_geojson; to_geojson(to_geodataframe(MESH))": ["geo"],
+    "from stereodel.io import write; write('a.geojson', MESH)": ["geo"],
+    "from stereodel.io import write; write('a.gpkg', MESH)": ["geo"],
+    "from stereodel.io import *; write('a.parquet', read_points(TABLE)); read_points('a.parquet')": ["geo"],
+    "from stereodel.io import to_geodataframe, warp; warp(to_geodataframe(MESH), LENS)": ["geo"],
+    "from stereodel.io import to_ugrid; to_ugrid(MESH)": ["grid"],
+    "from stereodel.io import write; write('a.nc', MESH)": ["grid"],
+    "from stereodel.io import write; write('a.glb', MESH)": ["mesh"],
+    "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
+    "from stereodel.io import write; write('a.svg', MESH)": ["draw"],
+    "from stereodel.cli.grids import Grid, save_grid; from pathlib import Path; g = Grid.of(30, None); "
+    "save_grid(Path('grid.nc'), g, {'z': g.lonlat[:, 0]})": ["cli", "scipy"],
+}
+"""Calls that need a library, and the extras that they ask for one after the other when there is NumPy alone."""
+
+ROOMS = {
+    "stereodel.cli": "cli",
+    "stereodel.mpl": "draw",
+    "stereodel.spatial": "scipy",
+}
+"""Packages that cannot be imported without an extra. All others can, and all their modules but those that draw."""
+
+
+def needed(names):
+    """The distributions of these names and all that they need here."""
+    found = {}
+    queue = list(names)
+    while queue:
+        name = queue.pop()
+        if name.lower() in found:
+            continue
+        try:
+            found[name.lower()] = distribution(name)
+        except PackageNotFoundError:
+            assert name not in names
+            continue
+        requirements = map(Requirement, found[name.lower()].requires or [])
+        queue += [r.name for r in requirements if r.marker is None or r.marker.evaluate({"extra": ""})]
+    return found.values()
+
+
+@pytest.fixture(scope="module")
+def environment(tmp_path_factory):
+    """A function: the Python of an environment with NumPy and some extras alone."""
+    made = {}
+
+    def make(*extras):
+        if extras not in made:
+            folder = tmp_path_factory.mktemp("-".join(("numpy", *extras)))
+            venv.create(folder, symlinks=True)
+            (site,) = folder.glob("lib/python*/site-packages")
+            for wanted in needed(["numpy", *(name for extra in extras for name in distributions(extra))]):
+                for top in {file.parts[0] for file in wanted.files} - {"..", "__pycache__"}:
+                    (site / top).symlink_to(wanted.locate_file(top))
+            (site / "stereodel").symlink_to(PACKAGE)
+            made[extras] = folder / "bin" / "python"
+        return made[extras]
+
+    return make
+
+
+def run(python, *arguments, cwd, **options):
+    environment = {"PATH": "/usr/bin:/bin", "HOME": str(cwd), "MPLBACKEND": "agg"}
+    return subprocess.run(
+        [python, *arguments], cwd=cwd, env=environment, capture_output=True, text=True, check=False, **options
+    )
+
+
+RUNNER = """
+import json, sys
+said = {}
+for statement in json.load(sys.stdin):
+    try:
+        exec(statement, dict(globals()))
+        said[statement] = ""
+    except ImportError as error:
+        said[statement] = str(error)
+json.dump(said, sys.stdout)
+"""
+
+
+def said(python, statements, cwd):
+    """What each statement says where it misses a library; nothing where it works."""
+    ran = run(python, "-c", PRELUDE + RUNNER, cwd=cwd, input=json.dumps(list(statements)))
+    assert ran.returncode == 0, ran.stderr
+    return json.loads(ran.stdout)
+
+
+def asked_for(message):
+    """The extra that a message names."""
+    asked = re.fullmatch(r"(\S+) is not installed; it comes with: pip install 'stereodel\[(\w+)\]'", message)
+    assert asked, message
+    assert asked[1] in distributions(asked[2])
+    return asked[2]
+
+
+def test_every_module_is_there_or_names_its_extra(environment, tmp_path):
+    modules = [
+        ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__")
+        for path in PACKAGE.rglob("*.py")
+    ]
+    assert len(modules) > 150
+    answers = said(environment(), [f"import {module}" for module in modules], tmp_path)
+    closed = {module: asked_for(answers[f"import {module}"]) for module in modules if answers[f"import {module}"]}
+    drawing = {module for module in closed if module.startswith("stereodel.render.")}
+    assert {closed.pop(module) for module in drawing} == {"draw"}
+    assert drawing.isdisjoint(f"stereodel.render.{module}" for module in ("figure", "gl", "provenance", "save"))
+    rooms = {
+        module: extra for module in modules for room, extra in ROOMS.items() if f"{module}.".startswith(f"{room}.")
+    }
+    assert closed == rooms
+
+
+def test_every_door_names_the_extra_that_opens_it(environment, tmp_path):
+    for statement, message in said(environment(), DOORS, tmp_path).items():
+        assert asked_for(message) == DOORS[statement][0], statement
+
+
+@pytest.mark.parametrize("extra", EXTRAS)
+def test_an_extra_brings_enough(environment, tmp_path, extra):
+    """Who does what a message says gets on, with what that extra brings and nothing else."""
+    (tmp_path / "file.jpg").symlink_to(PACKAGE / "data" / "blue_marble.jpg")
+    doors = [statement for statement, asked in DOORS.items() if asked[0] == extra]
+    answers = said(environment(extra), doors, tmp_path)
+    assert any(not message for message in answers.values())
+    for statement, message in answers.items():
+        rest = DOORS[statement][1:]
+        assert not message if not rest else asked_for(message) == rest[0], (statement, message)
+        if rest:
+            assert said(environment(extra, *rest), [statement], tmp_path) == {statement: ""}
+
+
+CORE = """
+from stereodel.graphs import gabriel_graph
+from stereodel.io import read_points
+from stereodel.relaxation import lloyd
+from stereodel.interpolation import NaturalNeighborInterpolator
+from stereodel.data import coastlines
+check_delaunay(POINTS, MESH.simplices)
+check_delaunay(POINTS[:, :2], PlanarDelaunay(POINTS[:, :2]).simplices)
+assert np.isclose(SphericalVoronoi(POINTS).areas().sum(), 4 * np.pi)
+assert len(gabriel_graph(POINTS)) > 20
+assert np.isclose(NaturalNeighborInterpolator(POINTS, POINTS[:, 0])(POINTS[:1])[0], POINTS[0, 0])
+lloyd(POINTS)
+assert len(read_points(io.StringIO('lon,lat\\n1,2')).lonlat) == 1
+"""
+
+
+def test_numpy_alone_computes(environment, tmp_path):
+    ran = run(environment(), "-c", PRELUDE + CORE, cwd=tmp_path)
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_the_command_without_its_libraries_says_how_to_get_them(environment, tmp_path):
+    ran = run(environment(), "-m", "stereodel", "--help", cwd=tmp_path)
+    assert (ran.returncode, ran.stdout) == (1, "")
+    assert asked_for(ran.stderr.strip().removeprefix("error: ")) == "cli"
+
+
+def test_the_command_on_the_least(environment, tmp_path):
+    python = environment("cli")
+    (tmp_path / "cities.csv").write_text(
+        "name,lon,lat\nQuito,-78.5,-0.2\nUlm,10,48.4\nKyoto,135.8,35\nPerth,115.9,-32\n"
+    )
+    for arguments, output in ((["--help"], "doctor"), (["--version"], stereodel.__version__)):
+        ran = run(python, "-m", "stereodel", *arguments, cwd=tmp_path)
+        assert ran.returncode == 0, ran.stderr
+        assert output in ran.stdout
+    ran = run(python, "-m", "stereodel", "voronoi", "cities.csv", "-o", "-", cwd=tmp_path)
+    assert len(ran.stdout.splitlines()) == 5, ran.stderr
+    for arguments, extra in ((("voronoi", "cities.csv", "-o", "a.geojson"), "geo"), (("globe", "-o", "a.svg"), "draw")):
+        ran = run(python, "-m", "stereodel", *arguments, cwd=tmp_path)
+        assert (ran.returncode, ran.stdout) == (2, "")
+        assert asked_for(ran.stderr.strip().removeprefix("error: ")) == extra
+
+
+def test_doctor_on_the_least_names_all_that_is_missing(environment, tmp_path):
+    ran = run(environment("cli"), "-m", "stereodel", "doctor", cwd=tmp_path)
+    assert (ran.returncode, ran.stderr) == (1, "")
+    for name in EXTRAS:
+        (row,) = [line for line in ran.stdout.splitlines() if line.startswith(f"  {name} ")]
+        assert row.split()[1] == ("works" if name == "cli" else "lacks")
+        assert ("pip install" in row) == (name != "cli")
+        assert name == "cli" or all(brought in row for brought in distributions(name) if brought != "rich")
+    assert "Globes cannot be drawn as PNG: pyrender2 is not installed; it comes with: pip install" in ran.stdout
+
+
+def test_the_outer_door_speaks():
+    with pytest.raises(MissingExtraError) as raised, of_extra("render"), of_extra("draw"):
+        raise ModuleNotFoundError(name="PIL")
+    assert str(raised.value) == f"pillow is not installed; it comes with: {installing('render')}"
+
+
+@pytest.mark.parametrize("name", ["networkx", "shapely.no_such_module", "stereodel.no_such_module"])
+def test_what_no_extra_brings_is_left_as_it_is(name):
+    with pytest.raises(ModuleNotFoundError) as raised, of_extra("geo"):
+        raise ModuleNotFoundError(name=name)
+    assert not isinstance(raised.value, MissingExtraError)
+
+
+def test_an_environment_made_by_make_grows_by_make(monkeypatch, tmp_path):
+    monkeypatch.setattr(sys, "prefix", str(tmp_path))
+    assert installing("geo") == "pip install 'stereodel[geo]'"
+    (tmp_path / "installed-figures").touch()
+    assert installing("geo") == f"make -C {PACKAGE.resolve().parent} install"
+
+
+# Written down once
+
+
+def test_pyproject_brings_what_the_code_asks_for():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert [Requirement(line).name for line in project["dependencies"]] == ["numpy"]
+    optional = {name: [Requirement(line) for line in lines] for name, lines in project["optional-dependencies"].items()}
+    own = {name: [r for r in found if r.name == "stereodel"] for name, found in optional.items()}
+    for name, extra in EXTRAS.items():
+        assert {r.name for r in optional[name]} - {"stereodel"} == set(extra.brings)
+        assert {e for r in own[name] for e in r.extras} == set(extra.includes)
+    (everything,) = optional["all"]
+    assert everything.extras | {"draw", "render"} == set(EXTRAS)  # both come with films
+    assert set(optional) - set(EXTRAS) == {"all", "test", "docs", "dev"}
+
+
+def called(call):
+    """The name of a function that is called with a text first."""
+    literal = bool(call.args) and isinstance(call.args[0], ast.Constant)
+    return getattr(call.func, "id", "") if literal else ""
+
+
+def foreign_imports(tree, extra=None):
+    """Modules that are imported with the extra of the `with of_extra(...)` around; those for types alone left out."""
+    for node in ast.iter_child_nodes(tree):
+        if isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING":
+            continue
+        within = extra
+        if isinstance(node, ast.With):
+            calls = [item.context_expr for item in node.items if isinstance(item.context_expr, ast.Call)]
+            within = next((call.args[0].value for call in calls if called(call) == "of_extra"), extra)
+        if isinstance(node, ast.Import):
+            yield from ((alias.name.split(".")[0], within) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            yield node.module.split(".")[0], within
+        elif isinstance(node, ast.Call) and called(node) == "optional":
+            yield node.args[0].value.split(".")[0], node.args[1].value
+        yield from foreign_imports(node, within)
+
+
+def known(folder):
+    """Pairs of a file and its imports of a module that some extra brings."""
+    modules = {module for extra in EXTRAS for module in distributions(extra).values()}
+    for path in folder.rglob("*.py"):
+        for module, extra in foreign_imports(ast.parse(path.read_text(encoding="utf-8"))):
+            if module in modules:
+                yield path, module, extra
+
+
+def test_every_import_stands_behind_a_door():
+    wrong = []
+    for path, module, extra in known(PACKAGE):
+        name = path.relative_to(PACKAGE).as_posix()
+        room = name.split("/")[0]
+        # Whole packages have their door in `__init__`; gl.py opens its own before anything else there.
+        extra = extra or ROOMS.get(f"stereodel.{room}") or ("render" if name == "render/gl.py" else None)
+        if extra is None or module not in distributions(extra).values():
+            wrong.append(f"{name} imports {module} for {extra}")
+    assert wrong == []
+
+
+def test_every_library_of_an_extra_is_used():
+    used = {module for folder in (PACKAGE, ROOT / "tools") for _, module, _ in known(folder)}
+    assert {module for extra in EXTRAS for module in distributions(extra).values()} == used

@@ -1,0 +1,67 @@
+"""docs/names.md says what the packages are: every public name, its signature, its first line, its members."""
+
+import importlib
+import pkgutil
+import re
+from types import SimpleNamespace
+
+import pytest
+
+import stereodel
+from tools import names
+
+PAGE = names.PAGE.read_text(encoding="utf-8")
+NOT_PUBLIC = {"stereodel.cli", "stereodel.constants", "stereodel.curves"}
+
+
+def test_the_page_is_up_to_date():
+    assert names.filled(PAGE) == PAGE, "run make names"
+
+
+def test_every_package_has_its_table():
+    assert re.findall(r"<!-- names: (\S+) -->", PAGE) == list(names.PACKAGES)
+    found = {f"stereodel.{module.name}" for module in pkgutil.iter_modules(stereodel.__path__) if module.name[0] != "_"}
+    assert found - NOT_PUBLIC == set(names.PACKAGES)
+
+
+@pytest.mark.parametrize("package", names.PACKAGES)
+def test_every_name_has_a_row_that_says_what_it_is(package):
+    rows = names.table(package).split("\n")[2:]
+    exported = names.public_names(importlib.import_module(package))
+    assert [re.match(r"\| \**`(\w+)", row)[1] for row in rows] == exported
+    for row in rows:
+        assert len(re.findall(r"(?<!\\)\|", row)) == 3
+        told = re.fullmatch(r"\| \**`.*`\** \| (.*?)(?:<br>.*)? \|", row)[1]
+        assert len(told) > 8
+        assert told[0].isupper() or told[0].isdigit() or told.startswith(("(", "`", "1/f", "f ="))
+
+
+def test_members_are_those_of_our_classes():
+    members = names.members(stereodel.SphericalDelaunay)
+    assert {"closing", "points", "find_simplex", "from_lonlat", "inconclusive", "lonlat"} <= set(members)
+    assert not [name for name in members if name.startswith("_")]
+    assert names.members(stereodel.HullInsertion) == sorted(names.members(stereodel.HullInsertion))
+    assert "start" in names.members(stereodel.HullInsertion)  # described, made by the constructor
+    assert names.members(len) == []
+
+
+def test_signatures_show_short_defaults_and_no_types():
+    def draw(page: int, /, *, size: float = 2.0, word: str = "up", color: tuple[int, ...] = tuple(range(20))) -> int:
+        return page
+
+    assert names.signature(draw) == '(page, /, *, size=2.0, word="up", color=…)'
+    assert names.signature(ValueError) == ""
+    assert names.signature(3.0) == ""
+
+
+def test_a_change_is_seen(monkeypatch):
+    """A parameter more, another first line, a name less."""
+    graphs = importlib.import_module("stereodel.graphs")
+    for name, value in (
+        ("hull", lambda points, depth=1: None),
+        ("gabriel_graph", SimpleNamespace(__doc__="Something else altogether.")),
+        ("__all__", graphs.__all__[1:]),
+    ):
+        with monkeypatch.context() as patch:
+            patch.setattr(graphs, name, value)
+            assert names.filled(PAGE) != PAGE

@@ -1,0 +1,164 @@
+"""The tables of docs/names.md: every public name with its signature, the first line of its docstring, and its members.
+
+    python -m tools.names [--check]
+
+Between the markers `<!-- names: PACKAGE -->` and `<!-- end -->` the page holds what this writes from the package
+itself; around them stands by hand what is promised beyond it. With --check nothing is written, and a page that is out
+of date is an error.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import importlib
+import inspect
+import re
+import sys
+from collections.abc import Iterator
+from itertools import pairwise
+from pathlib import Path
+from types import ModuleType
+from typing import Any, Final
+
+import stereodel
+from stereodel._files import replacing
+
+PAGE: Final = Path(__file__).resolve().parent.parent / "docs" / "names.md"
+
+PACKAGES: Final = (
+    "stereodel.triangulation",
+    "stereodel.interpolation",
+    "stereodel.graphs",
+    "stereodel.relaxation",
+    "stereodel.predicates",
+    "stereodel.projections",
+    "stereodel.sphere",
+    "stereodel.earth",
+    "stereodel.conformal",
+    "stereodel.spatial",
+    "stereodel.data",
+    "stereodel.io",
+    "stereodel.drawing",
+    "stereodel.render",
+    "stereodel.film",
+    "stereodel.globe",
+    "stereodel.mpl",
+)
+"""All that users import from; each has its place on the page."""
+
+LONGEST_DEFAULT: Final = 24
+"""Characters of a default that a signature shows; of a longer one it says only that it is there."""
+
+_BLOCK = re.compile(r"<!-- names: (\S+) -->\n.*?<!-- end -->", re.DOTALL)
+
+_ATTRIBUTES = re.compile(r"^Attributes\n-+\n(.*?)(?:\n\n\w+\n-+\n|\Z)", re.MULTILINE | re.DOTALL)
+
+
+def public_names(module: ModuleType) -> list[str]:
+    """The names that a package exports; those of a module without a list are its constants."""
+    return list(
+        getattr(module, "__all__", None) or (name for name in vars(module) if re.fullmatch(r"[A-Z][A-Z_]*", name))
+    )
+
+
+def signature(value: Any) -> str:
+    """The parameters of a class or function, without types, with short defaults; empty for what is not called."""
+    if not callable(value) or (inspect.isclass(value) and issubclass(value, Exception)):
+        return ""
+    given = inspect.signature(value)
+    parameters = [
+        parameter.replace(annotation=inspect.Parameter.empty, default=_Shown(parameter.default))
+        if parameter.default is not inspect.Parameter.empty
+        else parameter.replace(annotation=inspect.Parameter.empty)
+        for parameter in given.parameters.values()
+    ]
+    return str(given.replace(parameters=parameters, return_annotation=inspect.Signature.empty))
+
+
+class _Shown:
+    """A default as a signature shows it."""
+
+    def __init__(self, value: Any) -> None:
+        self._text = repr(value)
+
+    def __repr__(self) -> str:
+        plain = self._text.replace("'", '"')
+        return plain if len(plain) <= LONGEST_DEFAULT and not plain.startswith("<") else "…"
+
+
+def first_line(module: ModuleType, name: str) -> str:
+    """The first line of an object's docstring, or of the text below a constant."""
+    value = getattr(module, name)
+    if isinstance(value, int | float | str):
+        return _texts_of_constants(module)[name]
+    return (inspect.getdoc(value) or "").partition("\n")[0]
+
+
+def _texts_of_constants(module: ModuleType) -> dict[str, str]:
+    """The first line of the text that stands below each constant."""
+    body = ast.parse(inspect.getsource(module)).body
+    return {
+        node.target.id: inspect.cleandoc(str(text.value.value)).partition("\n")[0]
+        for node, text in pairwise(body)
+        if isinstance(node, ast.AnnAssign)
+        and isinstance(node.target, ast.Name)
+        and isinstance(text, ast.Expr)
+        and isinstance(text.value, ast.Constant)
+    }
+
+
+def members(value: Any) -> list[str]:
+    """Public attributes and methods that our classes define, annotate or describe, in alphabetical order."""
+    if not inspect.isclass(value):
+        return []
+    return sorted({name for owner in value.__mro__ for name in _own(owner) if not name.startswith("_")})
+
+
+def _own(owner: type) -> Iterator[str]:
+    if owner.__module__.partition(".")[0] == "stereodel":
+        yield from vars(owner)
+        yield from inspect.get_annotations(owner)
+        section = _ATTRIBUTES.search(inspect.cleandoc(owner.__doc__ or ""))
+        for names in re.findall(r"^(\w[\w, ]*)(?: :|$)", section[1] if section else "", re.MULTILINE):
+            yield from names.split(", ")
+
+
+def table(package: str) -> str:
+    """The table of a package, a row a name; those that `import stereodel` gives are bold."""
+    module = importlib.import_module(package)
+    rows = ["| name | |", "|---|---|"]
+    for name in public_names(module):
+        value = getattr(module, name)
+        call = f"`{name}{signature(value)}`"
+        call = f"**{call}**" if name in stereodel.__all__ else call
+        told = first_line(module, name)
+        own = ", ".join(f"`{member}`" for member in members(value))
+        text = f"{told}<br>{own}" if own else told
+        rows.append("| " + " | ".join(cell.replace("|", r"\|") for cell in (call, text)) + " |")
+    return "\n".join(rows)
+
+
+def filled(text: str) -> str:
+    """The page with every table as it is now."""
+    return _BLOCK.sub(lambda block: f"<!-- names: {block[1]} -->\n\n{table(block[1])}\n\n<!-- end -->", text)
+
+
+def main() -> int:
+    """Write the tables, or say that they are out of date."""
+    parser = argparse.ArgumentParser(description="The tables of docs/names.md.")
+    parser.add_argument("--check", action="store_true", help="write nothing; fail where the page is out of date")
+    check = parser.parse_args().check
+    text = PAGE.read_text(encoding="utf-8")
+    if filled(text) == text:
+        return 0
+    if check:
+        print("docs/names.md is out of date: run make names", file=sys.stderr)
+        return 1
+    with replacing(PAGE) as temporary:
+        temporary.write_text(filled(text), encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
