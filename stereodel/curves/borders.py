@@ -39,6 +39,12 @@ class Pieces:
     seen: BoolArray
     along: BoolArray
 
+    @classmethod
+    def uncut(cls, arcs: Arcs, *, seen: bool) -> Pieces:
+        """Arcs as they are, all in sight or none."""
+        none = np.zeros(len(arcs), dtype=bool)
+        return cls(arcs, none, none, np.full(len(arcs), seen), none)
+
 
 class Outline(Protocol):
     """The border of a chart, of which the curves are cut already."""
@@ -261,11 +267,11 @@ class Antimeridian(Box):
             # As far from the pole as its circle is: height 1 − d²/2 would lose half the digits.
             near = np.flatnonzero(np.abs(arcs.axis[:, 2] * up - arcs.offset) <= AT_POLE)
             some = arcs.take(near)
-            constant, size, phase = some.waves(pole)
+            _, _, phase = some.waves(pole)
             t = some.begin + np.mod(phase - some.begin, TURN)
-            # An arc that ends at a pole needs no cut; the middle of its circle tells which pole the circle passes.
+            # An arc that ends at a pole needs no cut.
             inner = (some.start[:, :2] != 0).any(axis=1) & (some.end[:, :2] != 0).any(axis=1)
-            passing = inner & (t > some.begin) & (t < some.stop) & (constant + size > 0.5)
+            passing = inner & (t > some.begin) & (t < some.stop)
             arc, t = near[passing], t[passing]
             arcs = arcs.cut(arc, t, np.broadcast_to(pole, (len(arc), 3)))
         return arcs

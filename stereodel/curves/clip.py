@@ -72,6 +72,16 @@ def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
     )
 
 
+def among(rows: Ragged, chosen: BoolArray) -> Ragged:
+    """Rows of edges without those that are not chosen; the others are numbered anew, as `Edges.take` does.
+
+    Edges out of sight may be left out before lines and rings are clipped: there are no ends of chains among them.
+    """
+    number = np.cumsum(chosen) - 1
+    edge = np.maximum(rows.values, ~rows.values)
+    return Ragged(np.where(rows.values < 0, ~number[edge], number[edge]), rows.offsets).kept(chosen[edge])
+
+
 def points_along(chains: Ragged, samples: Ragged) -> Ragged:
     """Points of chains from the samples of their pieces, of which neighbours share their ends."""
     piece, back = np.maximum(chains.values, ~chains.values), chains.values < 0
@@ -115,6 +125,23 @@ def regions(
         Which regions hold the middle of the view. Where this is known, edges that are hidden from end to end may be
         left out of the rings.
     """
+    loops, region, shown = in_sight(rings, owner, count, pieces, samples, border)
+    if middle is None:
+        hidden = np.zeros(count, dtype=bool)
+        hidden[owner[rings.sizes > 0]] = True
+        around = surround(rings, owner, hidden & ~shown, pieces, samples)
+    else:
+        around = middle & (np.bincount(region, minlength=count) == 0)
+    return bordered(loops, region, around, border)
+
+
+def in_sight(
+    rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline
+) -> tuple[Ragged, Indices, BoolArray]:
+    """As `regions`, but that regions of whose rings nothing is in sight are left to `surround`.
+
+    So edges out of sight may be missing from the pieces. Also returned is which regions have a ring in sight (count,).
+    """
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
     # What runs along the border is the border's business: closing the rest brings it back, where it belongs.
@@ -132,16 +159,34 @@ def regions(
     )
     loops, loop_owner = loops.take(there), loop_owner[there]
     around = np.bincount(loop_owner, area[there], minlength=count) < 0
-    if middle is None:
-        unseen = np.setdiff1d(region[~chains.seen], shown)
-        if len(unseen):
-            around[unseen[_surround(chains, region, unseen, samples)]] = True
-    else:
-        around |= middle & (np.bincount(loop_owner, minlength=count) == 0)
-    borders = np.flatnonzero(around)
-    if len(borders):
-        loops = together(loops, Ragged.of([border.once()] * len(borders)))
-    return loops, np.concatenate([loop_owner, borders])
+    loops, loop_owner = bordered(loops, loop_owner, around, border)
+    return loops, loop_owner, np.bincount(region[chains.seen], minlength=count) > 0
+
+
+def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) -> tuple[Ragged, Indices]:
+    """Loops, and the whole border for each region that goes round all else."""
+    regions = np.flatnonzero(around)
+    if not len(regions):
+        return loops, owner
+    once = border.once()
+    return together(loops, Ragged.of([once] * len(regions), once)), np.concatenate([owner, regions])
+
+
+def surround(rings: Ragged, owner: Indices, asked: BoolArray, pieces: Pieces, samples: Ragged) -> BoolArray:
+    """Which of some regions (count,), no ring of which is in sight, hold all that is in sight.
+
+    Projected from the middle of the view all that is hidden lies about the origin, mirrored, and the middle of the view
+    at infinity: inside where the areas have a positive sum.
+    """
+    chosen = asked[owner]
+    if not chosen.any():
+        return np.zeros_like(asked)
+    chains = chains_of(rings.take(chosen), pieces)
+    points = points_along(chains.pieces, samples)
+    x, y, z = points.values.T
+    area, _ = signed_areas(Ragged(np.stack([x, y], axis=1) / (1 - z)[:, None], points.offsets))
+    total = np.bincount(owner[chosen][chains.row], area, minlength=len(asked))
+    return asked & (total > 0)
 
 
 def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragged, Indices]:
@@ -210,19 +255,6 @@ def without_repeats(rows: Ragged) -> Ragged:
     fresh[1:] = (rows.values[1:] != rows.values[:-1]).any(axis=1)
     fresh[rows.offsets[:-1][rows.sizes > 0]] = True
     return rows.kept(fresh)
-
-
-def _surround(chains: Chains, region: Indices, unseen: Indices, samples: Ragged) -> BoolArray:
-    """Which of the regions whose rings are all hidden hold all that is in sight.
-
-    Projected from the middle of the view all that is hidden lies about the origin, mirrored, and the middle of the view
-    at infinity: inside where the areas have a positive sum.
-    """
-    hidden = np.isin(region, unseen)
-    rings = points_along(chains.pieces.take(hidden), samples)
-    x, y, z = rings.values.T
-    area, _ = signed_areas(Ragged(np.stack([x, y], axis=1) / (1 - z)[:, None], rings.offsets))
-    return np.bincount(region[hidden], area, minlength=unseen.max() + 1)[unseen] > 0
 
 
 def with_first_again(loops: Ragged) -> Ragged:

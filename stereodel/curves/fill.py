@@ -4,24 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import Indices
+from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel._extras import of_extra
-from stereodel.curves.clip import signed_areas
-from stereodel.curves.ragged import Ragged
+from stereodel.curves.clip import signed_areas, with_first_again
+from stereodel.curves.ragged import Ragged, cycles
 
 
-def triangles(loops: Ragged, owner: Indices) -> tuple[np.ndarray, Indices]:
+def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
     """Corners (m, 3, 2) of triangles that cover loops, and the region of each; clockwise loops are holes.
 
-    Ear clipping wants a shell with its holes. A hole belongs to the smallest shell of its region that holds its first
-    point; most regions have shells alone.
+    Loops without holes that are seen whole from their middle, as cells are, become fans about it, all at once; ears are
+    clipped off the others. Ear clipping wants a shell with its holes: a hole belongs to the smallest shell of its
+    region that holds its first point.
     """
     with of_extra("draw"):
         from mapbox_earcut import triangulate_float64
 
     area, _ = signed_areas(loops)
     shells = np.flatnonzero(area > 0)
-    held: dict[int, list[int]] = {int(shell): [] for shell in shells}
+    held: dict[int, list[int]] = {}
     low, high = (f.reduceat(loops.values, loops.offsets[:-1]) for f in (np.minimum, np.maximum))
     for hole in np.flatnonzero(area < 0):
         point = loops.values[loops.offsets[hole]]
@@ -30,18 +31,58 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[np.ndarray, Indices]:
         ]
         for shell in near[np.argsort(area[near])]:
             if _holds(loops.values[loops.offsets[shell] : loops.offsets[shell + 1]], point):
-                held[int(shell)].append(int(hole))
+                held.setdefault(int(shell), []).append(int(hole))
                 break
-    corners, owners = [], []
-    for shell, holes in held.items():
-        rings = loops.take(np.array([shell, *holes]))
-        found = triangulate_float64(rings.values, rings.offsets[1:].astype(np.uint32)).reshape(-1, 3)
-        corners.append(rings.values[found])
+    fanned, fans, row = _fans(loops)
+    fanned &= area > 0
+    fanned[list(held)] = False
+    corners, owners = [fans[fanned[row]]], [owner[row[fanned[row]]]]
+    for shell in shells[~fanned[shells]].tolist():
+        rings = [loops.values[loops.offsets[i] : loops.offsets[i + 1]] for i in (shell, *held.get(shell, []))]
+        points, ends = np.concatenate(rings), np.cumsum([len(ring) for ring in rings], dtype=np.uint32)
+        found = triangulate_float64(points, ends).reshape(-1, 3)
+        corners.append(points[found])
         owners.append(np.full(len(found), owner[shell]))
-    return np.concatenate([np.zeros((0, 3, 2)), *corners]), np.concatenate([owner[:0], *owners])
+    return np.concatenate(corners), np.concatenate(owners)
 
 
-def _holds(loop: np.ndarray, point: np.ndarray) -> bool:
+def union(loops: Ragged) -> Ragged:
+    """What bounds the union of regions that share the points of their borders but do not overlap, as closed loops.
+
+    A side that two loops have runs both ways and falls out. At each point as many of those left begin as end.
+    """
+    first = np.delete(np.arange(len(loops.values)), loops.offsets[1:] - 1)
+    places, node = np.unique(loops.values, axis=0, return_inverse=True)
+    sides = np.stack([node.ravel()[first], node.ravel()[first + 1]], axis=1)
+    sides = sides[sides[:, 0] != sides[:, 1]]
+    forward = sides[:, 0] < sides[:, 1]
+    codes, where = np.unique(sides.min(axis=1) * len(places) + sides.max(axis=1), return_inverse=True)
+    excess = np.bincount(where.ravel(), np.where(forward, 1, -1), minlength=len(codes)).astype(np.intp)
+    left = np.repeat(np.arange(len(codes)), np.abs(excess))
+    ends = np.stack(np.divmod(codes[left], max(1, len(places))), axis=1)
+    begin, end = np.where((excess[left] > 0)[:, None], ends, ends[:, ::-1]).T
+    follower = np.empty(len(begin), dtype=np.intp)
+    follower[np.argsort(end, kind="stable")] = np.argsort(begin, kind="stable")
+    found = cycles(follower)
+    return with_first_again(Ragged(places[begin[found.values]], found.offsets))
+
+
+def _fans(loops: Ragged) -> tuple[BoolArray, FloatArray, Indices]:
+    """Which loops go once round the mean of their points, turning nowhere back; triangles to it, and their loops."""
+    inner = np.ones(len(loops.values), dtype=bool)
+    inner[loops.offsets[1:] - 1] = False
+    first, row, count = np.flatnonzero(inner), loops.row[inner], len(loops)
+    number = np.maximum(np.bincount(row, minlength=count), 1)
+    middle = np.stack([np.bincount(row, loops.values[first, k], minlength=count) / number for k in (0, 1)], axis=1)[row]
+    a, b = loops.values[first] - middle, loops.values[first + 1] - middle
+    sine, cosine = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0], np.sum(a * b, axis=1)
+    turn = np.bincount(row, np.arctan2(sine, cosine), minlength=count)
+    ahead = np.bincount(row, sine <= 0, minlength=count) == 0
+    fans = np.stack([middle, loops.values[first], loops.values[first + 1]], axis=1)
+    return ahead & (turn < 3 * np.pi), fans, row
+
+
+def _holds(loop: FloatArray, point: FloatArray) -> bool:
     (x0, y0), (x1, y1) = loop[:-1].T, loop[1:].T
     side = (x1 - x0) * (point[1] - y0) - (point[0] - x0) * (y1 - y0)
     up, down = (y0 <= point[1]) & (y1 > point[1]) & (side > 0), (y0 > point[1]) & (y1 <= point[1]) & (side < 0)

@@ -82,6 +82,25 @@ class Ragged:
         return Ragged(self.values[base + turned % np.maximum(size, 1)], self.offsets)
 
 
+def thinned(lines: Ragged, spacing: float) -> Ragged:
+    """Lines in the plane without points that are closer along the line than `spacing`; ends stay.
+
+    What is left out is less than `spacing` from a point that stays.
+    """
+    points = lines.values
+    if len(points) == 0:
+        return lines
+    step = np.zeros(len(points))
+    step[1:] = np.hypot(*(points[1:] - points[:-1]).T)
+    step[lines.offsets[:-1]] = 0.0
+    cell = np.floor(np.cumsum(step) / spacing)
+    kept = np.ones(len(points), dtype=bool)
+    kept[1:] = cell[1:] != cell[:-1]
+    kept[lines.offsets[:-1]] = True
+    kept[lines.offsets[1:] - 1] = True
+    return lines.kept(kept)
+
+
 def offsets_of(sizes: npt.ArrayLike) -> Indices:
     """Offsets of rows of given sizes."""
     return np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.intp))]).astype(np.intp)

@@ -8,6 +8,7 @@ straight in longitude and latitude (exact along parallels, otherwise great circl
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from stereodel.conformal import MoebiusMap
 from stereodel.conformal.polylines import largest_scale
 from stereodel.constants import LONGEST_EDGE, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
-from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere import SphereArc, lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import turned
 
@@ -135,6 +136,16 @@ def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) 
     )
 
 
+def exact(arcs: Sequence[SphereArc]) -> Arcs:
+    """Arcs of circles given one by one, a turn at most each."""
+    rows = [(arc.start, arc.end, arc.circle.normal, arc.frame()[1]) for arc in arcs]
+    start, end, axis, u = np.array(rows, dtype=np.float64).reshape(-1, 4, 3).swapaxes(0, 1)
+    offset, stop = (
+        np.array(values, dtype=np.float64) for values in ([a.circle.offset for a in arcs], [a.angle_rad for a in arcs])
+    )
+    return Arcs(start, end, axis, offset, u, np.zeros(len(arcs)), stop, np.arange(len(arcs)))
+
+
 def _swept(axis: FloatArray, u: FloatArray, w: FloatArray) -> FloatArray:
     """Angle about an axis from u to w, at most half a turn: rounding must not make −π of π."""
     return np.arctan2(np.abs(np.sum(np.cross(axis, u) * w, axis=1)), np.sum(u * w, axis=1))
@@ -146,6 +157,101 @@ def sides_of(lines: Ragged) -> tuple[Indices, Ragged]:
     inner[lines.offsets[1:] - 1] = False
     first = np.flatnonzero(inner)
     return first, Ragged(np.arange(len(first)), lines.offsets - np.arange(len(lines) + 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Edges:
+    """Edges before any lens, made ready once: arcs, which edges straight in longitude and latitude leave a little.
+
+    How far depends on the lens, so that `arcs_under` one cuts such edges into as many arcs as it asks for.
+    """
+
+    arcs: Arcs
+    """One for each edge: the edge itself, or the great circle through its ends."""
+    length: FloatArray
+    """(n,): upper bounds, radians; no point of an edge is farther from its start."""
+    exact: BoolArray
+    """(n,): which edges are their arcs."""
+    bend: FloatArray
+    """(n,): how far the others may stray from theirs, radians."""
+    lonlat: FloatArray
+    """(n, 2, 2): their ends in degrees."""
+    latitude: Latitude = "spherical"
+
+    @classmethod
+    def of(cls, arcs: Arcs) -> Edges:
+        """Edges that are arcs."""
+        length = (arcs.stop - arcs.begin) * np.sqrt(np.sum(arcs.u**2, axis=1))
+        count = len(arcs)
+        return cls(arcs, length, np.ones(count, dtype=bool), np.zeros(count), np.zeros((count, 2, 2)))
+
+    @classmethod
+    def straight(
+        cls,
+        a: FloatArray,
+        b: FloatArray,
+        latitude: Latitude = "spherical",
+        ends: tuple[FloatArray, FloatArray] | None = None,
+    ) -> Edges:
+        """Edges straight in degrees from a (k, 2) to b; `ends` on the sphere, for callers that have them."""
+        p, q = ends or (lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude))
+        length, bend = measures_in_lonlat(a, b, p, q)
+        # A parallel is a circle: followed exactly. At the poles it is a point.
+        level = (a[:, 1] == b[:, 1]) & (a[:, 0] != b[:, 0]) & (np.abs(a[:, 1]) < 90) & (np.abs(b - a)[:, 0] <= 360)
+        arcs = great(p, q)
+        # In place of a parallel's great circle its own: about the Earth's axis, east or west, as far as longitudes say.
+        east = np.sign((b - a)[level, 0])
+        arcs.axis[level] = np.stack([0 * east, 0 * east, east], axis=1)
+        arcs.offset[level] = east * p[level, 2]
+        arcs.u[level] = p[level] * [1, 1, 0]
+        arcs.stop[level] = np.radians(np.abs((b - a)[level, 0]))
+        return cls(arcs, length, level, bend, np.stack([a, b], axis=1), latitude)
+
+    def __len__(self) -> int:
+        return len(self.arcs)
+
+    def take(self, chosen: Indices | BoolArray) -> Edges:
+        """Some of the edges, numbered anew."""
+        arcs = self.arcs.take(chosen)
+        arcs = replace(arcs, edge=np.arange(len(arcs)))
+        length, exact = self.length[chosen], self.exact[chosen]
+        return Edges(arcs, length, exact, self.bend[chosen], self.lonlat[chosen], self.latitude)
+
+    def within(self, center: FloatArray, reach: float) -> BoolArray:
+        """Which edges may come within `reach` radians of a point of the sphere."""
+        chord = np.sqrt(np.sum((self.arcs.start - center) ** 2, axis=1))
+        return 2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach + self.length
+
+    def arcs_under(self, lens: MoebiusMap, tolerance: float) -> Arcs:
+        """Arcs whose images under a lens are within a tolerance of those of the edges, radii."""
+        start = self.arcs.start
+        # As many great circles as keep their images within the tolerance, by the largest scale along them.
+        # Long ones are cut for their length alone: a great circle through opposite points is none.
+        wanted = np.sqrt(self.bend * largest_scale(lens, start, self.length) / tolerance)
+        wanted = np.maximum(wanted, self.length / np.radians(LONGEST_EDGE))
+        pieces = np.where(self.exact, 1, np.maximum(1, np.ceil(wanted))).astype(np.intp)
+        long = np.flatnonzero(pieces > 1)
+        if not len(long):
+            return self.arcs
+        # Those that are cut, from corner to corner.
+        pieces = pieces[long]
+        number, row = spans(np.zeros_like(pieces), pieces), np.repeat(np.arange(len(long)), pieces)
+        cut = np.flatnonzero(number)
+        p, q = start[long][row], self.arcs.end[long][row]
+        a, b = self.lonlat[long, 0][row[cut]], self.lonlat[long, 1][row[cut]]
+        share = (number[cut] / pieces[row[cut]])[:, None]
+        # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
+        p[cut] = q[cut - 1] = lonlat_to_xyz(a + share * (b - a), latitude=self.latitude)
+        parts = replace(great(p, q), edge=long[row])
+        whole = np.ones(len(self), dtype=bool)
+        whole[long] = False
+        both = joined(self.arcs.take(whole), parts)
+        return both.take(np.argsort(both.edge, kind="stable"))
+
+
+def joined(a: Arcs, b: Arcs) -> Arcs:
+    """The arcs of both."""
+    return Arcs(*(np.concatenate([getattr(a, name), getattr(b, name)]) for name in Arcs.__dataclass_fields__))
 
 
 def straight(
@@ -160,34 +266,13 @@ def straight(
 
     `ends` are their ends on the sphere, for callers that have them.
     """
-    p, q = ends or (lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude))
-    length, bend = measures_in_lonlat(a, b, p, q)
-    # A parallel is a circle: followed exactly. At the poles it is a point. All others are cut in as many great circles
-    # as keep their images within the tolerance, by the largest scale along them.
-    level = (a[:, 1] == b[:, 1]) & (a[:, 0] != b[:, 0]) & (np.abs(a[:, 1]) < 90) & (np.abs(b - a)[:, 0] <= 360)
-    wanted = np.maximum(np.sqrt(bend * largest_scale(lens, p, length) / tolerance), length / np.radians(LONGEST_EDGE))
-    pieces = np.where(level, 1, np.maximum(1, np.ceil(wanted))).astype(np.intp)
-    edge = np.repeat(np.arange(len(a)), pieces)
-    number = spans(np.zeros_like(pieces), pieces)
-    cut = np.flatnonzero(number)
-    share = (number[cut] / pieces[edge[cut]])[:, None]
-    start, end = p[edge], q[edge]
-    # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
-    start[cut] = end[cut - 1] = lonlat_to_xyz(a[edge[cut]] + share * (b - a)[edge[cut]], latitude=latitude)
-    arcs = replace(great(start, end), edge=edge)
-    # In place of a parallel's great circle its own: about the Earth's axis, east or west, as far as the longitudes say.
-    which = np.flatnonzero(level[edge])
-    east = np.sign((b - a)[edge[which], 0])
-    arcs.axis[which] = np.stack([0 * east, 0 * east, east], axis=1)
-    arcs.offset[which] = east * start[which, 2]
-    arcs.u[which] = start[which] * [1, 1, 0]
-    arcs.stop[which] = np.radians(np.abs((b - a)[edge[which], 0]))
-    return arcs
+    return Edges.straight(a, b, latitude, ends).arcs_under(lens, tolerance)
 
 
-def unwrapped(lines: Ragged) -> Ragged:
+def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
     """Lines of degrees whose longitude goes on where it jumps across ±180°, but for steps along a pole.
 
+    A step of 360° is one once round the Earth, as in polygons that go round it, or with `turns` false none at all.
     Where one jumps, longitudes are rounded to `WHOLE_TURNS`: a ring around the Earth then ends where it began, to the
     last bit, a whole turn on.
     """
@@ -195,7 +280,9 @@ def unwrapped(lines: Ragged) -> Ragged:
     step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
     polar = (np.abs(lines.values[:, 1]) == 90) & (step[:, 1] == 0)
     jumps = np.where(
-        (np.abs(step[:, 0]) > 180) & (np.abs(step[:, 0]) < 360) & ~polar, -360.0 * np.sign(step[:, 0]), 0.0
+        (np.abs(step[:, 0]) > 180) & ((np.abs(step[:, 0]) < 360) | (not turns)) & ~polar,
+        -360.0 * np.sign(step[:, 0]),
+        0.0,
     )
     if not jumps.any():
         return lines

@@ -181,6 +181,17 @@ def test_points_within_rounding_of_the_border_are_on_it(off):
     assert border.flat(below)[1, 0] == -180
 
 
+def test_rounding_along_180_cuts_nothing():
+    """Arcs along the meridian but for rounding, which has them cross it twice by 1e-16: one piece each."""
+    rng = np.random.default_rng(7)
+    lat = np.radians(np.sort(rng.uniform(-60, 60, (300, 2)), axis=1))
+    ends = np.stack([-np.cos(lat), 4e-16 * rng.uniform(-1, 1, lat.shape), np.sin(lat)], axis=-1)
+    pieces, flat = chains(great(ends[:, 0], ends[:, 1]), Antimeridian())
+    assert len(pieces.arcs) == 300
+    assert pieces.along.all()
+    assert all((line[:, 0] == 180).all() for line in flat)
+
+
 @settings(max_examples=60)
 @given(SEEDS)
 def test_rings_leave_a_chart_as_often_as_they_enter_it(seed):

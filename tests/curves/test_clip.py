@@ -12,6 +12,7 @@ from stereodel.curves.fill import triangles
 from stereodel.curves.ragged import Ragged, offsets_of
 from stereodel.curves.trace import Arcs, great
 from stereodel.drawing.view import StereographicView, View
+from stereodel.io.faces import voronoi_sides
 from tests.curves.oracle import Star, in_sight, ring, rings, rows, units, whole_circles, winding
 
 SEEDS = st.integers(0, 10**9)
@@ -21,6 +22,12 @@ FRONT = View(0, 0)
 
 def area(loops):
     return clip.signed_areas(loops)[0].sum()
+
+
+def cells(diagram):
+    """The ridges of a diagram, and the sides of each cell."""
+    ends = diagram.vertices[diagram.ridge_vertices]
+    return great(ends[:, 0], ends[:, 1], diagram.ridge_normals()), voronoi_sides(diagram)
 
 
 def any_view(rng):
@@ -158,25 +165,15 @@ def test_circles_that_touch_the_limb(lon):
     )
 
 
-@pytest.mark.parametrize("tolerance", [1e-2, 1e-4])
-def test_slivers_at_the_limb_do_not_add_the_disc(tolerance):
-    """Triangles that reach in front of the limb by a part of the tolerance, many at once."""
-    rng = np.random.default_rng(6)
-    angle = rng.uniform(0, 2 * np.pi, 3000)
-    depth = tolerance * rng.uniform(0, 1.5, 3000)
-    width = rng.uniform(0.01, 0.4, 3000)
-    corner = lambda a, z: np.stack([np.sin(z), np.cos(a) * np.cos(z), np.sin(a) * np.cos(z)], axis=1)  # noqa: E731
-    # The front is x > 0; a horizontal side just in front, the third corner behind.
-    parts = np.stack(
-        [corner(angle, depth), corner(angle + width, depth), corner(angle + width / 2, -0.2 + 0 * angle)], axis=1
-    )
-    back = np.einsum("ij,ij->i", np.cross(parts[:, 0], parts[:, 1]), parts[:, 2]) < 0
-    parts[back] = parts[back][:, ::-1]
-    start, end = parts.reshape(-1, 3), np.roll(parts, -1, axis=1).reshape(-1, 3)
-    loops, owner = in_sight(great(start, end), rows(*[3] * 3000), FRONT, tolerance, np.arange(3000), 3000)
-    covered = np.bincount(owner, clip.signed_areas(loops)[0], minlength=3000)
-    assert covered.max() < 0.1
-    assert covered.min() > -1e-3
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+@pytest.mark.parametrize("seed", [2, 3])
+def test_slivers_at_the_limb_do_not_add_the_disc(tolerance, seed):
+    """One of 2000 cells is so thin in front of the limb that its chords run clockwise, as if round all the rest."""
+    arcs, sides = cells(SphericalVoronoi(np.random.default_rng(seed).normal(size=(2000, 3))))
+    lens = fisheye((10.0, 50.0), magnification=1.0)
+    loops, _ = in_sight(arcs.through(lens), sides, View(10, 40), tolerance, np.arange(2000), 2000)
+    assert np.pi - 0.03 < area(loops) < np.pi  # without slivers thinner than the tolerance
+    assert (clip.signed_areas(loops)[0] > 0).all()
 
 
 def test_both_sides_of_the_limb_itself():
@@ -204,25 +201,9 @@ def test_a_cap_and_the_rest_fill_the_disc(lon, lat, seed):
 @pytest.mark.parametrize("view", [View(10, 40), StereographicView(10, 40, extent=120.0)])
 def test_cells_tile_the_disc(size, view):
     """All regions at once, sides traced once: no gap, no overlap, the areas of all loops are the disc."""
-    diagram = SphericalVoronoi(np.random.default_rng(9).normal(size=(2000, 3)))
-    ends = diagram.vertices[diagram.ridge_vertices]
-    arcs = great(ends[:, 0], ends[:, 1], diagram.ridge_normals())
-    pairs = diagram.ridge_points
-    sides, owner = (
-        np.concatenate([np.arange(len(pairs)), ~np.arange(len(pairs))]),
-        np.concatenate([pairs[:, 0], pairs[:, 1]]),
-    )
-    # Sides of a cell in the order of its vertices.
-    row, tail = (
-        np.argsort(owner, kind="stable"),
-        np.concatenate([diagram.ridge_vertices[:, 0], diagram.ridge_vertices[:, 1]]),
-    )
-    ordered = []
-    for members in np.split(row, np.cumsum(np.bincount(owner))[:-1]):
-        vertices = diagram.regions[owner[members[0]]]
-        ordered.append(sides[members[np.argsort([vertices.index(v) for v in tail[members]])]])
+    arcs, sides = cells(SphericalVoronoi(np.random.default_rng(9).normal(size=(2000, 3))))
     lens = fisheye((10.0, 50.0), magnification=size)
-    loops, belongs = in_sight(arcs.through(lens), Ragged.of(ordered), view, 1e-4, np.arange(2000), 2000)
+    loops, belongs = in_sight(arcs.through(lens), sides, view, 1e-4, np.arange(2000), 2000)
     assert area(loops) == pytest.approx(np.pi, abs=3e-4)
     assert (clip.signed_areas(loops)[0] > 0).all()
     assert len(np.unique(belongs)) == len(belongs)
