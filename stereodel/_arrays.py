@@ -15,6 +15,7 @@ from stereodel._numbers import as_doubles, entry, refuse_masked
 from stereodel.constants import UNIT_ROUNDOFF
 
 FloatArray = npt.NDArray[np.float64]
+SingleArray = npt.NDArray[np.float32]
 IntArray = npt.NDArray[np.int32]
 LongArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]

@@ -136,6 +136,18 @@ SHORT_ARC: Final = 1e-4
 Longer ones keep their circle to 1e-7 when it is taken through three points in plain doubles.
 """
 
+PIXEL_ROUNDING: Final = 1e-6
+"""Pixels by which rounding may put a border off its place in a vector file or on its canvas: far below what shows."""
+
+FRAME_ROUNDING: Final = 1e-6
+"""By how much a frame may be shown for less than a format allows, relatively: 1/50 as a double is not quite 1/50."""
+
+DIRECTION_STEP: Final = 1e-4
+"""Degrees over which the direction of an arrow is measured on the page: a difference of points keeps 9 digits."""
+
+NO_MIDDLE: Final = 1e-9
+"""Length of the mean of unit vectors below which it has no direction: rounding leaves n/2 roundoffs of n of them."""
+
 THIN_TRIANGLE: Final = 2.0**-12
 """Twice the area of a triangle, relative to the square of its size, below which weights are computed in double-double.
 
@@ -225,7 +237,7 @@ CHORD_CLEARANCE: Final = 0.125
 Well below 1, so that every point lies in its own cell on a map, however close it is to the next one.
 """
 
-LARGEST_EXTENT: Final = 170.0
+LARGEST_CAP: Final = 170.0
 """Angular radius of the largest cap that a stereographic view shows, degrees.
 
 The scale at its edge is 132 times that of the middle; a view of everything would be a point in an empty disc.
@@ -255,17 +267,8 @@ MOST_PIXELS_ACROSS: Final = 2**20
 LONGEST_EDGE: Final = 30.0
 """Longest piece of a map's edge that one great-circle arc follows, degrees: far from 180, where none does."""
 
-SHORTEST_SIDE: Final = 1e-14
-"""Length of a side, radians, below which it is not halved: its middle would be one of its ends, rounded."""
-
 GRID_ROUNDING: Final = 1e-9
 """Part of a step by which the last line of a grid may miss the border of its box, for rounding: it is reached then."""
-
-INNER_TOLERANCE: Final = 0.005
-"""How far sides of triangles inside a region may stray from their images, radii: where nothing shows but the light.
-
-Sides are then up to 11° long, along which the light on a ball changes evenly up to 0.1 %.
-"""
 
 OPPOSITE: Final = 1e-9
 """Distance of a point from another's antipode, radii, below which no great circle is taken to join the two.

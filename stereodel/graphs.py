@@ -1,4 +1,4 @@
-"""Graphs of nearness and hulls, as parts of a Delaunay triangulation, decided exactly.
+"""Proximity graphs and hulls, as parts of a Delaunay triangulation, decided exactly.
 
 Each is part of the next: minimum spanning tree, relative neighbourhood graph, Urquhart graph, Gabriel graph, Delaunay
 triangulation.

@@ -3,6 +3,8 @@
 import dataclasses
 import inspect
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -23,6 +25,7 @@ import stereodel.render
 import stereodel.spatial
 import stereodel.sphere
 import stereodel.triangulation
+from stereodel._docs import shared
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
 PUBLIC = {name: getattr(stereodel, name) for name in stereodel.__all__}
@@ -133,6 +136,24 @@ def documented(owner):
 def test_no_docstring_has_a_line_left_to_be_filled_in(package):
     texts = {name: inspect.getdoc(value) or "" for name, value in documented(package)}
     assert [name for name, text in texts.items() if re.search(r"^ *\{\w+\}$", text, re.MULTILINE)] == []
+
+
+def test_a_part_that_nobody_wrote_is_an_error():
+    def described():
+        """What it does.
+
+        {nowhere}
+        """
+
+    with pytest.raises(KeyError, match="nowhere"):
+        shared(elsewhere="Text.")(described)
+
+
+def test_docstrings_may_be_stripped():
+    """As by `python -OO`: decorators that fill them in have nothing to do."""
+    code = "from stereodel import data, graphs, interpolation, relaxation; print(graphs.hull.__doc__)"
+    ran = subprocess.run([sys.executable, "-OO", "-c", code], check=True, capture_output=True, text=True)
+    assert ran.stdout == "None\n"
 
 
 def signatures():

@@ -42,8 +42,8 @@ MAY_IMPORT = {
     "__init__": MATHEMATICS,
     "__main__": {"_extras", "cli"},
     "drawing": MATHEMATICS | {"__init__", "curves"},
-    "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "drawing"},
-    "mpl": MATHEMATICS | {"__init__", "_extras", "curves", "data", "drawing"},
+    "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "drawing"},
+    "mpl": MATHEMATICS | {"__init__", "_extras", "curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "data", "drawing", "render"},
     "film": MATHEMATICS | {"__init__", "_extras", "_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
@@ -51,7 +51,7 @@ MAY_IMPORT = {
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}
-MATPLOTLIB_IN_DRAWING = {"stereodel.drawing.colors", "stereodel.drawing.label"}
+MATPLOTLIB_IN_DRAWING = {"stereodel.drawing.colors", "stereodel.drawing.label", "stereodel.drawing.scales"}
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
 NEIGHBOURS = {
     "antimeridian",

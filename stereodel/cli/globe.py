@@ -19,7 +19,7 @@ def command(
     magnify: globe.Magnify = 1.0,
     view: globe.View = None,
     projection: globe.Flattened = globe.Projection.globe,
-    extent: globe.Extent = 90.0,
+    angular_radius: globe.AngularRadius = 90.0,
     layer: globe.Layers = None,
     texture: globe.Texture = None,
     texture_box: globe.TextureBox = None,
@@ -55,7 +55,7 @@ def command(
     filming = destination.kind in FILMS
     if (spin or fly) and not filming:
         raise ValueError(f"--spin and --fly are for films, but {out} is none; the endings are .{', .'.join(FILMS)}")
-    aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, extent)
+    aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, angular_radius)
     table = read(points, lon=lon, lat=lat) if points is not None else None
     with stage("reading maps"):
         spacing = aim.spacing if graticule is None and not filming else graticule

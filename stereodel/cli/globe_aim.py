@@ -10,6 +10,7 @@ from stereodel import MoebiusMap, fisheye, xyz_to_lonlat
 from stereodel._arrays import FloatArray
 from stereodel.cli.globe_options import Projection
 from stereodel.cli.options import pair
+from stereodel.constants import NO_MIDDLE
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.view import MapView
 from stereodel.globe import hemispheres
@@ -28,13 +29,13 @@ def place(text: str | None, option: str) -> Place | None:
 
 @dataclass(frozen=True)
 class Aim:
-    """Focus, magnification, middle of the view, projection and its extent; what was not given is found out."""
+    """Focus, magnification, middle of the view, projection and its angular radius; what was not given is found out."""
 
     focus: Place | None
     magnification: float
     middle: Place | None
     projection: Projection
-    extent: float
+    angular_radius: float
 
     def __post_init__(self) -> None:
         if not 0 < self.magnification < np.inf:
@@ -79,15 +80,14 @@ class Aim:
         if self.projection == Projection.hemispheres:
             return hemispheres(lon, lat, flat=True)
         if self.projection == Projection.stereographic:
-            return (StereographicView(lon, lat, extent=self.extent),)
+            return (StereographicView(lon, lat, angular_radius=self.angular_radius),)
         return (View(lon, lat),)
 
 
 def middle_of(points: FloatArray) -> Place:
     """Longitude and latitude of the mean of unit vectors (n, 3); (0, 0) if they have none."""
     mean = points.sum(axis=0)
-    # Sums of n unit vectors are rounded by less than n² / 2 roundoffs; what is below means nothing.
-    if np.sqrt(np.sum(mean**2)) <= 1e-9 * len(points):
+    if np.sqrt(np.sum(mean**2)) <= NO_MIDDLE * len(points):
         return (0.0, 0.0)
     lon, lat = xyz_to_lonlat(mean)
     return (float(lon), float(lat))

@@ -44,7 +44,7 @@ View = Annotated[
 Flattened = Annotated[
     Projection, typer.Option("--projection", help="A ball, a flat stereographic map, or both halves as flat maps.")
 ]
-Extent = Annotated[
+AngularRadius = Annotated[
     float, typer.Option(metavar="DEGREES", help="What a stereographic map shows: up to so far from its middle.")
 ]
 Layers = Annotated[

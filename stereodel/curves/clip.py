@@ -129,18 +129,16 @@ def regions(
     if middle is None:
         hidden = np.zeros(count, dtype=bool)
         hidden[owner[rings.sizes > 0]] = True
-        around = surround(rings, owner, hidden & ~shown, pieces, samples)
-    else:
-        around = middle & (np.bincount(region, minlength=count) == 0)
-    return bordered(loops, region, around, border)
+        middle = surround(rings, owner, hidden & ~shown, pieces, samples)
+    return bordered(loops, region, middle & (np.bincount(region, minlength=count) == 0), border)
 
 
 def in_sight(
     rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline
 ) -> tuple[Ragged, Indices, BoolArray]:
-    """As `regions`, but that regions of whose rings nothing is in sight are left to `surround`.
+    """As `regions`, but that regions of whose rings nothing is in sight are left out: `surround` may ask for them.
 
-    So edges out of sight may be missing from the pieces. Also returned is which regions have a ring in sight (count,).
+    So edges out of sight may be missing. Also returned is which regions have a part of a ring in sight (count,).
     """
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
@@ -168,8 +166,7 @@ def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) 
     regions = np.flatnonzero(around)
     if not len(regions):
         return loops, owner
-    once = border.once()
-    return together(loops, Ragged.of([once] * len(regions), once)), np.concatenate([owner, regions])
+    return together(loops, Ragged.of([border.once()] * len(regions))), np.concatenate([owner, regions])
 
 
 def surround(rings: Ragged, owner: Indices, asked: BoolArray, pieces: Pieces, samples: Ragged) -> BoolArray:

@@ -193,7 +193,7 @@ class Edges:
         latitude: Latitude = "spherical",
         ends: tuple[FloatArray, FloatArray] | None = None,
     ) -> Edges:
-        """Edges straight in degrees from a (k, 2) to b; `ends` on the sphere, for callers that have them."""
+        """Edges straight in degrees from a (k, 2) to b; `ends` are these on the sphere, for callers that have them."""
         p, q = ends or (lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude))
         length, bend = measures_in_lonlat(a, b, p, q)
         # A parallel is a circle: followed exactly. At the poles it is a point.
@@ -279,11 +279,8 @@ def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
     step = np.diff(lines.values, axis=0, prepend=lines.values[:1])
     step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
     polar = (np.abs(lines.values[:, 1]) == 90) & (step[:, 1] == 0)
-    jumps = np.where(
-        (np.abs(step[:, 0]) > 180) & ((np.abs(step[:, 0]) < 360) | (not turns)) & ~polar,
-        -360.0 * np.sign(step[:, 0]),
-        0.0,
-    )
+    far = (np.abs(step[:, 0]) > 180) & ((np.abs(step[:, 0]) < 360) | (not turns)) & ~polar
+    jumps = np.where(far, -360.0 * np.sign(step[:, 0]), 0.0)
     if not jumps.any():
         return lines
     total = np.cumsum(jumps)

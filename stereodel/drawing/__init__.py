@@ -1,7 +1,8 @@
 """What lies where on a picture, before anything draws it: pages and their items, scenes, sketches, views, styles."""
 
+from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
-from stereodel.drawing.page import Label, Page
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke
 from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
@@ -11,17 +12,23 @@ from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.view import StereographicView, View
 
 __all__ = [
+    "Ball",
     "CircleArc",
     "ColorScale",
     "DotStyle",
+    "Dots",
+    "Fill",
     "Label",
     "Layer",
     "LineStyle",
     "Page",
+    "Polylines",
     "Scene",
     "Segment",
     "Sketch",
     "StereographicView",
+    "Stroke",
     "View",
+    "as_color",
     "diagram_page",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from numbers import Real
 from typing import Any
 
@@ -64,3 +64,19 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
         kinds = 'give a name such as "tab:red", "#rrggbb", "0.5" or (red, green, blue)'
         raise ValueError(f"{name} is {value!r}, which is not a colour; {kinds}") from None
     return (red, green, blue, opacity)
+
+
+def color_map(name: str) -> Callable[[FloatArray], FloatArray]:
+    """A colour map of matplotlib: numbers (...) in [0, 1] to colours (..., 4).
+
+    Raises
+    ------
+    ValueError
+        For a name that matplotlib does not know.
+    """
+    with of_extra("draw"):
+        from matplotlib import colormaps
+
+    if name not in colormaps:
+        raise ValueError(f"name is {name!r}, which is not a colour map of matplotlib")
+    return colormaps[name]

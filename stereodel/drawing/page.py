@@ -10,18 +10,23 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import Final, Literal, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray, Pixels, as_scalar
+from stereodel._arrays import FloatArray, Indices, Pixels, as_scalar
 from stereodel._extras import of_extra
+from stereodel.curves.ragged import Ragged
 from stereodel.drawing.colors import Color
 
 Beziers = FloatArray
 """A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins; straight: controls at thirds."""
+
+FEW_COLORS: Final = 64
+"""Colours of `Polygons` that are paths on paper; with more, they are one picture."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,21 +86,6 @@ class Dots:
     name: str = ""
 
 
-@dataclass(frozen=True, eq=False)
-class Mosaic:
-    """Triangles, each of its own colour, which do not overlap: so many that only pixels hold them.
-
-    `corners` (n, 3, 2) on the page, `normals` (n, 3, 3) in view axes where they are lit, `colors` (n, 3), sRGB. The
-    vector backend puts the picture of the raster backend into `outline`.
-    """
-
-    corners: FloatArray
-    normals: FloatArray | None
-    colors: FloatArray
-    outline: tuple[Beziers, ...]
-    name: str = ""
-
-
 class Painter(Protocol):
     """What a `Picture` shows: made at the resolution at which it is drawn, and only where it is drawn."""
 
@@ -132,7 +122,7 @@ class Polylines:
 
     points: FloatArray
     """(n, 2)."""
-    offsets: npt.NDArray[np.intp]
+    offsets: Indices
     """(m + 1,)."""
     color: Color
     width: float
@@ -141,24 +131,41 @@ class Polylines:
 
 
 @dataclass(frozen=True, eq=False)
-class Patch:
-    """A region of any shape as triangles, each counterclockwise, which share their corners where they meet.
+class Polygons:
+    """Many regions of straight pieces, which may lie on a ball: land, the cells of a diagram.
 
-    The raster backend draws the triangles, lit where `normals` (n, 3) in view axes are given; the vector backend fills
-    the loops of sides that have a triangle on one side only. Sides between two corners of `rim` are arcs of the circle
-    about `middle`: there the region goes on, out of sight.
+    Loop i is ``points[offsets[i]:offsets[i + 1]]``, its first point again at its end, counterclockwise about what it
+    bounds and clockwise about holes; a region is filled by the nonzero rule. Regions of different colours do not
+    overlap. On paper the regions of a colour are a path, or all of them a picture where there are more than
+    `FEW_COLORS`.
     """
 
     points: FloatArray
     """(n, 2)."""
-    faces: npt.NDArray[np.int32]
-    """(m, 3)."""
-    color: Color
-    rim: BoolArray
-    """(n,): whether a corner lies on the edge of what is seen."""
-    middle: tuple[float, float] = (0.0, 0.0)
-    normals: FloatArray | None = None
+    offsets: Indices
+    """(m + 1,)."""
+    owner: Indices
+    """(m,): the region of each loop."""
+    colors: FloatArray
+    """(k, 4): of each region, sRGB and opacity."""
+    ball: Ball | None = None
     name: str = ""
+
+    @property
+    def loops(self) -> Ragged:
+        """The loops."""
+        return Ragged(self.points, self.offsets)
+
+    @cached_property
+    def by_color(self) -> tuple[FloatArray, Indices]:
+        """The different colours of what is drawn (c, 4), and the number of that of each loop (m,)."""
+        colors, number = np.unique(self.colors[self.owner], axis=0, return_inverse=True)
+        return colors, number.ravel()
+
+    @property
+    def pictured(self) -> bool:
+        """Whether there are so many colours that only pixels hold them."""
+        return len(self.by_color[0]) > FEW_COLORS
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,7 +186,7 @@ class Label:
     halo_color: Color = (1.0, 1.0, 1.0, 1.0)
 
 
-Item = Stroke | Polylines | Fill | Patch | Dots | Mosaic | Picture | Label
+Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,6 +237,11 @@ class Page:
     def labels(self) -> tuple[Label, ...]:
         """The text alone."""
         return tuple(item for item in self.items if isinstance(item, Label))
+
+    @property
+    def pictured(self) -> tuple[Polygons, ...]:
+        """The items that vector files hold as pictures, because they have too many colours."""
+        return tuple(item for item in self.items if isinstance(item, Polygons) and item.pictured)
 
     def without_labels(self) -> Page:
         """The picture without its text, which is what pixel tests compare."""
@@ -357,9 +369,9 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             return {"path": item.path, "style": style}
         case Polylines():
             return {"points": item.points, "offsets": item.offsets, "style": np.array([*item.color, item.width])}
-        case Patch():
-            style = np.array([*item.color, *item.middle, item.normals is not None])
-            return {"points": item.points, "faces": item.faces, "rim": item.rim, "style": style}
+        case Polygons():
+            loops = {"points": item.points, "offsets": item.offsets, "owner": item.owner}
+            return {**loops, "colors": item.colors, **_light(item.ball)}
         case Fill():
             return {
                 "path": np.concatenate(item.paths),
@@ -369,8 +381,6 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             }
         case Dots():
             return {"centers": item.centers, "style": np.array([item.radius, *item.color, *item.rim, item.rim_width])}
-        case Mosaic():
-            return {"outline": np.concatenate(item.outline), "corners": item.corners, "colors": item.colors}
         case Picture():
             return {"outline": np.concatenate(item.outline), **item.painter.arrays()}
         case Label():

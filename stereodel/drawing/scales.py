@@ -9,8 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_scalar
-from stereodel._extras import of_extra
-from stereodel.drawing.colors import Color, ColorLike, as_color
+from stereodel.drawing.colors import Color, ColorLike, as_color, color_map
 from stereodel.drawing.page import Fill, Item, Label, Stroke
 from stereodel.drawing.style import BLACK, LABEL_SIZE
 
@@ -51,11 +50,7 @@ class ColorScale:
     log: bool = False
 
     def __post_init__(self) -> None:
-        with of_extra("draw"):
-            from matplotlib import colormaps
-
-        if self.name not in colormaps:
-            raise ValueError(f"name is {self.name!r}, which is not a colour map of matplotlib")
+        color_map(self.name)
         as_scalar(self.low, "low", low=0.0 if self.log else -np.inf, open_low=True)
         as_scalar(self.high, "high", low=self.low, open_low=True)
 
@@ -68,10 +63,7 @@ class ColorScale:
 
     def __call__(self, values: npt.ArrayLike) -> FloatArray:
         """Colours (..., 3), sRGB in [0, 1]."""
-        with of_extra("draw"):
-            from matplotlib import colormaps
-
-        return np.asarray(colormaps[self.name](self.place(values)), dtype=np.float64)[..., :3]
+        return np.asarray(color_map(self.name)(self.place(values)), dtype=np.float64)[..., :3]
 
     def legend(
         self,

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar, as_vectors
-from stereodel.constants import LARGEST_EXTENT
+from stereodel.constants import LARGEST_CAP
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.vectors import turned
 
@@ -133,16 +133,16 @@ class StereographicView:
         The point in the middle, degrees; at a pole `up` is the limit along `lon`.
     roll : float, optional
         Degrees by which the picture is then turned counterclockwise on the page.
-    extent : float
-        Angular radius of the cap that is shown, degrees, above 0 and at most `LARGEST_EXTENT`: 90 is a hemisphere.
+    angular_radius : float
+        Of the cap that is shown, degrees, above 0 and at most `LARGEST_CAP`: 90 is a hemisphere.
 
     Notes
     -----
-    A point at angular distance χ from the middle is tan(χ/2)/tan(extent/2) from the middle of the unit disc.
+    A point at angular distance χ from the middle is tan(χ/2)/tan(angular_radius/2) from the middle of the unit disc.
 
     Examples
     --------
-    >>> view = StereographicView(0, 0, extent=120)
+    >>> view = StereographicView(0, 0, angular_radius=120)
     >>> axes = view.raised(np.array([0.5, 0.0]))
     >>> view.flattened(axes).round(15).tolist()
     [0.5, 0.0]
@@ -152,12 +152,12 @@ class StereographicView:
     lat: float
     roll: float = 0.0
     _: KW_ONLY
-    extent: float = 90.0
+    angular_radius: float = 90.0
 
     def __post_init__(self) -> None:
         as_lonlat((self.lon, self.lat), "(lon, lat)")
         as_scalar(self.roll, "roll")
-        as_scalar(self.extent, "extent", low=0.0, high=LARGEST_EXTENT, open_low=True)
+        as_scalar(self.angular_radius, "angular_radius", low=0.0, high=LARGEST_CAP, open_low=True)
 
     @property
     def matrix(self) -> FloatArray:
@@ -167,14 +167,15 @@ class StereographicView:
     @property
     def edge(self) -> float:
         """Cosine of the angular radius of the cap."""
-        return float(np.cos(np.radians(self.extent)))
+        return float(np.cos(np.radians(self.angular_radius)))
 
     @property
     def stretch(self) -> float:
         """Largest scale times what the change of scale adds to the curvature of an image.
 
-        The scale 1/(2 τ cos²(χ/2)), τ = tan(extent/2), is largest at the edge; a curve of geodesic curvature k has an
-        image whose curvature, times the scale, is at most k + tan(χ/2), while in space its curvature is √(1 + k²).
+        The scale 1/(2 τ cos²(χ/2)), τ = tan(angular_radius/2), is largest at the edge; a curve of geodesic curvature k
+        has an image whose curvature, times the scale, is at most k + tan(χ/2), while in space its curvature is
+        √(1 + k²).
         """
         reach = self._reach
         return (1 + reach**2) / (2 * reach) * (1 + reach)
@@ -186,7 +187,7 @@ class StereographicView:
 
     @property
     def _reach(self) -> float:
-        return float(np.tan(np.radians(self.extent) / 2))
+        return float(np.tan(np.radians(self.angular_radius) / 2))
 
     def flattened(self, axes: FloatArray) -> FloatArray:
         """Page coordinates (..., 2) of unit vectors (..., 3) in view axes."""

@@ -67,8 +67,8 @@ class Film(Generic[T]):
     Raises
     ------
     ValueError
-        For no shots, `fps` and `seconds` at once, those that are not positive or as many as the shots, or a `size`
-        outside 1 to 65535.
+        For no shots, for `fps` and `seconds` at once, for times that are not positive or not as many as the shots, or
+        for a `size` outside 1 to 65535.
 
     Examples
     --------
@@ -96,7 +96,7 @@ class Film(Generic[T]):
         if self.fps is not None and self.seconds is not None:
             raise ValueError("fps and seconds both say how long a frame is shown; give one of them")
         as_count(self.size, "size", high=LARGEST_SIZE)
-        self.times  # noqa: B018  # checks them
+        _ = self.times  # refuses what is wrong with them
 
     @classmethod
     def of_globe(

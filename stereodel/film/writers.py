@@ -3,7 +3,13 @@
 GIF, APNG and MP4 are encoded by FFmpeg's libraries through PyAV, on which imageio's plugin ``pyav`` is built. Neither
 plugin of imageio serves: that one passes no options to an encoder (a rate factor of 5 and of 40 give the same MP4) and
 shows all frames equally long; ``ffmpeg``, which starts the program, does not look at its exit code, so that a full disk
-gives half a film and no error. WebP is written by Pillow: FFmpeg's encoder loses how long the last frame is shown.
+gives half a film and no error, and the program takes 165 MB, PyAV 104.
+
+WebP is written by Pillow, which holds what is encoded and one frame: FFmpeg's encoder gives files of the same size but
+loses how long the last frame is shown. Its writer of GIFs would hold all frames.
+
+The palette of a GIF is FFmpeg's. Medians refined by k-means, Pillow's best, are 3 to 5 dB farther from the frames of a
+softly lit globe (50.5 dB against 54.0, 62.4 against 65.9) in files 1 to 4 % larger.
 """
 
 from __future__ import annotations
@@ -21,6 +27,7 @@ from PIL import Image
 
 from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
 from stereodel._extras import optional
+from stereodel.constants import FRAME_ROUNDING
 
 
 class Reel(Protocol):
@@ -63,8 +70,7 @@ class Format:
         optional(self.library, self.extra)
         if max(sides) > self.largest:
             raise ValueError(f"size of {name} is {max(sides)} pixels, but the format has at most {self.largest}")
-        # A millionth, because 1/50 as a double may lie below or above.
-        if seconds.min() < self.shortest * (1 - 1e-6):
+        if seconds.min() < self.shortest * (1 - FRAME_ROUNDING):
             raise ValueError(
                 f"frames of {name} would be shown for {seconds.min():.4f} s each, but the format has at least "
                 f"{self.shortest:g} s: at most {1 / self.shortest:g} frames a second"
@@ -172,7 +178,8 @@ class _Encoder:
             with av.open(str(path), "w", self.container, container_options=self.muxing | (muxing or {})) as file:
                 # The mean rate: what the encoder of MP4 spends on a frame depends on how long it is shown.
                 stream = file.add_stream(self.codec, len(ticks) / (sum(ticks) * tick), self.options)
-                stream.pix_fmt, stream.thread_count = self.pixels, self.threads
+                # Threads for frames: those for slices, which PyAV has by default, cost up to 7 % of the size.
+                stream.pix_fmt, stream.thread_count, stream.thread_type = self.pixels, self.threads, "FRAME"
                 stream.time_base = stream.codec_context.time_base = tick
                 chain, now = None, 0
                 for picture, shown in zip(pictures, ticks, strict=True):

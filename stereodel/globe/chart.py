@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, FloatArray
+from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.page import Beziers
+from stereodel.constants import UNIT_ROUNDOFF
+from stereodel.curves import clip, trace
+from stereodel.curves.borders import Cap, Pieces
+from stereodel.curves.ragged import Ragged, thinned
+from stereodel.drawing.page import Ball, Beziers
 from stereodel.drawing.regions import limb
 from stereodel.drawing.space_curves import page_path
 from stereodel.drawing.view import MapView
-from stereodel.globe.lines import SphereLines, clipped_lines, thinned
-from stereodel.globe.regions import Mesh, SphereMesh
+from stereodel.globe.lines import SphereLines
+from stereodel.globe.regions import SphereRegions
+from stereodel.sphere import SphereCircle
 from stereodel.sphere.vectors import turned
-
-Indices = npt.NDArray[np.intp]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,40 +50,68 @@ class Chart:
         """The edge of the disc, counterclockwise."""
         return (page_path([limb(1.0)], self.at, self.scale),)
 
-    def on_page(self, axes: FloatArray) -> FloatArray:
-        """Page coordinates (..., 2) of unit vectors of the cap in view axes."""
-        placed: FloatArray = self.scale * self.view.flattened(axes) + np.array(self.at)
-        return placed
+    @property
+    def ball(self) -> Ball | None:
+        """The light in which the disc lies, where it is a ball."""
+        return Ball(self.at, self.scale) if self.view.round else None
 
-    def axes(self, images: FloatArray) -> FloatArray:
-        """Images of the lens (..., 3) in view axes."""
-        return turned(images, self.view.matrix)
+    @cached_property
+    def source(self) -> SphereCircle:
+        """What is in sight, before the lens: its inside is shown."""
+        cap = SphereCircle(self.view.matrix[2], self.view.edge)
+        return self.lens.inverse().image_of(cap)
 
-    def lines(self, lines: SphereLines) -> tuple[FloatArray, Indices]:
-        """Polylines (points (n, 2), offsets) on the page: the parts that are seen of lines on the sphere."""
-        return self.image_lines(*lines.through(self.lens, tolerance=self.slack))
+    def lines(self, lines: SphereLines) -> Ragged:
+        """The parts of lines that are seen, on the page."""
+        near = lines.edges.within(self.source.center, self._reach)
+        pieces = self._border.cut(self._images(lines.edges.take(near)))
+        seen, _ = clip.lines(clip.among(lines.sides, near), pieces, self._samples(pieces), self._border)
+        return thinned(self._placed(seen), self.tolerance)
 
-    def image_lines(self, points: FloatArray, offsets: Indices) -> tuple[FloatArray, Indices]:
-        """The same of polylines that the lens has seen already."""
-        seen, runs = clipped_lines(self.axes(points), offsets, self.view.edge)
-        return thinned(self.on_page(seen), runs, self.tolerance)
-
-    def regions(self, mesh: SphereMesh) -> tuple[Mesh, BoolArray]:
-        """What is seen of regions, in view axes, and which corners are on the edge of the disc."""
-        return self.image_regions(
-            mesh.through(self.lens, tolerance=self.slack, cap=(self.view.matrix[2], self.view.edge))
-        )
-
-    def image_regions(self, mesh: Mesh) -> tuple[Mesh, BoolArray]:
-        """The same of triangles that the lens has seen already."""
-        return replace(mesh, points=self.axes(mesh.points)).clipped(self.view.edge, tolerance=self.slack)
+    def regions(self, regions: SphereRegions) -> tuple[Ragged, Indices]:
+        """What is seen of regions, as closed loops on the page with their inside on the left, and whose each is."""
+        edges, rings, owner = regions.edges, regions.rings, regions.owner
+        near = edges.within(self.source.center, self._reach)
+        pieces = self._border.cut(self._images(edges.take(near)))
+        rows, samples = clip.among(rings, near), self._samples(pieces)
+        loops, region, shown = clip.in_sight(rows, owner, regions.count, pieces, samples, self._border)
+        # Of the others no ring is in sight: where they may hold the view, all their rings are followed to see if so.
+        around = regions.everywhere.copy()
+        asked = ~shown & regions.may_hold(self.source.center)
+        if asked.any():
+            rings, owner = rings.take(asked[owner]), owner[asked[owner]]
+            used = np.zeros(len(edges), dtype=bool)
+            used[np.where(rings.values < 0, ~rings.values, rings.values)] = True
+            hidden = Pieces.uncut(self._images(edges.take(used)), seen=False)
+            around |= clip.surround(clip.among(rings, used), owner, asked, hidden, self._samples(hidden))
+        loops, region = clip.bordered(loops, region, around, self._border)
+        return self._placed(loops), region
 
     def points(self, xyz: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Page coordinates (n, 2) of unit vectors, and whether they are seen; what is not has no meaning."""
-        axes = self.axes(self.lens(xyz))
-        return self.on_page(axes), axes[:, 2] >= self.view.edge
+        axes = turned(self.lens(xyz), self.view.matrix)
+        return self.scale * self.view.flattened(axes) + np.array(self.at), axes[:, 2] >= self.view.edge
 
     @property
     def slack(self) -> float:
         """The tolerance on the sphere, in radii, that is within that of the page wherever it is."""
         return self.tolerance / (self.scale * self.view.stretch)
+
+    @cached_property
+    def _border(self) -> Cap:
+        return Cap(self.view, self.tolerance / self.scale)
+
+    @property
+    def _reach(self) -> float:
+        """The radius of `source`, and a millionth more, so that rounding leaves nothing out that touches the border."""
+        return float(np.radians(self.source.angular_radius)) * (1 + 1e-6) + UNIT_ROUNDOFF * 8
+
+    def _images(self, edges: trace.Edges) -> trace.Arcs:
+        """Edges through the lens in view axes; half the tolerance is for this, half for the chords of the images."""
+        return edges.arcs_under(self.lens, self.slack / 2).through(self.lens).turned(self.view.matrix)
+
+    def _samples(self, pieces: Pieces) -> Ragged:
+        return pieces.arcs.sampled(self.slack / 2)
+
+    def _placed(self, found: Ragged) -> Ragged:
+        return Ragged(self.scale * found.values + np.array(self.at), found.offsets)

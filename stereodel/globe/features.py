@@ -1,4 +1,4 @@
-"""What globes draw, from the Earth and from diagrams: lines and meshes made ready once."""
+"""What globes draw, from the Earth and from diagrams: lines and regions made ready once."""
 
 from __future__ import annotations
 
@@ -9,48 +9,44 @@ import numpy.typing as npt
 
 from stereodel import data
 from stereodel._arrays import FloatArray, as_floats
+from stereodel.curves.ragged import Ragged
+from stereodel.data.shapes import Lines
 from stereodel.drawing.scales import ColorScale
 from stereodel.globe.lines import SphereLines
-from stereodel.globe.polygons import Polygons
-from stereodel.globe.regions import SphereMesh
+from stereodel.globe.regions import SphereRegions
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
-
-Indices = npt.NDArray[np.intp]
 
 
 @cache
 def coastlines(resolution: str, latitude: Latitude) -> SphereLines:
     """The coastlines of the Earth."""
-    lines = data.coastlines(resolution=resolution)
-    return SphereLines.of_lonlat(lines.lonlat, lines.offsets, latitude)
+    return _lines(data.coastlines(resolution=resolution), latitude)
 
 
 @cache
 def borders(resolution: str, latitude: Latitude) -> SphereLines:
     """The borders between countries."""
-    lines = data.borders(resolution=resolution)
-    return SphereLines.of_lonlat(lines.lonlat, lines.offsets, latitude)
+    return _lines(data.borders(resolution=resolution), latitude)
 
 
 @cache
 def rivers(resolution: str, latitude: Latitude) -> SphereLines:
     """The rivers of the Earth."""
-    lines = data.rivers(resolution=resolution)
-    return SphereLines.of_lonlat(lines.lonlat, lines.offsets, latitude)
+    return _lines(data.rivers(resolution=resolution), latitude)
 
 
 @cache
-def lakes(resolution: str, latitude: Latitude) -> Polygons:
+def lakes(resolution: str, latitude: Latitude) -> SphereRegions:
     """The lakes of the Earth."""
-    return Polygons.of_lonlat(data.lakes(resolution=resolution).polygons(), latitude=latitude)
+    return SphereRegions.of_lonlat(data.lakes(resolution=resolution).polygons(), latitude=latitude)
 
 
 @cache
-def land(resolution: str, latitude: Latitude) -> Polygons:
+def land(resolution: str, latitude: Latitude) -> SphereRegions:
     """The land of the Earth."""
-    return Polygons.of_lonlat(data.land(resolution=resolution).polygons(), latitude=latitude)
+    return SphereRegions.of_lonlat(data.land(resolution=resolution).polygons(), latitude=latitude)
 
 
 def edges(triangulation: SphericalDelaunay) -> SphereLines:
@@ -61,37 +57,13 @@ def edges(triangulation: SphericalDelaunay) -> SphereLines:
 
 
 def ridges(voronoi: SphericalVoronoi) -> SphereLines:
-    """The ridges of a diagram, each by its ends and its middle, as some are half great circles."""
+    """The ridges of a diagram, of which some are half great circles."""
     start, end = (voronoi.vertices[voronoi.ridge_vertices[:, k]] for k in (0, 1))
-    middle = _middles(start, end, voronoi.ridge_normals())
-    points = np.stack([start, middle, end], axis=1).reshape(-1, 3)
-    return SphereLines(points, np.arange(0, len(points) + 1, 3))
+    return SphereLines.great(start, end, voronoi.ridge_normals())
 
 
-def _middles(start: FloatArray, end: FloatArray, normals: FloatArray) -> FloatArray:
-    """The points half the way from start to end, counterclockwise about the normals, at most 180° apart."""
-    across = np.sqrt(np.sum(np.cross(start, end) ** 2, axis=1, keepdims=True))
-    half = np.arctan2(across, np.sum(start * end, axis=1, keepdims=True)) / 2
-    return units(np.cos(half) * start + np.sin(half) * np.cross(normals, start))
-
-
-def cells_mesh(voronoi: SphericalVoronoi) -> SphereMesh:
-    """The cells of a diagram as triangles of the site and each side; owners are the sites."""
-    sizes = np.diff(voronoi.region_offsets)
-    if (sizes == 2).any() or (len(sizes) and len(voronoi.region_indices) == 0):
-        raise ValueError("a cell has fewer than three vertices, as where all sites are on one circle; draw its ridges")
-    owner = np.repeat(np.arange(len(sizes)), sizes)
-    following = np.arange(1, len(voronoi.region_indices) + 1)
-    following[voronoi.region_offsets[1:][sizes > 0] - 1] = voronoi.region_offsets[:-1][sizes > 0]
-    vertices = voronoi.region_indices.astype(np.intp) + len(sizes)
-    faces = np.stack([owner, vertices, vertices[following]], axis=1)
-    return SphereMesh(np.concatenate([units(voronoi.points), voronoi.vertices]), faces, owner)
-
-
-def triangles_mesh(triangulation: SphericalDelaunay) -> SphereMesh:
-    """The triangles of a triangulation but the closing ones; owners are the simplices."""
-    kept = np.flatnonzero(~triangulation.closing)
-    return SphereMesh(units(triangulation.points), triangulation.simplices[kept].astype(np.intp), kept)
+def _lines(lines: Lines, latitude: Latitude) -> SphereLines:
+    return SphereLines.of_lonlat(Ragged(lines.lonlat, lines.offsets.astype(np.intp)), latitude)
 
 
 def as_tints(colors: npt.ArrayLike, count: int) -> FloatArray:

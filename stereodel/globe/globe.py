@@ -22,13 +22,14 @@ from stereodel.drawing.view import MapView
 from stereodel.globe import features, looks
 from stereodel.globe.chart import Chart
 from stereodel.globe.geodata import shapes_of
-from stereodel.globe.layers import Areas, Circles, Ground, Image, Lines, MapLayer, Names, Points, Rim
+from stereodel.globe.layers import Areas, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
-from stereodel.globe.polygons import Polygons, Rings
 from stereodel.globe.raster import Raster
+from stereodel.globe.regions import Rings, SphereRegions
 from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
+from stereodel.sphere.graticules import graticule
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
@@ -57,7 +58,7 @@ class Globe:
     >>> globe.add_graticule(30)
     >>> page = globe.page(fisheye((2.35, 48.86), magnification=20.0))
     >>> [type(item).__name__ for item in page.items]
-    ['Fill', 'Patch', 'Polylines', 'Stroke']
+    ['Fill', 'Polygons', 'Polylines', 'Stroke']
     """
 
     def __init__(
@@ -134,11 +135,7 @@ class Globe:
 
     def add_graticule(self, spacing: float = 15.0, *, look: LineStyle = looks.GRATICULE) -> None:
         """Draw meridians from pole to pole and parallels, `spacing` degrees apart, of which 180 must be a multiple."""
-        steps = as_steps(180.0, spacing, "spacing")
-        lines = [np.array([(k * 180.0 / steps, -90.0), (k * 180.0 / steps, 90.0)]) for k in range(-steps, steps)]
-        half = (steps - 1) // 2
-        lines += [np.array([(-180.0, y), (0.0, y), (180.0, y)]) for y in np.arange(-half, half + 1) * (180.0 / steps)]
-        self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), look, "graticule"))
+        self.add(Lines(SphereLines.of_arcs(graticule(spacing, latitude=self.latitude)), look, "graticule"))
 
     def add_lines(self, lines: Iterable[npt.ArrayLike], *, look: LineStyle = looks.LINE, role: str = "lines") -> None:
         """Draw lines, (k, 2) each, degrees, whose pieces are straight in longitude and latitude.
@@ -176,7 +173,7 @@ class Globe:
         role : str
             Names the group in vector files.
         """
-        self._add_polygons(Polygons.of_lonlat(polygons, latitude=self.latitude), color, outline, role)
+        self._add_polygons(SphereRegions.of_lonlat(polygons, latitude=self.latitude), color, outline, role)
 
     def add_points(self, places: npt.ArrayLike, *, look: DotStyle = looks.DOT, role: str = "points") -> None:
         """Draw dots at places (n, 2), degrees, or directions (n, 3)."""
@@ -214,8 +211,8 @@ class Globe:
     ) -> None:
         """Draw the ridges of a Voronoi diagram; fill its cells where colours (n, 3) or (n, 4) are given."""
         if colors is not None:
-            mesh = features.cells_mesh(voronoi)
-            self.add(Areas(mesh, features.as_tints(colors, len(voronoi.points)), role))
+            cells = SphereRegions.cells(voronoi)
+            self.add(Areas(cells, features.as_tints(colors, len(voronoi.points)), role))
         if look is not None:
             self.add(Lines(features.ridges(voronoi), look, role))
 
@@ -230,7 +227,7 @@ class Globe:
         """Draw the edges of a triangulation; fill its triangles but the closing ones where colours (m, 3 or 4) are."""
         if colors is not None:
             tints = features.as_tints(colors, len(triangulation.simplices))
-            self.add(Areas(features.triangles_mesh(triangulation), tints, role))
+            self.add(Areas(SphereRegions.triangles(triangulation), tints, role))
         if look is not None:
             self.add(Lines(features.edges(triangulation), look, role))
 
@@ -243,7 +240,10 @@ class Globe:
         role: str = "circles",
     ) -> None:
         """Draw circles of the sphere and fill their interiors; their images are circles, exactly."""
-        self.add(Circles(tuple(circles), color, look, role))
+        regions = SphereRegions.circles(circles)
+        if color is not None:
+            self.add(Areas(regions, np.tile(np.array(color), (regions.count, 1)), role))
+        self.add(Lines(regions.outlines, look, role))
 
     def add_tissot(
         self,
@@ -310,7 +310,7 @@ class Globe:
                 tints[np.isfinite(values), :3] = features.scaled_colors(values[np.isfinite(values)], scale)
                 tints[np.isfinite(values), 3] = 1.0
             owners = np.array(shapes.polygon_features)
-            polygons = Polygons.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
+            polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
             self._add_polygons(polygons, tints, outline, role)
         if shapes.lines:
             self.add_lines(shapes.lines, look=look, role=role)
@@ -385,10 +385,9 @@ class Globe:
         return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
 
     def _add_polygons(
-        self, polygons: Polygons, color: Color | FloatArray, outline: LineStyle | None, role: str
+        self, regions: SphereRegions, color: Color | FloatArray, outline: LineStyle | None, role: str
     ) -> None:
-        count = int(polygons.mesh.owners.max()) + 1 if len(polygons.mesh.owners) else 0
         tints = np.asarray(color, dtype=np.float64)
-        self.add(Areas(polygons.mesh, np.tile(tints, (count, 1)) if tints.ndim == 1 else tints, role))
+        self.add(Areas(regions, np.tile(tints, (regions.count, 1)) if tints.ndim == 1 else tints, role))
         if outline is not None:
-            self.add(Lines(polygons.outlines, outline, f"{role}-outline"))
+            self.add(Lines(regions.outlines, outline, f"{role}-outline"))

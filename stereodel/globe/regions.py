@@ -1,288 +1,202 @@
-"""Regions on the sphere as triangles: their images under a lens, and the parts of them that a view shows.
-
-A region is cut into triangles once, where it is given. Under a lens every side that would show as a chord is halved,
-on both sides of it alike, so that neighbours stay joined; a region that reaches across the limb, ±180° or a pole, or
-holds the whole far side of the globe, needs no case of its own.
-"""
+"""Regions of the sphere by their borders: polygons of maps, cells and triangles of diagrams, the insides of circles."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, read_only
-from stereodel.conformal import MoebiusMap
-from stereodel.conformal.polylines import great_circle_radii, largest_scale
-from stereodel.constants import INNER_TOLERANCE, SHORTEST_SIDE
-from stereodel.globe.lines import measures_in_lonlat, on_rim
-from stereodel.sphere import lonlat_to_xyz
+from stereodel._arrays import BoolArray, FloatArray, Indices, as_lonlat
+from stereodel.curves import trace
+from stereodel.curves.clip import signed_areas
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.seams import stitched
+from stereodel.globe.lines import SphereLines
+from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
+from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 
-Indices = npt.NDArray[np.intp]
+Rings = Sequence[npt.ArrayLike]
+"""An outer ring and its holes, (k, 2) each, degrees; a last point that repeats the first may be there or not."""
 
-# Corners 0, 1, 2 and the middles 3, 4, 5 of the sides 01, 12, 20; which sides are cut → the triangles that come of it.
-PIECES = {
-    (True, True, True): [(0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)],
-    (True, True, False): [(3, 1, 4), (0, 3, 4), (0, 4, 2)],
-    (False, True, True): [(5, 4, 2), (0, 1, 4), (0, 4, 5)],
-    (True, False, True): [(0, 3, 5), (3, 1, 2), (3, 2, 5)],
-    (True, False, False): [(0, 3, 2), (3, 1, 2)],
-    (False, True, False): [(0, 1, 4), (0, 4, 2)],
-    (False, False, True): [(0, 1, 5), (5, 1, 2)],
-}
-
-
-Cap = tuple[FloatArray, float]
-"""The points x of the sphere with toward·x ≥ edge."""
+HALF_OF_MAP = 180.0 * 180.0
+"""Square degrees."""
 
 
 @dataclass(frozen=True, eq=False)
-class SphereMesh:
-    """Triangles that cover regions of the sphere, counterclockwise as seen from outside.
+class SphereRegions:
+    """Regions by rings of edges that have them on their left; neighbours may share edges.
 
     Parameters
     ----------
-    corners : (n, 2) or (n, 3) array
-        Longitudes and latitudes in degrees, between which sides are straight in them, as those of map files are; or
-        unit vectors, between which sides are great-circle arcs.
-    faces : (m, 3) array
-        Where triangles meet they share their corners.
-    owners : (m,) array
-        Number of the region that a triangle belongs to.
-    latitude : {"spherical", "geodetic", "authalic"}
-        Of `corners` in degrees.
+    edges : Edges
+    rings : Ragged
+        The edges of each ring, one after the other; ~e where edge e is run backwards.
+    owner : (r,) array
+        The region of each ring.
+    everywhere : (n,) bool array
+        For each region whether it is all of the sphere, without any ring.
     """
 
-    corners: FloatArray
-    faces: Indices
-    owners: Indices
-    latitude: Latitude = "spherical"
+    edges: trace.Edges
+    rings: Ragged
+    owner: Indices
+    everywhere: BoolArray
 
-    def __post_init__(self) -> None:
-        for name in ("corners", "faces", "owners"):
-            read_only(getattr(self, name))
+    @classmethod
+    def of_lonlat(
+        cls,
+        polygons: Iterable[Rings],
+        *,
+        owners: npt.ArrayLike | None = None,
+        latitude: Latitude = "spherical",
+    ) -> SphereRegions:
+        """Polygons whose sides are straight in longitude and latitude.
 
-    def through(self, lens: MoebiusMap, *, tolerance: float, cap: Cap | None = None) -> Mesh:
-        """The images of the regions as triangles: sides on a border are within `tolerance` radii of their images.
+        Parameters
+        ----------
+        polygons : iterable of sequences of (k, 2) array_like
+            Rings of each in degrees, the outer one first, in either direction. A ring that jumps by more than 180° of
+            longitude goes on across ±180°; one that goes round both poles has its smaller side inside.
+        owners : (n,) array_like of int, optional
+            The region that each polygon belongs to; by default its own.
+        latitude : {"spherical", "geodetic", "authalic"}
 
-        Sides inside a region, where nothing shows, are so within `INNER_TOLERANCE`. Triangles that are wholly outside a
-        cap may be left out.
+        Raises
+        ------
+        ValueError
+            For a latitude outside [−90, 90], or a ring of fewer than three points.
         """
-        corners, faces, owners = self.corners, self.faces, self.owners
-        xyz = self._place(corners)
-        if cap is not None:
-            near = self._may_reach(lens, xyz, cap)
-            faces, owners = faces[near], owners[near]
-        border = self._border
-        done_faces, done_owners = [faces[:0]], [owners[:0]]
-        while len(faces):
-            sides, which = sides_of(faces)
-            on_border = _among(_codes(sides), border)
-            allowed = np.where(on_border, tolerance, max(tolerance, INNER_TOLERANCE))
-            long = self._bends(lens, corners, xyz, sides, allowed)
-            pattern = long[which]
-            whole = ~pattern.any(axis=1)
-            done_faces.append(faces[whole])
-            done_owners.append(owners[whole])
-            middle = np.cumsum(long) - 1 + len(xyz)
-            halves = np.stack([sides, np.broadcast_to(middle[:, None], sides.shape)], axis=2)[long & on_border]
-            border = np.sort(np.concatenate([border, _codes(halves.reshape(-1, 2))]))
-            added = self._middles(corners[sides[long, 0]], corners[sides[long, 1]])
-            corners, xyz = np.concatenate([corners, added]), np.concatenate([xyz, self._place(added)])
-            faces, owners = _halved(np.concatenate([faces, middle[which]], axis=1), pattern, owners)
-        weld = self._weld(corners, xyz)
-        return Mesh(lens(xyz), weld[np.concatenate(done_faces)], np.concatenate(done_owners))
+        rings, polygon, hole = [], [], []
+        for number, polygon_rings in enumerate(polygons):
+            rings += [_closed(ring, number) for ring in polygon_rings]
+            hole += [place > 0 for place in range(len(polygon_rings))]
+            polygon += [number] * len(polygon_rings)
+        region = np.array(polygon, dtype=np.intp)
+        if owners is not None:
+            region = np.asarray(owners, dtype=np.intp)[region]
+        count = int(region.max(initial=-1)) + 1
+        lonlat, area = _oriented(trace.unwrapped(Ragged.of(rings, np.zeros((0, 2)))), np.array(hole, dtype=bool))
+        start, end, sides, owner = stitched(lonlat, region)
+        # What fills the map and has no border left when the seams of the map are gone is everything.
+        everywhere = np.bincount(region, area, minlength=count) > HALF_OF_MAP
+        everywhere[owner[sides.sizes > 0]] = False
+        return cls(trace.Edges.straight(start, end, latitude), sides, owner, everywhere)
+
+    @classmethod
+    def cells(cls, voronoi: SphericalVoronoi) -> SphereRegions:
+        """The cells of a diagram, a region for each site."""
+        pairs, ends = voronoi.ridge_points.astype(np.intp), voronoi.ridge_vertices.astype(np.intp)
+        offsets, count = voronoi.region_offsets.astype(np.intp), len(voronoi.points)
+        sizes = np.diff(offsets)
+        if (sizes == 2).any() or (len(sizes) and len(voronoi.region_indices) == 0):
+            raise ValueError(
+                "a cell has fewer than three vertices, as where all sites are on one circle; draw its ridges"
+            )
+        # A ridge runs counterclockwise about its first site; in a cell a vertex is the start of one side.
+        base = len(voronoi.vertices)
+        corners = np.repeat(np.arange(count), sizes) * base + voronoi.region_indices
+        side = np.empty(len(corners), dtype=np.intp)
+        side[np.argsort(corners)] = np.argsort(pairs.T.ravel() * base + ends.T.ravel())
+        edge = np.where(side < len(pairs), side, ~(side - len(pairs)))
+        arcs = trace.great(voronoi.vertices[ends[:, 0]], voronoi.vertices[ends[:, 1]], voronoi.ridge_normals())
+        return cls._of(arcs, Ragged(edge, offsets), np.arange(count), count)
+
+    @classmethod
+    def triangles(cls, triangulation: SphericalDelaunay) -> SphereRegions:
+        """The triangles of a triangulation but the closing ones, a region for each simplex."""
+        kept = np.flatnonzero(~triangulation.closing)
+        points, corners = units(triangulation.points), triangulation.simplices[kept].astype(np.intp)
+        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+        pairs, edge = np.unique(np.sort(np.stack([start, end], axis=1), axis=1), axis=0, return_inverse=True)
+        edge = np.where(start < end, edge.ravel(), ~edge.ravel())
+        arcs = trace.great(points[pairs[:, 0]], points[pairs[:, 1]])
+        return cls._of(arcs, Ragged(edge, np.arange(0, len(edge) + 1, 3)), kept, len(triangulation.simplices))
+
+    @classmethod
+    def circles(cls, circles: Iterable[SphereCircle]) -> SphereRegions:
+        """The insides of circles."""
+        arcs = trace.exact([SphereArc.whole(circle) for circle in circles])
+        number = np.arange(len(arcs))
+        return cls._of(arcs, Ragged(number, np.arange(len(arcs) + 1)), number, len(arcs))
+
+    @classmethod
+    def _of(cls, arcs: trace.Arcs, rings: Ragged, owner: Indices, count: int) -> SphereRegions:
+        return cls(trace.Edges.of(arcs), rings, owner, np.zeros(count, dtype=bool))
+
+    @property
+    def count(self) -> int:
+        """Of regions."""
+        return len(self.everywhere)
+
+    @property
+    def outlines(self) -> SphereLines:
+        """The rings as lines, without the seams of map files."""
+        return SphereLines(self.edges, self.rings)
+
+    def may_hold(self, place: FloatArray) -> BoolArray:
+        """Which regions may hold a place that is far from their rings, (n,): all but those that are somewhere else."""
+        center, reach = self._caps
+        chord = np.sqrt(np.sum((center - place) ** 2, axis=1))
+        return 2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach
 
     @cached_property
-    def _border(self) -> npt.NDArray[np.int64]:
-        """Codes, in order, of the sides that one triangle alone has, or triangles of two regions."""
-        sides, which = sides_of(self.faces)
-        low, high = np.full(len(sides), len(self.owners)), np.full(len(sides), -1)
-        owner = np.repeat(self.owners, 3)
-        np.minimum.at(low, which.ravel(), owner)
-        np.maximum.at(high, which.ravel(), owner)
-        alone = np.bincount(which.ravel(), minlength=len(sides)) == 1
-        return _codes(sides[alone | (low != high)])
-
-    def _may_reach(self, lens: MoebiusMap, xyz: FloatArray, cap: Cap) -> npt.NDArray[np.bool_]:
-        """Which triangles have images that may reach into a cap.
-
-        A triangle lies within its size of its first corner; the largest scale there bounds how far its image goes.
-        """
-        first = self.faces[:, 0]
-        sizes = self._sizes(xyz)
-        toward, edge = cap
-        highest = (lens(xyz[first]) @ toward) + sizes * largest_scale(lens, xyz[first], sizes)
-        near: npt.NDArray[np.bool_] = highest >= edge
-        return near
-
-    def _sizes(self, xyz: FloatArray) -> FloatArray:
-        """Radii of discs about the first corners that hold the triangles, radians."""
-        if self.corners.shape[1] == 3:
-            chords = xyz[self.faces] - xyz[np.roll(self.faces, -1, axis=1)]
-            longest: FloatArray = np.sqrt(np.sum(chords**2, axis=2)).max(axis=1)
-            angles: FloatArray = 2 * np.arcsin(np.minimum(longest / 2, 1.0))
-            return angles
-        width, height = np.radians(np.ptp(self.corners[self.faces], axis=1)).T
-        z = xyz[self.faces, 2]
-        lowest = np.where(z.min(axis=1) * z.max(axis=1) < 0, 0.0, np.abs(z).min(axis=1))
-        sizes: FloatArray = np.hypot(np.sqrt(np.maximum(0.0, 1 - lowest**2)) * width, height)
-        return sizes
-
-    def _place(self, corners: FloatArray) -> FloatArray:
-        return lonlat_to_xyz(corners, latitude=self.latitude) if corners.shape[1] == 2 else corners
-
-    def _middles(self, start: FloatArray, end: FloatArray) -> FloatArray:
-        return (start + end) / 2 if start.shape[1] == 2 else units(start + end)
-
-    def _bends(
-        self, lens: MoebiusMap, corners: FloatArray, xyz: FloatArray, sides: Indices, tolerance: FloatArray
-    ) -> npt.NDArray[np.bool_]:
-        """Which sides may stray from the chords of their images by more than a tolerance.
-
-        The largest scale within the length of a side from one of its ends bounds the length of its image, and that
-        squared over eight radii of the image's circle the height of the arc over its chord. A triangle that holds the
-        focus has an end of its longest side no farther from it than that, so that it is never taken for flat.
-        """
-        first, second = sides.T
-        start, end = xyz[first], xyz[second]
-        bend: FloatArray | float = 0.0
-        if corners.shape[1] == 2:
-            length, bend = measures_in_lonlat(corners[first], corners[second], start, end)
-        else:
-            length = 2 * np.arcsin(np.minimum(np.sqrt(np.sum((end - start) ** 2, axis=1)) / 2, 1.0))
-        scale = largest_scale(lens, start, length)
-        height = (scale * length) ** 2 / (8 * great_circle_radii(lens, start, end)) + bend * scale
-        strays: npt.NDArray[np.bool_] = (np.minimum(height, scale * length) > tolerance) & (length > SHORTEST_SIDE)
-        return strays
-
-    def _weld(self, corners: FloatArray, xyz: FloatArray) -> Indices:
-        """For each corner the first one at the same place: only those on ±180° and at the poles come twice."""
-        number = np.arange(len(xyz))
-        if corners.shape[1] == 3:
-            return number
-        twice = np.flatnonzero((np.abs(corners[:, 0]) == 180) | (np.abs(corners[:, 1]) == 90))
-        _, first, where = np.unique(xyz[twice], axis=0, return_index=True, return_inverse=True)
-        number[twice] = twice[first][where.ravel()]
-        return number
+    def _caps(self) -> tuple[FloatArray, FloatArray]:
+        """Centres (n, 3) and radii of caps that hold the regions; of what is no part of a hemisphere, everything."""
+        edge = np.where(self.rings.values < 0, ~self.rings.values, self.rings.values)
+        region = self.owner[self.rings.row]
+        start = np.where((self.rings.values < 0)[:, None], self.edges.arcs.end[edge], self.edges.arcs.start[edge])
+        total = np.zeros((self.count, 3))
+        np.add.at(total, region, start)
+        length = np.sqrt(np.sum(total**2, axis=1, keepdims=True))
+        center = np.divide(total, length, out=np.zeros_like(total), where=length > 0)
+        away = 2 * np.arcsin(np.minimum(np.sqrt(np.sum((start - center[region]) ** 2, axis=1)) / 2, 1.0))
+        reach = np.zeros(self.count)
+        np.maximum.at(reach, region, away + self.edges.length[edge])
+        # Seen from its centre, the inside of a cap is on the left of the rings: the sum of their areas is positive.
+        axis = center[region]
+        far = axis + start
+        height = 1 + np.sum(axis * start, axis=1)
+        flat = np.divide(far, height[:, None], out=np.zeros_like(far), where=height[:, None] > 0)
+        following = flat[self.rings.following]
+        area = np.bincount(region, np.sum(np.cross(flat, following) * axis, axis=1), minlength=self.count)
+        reach[(reach >= np.pi / 2) | (area <= 0)] = np.pi
+        return center, reach
 
 
-@dataclass(frozen=True, eq=False)
-class Mesh:
-    """Triangles in space: unit vectors (n, 3), faces (m, 3), and the region that each face belongs to (m,)."""
-
-    points: FloatArray
-    faces: Indices
-    owners: Indices
-
-    def clipped(self, edge: float, *, tolerance: float) -> tuple[Mesh, npt.NDArray[np.bool_]]:
-        """The part in the cap z ≥ edge, points being in view axes, and which of its points lie on the rim.
-
-        Sides along the rim are within `tolerance` radii of it.
-        """
-        inside = self.points[:, 2] >= edge
-        count = inside[self.faces].sum(axis=1)
-        # Sides that cross the rim get one corner there, whichever triangle asks.
-        cut = self.faces[(count == 1) | (count == 2)]
-        sides, _ = sides_of(cut)
-        sides = sides[inside[sides[:, 0]] != inside[sides[:, 1]]]
-        outward = np.where(inside[sides[:, 0]][:, None], sides, sides[:, ::-1])
-        rim = on_rim(self.points[outward[:, 0]], self.points[outward[:, 1]], edge)
-        points = np.concatenate([self.points, rim])
-        codes = _codes(sides)
-        faces, owners = [self.faces[count == 3]], [self.owners[count == 3]]
-        for kept in (1, 2):
-            chosen = np.flatnonzero(count == kept)
-            a, b, c = _odd_first(self.faces[chosen], inside, kept == 1).T
-            ab, ac = (np.searchsorted(codes, _codes(np.stack([a, z], axis=1))) + len(self.points) for z in (b, c))
-            pieces = [(a, ab, ac)] if kept == 1 else [(ab, b, c), (ab, c, ac)]
-            faces += [np.stack(piece, axis=1) for piece in pieces]
-            owners += [self.owners[chosen]] * len(pieces)
-        on_edge = np.arange(len(points)) >= len(self.points)
-        on_edge[: len(self.points)] = self.points[:, 2] == edge
-        part, marks = _compact(points, np.concatenate(faces), np.concatenate(owners), on_edge)
-        return _along_rim(part, marks, edge, tolerance)
+def _closed(ring: npt.ArrayLike, number: int) -> FloatArray:
+    """A ring as an array with its first point again at its end."""
+    points = as_lonlat(ring, f"polygons[{number}]").reshape(-1, 2)
+    if len(points) > 1 and (points[0] == points[-1]).all():
+        points = points[:-1]
+    if len(points) < 3:
+        raise ValueError(f"polygons[{number}] has a ring of {len(points)} distinct points; a ring needs three")
+    return np.concatenate([points, points[:1]])
 
 
-def sides_of(faces: Indices) -> tuple[Indices, Indices]:
-    """The sides of triangles (k, 2), lower corner first, in order, and the three that each has (m, 3): 01, 12, 20."""
-    pairs = np.stack([faces, np.roll(faces, -1, axis=1)], axis=2).reshape(-1, 2)
-    codes, which = np.unique(_codes(pairs), return_inverse=True)
-    return np.stack([codes >> 32, codes & (2**32 - 1)], axis=1), which.reshape(-1, 3)
+def _oriented(rings: Ragged, hole: BoolArray) -> tuple[Ragged, FloatArray]:
+    """Rings turned so that the polygon is on their left, and their areas on the map, negative those of holes.
 
-
-def _among(codes: npt.NDArray[np.int64], known: npt.NDArray[np.int64]) -> npt.NDArray[np.bool_]:
-    """Which codes are among those known, which are in order: `np.isin` would put both in order again."""
-    places = np.searchsorted(known, codes)
-    found: npt.NDArray[np.bool_] = np.append(known, -1)[places] == codes
-    return found
-
-
-def _codes(pairs: Indices) -> npt.NDArray[np.int64]:
-    """One number for each side (k, 2), whichever way it runs."""
-    codes: npt.NDArray[np.int64] = (pairs.min(axis=1) << 32) + pairs.max(axis=1)
-    return codes
-
-
-def _halved(corners: Indices, pattern: npt.NDArray[np.bool_], owners: Indices) -> tuple[Indices, Indices]:
-    """Faces with their long sides halved, from corners 0 to 2 and middles 3 to 5; none that had no long side."""
-    faces, owner = [corners[:0, :3]], [owners[:0]]
-    for sides, parts in PIECES.items():
-        chosen = np.flatnonzero((pattern == sides).all(axis=1))
-        faces.append(corners[chosen][:, parts].reshape(-1, 3))
-        owner.append(np.repeat(owners[chosen], len(parts)))
-    return np.concatenate(faces), np.concatenate(owner)
-
-
-def _odd_first(faces: Indices, inside: npt.NDArray[np.bool_], odd: bool) -> Indices:
-    """Faces turned so that the corner that is alone on its side comes first."""
-    first = np.argmax(inside[faces] == odd, axis=1)
-    turned: Indices = np.take_along_axis(faces, (first[:, None] + np.arange(3)) % 3, axis=1)
-    return turned
-
-
-def _along_rim(
-    mesh: Mesh, rim: npt.NDArray[np.bool_], edge: float, tolerance: float
-) -> tuple[Mesh, npt.NDArray[np.bool_]]:
-    """A mesh whose sides along the rim are cut into pieces so short that they follow it."""
-    count = rim[mesh.faces].sum(axis=1)
-    chosen = np.flatnonzero(count == 2)
-    c, a, b = _odd_first(mesh.faces[chosen], rim, False).T
-    # A side that two triangles share runs across the cap and not along the rim.
-    _, which, times = np.unique(_codes(np.stack([a, b], axis=1)), return_inverse=True, return_counts=True)
-    alone = times[which] == 1
-    chosen, a, b, c = chosen[alone], a[alone], b[alone], c[alone]
-    u, w = mesh.points[a, :2], mesh.points[b, :2]
-    sweep = np.arctan2(u[:, 0] * w[:, 1] - u[:, 1] * w[:, 0], np.sum(u * w, axis=1))
-    radius = np.sqrt(1 - edge**2)
-    step = 2 * np.arccos(np.clip(1 - tolerance / radius, 0.0, 1.0))
-    pieces = np.maximum(1, np.ceil(np.abs(sweep) / step)).astype(np.intp)
-    face = np.repeat(np.arange(len(a)), pieces)
-    number = np.arange(len(face)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    first, last = number == 0, number == pieces[face] - 1
-    angle = (np.arctan2(u[:, 1], u[:, 0])[face] + sweep[face] * number / pieces[face])[~first]
-    added = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(len(angle), edge)], axis=1)
-    # The corner that begins each piece; the next one ends it.
-    begin = np.where(first, a[face], len(mesh.points) + np.cumsum(~first) - 1)
-    end = np.where(last, b[face], np.roll(begin, -1))
-    fans = np.stack([c[face], begin, end], axis=1)
-    kept = np.ones(len(mesh.faces), dtype=bool)
-    kept[chosen] = False
-    points = np.concatenate([mesh.points, added])
-    faces = np.concatenate([mesh.faces[kept], fans])
-    owners = np.concatenate([mesh.owners[kept], mesh.owners[chosen][face]])
-    return Mesh(points, faces, owners), np.concatenate([rim, np.ones(len(added), dtype=bool)])
-
-
-def _compact(
-    points: FloatArray, faces: Indices, owners: Indices, marks: npt.NDArray[np.bool_]
-) -> tuple[Mesh, npt.NDArray[np.bool_]]:
-    """A mesh without points that no face uses, and the marks of those left."""
-    used = np.zeros(len(points), dtype=bool)
-    used[faces] = True
-    number = np.cumsum(used) - 1
-    return Mesh(points[used], number[faces], owners), marks[used]
+    A ring that goes once round the Earth has its smaller side inside.
+    """
+    area, _ = signed_areas(rings)
+    first, last = rings.offsets[:-1], rings.offsets[1:] - 1
+    way = rings.values[last, 0] - rings.values[first, 0]
+    inner = np.ones(len(rings.values), dtype=bool)
+    inner[last] = False
+    begin = np.flatnonzero(inner)
+    sine = np.sin(np.radians(rings.values[:, 1]))
+    step = rings.values[begin + 1, 0] - rings.values[begin, 0]
+    north = np.bincount(rings.row[begin], step * (sine[begin] + sine[begin + 1]), minlength=len(rings)) * way > 0
+    # North of an eastward ring is on its left.
+    left = np.where(np.abs(way) > 180, north == (way > 0), area > 0)
+    backward = left == hole
+    order = np.arange(len(rings.values))
+    row = rings.row
+    mirrored = first[row] + last[row] - order
+    turned = rings.values[np.where(backward[row], mirrored, order)]
+    return Ragged(turned, rings.offsets), np.where(hole, -1.0, 1.0) * np.abs(area)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, as_levels, as_values, read_only
 from stereodel._docs import shared
-from stereodel.interpolation.sites import FAMILY, Places, one_value_a_place
+from stereodel.interpolation.values import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import as_told
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles
@@ -117,7 +117,7 @@ class _Network:
     """Triangles whose corners have values, joined across their edges."""
 
     def __init__(self, triangulation: Triangulation, values: FloatArray) -> None:
-        self._places = Places(triangulation.points)
+        self._places = PrecisePoints(triangulation.points)
         self._latitude = triangulation.latitude
         self._values = values
         self._simplices, self._neighbors = triangulation.simplices, triangulation.neighbors

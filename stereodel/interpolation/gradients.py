@@ -9,8 +9,8 @@ from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._docs import shared
 from stereodel.constants import UNDETERMINED
 from stereodel.interpolation.rings import rings_in_blocks
-from stereodel.interpolation.sites import FAMILY, Places, as_site_values
 from stereodel.interpolation.triangles import cross3, dot, lengths
+from stereodel.interpolation.values import FAMILY, PrecisePoints, as_site_values
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 _UNKNOWNS = 5
@@ -65,7 +65,7 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
 def fit_gradients(triangulation: Triangulation, values: FloatArray) -> FloatArray:
     """The same (n, d, k) for values (n, k), one a place."""
     gradients = np.full((*triangulation.points.shape, values.shape[1]), np.nan)
-    sites = Places(triangulation.points)
+    sites = PrecisePoints(triangulation.points)
     known = ~np.isnan(values)
     # Columns with the same points share the work of the fit.
     groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(values.shape[1])]
@@ -79,7 +79,9 @@ def fit_gradients(triangulation: Triangulation, values: FloatArray) -> FloatArra
     return gradients
 
 
-def _fit(sites: Places, values: FloatArray, block: AnyIndices, owners: AnyIndices, others: AnyIndices) -> FloatArray:
+def _fit(
+    sites: PrecisePoints, values: FloatArray, block: AnyIndices, owners: AnyIndices, others: AnyIndices
+) -> FloatArray:
     """Gradients (b, d, k) at the points `block`; pairs of a place in it, sorted, and one of its neighbours."""
     axes = _axes(sites, block)
     gradients = np.full((len(block), axes.shape[2], values.shape[1]), np.nan)
@@ -110,7 +112,12 @@ def _normal_equations(columns: FloatArray, rises: FloatArray, starts: AnyIndices
 
 
 def _columns(
-    sites: Places, block: AnyIndices, owners: AnyIndices, others: AnyIndices, axes: FloatArray, starts: AnyIndices
+    sites: PrecisePoints,
+    block: AnyIndices,
+    owners: AnyIndices,
+    others: AnyIndices,
+    axes: FloatArray,
+    starts: AnyIndices,
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Weighted ξ, η, |d|², ξ² − η², 2ξη of each pair (5, p), its weight, and the unit of length of each point.
 
@@ -143,7 +150,7 @@ def _third_least(size: FloatArray, owners: AnyIndices, starts: AnyIndices) -> Fl
     return np.minimum(np.minimum.reduceat(rest, starts), np.maximum.reduceat(size, starts))
 
 
-def _axes(sites: Places, block: AnyIndices) -> FloatArray:
+def _axes(sites: PrecisePoints, block: AnyIndices) -> FloatArray:
     """Two unit vectors of the tangent plane at each point, (b, 2, d)."""
     if not sites.curved:
         return np.broadcast_to(np.eye(2), (len(block), 2, 2))

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_directions, as_vectors, locked
 from stereodel._docs import shared
-from stereodel.interpolation.sites import Places, as_site_values
+from stereodel.interpolation.values import PrecisePoints, as_site_values
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_asked
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation
@@ -44,7 +44,7 @@ class Interpolator(ABC):
         self._values = locked(flat.copy())
         self.values = self._values.reshape(len(flat), *shape)
         self._value_shape = shape
-        self._sites = Places(self.triangulation.points)
+        self._sites = PrecisePoints(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
     @classmethod

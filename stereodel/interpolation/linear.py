@@ -7,8 +7,8 @@ import numpy as np
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._docs import shared
 from stereodel.interpolation.interpolator import TriangleInterpolator
-from stereodel.interpolation.sites import FAMILY
-from stereodel.interpolation.triangles import Holders
+from stereodel.interpolation.triangles import LocatedQueries
+from stereodel.interpolation.values import FAMILY
 
 
 @shared(**FAMILY)
@@ -61,11 +61,11 @@ class LinearInterpolator(TriangleInterpolator):
     """
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        weights = Holders(self._sites, corners, queries).weights()
+        weights = LocatedQueries(self._sites, corners, queries).weights()
         values = self._values[corners]
         # From the heaviest corner: at a point the value is met to the last bit.
         first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
         return first[:, 0] + np.einsum("mi,mik->mk", weights, values - first)
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        return Holders(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])
+        return LocatedQueries(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])

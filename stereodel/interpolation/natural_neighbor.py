@@ -8,7 +8,7 @@ from stereodel import _kernel
 from stereodel._arrays import FloatArray, Indices
 from stereodel._docs import shared
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.sites import FAMILY, Places
+from stereodel.interpolation.values import FAMILY, PrecisePoints
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.triangulation.dispatch import threads_of
 
@@ -81,7 +81,7 @@ class NaturalNeighborInterpolator(Interpolator):
             return _kernel.plane.natural_neighbors(
                 triangulation.points, *mesh, self._values, queries, gradients, crew, True
             )
-        sites, asked = self._sites.exact, Places(queries).exact
+        sites, asked = self._sites.exact, PrecisePoints(queries).exact
         return _kernel.sphere.natural_neighbors(
             triangulation.points,
             sites.hi,

@@ -8,7 +8,7 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray
 from stereodel._docs import shared
 from stereodel.interpolation.interpolator import Interpolator
-from stereodel.interpolation.sites import FAMILY
+from stereodel.interpolation.values import FAMILY
 from stereodel.triangulation.dispatch import Triangulation
 
 

@@ -14,7 +14,7 @@ BLOCK = 4096
 """Points at a time: they have some 80 000 neighbours of neighbours."""
 
 
-class Stars:
+class Adjacency:
     """The points that an edge joins to each point, as flat arrays."""
 
     def __init__(self, edges: AnyIndices, size: int) -> None:
@@ -45,12 +45,12 @@ def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, 
     """
     simplices = triangulation.simplices[open_triangles(triangulation)]
     size = len(triangulation.points)
-    stars = Stars(edges_of(simplices), size)
+    adjacency = Adjacency(edges_of(simplices), size)
     used = np.unique(simplices)
     for first in range(0, len(used), BLOCK):
         points = used[first : first + BLOCK]
-        owners, ring = stars.around(points)
-        places, second = stars.around(ring)
+        owners, ring = adjacency.around(points)
+        places, second = adjacency.around(ring)
         # A pair is one number, owner · size + neighbour, so that sorting finds what both rings have twice.
         pairs = np.sort(np.concatenate([owners * size + ring, owners[places] * size + second]))
         owners, others = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], size)

@@ -22,37 +22,37 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel.constants import LEAST_WEIGHT
 from stereodel.interpolation.jets import Jet, Number, arctan2, norm, sin_cos, sqrt
-from stereodel.interpolation.triangles import Holders, cross3, dot
+from stereodel.interpolation.triangles import LocatedQueries, cross3, dot
 
 
-def side_vertex(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
+def side_vertex(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
     """Values (m, k) at the queries.
 
     Parameters
     ----------
-    holders : Holders
+    located : LocatedQueries
     values : (m, 3, k) array
         At the corners of each query's triangle.
     gradients : (m, 3, d, k) array
         Tangent there.
     """
-    weights = np.maximum(holders.weights(), LEAST_WEIGHT)
+    weights = np.maximum(located.weights(), LEAST_WEIGHT)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     b = [weights[:, k : k + 1] for k in range(3)]
-    found = np.asarray(first + _mix(holders, b, values, first, gradients))
+    found = np.asarray(first + _mix(located, b, values, first, gradients))
     return _met(found, first, weights, values, gradients)
 
 
-def side_vertex_slope(holders: Holders, values: FloatArray, gradients: FloatArray) -> FloatArray:
+def side_vertex_slope(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
     """Gradients (m, d, k) at the queries; parameters as for `side_vertex`."""
-    weights = np.maximum(holders.weights(), LEAST_WEIGHT)
+    weights = np.maximum(located.weights(), LEAST_WEIGHT)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     directions = np.array([[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]])  # by the second and the third coordinate
     b = [Jet(weights[:, k : k + 1], directions[:, k, None, None]) for k in range(3)]
-    mixed = _mix(holders, b, values, first, gradients)
+    mixed = _mix(located, b, values, first, gradients)
     assert isinstance(mixed, Jet)
     at_corner = np.take_along_axis(gradients, weights.argmax(axis=1)[:, None, None, None], axis=1)[:, 0]
-    slope = holders.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
+    slope = located.slope([np.zeros_like(mixed.slope[0]), *mixed.slope])
     return _met(slope, at_corner, weights, values, gradients)
 
 
@@ -67,13 +67,17 @@ def _met(
 
 
 def _mix(
-    holders: Holders, b: list[Jet] | list[FloatArray], values: FloatArray, first: FloatArray, gradients: FloatArray
+    located: LocatedQueries,
+    b: list[Jet] | list[FloatArray],
+    values: FloatArray,
+    first: FloatArray,
+    gradients: FloatArray,
 ) -> Number:
     """What is to be added to the value `first` of one corner."""
     total: Number = 0.0
     divisor: Number = 0.0
     for i in range(3):
-        corner = _Corner(holders, i, values, first, gradients)
+        corner = _Corner(located, i, values, first, gradients)
         weight = b[i - 2] * b[i - 1]
         total = total + weight * corner.surface(b[i], b[i - 2], b[i - 1])
         divisor = divisor + weight
@@ -134,9 +138,11 @@ def _along(gradients: FloatArray, vectors: FloatArray) -> FloatArray:
 class _Corner:
     """S_i of the module's description: corner i, the side jk opposite."""
 
-    def __init__(self, holders: Holders, i: int, values: FloatArray, first: FloatArray, gradients: FloatArray) -> None:
-        sites = holders.sites
-        at, start, end = (holders.corners[:, k] for k in (i, i - 2, i - 1))
+    def __init__(
+        self, located: LocatedQueries, i: int, values: FloatArray, first: FloatArray, gradients: FloatArray
+    ) -> None:
+        sites = located.sites
+        at, start, end = (located.corners[:, k] for k in (i, i - 2, i - 1))
         self.curved = sites.curved
         self.to_start, self.to_end = sites.minus(start, sites, at), sites.minus(end, sites, at)
         edge = sites.minus(end, sites, start)

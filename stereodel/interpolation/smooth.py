@@ -10,8 +10,8 @@ from stereodel._docs import shared
 from stereodel.interpolation.gradients import fit_gradients
 from stereodel.interpolation.interpolator import TriangleInterpolator
 from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
-from stereodel.interpolation.sites import FAMILY, one_value_a_place
-from stereodel.interpolation.triangles import Holders, dot
+from stereodel.interpolation.triangles import LocatedQueries, dot
+from stereodel.interpolation.values import FAMILY, one_value_a_place
 from stereodel.triangulation.dispatch import Triangulation
 
 
@@ -96,9 +96,9 @@ class SmoothInterpolator(TriangleInterpolator):
         return np.array(np.moveaxis(vectors, 2, 1))
 
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        holders = Holders(self._sites, corners, queries)
-        return side_vertex(holders, self._values[corners], self._gradients[corners])
+        located = LocatedQueries(self._sites, corners, queries)
+        return side_vertex(located, self._values[corners], self._gradients[corners])
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
-        holders = Holders(self._sites, corners, queries)
-        return side_vertex_slope(holders, self._values[corners], self._gradients[corners])
+        located = LocatedQueries(self._sites, corners, queries)
+        return side_vertex_slope(located, self._values[corners], self._gradients[corners])

@@ -12,7 +12,7 @@ from stereodel import _double_double as double_double
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._double_double import DoubleDouble
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
-from stereodel.interpolation.sites import Places
+from stereodel.interpolation.values import PrecisePoints
 
 
 def cross2(a: FloatArray, b: FloatArray) -> FloatArray:
@@ -49,20 +49,20 @@ def lengths(vectors: FloatArray) -> FloatArray:
     return plain
 
 
-class Holders:
+class LocatedQueries:
     """Queries, each with the triangle that holds it.
 
     Parameters
     ----------
-    sites : Places
+    sites : PrecisePoints
     corners : (m, 3) array of int
         Corners of each query's triangle, counterclockwise.
     queries : (m, 2) or (m, 3) array
     """
 
-    def __init__(self, sites: Places, corners: AnyIndices, queries: FloatArray) -> None:
+    def __init__(self, sites: PrecisePoints, corners: AnyIndices, queries: FloatArray) -> None:
         self.sites, self.corners = sites, corners
-        self.given, self.queries = queries, Places(queries)
+        self.given, self.queries = queries, PrecisePoints(queries)
 
     def offsets(self) -> list[FloatArray]:
         """Corners less queries, three arrays (m, d), one for each corner."""
@@ -139,7 +139,7 @@ class Holders:
             order = (np.where(longer, 2, 1)[:, None] + np.arange(3)) % 3
             corners = np.take_along_axis(self.corners[needles], order, axis=1)
             by = np.take_along_axis(np.stack(derivatives, axis=1)[needles], order[:, :, None], axis=1)
-            result[needles] = Holders(self.sites, corners, self.given[needles]).slope(list(by.swapaxes(0, 1)))
+            result[needles] = LocatedQueries(self.sites, corners, self.given[needles]).slope(list(by.swapaxes(0, 1)))
         return result
 
 

@@ -1,4 +1,4 @@
-"""Globes in matplotlib: ``projection="stereodel.fisheye"``, known to matplotlib once this module is imported.
+"""Globes as axes of matplotlib.
 
 Data is longitude and latitude in degrees. What joins two vertices of a line or polygon is the shorter great-circle arc,
 so that nothing has to be cut at ±180° or at a pole; with ``edges="straight"`` it is what is straight on the map of
@@ -26,7 +26,7 @@ from matplotlib.spines import Spine
 from matplotlib.transforms import Transform
 
 from stereodel import data
-from stereodel._arrays import FloatArray, IntArray, as_choice, as_lonlat, as_scalar, as_steps
+from stereodel._arrays import FloatArray, IntArray, as_choice, as_edges, as_lonlat
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.constants import PAGE_TOLERANCE
 from stereodel.curves.ragged import Ragged
@@ -36,7 +36,7 @@ from stereodel.mpl.frame import Disc, Limb
 from stereodel.mpl.geometries import paths_of
 from stereodel.mpl.plots import GlobePlots
 from stereodel.mpl.transforms import EDGES, Edges, LonLatToPage, compound
-from stereodel.sphere import xyz_to_lonlat
+from stereodel.sphere import SphereArc, graticules, xyz_to_lonlat
 
 __all__ = ["FisheyeAxes"]
 
@@ -47,10 +47,10 @@ LAND = "0.86"
 class FisheyeAxes(GlobePlots):
     """A globe, or a flat stereographic map, seen through a conformal map.
 
-    Made by ``plt.subplot(projection="stereodel.fisheye", focus=…, magnification=…)`` after
-    ``import stereodel.mpl``. The limits of the axes are in units of the radius of the disc that the whole view
-    fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `set_extent` and the toolbar. What lies behind is not drawn: lines
-    are cut where the view ends, and filled regions follow its edge.
+    Made by ``plt.subplot(projection=FisheyeAxes, focus=…, magnification=…)``, and likewise by `add_subplot` and
+    `add_axes` of figures and the ``subplot_kw`` of ``plt.subplots``. The limits of the axes are in units of the radius
+    of the disc that the whole view fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `zoom_to` and the toolbar. What lies
+    behind is not drawn: lines are cut where the view ends, and filled regions follow its edge.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class FisheyeAxes(GlobePlots):
     Examples
     --------
     >>> from matplotlib.figure import Figure
-    >>> axes = Figure().add_subplot(projection="stereodel.fisheye", focus=(2.35, 48.86), magnification=20)
+    >>> axes = Figure().add_subplot(projection=FisheyeAxes, focus=(2.35, 48.86), magnification=20)
     >>> coast, grid = axes.coastlines(), axes.graticule(10)
     >>> places = [(2.35, 48.86), (-0.13, 51.51), (174.8, -41.3)]
     >>> print(axes.transGlobe.transform(places).round(3) + 0.0)
@@ -83,6 +83,7 @@ class FisheyeAxes(GlobePlots):
     """
 
     name = "stereodel.fisheye"
+    """By which `register` makes the projection known."""
 
     transGreatCircle: Transform  # noqa: N815 (matplotlib's way to name transforms)
     """Degrees to pixels, with great circles between vertices."""
@@ -109,6 +110,11 @@ class FisheyeAxes(GlobePlots):
         super().__init__(*args, **kwargs)
 
     # What matplotlib asks of a projection.
+
+    @classmethod
+    def _as_mpl_axes(cls) -> tuple[type[FisheyeAxes], dict[str, Any]]:
+        """So that the class itself is a projection."""
+        return cls, {}
 
     def _init_axis(self) -> None:
         self.xaxis = XAxis(self, clear=False)
@@ -194,26 +200,38 @@ class FisheyeAxes(GlobePlots):
         self.set_xlim(-1.0, 1.0)
         self.set_ylim(-1.0, 1.0)
 
-    def set_extent(self, extent: Sequence[float]) -> None:
+    def zoom_to(self, bounds: npt.ArrayLike) -> None:
         """Zoom to what is seen of a box of longitude and latitude.
 
         Parameters
         ----------
-        extent : (west, east, south, north)
-            Degrees; over ±180° with an east beyond 180 or a west beyond −180.
+        bounds : (west, south, east, north)
+            Degrees, as in ``geometry.bounds`` and ``frame.total_bounds``; over ±180° with an east beyond 180 or a west
+            beyond −180.
 
         Raises
         ------
         ValueError
-            When the borders are no box, or nothing of it is in sight.
+            When the borders are not a box, or nothing of it is in sight.
+
+        Examples
+        --------
+        >>> from matplotlib.figure import Figure
+        >>> axes = Figure().add_subplot(projection=FisheyeAxes, focus=(0, 0))
+        >>> axes.zoom_to((-30, -30, 30, 30))
+        >>> [round(float(x), 3) for x in axes.get_xlim()]
+        [-0.5, 0.5]
         """
-        west, east, south, north = (as_scalar(value, "extent") for value in extent)
-        if not (west < east <= west + 360 and south < north):
-            raise ValueError(f"extent must be (west, east, south, north), west < east and south < north: {extent}")
-        corners = as_lonlat([(west, south), (east, south), (east, north), (west, north), (west, south)], "extent")
+        west, south, east, north = as_edges(bounds, "bounds")
+        # In thirds: an edge over more than half of the map would be taken to go the other way round.
+        lon = np.linspace(west, east, 4)
+        south_side, north_side = (np.stack([lon, np.full(4, lat)], axis=1) for lat in (south, north))
+        corners = np.concatenate([south_side, north_side[::-1], south_side[:1]])
         border = self._globes[1].transform_path_non_affine(Path(corners, closed=True))
         if not np.size(border.vertices):
-            raise ValueError(f"extent {tuple(extent)} is out of sight; turn the view there, view=(lon, lat)")
+            raise ValueError(
+                f"bounds {(west, south, east, north)} are out of sight; turn the view there: view=(lon, lat)"
+            )
         box = border.get_extents()
         self.set_xlim(box.x0, box.x1)
         self.set_ylim(box.y0, box.y1)
@@ -229,22 +247,17 @@ class FisheyeAxes(GlobePlots):
         if visible or kwargs or (visible is None and not shown):
             self.graticule(**kwargs)
 
-    def graticule(self, step: float = 15.0, **kwargs: Any) -> PathPatch:
-        """Draw meridians from pole to pole and parallels, every `step` degrees; 90 must be a multiple of it.
+    def graticule(self, spacing: float = 15.0, **kwargs: Any) -> PathPatch:
+        """Draw meridians from pole to pole and parallels, every `spacing` degrees; 180 must be a multiple of it.
 
         Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
         """
-        count = as_steps(90.0, step, "step")
-        heights = np.linspace(-90.0, 90.0, 2 * count + 1)
-        around = np.linspace(-180.0, 180.0, 4 * count + 1)
-        meridians = [[(lon, lat) for lat in (-90.0, 0.0, 90.0)] for lon in around[:-1]]
-        parallels = [[(lon, lat) for lon in around] for lat in heights[1:-1]]
-        path = compound(Ragged.of([np.array(line) for line in meridians + parallels]), closed=False)
+        path = compound(Ragged.of([_in_degrees(arc) for arc in graticules.graticule(spacing)]), closed=False)
         self._graticule = self._lines(path, self.transStraight, LINES["graticule"], {"zorder": 1.5} | kwargs)
         return self._graticule
 
     def coastlines(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
-        """Draw the coasts of Natural Earth, "50m" or "110m", from the package itself.
+        """Draw the coasts of Natural Earth, "10m", "50m" or "110m", from the package itself.
 
         Returns the artist; `kwargs` are those of `matplotlib.patches.PathPatch`.
         """
@@ -260,14 +273,14 @@ class FisheyeAxes(GlobePlots):
         """Fill the land of Natural Earth; the arguments are those of `coastlines`, whose lines go well over it."""
         areas = data.land(resolution)
         path = _path(areas.lonlat, areas.ring_offsets, closed=True)
-        look = {"color": LAND, "edgecolor": "none", "zorder": 0.5} | normalize_kwargs(kwargs, PathPatch)
-        return self._added(PathPatch(path, transform=self.transStraight, **{"facecolor": look.pop("color")} | look))
+        style = {"color": LAND, "edgecolor": "none", "zorder": 0.5} | normalize_kwargs(kwargs, PathPatch)
+        return self._added(PathPatch(path, transform=self.transStraight, **{"facecolor": style.pop("color")} | style))
 
     def _lines(self, path: Path, transform: Transform, usual: LineStyle, given: dict[str, Any]) -> PathPatch:
-        look = {"color": usual.color, "linewidth": usual.width, "joinstyle": "round", "capstyle": "round"}
-        look |= normalize_kwargs(given, PathPatch)
+        style = {"color": usual.color, "linewidth": usual.width, "joinstyle": "round", "capstyle": "round"}
+        style |= normalize_kwargs(given, PathPatch)
         return self._added(
-            PathPatch(path, transform=transform, **{"edgecolor": look.pop("color"), "facecolor": "none"} | look)
+            PathPatch(path, transform=transform, **{"edgecolor": style.pop("color"), "facecolor": "none"} | style)
         )
 
     def _added(self, artist: PathPatch) -> PathPatch:
@@ -280,8 +293,9 @@ class FisheyeAxes(GlobePlots):
 
         Parameters
         ----------
-        geometries : geometry, sequence of geometries, GeoSeries, GeoDataFrame, or anything with ``__geo_interface__``
-            Longitude and latitude in degrees; frames in another coordinate system are transformed.
+        geometries : geometry, sequence of geometries, GeoSeries, GeoDataFrame, GeoJSON, or the path of a file
+            Longitude and latitude in degrees; frames in another coordinate system are transformed. Anything with
+            ``__geo_interface__`` will do.
         edges : {"straight", "great circle"}
             What joins vertices; by default as GeoJSON, shapefiles and cartopy's PlateCarree mean it.
         **kwargs
@@ -291,7 +305,7 @@ class FisheyeAxes(GlobePlots):
         Returns
         -------
         matplotlib.collections.PathCollection
-            The polygons and lines, one path each. Points are drawn by `scatter`.
+            The polygons and lines, one path each, in the order of their features. Points are drawn by `scatter`.
         """
         paths, points = paths_of(geometries)
         if len(points):
@@ -318,4 +332,23 @@ def _path(lonlat: FloatArray, offsets: IntArray, *, closed: bool = False) -> Pat
     return compound(Ragged(lonlat, offsets.astype(np.intp)), closed=closed)
 
 
-register_projection(FisheyeAxes)
+def _in_degrees(arc: SphereArc) -> FloatArray:
+    """Five places of a meridian or parallel (5, 2), which straight edges join; at a pole with their meridian."""
+    # To 1e-12°, so that a parallel is level.
+    lonlat = np.round(xyz_to_lonlat(arc.sample(5)), 12)
+    polar = np.abs(lonlat[:, 1]) == 90.0
+    lonlat[polar, 0] = lonlat[2, 0]
+    return lonlat
+
+
+def register() -> None:
+    """Make ``projection="stereodel.fisheye"`` known to matplotlib: for settings and programs that go by names.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> register()
+    >>> Figure().add_subplot(projection="stereodel.fisheye", focus=(2.35, 48.86)).name
+    'stereodel.fisheye'
+    """
+    register_projection(FisheyeAxes)

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from itertools import pairwise
-
 import numpy as np
 from matplotlib.path import Path
 
 from stereodel._arrays import FloatArray
 from stereodel.curves.ragged import Ragged
-from stereodel.mpl.transforms import LonLatToPage, compound
-
-NOTHING = Path(np.zeros((0, 2)))
+from stereodel.mpl.transforms import NOTHING, LonLatToPage, compounds
 
 
 def mesh_paths(corners: FloatArray, globe: LonLatToPage) -> list[Path]:
@@ -31,12 +27,8 @@ def mesh_paths(corners: FloatArray, globe: LonLatToPage) -> list[Path]:
     rings = Ragged(cells[large].reshape(-1, 2), 5 * np.arange(len(large) + 1))
     loops, cell = globe.regions(rings, np.arange(len(large)), len(large))
     order = np.argsort(cell, kind="stable")
-    loops, cell = loops.take(order), cell[order]
-    # The outline of all cells, in stretches.
-    outline = compound(loops, closed=True)
-    vertices, codes = np.asarray(outline.vertices), np.asarray(outline.codes)
-    shown, first = np.unique(cell, return_index=True)
-    ends = loops.offsets[np.append(first, len(cell))].tolist()
-    for number, (begin, stop) in zip(large[shown].tolist(), pairwise(ends), strict=True):
-        paths[number] = Path(vertices[begin:stop], codes[begin:stop])
+    for number, path in zip(
+        large.tolist(), compounds(loops.take(order), cell[order], len(large), closed=True), strict=True
+    ):
+        paths[number] = path
     return paths

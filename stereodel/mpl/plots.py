@@ -13,11 +13,9 @@ from matplotlib.quiver import Barbs, Quiver
 from matplotlib.transforms import Transform
 
 from stereodel._arrays import FloatArray
+from stereodel.constants import DIRECTION_STEP
 from stereodel.mpl.mesh import mesh_paths
 from stereodel.mpl.transforms import LonLatToPage
-
-DIRECTION_STEP = 1e-4
-"""Degrees over which the direction of an arrow is measured on the page: a difference of points keeps 9 digits."""
 
 
 class GlobePlots(Axes):
@@ -55,8 +53,8 @@ class GlobePlots(Axes):
     def _instead(self, old: Any, paths: list[Path], transform: Transform, given: dict[str, Any]) -> PathCollection:
         """Paths with the colours of a collection that is removed."""
         old.remove()
-        look = {"norm": old.norm, "cmap": old.cmap, "alpha": old.get_alpha(), "zorder": old.get_zorder()}
-        cells = self._collection(paths, transform, look)
+        style = {"norm": old.norm, "cmap": old.cmap, "alpha": old.get_alpha(), "zorder": old.get_zorder()}
+        cells = self._collection(paths, transform, style)
         cells.set_array(np.ma.ravel(np.ma.asarray(old.get_array())))
         edges = given.get("edgecolors", given.get("edgecolor"))
         drawn = edges not in (None, "none", "face")
@@ -65,8 +63,8 @@ class GlobePlots(Axes):
         self._sci(cells)
         return cells
 
-    def _collection(self, paths: list[Path], transform: Transform, look: dict[str, Any]) -> PathCollection:
-        collection = PathCollection(paths, transform=transform, **look)
+    def _collection(self, paths: list[Path], transform: Transform, style: dict[str, Any]) -> PathCollection:
+        collection = PathCollection(paths, transform=transform, **style)
         self.add_collection(collection, autolim=False)
         return collection
 
@@ -83,12 +81,14 @@ class GlobePlots(Axes):
         if len(args) < 4:
             raise TypeError("give the places of vectors, in degrees, before their components: lon, lat, east, north")
         lon, lat, east, north = np.broadcast_arrays(*(np.ma.filled(np.ma.asarray(a, float), np.nan) for a in args[:4]))
+        # What steps of one length on the sphere are on the page, along the meridian and along the parallel, on which a
+        # degree is shorter. The orthographic view shortens them toward the limb, unlike in the two directions.
         toward_north = _page_step(self.transGlobe, lon, lat, np.array([0.0, DIRECTION_STEP]))
-        # A step along the parallel, of the same length on the sphere.
         with np.errstate(divide="ignore"):
             along = DIRECTION_STEP / np.cos(np.radians(lat))
         toward_east = _page_step(self.transGlobe, lon, lat, np.stack([along, np.zeros_like(along)], axis=-1))
         vector = east[..., None] * toward_east + north[..., None] * toward_north
+        # The direction on the page, with the length that was given: what is hidden stays NaN.
         size = np.hypot(vector[..., 0], vector[..., 1])
         scale = np.hypot(east, north) / np.where(size > 0, size, 1.0)
         return (lon, lat, scale * vector[..., 0], scale * vector[..., 1], *args[4:])
@@ -118,8 +118,7 @@ def _page_step(globe: LonLatToPage, lon: FloatArray, lat: FloatArray, step: Floa
     moved = (globe.transform((places + side * step).reshape(-1, 2)) - globe.transform(places.reshape(-1, 2))).reshape(
         places.shape
     )
-    page: FloatArray = side * moved
-    return page
+    return side * moved
 
 
 def _with_open_lines(contours: Any) -> Any:

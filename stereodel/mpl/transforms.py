@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any, Final, Literal, cast
 
 import numpy as np
@@ -24,6 +25,7 @@ from stereodel.sphere.vectors import turned
 
 Edges = Literal["great circle", "straight"]
 EDGES: Final[tuple[Edges, ...]] = ("great circle", "straight")
+NOTHING = Path(np.zeros((0, 2)))
 
 
 class LonLatToPage(Transform):
@@ -46,9 +48,9 @@ class LonLatToPage(Transform):
     def __init__(self, lens: MoebiusMap, view: MapView, edges: Edges = "great circle") -> None:
         super().__init__()
         self.lens, self.view, self.edges = lens, view, edges
-        self.back = lens.inverse()
-        self._tolerance, self._matrix = PAGE_TOLERANCE, view.matrix
-        toward = self._matrix[2]
+        self.back, self.matrix = lens.inverse(), view.matrix
+        self._tolerance = PAGE_TOLERANCE
+        toward = self.matrix[2]
         self._middle = xyz_to_lonlat(self.back(toward))
         # What the lens brings into sight: a cap, too.
         self._shown = self.back.image_of(SphereCircle(toward, view.edge - ON_BALL))
@@ -70,7 +72,7 @@ class LonLatToPage(Transform):
         rows = lonlat.reshape(-1, 2)
         page = np.full(rows.shape, np.nan)
         place = np.flatnonzero(_is_place(rows))
-        axes = turned(self.lens(lonlat_to_xyz(rows[place])), self._matrix)
+        axes = turned(self.lens(lonlat_to_xyz(rows[place])), self.matrix)
         seen = axes[:, 2] >= self.view.edge - LIMB_DEPTH
         page[place[seen]] = self.view.flattened(axes[seen])
         return page.reshape(lonlat.shape)
@@ -147,9 +149,8 @@ class LonLatToPage(Transform):
         if self.edges == "straight":
             length, _ = measures_in_lonlat(start, end, p, q)
         else:
-            length = (
-                np.pi / 2 * np.sqrt(np.sum((p - q) ** 2, axis=1))
-            )  # an arc is at most so much longer than its chord
+            length = np.pi / 2 * np.sqrt(np.sum((p - q) ** 2, axis=1))  # an arc's, by its chord, at most
+        # No farther from the middle of what the lens brings into sight than its radius and the edge's length together.
         reach = np.arctan2(self._shown.radius, self._shown.offset) + length + STORED_ERROR
         return np.sum((p - self._shown.normal) ** 2, axis=1) <= (2 * np.sin(np.minimum(reach, np.pi) / 2)) ** 2
 
@@ -170,7 +171,7 @@ class LonLatToPage(Transform):
             arcs = straight(start[near], end[near], self.lens, slack, ends=(p, q))
         else:
             arcs = great(p, q)
-        pieces = self._border.cut(arcs.through(self.lens).turned(self._matrix))
+        pieces = self._border.cut(arcs.through(self.lens).turned(self.matrix))
         return sides, pieces, pieces.arcs.sampled(slack)
 
     def inverted(self) -> Transform:
@@ -194,7 +195,7 @@ class PageToLonLat(Transform):
         axes = self._forward.view.raised(page.reshape(-1, 2))
         lonlat = np.full((len(axes), 2), np.nan)
         inside = np.isfinite(axes).all(axis=1)
-        lonlat[inside] = xyz_to_lonlat(self._forward.back(turned(axes[inside], self._forward.view.matrix.T)))
+        lonlat[inside] = xyz_to_lonlat(self._forward.back(turned(axes[inside], self._forward.matrix.T)))
         return lonlat.reshape(page.shape)
 
     def inverted(self) -> Transform:
@@ -237,3 +238,13 @@ def compound(lines: Ragged, *, closed: bool) -> Path:
     if closed:
         codes[lines.offsets[1:][held] - 1] = Path.CLOSEPOLY
     return Path(lines.values, codes)
+
+
+def compounds(lines: Ragged, number: Indices, count: int, *, closed: bool) -> list[Path]:
+    """Several paths of lines (k, 2), the number of its path beside each, in order; those without lines are empty."""
+    everything = compound(lines, closed=closed)
+    vertices, codes = np.asarray(everything.vertices), np.asarray(everything.codes)
+    ends = lines.offsets[np.searchsorted(number, np.arange(count + 1))].tolist()
+    return [
+        Path(vertices[begin:stop], codes[begin:stop]) if stop > begin else NOTHING for begin, stop in pairwise(ends)
+    ]

@@ -9,11 +9,10 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Pixels, SingleArray
 from stereodel.render.ribbons import Corners
-from stereodel.render.triangles import Disc, Pixels, Triangles, Window
+from stereodel.render.triangles import Disc, Triangles, Window
 
-Boxes = npt.NDArray[np.float32]
 """Left, bottom, right, top in pixels, a row each; rounded to float32, of which `MARGIN` takes care."""
 
 MARGIN = 1.0
@@ -34,7 +33,7 @@ class Piece:
     ball: Disc | None = None
 
     @cached_property
-    def boxes(self) -> Boxes:
+    def boxes(self) -> SingleArray:
         """Of each triangle, (n, 4)."""
         a, b, c = (self.corners[:, i] for i in range(3))
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
@@ -79,11 +78,11 @@ class Pieces:
         return Triangles(corners.reshape(-1, 2), colors.reshape(-1, 4), slots, faces, textures, balls)
 
 
-def _around(boxes: Boxes) -> Boxes:
+def _around(boxes: SingleArray) -> SingleArray:
     return np.concatenate([boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)])
 
 
-def _touching(boxes: Boxes, window: Window) -> npt.NDArray[np.bool_]:
+def _touching(boxes: SingleArray, window: Window) -> npt.NDArray[np.bool_]:
     left, bottom, right, top = boxes.T
     across = (left < window.left + window.width + MARGIN) & (right > window.left - MARGIN)
     touching: npt.NDArray[np.bool_] = (

@@ -81,7 +81,7 @@ def png_chunks(rows: Iterable[Pixels], width: int, height: int, *, page_width: f
             differences = block - np.concatenate([above, block[:-1]])  # of bytes, modulo 256
             choices = _filtered(block, UNFILTERED), _filtered(differences, UP)
             data = packer.compress(min(choices, key=lambda lines: len(zlib.compress(lines, QUICK))))
-            above = block[-1:]
+            above = block[-1:].copy()  # a view would keep all the rows
             if data:
                 yield _chunk(b"IDAT", data)
     if missing:
@@ -96,4 +96,4 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 def _filtered(rows: Pixels, kind: int) -> bytes:
     """Rows as a file holds them: behind the number of the kind of filter that was applied to each."""
-    return np.insert(rows.reshape(len(rows), -1), 0, kind, axis=1).tobytes()
+    return np.pad(rows.reshape(len(rows), -1), ((0, 0), (1, 0)), constant_values=kind).tobytes()

@@ -12,7 +12,7 @@ from typing import Final
 
 from stereodel import _kernel
 
-LIBRARIES: Final = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "pillow", "pyrender2", "PyOpenGL")
+LIBRARIES: Final = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "av", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
 
 NOT_DRAWN_WITH: Final = ("cli",)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Final
 
 import numpy as np
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Pixels
+from stereodel.curves.fill import triangles
+from stereodel.curves.ragged import Ragged
 from stereodel.drawing.colors import Color
 from stereodel.drawing.page import (
     Ball,
@@ -15,22 +16,15 @@ from stereodel.drawing.page import (
     Dots,
     Fill,
     Item,
-    Mosaic,
     Page,
-    Patch,
     Picture,
+    Polygons,
     Polylines,
     Stroke,
 )
 from stereodel.render.pieces import Piece, Pieces
 from stereodel.render.ribbons import Corners, discs, flatten, region, ribbon, ribbons
-from stereodel.render.triangles import Pixels, Window
-
-LIGHT: Final = np.array([-0.35, 0.45, 0.82]) / np.linalg.norm([-0.35, 0.45, 0.82])
-"""Direction toward the light in view axes: from the upper left, in front."""
-
-SHADE: Final = 0.36
-"""How much darker a surface is that is turned away from the light."""
+from stereodel.render.triangles import Disc, Window
 
 
 def triangulate(page: Page, width: int, height: int) -> Pieces:
@@ -56,14 +50,12 @@ class _Canvas:
                 return [_flat(self._stroke(item), item.color)]
             case Polylines():
                 return [_flat(self._polylines(item), item.color)]
-            case Patch():
-                return [self._patch(item)]
+            case Polygons():
+                return [self._polygons(item)]
             case Fill():
-                return [self._lit_by(item.ball, region(self._outlines(item.paths)), item.color)]
+                return [_colored(region(self._outlines(item.paths)), np.array(item.color), self._disc(item.ball))]
             case Dots():
                 return self._dots(item)
-            case Mosaic():
-                return [self._mosaic(item)]
             case Picture():
                 return [self._picture(item)]
         return []
@@ -72,11 +64,11 @@ class _Canvas:
         placed: FloatArray = (points - self.origin) * self.scale
         return placed
 
-    def _lit_by(self, ball: Ball | None, corners: Corners, color: Color) -> Piece:
+    def _disc(self, ball: Ball | None) -> Disc | None:
         if ball is None:
-            return _flat(corners, color)
+            return None
         (x, y), (across, up) = self._place(np.array(ball.center)).tolist(), (ball.radius * self.scale).tolist()
-        return Piece(corners, np.broadcast_to(color, (len(corners), 3, 4)), ball=(x, y, across, up))
+        return x, y, across, up
 
     def _outlines(self, paths: tuple[Beziers, ...]) -> list[FloatArray]:
         return [flatten(self._place(path)) for path in paths]
@@ -90,13 +82,10 @@ class _Canvas:
     def _polylines(self, lines: Polylines) -> Corners:
         return ribbons(self._place(lines.points), lines.offsets, lines.width * self.pixels_per_point)
 
-    def _patch(self, patch: Patch) -> Piece:
-        corners = self._place(patch.points)[patch.faces]
-        if patch.normals is None:
-            return _flat(corners, patch.color)
-        colors = np.repeat([patch.color], len(patch.points), axis=0)
-        colors[:, :3] *= _brightness(patch.normals)[:, None]
-        return Piece(corners, colors[patch.faces])
+    def _polygons(self, polygons: Polygons) -> Piece:
+        loops = Ragged(self._place(polygons.points), polygons.offsets)
+        corners, owner = triangles(loops, polygons.owner)
+        return _colored(corners, polygons.colors[owner, None], self._disc(polygons.ball))
 
     def _dots(self, dots: Dots) -> list[Piece]:
         centers = self._place(dots.centers)
@@ -105,13 +94,6 @@ class _Canvas:
         if dots.rim_width:
             pieces.append(_flat(discs(centers, outer), dots.rim))
         return pieces
-
-    def _mosaic(self, mosaic: Mosaic) -> Piece:
-        colors = np.ones((len(mosaic.corners), 3, 4))
-        colors[..., :3] = mosaic.colors[:, None]
-        if mosaic.normals is not None:
-            colors[..., :3] *= _brightness(mosaic.normals)[..., None]
-        return Piece(self._place(mosaic.corners), colors)
 
     def _picture(self, picture: Picture) -> Piece:
         width, height = 1 / self.scale
@@ -124,13 +106,13 @@ class _Canvas:
         return replace(_flat(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
 
 
-def _brightness(normals: FloatArray) -> FloatArray:
-    """Smooth from the lit point to the opposite one: Lambert's law would show its terminator as an edge."""
-    brightness: FloatArray = 1 - SHADE * ((1 - normals @ LIGHT) / 2) ** 2
-    return brightness
-
-
 def _flat(corners: Corners, color: Color) -> Piece:
-    # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
-    levels = np.floor(255 * np.array(color) + 0.5) / 255
-    return Piece(corners, np.broadcast_to(levels, (len(corners), 3, 4)))
+    return _colored(corners, np.array(color), None)
+
+
+def _colored(corners: Corners, colors: FloatArray, ball: Disc | None) -> Piece:
+    """Triangles in colours that spread to their corners (n, 3, 4)."""
+    if ball is None:
+        # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
+        colors = np.floor(255 * colors + 0.5) / 255
+    return Piece(corners, np.broadcast_to(colors, (len(corners), 3, 4)), ball=ball)

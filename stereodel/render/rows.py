@@ -44,9 +44,10 @@ def bare_rows(page: Page, width: int, renderer: Renderer, platform: str | None =
 
 def gl_rows(page: Page, width: int, platform: str | None = None) -> Iterator[Pixels]:
     """All but the labels of a page, by OpenGL."""
+    ground = _over_white(page.background)
     large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
-    part, ground = triangulate(page, *large).within, _over_white(page.background)
-    return gl.bands(part, *large, background=ground, platform=platform, finish=averaged)
+    triangles = triangulate(page, *large)
+    return gl.bands(triangles.within, *large, background=ground, platform=platform, finish=averaged)
 
 
 def agg_rows(page: Page, width: int) -> Iterator[Pixels]:

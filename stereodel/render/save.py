@@ -21,7 +21,7 @@ import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._files import replacing
-from stereodel.drawing.page import Mosaic, Page
+from stereodel.drawing.page import Page
 from stereodel.render.digest import PixelDigest
 from stereodel.render.gl import OpenGLError
 from stereodel.render.png import png_chunks
@@ -80,9 +80,9 @@ def save_page(
 
 
 def mosaic_pictures(page: Page, width: int, platform: str | None = None) -> list[Pixels]:
-    """A picture of each mosaic alone, for the vector files, which cannot hold so many triangles."""
+    """A picture of each item alone that has too many colours for a vector file."""
     size = min(width, print_pixels(page, FINEST_DPI))
-    alone = [replace(page, items=(item,)) for item in page.items if isinstance(item, Mosaic)]
+    alone = [replace(page, items=(item,)) for item in page.pictured]
     return [draw_page(mosaic, size=size, text=False, renderer="gl", platform=platform) for mosaic in alone]
 
 

@@ -5,12 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-import numpy as np
-import numpy.typing as npt
-
-from stereodel._arrays import FloatArray, IntArray
-
-Pixels = npt.NDArray[np.uint8]
+from stereodel._arrays import FloatArray, IntArray, Pixels
 
 Disc = tuple[float, float, float, float]
 """Centre x, y and radius along x and y, in pixels, which need not be quite as high as wide."""

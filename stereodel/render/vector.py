@@ -21,23 +21,23 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel._files import replacing
-from stereodel.constants import FINEST_POINTS
+from stereodel.constants import FINEST_POINTS, PIXEL_ROUNDING
+from stereodel.curves.fill import union
+from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.page import (
     Beziers,
     Dots,
     Fill,
     Item,
     Label,
-    Mosaic,
     Page,
-    Patch,
     Picture,
+    Polygons,
     Polylines,
     Stroke,
 )
 from stereodel.drawing.style import PRINT_DPI, TYPE
 from stereodel.render.mends import exact_mathtext
-from stereodel.render.outlines import patch_outline
 from stereodel.render.sizes import pixel_height
 
 with of_extra("draw"):
@@ -56,6 +56,9 @@ CIRCLE_KAPPA = 4 / 3 * np.tan(np.pi / 16)
 PAPER_DPI: Final = 72.0
 """Dots per inch of a canvas that is written as paths: points."""
 
+STRAIGHTENED: Final = 4
+"""How often every other point of a loop is left out where it lies on the line of its neighbours."""
+
 METADATA = {"svg": {"Date": None, "Creator": None}, "pdf": {"CreationDate": None, "Creator": None, "Producer": None}}
 
 
@@ -71,7 +74,7 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures =
     path : path-like
         Written under a temporary name in the same folder first; an existing file is replaced.
     mosaics : sequence of (h, w, 3) uint8 arrays
-        A picture of the whole page for each `Mosaic` on it, of which the part in the mosaic's outline is shown.
+        A picture of the whole page for each of `page.pictured`, of which the part inside the polygons is shown.
 
     Returns
     -------
@@ -81,7 +84,7 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, mosaics: Pictures =
     Raises
     ------
     ValueError
-        For an ending other than .svg and .pdf, and for another number of pictures than mosaics.
+        For an ending other than .svg and .pdf, and for another number of pictures than are needed.
     OSError
         Where the file cannot be written.
     """
@@ -111,8 +114,9 @@ def pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
 
 def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics: Pictures = ()) -> Canvas:
     """The page on a canvas of its own size, or of whole pixels."""
-    # A millionth of a pixel more, because Agg cuts a size such as 2007.9999999 to 2007.
-    width, height = (page.width, page.height) if pixels is None else ((side + 1e-6) * 72 / dpi for side in pixels)
+    width, height = page.width, page.height
+    if pixels is not None:  # a little more, because Agg cuts a size such as 2007.9999999 to 2007
+        width, height = ((side + PIXEL_ROUNDING) * 72 / dpi for side in pixels)
     canvas = Canvas(figsize=(width / 72, height / 72), dpi=dpi)
     left, right, bottom, top = page.extent
     axes = canvas.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(left, right), ylim=(bottom, top))
@@ -133,10 +137,10 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None, mosaics
 
 def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | AxesImage]:
     """Page items as patches; neighbours of one look share one, so that a name is a group and files stay small."""
-    count = sum(isinstance(item, Mosaic) for item in page.items)
+    count = len(page.pictured)
     if len(mosaics) != count:
         raise ValueError(
-            f"mosaics has {len(mosaics)} pictures, but there are {count} mosaics on the page; give each one"
+            f"mosaics has {len(mosaics)} pictures, but {count} items of the page have too many colours; give each one"
         )
     pictures = iter(mosaics)
     for _, group in groupby(page.without_labels().items, key=_look):
@@ -146,13 +150,12 @@ def _artists(page: Page, axes: Axes, mosaics: Pictures) -> Iterator[PathPatch | 
                 yield _stroke_patch([item for item in items if isinstance(item, Stroke)], first)
             case Polylines() as lines:
                 yield _polylines_patch(lines)
-            case Patch() as patch:
-                outline = patch_outline(patch, spacing=FINEST_POINTS / page.points_per_unit)
-                yield PathPatch(outline, facecolor=patch.color, linewidth=0.0, edgecolor="none", gid=patch.name)
+            case Polygons() as polygons if polygons.pictured:
+                yield _polygons_image(polygons, next(pictures), page, axes)
+            case Polygons() as polygons:
+                yield from _polygons_patches(polygons, FINEST_POINTS / page.points_per_unit)
             case Fill():
                 yield from (_fill_patch(item) for item in items if isinstance(item, Fill))
-            case Mosaic() as mosaic:
-                yield _mosaic_image(mosaic, next(pictures), page, axes)
             case Picture() as picture:
                 yield _picture_image(picture, page, axes)
             case Dots():
@@ -208,13 +211,51 @@ def _fill_patch(item: Fill) -> PathPatch:
     return PathPatch(outline, facecolor=item.color, linewidth=0.0, edgecolor="none", gid=item.name)
 
 
-def _mosaic_image(mosaic: Mosaic, picture: npt.NDArray[np.uint8], page: Page, axes: Axes) -> AxesImage:
-    """The part of a picture of the whole page that lies in the outline of a mosaic."""
+def _polygons_patches(polygons: Polygons, spacing: float) -> Iterator[PathPatch]:
+    """A path for each colour."""
+    colors, number = polygons.by_color
+    for k, color in enumerate(colors):
+        loops = thinned_loops(polygons.loops.take(number == k), spacing)
+        yield PathPatch(_loops(loops), facecolor=color, linewidth=0.0, edgecolor="none", gid=polygons.name)
+
+
+def _polygons_image(polygons: Polygons, picture: npt.NDArray[np.uint8], page: Page, axes: Axes) -> AxesImage:
+    """The part of a picture of the whole page that lies in polygons."""
     image = AxesImage(axes, extent=page.extent, origin="upper", interpolation="none")
     image.set_data(picture)
-    image.set(gid=mosaic.name, transform=axes.transData)
-    image.set_clip_path(_outline((path, True) for path in mosaic.outline), axes.transData)
+    image.set(gid=polygons.name, transform=axes.transData)
+    border = thinned_loops(union(polygons.loops), FINEST_POINTS / page.points_per_unit)
+    image.set_clip_path(_loops(border), axes.transData)
     return image
+
+
+def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
+    """Loops with at most a point in each piece of a length, and without what then encloses nothing.
+
+    Where points stray from a straight line by less than a twentieth of the length together, they are thinned, too: arcs
+    of the limb are very many chords.
+    """
+    loops = thinned(loops, spacing)
+    for _ in range(STRAIGHTENED):
+        points, row = loops.values, loops.row
+        place = np.arange(len(points)) - loops.offsets[row]
+        odd = np.flatnonzero((place % 2 == 1) & (place < loops.sizes[row] - 1))
+        a, b = points[odd - 1], points[odd + 1] - points[odd - 1]
+        step = points[odd] - a
+        across, ahead = np.abs(b[:, 0] * step[:, 1] - b[:, 1] * step[:, 0]), np.sum(step * b, axis=1)
+        kept = np.ones(len(points), dtype=bool)
+        # The tip of a needle is beyond its neighbours.
+        between = (ahead >= 0) & (ahead <= np.sum(b**2, axis=1))
+        kept[odd] = ~between | (across >= spacing / (20 * STRAIGHTENED) * np.hypot(*b.T))
+        loops = loops.kept(kept)
+    return loops.take(loops.sizes > 3)
+
+
+def _loops(loops: Ragged) -> Outline:
+    codes = np.full(len(loops.values), Outline.LINETO)
+    codes[loops.offsets[:-1]] = Outline.MOVETO
+    codes[loops.offsets[1:] - 1] = Outline.CLOSEPOLY
+    return Outline(loops.values, codes)
 
 
 def _picture_image(picture: Picture, page: Page, axes: Axes) -> AxesImage:
@@ -224,9 +265,12 @@ def _picture_image(picture: Picture, page: Page, axes: Axes) -> AxesImage:
     side = PAPER_DPI / (dpi * page.points_per_unit)
     corner = np.array([page.extent[0], page.extent[3]])
     points = np.concatenate(picture.outline).reshape(-1, 2)
-    # Whole pixels of the page's own grid, so that those of Agg are met one to one; a millionth of one is rounding.
+    # Whole pixels of the page's own grid, so that those of Agg are met one to one.
     cells = (points - corner) / (side, -side)
-    (left, top), (right, bottom) = np.floor(cells.min(axis=0) + 1e-6), np.ceil(cells.max(axis=0) - 1e-6)
+    (left, top), (right, bottom) = (
+        np.floor(cells.min(axis=0) + PIXEL_ROUNDING),
+        np.ceil(cells.max(axis=0) - PIXEL_ROUNDING),
+    )
     place = (corner[0] + left * side, corner[1] - top * side, side, side)
     extent = (place[0], corner[0] + right * side, corner[1] - bottom * side, place[1])
     image = AxesImage(axes, extent=extent, origin="upper", interpolation="none")

@@ -9,6 +9,7 @@ from stereodel._arrays import FloatArray, as_lonlat, as_scalar, as_steps
 from stereodel.sphere.arcs import SphereArc
 from stereodel.sphere.circles import SphereCircle
 from stereodel.sphere.coordinates import lonlat_to_xyz
+from stereodel.sphere.latitudes import Latitude
 
 _NORTH = (0.0, 0.0, 1.0)
 _SOUTH = (0.0, 0.0, -1.0)
@@ -19,18 +20,23 @@ def meridian(lon: float) -> SphereArc:
     return SphereArc(_meridian_circle(lon), np.array(_SOUTH), np.array(_NORTH), np.pi)
 
 
-def parallel(lat: float) -> SphereArc:
+def parallel(lat: float, *, latitude: Latitude = "spherical") -> SphereArc:
     """The whole circle of one latitude in degrees, in (−90, 90), eastwards from longitude 0."""
-    return SphereArc.whole(_parallel_circle(lat))
+    if latitude == "spherical":
+        return SphereArc.whole(_parallel_circle(lat))
+    x, _, z = lonlat_to_xyz((0.0, lat), latitude=latitude).tolist()
+    return SphereArc.whole(SphereCircle(np.array(_NORTH), z, x))
 
 
-def graticule(spacing: float = 15.0) -> list[SphereArc]:
+def graticule(spacing: float = 15.0, *, latitude: Latitude = "spherical") -> list[SphereArc]:
     """Meridians from pole to pole, from longitude −180 eastwards, then parallels from south to north.
 
     Parameters
     ----------
     spacing : float
         Degrees between neighbouring lines; 180 must be a whole multiple of it.
+    latitude : {"spherical", "geodetic", "authalic"}
+        Of which the parallels are multiples; see `stereodel.lonlat_to_xyz`.
 
     Returns
     -------
@@ -45,7 +51,7 @@ def graticule(spacing: float = 15.0) -> list[SphereArc]:
     steps = as_steps(180.0, spacing, "spacing")
     meridians = [meridian(k * 180.0 / steps) for k in range(-steps, steps)]
     half = (steps - 1) // 2
-    return meridians + [parallel(k * 180.0 / steps) for k in range(-half, half + 1)]
+    return meridians + [parallel(k * 180.0 / steps, latitude=latitude) for k in range(-half, half + 1)]
 
 
 def graticule_patch(center: npt.ArrayLike, half_width: float, spacing: float) -> list[SphereArc]:

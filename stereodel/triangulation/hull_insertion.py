@@ -15,7 +15,7 @@ from stereodel._docs import shared
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_asked, as_sites, as_told
 from stereodel.triangulation.order import insertion_order, spanning_points
-from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites, Sites
+from stereodel.triangulation.sites import GHOST, InsertionSites, PlaneSites, RaySites
 from stereodel.triangulation.topology import Edge, Facet, Surface, as_rows
 
 
@@ -106,7 +106,7 @@ class HullInsertion:
     def __init__(self, points: npt.ArrayLike, *, spatial: bool = False) -> None:
         array = as_plane_or_sphere(points)
         self.latitude: Latitude | None = None
-        self._sites: Sites = RaySites() if array.shape[1] == 3 else PlaneSites()
+        self._sites: InsertionSites = RaySites() if array.shape[1] == 3 else PlaneSites()
         self._spatial = spatial
         self._surface = Surface()
         self._first: dict[object, int] = {}

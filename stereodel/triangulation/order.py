@@ -8,10 +8,10 @@ import numpy as np
 
 from stereodel._arrays import FloatArray, Indices, LongArray
 from stereodel.predicates.rays import units
-from stereodel.triangulation.sites import Sites
+from stereodel.triangulation.sites import InsertionSites
 
 
-def spanning_points(sites: Sites, distinct: Sequence[int]) -> list[int]:
+def spanning_points(sites: InsertionSites, distinct: Sequence[int]) -> list[int]:
     """The first points in the given order that span: none, one, two on one line (great circle), or three.
 
     One less than their number is the dimension of the set. Two opposite directions count as two although they lie on

@@ -27,7 +27,7 @@ GHOST = -1
 """The plane's point at infinity as a vertex."""
 
 
-class Sites(ABC):
+class InsertionSites(ABC):
     """Points by number, with the signs that the engine needs.
 
     Attributes
@@ -85,7 +85,7 @@ class Sites(ABC):
         return sign
 
 
-class PlaneSites(Sites):
+class PlaneSites(InsertionSites):
     """Points of the plane; the pole is the ghost, takes part in no displacement and wins every tie."""
 
     pole = GHOST
@@ -165,7 +165,7 @@ class PlaneSites(Sites):
         return self._integers
 
 
-class RaySites(Sites):
+class RaySites(InsertionSites):
     """Directions; the pole is the first vertex of the first surface."""
 
     keys: list[Hashable]

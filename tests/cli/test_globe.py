@@ -55,8 +55,8 @@ def test_the_middle_of_the_picture():
     focused = replace(free, focus=(1.0, 2.0))
     assert focused.with_middle_of(points).views == (View(1, 2),)
     assert replace(focused, middle=(3.0, 4.0)).views == (View(3, 4),)
-    flat = replace(focused, projection=Projection.stereographic, extent=120.0)
-    assert flat.views == (StereographicView(1, 2, extent=120),)
+    flat = replace(focused, projection=Projection.stereographic, angular_radius=120.0)
+    assert flat.views == (StereographicView(1, 2, angular_radius=120),)
     both = replace(focused, projection=Projection.hemispheres).views
     assert both == (StereographicView(1, 2), StereographicView(-179, -2))
     assert middle_of(lonlat_to_xyz([(0, 0), (180, 0)])) == (0.0, 0.0)
@@ -203,7 +203,7 @@ def test_pdf_to_stdout(folder):
         (["--magnify", "inf"], "--magnify is inf,"),
         (["--magnify", "nan"], "--magnify is nan,"),
         (["--magnify", "1e200"], "magnification is 1e+200, outside the range"),
-        (["--projection", "stereographic", "--extent", "180"], "extent"),
+        (["--projection", "stereographic", "--angular-radius", "180"], "angular_radius"),
         (["--graticule", "7"], "must be a whole multiple"),
         (["--graticule", "-5"], "spacing is -5"),
         (["--texture", "missing.png"], "missing.png: No such file or directory"),
@@ -263,7 +263,13 @@ def test_clusters_are_drawn(folder, run):
     ],
 )
 def test_maps_and_graticule_suit_the_magnification(options, spacing, resolution):
-    given = {"focus": (2.0, 48.0), "magnification": 1.0, "middle": None, "projection": Projection.globe, "extent": 90.0}
+    given = {
+        "focus": (2.0, 48.0),
+        "magnification": 1.0,
+        "middle": None,
+        "projection": Projection.globe,
+        "angular_radius": 90.0,
+    }
     aim = Aim(**(given | options))
     assert aim.spacing == spacing
     assert aim.resolution == resolution

@@ -100,7 +100,7 @@ def test_an_end_on_the_plane_is_where_it_crosses():
     assert above.tolist() == [True, True, True]
 
 
-@pytest.mark.parametrize("view", [View(20, 30), StereographicView(-60, 10, extent=130.0)])
+@pytest.mark.parametrize("view", [View(20, 30), StereographicView(-60, 10, angular_radius=130.0)])
 def test_pieces_of_circles_in_sight(view):
     """Ends against the closed form: where the circle's plane meets the plane of the rim."""
     rng = np.random.default_rng(4)

@@ -33,7 +33,9 @@ def cells(diagram):
 def any_view(rng):
     place = rng.uniform(-180, 180), rng.uniform(-90, 90)
     return (
-        View(*place) if rng.random() < 0.5 else StereographicView(*place, extent=float(rng.choice([10.0, 90.0, 170.0])))
+        View(*place)
+        if rng.random() < 0.5
+        else StereographicView(*place, angular_radius=float(rng.choice([10.0, 90.0, 170.0])))
     )
 
 
@@ -198,7 +200,7 @@ def test_a_cap_and_the_rest_fill_the_disc(lon, lat, seed):
 
 
 @pytest.mark.parametrize("size", [1.0, 4.0, 300.0])
-@pytest.mark.parametrize("view", [View(10, 40), StereographicView(10, 40, extent=120.0)])
+@pytest.mark.parametrize("view", [View(10, 40), StereographicView(10, 40, angular_radius=120.0)])
 def test_cells_tile_the_disc(size, view):
     """All regions at once, sides traced once: no gap, no overlap, the areas of all loops are the disc."""
     arcs, sides = cells(SphericalVoronoi(np.random.default_rng(9).normal(size=(2000, 3))))

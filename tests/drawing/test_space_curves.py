@@ -140,8 +140,8 @@ def test_arcs_of_the_library_are_followed_in_their_sense():
     curve = CircleArc.of(arc)
     assert curve.stop == pytest.approx(3 * np.pi / 2)
     t = np.linspace(0, curve.stop, 9)
-    assert np.allclose(curve.sample(t), arc.points(9), rtol=0, atol=1e-15)
-    assert np.allclose(curve.scaled(2, np.array([1, 2, 3])).sample(t), 2 * arc.points(9) + [1, 2, 3], atol=1e-14)
+    assert np.allclose(curve.sample(t), arc.sample(9), rtol=0, atol=1e-15)
+    assert np.allclose(curve.scaled(2, np.array([1, 2, 3])).sample(t), 2 * arc.sample(9) + [1, 2, 3], atol=1e-14)
 
 
 def test_page_paths_are_connected_exactly():

@@ -78,7 +78,7 @@ def test_flat_maps_are_stereographic_projections_of_their_cap(extent, bearing, s
     """Distances from the middle are tan(χ/2) over that of the edge, bearings stay, and the way back is the inverse."""
     chi = np.radians(share * extent)
     axes = np.array([np.sin(chi) * np.cos(bearing), np.sin(chi) * np.sin(bearing), np.cos(chi)])
-    view = StereographicView(20.0, -35.0, extent=extent)
+    view = StereographicView(20.0, -35.0, angular_radius=extent)
     page = view.flattened(axes)
     reach = np.tan(chi / 2) / np.tan(np.radians(extent) / 2)
     np.testing.assert_allclose(page, reach * np.array([np.cos(bearing), np.sin(bearing)]), rtol=1e-9, atol=1e-12)
@@ -86,7 +86,7 @@ def test_flat_maps_are_stereographic_projections_of_their_cap(extent, bearing, s
     assert axes[2] >= view.edge
 
 
-@pytest.mark.parametrize("view", [View(10.0, 50.0, 20.0), StereographicView(10.0, 50.0, 20.0, extent=120.0)])
+@pytest.mark.parametrize("view", [View(10.0, 50.0, 20.0), StereographicView(10.0, 50.0, 20.0, angular_radius=120.0)])
 def test_what_is_outside_the_disc_has_no_place_on_the_sphere(view):
     points = np.array([[0.0, 0.0], [1.0, 0.0], [1.001, 0.0], [-0.8, -0.7]])
     axes = view.raised(points)
@@ -106,7 +106,7 @@ def test_the_stretch_bounds_how_far_curves_stray_from_chords_on_the_page(normal,
     center, u, v, _ = SphereArc.whole(circle).frame()
     t = begin + np.array([0.0, sweep / 2, sweep])[:, None]
     start, middle, end = center + np.cos(t) * u + np.sin(t) * v
-    view = StereographicView(0.0, 90.0, extent=extent)
+    view = StereographicView(0.0, 90.0, angular_radius=extent)
     axes = np.stack([start, middle, end])
     assume((axes[:, 2] >= view.edge).all())
     a, m, b = view.flattened(axes)

@@ -1,16 +1,25 @@
 """Lines of maps: straight in longitude and latitude, clipped at the edge of the view, thinned."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
-from stereodel.globe.lines import SphereLines, clipped_lines, thinned
+from stereodel.curves.ragged import Ragged, thinned
+from stereodel.curves.trace import Edges
+from stereodel.drawing.view import StereographicView, View
+from stereodel.globe.chart import Chart
+from stereodel.globe.lines import SphereLines
+from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere.vectors import turned
 
 NONE = MoebiusMap.identity()
+places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
+views = st.one_of(
+    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
+    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), extent=st.floats(20, 150)),
+)
 
 
 def distance_to_polyline(truth, points):
@@ -21,10 +30,10 @@ def distance_to_polyline(truth, points):
 
 
 @given(
-    start=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
+    start=places,
     step=st.tuples(st.floats(-179, 179), st.floats(-90, 90)),
     size=st.floats(-2, 2).map(lambda e: 10.0**e),
-    focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
+    focus=places,
 )
 def test_edges_are_straight_in_longitude_and_latitude(start, step, size, focus):
     end = (start[0] + step[0], np.clip(start[1] + step[1], -90, 90))
@@ -34,7 +43,7 @@ def test_edges_are_straight_in_longitude_and_latitude(start, step, size, focus):
     share = np.linspace(0, 1, 500)[:, None]
     truth = lens(lonlat_to_xyz(np.array(start) + share * (np.array(end) - start)))
     assert offsets.tolist() == [0, len(points)]
-    assert distance_to_polyline(truth, points).max() <= 1.2e-3
+    assert len(points) == 1 or distance_to_polyline(truth, points).max() <= 1.2e-3
 
 
 def test_jumps_across_the_antimeridian_go_the_short_way():
@@ -45,44 +54,80 @@ def test_jumps_across_the_antimeridian_go_the_short_way():
     assert len(offsets) == 3
 
 
-@pytest.mark.parametrize("edge", [0.0, -0.5, 0.3])
-def test_clipping_keeps_what_is_inside_and_ends_on_the_rim(edge):
-    rng = np.random.default_rng(2)
-    walks = [np.cumsum(rng.normal(scale=0.3, size=(50, 3)), axis=0) for _ in range(20)]
-    points = np.concatenate(walks)
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
-    offsets = np.arange(0, 1001, 50)
-    seen, runs = clipped_lines(points, offsets, edge)
-    assert (seen[:, 2] >= edge).all()
-    np.testing.assert_allclose(np.linalg.norm(seen, axis=1), 1.0, atol=1e-12)
-    assert {tuple(p) for p in points[points[:, 2] >= edge]} == {tuple(p) for p in seen[seen[:, 2] > edge]}
-    on_rim = seen[:, 2] == edge
-    crossings = sum(
-        int(np.sum((points[a : b - 1, 2] >= edge) != (points[a + 1 : b, 2] >= edge))) for a, b in pairwise(offsets)
-    )
-    assert on_rim.sum() == crossings
-    inner = np.ones(len(seen), dtype=bool)
-    inner[runs[:-1]] = inner[runs[1:] - 1] = False
-    assert not on_rim[inner].any()
-    assert (np.diff(runs) > 1).all()
+def test_from_one_side_of_the_antimeridian_to_the_other_is_no_way():
+    points, _ = SphereLines.straight_in_lonlat([[(180, 10), (-180, 10), (-170, 10)]]).through(NONE, tolerance=1e-3)
+    assert np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < np.radians(10)
+
+
+@given(start=places, end=places, focus=places, size=st.floats(-2, 6).map(lambda e: 10.0**e), view=views)
+def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, view):
+    """All of the image in the disc is near what is drawn, and what is drawn is near the image."""
+    a, b = lonlat_to_xyz([start, end])
+    if not 1e-3 < np.linalg.norm(a - b) < 1.999:
+        return
+    lens = fisheye(focus, magnification=size)
+    chart = Chart(lens, view, tolerance=1e-3)
+    seen = chart.lines(SphereLines.great(a[None], b[None]))
+    axes = turned(lens.image_of(SphereArc.great(a, b)).points(4000), view.matrix)
+    truth = view.flattened(axes[axes[:, 2] > view.edge])
+    if not len(seen):
+        # Out of sight, but for a point on the rim.
+        assert len(truth) == 0 or np.ptp(truth, axis=0).max() < 1e-2
+        return
+    assert (np.hypot(*seen.values.T) <= 1 + 1e-9).all()
+    gaps = np.min([distance_to_polyline(truth, line) for line in seen], axis=0) if len(truth) else np.zeros(1)
+    assert gaps.max() <= 2.2e-3
+    # Ends are ends of the image, or on the rim.
+    ends = np.concatenate([seen.values[seen.offsets[:-1]], seen.values[seen.offsets[1:] - 1]])
+    own = view.flattened(turned(lens(np.stack([a, b])), view.matrix))
+    away = np.minimum(np.abs(np.hypot(*ends.T) - 1), np.linalg.norm(ends[:, None] - own, axis=-1).min(axis=1))
+    assert away.max() < 1e-9
 
 
 def test_lines_out_of_sight_leave_nothing():
-    points = lonlat_to_xyz([(0, -10), (10, -20), (20, -30)])
-    seen, runs = clipped_lines(points, np.array([0, 3]), 0.0)
-    assert seen.shape == (0, 3)
-    assert runs.tolist() == [0]
-    assert clipped_lines(np.zeros((0, 3)), np.zeros(1, dtype=int), 0.0)[1].tolist() == [0]
+    lines = SphereLines.straight_in_lonlat([[(170, -10), (175, -20), (180, -30)]])
+    for view in (View(0, 0), StereographicView(0, 0, angular_radius=100)):
+        seen = Chart(NONE, view).lines(lines)
+        assert seen.values.shape == (0, 2)
+        assert len(seen) == 0
+    assert len(Chart(NONE, View(0, 0)).lines(SphereLines.straight_in_lonlat([]))) == 0
+
+
+@pytest.mark.parametrize("size", [1.0, 30.0, 1e6])
+@pytest.mark.parametrize("view", [View(2, 48), View(60, 10), StereographicView(2, 48, angular_radius=140)])
+def test_edges_that_are_left_out_are_out_of_sight(size, view, monkeypatch):
+    rng = np.random.default_rng(1)
+    walks = np.cumsum(rng.normal(scale=3.0, size=(40, 30, 2)), axis=1) + rng.uniform(-90, 90, (40, 1, 2))
+    walks[::2, -1] = walks[::2, 0]
+    walks[:9] = walks[:9] * 10.0 ** -np.arange(9)[:, None, None] + [2, 48]
+    walks[..., 1] = np.clip(walks[..., 1], -90, 90)
+    lines = SphereLines.straight_in_lonlat(walks)
+    chart = Chart(fisheye((2.0, 48.0), magnification=size), view)
+    some = chart.lines(lines)
+    left_out = lines.edges.within(chart.source.center, chart._reach).mean()
+    monkeypatch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
+    whole = chart.lines(lines)
+    np.testing.assert_array_equal(some.values, whole.values)
+    np.testing.assert_array_equal(some.offsets, whole.offsets)
+    assert left_out < 0.7
+
+
+def test_arcs_of_circles_are_followed_whole():
+    circle = SphereCircle.around((20.0, 30.0), 25.0)
+    lens = fisheye((10.0, 20.0), magnification=5.0)
+    points, offsets = SphereLines.of_arcs([SphereArc.whole(circle)]).through(lens, tolerance=1e-4)
+    image = lens.image_of(circle)
+    np.testing.assert_allclose(points @ image.normal, image.offset, atol=1e-12)
+    assert offsets.tolist() == [0, len(points)]
+    assert (points[0] == points[-1]).all()
+    assert distance_to_polyline(image.sample(2000), points).max() < 1e-4
 
 
 @given(st.integers(0, 1000), st.floats(0.01, 1.0))
 def test_thinning_moves_no_line_by_more_than_the_spacing(seed, spacing):
     rng = np.random.default_rng(seed)
-    points = np.cumsum(rng.normal(scale=0.1, size=(60, 2)), axis=0)
-    offsets = np.array([0, 20, 22, 60])
-    kept, ends = thinned(points, offsets, spacing)
-    for k in range(3):
-        line, thin = points[offsets[k] : offsets[k + 1]], kept[ends[k] : ends[k + 1]]
+    lines = Ragged(np.cumsum(rng.normal(scale=0.1, size=(60, 2)), axis=0), np.array([0, 20, 22, 60]))
+    for line, thin in zip(lines, thinned(lines, spacing), strict=True):
         assert (thin[0] == line[0]).all()
         assert (thin[-1] == line[-1]).all()
         assert np.linalg.norm(line[:, None] - thin, axis=-1).min(axis=1).max() <= spacing

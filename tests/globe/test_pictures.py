@@ -49,7 +49,7 @@ def distance(size):
     return np.hypot(x, x[:, None])
 
 
-@pytest.mark.parametrize("view", [View(20, 40), StereographicView(20, 40, extent=120)])
+@pytest.mark.parametrize("view", [View(20, 40), StereographicView(20, 40, angular_radius=120)])
 def test_opengl_draws_the_painters_pixels(view):
     """Over the edges of the windows in which a large picture is drawn, too."""
     size = 700

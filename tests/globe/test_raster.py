@@ -29,7 +29,12 @@ PLACES = {
     "shrunk": (PLAIN, View(20, 40), 32, (0, 0, 14, 14)),
     "shrunk much": (PLAIN, View(20, 40), 12, (0, 0, 12, 12)),
     "antipode": (STRONG, View(200, -40), 128, (57, 57, 14, 14)),
-    "flat": (fisheye((20.0, 40.0), magnification=4.0), StereographicView(20, 40, extent=150), 128, (2, 60, 12, 8)),
+    "flat": (
+        fisheye((20.0, 40.0), magnification=4.0),
+        StereographicView(20, 40, angular_radius=150),
+        128,
+        (2, 60, 12, 8),
+    ),
 }
 
 
@@ -105,12 +110,12 @@ def lens_parts(lens, view):
     return back.right.matrix @ view.matrix.T, back.magnification, back.left.matrix
 
 
-@pytest.mark.parametrize("view", [View(17, 33, 20), StereographicView(17, 33, 20, extent=170)])
+@pytest.mark.parametrize("view", [View(17, 33, 20), StereographicView(17, 33, 20, angular_radius=170)])
 @pytest.mark.parametrize("magnification", [1.0, 20.0, 1e3, 1e6, 1e-3])
 def test_traced_points_are_those_of_the_exact_map(view, magnification):
     """Within a thousandth of a pixel on the page, of a globe of 2000 pixels, however strong the lens."""
     lens = fisheye((17.5, 33.2), magnification=magnification) @ MoebiusMap.rotation(Rotation.about((50, 60), 70))
-    reach = 0.0 if isinstance(view, View) else np.tan(np.radians(view.extent / 2))
+    reach = 0.0 if isinstance(view, View) else np.tan(np.radians(view.angular_radius / 2))
     x = np.linspace(-0.9, 0.9, 401)
     traced = probe.trace_page(*lens_parts(lens, view), reach, (-0.9, 0.31, 1.8 / 400, 1e-3), 401)
     exact = lens.inverse()(view.raised(np.stack([x, np.full(401, 0.31)], axis=-1)) @ view.matrix)
@@ -119,11 +124,11 @@ def test_traced_points_are_those_of_the_exact_map(view, magnification):
     assert (np.linalg.norm(found - exact, axis=-1) * scale).max() < 0.001 * 2 / 2000 * max(1, magnification / 1e3)
 
 
-@pytest.mark.parametrize("view", [View(17, 33, 20), StereographicView(17, 33, 20, extent=170)])
+@pytest.mark.parametrize("view", [View(17, 33, 20), StereographicView(17, 33, 20, angular_radius=170)])
 def test_traced_changes_are_derivatives(view):
     lens, step, reach = fisheye((40.0, 10.0), magnification=3.0), 1e-6, 0.0
     if isinstance(view, StereographicView):
-        reach = np.tan(np.radians(view.extent / 2))
+        reach = np.tan(np.radians(view.angular_radius / 2))
     for x, y in np.random.default_rng(3).uniform(-0.6, 0.6, (20, 2)):
         row = probe.trace_page(*lens_parts(lens, view), reach, (x, y, step, step / 2), 1)[0]
         ends = np.array([[x + step, y], [x - step, y], [x, y + step], [x, y - step]])

@@ -1,150 +1,208 @@
-"""Regions as triangles: areas under lenses and across limb, antimeridian and poles; neighbours stay joined."""
-
-from dataclasses import replace
-from itertools import pairwise
+"""Regions by their borders: what is inside, under lenses and across limb, antimeridian and poles; neighbours tile."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
-from stereodel.drawing.view import View
-from stereodel.globe.polygons import Polygons
-from stereodel.globe.regions import Mesh, SphereMesh
-from stereodel.render.outlines import boundary_sides, loops
-from stereodel.sphere.vectors import turned
+from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.curves.clip import signed_areas
+from stereodel.curves.fill import triangles, union
+from stereodel.curves.trace import Edges
+from stereodel.drawing.view import StereographicView, View
+from stereodel.globe.chart import Chart
+from stereodel.globe.regions import SphereRegions
+from stereodel.sphere import SphereCircle
 
 NONE = MoebiusMap.identity()
 
-# Rings and their exact areas on the unit sphere.
+# Rings, and the west, south, east and north of the boxes that they bound.
 BOXES = {
-    "plain": (
-        [(10, 20), (50, 20), (50, 60), (10, 60)],
-        np.radians(40) * (np.sin(np.radians(60)) - np.sin(np.radians(20))),
-    ),
-    "across": ([(170, -10), (-170, -10), (-170, 10), (170, 10)], np.radians(20) * 2 * np.sin(np.radians(10))),
-    "beyond": ([(170, -10), (190, -10), (190, 10), (170, 10)], np.radians(20) * 2 * np.sin(np.radians(10))),
-    "south as in files": ([(-180, -90), (180, -90), (180, -60), (-180, -60)], 2 * np.pi * (1 - np.sin(np.radians(60)))),
-    "north once round": ([(0, 60), (90, 60), (180, 60), (-90, 60)], 2 * np.pi * (1 - np.sin(np.radians(60)))),
-    "south once round": ([(0, -60), (-90, -60), (-180, -60), (90, -60)], 2 * np.pi * (1 - np.sin(np.radians(60)))),
-    "band": ([(-180, -30), (180, -30), (180, 30), (-180, 30)], 4 * np.pi * 0.5),
-    "clockwise": (
-        [(10, 60), (50, 60), (50, 20), (10, 20)],
-        np.radians(40) * (np.sin(np.radians(60)) - 0.3420201433256687),
-    ),
+    "plain": ([(10, 20), (50, 20), (50, 60), (10, 60)], (10, 20, 50, 60)),
+    "across": ([(170, -10), (-170, -10), (-170, 10), (170, 10)], (170, -10, 190, 10)),
+    "beyond": ([(170, -10), (190, -10), (190, 10), (170, 10)], (170, -10, 190, 10)),
+    "south as in files": ([(-180, -90), (180, -90), (180, -60), (-180, -60)], (-180, -90, 180, -60)),
+    "north once round": ([(0, 60), (90, 60), (180, 60), (-90, 60)], (-180, 60, 180, 90)),
+    "south once round": ([(0, -60), (-90, -60), (-180, -60), (90, -60)], (-180, -90, 180, -60)),
+    "band": ([(-180, -30), (180, -30), (180, 30), (-180, 30)], (-180, -30, 180, 30)),
+    "clockwise": ([(10, 60), (50, 60), (50, 20), (10, 20)], (10, 20, 50, 60)),
+    "to the pole": ([(0, 70), (40, 70), (40, 90), (0, 90)], (0, 70, 40, 90)),
+    "the world": ([(-180, -90), (180, -90), (180, 90), (-180, 90)], (-180, -90, 180, 90)),
 }
 
-
-def solid_angles(mesh):
-    a, b, c = (mesh.points[mesh.faces[:, i]] for i in range(3))
-    triple = np.sum(np.cross(a, b) * c, axis=1)
-    return 2 * np.arctan2(triple, 1 + np.sum(a * b, axis=1) + np.sum(b * c, axis=1) + np.sum(c * a, axis=1))
-
-
-@pytest.mark.parametrize("name", BOXES)
-def test_areas_of_boxes(name):
-    ring, area = BOXES[name]
-    mesh = Polygons.of_lonlat([[ring]]).mesh.through(NONE, tolerance=1e-4)
-    assert solid_angles(mesh).sum() == pytest.approx(area, rel=1e-3)
+places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
+views = st.one_of(
+    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
+    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), extent=st.floats(20, 150)),
+)
 
 
-@pytest.mark.parametrize("name", BOXES)
-def test_what_is_left_of_a_box_has_no_seam(name):
-    """The boundary of the whole image is one loop, or the two of the band: ±180° and the poles do not show."""
-    mesh = Polygons.of_lonlat([[BOXES[name][0]]]).mesh.through(fisheye((100, 40), magnification=3), tolerance=1e-3)
-    assert len(loops(boundary_sides(mesh.faces))) == (2 if name == "band" else 1)
+def seen_places(lens, view, seed=0, n=300):
+    """Places in the disc, evenly, and where they are on the sphere."""
+    rng = np.random.default_rng(seed)
+    xy = rng.uniform(-1, 1, (n, 2))
+    xy = xy[np.hypot(*xy.T) < 0.995]
+    return xy, lens.inverse()(view.raised(xy) @ view.matrix)
+
+
+def depth(loops, xy):
+    """How often closed loops go round places."""
+    total = np.zeros(len(xy), dtype=int)
+    for loop in loops:
+        a, b = loop[:-1, None] - xy, loop[1:, None] - xy
+        cross = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+        total += ((a[..., 1] <= 0) & (b[..., 1] > 0) & (cross > 0)).sum(axis=0)
+        total -= ((a[..., 1] > 0) & (b[..., 1] <= 0) & (cross < 0)).sum(axis=0)
+    return total
+
+
+def near_to(loops, xy):
+    """Distances of places from the nearest side of the loops."""
+    found = np.full(len(xy), np.inf)
+    for loop in loops:
+        a, way = loop[:-1], np.diff(loop, axis=0)
+        share = np.sum((xy[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300)
+        away = np.linalg.norm(xy[:, None] - a - np.clip(share, 0, 1)[..., None] * way, axis=-1)
+        found = np.minimum(found, away.min(axis=1))
+    return found
+
+
+def in_box(xyz, box):
+    west, south, east, north = box
+    lon, lat = xyz_to_lonlat(xyz).T
+    return (np.mod(lon - west, 360) <= east - west) & (south <= lat) & (lat <= north)
+
+
+@given(focus=places, size=st.floats(-3, 6).map(lambda e: 10.0**e), view=views, name=st.sampled_from(sorted(BOXES)))
+def test_boxes_hold_what_they_should_under_every_lens(focus, size, view, name):
+    """Winding numbers of the loops on the page against the box itself, at places all over the disc."""
+    ring, box = BOXES[name]
+    lens = fisheye(focus, magnification=size)
+    loops, owner = Chart(lens, view).regions(SphereRegions.of_lonlat([[ring]]))
+    assert (owner == 0).all()
+    xy, xyz = seen_places(lens, view)
+    clear = near_to(loops, xy) > 3e-4
+    found = depth(loops, xy)
+    np.testing.assert_array_equal(found[clear] > 0, in_box(xyz, box)[clear])
+    assert set(found[clear].tolist()) <= {0, 1}
 
 
 @pytest.mark.parametrize("name", BOXES)
 def test_outlines_have_no_seam(name):
     """Outlines are as long as the true border, without the sides along ±180° and to the poles."""
-    polygons = Polygons.of_lonlat([[BOXES[name][0]]])
-    points, offsets = polygons.outlines.through(NONE, tolerance=1e-5)
-    length = sum(np.linalg.norm(np.diff(points[a:b], axis=0), axis=1).sum() for a, b in pairwise(offsets))
-    parallel = 2 * np.pi * np.cos(np.radians(60))
-    expected = {
-        "plain": np.radians(40) * (np.cos(np.radians(20)) + np.cos(np.radians(60)) + 2),
-        "clockwise": np.radians(40) * (np.cos(np.radians(20)) + np.cos(np.radians(60)) + 2),
-        "across": np.radians(40) * (1 + np.cos(np.radians(10))),
-        "beyond": np.radians(40) * (1 + np.cos(np.radians(10))),
-        "band": 4 * np.pi * np.cos(np.radians(30)),
-    }
-    assert length == pytest.approx(expected.get(name, parallel), rel=1e-3)
-
-
-@given(
-    focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
-    size=st.floats(-3, 6).map(lambda e: 10.0**e),
-    name=st.sampled_from(sorted(BOXES)),
-)
-def test_a_region_and_the_rest_of_the_sphere_cover_it_under_every_lens(focus, size, name):
-    """Areas of the images of a box and of its complement add up to the sphere, wherever the focus is."""
-    lens = fisheye(focus, magnification=size)
-    ring = np.array(BOXES[name][0], dtype=float)
-    if name == "band":
-        rest = [[[(-180, -90), (180, -90), (180, -30), (-180, -30)]], [[(-180, 30), (180, 30), (180, 90), (-180, 90)]]]
-    elif name in ("south as in files", "south once round"):
-        rest = [[[(-180, -60), (180, -60), (180, 90), (-180, 90)]]]
-    elif name == "north once round":
-        rest = [[[(-180, -90), (180, -90), (180, 60), (-180, 60)]]]
-    else:
-        ring[:, 0] = np.where(ring[:, 0] < ring[:, 0].max() - 180, ring[:, 0] + 360, ring[:, 0])
-        west = ring[:, 0].mean() - 180.0
-        outer = [(west, -90), (west + 360, -90), (west + 360, 90), (west, 90)]
-        rest = [[outer, ring]]
-    both = Polygons.of_lonlat([[BOXES[name][0]], *rest], owners=[0] + [1] * len(rest))
-    areas = solid_angles(both.mesh.through(lens, tolerance=2e-3))
-    assert areas.sum() == pytest.approx(4 * np.pi, rel=2e-2)
+    regions = SphereRegions.of_lonlat([[BOXES[name][0]]])
+    points, offsets = regions.outlines.through(NONE, tolerance=1e-5)
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    steps[offsets[1:-1] - 1] = 0.0
+    west, south, east, north = (np.radians(side) for side in BOXES[name][1])
+    expected = (east - west) * (np.cos(south) + np.cos(north)) + 2 * (north - south) * (east - west < 6.28)
+    assert steps.sum() == pytest.approx(expected, rel=1e-3, abs=1e-12)
 
 
 def test_holes_are_left_out():
     box, hole = [(0, 0), (40, 0), (40, 40), (0, 40)], [(10, 10), (10, 20), (20, 20), (20, 10)]
+    chart = Chart(NONE, View(20, 20))
     areas = [
-        solid_angles(Polygons.of_lonlat([rings]).mesh.through(NONE, tolerance=1e-4)).sum()
-        for rings in ([box], [box, hole], [hole])
+        signed_areas(chart.regions(SphereRegions.of_lonlat([rings]))[0])[0].sum()
+        for rings in ([box], [box, hole], [box, hole[::-1]], [hole])
     ]
-    assert areas[1] == pytest.approx(areas[0] - areas[2], rel=1e-3)
+    assert areas[1] == pytest.approx(areas[0] - areas[3], rel=1e-9)
+    assert areas[2] == pytest.approx(areas[1], rel=1e-12)
 
 
-@given(st.floats(-180, 180), st.floats(-90, 90), st.sampled_from(sorted(BOXES)))
-def test_both_sides_of_the_limb_make_the_whole(lon, lat, name):
-    mesh = Polygons.of_lonlat([[BOXES[name][0]]]).mesh.through(NONE, tolerance=1e-3)
-    matrix = View(lon, lat).matrix
-    near = replace(mesh, points=turned(mesh.points, matrix))
-    far = replace(mesh, points=turned(mesh.points, matrix * np.array([[-1.0], [1.0], [-1.0]])))
-    total = 0.0
-    for side in (near, far):
-        part, rim = side.clipped(0.0, tolerance=1e-3)
-        assert (part.points[:, 2] >= 0).all()
-        assert (part.points[rim, 2] == 0).all()
-        total += solid_angles(part).sum()
-    assert total == pytest.approx(solid_angles(mesh).sum(), abs=2e-3)
+@given(focus=places, size=st.floats(-2, 4).map(lambda e: 10.0**e), view=views)
+def test_the_world_but_a_hole_is_what_the_hole_is_not(focus, size, view):
+    world, hole = BOXES["the world"][0], BOXES["plain"][0]
+    lens = fisheye(focus, magnification=size)
+    chart = Chart(lens, view)
+    loops, _ = chart.regions(SphereRegions.of_lonlat([[world, hole]]))
+    xy, xyz = seen_places(lens, view)
+    clear = near_to(loops, xy) > 3e-4
+    np.testing.assert_array_equal(depth(loops, xy)[clear] == 0, in_box(xyz, BOXES["plain"][1])[clear])
 
 
-def test_clipping_leaves_neighbours_joined():
-    """The boundary of what is seen is the border and the rim: each cut side has one corner there."""
-    mesh = Polygons.of_lonlat([[BOXES["band"][0]]]).mesh.through(NONE, tolerance=1e-3)
-    part, rim = replace(mesh, points=turned(mesh.points, View(20, 10).matrix)).clipped(0.0, tolerance=1e-3)
-    (loop,) = loops(boundary_sides(part.faces))
-    assert rim[loop].sum() > 20
-    assert len(np.unique(loop)) == len(loop)
+def test_parts_that_meet_at_a_seam_are_one():
+    """Two halves of a box cut at ±180° have one border, and both halves of the world have none."""
+    east = [(170, -10), (180, -10), (180, 10), (170, 10)]
+    west = [(-180, -10), (-170, -10), (-170, 10), (-180, 10)]
+    regions = SphereRegions.of_lonlat([[east], [west]], owners=[0, 0])
+    assert len(regions.rings) == 1
+    loops, _ = Chart(NONE, View(180, 0)).regions(regions)
+    whole, _ = Chart(NONE, View(180, 0)).regions(SphereRegions.of_lonlat([[BOXES["across"][0]]]))
+    assert signed_areas(loops)[0] == pytest.approx(signed_areas(whole)[0])
+    halves = [[(-180, -90), (0, -90), (0, 90), (-180, 90)], [(0, -90), (180, -90), (180, 90), (0, 90)]]
+    assert SphereRegions.of_lonlat([[half] for half in halves]).everywhere.tolist() == [False, False]
 
 
-def test_nothing_is_seen_of_what_is_behind():
-    corners = lonlat_to_xyz([(0, 30), (40, 30), (20, 60)])
-    mesh = SphereMesh(corners, np.array([[0, 1, 2]]), np.array([0])).through(NONE, tolerance=1e-2)
-    part, rim = Mesh(-mesh.points, mesh.faces[:, ::-1], mesh.owners).clipped(0.0, tolerance=1e-3)
-    assert part.faces.shape == (0, 3)
-    assert len(rim) == 0
-    everything, _ = mesh.clipped(-0.999, tolerance=1e-3)
-    assert len(everything.faces) == len(mesh.faces)
+def test_a_region_of_repeated_points_is_nothing():
+    regions = SphereRegions.of_lonlat([[[(10, 10), (20, 10), (10, 10), (20, 10)]]])
+    for view in (View(15, 10), View(-165, -10)):
+        loops, _ = Chart(NONE, view).regions(regions)
+        assert np.abs(signed_areas(loops)[0].sum()) < 1e-9
 
 
-def test_great_circle_triangles_keep_their_area():
-    mesh = SphereMesh(np.eye(3), np.array([[0, 1, 2]]), np.array([0])).through(NONE, tolerance=1e-4)
-    assert solid_angles(mesh).sum() == pytest.approx(np.pi / 2, rel=1e-12)
-    assert np.linalg.norm(mesh.points, axis=1) == pytest.approx(1.0)
+@pytest.mark.parametrize("size", [1.0, 10.0, 1000.0])
+@pytest.mark.parametrize("view", [View(10, 20), View(2.35, 48.86), StereographicView(-50, -60, angular_radius=130)])
+def test_cells_tile_the_disc(size, view):
+    """The cells together are the disc, each once: areas of loops and of triangles, and one border for all."""
+    voronoi = SphericalVoronoi(np.random.default_rng(3).normal(size=(300, 3)))
+    chart = Chart(fisheye((2.35, 48.86), magnification=size), view, tolerance=1e-4)
+    loops, owner = chart.regions(SphereRegions.cells(voronoi))
+    area, _ = signed_areas(loops)
+    assert area.sum() == pytest.approx(np.pi, rel=1e-4)
+    corners, _ = triangles(loops, owner)
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    assert np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2 == pytest.approx(area.sum(), rel=1e-6)
+    (border,) = union(loops)
+    # But for needles at the limb, thinner than the tolerance, that fall out.
+    assert np.abs(np.hypot(*border.T) - 1).max() < 1e-3
+    xy, xyz = seen_places(chart.lens, view, n=200)
+    clear = near_to(loops, xy) > 3e-4
+    nearest = np.argmax(xyz @ voronoi.points.T / np.linalg.norm(voronoi.points, axis=1), axis=1)
+    for site in np.unique(nearest[clear]):
+        inside = depth([loop for loop, its in zip(loops, owner, strict=True) if its == site], xy)
+        np.testing.assert_array_equal(inside[clear] > 0, (nearest == site)[clear])
+
+
+def test_a_cell_may_hold_all_that_is_seen():
+    """Of two hundred cells one is all of the disc, where the lens shows no border."""
+    points = np.random.default_rng(3).normal(size=(200, 3))
+    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    lens = fisheye(points[17], magnification=1e6)
+    loops, owner = Chart(lens, View(*xyz_to_lonlat(lens(points[17])))).regions(
+        SphereRegions.cells(SphericalVoronoi(points))
+    )
+    assert owner.tolist() == [17]
+    assert signed_areas(loops)[0] == pytest.approx([np.pi], rel=1e-5)
+
+
+def test_triangles_have_no_far_side():
+    triangulation = SphericalDelaunay.from_lonlat([(0, 0), (20, 0), (10, 20), (10, 8)])
+    regions = SphereRegions.triangles(triangulation)
+    _, owner = Chart(NONE, View(10, 8)).regions(regions)
+    assert owner.tolist() == np.flatnonzero(~triangulation.closing).tolist()
+    assert len(Chart(NONE, View(-170, -8)).regions(regions)[0]) == 0
+
+
+@given(focus=places, size=st.floats(-2, 4).map(lambda e: 10.0**e), view=views, radius=st.floats(1, 179), at=places)
+def test_the_insides_of_circles(focus, size, view, radius, at):
+    circle = SphereCircle.around(at, radius)
+    lens = fisheye(focus, magnification=size)
+    loops, _ = Chart(lens, view).regions(SphereRegions.circles([circle]))
+    xy, xyz = seen_places(lens, view)
+    clear = near_to(loops, xy) > 3e-4
+    np.testing.assert_array_equal(depth(loops, xy)[clear] > 0, circle.contains(xyz)[clear])
+
+
+@given(focus=places, size=st.floats(-2, 4).map(lambda e: 10.0**e), view=views, name=st.sampled_from(sorted(BOXES)))
+def test_edges_that_are_left_out_are_out_of_sight(focus, size, view, name):
+    chart = Chart(fisheye(focus, magnification=size), view)
+    regions = SphereRegions.of_lonlat([[BOXES[name][0]]])
+    some, _ = chart.regions(regions)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
+        whole, _ = chart.regions(regions)
+    np.testing.assert_array_equal(some.values, whole.values)
 
 
 @pytest.mark.parametrize(
@@ -152,57 +210,16 @@ def test_great_circle_triangles_keep_their_area():
 )
 def test_bad_rings_are_named(rings, message):
     with pytest.raises(ValueError, match=r"polygons\[1\].*" + message):
-        Polygons.of_lonlat([[[(0, 0), (1, 0), (1, 1)]], rings])
+        SphereRegions.of_lonlat([[[(0, 0), (1, 0), (1, 1)]], rings])
 
 
 def test_tiny_regions_at_huge_magnification_are_smooth():
-    """A circle of 1 km of many sides, a million times larger: its image's outline has no long chords."""
+    """A circle of a metre of many sides, ten million times larger: its image's outline has no long chords."""
     t = np.arange(8) * np.pi / 4
     ring = np.stack([2.0 + 1e-5 * np.cos(t), 48.0 + 1e-5 * np.sin(t)], axis=1)
     lens = fisheye((2.0, 48.0), magnification=1e7)
-    mesh = Polygons.of_lonlat([[ring]]).mesh.through(lens, tolerance=1e-3)
-    sides = np.concatenate([mesh.faces[:, [0, 1]], mesh.faces[:, [1, 2]], mesh.faces[:, [2, 0]]])
-    assert np.linalg.norm(mesh.points[sides[:, 0]] - mesh.points[sides[:, 1]], axis=1).max() < 0.25
-    np.testing.assert_allclose(mesh.points[:8], lens(lonlat_to_xyz(ring)), atol=1e-15)
-
-
-@given(
-    focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
-    size=st.floats(-2, 4).map(lambda e: 10.0**e),
-    at=st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
-    edge=st.floats(-0.9, 0.9),
-    name=st.sampled_from(sorted(BOXES)),
-)
-def test_what_is_left_out_beyond_a_cap_is_out_of_sight(focus, size, at, edge, name):
-    lens = fisheye(focus, magnification=size)
-    matrix = View(*at).matrix
-    mesh = Polygons.of_lonlat([[BOXES[name][0]]]).mesh
-    seen = []
-    for cap in (None, (matrix[2], edge)):
-        image = mesh.through(lens, tolerance=2e-3, cap=cap)
-        part, _ = replace(image, points=turned(image.points, matrix)).clipped(edge, tolerance=2e-3)
-        seen.append(np.sort(part.points[part.faces].reshape(-1, 9), axis=0))
-    np.testing.assert_array_equal(*seen)
-
-
-def test_a_side_across_the_cap_whose_ends_are_on_its_rim_stays_straight():
-    points = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.3, 0.9], [1.0, 1.0, 0.2]])
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
-    mesh = Mesh(points, np.array([[0, 1, 2], [0, 3, 1]]), np.zeros(2, dtype=int))
-    part, rim = mesh.clipped(0.0, tolerance=1e-3)
-    assert len(part.points) == 4
-    assert rim.sum() == 2
-
-
-@given(
-    corners=st.lists(st.tuples(st.floats(-170, 170), st.floats(-90, 90)), min_size=3, max_size=3),
-    seed=st.integers(0, 100),
-)
-def test_triangles_are_no_larger_than_their_size(corners, seed):
-    """What is out of sight is left out by it: it bounds distances from the first corner."""
-    mesh = SphereMesh(np.array(corners), np.array([[0, 1, 2]]), np.array([0]))
-    (size,) = mesh._sizes(lonlat_to_xyz(mesh.corners))
-    shares = np.random.default_rng(seed).dirichlet(np.ones(3), 50)
-    inside = np.clip(shares @ mesh.corners, [-180, -90], [180, 90])
-    distances = angular_distance(lonlat_to_xyz(inside), lonlat_to_xyz(corners[0]))
-    assert np.radians(distances).max() <= size + 1e-9
+    loops, _ = Chart(lens, View(*xyz_to_lonlat(lens(lonlat_to_xyz((2.0, 48.0)))))).regions(
+        SphereRegions.of_lonlat([[ring]])
+    )
+    (loop,) = loops
+    assert np.linalg.norm(np.diff(loop, axis=0), axis=1).max() < 0.25

@@ -6,10 +6,10 @@ from itertools import groupby
 
 import numpy as np
 
-from stereodel.drawing.page import Dots, Fill, Label, Mosaic, Patch, Picture, Polylines, Stroke
+from stereodel.drawing.page import FEW_COLORS, Dots, Fill, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.style import PRINT_DPI
+from tests.images.loops_boundary import LoopsBoundary, union_path
 from tests.images.marks import PLACE, Mark, Path, area, distances, tidy, together
-from tests.images.patch_boundary import PatchBoundary
 
 WIDTH = 1e-5
 """Points by which a width or the length of a dash may differ: files hold six decimals."""
@@ -97,16 +97,8 @@ class _Place:
                 yield Mark("fill", levels_of(item.color), self.path(item.paths, closed=True)), None
             case Dots():
                 yield from self.dots(item)
-            case Patch():
-                yield (
-                    Mark("fill", levels_of(item.color)),
-                    PatchBoundary(self(item.points), item, self(item.middle)).wrong,
-                )
-            case Mosaic():
-                pixels = np.dstack([picture := next(pictures), np.full(picture.shape[:2], 255, np.uint8)])
-                place = (0.0, 0.0, self.page.width, self.page.height)
-                clip = self.path(item.outline, closed=True)
-                yield Mark("image", place=place, pixels=pixels, clips=(clip,)), None
+            case Polygons():
+                yield from self.polygons(item, pictures)
             case Picture():
                 yield self.picture(item), None
             case Label():
@@ -137,6 +129,20 @@ class _Place:
         pieces = np.linspace(points[first[order]], points[last[order]], 4, axis=1)
         starts, ends = item.points[item.offsets[:-1]], item.points[item.offsets[1:] - 1]
         return tidy(pieces, line[first[order]], (starts == ends).all(axis=1) & (sizes > 3))
+
+    def polygons(self, item, pictures):
+        """A path for each colour in their order, or a picture that shows within all loops."""
+        loops = np.split(self(item.points), item.offsets[1:-1])
+        colors = item.colors[item.owner]
+        distinct = np.unique(colors, axis=0)
+        if len(distinct) > FEW_COLORS:
+            pixels = np.dstack([picture := next(pictures), np.full(picture.shape[:2], 255, np.uint8)])
+            place = (0.0, 0.0, self.page.width, self.page.height)
+            yield Mark("image", place=place, pixels=pixels, clips=(union_path(loops),)), None
+            return
+        for color in distinct:
+            own = [loop for loop, its in zip(loops, colors, strict=True) if (its == color).all()]
+            yield Mark("fill", levels_of(color)), LoopsBoundary(own).wrong
 
     def dots(self, item):
         """Discs, and smaller ones on top where there is a rim."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Fill, Label, Patch, Polylines, Stroke
+from stereodel.drawing.page import Fill, Label, Polygons, Polylines, Stroke
 from stereodel.render import raster, rows, vector
 from stereodel.render import text as labels
 from stereodel.render.ribbons import discs, ribbon, ribbons
@@ -129,11 +129,12 @@ def of(kinds, change):
 
 
 FILE_CHANGES = {
-    "patches red": of(Patch, lambda item: {"color": (1.0, 0.0, 0.0, 1.0)}),
+    "polygons red": of(Polygons, lambda item: {"colors": 0 * item.colors + [1.0, 0.0, 0.0, 1.0]}),
     "lines twice as wide": of(Polylines, lambda item: {"width": 2 * item.width}),
     "type a twentieth larger": of(Label, lambda item: {"size": 1.05 * item.size}),
     "labels two pixels aside": aside,
-    "fills two levels paler": of(Patch | Fill, lambda item: {"color": paler(item.color)}),
+    "fills two levels paler": of(Fill, lambda item: {"color": paler(item.color)}),
+    "polygons two levels paler": of(Polygons, lambda item: {"colors": np.array([paler(c) for c in item.colors])}),
     "lines two levels paler": of(Stroke | Polylines, lambda item: {"color": paler(item.color)}),
     "lines a tenth wider": of(Stroke, lambda item: {"width": 1.1 * item.width}),
 }

@@ -5,9 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Mosaic, Page, Patch, Picture, Polylines, Stroke
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.render.save import mosaic_pictures
-from stereodel.render.text import ink_boxes
 from stereodel.render.vector import save_vector
 from tests.images.marks import path_of
 from tests.images.page_marks import differences
@@ -16,6 +15,7 @@ from tests.images.read_svg import read_svg
 from tests.images.scripts import by_script, cases
 from tests.images.type_marks import type_differences
 from tools.baselines import SIZE
+from tools.image import ink_boxes
 
 READERS = {"svg": read_svg, "pdf": read_pdf}
 
@@ -65,19 +65,33 @@ class Checks:
 
 
 def fan(turn, radius=0.4):
-    """A patch of triangles from a middle to a rim, through part of a turn, with a hole and a speck."""
-    angle = np.linspace(0.0, turn, 13)
+    """A ring, or a part of one, of many points, with a speck; the outside is an arc."""
+    angle = np.linspace(0.0, turn, 1301)
     circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    whole = turn == 2 * np.pi
+    circle[-1] = circle[0] if whole else circle[-1]
     middle = np.array([3.0, 0.5])
-    points = np.concatenate(
-        [middle + radius * circle, middle + 0.3 * circle, [[3.4, 0.9], [3.40001, 0.9], [3.4, 0.90001]]]
-    )
-    k = np.arange(12)
-    faces = np.concatenate(
-        [np.stack([k, k + 1, k + 14], axis=1), np.stack([k, k + 14, k + 13], axis=1), [[26, 27, 28]]]
-    )
-    rim = np.arange(len(points)) < 13
-    return Patch(points, faces.astype(np.int32), (0.3, 0.6, 0.2, 0.5), rim, (3.0, 0.5), name="fan")
+    outer, inner = middle + radius * circle, middle + 0.3 * circle[::-100]
+    speck = np.array([[3.4, 0.9], [3.40001, 0.9], [3.4, 0.90001], [3.4, 0.9]])
+    loops = [outer, inner, speck] if whole else [np.concatenate([outer, inner, outer[:1]]), speck]
+    return polygons(loops, np.zeros(len(loops), np.intp), np.array([(0.3, 0.6, 0.2, 0.5)]), "fan")
+
+
+def polygons(loops, owner, colors, name):
+    return Polygons(np.concatenate(loops), np.cumsum([0, *map(len, loops)]), owner, colors, name=name)
+
+
+def checkerboard(name):
+    """More colours than paths are made of, side by side in a box."""
+    x, y = np.linspace(2.6, 3.4, 10), np.linspace(1.1, 1.9, 9)
+    loops = [
+        np.array([(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1]), (x[i], y[j])])
+        for i in range(9)
+        for j in range(8)
+    ]
+    count = np.arange(len(loops))
+    colors = np.stack([count / 100, 1 - count / 100, 0 * count, 0 * count + 1], axis=1)
+    return polygons(loops, count, colors, name)
 
 
 def everything():
@@ -86,13 +100,12 @@ def everything():
         [[[0.2, 1.2], [0.4, 1.9], [0.9, 1.9], [1.1, 1.2]], [[1.1, 1.2], [1.2, 0.9], [1.3, 0.9], [1.4, 1.2]]]
     )
     outline = (box(1.6, 2.4, 1.1, 1.9), box(1.8, 2.2, 1.3, 1.7))
-    corners = np.array([[[2.6, 1.1], [3.4, 1.1], [3.4, 1.9]], [[2.6, 1.1], [3.4, 1.9], [2.6, 1.9]]])
     polylines = np.array(
         [(0.2, 0.2), (1.8, 0.3), (0.3, 0.5), (2.5, 0.5), (3.8, 0.5), (3.1, 1.8), (2.5, 0.5), (1.0, 1.5)]
     )
     items = (
         Fill((box(0.1, 1.5, 0.1, 1.9),), (0.9, 0.95, 1.0, 1.0), "ball", Ball((0.8, 1.0), 0.7)),
-        Mosaic(corners, None, np.array([[0.2, 0.5, 0.5], [0.5, 0.5, 0.9]]), (box(2.6, 3.4, 1.1, 1.9),), "cells"),
+        checkerboard("cells"),
         Picture((box(0.3, 1.2, 0.2, 1.0),), Checks(), "checks"),
         Fill(outline, (0.9, 0.6, 0.1, 0.4), "ring"),
         Fill((*outline, box(1.9, 2.1, 1.4, 1.6)), RED, "island"),
@@ -159,11 +172,11 @@ CHANGES = {
         f"{name} paler": lambda page, name=name: changed(
             page, name, color=lambda c: (*(v - 2 / 255 if v > 0.5 else v + 2 / 255 for v in c[:3]), c[3])
         )
-        for name in ("ball", "ring", "fan", "dashed", "beyond", "veil", "coast", "border", "sites")
+        for name in ("ball", "ring", "dashed", "beyond", "veil", "coast", "border", "sites")
     },
     **{
         f"{name} more opaque": lambda page, name=name: changed(page, name, color=lambda c: (*c[:3], c[3] + 2 / 255))
-        for name in ("ring", "fan", "veil", "coast")
+        for name in ("ring", "veil", "coast")
     },
     **{
         f"{name} wider": lambda page, name=name: changed(page, name, width=lambda width: width + 2e-3)
@@ -188,12 +201,15 @@ CHANGES = {
         page, "coast", points=lambda points: points[:7], offsets=np.array([0, 3, 7])
     ),
     "lines joined": lambda page: changed(page, "coast", offsets=np.array([0, 7, 8])),
-    "a triangle missing": lambda page: changed(page, "fan", faces=lambda faces: faces[1:]),
-    "a corner of a patch elsewhere": lambda page: changed(
-        page, "fan", points=lambda points: points + 20 * NEAR * (np.arange(len(points)) == 20)[:, None] * [-1.0, 0.0]
+    "polygons paler": lambda page: changed(page, "fan", colors=lambda colors: colors + [[2 / 255, 0, 0, 0]]),
+    "polygons more opaque": lambda page: changed(page, "fan", colors=lambda colors: colors + [[0, 0, 0, 2 / 255]]),
+    "a corner of a polygon missing": lambda page: changed(
+        page, "fan", points=lambda points: np.where(np.arange(len(points))[:, None] == 1308, points[1307], points)
     ),
-    "chords for arcs": lambda page: changed(page, "fan", rim=np.zeros(29, dtype=bool)),
-    "cells of another colour": lambda page: changed(page, "cells", outline=lambda runs: (runs[0] * [1.0, 0.99],)),
+    "a corner of a polygon elsewhere": lambda page: changed(
+        page, "fan", points=lambda points: points + 20 * NEAR * (np.arange(len(points)) == 1308)[:, None] * [-1.0, 0.0]
+    ),
+    "cells on a smaller place": lambda page: changed(page, "cells", points=lambda points: points * [1.0, 0.99]),
     "a label elsewhere": lambda page: changed(page, "label", offset=lambda offset: (offset[0] + 0.4, offset[1])),
     "a label larger": lambda page: changed(page, "label", size=lambda size: 1.05 * size),
     "a label of another colour": lambda page: changed(page, "label", color=(0.0, 0.0, 0.01, 1.0)),
@@ -232,7 +248,7 @@ def test_a_file_of_another_page_is_told_apart(kind, change, as_it_is, tmp_path):
 def pictures(page):
     """A picture for each mosaic that needs no OpenGL."""
     ramp = (np.arange(2400) % 251).astype(np.uint8).reshape(20, 40, 3)
-    return [ramp for item in page.items if isinstance(item, Mosaic)]
+    return [ramp for item in page.items if isinstance(item, Polygons) and item.pictured]
 
 
 def test_paths_are_read_by_their_commands():

@@ -1,5 +1,9 @@
 """The matplotlib projection: what a user of pyplot does, and files that come out of it."""
 
+import json
+import subprocess
+import sys
+
 import geopandas
 import matplotlib.pyplot as plt
 import numpy as np
@@ -14,13 +18,14 @@ import stereodel.mpl
 from stereodel import MoebiusMap, data, fisheye
 from stereodel.drawing.view import StereographicView, View
 from stereodel.mpl import FisheyeAxes
+from stereodel.sphere.graticules import graticule
 
 PARIS = (2.35, 48.86)
 GRID = np.linspace(-180, 180, 37), np.linspace(-90, 90, 19)
 
 
 def axes_of(**options):
-    return Figure(figsize=(4, 4), dpi=100).add_subplot(projection="stereodel.fisheye", **options)
+    return Figure(figsize=(4, 4), dpi=100).add_subplot(projection=FisheyeAxes, **options)
 
 
 def area(path):
@@ -36,10 +41,31 @@ def pixels(axes):
     return np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
 
 
-def test_pyplot_knows_the_projection():
-    axes = plt.subplot(projection="stereodel.fisheye", focus=PARIS, magnification=20)
+def test_the_class_is_a_projection():
+    axes = plt.subplot(projection=FisheyeAxes, focus=PARIS, magnification=20)
     assert isinstance(axes, FisheyeAxes)
     assert np.allclose(axes.transGlobe.transform(PARIS), 0, atol=1e-15)
+    assert plt.subplot(projection=FisheyeAxes, focus=PARIS, magnification=20) is axes
+    _, both = plt.subplots(1, 2, subplot_kw={"projection": FisheyeAxes, "focus": PARIS})
+    assert all(isinstance(one, FisheyeAxes) for one in both)
+    plt.close("all")
+
+
+def test_the_name_is_known_once_it_is_registered():
+    """And not before: an import changes nothing."""
+    code = (
+        "from matplotlib.projections import get_projection_names as names\n"
+        "import stereodel.mpl\n"
+        "print('stereodel.fisheye' in names())\n"
+        "stereodel.mpl.register()\n"
+        "stereodel.mpl.register()\n"
+        "print(names().count('stereodel.fisheye'))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert ran.stdout.split() == ["False", "1"]
+    stereodel.mpl.register()
+    axes = plt.subplot(projection="stereodel.fisheye", focus=PARIS, magnification=20)
+    assert isinstance(axes, FisheyeAxes)
     plt.close()
 
 
@@ -47,7 +73,7 @@ def test_the_view_is_above_the_focus_or_where_it_is_wanted():
     lens = fisheye(PARIS, magnification=3.0) @ MoebiusMap.rotation((0, 90), 20)
     place = (PARIS[0] - 20, PARIS[1])
     assert np.allclose(axes_of(lens=lens).transGlobe.transform(place), 0, atol=1e-12)
-    for view in ((30, 10), [30, 10], np.array([30, 10]), View(30, 10), StereographicView(30, 10, extent=150)):
+    for view in ((30, 10), [30, 10], np.array([30, 10]), View(30, 10), StereographicView(30, 10, angular_radius=150)):
         assert np.allclose(axes_of(view=view).transGlobe.transform((30, 10)), 0, atol=1e-12)
 
 
@@ -110,7 +136,7 @@ def test_contours_cover_the_disc_and_lines_do_not_follow_it():
         assert np.count_nonzero(np.hypot(*page.T) > 1 - 1e-9) <= 24
 
 
-@pytest.mark.parametrize("sight", [{}, {"magnification": 30}, {"view": StereographicView(10, 80, extent=150)}])
+@pytest.mark.parametrize("sight", [{}, {"magnification": 30}, {"view": StereographicView(10, 80, angular_radius=150)}])
 def test_cells_of_a_grid_tile_the_disc(sight):
     axes = axes_of(focus=PARIS, **sight)
     lon, lat = np.meshgrid(*GRID)
@@ -150,7 +176,7 @@ def test_hexagons_tile_the_disc_where_points_are():
 
 def test_arrows_point_east_and_north():
     """Along the images of parallel and meridian, with their lengths; at the north pole, too."""
-    axes = axes_of(focus=PARIS, magnification=3, view=StereographicView(20, 60, extent=120))
+    axes = axes_of(focus=PARIS, magnification=3, view=StereographicView(20, 60, angular_radius=120))
     lon, lat = np.array([0.0, 50, 20, 10]), np.array([40.0, 60, 80, 30])
     steps = []
     for east, north, way in ((2.0, 0.0, (1e-3, 0)), (0.0, 3.0, (0, 1e-3))):
@@ -206,6 +232,18 @@ def test_geometries_of_every_kind():
         axes.add_geometries(shapely.Point(0, 100))
 
 
+def test_geometries_from_files_and_in_the_order_of_their_features(tmp_path):
+    axes = axes_of()
+    shapes = [shapely.LineString([(0, 0), (1, 1)]), shapely.box(0, 0, 2, 2), shapely.LineString([(0, 0), (3, 3)])]
+    features = [{"type": "Feature", "properties": {}, "geometry": shapely.geometry.mapping(shape)} for shape in shapes]
+    content = {"type": "FeatureCollection", "features": features}
+    (tmp_path / "shapes.geojson").write_text(json.dumps(content))
+    for source in (shapes, content, tmp_path / "shapes.geojson"):
+        drawn = axes.add_geometries(source).get_paths()
+        assert [path.get_extents().x1 for path in drawn] == [1, 2, 3]
+        assert [Path.CLOSEPOLY in path.codes for path in drawn] == [False, True, False]
+
+
 @pytest.mark.parametrize("backwards", [False, True])
 def test_a_hole_in_what_covers_the_view_stays_open(backwards):
     """matplotlib fills by the nonzero rule: the edge of the view must run against the hole."""
@@ -234,15 +272,28 @@ def test_graticule_comes_and_goes():
     axes = axes_of(view=(0, 30))
     count = len(axes.patches)
     axes.grid(True)
-    axes.grid(True, step=30, color="red")
+    axes.grid(True, spacing=30, color="red")
     assert len(axes.patches) == count + 1
     assert axes.patches[-1].get_edgecolor() == (1, 0, 0, 1)
     axes.grid()
     assert len(axes.patches) == count
     with plt.rc_context({"axes.grid": True}):
         assert len(axes_of().patches) == count + 1
-    with pytest.raises(ValueError, match="step"):
+    with pytest.raises(ValueError, match="spacing is 7, but 180 must be a whole multiple"):
         axes.graticule(7)
+
+
+def test_the_graticule_is_that_of_the_library():
+    """As many lines, of all spacings that divide 180; parallels are followed as the circles that they are."""
+    axes = axes_of(view=(0, 90))
+    for spacing in (60, 36, 7.5):
+        path = axes.graticule(spacing).get_path()
+        assert np.count_nonzero(path.codes == Path.MOVETO) == len(graticule(spacing))
+    page = axes.transPage.inverted().transform(
+        axes.transStraight.transform_path(axes.graticule(60).get_path()).vertices
+    )
+    around = np.hypot(*page.T)
+    assert np.ptp(around[np.abs(around - 0.5) < 1e-3]) < 1e-12
 
 
 def test_the_graticule_is_on_meridians_and_parallels():
@@ -268,7 +319,7 @@ def test_coast_of_the_package():
 
 def test_land_and_borders_of_the_package():
     """As much land as there is: of a hemisphere seen flat, the share of places in it."""
-    axes = axes_of(focus=PARIS, view=StereographicView(2, 48, extent=90))
+    axes = axes_of(focus=PARIS, view=StereographicView(2, 48, angular_radius=90))
     land, borders = axes.land("110m", color="green", lw=0), axes.borders("110m")
     assert land.get_facecolor() == (0, 128 / 255, 0, 1)
     assert land.get_edgecolor()[3] == 0
@@ -322,17 +373,22 @@ def test_lines_are_finer_under_a_zoom():
     assert axes.transGlobe.tolerance == whole / 16
 
 
-def test_extent_is_a_box_of_degrees():
+def test_zoom_to_a_box_of_degrees():
     axes = axes_of(view=(0, 0))
-    axes.set_extent((-30, 30, -30, 30))
+    axes.zoom_to((-30, -30, 30, 30))
     half = np.sin(np.radians(30))
     assert np.allclose([*axes.get_xlim(), *axes.get_ylim()], [-half, half, -half, half], atol=1e-4)
     axes.set_global()
     assert axes.get_xlim() == (-1, 1)
+    axes.zoom_to(np.array([-180, -90, 180, 90]))
+    assert np.allclose([*axes.get_xlim(), *axes.get_ylim()], [-1, 1, -1, 1], atol=1e-4)
+    axes.zoom_to(shapely.box(-100, 20, 100, 40).bounds)
+    assert axes.get_xlim()[0] < -0.9
+    assert axes.get_ylim()[0] == pytest.approx(np.sin(np.radians(20)), abs=1e-4)
     with pytest.raises(ValueError, match="out of sight"):
-        axes.set_extent((170, 190, -5, 5))
-    with pytest.raises(ValueError, match="west < east"):
-        axes.set_extent((30, -30, -30, 30))
+        axes.zoom_to((170, -5, 190, 5))
+    with pytest.raises(ValueError, match="bounds runs from longitude 30 to -30"):
+        axes.zoom_to((30, -30, -30, 30))
 
 
 @pytest.mark.parametrize(("limits", "corner"), [((-1, 1), False), ((-0.5, 0.5), True)])
@@ -368,8 +424,3 @@ def test_files(tmp_path, kind):
     axes.figure.tight_layout()
     axes.figure.savefig(tmp_path / f"globe.{kind}", bbox_inches="tight")
     assert (tmp_path / f"globe.{kind}").stat().st_size > 5000
-
-
-def test_registered_once():
-    assert stereodel.mpl.FisheyeAxes is FisheyeAxes
-    assert "stereodel.fisheye" in plt.matplotlib.projections.get_projection_names()

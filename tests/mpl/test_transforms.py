@@ -15,7 +15,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.drawing.view import StereographicView, View, turned
 from stereodel.mpl.transforms import EDGES, LonLatToPage
 
-VIEWS = [View(20.0, 35.0, 10.0), StereographicView(-60.0, -20.0, extent=140.0), View(0.0, 90.0)]
+VIEWS = [View(20.0, 35.0, 10.0), StereographicView(-60.0, -20.0, angular_radius=140.0), View(0.0, 90.0)]
 LENSES = [MoebiusMap.identity(), fisheye((10.0, 50.0), magnification=6.0), fisheye((-100.0, -40.0), magnification=0.3)]
 
 sights = st.tuples(st.sampled_from(LENSES), st.sampled_from(VIEWS))
@@ -52,7 +52,7 @@ def test_points_are_those_of_proj():
     moved = np.column_stack(Transformer.from_pipeline(lens.to_proj()).transform(*lonlat.T))
     for view, proj in [
         (View(20.0, 35.0), "+proj=ortho +lat_0=35 +lon_0=20 +R=1"),
-        (StereographicView(20.0, 35.0, extent=90.0), "+proj=stere +lat_0=35 +lon_0=20 +k_0=0.5 +R=1"),
+        (StereographicView(20.0, 35.0, angular_radius=90.0), "+proj=stere +lat_0=35 +lon_0=20 +k_0=0.5 +R=1"),
     ]:
         page = LonLatToPage(lens, view).transform(lonlat)
         shown = ~np.isnan(page[:, 0])

@@ -8,12 +8,16 @@ import pytest
 
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke
 from stereodel.render import gl
-from stereodel.render.raster import LIGHT, SHADE, triangulate
+from stereodel.render.raster import triangulate
 from stereodel.render.rows import SUPERSAMPLING
 from stereodel.render.triangles import Window
 from tools.image import compare
 
 render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")
+
+# What stereodel/render/shaders/flat.frag has: the direction toward the light, and how dark its other side is.
+LIGHT = np.array([-0.35, 0.45, 0.82]) / np.linalg.norm([-0.35, 0.45, 0.82])
+SHADE = 0.36
 
 BLACK = (0.0, 0.0, 0.0, 1.0)
 GRAY = (0.5, 0.5, 0.5, 1.0)

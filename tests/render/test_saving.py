@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from PIL import Image
 
 from stereodel.drawing import Label, Page, Scene, View
-from stereodel.drawing.page import Dots, Fill, Mosaic, Polylines, Stroke
+from stereodel.drawing.page import Dots, Fill, Polygons, Polylines, Stroke
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
 from stereodel.render import gl, raster, rows, vector
@@ -246,10 +246,10 @@ def test_vector_files_by_their_endings(tmp_path):
 
 
 def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
-    corners = np.array([[[-0.5, -0.5], [0.5, -0.5], [0.0, 0.5]]])
-    outline = (np.array([[[-1.0, -1.0], [0.0, -1.0], [1.0, 0.0], [0.0, 1.0]]]),)
-    mosaic = Mosaic(corners, None, np.zeros((1, 3)), outline)
-    page = Page((-1.0, 1.0, -1.0, 1.0), (mosaic,), width=7.2)
+    triangle = np.array([[-0.5, -0.5], [0.5, -0.5], [0.0, 0.5], [-0.5, -0.5]])
+    colors = np.linspace(0, 1, 400).reshape(100, 4)
+    many = Polygons(np.tile(triangle, (100, 1)), np.arange(0, 401, 4), np.arange(100), colors)
+    page = Page((-1.0, 1.0, -1.0, 1.0), (many,), width=7.2)
     assert [picture.shape for picture in saving.mosaic_pictures(page, 20)] == [(20, 20, 3)]
     assert [picture.shape for picture in saving.mosaic_pictures(page, 9000)] == [(60, 60, 3)]
 

@@ -55,8 +55,8 @@ inline void near_unit(const double* vector, Pair* v) {
     }
 }
 
-// c is the correction of the length: hi + (lo + c hi). The last term is at most 2^-48, rounded twice, and half the error
-// of `excess`: 2^-102 for each of the two.
+// c is the correction of the length: hi + (lo + c hi). The last term is at most 2^-48, rounded twice, and half the
+// error of `excess`: 2^-102 for each of the two.
 inline UnitVector unit_vector(const double* vector) {
     Pair v[3];
     near_unit(vector, v);

@@ -68,7 +68,7 @@ def as_site_values(triangulation: Triangulation, values: npt.ArrayLike) -> tuple
     return one_value_a_place(triangulation, flat), shape
 
 
-class Places:
+class PrecisePoints:
     """Points of the plane, or unit vectors in double-double, and their differences to full relative precision.
 
     A unit vector rounded to doubles is off by 1e-16, which is nothing to its place and everything to its difference
@@ -87,7 +87,7 @@ class Places:
         """Points, or unit vectors (n, d)."""
         return self.exact.hi
 
-    def minus(self, a: AnyIndices, other: Places, b: AnyIndices) -> FloatArray:
+    def minus(self, a: AnyIndices, other: PrecisePoints, b: AnyIndices) -> FloatArray:
         """Points `a` less points `b` of the other places, rounded: errors below 2⁻⁵² of the result and 2⁻¹⁰¹."""
         p, q = self.exact, other.exact
         rough = p.hi.take(a, axis=0) - q.hi.take(b, axis=0)

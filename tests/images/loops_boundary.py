@@ -1,0 +1,61 @@
+"""What bounds polygons of a page, and whether a path in a vector file is that."""
+
+from collections import Counter
+from itertools import pairwise
+
+import numpy as np
+
+from stereodel.constants import FINEST_POINTS
+from tests.images.marks import PLACE, area, distances, tidy
+
+
+class LoopsBoundary:
+    """Closed loops (k, 2) each, in points, their first point again at the end."""
+
+    def __init__(self, loops):
+        self.points = np.concatenate(loops)
+        self.loop = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
+        self.sides = np.concatenate([np.stack([loop[:-1], loop[1:]], axis=1) for loop in loops])
+        self.lengths = np.array([np.linalg.norm(np.diff(loop, axis=0), axis=1).sum() for loop in loops])
+        self.area = sum(_area(loop) for loop in loops)
+
+    def wrong(self, mark):
+        """What is wrong with a path that is filled in place of the loops."""
+        chords = mark.path.chords()[0]
+        away = distances(chords[:, 0], self.sides, FINEST_POINTS)
+        if away.max(initial=0.0) > AWAY:
+            return f"the outline lies {away.max():.4g} points off"
+        lost = distances(self.points, chords, FINEST_POINTS) > AWAY
+        longest = self.lengths[np.unique(self.loop[lost])].max(initial=0.0)
+        if longest > LOST:
+            return f"a loop {longest:.4g} points long is missing"
+        length = float(np.linalg.norm(chords[:, 1] - chords[:, 0], axis=1).sum())
+        off = abs(float(area(mark.path).sum()) - self.area)
+        return f"the area is {off:.4g} square points off" if off > FINEST_POINTS * (length + 1) else ""
+
+
+AWAY = 1.05 * FINEST_POINTS + PLACE
+"""How far corners may be from what is drawn: one stands for all in a piece of a length, and may then be left out."""
+
+LOST = 4 * FINEST_POINTS + PLACE
+"""Loops that are no longer than this may fall out: one of three corners in as many pieces of the length."""
+
+
+def union_path(loops):
+    """What bounds regions that share their sides: those that one loop alone has, end to end."""
+    sides = Counter((tuple(a), tuple(b)) for loop in loops for a, b in pairwise(loop))
+    left = {a: b for a, b in sides if a != b and (b, a) not in sides}
+    runs = []
+    while left:
+        run = [next(iter(left))]
+        while run[-1] in left:
+            run.append(left.pop(run[-1]))
+        runs.append(np.array(run))
+    pieces = np.concatenate([np.linspace(run[:-1], run[1:], 4, axis=1) for run in runs])
+    number = np.repeat(np.arange(len(runs)), [len(run) - 1 for run in runs])
+    return tidy(pieces, number, np.ones(len(runs), dtype=bool))
+
+
+def _area(loop):
+    x, y = (loop[:-1] - loop[0]).T
+    return float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)) / 2)
