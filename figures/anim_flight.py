@@ -37,7 +37,7 @@ def earth() -> Globe:
     globe.add_land(outline=COAST)
     globe.add_graticule(15)
     globe.add_points(list(CITIES.values()))
-    globe.add_labels(list(CITIES), list(CITIES.values()), size=7.0, color=BLACK)
+    globe.add_labels(list(CITIES.values()), list(CITIES), size=7.0, color=BLACK)
     return globe
 
 

@@ -31,8 +31,8 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """Cells by area, and the coast."""
     globe = Globe(latitude=LATITUDE)
-    globe.add_cells(SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE), colors=SCALE(g["areas"]), look=None)
-    globe.add_coastlines(look=LineStyle(WHITE, 0.3))
+    globe.add_cells(SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE), colors=SCALE(g["areas"]), style=None)
+    globe.add_coastlines(style=LineStyle(WHITE, 0.3))
     largest = np.argmax(g["areas"])
     subtitle = (
         f"{spaced(len(g['areas']))} airports and the part of the Earth that is nearest to each; the largest, "

@@ -38,8 +38,8 @@ def draw(g: dict) -> Page:
     """Cells by density, and the coast."""
     globe = Globe(latitude=LATITUDE, limb=LineStyle((0.35, 0.33, 0.36, 1.0), 0.6))
     cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
-    globe.add_cells(cells, colors=SCALE(g["density"]), look=None)
-    globe.add_coastlines(look=LineStyle((0.62, 0.62, 0.66, 1.0), 0.22))
+    globe.add_cells(cells, colors=SCALE(g["density"]), style=None)
+    globe.add_coastlines(style=LineStyle((0.62, 0.62, 0.66, 1.0), 0.22))
     subtitle = f"The surroundings of {spaced(len(g['density']))} cities and villages, by the number of their people"
     credit = "Places: GeoNames (CC BY 4.0). Coast: Natural Earth. Areas on WGS84."
     page = captioned(globe.page(view=VIEW), "Where people live", subtitle, credit, ink=INK)

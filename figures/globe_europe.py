@@ -40,12 +40,12 @@ def draw(g: dict) -> Page:
     """Cells by area, coast and borders, and the codes of large airports."""
     globe = Globe(latitude=LATITUDE)
     cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
-    globe.add_cells(cells, colors=SCALE(g["areas"]), look=LineStyle(WHITE, 0.3))
-    globe.add_borders(look=LineStyle((0.1, 0.1, 0.1, 0.6), 0.25))
-    globe.add_coastlines(look=LineStyle(BLACK, 0.5))
+    globe.add_cells(cells, colors=SCALE(g["areas"]), style=LineStyle(WHITE, 0.3))
+    globe.add_borders(style=LineStyle((0.1, 0.1, 0.1, 0.6), 0.25))
+    globe.add_coastlines(style=LineStyle(BLACK, 0.5))
     labelled = g["lonlat"][[int(np.flatnonzero(g["iata"] == code)[0]) for code in LABELLED]]
-    globe.add_points(labelled, look=DotStyle(BLACK, 1.5, rim=WHITE, rim_width=0.4))
-    globe.add_labels(LABELLED, labelled, size=7.5, offset=(3.5, 0.0), halo=1.3)
+    globe.add_points(labelled, style=DotStyle(BLACK, 1.5, rim=WHITE, rim_width=0.4))
+    globe.add_labels(labelled, LABELLED, size=7.5, offset=(3.5, 0.0), halo=1.3)
     page = captioned(
         globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)),
         "Europe, airport by airport",

@@ -56,10 +56,10 @@ def draw(g: dict) -> Page:
     globe.add_rivers(resolution="10m")
     globe.add_coastlines(resolution="10m")
     globe.add_graticule(15)
-    globe.add_points(g["airports"], look=DotStyle(VERMILION, 0.75))
+    globe.add_points(g["airports"], style=DotStyle(VERMILION, 0.75))
     for names, offset in ((NAMES_RIGHT, (3.0, 0.0)), (NAMES_LEFT, (-3.0, 0.0))):
-        globe.add_points(list(names.values()), look=DotStyle(DARK_GRAY, 1.3, rim=WHITE, rim_width=0.3))
-        globe.add_labels(names, list(names.values()), size=7.0, offset=offset, halo=1.2)
+        globe.add_points(list(names.values()), style=DotStyle(DARK_GRAY, 1.3, rim=WHITE, rim_width=0.3))
+        globe.add_labels(list(names.values()), names, size=7.0, offset=offset, halo=1.2)
     lens = bubble_to_bubble(SphereCircle.around(NEW_YORK, g["radius"]), SphereCircle.around(NEW_YORK, 90.0))
     near, far = hemispheres(*NEW_YORK)
     page = panels([Panel(globe, lens, near, "New York"), Panel(globe, lens, far, "everything else")])

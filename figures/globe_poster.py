@@ -65,14 +65,14 @@ def draw(g: dict) -> Page:
     """The globe on a dark ground, its title below."""
     globe = Globe(ocean=SEA, limb=LineStyle(GOLD, 0.8))
     globe.add_land(resolution="10m", color=LAND)
-    globe.add_graticule(10, look=LineStyle(with_opacity(GOLD, 0.55), 0.25))
+    globe.add_graticule(10, style=LineStyle(with_opacity(GOLD, 0.55), 0.25))
     globe.add_lakes(resolution="10m", color=SEA)
-    globe.add_rivers(resolution="10m", look=LineStyle(SEA, 0.22))
-    globe.add_borders(resolution="10m", look=LineStyle(BORDER, 0.25))
-    globe.add_coastlines(resolution="10m", look=LineStyle(INK, 0.25))
+    globe.add_rivers(resolution="10m", style=LineStyle(SEA, 0.22))
+    globe.add_borders(resolution="10m", style=LineStyle(BORDER, 0.25))
+    globe.add_coastlines(resolution="10m", style=LineStyle(INK, 0.25))
     for names, offset in ((EAST, (2.6, 0.0)), (WEST, (-2.6, 0.0)), (SOUTH, (0.0, -2.6))):
-        globe.add_points(list(names.values()), look=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
-        globe.add_labels(names, list(names.values()), offset=offset, size=6.2, color=INK, halo=0.9, halo_color=LAND)
+        globe.add_points(list(names.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
+        globe.add_labels(list(names.values()), names, offset=offset, size=6.2, color=INK, halo=0.9, halo_color=LAND)
     return framed(globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)))
 
 

@@ -74,14 +74,14 @@ def star_color(index: float) -> tuple:
 def draw(g: dict) -> Page:
     """Cells by area, bright stars by magnitude and colour, the names of the brightest."""
     globe = Globe(limb=LineStyle((0.4, 0.42, 0.5, 1.0), 0.6))
-    globe.add_cells(SphericalVoronoi(g["points"]), colors=SCALE(g["areas"]), look=None)
+    globe.add_cells(SphericalVoronoi(g["points"]), colors=SCALE(g["areas"]), style=None)
     for star in np.flatnonzero(g["magnitude"] < BRIGHT):
         radius = 0.55 + 0.5 * (BRIGHT - g["magnitude"][star])
         look = DotStyle(star_color(g["color_index"][star]), radius, rim=NIGHT, rim_width=0.3)
-        globe.add_points(g["points"][star], look=look)
+        globe.add_points(g["points"][star], style=look)
     for place, names in NAMES.items():
         stars = [int(np.flatnonzero(data.stars().hip == hip)[0]) for hip in names]
-        globe.add_labels(names.values(), g["points"][stars], offset=OFFSETS[place], size=8.0, color=INK, halo=0.0)
+        globe.add_labels(g["points"][stars], names.values(), offset=OFFSETS[place], size=8.0, color=INK, halo=0.0)
     count = spaced(len(g["areas"]))
     subtitle = f"{count} stars of the Hipparcos catalogue, each with the part of the sky that is nearest to it"
     credit = (

@@ -44,7 +44,7 @@ def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster 
     if name == OWN_TEXTURE:
         return Raster(blue_marble(), latitude=latitude.value)
     extent = None if box is None else box_of(box, "--texture-box")
-    return Raster.open(name, extent=extent, latitude=latitude.value)
+    return Raster.open(name, bounds=extent, latitude=latitude.value)
 
 
 def new_globe(features: Features, latitude: Latitude, texture: Raster | None) -> Globe:
@@ -82,8 +82,8 @@ def add_points(globe: Globe, table: Table, shown: frozenset[str]) -> None:
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
     triangulation = SphericalDelaunay(places)
     if "triangles" in shown:
-        globe.add_triangulation(triangulation, look=LINES["delaunay"].scaled(weight), role="delaunay")
+        globe.add_triangulation(triangulation, style=LINES["delaunay"].scaled(weight), name="delaunay")
     if "cells" in shown:
-        globe.add_cells(SphericalVoronoi(triangulation), look=LINES["voronoi"].scaled(weight), role="voronoi")
+        globe.add_cells(SphericalVoronoi(triangulation), style=LINES["voronoi"].scaled(weight), name="voronoi")
     if "points" in shown:
-        globe.add_points(table.places, look=DOTS["sites"].scaled(weight), role="sites")
+        globe.add_points(table.places, style=DOTS["sites"].scaled(weight), name="sites")

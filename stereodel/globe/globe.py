@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.colors import Color
+from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.scales import ColorScale
@@ -42,13 +42,13 @@ class Globe:
 
     Parameters
     ----------
-    ocean : Color
-        Red, green, blue and opacity of the ground, in [0, 1].
+    ocean : color-like
+        Of the ground: anything that matplotlib takes for a colour.
     latitude : {"spherical", "geodetic", "authalic"}
         What all latitudes given to this globe are; see `stereodel.lonlat_to_xyz`. "spherical" takes them as they stand,
         as map projections of a sphere do.
     limb : LineStyle, optional
-        Another look of the edge.
+        Another style of the edge.
 
     Examples
     --------
@@ -64,12 +64,12 @@ class Globe:
     def __init__(
         self,
         *,
-        ocean: Color = looks.OCEAN,
+        ocean: ColorLike = looks.OCEAN,
         latitude: Latitude = "spherical",
         limb: LineStyle = looks.LIMB,
     ) -> None:
         self.latitude: Latitude = as_choice(latitude, KINDS, "latitude")
-        self.layers: list[MapLayer] = [Ground(ocean)]
+        self.layers: list[MapLayer] = [Ground(as_color(ocean, "ocean"))]
         self.limb = Rim(limb)
 
     def add(self, layer: MapLayer) -> None:
@@ -80,9 +80,9 @@ class Globe:
         self,
         raster: Raster | npt.NDArray[np.uint8] | str | os.PathLike[str],
         *,
-        extent: tuple[float, float, float, float] | None = None,
+        bounds: tuple[float, float, float, float] | None = None,
         opacity: float = 1.0,
-        role: str = "raster",
+        name: str = "raster",
     ) -> None:
         """Cover the globe, or a part of it, with a picture in longitude and latitude.
 
@@ -91,73 +91,75 @@ class Globe:
         raster : Raster, pixels as for `Raster`, or path-like
             Where it is transparent, the layers below show through. Pixels and files have the latitude of this globe, a
             `Raster` its own.
-        extent : tuple of float, optional
+        bounds : tuple of float, optional
             (west, south, east, north) of pixels or a file in degrees; without it they are 2:1 and show everything.
         opacity : float
             In [0, 1].
-        role : str
+        name : str
             Names the picture in vector files.
 
         Raises
         ------
         OSError, ValueError
-            As `Raster` and `Raster.open`; for an opacity out of range, and an extent beside a `Raster`.
+            As `Raster` and `Raster.open`; for an opacity out of range, and bounds beside a `Raster`.
         """
-        if isinstance(raster, Raster) and extent is not None:
-            raise ValueError("extent belongs to pixels and files; a Raster has its own")
+        if isinstance(raster, Raster) and bounds is not None:
+            raise ValueError("bounds belong to pixels and files; a Raster has its own")
         if isinstance(raster, np.ndarray):
-            raster = Raster(raster, extent, latitude=self.latitude)
+            raster = Raster(raster, bounds, latitude=self.latitude)
         if not isinstance(raster, Raster):
-            raster = Raster.open(raster, extent=extent, latitude=self.latitude)
-        self.add(Image(raster, as_scalar(opacity, "opacity", low=0.0, high=1.0), role))
+            raster = Raster.open(raster, bounds=bounds, latitude=self.latitude)
+        self.add(Image(raster, as_scalar(opacity, "opacity", low=0.0, high=1.0), name))
 
-    def add_land(self, *, color: Color = looks.LAND, outline: LineStyle | None = None, resolution: str = "50m") -> None:
-        """Fill the land of the Earth (Natural Earth), and draw its outline where a look is given."""
+    def add_land(
+        self, *, color: ColorLike = looks.LAND, outline: LineStyle | None = None, resolution: str = "50m"
+    ) -> None:
+        """Fill the land of the Earth (Natural Earth), and draw its outline where a style is given."""
         self._add_polygons(features.land(resolution, self.latitude), color, outline, "land")
 
     def add_lakes(
-        self, *, color: Color = looks.OCEAN, outline: LineStyle | None = None, resolution: str = "50m"
+        self, *, color: ColorLike = looks.OCEAN, outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
         """Fill the lakes of the Earth (Natural Earth)."""
         self._add_polygons(features.lakes(resolution, self.latitude), color, outline, "lakes")
 
-    def add_rivers(self, *, look: LineStyle = looks.RIVER, resolution: str = "50m") -> None:
+    def add_rivers(self, *, style: LineStyle = looks.RIVER, resolution: str = "50m") -> None:
         """Draw the large rivers of the Earth (Natural Earth)."""
-        self.add(Lines(features.rivers(resolution, self.latitude), look, "rivers"))
+        self.add(Lines(features.rivers(resolution, self.latitude), style, "rivers"))
 
-    def add_coastlines(self, *, look: LineStyle = looks.COAST, resolution: str = "50m") -> None:
+    def add_coastlines(self, *, style: LineStyle = looks.COAST, resolution: str = "50m") -> None:
         """Draw the coastlines of the Earth (Natural Earth)."""
-        self.add(Lines(features.coastlines(resolution, self.latitude), look, "coast"))
+        self.add(Lines(features.coastlines(resolution, self.latitude), style, "coast"))
 
-    def add_borders(self, *, look: LineStyle = looks.BORDER, resolution: str = "50m") -> None:
+    def add_borders(self, *, style: LineStyle = looks.BORDER, resolution: str = "50m") -> None:
         """Draw the borders between the countries of the Earth (Natural Earth)."""
-        self.add(Lines(features.borders(resolution, self.latitude), look, "borders"))
+        self.add(Lines(features.borders(resolution, self.latitude), style, "borders"))
 
-    def add_graticule(self, spacing: float = 15.0, *, look: LineStyle = looks.GRATICULE) -> None:
+    def add_graticule(self, spacing: float = 15.0, *, style: LineStyle = looks.GRATICULE) -> None:
         """Draw meridians from pole to pole and parallels, `spacing` degrees apart, of which 180 must be a multiple."""
-        self.add(Lines(SphereLines.of_arcs(graticule(spacing, latitude=self.latitude)), look, "graticule"))
+        self.add(Lines(SphereLines.of_arcs(graticule(spacing, latitude=self.latitude)), style, "graticule"))
 
-    def add_lines(self, lines: Iterable[npt.ArrayLike], *, look: LineStyle = looks.LINE, role: str = "lines") -> None:
+    def add_lines(self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = looks.LINE, name: str = "lines") -> None:
         """Draw lines, (k, 2) each, degrees, whose pieces are straight in longitude and latitude.
 
         A piece that spans more than 180° of longitude goes the other, shorter way, across ±180°.
         """
-        self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), look, role))
+        self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), style, name))
 
     def add_great_circles(
-        self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, look: LineStyle = looks.LINE, role: str = "arcs"
+        self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = looks.LINE, name: str = "arcs"
     ) -> None:
         """Draw the shorter great-circle arcs between places, as for `add_points`; one start goes with all ends."""
         first, last = np.broadcast_arrays(self._xyz(starts, "starts"), self._xyz(ends, "ends"))
-        self.add(Lines(SphereLines.great(first, last), look, role))
+        self.add(Lines(SphereLines.great(first, last), style, name))
 
     def add_polygons(
         self,
         polygons: Iterable[Rings],
         *,
-        color: Color | FloatArray = looks.AREA,
+        color: ColorLike | npt.ArrayLike = looks.AREA,
         outline: LineStyle | None = looks.OUTLINE,
-        role: str = "areas",
+        name: str = "areas",
     ) -> None:
         """Fill polygons given by rings in degrees, the outer one first.
 
@@ -166,37 +168,38 @@ class Globe:
         polygons : iterable of sequences of (k, 2) array_like
             Rings of each polygon; sides are straight in longitude and latitude, as in GeoJSON. A ring may cross ±180°,
             be cut there, or go round a pole.
-        color : Color or (n, 4) array
+        color : color-like, (n, 3) or (n, 4) array
             Of all of them, or of each.
         outline : LineStyle, optional
             None: no outlines.
-        role : str
+        name : str
             Names the group in vector files.
         """
-        self._add_polygons(SphereRegions.of_lonlat(polygons, latitude=self.latitude), color, outline, role)
+        self._add_polygons(SphereRegions.of_lonlat(polygons, latitude=self.latitude), color, outline, name)
 
-    def add_points(self, places: npt.ArrayLike, *, look: DotStyle = looks.DOT, role: str = "points") -> None:
+    def add_points(self, places: npt.ArrayLike, *, style: DotStyle = looks.DOT, name: str = "points") -> None:
         """Draw dots at places (n, 2), degrees, or directions (n, 3)."""
-        self.add(Points(self._xyz(places, "places"), look, role))
+        self.add(Points(self._xyz(places, "places"), style, name))
 
     def add_labels(
         self,
-        texts: Iterable[str],
         places: npt.ArrayLike,
+        texts: Iterable[str],
         *,
         offset: tuple[float, float] = (4.0, 0.0),
         size: float = LABEL_SIZE,
-        color: Color = BLACK,
+        color: ColorLike = BLACK,
         halo: float = looks.HALO,
-        halo_color: Color = WHITE,
+        halo_color: ColorLike = WHITE,
     ) -> None:
         """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
 
         A label that would cover one that matters more is left out, and so is one whose place is out of sight.
         """
         xyz = self._xyz(places, "places")
-        look = Label("", (0.0, 0.0), size=size, color=color, halo=halo, halo_color=halo_color)
-        labels = tuple(placed_label(replace(look, text=text), offset) for text in texts)
+        paper, ink = as_color(halo_color, "halo_color"), as_color(color)
+        bare = Label("", (0.0, 0.0), size=size, color=ink, halo=halo, halo_color=paper)
+        labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
         self.add(Names(xyz, labels))
@@ -206,52 +209,52 @@ class Globe:
         voronoi: SphericalVoronoi,
         *,
         colors: npt.ArrayLike | None = None,
-        look: LineStyle | None = looks.LINE,
-        role: str = "cells",
+        style: LineStyle | None = looks.LINE,
+        name: str = "cells",
     ) -> None:
         """Draw the ridges of a Voronoi diagram; fill its cells where colours (n, 3) or (n, 4) are given."""
         if colors is not None:
             cells = SphereRegions.cells(voronoi)
-            self.add(Areas(cells, features.as_tints(colors, len(voronoi.points)), role))
-        if look is not None:
-            self.add(Lines(features.ridges(voronoi), look, role))
+            self.add(Areas(cells, features.as_tints(colors, len(voronoi.points)), name))
+        if style is not None:
+            self.add(Lines(features.ridges(voronoi), style, name))
 
     def add_triangulation(
         self,
         triangulation: SphericalDelaunay,
         *,
         colors: npt.ArrayLike | None = None,
-        look: LineStyle | None = looks.LINE,
-        role: str = "triangles",
+        style: LineStyle | None = looks.LINE,
+        name: str = "triangles",
     ) -> None:
         """Draw the edges of a triangulation; fill its triangles but the closing ones where colours (m, 3 or 4) are."""
         if colors is not None:
             tints = features.as_tints(colors, len(triangulation.simplices))
-            self.add(Areas(SphereRegions.triangles(triangulation), tints, role))
-        if look is not None:
-            self.add(Lines(features.edges(triangulation), look, role))
+            self.add(Areas(SphereRegions.triangles(triangulation), tints, name))
+        if style is not None:
+            self.add(Lines(features.edges(triangulation), style, name))
 
     def add_circles(
         self,
         circles: Iterable[SphereCircle],
         *,
-        color: Color | None = looks.CIRCLE,
-        look: LineStyle = looks.OUTLINE,
-        role: str = "circles",
+        color: ColorLike | None = looks.CIRCLE,
+        style: LineStyle = looks.OUTLINE,
+        name: str = "circles",
     ) -> None:
         """Draw circles of the sphere and fill their interiors; their images are circles, exactly."""
         regions = SphereRegions.circles(circles)
         if color is not None:
-            self.add(Areas(regions, np.tile(np.array(color), (regions.count, 1)), role))
-        self.add(Lines(regions.outlines, look, role))
+            self.add(Areas(regions, features.as_tints(color, regions.count, "color"), name))
+        self.add(Lines(regions.outlines, style, name))
 
     def add_tissot(
         self,
         spacing: float = 30.0,
         radius: float = 4.0,
         *,
-        color: Color | None = looks.CIRCLE,
-        look: LineStyle = looks.OUTLINE,
+        color: ColorLike | None = looks.CIRCLE,
+        style: LineStyle = looks.OUTLINE,
     ) -> None:
         """Draw Tissot's indicatrices: equal circles, `radius` degrees, about places `spacing` degrees apart.
 
@@ -264,19 +267,19 @@ class Globe:
             count = max(1, round(2 * steps * float(np.cos(np.radians(lat)))))
             places += [(360.0 * k / count - 180.0, lat) for k in range(count)]
         xyz = lonlat_to_xyz(places, latitude=self.latitude)
-        self.add_circles([SphereCircle.around(place, size) for place in xyz], color=color, look=look, role="tissot")
+        self.add_circles([SphereCircle.around(place, size) for place in xyz], color=color, style=style, name="tissot")
 
     def add_layer(
         self,
         source: Any,
         *,
-        color: Color = looks.AREA,
+        color: ColorLike = looks.AREA,
         column: str | None = None,
         scale: ColorScale | None = None,
         outline: LineStyle | None = looks.OUTLINE,
-        look: LineStyle = looks.LINE,
-        dots: DotStyle = looks.DOT,
-        role: str = "layer",
+        style: LineStyle = looks.LINE,
+        dot_style: DotStyle = looks.DOT,
+        name: str = "layer",
     ) -> None:
         """Draw what a file or a table of shapes holds: polygons, lines on them, points on top.
 
@@ -284,15 +287,15 @@ class Globe:
         ----------
         source : path-like, mapping, or object with __geo_interface__
             A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or a shape of shapely.
-        color : Color
+        color : color-like
             Of polygons.
         column : str, optional
             A property of numbers that colours the polygons instead; those without it keep `color`.
         scale : ColorScale, optional
             From these numbers to colours; by default viridis from the least to the largest.
-        outline, look, dots : LineStyle, LineStyle, DotStyle
+        outline, style, dot_style : LineStyle, LineStyle, DotStyle
             Of the polygons' outlines (None: none), the lines and the points.
-        role : str
+        name : str
             Names the groups in vector files.
 
         Raises
@@ -304,18 +307,18 @@ class Globe:
         """
         shapes = shapes_of(source)
         if shapes.polygons:
-            tints = np.tile(np.array(color), (len(shapes.properties), 1))
+            tints = features.as_tints(color, len(shapes.properties), "color")
             if column is not None:
                 values = shapes.column(column)
                 tints[np.isfinite(values), :3] = features.scaled_colors(values[np.isfinite(values)], scale)
                 tints[np.isfinite(values), 3] = 1.0
             owners = np.array(shapes.polygon_features)
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
-            self._add_polygons(polygons, tints, outline, role)
+            self._add_polygons(polygons, tints[: polygons.count], outline, name)
         if shapes.lines:
-            self.add_lines(shapes.lines, look=look, role=role)
+            self.add_lines(shapes.lines, style=style, name=name)
         if shapes.points:
-            self.add_points(np.concatenate(shapes.points), look=dots, role=role)
+            self.add_points(np.concatenate(shapes.points), style=dot_style, name=name)
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
         """What a chart shows, in painter's order; `panels` leaves out labels that would cover others."""
@@ -385,9 +388,8 @@ class Globe:
         return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
 
     def _add_polygons(
-        self, regions: SphereRegions, color: Color | FloatArray, outline: LineStyle | None, role: str
+        self, regions: SphereRegions, color: ColorLike | npt.ArrayLike, outline: LineStyle | None, name: str
     ) -> None:
-        tints = np.asarray(color, dtype=np.float64)
-        self.add(Areas(regions, np.tile(tints, (regions.count, 1)) if tints.ndim == 1 else tints, role))
+        self.add(Areas(regions, features.as_tints(color, regions.count, "color"), name))
         if outline is not None:
-            self.add(Lines(regions.outlines, outline, f"{role}-outline"))
+            self.add(Lines(regions.outlines, outline, f"{name}-outline"))

@@ -30,38 +30,38 @@ class Ground:
     """The ball itself, or the disc of a flat map."""
 
     color: Color
-    role: str = "ball"
+    name: str = "ball"
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """The whole disc; that of a ball is lit."""
-        yield Fill(chart.outline, self.color, self.role, chart.ball)
+        yield Fill(chart.outline, self.color, self.name, chart.ball)
 
 
 @dataclass(frozen=True)
 class Rim:
     """The edge of what is seen."""
 
-    look: LineStyle
-    role: str = "limb"
+    style: LineStyle
+    name: str = "limb"
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """A circle."""
-        yield Stroke(chart.outline[0], self.look.color, self.look.width, closed=True, name=self.role)
+        yield Stroke(chart.outline[0], self.style.color, self.style.width, closed=True, name=self.name)
 
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Lines of one look."""
+    """Lines of one style."""
 
     lines: SphereLines
-    look: LineStyle
-    role: str
+    style: LineStyle
+    name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """All parts that are seen, as one item."""
         seen = chart.lines(self.lines)
         if len(seen):
-            yield Polylines(seen.values, seen.offsets, self.look.color, self.look.width, self.role)
+            yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +70,7 @@ class Areas:
 
     regions: SphereRegions
     colors: FloatArray
-    role: str
+    name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Regions of one colour together, or all of them where there are too many colours.
@@ -80,7 +80,7 @@ class Areas:
         loops, owner = chart.regions(self.regions)
         if len(loops) == 0:
             return
-        whole = Polygons(loops.values, loops.offsets, owner, self.colors, chart.ball, self.role)
+        whole = Polygons(loops.values, loops.offsets, owner, self.colors, chart.ball, self.name)
         if whole.pictured:
             yield whole
             return
@@ -96,12 +96,12 @@ class Image:
 
     raster: Raster
     opacity: float
-    role: str
+    name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """The whole disc as one picture, warped when it is drawn."""
         painter = RasterOnDisc(self.raster, chart.lens, chart.view, chart.at, chart.scale, self.opacity)
-        yield Picture(chart.outline, painter, self.role)
+        yield Picture(chart.outline, painter, self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,15 +109,15 @@ class Points:
     """Dots at unit vectors (n, 3)."""
 
     xyz: FloatArray
-    look: DotStyle
-    role: str
+    style: DotStyle
+    name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Those whose middle is seen."""
         places, seen = chart.points(self.xyz)
         if seen.any():
-            look = self.look
-            yield Dots(places[seen], look.radius, look.color, look.rim, look.rim_width, self.role)
+            style = self.style
+            yield Dots(places[seen], style.radius, style.color, style.rim, style.rim_width, self.name)
 
 
 @dataclass(frozen=True, eq=False)

@@ -35,18 +35,18 @@ class Raster:
     pixels : array_like of uint8, shape (h, w), (h, w, 3) or (h, w, 4)
         Gray, sRGB, or sRGB and opacity (not premultiplied); rows from the north, columns from the west. At most
         `MOST_TEXELS` pixels.
-    extent : tuple of float, optional
+    bounds : tuple of float, optional
         (west, south, east, north) of the outer edges in degrees, 0 < east − west ≤ 360. Without it the picture shows
         the whole globe from −180 to 180 and must be twice as wide as high.
     latitude : {"spherical", "geodetic", "authalic"}
-        What the latitudes of rows and extent are; see `stereodel.lonlat_to_xyz`.
+        What the latitudes of rows and bounds are; see `stereodel.lonlat_to_xyz`.
 
     Raises
     ------
     TypeError
         For numbers that are not uint8.
     ValueError
-        For another shape, more pixels, a picture that is not 2:1 without an extent, or an extent out of range.
+        For another shape, more pixels, a picture that is not 2:1 without bounds, or bounds out of range.
 
     Notes
     -----
@@ -68,7 +68,7 @@ class Raster:
     """
 
     pixels: Pixels
-    extent: tuple[float, float, float, float] | None = None
+    bounds: tuple[float, float, float, float] | None = None
     _: KW_ONLY
     latitude: Latitude = "spherical"
 
@@ -76,20 +76,20 @@ class Raster:
         as_choice(self.latitude, KINDS, "latitude")
         pixels = as_pixels(self.pixels, "pixels", most=MOST_TEXELS)
         height, width = pixels.shape[:2]
-        if self.extent is None and width != 2 * height:
+        if self.bounds is None and width != 2 * height:
             raise ValueError(
                 f"pixels is {width} wide and {height} high; a picture of the whole globe is twice as wide as high: "
-                "say what this one shows, extent=(west, south, east, north) in degrees"
+                "say what this one shows, bounds=(west, south, east, north) in degrees"
             )
         object.__setattr__(self, "pixels", locked(pixels))
-        object.__setattr__(self, "extent", as_edges(WHOLE if self.extent is None else self.extent, "extent"))
+        object.__setattr__(self, "bounds", as_edges(WHOLE if self.bounds is None else self.bounds, "bounds"))
 
     @classmethod
     def open(
         cls,
         path: str | os.PathLike[str],
         *,
-        extent: tuple[float, float, float, float] | None = None,
+        bounds: tuple[float, float, float, float] | None = None,
         latitude: Latitude = "spherical",
     ) -> Raster:
         """Read a picture file of any kind that Pillow reads; palettes, gray, 16 bits and opacity are understood.
@@ -98,7 +98,7 @@ class Raster:
         ----------
         path : path-like
             Of a file with several pictures the first is read.
-        extent, latitude
+        bounds, latitude
             As for `Raster`.
 
         Raises
@@ -107,11 +107,11 @@ class Raster:
             Where the file is missing or cannot be read.
         ValueError
             When it is no picture, is damaged, or has more than `MOST_TEXELS` pixels, which is seen before they are
-            decoded; for a picture that is not 2:1 without an extent.
+            decoded; for a picture that is not 2:1 without bounds.
         """
         pixels = read_image(path)
         try:
-            return cls(pixels, extent, latitude=latitude)
+            return cls(pixels, bounds, latitude=latitude)
         except ValueError as error:
             raise ValueError(f"{os.fspath(path)}: {error}") from error
 
@@ -219,7 +219,7 @@ class Raster:
 
     @property
     def _edges(self) -> FloatArray:
-        edges: FloatArray = np.radians(np.array(self.extent))
+        edges: FloatArray = np.radians(np.array(self.bounds))
         return edges
 
 
@@ -278,7 +278,7 @@ class RasterOnDisc:
         numbers = [self.lens.magnification, self.view.edge, *self.at, self.scale, self.opacity]
         return {
             "map": np.concatenate([*parts, numbers]),
-            "extent": np.array(self.raster.extent),
+            "bounds": np.array(self.raster.bounds),
             "latitude": np.array(self.raster.latitude),
             "raster": np.array(self.raster.digest),
         }

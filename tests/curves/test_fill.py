@@ -1,10 +1,13 @@
 """Loops as triangles: what they cover, holes in the right shell, the owner of each triangle."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from scipy.spatial import Delaunay
 
 from stereodel.curves.clip import signed_areas
-from stereodel.curves.fill import triangles
+from stereodel.curves.fill import triangles, union
 from stereodel.curves.ragged import Ragged
 
 
@@ -43,3 +46,41 @@ def test_nothing_has_no_triangles():
     corners, owners = triangles(Ragged(np.zeros((0, 2)), np.zeros(1, dtype=np.intp)), np.zeros(0, dtype=np.intp))
     assert corners.shape == (0, 3, 2)
     assert owners.shape == (0,)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_union_of_triangles_is_bounded_by_sides_that_one_has(seed):
+    """Counterclockwise loops count, clockwise ones are holes: their areas add up to that of the triangles."""
+    rng = np.random.default_rng(seed)
+    points = rng.random((40, 2))
+    corners = points[Delaunay(points).simplices]
+    corners = corners[rng.random(len(corners)) < 0.7]
+    (ax, ay), (bx, by) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
+    corners[ax * by < ay * bx] = corners[ax * by < ay * bx][:, ::-1]
+    loops = union(Ragged.of([triangle[[0, 1, 2, 0]] for triangle in corners]))
+    assert signed_areas(loops)[0].sum() == pytest.approx(areas(corners).sum(), rel=1e-12)
+    assert all((loop[0] == loop[-1]).all() for loop in loops)
+    sides = [tuple(map(tuple, pair)) for loop in loops for pair in pairwise(loop)]
+    assert len(set(sides)) == len(sides)
+    assert not {(b, a) for a, b in sides} & set(sides)
+
+
+def test_the_union_of_tiles_has_no_inner_side():
+    squares = [square(x, y, 1) for x in range(4) for y in range(3) if (x, y) != (1, 1)]
+    area, length = signed_areas(union(Ragged.of(squares)))
+    assert sorted(area) == [-1.0, 12.0]
+    assert sorted(length) == [4.0, 14.0]
+
+
+def test_stars_become_fans_and_spirals_ears():
+    """A loop that is seen whole from its middle, one that is not, and one twice round: each is covered."""
+    t = np.linspace(0, 2 * np.pi, 25)
+    star = np.stack([np.cos(t), np.sin(t)], axis=1) * np.where(np.arange(25) % 2, 0.5, 1.0)[:, None]
+    star[-1] = star[0]
+    hook = 3 + np.array([(0, 0), (4, 0), (4, 4), (0, 4), (0, 3), (3, 3), (3, 1), (0, 1), (0, 0)], dtype=float)
+    loops = Ragged.of([star, hook])
+    corners, owner = triangles(loops, np.array([4, 7]))
+    found = areas(corners)
+    np.testing.assert_allclose([found[owner == k].sum() for k in (4, 7)], signed_areas(loops)[0], rtol=1e-12)
+    assert (owner == 4).sum() == 24
+    assert (owner == 7).sum() == 6

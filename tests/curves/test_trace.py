@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
 from stereodel.curves.ragged import Ragged
-from stereodel.curves.trace import great, sides_of, straight, unwrapped
+from stereodel.curves.trace import Edges, great, sides_of, straight, unwrapped
 from tests.curves.oracle import units
 
 SEEDS = st.integers(0, 10**9)
@@ -143,3 +143,40 @@ def test_sides_of_lines_and_longitudes_that_go_on():
     # Along a pole map files run from one side of the map to the other, and 360° are a whole turn.
     seam = Ragged.of([np.array([[180.0, -60], [180, -90], [-180, -90], [-180, -60], [180, -60]])])
     assert unwrapped(seam) is seam
+
+
+def test_edges_give_the_same_arcs_for_all_lenses_at_once_and_one_by_one():
+    """What is made ready once gives what `straight` gives each time; some of the edges give theirs."""
+    rng = np.random.default_rng(4)
+    a = np.stack([rng.uniform(-180, 180, 40), rng.uniform(-90, 90, 40)], axis=1)
+    b = a + rng.uniform(-60, 60, (40, 2))
+    b[:, 1] = np.where(np.arange(40) % 4, np.clip(b[:, 1], -90, 90), a[:, 1])
+    edges, some = Edges.straight(a, b), np.arange(40) % 3 == 0
+    for size in (0.1, 1.0, 50.0):
+        lens = fisheye((10.0, 20.0), magnification=size)
+        arcs, part = edges.arcs_under(lens, 1e-3), edges.take(some).arcs_under(lens, 1e-3)
+        again = straight(a, b, lens, 1e-3)
+        kept = np.isin(arcs.edge, np.flatnonzero(some))
+        for name in ("start", "end", "axis", "offset", "u", "begin", "stop"):
+            np.testing.assert_array_equal(getattr(arcs, name), getattr(again, name))
+            np.testing.assert_array_equal(getattr(arcs, name)[kept], getattr(part, name))
+        assert np.bincount(part.edge).tolist() == np.bincount(arcs.edge)[some].tolist()
+
+
+def test_edges_stay_within_their_length():
+    """No point of an edge is farther from its start; so no edge that comes near a place is left out."""
+    rng = np.random.default_rng(5)
+    a = np.stack([rng.uniform(-180, 180, 200), rng.uniform(-90, 90, 200)], axis=1)
+    b = a + rng.uniform(-150, 150, (200, 2))
+    b[:, 1] = np.clip(b[:, 1], -90, 90)
+    edges = Edges.straight(a, b)
+    share = np.linspace(0, 1, 101)[:, None, None]
+    along = lonlat_to_xyz(a + share * (b - a))
+    away = 2 * np.arcsin(np.minimum(np.linalg.norm(along - along[0], axis=-1) / 2, 1))
+    assert (away.max(axis=0) <= edges.length + 1e-12).all()
+    place = np.array([0.6, 0.0, 0.8])
+    reach = 0.3
+    comes = (2 * np.arcsin(np.linalg.norm(along - place, axis=-1) / 2) <= reach).any(axis=0)
+    near = edges.within(place, reach)
+    assert (near | ~comes).all()
+    assert near.sum() < 200

@@ -93,8 +93,8 @@ def test_nothing_turns_to_chords_at_magnification_1000():
 def test_what_is_out_of_sight_is_not_there():
     globe = Globe()
     globe.add_points([(0, 0), (180, 0)])
-    globe.add_labels(["front", "back"], [(0, 0), (180, 0)])
-    globe.add_polygons([[[(170, -5), (190, -5), (190, 5), (170, 5)]]], role="behind")
+    globe.add_labels([(0, 0), (180, 0)], ["front", "back"])
+    globe.add_polygons([[[(170, -5), (190, -5), (190, 5), (170, 5)]]], name="behind")
     page = globe.page()
     assert [len(item.centers) for item in items_of(page, Dots)] == [1]
     assert [label.text for label in page.labels] == ["front"]
@@ -103,7 +103,7 @@ def test_what_is_out_of_sight_is_not_there():
 
 def test_labels_make_room_for_those_that_matter_more():
     globe = Globe()
-    globe.add_labels(["first", "second", "far"], [(0, 0), (0.5, 0.2), (40, 40)])
+    globe.add_labels([(0, 0), (0.5, 0.2), (40, 40)], ["first", "second", "far"])
     assert [label.text for label in globe.page().labels] == ["first", "far"]
     names = [label.text for label in globe.page(fisheye((0, 0), magnification=50.0)).labels]
     assert names == ["first", "second"]
@@ -111,7 +111,7 @@ def test_labels_make_room_for_those_that_matter_more():
 
 def test_labels_stay_on_the_page():
     globe = Globe()
-    globe.add_labels(["a long name at the very edge"], [(89.0, 0.0)])
+    globe.add_labels([(89.0, 0.0)], ["a long name at the very edge"])
     assert globe.page().labels == ()
 
 
@@ -169,9 +169,8 @@ def test_few_colours_are_paths_and_many_are_a_picture():
 def test_the_cells_of_a_diagram_cover_the_disc():
     """All cells add up to the disc, under lens and view, each place once: also what is see-through."""
     voronoi = SphericalVoronoi(np.random.default_rng(3).normal(size=(200, 3)))
-<<<<<<< HEAD
     globe = Globe(ocean=WHITE)
-    globe.add_cells(voronoi, colors=np.tile([0.2, 0.4, 0.6, 0.5], (200, 1)), look=None)
+    globe.add_cells(voronoi, colors=np.tile([0.2, 0.4, 0.6, 0.5], (200, 1)), style=None)
     for view in (View(10, 20), StereographicView(-50, -60, angular_radius=130)):
         page = globe.page(fisheye(PARIS, magnification=10.0), view)
         (cells,) = items_of(page, Polygons)
@@ -180,15 +179,6 @@ def test_the_cells_of_a_diagram_cover_the_disc():
     x = (np.arange(300) + 0.5) * 2.06 / 300 - 1.03
     inside = np.hypot(x, x[:, None]) < 0.98
     assert np.abs(picture[inside] - 255 * (np.array([0.2, 0.4, 0.6]) + 1) / 2).max() <= 1
-=======
-    globe = Globe()
-    globe.add_cells(voronoi, colors=np.tile([0.2, 0.4, 0.6], (200, 1)), look=None)
-    for view in (View(10, 20), StereographicView(-50, -60, angular_radius=130)):
-        (patch,) = items_of(globe.page(fisheye(PARIS, magnification=10.0), view), Patch)
-        a, b, c = (patch.points[patch.faces[:, i]] for i in range(3))
-        covered = np.sum((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]) / 2
-        assert covered == pytest.approx(np.pi, rel=1e-3)
->>>>>>> scene
 
 
 def test_triangulations_are_drawn_without_their_far_side():
@@ -236,7 +226,7 @@ def test_globes_can_be_pickled():
     globe.add_land(resolution="110m")
     globe.add_coastlines(resolution="110m")
     globe.add_tissot()
-    globe.add_labels(["Paris"], [PARIS])
+    globe.add_labels([PARIS], ["Paris"])
     lens = fisheye(PARIS, magnification=4.0)
     again = pickle.loads(pickle.dumps(globe))
     for (name, first), (other, second) in zip(
@@ -268,7 +258,7 @@ def test_files(tmp_path):
         (lambda g: g.add_graticule(7), "spacing"),
         (lambda g: g.add_tissot(30, 0), "radius"),
         (lambda g: g.add_points([(0, 91)]), "latitude 91"),
-        (lambda g: g.add_labels(["a"], [(0, 0), (1, 1)]), "texts has 1 entries"),
+        (lambda g: g.add_labels([(0, 0), (1, 1)], ["a"]), "texts has 1 entries"),
         (lambda g: g.add_polygons([[[(0, 0), (1, 1)]]]), "needs three"),
         (lambda g: g.add_land(resolution="1m"), "resolution"),
         (lambda g: g.add_cells(FOUR, colors=np.ones((2, 3))), r"shape \(4, 3\) or \(4, 4\)"),
@@ -304,7 +294,7 @@ def test_latitudes_are_those_of_the_globe():
 
 def test_labels_are_what_they_were():
     globe = Globe()
-    globe.add_labels(["Paris"], [PARIS], offset=(-3.0, 0.0), size=7.0)
+    globe.add_labels([PARIS], ["Paris"], offset=(-3.0, 0.0), size=7.0)
     (label,) = globe.page().labels
     assert isinstance(label, Label)
     assert (label.align, label.valign, label.offset, label.size) == ("right", "center", (-3.0, 0.0), 7.0)
@@ -313,7 +303,7 @@ def test_labels_are_what_they_were():
 def test_a_halo_has_the_colour_that_is_asked_for():
     """In pixels, and in what the first net compares; a white one adds nothing there."""
     globe = Globe()
-    globe.add_labels(["Paris"], [PARIS], halo=3.0, halo_color=(0.0, 0.4, 0.0, 1.0))
+    globe.add_labels([PARIS], ["Paris"], halo=3.0, halo_color=(0.0, 0.4, 0.0, 1.0))
     page = globe.page()
     letters = LabelLayer(page, 400).rows()
     np.testing.assert_array_equal(np.median(letters[letters[..., 3] == 255], axis=0), [0, 102, 0, 255])

@@ -58,8 +58,8 @@ def test_kinds_of_files(tmp_path, kind):
 
 def test_a_part_of_the_globe(tmp_path):
     Image.new("L", (30, 30)).save(tmp_path / "part.png")
-    assert Raster.open(tmp_path / "part.png", extent=(0, 10, 30, 40)).extent == (0, 10, 30, 40)
-    with pytest.raises(ValueError, match=r"part\.png: pixels is 30 wide and 30 high; .*extent="):
+    assert Raster.open(tmp_path / "part.png", bounds=(0, 10, 30, 40)).bounds == (0, 10, 30, 40)
+    with pytest.raises(ValueError, match=r"part\.png: pixels is 30 wide and 30 high; .*bounds="):
         Raster.open(tmp_path / "part.png")
 
 

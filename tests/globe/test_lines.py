@@ -18,7 +18,7 @@ NONE = MoebiusMap.identity()
 places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
 views = st.one_of(
     st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
-    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), extent=st.floats(20, 150)),
+    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
 )
 
 

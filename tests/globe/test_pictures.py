@@ -178,7 +178,7 @@ def test_files_have_the_latitude_of_the_globe(tmp_path):
     ("raster", "options", "words"),
     [
         (COLOURED, {"opacity": 1.5}, "opacity is 1.5"),
-        (COLOURED, {"extent": (0, 0, 1, 1)}, "extent belongs to pixels and files"),
+        (COLOURED, {"bounds": (0, 0, 1, 1)}, "bounds belong to pixels and files"),
     ],
 )
 def test_bad_options_are_refused(raster, options, words):

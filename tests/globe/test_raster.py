@@ -229,24 +229,24 @@ def test_input_is_not_modified_and_not_shared():
 
 
 @pytest.mark.parametrize(
-    ("pixels", "extent", "error", "words"),
+    ("pixels", "bounds", "error", "words"),
     [
         (np.zeros((4, 8)), None, TypeError, "pixels must be of uint8, not float64"),
         (np.zeros((4, 8, 2), np.uint8), None, ValueError, r"pixels must have shape \(h, w\), \(h, w, 3\) or"),
         (np.zeros((0, 8), np.uint8), None, ValueError, "not empty"),
-        (np.zeros((4, 9), np.uint8), None, ValueError, r"9 wide and 4 high; .* extent=\(west, south, east, north\)"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 361, 9), ValueError, "extent runs from longitude 0 to 361"),
-        (np.zeros((4, 9), np.uint8), (5, 0, 5, 9), ValueError, "extent runs from longitude 5 to 5"),
-        (np.zeros((4, 9), np.uint8), (0, 9, 5, 0), ValueError, "extent runs from latitude 9 to 0"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 5, 91), ValueError, "extent runs from latitude 0 to 91"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 5), ValueError, r"extent must be \(west, south, east, north\)"),
-        (np.zeros((4, 9), np.uint8), (0, 0, 5, np.nan), ValueError, "extent"),
+        (np.zeros((4, 9), np.uint8), None, ValueError, r"9 wide and 4 high; .* bounds=\(west, south, east, north\)"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 361, 9), ValueError, "bounds runs from longitude 0 to 361"),
+        (np.zeros((4, 9), np.uint8), (5, 0, 5, 9), ValueError, "bounds runs from longitude 5 to 5"),
+        (np.zeros((4, 9), np.uint8), (0, 9, 5, 0), ValueError, "bounds runs from latitude 9 to 0"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 5, 91), ValueError, "bounds runs from latitude 0 to 91"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 5), ValueError, r"bounds must be \(west, south, east, north\)"),
+        (np.zeros((4, 9), np.uint8), (0, 0, 5, np.nan), ValueError, "bounds"),
         (np.broadcast_to(np.uint8(0), (2**14, 2**14)), (0, 0, 1, 1), ValueError, "make the picture smaller"),
     ],
 )  # fmt: skip
-def test_bad_rasters_are_refused(pixels, extent, error, words):
+def test_bad_rasters_are_refused(pixels, bounds, error, words):
     with pytest.raises(error, match=words):
-        Raster(pixels, extent)
+        Raster(pixels, bounds)
 
 
 def test_unknown_latitudes_are_refused():
