@@ -2,7 +2,7 @@
 
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
@@ -22,6 +22,7 @@ __all__ = [
     "Layer",
     "LineStyle",
     "Page",
+    "Polygons",
     "Polylines",
     "Scene",
     "Segment",
