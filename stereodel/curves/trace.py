@@ -20,7 +20,7 @@ from stereodel.constants import LONGEST_EDGE, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.vectors import turned
+from stereodel.sphere.vectors import crossed, turned
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,13 +55,13 @@ class Arcs:
 
     def waves(self, direction: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Along each arc direction·x is constant + size·cos(t − phase)."""
-        cosine, sine = self.u @ direction, np.cross(self.axis, self.u) @ direction
+        cosine, sine = self.u @ direction, crossed(self.axis, self.u) @ direction
         return self.offset * (self.axis @ direction), np.hypot(cosine, sine), np.arctan2(sine, cosine)
 
     def points(self, arc: Indices, t: FloatArray) -> FloatArray:
         """Points (k, 3) of arcs (k,) at parameters (k,)."""
         axis, u = self.axis[arc], self.u[arc]
-        return axis * self.offset[arc, None] + np.cos(t)[:, None] * u + np.sin(t)[:, None] * np.cross(axis, u)
+        return axis * self.offset[arc, None] + np.cos(t)[:, None] * u + np.sin(t)[:, None] * crossed(axis, u)
 
     def cut(self, arc: Indices, t: FloatArray, points: FloatArray) -> Arcs:
         """The same arcs in pieces, at parameters t (k,) of arcs (k,), in order; neighbours share the points (k, 3)."""
@@ -124,7 +124,7 @@ class Arcs:
 def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) -> Arcs:
     """The shorter great-circle arcs between unit vectors (n, 3); `normal` tells which, where ends may be opposite."""
     # a × b = (a − b) × (a + b) / 2, whose first factor is exact for close points.
-    axis = np.cross(start - end, start + end)
+    axis = crossed(start - end, start + end)
     length = np.sqrt(np.sum(axis**2, axis=1, keepdims=True))
     axis = np.divide(axis, length, out=np.zeros_like(axis), where=length > 0)
     if normal is not None:
@@ -148,7 +148,7 @@ def exact(arcs: Sequence[SphereArc]) -> Arcs:
 
 def _swept(axis: FloatArray, u: FloatArray, w: FloatArray) -> FloatArray:
     """Angle about an axis from u to w, at most half a turn: rounding must not make −π of π."""
-    return np.arctan2(np.abs(np.sum(np.cross(axis, u) * w, axis=1)), np.sum(u * w, axis=1))
+    return np.arctan2(np.abs(np.sum(crossed(axis, u) * w, axis=1)), np.sum(u * w, axis=1))
 
 
 def sides_of(lines: Ragged) -> tuple[Indices, Ragged]:

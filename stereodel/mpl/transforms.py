@@ -13,11 +13,11 @@ from matplotlib.transforms import Transform
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import DEGREE_ROUNDING, LIMB_DEPTH, ON_BALL, PAGE_TOLERANCE, STORED_ERROR, WHOLE_TURNS
-from stereodel.curves import clip
+from stereodel.curves import clip, trace
 from stereodel.curves.borders import Cap, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
-from stereodel.curves.trace import great, measures_in_lonlat, sides_of, straight, unwrapped
+from stereodel.curves.trace import sides_of, unwrapped
 from stereodel.drawing.view import MapView
 from stereodel.mpl.insides import on_the_left
 from stereodel.sphere import SphereCircle, lonlat_to_xyz, xyz_to_lonlat
@@ -52,8 +52,9 @@ class LonLatToPage(Transform):
         self._tolerance = PAGE_TOLERANCE
         toward = self.matrix[2]
         self._middle = xyz_to_lonlat(self.back(toward))
-        # What the lens brings into sight: a cap, too.
+        # What the lens brings into sight: a cap, too, and a little more.
         self._shown = self.back.image_of(SphereCircle(toward, view.edge - ON_BALL))
+        self._reach = float(np.arctan2(self._shown.radius, self._shown.offset)) + STORED_ERROR
 
     @property
     def tolerance(self) -> float:
@@ -92,9 +93,9 @@ class LonLatToPage(Transform):
         lines = unwrapped(lines) if self.edges == "straight" else self._led(lines)
         first, sides = sides_of(lines)
         xyz = lonlat_to_xyz(lines.values)
-        edges = lines.values[first], lines.values[first + 1], xyz[first], xyz[first + 1]
-        sides, pieces, samples = self._traced(*edges, sides, self._near(*edges))
-        return clip.lines(sides, pieces, samples, self._border)[0]
+        edges, near = self._edges(lines.values[first], lines.values[first + 1], xyz[first], xyz[first + 1])
+        pieces, samples = self._traced(edges.take(near))
+        return clip.lines(clip.among(sides, near), pieces, samples, self._border)[0]
 
     def regions(self, rings: Ragged, owner: Indices, count: int) -> tuple[Ragged, Indices]:
         """What is in sight of regions, as closed loops on the page that follow its edge, and the region of each.
@@ -121,12 +122,11 @@ class LonLatToPage(Transform):
         # On the sphere an edge ends where the next one of its ring starts, whatever the longitudes of the two.
         p, q = lonlat_to_xyz(start), np.empty((len(start), 3))
         q[sides.values] = p[sides.values[sides.following]]
-        near = self._near(start, end, p, q)
+        edges, near = self._edges(start, end, p, q)
         if not near.any():
-            whole = np.flatnonzero(middle)
-            return Ragged.of([self._border.once()] * len(whole), lon[:0].reshape(0, 2)), whole
-        sides, pieces, samples = self._traced(start, end, p, q, sides, near)
-        return clip.regions(sides, owner, count, pieces, samples, self._border, middle)
+            return clip.bordered(Ragged.of([], rings.values), owner[:0], middle, self._border)
+        pieces, samples = self._traced(edges.take(near))
+        return clip.regions(clip.among(sides, near), owner, count, pieces, samples, self._border, middle)
 
     @property
     def _border(self) -> Cap:
@@ -144,35 +144,18 @@ class LonLatToPage(Transform):
         between = np.stack([lon[at], np.where(np.abs(lat[at]) == 90.0, 0.0, 90.0)], axis=1)
         return lines.inserted(at + 1, between)
 
-    def _near(self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray) -> BoolArray:
-        """Edges of which something may be in sight: from p to q on the sphere, from start to end in degrees."""
-        if self.edges == "straight":
-            length, _ = measures_in_lonlat(start, end, p, q)
-        else:
-            length = np.pi / 2 * np.sqrt(np.sum((p - q) ** 2, axis=1))  # an arc's, by its chord, at most
-        # No farther from the middle of what the lens brings into sight than its radius and the edge's length together.
-        reach = np.arctan2(self._shown.radius, self._shown.offset) + length + STORED_ERROR
-        return np.sum((p - self._shown.normal) ** 2, axis=1) <= (2 * np.sin(np.minimum(reach, np.pi) / 2)) ** 2
+    def _edges(self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray) -> tuple[trace.Edges, BoolArray]:
+        """Edges from start to end in degrees, p to q on the sphere, and of which something may be in sight."""
+        straight = self.edges == "straight"
+        edges = trace.Edges.straight(start, end, ends=(p, q)) if straight else trace.Edges.of(trace.great(p, q))
+        return edges, edges.within(self._shown.normal, self._reach)
 
-    def _traced(
-        self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray, sides: Ragged, near: BoolArray
-    ) -> tuple[Ragged, Pieces, Ragged]:
-        """What is left of lines without edges that are out of reach; the others in view axes, cut where the view ends.
-
-        Their points, too. Where a line has a gap it is hidden on both sides.
-        """
-        sides = sides.kept(near[sides.values])
-        sides = Ragged((np.cumsum(near) - 1)[sides.values], sides.offsets)
-        p, q = p[near], q[near]
-        # In space chords may stray by so much.
-        slack = self.tolerance / self.view.stretch
-        if self.edges == "straight":
-            slack /= 2  # each, of the arcs from the edges and of the chords from the arcs
-            arcs = straight(start[near], end[near], self.lens, slack, ends=(p, q))
-        else:
-            arcs = great(p, q)
-        pieces = self._border.cut(arcs.through(self.lens).turned(self.matrix))
-        return sides, pieces, pieces.arcs.sampled(slack)
+    def _traced(self, edges: trace.Edges) -> tuple[Pieces, Ragged]:
+        """Edges in view axes, cut where the view ends, and points of the pieces."""
+        # In space chords may stray by so much; half of it each arcs from edges and chords from arcs, where both do.
+        slack = self.tolerance / self.view.stretch / (2 if self.edges == "straight" else 1)
+        pieces = self._border.cut(edges.arcs_under(self.lens, slack).through(self.lens).turned(self.matrix))
+        return pieces, pieces.arcs.sampled(slack)
 
     def inverted(self) -> Transform:
         """From the page to longitude and latitude."""
