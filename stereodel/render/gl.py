@@ -37,6 +37,9 @@ from stereodel.render.triangles import Triangles, Window
 VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""
 
+ASKED: Final = os.environ.get("PYOPENGL_PLATFORM", "")
+"""What the environment asked PyOpenGL for before anything was drawn: from then on it says what was chosen."""
+
 PLATFORMS: Final = ("osmesa", "egl")
 """In the order in which they are tried."""
 

@@ -266,6 +266,22 @@ def test_names_of_frames_depend_on_all_that_counts(balls, monkeypatch):
     assert set(frames_module.frame_names(Painter(1.0), shots)).isdisjoint(names)
 
 
+def test_names_of_frames_are_as_before_once_something_was_drawn(balls):
+    """The first picture of a process writes into its environment which OpenGL it has."""
+    code = """
+import balls
+from stereodel.film import Film
+from stereodel.film.frames import frame_names
+film = Film(balls.ball, [1.0], size=40)
+before = frame_names(film._camera, film.shots)
+film.picture(0)
+assert frame_names(film._camera, film.shots) == before
+"""
+    environment = {name: value for name, value in os.environ.items() if name != "PYOPENGL_PLATFORM"}
+    environment["PYTHONPATH"] = os.pathsep.join([str(Path(balls.__file__).parent), *filter(None, sys.path)])
+    subprocess.run([sys.executable, "-c", code], env=environment, check=True)
+
+
 def test_bad_films_are_refused_before_anything_is_drawn(balls, out):
     with pytest.raises(ValueError, match="shots is empty"):
         Film(balls.ball, [])
