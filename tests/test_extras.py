@@ -48,9 +48,11 @@ DOORS = {
     # Pictures
     "from stereodel.drawing import ColorScale; ColorScale('viridis', 0, 1)": ["draw"],
     "from stereodel.drawing.label import label_box; label_box(picture().labels[0], 1.0)": ["draw"],
-    "from stereodel.render import save_page; save_page(picture(), 'page.svg')": ["draw"],
-    "from stereodel.render import save_page; save_page(picture(), 'page.pdf')": ["draw"],
-    "from stereodel.render import save_page; save_page(picture(), 'page.png', size=100)": ["render"],
+    "picture().save('page.svg')": ["draw"],
+    "picture().save('page.pdf')": ["draw"],
+    "picture().save('page.png', size=100, renderer='agg')": ["draw"],
+    "picture().save('page.png', size=100)": ["render"],
+    "picture().pixels(size=100)": ["render"],
     "from stereodel.render import Figure; Figure('a', dict, lambda _: picture(), renderer='agg').save('.')": ["draw"],
     "from stereodel.data import blue_marble; blue_marble()": ["draw"],
     "from stereodel.globe import Globe; g = Globe(); g.add_polygons([RINGS]); g.save('a.svg')": ["draw"],
@@ -169,7 +171,7 @@ def test_every_module_is_there_or_names_its_extra(environment, tmp_path):
     closed = {module: asked_for(answers[f"import {module}"]) for module in modules if answers[f"import {module}"]}
     drawing = {module for module in closed if module.startswith("stereodel.render.")}
     assert {closed.pop(module) for module in drawing} == {"draw"}
-    assert drawing.isdisjoint(f"stereodel.render.{module}" for module in ("figure", "gl", "provenance", "save"))
+    assert drawing.isdisjoint(f"stereodel.render.{module}" for module in ("figure", "gl", "provenance"))
     rooms = {
         module: extra for module in modules for room, extra in ROOMS.items() if f"{module}.".startswith(f"{room}.")
     }
