@@ -59,10 +59,10 @@ DOORS = {
     "from stereodel.globe import Globe; g = Globe(); g.add_land(); g.add_coastlines(); g.save('a.svg')": ["draw"],
     "from stereodel.globe import Globe; g = Globe(); g.add_coastlines(); g.save('a.png', size=200)": ["render"],
     "from stereodel.globe import Globe; Globe().add_raster('file.jpg')": ["draw"],
-    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.gif')": ["film"],
-    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.png')": ["film"],
-    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.webp')": ["film"],
-    "from stereodel.film import save_pictures; save_pictures(PICTURES, 'a.mp4')": ["film"],
+    "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.gif', progress=False)": ["film"],
+    "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.png', progress=False)": ["film"],
+    "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.webp', progress=False)": ["film"],
+    "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.mp4', progress=False)": ["film"],
     # Files and neighbours
     "from stereodel.io import to_geodataframe; to_geodataframe(MESH)": ["geo"],
     "from stereodel.io import to_geodataframe, to_geojson; to_geojson(to_geodataframe(MESH))": ["geo"],
@@ -74,9 +74,8 @@ DOORS = {
     "from stereodel.io import write; write('a.nc', MESH)": ["grid"],
     "from stereodel.io import write; write('a.glb', MESH)": ["mesh"],
     "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
-    "from stereodel.io import write; write('a.svg', MESH)": ["draw"],
-    "from stereodel.cli.grids import Grid, save_grid; from pathlib import Path; g = Grid.of(30, None); "
-    "save_grid(Path('grid.nc'), g, {'z': g.lonlat[:, 0]})": ["cli", "scipy"],
+    "from stereodel.cli.interpolate import _save_grid; from pathlib import Path; "
+    "_save_grid(Path('a.nc'), np.arange(3.0), np.arange(2.0), {'z': np.zeros(6)})": ["cli", "scipy"],
 }
 """Calls that need a library, and the extras that they ask for one after the other when there is NumPy alone."""
 

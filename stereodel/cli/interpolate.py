@@ -153,6 +153,7 @@ def _save_grid(path: Path, lon: FloatArray, lat: FloatArray, columns: dict[str, 
     """Write values (h·w,) by name, in rows from south to north, as a table or as NetCDF with CF attributes."""
     import numpy as np
 
+    from stereodel._extras import optional
     from stereodel._files import replacing
     from stereodel.cli.destinations import save_table
     from stereodel.cli.sources import LONLAT
@@ -161,8 +162,7 @@ def _save_grid(path: Path, lon: FloatArray, lat: FloatArray, columns: dict[str, 
         grid = (axis.ravel() for axis in np.meshgrid(lon, lat))
         save_table(path, LONLAT, {**dict(zip(LONLAT, grid, strict=True)), **columns})
         return
-    from scipy.io import netcdf_file
-
+    netcdf_file = optional("scipy.io", "scipy").netcdf_file
     with replacing(path) as temporary, netcdf_file(temporary, "w", version=2) as file:
         file.Conventions = "CF-1.8"
         axes = (("lat", lat, "degrees_north", "latitude"), ("lon", lon, "degrees_east", "longitude"))

@@ -23,10 +23,9 @@ from pathlib import Path
 from typing import Any, Final, Protocol
 
 import numpy as np
-from PIL import Image
 
 from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
-from stereodel._extras import optional
+from stereodel._extras import of_extra, optional
 from stereodel.constants import FRAME_ROUNDING
 
 
@@ -55,19 +54,18 @@ class Format:
         Pixels that a side may have.
     shortest : float
         Seconds that a frame is shown at least.
-    library, extra : str
-        The module that encodes, and the extra that it comes with.
+    library : str
+        The module of the extra ``film`` that encodes.
     """
 
     write: Writer
     largest: int
     shortest: float
     library: str = "av"
-    extra: str = "film"
 
     def check(self, name: str, sides: Sequence[int], seconds: FloatArray) -> None:
         """A ValueError or ImportError if pictures of these sides, shown so long each, cannot be written to `name`."""
-        optional(self.library, self.extra)
+        optional(self.library, "film")
         if max(sides) > self.largest:
             raise ValueError(f"size of {name} is {max(sides)} pixels, but the format has at most {self.largest}")
         if seconds.min() < self.shortest * (1 - FRAME_ROUNDING):
@@ -333,39 +331,47 @@ WEBP_QUALITY: Final = 90
 
 def write_webp(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames as an animated WebP that loops for ever; times are kept in milliseconds."""
+    with of_extra("film"):
+        from PIL import Image
+
     with path.open("wb") as file:
         if len(reel) == 1:
             Image.fromarray(reel[0]).save(file, format="webp", quality=WEBP_QUALITY)
             return
         ticks = whole_ticks(seconds, 1000)
-        _OneAtATime(reel).save(
+        _one_at_a_time(reel).save(
             file, format="webp", save_all=True, duration=ticks, loop=0, quality=WEBP_QUALITY, method=4
         )
 
 
-class _OneAtATime(Image.Image):
+def _one_at_a_time(reel: Reel) -> Any:
     """A picture of many frames for Pillow, which asks for them in order and keeps none."""
+    with of_extra("film"):
+        from PIL import Image
 
-    def __init__(self, reel: Reel) -> None:
-        super().__init__()
-        self.n_frames = len(reel)
-        self._frames = frames_of(reel)
-        self._number = -1
-        self.seek(0)
+    class Frames(Image.Image):
+        def __init__(self) -> None:
+            super().__init__()
+            self.n_frames = len(reel)
+            self._frames = frames_of(reel)
+            self._number = -1
+            self.seek(0)
 
-    def seek(self, frame: int) -> None:
-        """Go to the next frame; those before it are gone, and Pillow's return to the first changes nothing."""
-        if frame > self._number:
-            shown = Image.fromarray(next(self._frames))
-            self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
+        def seek(self, frame: int) -> None:
+            """Go to the next frame; those before it are gone, and Pillow's return to the first changes nothing."""
+            if frame > self._number:
+                shown = Image.fromarray(next(self._frames))
+                self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
 
-    def tell(self) -> int:
-        """The number of the frame that is shown."""
-        return self._number
+        def tell(self) -> int:
+            """The number of the frame that is shown."""
+            return self._number
 
-    def load(self) -> Any:
-        """The pixels, which are there already."""
-        return self.im.pixel_access(self.readonly)
+        def load(self) -> Any:
+            """The pixels, which are there already."""
+            return self.im.pixel_access(self.readonly)
+
+    return Frames()
 
 
 _APNG: Final = Format(write_apng, 2**31 - 1, 0.001)
@@ -375,6 +381,6 @@ FORMATS: Final = {
     ".gif": Format(write_gif, 65535, 0.02),
     ".png": _APNG,
     ".apng": _APNG,
-    ".webp": Format(write_webp, 16383, 0.001, library="PIL", extra="draw"),
+    ".webp": Format(write_webp, 16383, 0.001, library="PIL"),
     ".mp4": Format(write_mp4, 16384, 0.001),
 }

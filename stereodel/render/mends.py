@@ -98,7 +98,8 @@ def exact_mathtext() -> Iterator[None]:
     The size of a formula is rounded up to whole pixels, those of PDF being points, and its letters are moved up by what
     was added: by three quarters of a point beside the same label in SVG and PNG. So it is set with finer pixels.
     """
-    from matplotlib.mathtext import MathTextParser, VectorParse
+    with of_extra("draw"):
+        from matplotlib.mathtext import MathTextParser, VectorParse
 
     parser: Any = MathTextParser
     parse = parser.parse
