@@ -83,8 +83,9 @@ ROOMS = {
     "stereodel.cli": "cli",
     "stereodel.mpl": "draw",
     "stereodel.spatial": "scipy",
+    **{f"stereodel.io.{module}": "geo" for module in ("geometries", "images", "on_map", "plane", "tiles")},
 }
-"""Packages that cannot be imported without an extra. All others can, and all their modules but those that draw."""
+"""What cannot be imported without an extra. All else can, but modules that draw."""
 
 
 def needed(names):
