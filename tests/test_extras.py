@@ -83,7 +83,6 @@ ROOMS = {
     "stereodel.cli": "cli",
     "stereodel.mpl": "draw",
     "stereodel.spatial": "scipy",
-    **{f"stereodel.io.{module}": "geo" for module in ("geometries", "images", "on_map", "plane", "tiles")},
 }
 """Packages that cannot be imported without an extra; all others can."""
 
