@@ -44,7 +44,7 @@ MAY_IMPORT = {
     "drawing": MATHEMATICS | {"__init__", "curves"},
     "render": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "drawing"},
     "mpl": MATHEMATICS | {"__init__", "_extras", "curves", "data", "drawing", "io"},
-    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "data", "drawing", "render"},
+    "globe": MATHEMATICS | {"__init__", "_extras", "_files", "_kernel", "curves", "data", "drawing", "io", "render"},
     "film": MATHEMATICS | {"__init__", "_extras", "_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_extras", "_files", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},

@@ -21,12 +21,12 @@ from stereodel.drawing.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotSt
 from stereodel.drawing.view import MapView
 from stereodel.globe import features, looks
 from stereodel.globe.chart import Chart
-from stereodel.globe.geodata import shapes_of
 from stereodel.globe.layers import Areas, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
 from stereodel.globe.regions import Rings, SphereRegions
+from stereodel.io.shapes import shapes_of
 from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.graticules import graticule
@@ -303,22 +303,22 @@ class Globe:
         OSError
             When a file cannot be read.
         ValueError
-            For what is no GeoJSON, a latitude outside [−90, 90], a column that is not there or holds no numbers.
+            For what is not GeoJSON, a latitude outside [−90, 90], a column that is not there or holds no numbers.
         """
         shapes = shapes_of(source)
-        if shapes.polygons:
+        if len(shapes.polygon_feature):
             tints = features.as_tints(color, len(shapes.properties), "color")
             if column is not None:
                 values = shapes.column(column)
                 tints[np.isfinite(values), :3] = features.scaled_colors(values[np.isfinite(values)], scale)
                 tints[np.isfinite(values), 3] = 1.0
-            owners = np.array(shapes.polygon_features)
+            owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
             self._add_polygons(polygons, tints[: polygons.count], outline, name)
-        if shapes.lines:
-            self.add_lines(shapes.lines, style=style, name=name)
-        if shapes.points:
-            self.add_points(np.concatenate(shapes.points), style=dot_style, name=name)
+        if len(shapes.lines):
+            self.add_lines(list(shapes.lines), style=style, name=name)
+        if len(shapes.points):
+            self.add_points(shapes.points, style=dot_style, name=name)
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
         """What a chart shows, in painter's order; `panels` leaves out labels that would cover others."""

@@ -9,6 +9,7 @@ import json
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -60,6 +61,12 @@ class Shapes:
     rings: Ragged
     ring_polygon: Indices
     polygon_feature: Indices
+
+    @property
+    def polygons(self) -> list[list[FloatArray]]:
+        """The rings of each polygon, the outer one first."""
+        rings, first = list(self.rings), np.searchsorted(self.ring_polygon, np.arange(len(self.polygon_feature) + 1))
+        return [rings[a:b] for a, b in pairwise(first.tolist())]
 
     def column(self, name: str) -> FloatArray:
         """A property of each feature as a number, NaN where it has none.

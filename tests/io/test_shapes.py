@@ -38,7 +38,7 @@ EVERYTHING = {
 }
 
 
-def assert_everything(shapes, heights=True):
+def assert_everything(shapes):
     assert len(shapes.properties) == len(EVERYTHING["features"])
     assert shapes.points.tolist() == [[1, 2], [1, 2], [3, 4], [5, 5]]
     assert shapes.point_feature.tolist() == [0, 1, 1, 7]
@@ -51,6 +51,7 @@ def assert_everything(shapes, heights=True):
     assert [ring.tolist() for ring in shapes.rings] == [RING, [[1, 1], [2, 1], [2, 2], [1, 1]], RING, RING, RING]
     assert shapes.ring_polygon.tolist() == [0, 0, 1, 2, 3]
     assert shapes.polygon_feature.tolist() == [4, 5, 5, 7]
+    assert [len(rings) for rings in shapes.polygons] == [2, 1, 1, 1]
 
 
 def test_every_kind_is_sorted_with_its_feature():
