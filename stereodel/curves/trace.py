@@ -15,7 +15,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.conformal.polylines import largest_scale
+from stereodel.conformal.scales import largest_scale
 from stereodel.constants import LONGEST_EDGE, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz

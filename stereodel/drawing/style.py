@@ -197,6 +197,31 @@ FILLS: Final[Mapping[str, Color]] = {
 }
 """What a region stands for → its tint."""
 
+MAP_LINES: Final[Mapping[str, LineStyle]] = {
+    "limb": LineStyle(DARK_GRAY, 0.9),
+    "coast": LineStyle((0.25, 0.33, 0.40, 1.0), 0.45),
+    "borders": LineStyle((0.55, 0.48, 0.45, 1.0), 0.35),
+    "rivers": LineStyle((0.36, 0.58, 0.74, 1.0), 0.35),
+    "graticule": LineStyle((0.62, 0.68, 0.72, 1.0), 0.3),
+    "line": LineStyle(BLACK, 0.5),
+    "outline": LineStyle(DARK_GRAY, 0.4),
+}
+"""Lines of globes where no other style is asked for."""
+
+MAP_DOT: Final = DotStyle(VERMILION, 1.8, rim=WHITE, rim_width=0.4)
+"""Dots of globes."""
+
+MAP_FILLS: Final[Mapping[str, Color]] = {
+    "ocean": (0.855, 0.910, 0.945, 1.0),
+    "land": (0.957, 0.937, 0.890, 1.0),
+    "area": (0.400, 0.640, 0.780, 1.0),
+    "circle": with_opacity(VERMILION, 0.30),
+}
+"""Regions of globes."""
+
+HALO: Final = 1.6
+"""Width of the white line round type on globes, points."""
+
 TYPE: Final[Mapping[str, Any]] = {
     "font.family": "STIXGeneral",
     "mathtext.fontset": "stix",

@@ -17,9 +17,20 @@ from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.scales import ColorScale
-from stereodel.drawing.style import BLACK, LABEL_SIZE, PRINT_WIDTH, WHITE, DotStyle, LineStyle
+from stereodel.drawing.style import (
+    BLACK,
+    HALO,
+    LABEL_SIZE,
+    MAP_DOT,
+    MAP_FILLS,
+    MAP_LINES,
+    PRINT_WIDTH,
+    WHITE,
+    DotStyle,
+    LineStyle,
+)
 from stereodel.drawing.view import MapView
-from stereodel.globe import features, looks
+from stereodel.globe import features
 from stereodel.globe.chart import Chart
 from stereodel.globe.layers import Areas, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lines import SphereLines
@@ -64,9 +75,9 @@ class Globe:
     def __init__(
         self,
         *,
-        ocean: ColorLike = looks.OCEAN,
+        ocean: ColorLike = MAP_FILLS["ocean"],
         latitude: Latitude = "spherical",
-        limb: LineStyle = looks.LIMB,
+        limb: LineStyle = MAP_LINES["limb"],
     ) -> None:
         self.latitude: Latitude = as_choice(latitude, KINDS, "latitude")
         self.layers: list[MapLayer] = [Ground(as_color(ocean, "ocean"))]
@@ -112,34 +123,36 @@ class Globe:
         self.add(Image(raster, as_scalar(opacity, "opacity", low=0.0, high=1.0), name))
 
     def add_land(
-        self, *, color: ColorLike = looks.LAND, outline: LineStyle | None = None, resolution: str = "50m"
+        self, *, color: ColorLike = MAP_FILLS["land"], outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
         """Fill the land of the Earth (Natural Earth), and draw its outline where a style is given."""
         self._add_polygons(features.land(resolution, self.latitude), color, outline, "land")
 
     def add_lakes(
-        self, *, color: ColorLike = looks.OCEAN, outline: LineStyle | None = None, resolution: str = "50m"
+        self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
         """Fill the lakes of the Earth (Natural Earth)."""
         self._add_polygons(features.lakes(resolution, self.latitude), color, outline, "lakes")
 
-    def add_rivers(self, *, style: LineStyle = looks.RIVER, resolution: str = "50m") -> None:
+    def add_rivers(self, *, style: LineStyle = MAP_LINES["rivers"], resolution: str = "50m") -> None:
         """Draw the large rivers of the Earth (Natural Earth)."""
         self.add(Lines(features.rivers(resolution, self.latitude), style, "rivers"))
 
-    def add_coastlines(self, *, style: LineStyle = looks.COAST, resolution: str = "50m") -> None:
+    def add_coastlines(self, *, style: LineStyle = MAP_LINES["coast"], resolution: str = "50m") -> None:
         """Draw the coastlines of the Earth (Natural Earth)."""
         self.add(Lines(features.coastlines(resolution, self.latitude), style, "coast"))
 
-    def add_borders(self, *, style: LineStyle = looks.BORDER, resolution: str = "50m") -> None:
+    def add_borders(self, *, style: LineStyle = MAP_LINES["borders"], resolution: str = "50m") -> None:
         """Draw the borders between the countries of the Earth (Natural Earth)."""
         self.add(Lines(features.borders(resolution, self.latitude), style, "borders"))
 
-    def add_graticule(self, spacing: float = 15.0, *, style: LineStyle = looks.GRATICULE) -> None:
+    def add_graticule(self, spacing: float = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
         """Draw meridians from pole to pole and parallels, `spacing` degrees apart, of which 180 must be a multiple."""
         self.add(Lines(SphereLines.of_arcs(graticule(spacing, latitude=self.latitude)), style, "graticule"))
 
-    def add_lines(self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = looks.LINE, name: str = "lines") -> None:
+    def add_lines(
+        self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = MAP_LINES["line"], name: str = "lines"
+    ) -> None:
         """Draw lines, (k, 2) each, degrees, whose pieces are straight in longitude and latitude.
 
         A piece that spans more than 180° of longitude goes the other, shorter way, across ±180°.
@@ -147,7 +160,7 @@ class Globe:
         self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), style, name))
 
     def add_great_circles(
-        self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = looks.LINE, name: str = "arcs"
+        self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = MAP_LINES["line"], name: str = "arcs"
     ) -> None:
         """Draw the shorter great-circle arcs between places, as for `add_points`; one start goes with all ends."""
         first, last = np.broadcast_arrays(self._xyz(starts, "starts"), self._xyz(ends, "ends"))
@@ -157,8 +170,8 @@ class Globe:
         self,
         polygons: Iterable[Rings],
         *,
-        color: ColorLike | npt.ArrayLike = looks.AREA,
-        outline: LineStyle | None = looks.OUTLINE,
+        color: ColorLike | npt.ArrayLike = MAP_FILLS["area"],
+        outline: LineStyle | None = MAP_LINES["outline"],
         name: str = "areas",
     ) -> None:
         """Fill polygons given by rings in degrees, the outer one first.
@@ -177,7 +190,7 @@ class Globe:
         """
         self._add_polygons(SphereRegions.of_lonlat(polygons, latitude=self.latitude), color, outline, name)
 
-    def add_points(self, places: npt.ArrayLike, *, style: DotStyle = looks.DOT, name: str = "points") -> None:
+    def add_points(self, places: npt.ArrayLike, *, style: DotStyle = MAP_DOT, name: str = "points") -> None:
         """Draw dots at places (n, 2), degrees, or directions (n, 3)."""
         self.add(Points(self._xyz(places, "places"), style, name))
 
@@ -189,7 +202,7 @@ class Globe:
         offset: tuple[float, float] = (4.0, 0.0),
         size: float = LABEL_SIZE,
         color: ColorLike = BLACK,
-        halo: float = looks.HALO,
+        halo: float = HALO,
         halo_color: ColorLike = WHITE,
     ) -> None:
         """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
@@ -209,7 +222,7 @@ class Globe:
         voronoi: SphericalVoronoi,
         *,
         colors: npt.ArrayLike | None = None,
-        style: LineStyle | None = looks.LINE,
+        style: LineStyle | None = MAP_LINES["line"],
         name: str = "cells",
     ) -> None:
         """Draw the ridges of a Voronoi diagram; fill its cells where colours (n, 3) or (n, 4) are given."""
@@ -224,7 +237,7 @@ class Globe:
         triangulation: SphericalDelaunay,
         *,
         colors: npt.ArrayLike | None = None,
-        style: LineStyle | None = looks.LINE,
+        style: LineStyle | None = MAP_LINES["line"],
         name: str = "triangles",
     ) -> None:
         """Draw the edges of a triangulation; fill its triangles but the closing ones where colours (m, 3 or 4) are."""
@@ -238,8 +251,8 @@ class Globe:
         self,
         circles: Iterable[SphereCircle],
         *,
-        color: ColorLike | None = looks.CIRCLE,
-        style: LineStyle = looks.OUTLINE,
+        color: ColorLike | None = MAP_FILLS["circle"],
+        style: LineStyle = MAP_LINES["outline"],
         name: str = "circles",
     ) -> None:
         """Draw circles of the sphere and fill their interiors; their images are circles, exactly."""
@@ -253,8 +266,8 @@ class Globe:
         spacing: float = 30.0,
         radius: float = 4.0,
         *,
-        color: ColorLike | None = looks.CIRCLE,
-        style: LineStyle = looks.OUTLINE,
+        color: ColorLike | None = MAP_FILLS["circle"],
+        style: LineStyle = MAP_LINES["outline"],
     ) -> None:
         """Draw Tissot's indicatrices: equal circles, `radius` degrees, about places `spacing` degrees apart.
 
@@ -273,12 +286,12 @@ class Globe:
         self,
         source: Any,
         *,
-        color: ColorLike = looks.AREA,
+        color: ColorLike = MAP_FILLS["area"],
         column: str | None = None,
         scale: ColorScale | None = None,
-        outline: LineStyle | None = looks.OUTLINE,
-        style: LineStyle = looks.LINE,
-        dot_style: DotStyle = looks.DOT,
+        outline: LineStyle | None = MAP_LINES["outline"],
+        style: LineStyle = MAP_LINES["line"],
+        dot_style: DotStyle = MAP_DOT,
         name: str = "layer",
     ) -> None:
         """Draw what a file or a table of shapes holds: polygons, lines on them, points on top.
