@@ -22,6 +22,7 @@ import ctypes
 import os
 import sys
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, Final
@@ -36,9 +37,6 @@ from stereodel.render.triangles import Triangles, Window
 
 VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""
-
-ASKED: Final = os.environ.get("PYOPENGL_PLATFORM", "")
-"""What the environment asked PyOpenGL for before anything was drawn: from then on it says what was chosen."""
 
 PLATFORMS: Final = ("osmesa", "egl")
 """In the order in which they are tried."""
@@ -260,7 +258,7 @@ class Door:
             self._context = None
 
     def _choice(self, platform: str | None) -> tuple[str, str]:
-        # What a process began with stays, for its trace in the environment decides nothing.
+        # What a process began with stays.
         return self._chosen if platform is None and self._chosen is not None else choose(platform)
 
 
@@ -273,23 +271,24 @@ class _Context:
 
     def __init__(self, platform: str) -> None:
         self.platform = platform
-        self._pyrender = _import_pyrender(platform)
-        from OpenGL import GL
+        with _environment(PYOPENGL_PLATFORM=platform):
+            self._pyrender = _import_pyrender(platform)
+            from OpenGL import GL
 
-        self._gl = GL
-        try:
-            if platform == "egl":
-                os.environ["EGL_DEVICE_ID"] = str(_software_device())
-            self._offscreen = self._pyrender.OffscreenRenderer(16, 16)
-            self._offscreen._renderer._program_cache.shader_dir = SHADERS
-            mend_offscreen(self._offscreen, GL)
-        except OpenGLError:
-            raise
-        except Exception as error:
-            # pyrender and PyOpenGL raise anything from AssertionError to AttributeError where a context fails.
-            raise OpenGLError(
-                _missing(f"{platform} gives no OpenGL context ({type(error).__name__}: {error})", platform)
-            ) from error
+            self._gl = GL
+            try:
+                device = str(_software_device()) if platform == "egl" else "0"
+                with _environment(EGL_DEVICE_ID=device):
+                    self._offscreen = self._pyrender.OffscreenRenderer(16, 16)
+                self._offscreen._renderer._program_cache.shader_dir = SHADERS
+                mend_offscreen(self._offscreen, GL)
+            except OpenGLError:
+                raise
+            except Exception as error:
+                # pyrender and PyOpenGL raise anything from AssertionError to AttributeError where a context fails.
+                raise OpenGLError(
+                    _missing(f"{platform} gives no OpenGL context ({type(error).__name__}: {error})", platform)
+                ) from error
 
     def draw(self, triangles: Triangles, window: Window, background: Color) -> Pixels:
         """What a window shows of triangles, rows from the top."""
@@ -362,10 +361,27 @@ def _balls(triangles: Triangles, slots: IntArray, window: Window) -> FloatArray 
     return found if lit.any() else None
 
 
+@contextmanager
+def _environment(**variables: str) -> Iterator[None]:
+    """Variables that pyrender and PyOpenGL look at while they are imported and make a context, and no longer.
+
+    What a process chose for itself is no order to those that it starts.
+    """
+    before = {name: os.environ.get(name) for name in variables}
+    os.environ.update(variables)
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+
 def _import_pyrender(platform: str) -> Any:
     """Import pyrender on a platform, without its windows."""
     _require_platform(platform)
-    os.environ["PYOPENGL_PLATFORM"] = platform
     # Mesa must not take a graphics card: its pixels differ.
     os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
     try:

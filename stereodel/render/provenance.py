@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Final
 
 from stereodel import _kernel
-from stereodel.render.gl import ASKED, VARIABLE
+from stereodel.render.gl import VARIABLE
 
 LIBRARIES: Final = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "av", "pillow", "pyrender2", "PyOpenGL")
 """Distributions whose version can change a picture."""
@@ -44,7 +44,7 @@ def library_digest() -> bytes:
     files = [path for path in sorted(library.rglob("*.py")) if skipped.isdisjoint((path, *path.parents))]
     files += [Path(_kernel.__file__), library / "data" / "sources.json"]  # with the checksums of the real data
     digest = hashlib.sha256(json.dumps(library_versions()).encode())
-    digest.update(f"{os.environ.get(VARIABLE, '')} {ASKED}".encode())
+    digest.update(f"{os.environ.get(VARIABLE, '')} {os.environ.get('PYOPENGL_PLATFORM', '')}".encode())
     for path in files:
         digest.update(path.name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.digest()
