@@ -103,10 +103,11 @@ class Arcs:
     def sampled(self, tolerance: float) -> Ragged:
         """Points of each arc, both ends included, whose chords stray from it by a tolerance at most.
 
-        A chord of the angle a is off a circle of radius r by r(1 − cos(a/2)).
+        A chord of the angle a is off a circle of radius r by r(1 − cos(a/2)). None sweeps more than a quarter turn: a
+        circle smaller than the tolerance still has an area, which tells on what side of it a region lies.
         """
         radius = np.sqrt(np.sum(self.u**2, axis=1))
-        step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), -1.0, 1.0))
+        step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), np.sqrt(0.5), 1.0))
         return self.spread(np.maximum(1, np.ceil((self.stop - self.begin) / step)).astype(np.intp))
 
     def spread(self, pieces: Indices) -> Ragged:

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, fisheye, lonlat_to_xyz, xyz_to_lonlat
@@ -184,6 +184,8 @@ def test_triangles_have_no_far_side():
     assert len(Chart(NONE, View(-170, -8)).regions(regions)[0]) == 0
 
 
+# Far larger than the view, through a strong lens: its border is behind the globe, and no larger than a point there.
+@example(focus=(0.0, 0.0), size=1e4, view=View(0.0, 0.0), radius=152.0, at=(0.0, 0.0))
 @given(focus=places, size=st.floats(-2, 4).map(lambda e: 10.0**e), view=views, radius=st.floats(1, 179), at=places)
 def test_the_insides_of_circles(focus, size, view, radius, at):
     circle = SphereCircle.around(at, radius)
