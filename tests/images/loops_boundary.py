@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from stereodel.constants import FINEST_POINTS
-from tests.images.marks import PLACE, area, distances, tidy
+from tests.images.marks import PLACE, area, distances
 
 
 class LoopsBoundary:
@@ -17,7 +17,8 @@ class LoopsBoundary:
         self.loop = np.repeat(np.arange(len(loops)), [len(loop) for loop in loops])
         self.sides = np.concatenate([np.stack([loop[:-1], loop[1:]], axis=1) for loop in loops])
         self.lengths = np.array([np.linalg.norm(np.diff(loop, axis=0), axis=1).sum() for loop in loops])
-        self.area = sum(_area(loop) for loop in loops)
+        self.areas = np.array([_area(loop) for loop in loops])
+        self.area = self.areas.sum()
 
     def wrong(self, mark):
         """What is wrong with a path that is filled in place of the loops."""
@@ -26,7 +27,9 @@ class LoopsBoundary:
         if away.max(initial=0.0) > AWAY:
             return f"the outline lies {away.max():.4g} points off"
         lost = distances(self.points, chords, FINEST_POINTS) > AWAY
-        longest = self.lengths[np.unique(self.loop[lost])].max(initial=0.0)
+        missing = np.unique(self.loop[lost])
+        missing = missing[np.abs(self.areas[missing]) > PLACE * self.lengths[missing]]  # not needles of no width
+        longest = self.lengths[missing].max(initial=0.0)
         if longest > LOST:
             return f"a loop {longest:.4g} points long is missing"
         length = float(np.linalg.norm(chords[:, 1] - chords[:, 0], axis=1).sum())
@@ -41,7 +44,7 @@ LOST = 4 * FINEST_POINTS + PLACE
 """Loops that are no longer than this may fall out: one of three corners in as many pieces of the length."""
 
 
-def union_path(loops):
+def union_boundary(loops):
     """What bounds regions that share their sides: those that one loop alone has, end to end."""
     sides = Counter((tuple(a), tuple(b)) for loop in loops for a, b in pairwise(loop))
     left = {a: b for a, b in sides if a != b and (b, a) not in sides}
@@ -51,9 +54,7 @@ def union_path(loops):
         while run[-1] in left:
             run.append(left.pop(run[-1]))
         runs.append(np.array(run))
-    pieces = np.concatenate([np.linspace(run[:-1], run[1:], 4, axis=1) for run in runs])
-    number = np.repeat(np.arange(len(runs)), [len(run) - 1 for run in runs])
-    return tidy(pieces, number, np.ones(len(runs), dtype=bool))
+    return LoopsBoundary(runs)
 
 
 def _area(loop):

@@ -8,7 +8,7 @@ import numpy as np
 
 from stereodel.drawing.page import FEW_COLORS, Dots, Fill, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.style import PRINT_DPI
-from tests.images.loops_boundary import LoopsBoundary, union_path
+from tests.images.loops_boundary import LoopsBoundary, union_boundary
 from tests.images.marks import PLACE, Mark, Path, area, distances, tidy, together
 
 WIDTH = 1e-5
@@ -138,7 +138,7 @@ class _Place:
         if len(distinct) > FEW_COLORS:
             pixels = np.dstack([picture := next(pictures), np.full(picture.shape[:2], 255, np.uint8)])
             place = (0.0, 0.0, self.page.width, self.page.height)
-            yield Mark("image", place=place, pixels=pixels, clips=(union_path(loops),)), None
+            yield Mark("image", place=place, pixels=pixels), union_boundary(loops).wrong
             return
         for color in distinct:
             own = [loop for loop, its in zip(loops, colors, strict=True) if (its == color).all()]
@@ -198,7 +198,7 @@ def _mark_difference(want, mark, page):
     if mark.kind != expected.kind:
         return [f"a {mark.kind}, expected a {expected.kind}"]
     if mark.kind == "image":
-        found = _picture_difference(mark, expected)
+        found = _picture_difference(mark, expected, want.check)
         return [found] if found else []
     wrong = [] if same_color(mark.color, expected.color) else [f"colour {mark.color}, expected {expected.color}"]
     if mark.kind == "stroke":
@@ -332,7 +332,7 @@ def _disc_difference(mark, centers, radius):
     return "" if np.allclose(np.abs(turns), 1.0, atol=1e-3) else "discs are not closed"
 
 
-def _picture_difference(mark, expected):
+def _picture_difference(mark, expected, check):
     if not np.allclose(mark.place, expected.place, rtol=0.0, atol=CORNER):
         return f"place {mark.place}, expected {expected.place}"
     if mark.pixels.shape != expected.pixels.shape:
@@ -342,4 +342,6 @@ def _picture_difference(mark, expected):
         return "other pixels"
     if len(mark.clips) != 1:
         return f"{len(mark.clips)} outlines, expected one"
+    if check is not None:
+        return check(Mark("fill", path=mark.clips[0]))
     return path_difference(mark.clips[0], expected.clips[0], filled=True)
