@@ -20,7 +20,7 @@ from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.page import Page
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
-from stereodel.film.pool import Done, attempt, in_processes, refuse_in_import
+from stereodel.film.pool import Done, attempt, in_processes, main_script_here, refuse_in_import
 from stereodel.film.progress import counting
 from stereodel.film.shots import GlobePages, Motion, Shot, sampled
 from stereodel.film.writers import Reel, format_of, frame_seconds
@@ -322,7 +322,8 @@ class _Script(Generic[T]):
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
         film = replace(self.film, size=self.film.size if size is None else size, text=text)
-        file = film.save(folder / f"{self.name}.gif", progress=False)
+        jobs = None if main_script_here() else 1  # the documentation runs scripts as text
+        file = film.save(folder / f"{self.name}.gif", jobs=jobs, progress=False)
         return {"files": [file.name], "seconds": time.perf_counter() - begun}
 
 

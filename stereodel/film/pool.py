@@ -181,22 +181,24 @@ def _orders(work: Work, tasks: Sequence[bytes]) -> bytes:
     """What a process must know before its first task."""
     pickled = pickle.dumps(work)
     # A function or class of the main script is pickled under this name.
-    main_script = _main_script() if any(b"__main__" in data for data in (pickled, *tasks)) else None
+    main_script = None
+    if any(b"__main__" in data for data in (pickled, *tasks)):
+        main_script = main_script_here()
+        if main_script is None:
+            raise TypeError(
+                "draw or the shots are defined in an interactive session, which other processes cannot import; "
+                "put them into a module, or draw with jobs=1"
+            )
     return pickle.dumps((main_script, pickled))
 
 
-def _main_script() -> MainScript:
-    """How to import the main script elsewhere."""
+def main_script_here() -> MainScript | None:
+    """How to import the main script elsewhere; None in interactive sessions, and where a program runs it as text."""
     script = sys.modules["__main__"]
     if script.__spec__ is not None and script.__spec__.name != "__main__":
         return "module", script.__spec__.name
     path = getattr(script, "__file__", None)
-    if path is None:
-        raise TypeError(
-            "draw or the shots are defined in an interactive session, which other processes cannot import; "
-            "put them into a module, or draw with jobs=1"
-        )
-    return "path", path
+    return None if path is None else ("path", path)
 
 
 def refuse_in_import() -> None:

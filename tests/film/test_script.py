@@ -1,5 +1,6 @@
 """Films as scripts: a looping GIF with the script's name, in its true colours, whole or not at all."""
 
+import subprocess
 import sys
 
 import imageio.v3 as iio
@@ -67,3 +68,24 @@ def test_a_folder_that_cannot_be_made_is_a_message(moving, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(SystemExit, match=r"moving: .*file"):
         moving.main(["--out", str(tmp_path / "file" / "out")])
+
+
+AS_TEXT = """
+import sys, types
+sys.modules["__main__"] = main = types.ModuleType("__main__")
+exec(compile(open({path!r}).read(), {path!r}, "exec"), main.__dict__)
+"""
+
+
+def test_a_program_may_run_a_script_as_text(tmp_path):
+    """As the documentation does; no other process could import what draws."""
+    script = tmp_path / "anim_dots.py"
+    script.write_text(
+        "from stereodel.drawing import Page\\n"
+        "from stereodel.film import Film\\n"
+        "def draw(x):\\n"
+        "    return Page((0.0, 1.0, 0.0, 1.0), background=(x, 0.0, 0.0, 1.0))\\n"
+        f"Film(draw, [0.0, 1.0], fps=5, size=20).main(['--out', {str(tmp_path)!r}])\\n"
+    )
+    subprocess.run([sys.executable, "-c", AS_TEXT.format(path=str(script))], check=True)
+    assert (tmp_path / "anim_dots.gif").is_file()
