@@ -81,11 +81,11 @@ def test_a_program_may_run_a_script_as_text(tmp_path):
     """As the documentation does; no other process could import what draws."""
     script = tmp_path / "anim_dots.py"
     script.write_text(
-        "from stereodel.drawing import Page\\n"
-        "from stereodel.film import Film\\n"
-        "def draw(x):\\n"
-        "    return Page((0.0, 1.0, 0.0, 1.0), background=(x, 0.0, 0.0, 1.0))\\n"
-        f"Film(draw, [0.0, 1.0], fps=5, size=20).main(['--out', {str(tmp_path)!r}])\\n"
+        "from stereodel.drawing import Page\n"
+        "from stereodel.film import Film\n"
+        "def draw(x):\n"
+        "    return Page((0.0, 1.0, 0.0, 1.0), background=(x, 0.0, 0.0, 1.0))\n"
+        f"Film(draw, [0.0, 1.0], fps=5, size=20).main(['--out', {str(tmp_path)!r}])\n"
     )
     subprocess.run([sys.executable, "-c", AS_TEXT.format(path=str(script))], check=True)
     assert (tmp_path / "anim_dots.gif").is_file()
