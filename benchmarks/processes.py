@@ -111,7 +111,8 @@ class Engine:
         text = self._errors.read()
         if "heap out of memory" in text:  # node, which is started with the same limit
             return f"over {BYTES >> 30} GB"
-        lines = text.strip().splitlines()
+        # Node ends what it says of an error with its own version.
+        lines = [line for line in text.strip().splitlines() if line and not line.startswith(("Node.js v", "    at "))]
         # Folders of one machine are of no use in the results.
         return re.sub(r"(?:/[\w.+-]+)+/", "", lines[-1])[:200] if lines else f"ended with code {code}"
 
