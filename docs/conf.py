@@ -19,7 +19,7 @@ extensions = [
     "myst_parser",
     "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["_build", "images/README.md"]
+exclude_patterns = ["_build"]
 templates_path = ["_templates"]
 root_doc = "index"
 

@@ -145,7 +145,7 @@ def as_quaternion(value: npt.ArrayLike, name: str) -> FloatArray:
     if array.shape != (4,):
         raise ValueError(f"{name} must be four numbers (w, x, y, z), got shape {array.shape}")
     if not array.any():
-        raise ValueError(f"{name} is the zero quaternion, which is no rotation")
+        raise ValueError(f"{name} is the zero quaternion, which is not a rotation")
     return array
 
 

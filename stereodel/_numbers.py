@@ -75,7 +75,9 @@ def _from_objects(array: npt.NDArray[Any], name: str) -> npt.NDArray[np.float64]
     if wrong:
         first = next(k for k, number in enumerate(numbers) if isinstance(number, wrong))
         where = entry(name, tuple(int(i) for i in np.unravel_index(first, array.shape)))
-        raise TypeError(f"{where} is {numbers[first]!r}, which is no real number but a {type(numbers[first]).__name__}")
+        raise TypeError(
+            f"{where} is {numbers[first]!r}, which is not a real number but a {type(numbers[first]).__name__}"
+        )
     try:
         doubles = np.array([_nearest_double(number) for number in numbers], dtype=np.float64)
     except (TypeError, ValueError) as error:

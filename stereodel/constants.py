@@ -130,12 +130,6 @@ LARGEST_EXPONENT: Final = 1e6
 FLATNESS: Final = 0.05
 """How far a chord may stray from its curve in a picture made of triangles, pixels: a fifth of a sample's distance."""
 
-SHORT_ARC: Final = 1e-4
-"""Length of an arc on the unit sphere whose curvature no picture shows: it leaves its great circle by 1e-8 at most.
-
-Longer ones keep their circle to 1e-7 when it is taken through three points in plain doubles.
-"""
-
 PIXEL_ROUNDING: Final = 1e-6
 """Pixels by which rounding may put a border off its place in a vector file or on its canvas: far below what shows."""
 

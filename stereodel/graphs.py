@@ -17,6 +17,7 @@ from stereodel._docs import shared
 from stereodel._spaces import space_of
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT
+from stereodel.sphere.vectors import units
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, flat_order, threads_of
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
@@ -313,7 +314,7 @@ def _has_empty_lune(points: FloatArray, circle: AnyIndices, step: AnyIndices) ->
     That takes a step of more than a third of the circle, the squared chord of which is 3: two steps at most.
     """
     a, b = step
-    chord = np.subtract(*(points[[a, b]] / np.linalg.norm(points[[a, b]], axis=1)[:, None]))
+    chord = np.subtract(*units(points[[a, b]]))
     if chord @ chord < 2.99:
         return True
     others = circle[(circle != a) & (circle != b)]

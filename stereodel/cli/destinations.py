@@ -44,7 +44,8 @@ class Destination:
         chosen = (kind or allowed[0]) if name == "-" else Path(name).suffix
         chosen = chosen.lower().removeprefix(".")
         if chosen not in allowed:
-            raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {_listed(allowed)}")
+            kinds = ", ".join(f".{kind}" for kind in allowed)
+            raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {kinds}")
         if name != "-" and not Path(name).resolve().parent.is_dir():
             raise ValueError(f"{name}: there is no folder {Path(name).parent}")
         if Path(name).is_dir():
@@ -62,10 +63,6 @@ class Destination:
             with whole.open("rb") as source:
                 shutil.copyfileobj(source, sys.stdout.buffer)
             sys.stdout.buffer.flush()
-
-
-def _listed(kinds: tuple[str, ...]) -> str:
-    return ", ".join(f".{kind}" for kind in kinds)
 
 
 def save_table(path: Path, axes: tuple[str, str], columns: Columns) -> None:

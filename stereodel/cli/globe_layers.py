@@ -43,8 +43,8 @@ def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster 
         return None
     if name == OWN_TEXTURE:
         return Raster(blue_marble(), latitude=latitude.value)
-    extent = None if box is None else box_of(box, "--texture-box")
-    return Raster.open(name, bounds=extent, latitude=latitude.value)
+    bounds = None if box is None else box_of(box, "--texture-box")
+    return Raster.open(name, bounds=bounds, latitude=latitude.value)
 
 
 def new_globe(features: Features, latitude: Latitude, texture: Raster | None) -> Globe:

@@ -8,6 +8,9 @@ from contextlib import contextmanager
 
 import typer
 
+PIECE = 100_000
+"""Rows between two signs of progress."""
+
 
 @contextmanager
 def stage(what: str) -> Iterator[None]:
@@ -24,9 +27,9 @@ def stage(what: str) -> Iterator[None]:
         yield
 
 
-def in_pieces(size: int, what: str, *, piece: int = 100_000) -> Iterator[slice]:
+def in_pieces(size: int, what: str) -> Iterator[slice]:
     """Slices that make up `size` rows, with a bar that says how many are done."""
-    slices = [slice(start, start + piece) for start in range(0, size, piece)]
+    slices = [slice(start, start + PIECE) for start in range(0, size, PIECE)]
     if not sys.stderr.isatty() or len(slices) < 2:
         yield from slices
         return

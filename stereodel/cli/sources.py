@@ -8,10 +8,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel import lonlat_to_xyz
-from stereodel._arrays import Column, FloatArray
+from stereodel._arrays import BoolArray, Column, FloatArray, Indices
 from stereodel.cli.failures import NothingToDoError
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import stage
@@ -45,7 +44,7 @@ class Table:
     places: FloatArray
     axes: tuple[str, str]
     columns: Columns
-    rows: npt.NDArray[np.intp]
+    rows: Indices
 
     def __len__(self) -> int:
         return len(self.places)
@@ -81,7 +80,7 @@ class Table:
         places: Columns = dict(zip(self.axes, self.places.T, strict=True))
         return places | self.columns
 
-    def subset(self, kept: npt.NDArray[np.bool_]) -> Table:
+    def subset(self, kept: BoolArray) -> Table:
         """Some of the points."""
         columns = {name: values[kept] for name, values in self.columns.items()}
         return Table(self.name, self.places[kept], self.axes, columns, self.rows[kept])

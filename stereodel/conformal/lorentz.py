@@ -60,7 +60,7 @@ def from_lorentz(matrix: FloatArray) -> Parts:
     gamma, column, row = matrix[3, 3], matrix[:3, 3], matrix[3, :3]
     if error > MATRIX_ERROR * np.abs(matrix).max() ** 2 or gamma <= 0:
         raise ValueError(
-            "matrix is no orthochronous Lorentz matrix: Mᵀ diag(1, 1, 1, -1) M must equal it, and M[3, 3] > 0"
+            "matrix is not an orthochronous Lorentz matrix: Mᵀ diag(1, 1, 1, -1) M must equal it, and M[3, 3] > 0"
         )
     sinh = float(np.hypot(np.linalg.norm(column), np.linalg.norm(row)) / np.sqrt(2))
     magnification = float(gamma) + sinh

@@ -49,7 +49,7 @@ class MoebiusMap:
     Images are exact up to 4·2⁻⁵² for a point within 4·2⁻⁵² rad of the given one, also next to the focus and its
     antipode. That leaves room for parameters that were rounded once, as by `fisheye` and `@`: for the stored ones an
     image is off by less than 13·2⁻⁵³ + scale·2⁻⁷³ and by less than (1 + scale)·6·2⁻⁵³ (derived in
-    ``stereodel/kernel/moebius.cpp``). Circles and arcs are mapped in double-double and rounded once.
+    ``stereodel/kernel/conformal/moebius.cpp``). Circles and arcs are mapped in double-double and rounded once.
 
     Examples
     --------

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from numbers import Real
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
+import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, as_floats
 from stereodel._extras import of_extra
 
 Color = tuple[float, float, float, float]
@@ -64,6 +65,24 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
         kinds = 'give a name such as "tab:red", "#rrggbb", "0.5" or (red, green, blue)'
         raise ValueError(f"{name} is {value!r}, which is not a colour; {kinds}") from None
     return (red, green, blue, opacity)
+
+
+def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
+    """Colours (n, 4) of `count` things, from one for all or from red, green, blue and perhaps opacity of each.
+
+    Raises
+    ------
+    ValueError
+        For what is not a colour, numbers outside [0, 1], and colours that are not as many as the things.
+    """
+    if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
+        return np.tile(as_color(cast(ColorLike, values), name), (count, 1))
+    array = as_floats(cast(npt.ArrayLike, values), name)
+    if array.shape not in ((count, 3), (count, 4)):
+        raise ValueError(f"{name} must have shape ({count}, 3) or ({count}, 4), got {array.shape}")
+    if ((array < 0) | (array > 1)).any():
+        raise ValueError(f"{name} must be in [0, 1]; divide numbers of 0 to 255 by 255")
+    return np.concatenate([array, np.ones((count, 4 - array.shape[-1]))], axis=1)
 
 
 def color_map(name: str) -> Callable[[FloatArray], FloatArray]:

@@ -89,7 +89,7 @@ class Dots:
 class Painter(Protocol):
     """What a `Picture` shows: made at the resolution at which it is drawn, and only where it is drawn."""
 
-    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> npt.NDArray[np.uint8]:
+    def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
         """Pixels (rows, columns, 4) from the top: sRGB and opacity, not premultiplied.
 
         `place` is the left and upper edge, and the width and height of a pixel, in page units; `pixels` are columns and
@@ -115,7 +115,7 @@ class Picture:
 
 @dataclass(frozen=True, eq=False)
 class Polylines:
-    """Many lines of straight pieces, of one look: coastlines, borders.
+    """Many lines of straight pieces, of one style: coastlines, borders.
 
     Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; joins and ends are round.
     """
@@ -270,8 +270,8 @@ class Page:
         text : bool
             Whether labels are drawn.
         renderer : {"gl", "agg"}
-            What draws a PNG: OpenGL, or matplotlib, which needs no OpenGL, but does not light what is round and has no
-            mosaics.
+            What draws a PNG: OpenGL, or matplotlib, which needs no OpenGL, but does not light what is round and refuses
+            regions in more colours than vector files hold.
         platform : {"osmesa", "egl"}, optional
             See `stereodel.render.gl`.
 

@@ -112,6 +112,12 @@ class ColorScale:
         return np.asarray(numbers)
 
 
+def usual_scale(values: FloatArray) -> ColorScale:
+    """Viridis from the least to the largest of one or more numbers."""
+    low, high = float(values.min()), float(values.max())
+    return ColorScale("viridis", low, high if high > low else low + 1.0)
+
+
 def _box(left: float, right: float, bottom: float, top: float, color: Color) -> Fill:
     corners = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
     steps = np.roll(corners, -1, axis=0) - corners

@@ -34,6 +34,7 @@ from stereodel.drawing.space_curves import CircleArc, Curve, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere.vectors import units
 
 MARGIN = 0.02
 """White space about the ball on a page whose extent is not given, radii."""
@@ -164,8 +165,7 @@ class Scene:
 
     def add_points(self, points: npt.ArrayLike, *, name: str = "sites", style: DotStyle | None = None) -> None:
         """Draw dots at points of the ball, given as directions (n, 3)."""
-        directions = as_directions(points, "points", points=True)
-        unit = directions / np.sqrt(np.sum(directions**2, axis=1, keepdims=True))
+        unit = units(as_directions(points, "points", points=True))
         self.add_space_points(self.center + self.radius * unit, name=name, style=style)
 
     def add_space_points(self, points: npt.ArrayLike, *, name: str = "points", style: DotStyle | None = None) -> None:

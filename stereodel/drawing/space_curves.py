@@ -28,7 +28,7 @@ from stereodel._arrays import FloatArray, as_directions, as_vectors
 from stereodel.constants import ONE_HARMONIC, ROOT_ON_CIRCLE, SPARE_PIECE, TOUCHING_SLOPE, UNIT_ROUNDOFF
 from stereodel.drawing.page import Beziers
 from stereodel.sphere import SphereArc, SphereCircle
-from stereodel.sphere.vectors import turned
+from stereodel.sphere.vectors import turned, units
 
 LONGEST_PIECE_RAD = np.pi / 6
 
@@ -156,7 +156,7 @@ class CircleArc:
         ValueError
             When the directions are equal or opposite.
         """
-        start, end = (row / np.sqrt(np.sum(row**2)) for row in (as_directions(a, "a"), as_directions(b, "b")))
+        start, end = units(as_directions(a, "a")), units(as_directions(b, "b"))
         # a × b from difference and sum, which keeps its digits when the points are close or nearly opposite.
         axis = np.cross(start - end, start + end) / 2
         sine = float(np.sqrt(np.sum(axis**2)))

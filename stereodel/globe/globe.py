@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
+from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
-from stereodel.drawing.colors import ColorLike, as_color
+from stereodel.drawing.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.scales import ColorScale
+from stereodel.drawing.scales import ColorScale, usual_scale
 from stereodel.drawing.style import (
     BLACK,
     HALO,
@@ -89,7 +89,7 @@ class Globe:
 
     def add_raster(
         self,
-        raster: Raster | npt.NDArray[np.uint8] | str | os.PathLike[str],
+        raster: Raster | Pixels | str | os.PathLike[str],
         *,
         bounds: tuple[float, float, float, float] | None = None,
         opacity: float = 1.0,
@@ -228,7 +228,7 @@ class Globe:
         """Draw the ridges of a Voronoi diagram; fill its cells where colours (n, 3) or (n, 4) are given."""
         if colors is not None:
             cells = SphereRegions.cells(voronoi)
-            self.add(Areas(cells, features.as_tints(colors, len(voronoi.points)), name))
+            self.add(Areas(cells, as_colors(colors, len(voronoi.points)), name))
         if style is not None:
             self.add(Lines(features.ridges(voronoi), style, name))
 
@@ -242,8 +242,8 @@ class Globe:
     ) -> None:
         """Draw the edges of a triangulation; fill its triangles but the closing ones where colours (m, 3 or 4) are."""
         if colors is not None:
-            tints = features.as_tints(colors, len(triangulation.simplices))
-            self.add(Areas(SphereRegions.triangles(triangulation), tints, name))
+            triangles = SphereRegions.triangles(triangulation)
+            self.add(Areas(triangles, as_colors(colors, len(triangulation.simplices)), name))
         if style is not None:
             self.add(Lines(features.edges(triangulation), style, name))
 
@@ -258,7 +258,7 @@ class Globe:
         """Draw circles of the sphere and fill their interiors; their images are circles, exactly."""
         regions = SphereRegions.circles(circles)
         if color is not None:
-            self.add(Areas(regions, features.as_tints(color, regions.count, "color"), name))
+            self.add(Areas(regions, as_colors(color, regions.count, "color"), name))
         self.add(Lines(regions.outlines, style, name))
 
     def add_tissot(
@@ -320,14 +320,16 @@ class Globe:
         """
         shapes = shapes_of(source)
         if len(shapes.polygon_feature):
-            tints = features.as_tints(color, len(shapes.properties), "color")
+            colors = as_colors(color, len(shapes.properties), "color")
             if column is not None:
                 values = shapes.column(column)
-                tints[np.isfinite(values), :3] = features.scaled_colors(values[np.isfinite(values)], scale)
-                tints[np.isfinite(values), 3] = 1.0
+                known = np.isfinite(values)
+                if known.any():
+                    chosen = usual_scale(values[known]) if scale is None else scale
+                    colors[known, :3], colors[known, 3] = chosen(values[known]), 1.0
             owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
-            self._add_polygons(polygons, tints[: polygons.count], outline, name)
+            self._add_polygons(polygons, colors[: polygons.count], outline, name)
         if len(shapes.lines):
             self.add_lines(list(shapes.lines), style=style, name=name)
         if len(shapes.points):
@@ -403,6 +405,6 @@ class Globe:
     def _add_polygons(
         self, regions: SphereRegions, color: ColorLike | npt.ArrayLike, outline: LineStyle | None, name: str
     ) -> None:
-        self.add(Areas(regions, features.as_tints(color, regions.count, "color"), name))
+        self.add(Areas(regions, as_colors(color, regions.count, "color"), name))
         if outline is not None:
             self.add(Lines(regions.outlines, outline, f"{name}-outline"))

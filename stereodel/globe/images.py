@@ -8,12 +8,10 @@ import warnings
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
+from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
 from stereodel.constants import MOST_TEXELS
-
-Pixels = npt.NDArray[np.uint8]
 
 SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
 """Modes of Pillow for gray of 16 bits."""
@@ -44,7 +42,7 @@ def read_image(path: str | os.PathLike[str]) -> Pixels:
                 _check_size(name, image.size)
                 return _converted(name, image)
         except UnidentifiedImageError as error:
-            raise ValueError(f"{name} is no picture that Pillow can read") from error
+            raise ValueError(f"{name} is not an image that Pillow can read") from error
         except Image.DecompressionBombError as error:
             raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller") from error
 

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, as_choice, as_count, as_edges, as_pixels, as_window, locked
+from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_edges, as_pixels, as_window, locked
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
@@ -20,8 +20,6 @@ from stereodel.globe.images import read_image
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
-
-Pixels = npt.NDArray[np.uint8]
 
 WHOLE = (-180.0, -90.0, 180.0, 90.0)
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from stereodel._arrays import AnyIndices
+from stereodel.curves.ragged import spans
 from stereodel.triangulation.dispatch import Triangulation, open_triangles
 from stereodel.triangulation.topology import edges_of
 
@@ -28,9 +29,7 @@ class Adjacency:
         """Pairs of a place in `points` and a point joined to the point there."""
         counts = self._counts[points]
         owners = np.repeat(np.arange(len(points)), counts)
-        # 0, 1, … within the row of each owner.
-        steps = np.arange(len(owners)) - np.repeat(np.cumsum(counts) - counts, counts)
-        return owners, self._ends[self._starts[points][owners] + steps]
+        return owners, self._ends[spans(self._starts[points], counts)]
 
 
 def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, AnyIndices]]:

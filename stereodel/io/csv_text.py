@@ -10,9 +10,8 @@ from itertools import islice
 from typing import TextIO
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import Column
+from stereodel._arrays import Column, Indices
 from stereodel.io.columns import find_lonlat
 from stereodel.io.tables import MISSING, PointTable, table_of
 
@@ -33,7 +32,7 @@ def read_csv(text: str, *, lon: str | None = None, lat: str | None = None) -> Po
     return table_of(table[where[0]], table[where[1]], columns, numbers)
 
 
-def split_columns(text: str) -> tuple[dict[str, Column], npt.NDArray[np.intp]]:
+def split_columns(text: str) -> tuple[dict[str, Column], Indices]:
     """Columns of a table as text by name, and the numbers of its rows."""
     rows = (row for row in _split(text) if any(row) and (len(row) > 1 or row[0].strip()))
     first = next(rows, None)

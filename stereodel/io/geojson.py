@@ -54,8 +54,9 @@ def to_geojson(frame: Any, *, decimals: int | None = None) -> str:
         geometry = shapely.transform(geometry, lambda coordinates: np.round(coordinates, digits))
     names = [name for name in frame.columns if name != frame.geometry.name]
     rows = zip(*(_values(frame[name].to_numpy()) for name in names), strict=True) if names else iter([()] * len(frame))
+    compact = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), default=str).encode
     features = (
-        f'{{"type":"Feature","properties":{_compact(dict(zip(names, row, strict=True)))},"geometry":{text or "null"}}}'
+        f'{{"type":"Feature","properties":{compact(dict(zip(names, row, strict=True)))},"geometry":{text or "null"}}}'
         for row, text in zip(rows, shapely.to_geojson(geometry), strict=True)
     )
     return '{"type":"FeatureCollection","features":[\n' + ",\n".join(features) + "\n]}"
@@ -66,7 +67,3 @@ def _values(column: npt.NDArray[Any]) -> list[Any]:
     if column.dtype.kind == "f":
         return [value if np.isfinite(value) else None for value in column.tolist()]
     return [None if value is None or value != value else value for value in column.tolist()]
-
-
-def _compact(properties: dict[str, Any]) -> str:
-    return json.dumps(properties, ensure_ascii=False, separators=(",", ":"), default=str)

@@ -16,10 +16,9 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import left_inside, stitched
 from stereodel.curves.trace import sides_of, straight, unwrapped
 from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
+from stereodel.io.shapes import COLLECTION, LINE, MULTILINE, MULTIPOINT, MULTIPOLYGON, POINT, POLYGON, RING
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 
-POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
-"""Types of geometries in Shapely's numbering."""
 BORDER = Antimeridian()
 
 

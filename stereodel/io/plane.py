@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices
+from stereodel._arrays import FloatArray, Geometries, Indices
 from stereodel.constants import UNIT_ROUNDOFF
 from stereodel.curves import clip
 from stereodel.curves.borders import Box, Pieces
@@ -22,7 +22,8 @@ def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
     # Ridges that are cut already: of these arcs nothing is asked but their ends.
     none = np.zeros((len(ridge), 0))
     arcs = Arcs(segments[:, 0], segments[:, 1], none, none, none, none, none, ridge)
-    opens, shuts = (_on_border(segments[:, k], box) for k in (0, 1))
+    low, high = [box.left, box.bottom], [box.right, box.top]
+    opens, shuts = ((segments == low) | (segments == high)).any(axis=2).T
     pieces = Pieces(arcs, opens, shuts, np.ones(len(ridge), dtype=bool), np.zeros(len(ridge), dtype=bool))
     samples = Ragged(segments.reshape(-1, 2), 2 * np.arange(len(ridge) + 1))
     chains = clip.chains_of(voronoi_sides(diagram), pieces)
@@ -59,7 +60,3 @@ def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:
     on_side = ((pieces[:, 0] == low) & (pieces[:, 1] == low)) | ((pieces[:, 0] == high) & (pieces[:, 1] == high))
     inward = ~on_side.any(axis=1) & (pieces[:, 0] != pieces[:, 1]).any(axis=1)
     return pieces[inward], ridge[inward]
-
-
-def _on_border(points: FloatArray, box: Box) -> BoolArray:
-    return ((points == [box.left, box.bottom]) | (points == [box.right, box.top])).any(axis=1)

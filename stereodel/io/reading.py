@@ -13,12 +13,12 @@ from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Literal, TextIO
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import Column, FloatArray, as_choice
+from stereodel._arrays import Column, FloatArray, Indices, as_choice
 from stereodel._extras import optional
 from stereodel.io.columns import find_lonlat, listed
 from stereodel.io.csv_text import read_csv, split_columns, typed
+from stereodel.io.shapes import POINT
 from stereodel.io.tables import PointTable, numbers, table_of
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
@@ -94,7 +94,7 @@ def read_points(
     return READERS[as_choice(format or kind, tuple(READERS), "format")](content, lon, lat)
 
 
-def read_plane_points(source: Source, x: str, y: str) -> tuple[FloatArray, dict[str, Column], npt.NDArray[np.intp]]:
+def read_plane_points(source: Source, x: str, y: str) -> tuple[FloatArray, dict[str, Column], Indices]:
     r"""Points of a plane by the names of two columns of a CSV or Parquet table: (n, 2), other columns, row numbers.
 
     Raises
@@ -175,6 +175,9 @@ def _read_geojson(content: bytes, lon: str | None, lat: str | None) -> PointTabl
     features = collection.get("features") if isinstance(collection, dict) else None
     if not isinstance(features, list):
         raise ValueError("the file is not a GeoJSON FeatureCollection of points")
+    for row, feature in enumerate(features, 1):
+        if not isinstance(feature, dict) or not isinstance(feature.get("properties") or {}, dict):
+            raise ValueError(f"row {row}: is not a GeoJSON Feature with properties by name; see RFC 7946")
     rows = np.arange(1, len(features) + 1)
     places = [_position(feature.get("geometry"), row) for row, feature in enumerate(features, 1)]
     names = dict.fromkeys(name for feature in features for name in feature.get("properties") or {})
@@ -186,8 +189,10 @@ def _position(geometry: Any, row: int) -> tuple[float, float]:
     if not isinstance(geometry, dict) or geometry.get("type") != "Point":
         kind = geometry.get("type") if isinstance(geometry, dict) else "no geometry"
         raise ValueError(f"row {row}: a Point is needed, not {kind}; take e.g. centroids first")
-    lon, lat, *_ = geometry.get("coordinates") or (np.nan, np.nan)
-    return lon, lat
+    coordinates = geometry.get("coordinates") or (np.nan, np.nan)
+    if not isinstance(coordinates, list | tuple) or len(coordinates) < 2:
+        raise ValueError(f"row {row}: a Point has two or three coordinates, not {coordinates!r}")
+    return coordinates[0], coordinates[1]
 
 
 def _property(features: list[dict[str, Any]], name: str) -> Column:
@@ -252,7 +257,7 @@ def from_geodataframe(frame: Any) -> PointTable:
         series = series.to_crs("EPSG:4326")
     geometry, rows = np.asarray(series), np.arange(1, len(series) + 1)
     wrong = np.flatnonzero(
-        shapely.is_missing(geometry) | shapely.is_empty(geometry) | (shapely.get_type_id(geometry) != 0)
+        shapely.is_missing(geometry) | shapely.is_empty(geometry) | (shapely.get_type_id(geometry) != POINT)
     )
     if len(wrong):
         kind = (

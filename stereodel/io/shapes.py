@@ -21,16 +21,10 @@ from stereodel.curves.ragged import Ragged
 
 GEOGRAPHIC = "EPSG:4326"
 GEOJSON = (".geojson", ".json")
-DEPTH = {
-    "Point": 0,
-    "MultiPoint": 1,
-    "LineString": 1,
-    "LinearRing": 1,
-    "MultiLineString": 2,
-    "Polygon": 2,
-    "MultiPolygon": 3,
-}
-"""How deep the positions of a geometry are nested; LinearRing is what Shapely calls a closed line."""
+KINDS = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineString", "Polygon", "MultiPolygon")
+"""Of geometries with coordinates; LinearRing is what Shapely calls a closed line."""
+POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
+"""Types of geometries in Shapely's numbering; those after POLYGON have several parts."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,10 +181,6 @@ def _of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] |
     return Shapes(named, points, feature[point], rows[0], feature[line], rows[1], owner, feature[polygon])
 
 
-POINT, POLYGON = 0, 3
-"""Types of geometries in Shapely's numbering; above are those of several parts."""
-
-
 @dataclass
 class _Found:
     """What GeoJSON brings, feature by feature."""
@@ -232,8 +222,8 @@ class _Found:
             for part in geometry.get("geometries") or ():
                 self._sort(part, where)
             return
-        if kind not in DEPTH:
-            raise ValueError(f"{where} has a geometry of type {kind!r}; known are {', '.join(DEPTH)}")
+        if kind not in KINDS:
+            raise ValueError(f"{where} has a geometry of type {kind!r}; known are {', '.join(KINDS)}")
         coordinates = geometry.get("coordinates")
         if coordinates is None:
             raise ValueError(f"{where} has a {kind} without coordinates")
@@ -285,7 +275,7 @@ def _features(content: Any, name: str) -> Iterator[tuple[Mapping[str, Any], Any]
             yield feature.get("properties") or {}, feature.get("geometry")
     elif kind == "Feature":
         yield content.get("properties") or {}, content.get("geometry")
-    elif kind in DEPTH or kind == "GeometryCollection":
+    elif kind in KINDS or kind == "GeometryCollection":
         yield {}, content
     else:
         raise ValueError(f"{name} is not GeoJSON: its type is {kind!r}, neither feature nor geometry; see RFC 7946")

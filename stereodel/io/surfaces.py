@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Indices, as_choice
+from stereodel._arrays import FloatArray, Indices, IntArray, as_choice
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.io.diagrams import Mesh, diagram_of, is_spherical, ridge_arcs, triangulation_of, usual_kind
 from stereodel.io.faces import voronoi_sides
@@ -38,7 +37,7 @@ class Surface:
     cells: bool
 
     @property
-    def table(self) -> npt.NDArray[np.int32]:
+    def table(self) -> IntArray:
         """The polygons as rows, (f, largest number of corners), the rest of each row -1."""
         sizes = self.polygons.sizes
         rows = np.full((len(sizes), int(sizes.max(initial=3))), -1, dtype=np.int32)
@@ -46,7 +45,7 @@ class Surface:
         return rows
 
     @property
-    def edges(self) -> npt.NDArray[np.int32]:
+    def edges(self) -> IntArray:
         """Pairs of nodes with a side between them, (e, 2), each once."""
         here = self.polygons.values
         sides = np.column_stack([here, here[self.polygons.following]])

@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import Column, FloatArray, as_lonlat, as_points, read_only
+from stereodel._arrays import Column, FloatArray, Indices, as_lonlat, as_points, read_only
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +44,7 @@ class PointTable:
 
     lonlat: FloatArray
     columns: Mapping[str, Column] = field(default_factory=dict)
-    rows: npt.NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    rows: Indices = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
 
     def __post_init__(self) -> None:
         lonlat = read_only(as_lonlat(as_points(self.lonlat, 2, "lonlat")))
@@ -63,7 +62,7 @@ class PointTable:
         return len(self.lonlat)
 
 
-def table_of(lon: Column, lat: Column, columns: Mapping[str, Column], rows: npt.NDArray[np.intp]) -> PointTable:
+def table_of(lon: Column, lat: Column, columns: Mapping[str, Column], rows: Indices) -> PointTable:
     """A table of two columns of coordinates, numbers or text; what is wrong is told with the number of its row.
 
     Raises
@@ -81,7 +80,7 @@ def table_of(lon: Column, lat: Column, columns: Mapping[str, Column], rows: npt.
     return PointTable(lonlat, columns, rows)
 
 
-def numbers(values: Column, name: str, rows: npt.NDArray[np.intp]) -> FloatArray:
+def numbers(values: Column, name: str, rows: Indices) -> FloatArray:
     """A column as finite numbers, or a ValueError that names the first row that has none."""
     array = np.asarray(values)
     if array.dtype.kind not in "iuf":
@@ -94,7 +93,7 @@ def numbers(values: Column, name: str, rows: npt.NDArray[np.intp]) -> FloatArray
     return result
 
 
-def _parsed(array: Column, name: str, rows: npt.NDArray[np.intp]) -> FloatArray:
+def _parsed(array: Column, name: str, rows: Indices) -> FloatArray:
     """Text as numbers, NaN where it is empty; a comma may be the decimal sign."""
     if array.dtype.kind == "U":
         with suppress(ValueError):

@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, IntArray
 from stereodel._extras import optional
 from stereodel.io.diagrams import Mesh, diagram_of, is_spherical
 from stereodel.io.surfaces import Surface, surface_of
@@ -110,7 +109,7 @@ def _areas(mesh: Mesh, surface: Surface) -> FloatArray:
     return solid_angle(corners[:, 0], corners[:, 1], corners[:, 2])
 
 
-def from_ugrid(dataset: Any) -> tuple[FloatArray, npt.NDArray[np.int32]]:
+def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
     """Nodes and faces of a UGRID mesh.
 
     Parameters

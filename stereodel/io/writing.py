@@ -37,7 +37,7 @@ ENDINGS = {
     ".ply": "ply",
     ".vtp": "vtp",
 }
-PICTURES = (".svg", ".pdf", ".png")
+PICTURES = ("svg", "pdf", "png")
 
 
 def write(
@@ -88,7 +88,8 @@ def write(
     """
     kind = format
     if isinstance(path, str | os.PathLike):
-        kind = format or ENDINGS.get(Path(path).suffix.lower(), Path(path).suffix)
+        ending = Path(path).suffix.lower()
+        kind = format or ENDINGS.get(ending, ending.removeprefix("."))
     if kind in PICTURES:
         raise ValueError(f"format is {kind!r}, a picture, but data are written here; save a page, as of `diagram_page`")
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import AnyIndices, FloatArray, SignArray, as_bounds, as_floats
+from stereodel.curves.ragged import Ragged
 from stereodel.triangulation import PlanarVoronoi
 
 
@@ -45,15 +46,11 @@ def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> 
     """Triangles (t, 3, 2) relative to their sites, counterclockwise, that make up the cells, and the sites (t,)."""
     # Four more sites bound every cell, so that all are fans of triangles around their sites.
     diagram = PlanarVoronoi(np.concatenate([points, _far_points(polygon)]), workers=workers)
-    # For each entry of the flat cells its site and the next entry of the same cell: the last one's is the first.
-    site: AnyIndices = np.repeat(np.arange(len(diagram.points)), np.diff(diagram.region_offsets))
-    following = np.arange(1, len(site) + 1)
-    filled = np.flatnonzero(np.diff(diagram.region_offsets))
-    following[diagram.region_offsets[filled + 1] - 1] = diagram.region_offsets[filled]
+    cells = Ragged(diagram.region_indices, diagram.region_offsets)
     # A triangle for each side of a cell: its site at the origin, then both ends of the side. The four have none.
-    own = site < len(points)
-    corners = diagram.region_indices[own], diagram.region_indices[following[own]]
-    site = site[own]
+    own = cells.row < len(points)
+    corners = cells.values[own], cells.values[cells.following[own]]
+    site: AnyIndices = cells.row[own]
     here, there = (diagram.vertices[vertex] - points[site] for vertex in corners)
     triangles = np.stack([np.zeros_like(here), here, there], axis=1)
     # Cells are convex and so is the polygon: cutting the triangles at one side after the other leaves what is in both.

@@ -7,6 +7,7 @@ import numpy as np
 from stereodel import _kernel
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel.constants import CLOSE_SITES, QUADRATURE_CHORD
+from stereodel.curves.ragged import spans
 from stereodel.relaxation.quadrature import split_long
 from stereodel.triangulation import SphericalVoronoi
 
@@ -64,7 +65,7 @@ class RoundCells:
         # Each ridge in pieces of equal angle, none longer than the chord: ridge by ridge, step 0, 1, … of each.
         pieces = np.ceil(self._angles / QUADRATURE_CHORD).astype(int)
         ridge = np.repeat(np.arange(len(pieces)), pieces)
-        step = np.arange(len(ridge)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+        step = spans(np.zeros_like(pieces), pieces)
         ends = [self._along(ridge, (step + k) * self._angles[ridge] / pieces[ridge]) for k in (0, 1)]
         # A piece runs with its left site on the left: the triangle with the right one takes it backwards.
         left, right = self.ridges[ridge].T

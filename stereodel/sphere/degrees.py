@@ -1,6 +1,6 @@
 """Sine, cosine and angle in degrees, in double-double: no platform mathematics, so the same bits on every machine.
 
-The series are the kernel's: `stereodel/kernel/degrees.cpp`.
+The series are the kernel's: `stereodel/kernel/coordinates/degrees.cpp`.
 """
 
 from __future__ import annotations

@@ -209,7 +209,8 @@ class SphericalVoronoi(Diagram):
         """
         starts, ends = self.vertices[self.ridge_vertices[:, 0]], self.vertices[self.ridge_vertices[:, 1]]
         # Ends that are different but equal as doubles would stand for the whole circle: give the arc a length.
-        angles = np.maximum(_angles(starts, ends), np.finfo(np.float64).tiny)
+        angles = 2 * np.arctan2(*(np.linalg.norm(chord, axis=1) for chord in (starts - ends, starts + ends)))
+        angles = np.maximum(angles, np.finfo(np.float64).tiny)
         rows = zip(self.ridge_normals(), starts, ends, angles.tolist(), strict=True)
         return [SphereArc(SphereCircle(n, 0.0), a, b, angle) for n, a, b, angle in rows]
 
@@ -225,7 +226,3 @@ class SphericalVoronoi(Diagram):
             triangulation = SphericalDelaunay._from_simplices(self.points, self._simplices(), self._duplicates())
         triangulation._latitude = self.latitude
         return triangulation
-
-
-def _angles(start: FloatArray, end: FloatArray) -> FloatArray:
-    return 2 * np.arctan2(np.linalg.norm(start - end, axis=1), np.linalg.norm(start + end, axis=1))

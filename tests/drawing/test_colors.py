@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from matplotlib.colors import to_rgba
 
 from stereodel.drawing import DotStyle, LineStyle
-from stereodel.drawing.colors import as_color
+from stereodel.drawing.colors import as_color, as_colors
 
 shares = st.floats(0, 1)
 
@@ -62,3 +62,31 @@ def test_numbers_do_not_load_matplotlib():
     )
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert found.stdout == "False\n"
+
+
+@pytest.mark.parametrize("one", ["tab:red", "0.5", ("red", 0.25), (0.1, 0.2, 0.3), np.array([0.1, 0.2, 0.3, 0.4])])
+def test_one_colour_is_that_of_all(one):
+    np.testing.assert_array_equal(as_colors(one, 4), [as_color(one)] * 4)
+    assert as_colors(one, 0).shape == (0, 4)
+
+
+def test_colours_of_each_are_opaque_by_default():
+    rows = np.linspace(0, 1, 12).reshape(4, 3)
+    np.testing.assert_array_equal(as_colors(rows, 4), [as_color(row) for row in rows])
+    with_opacity = np.linspace(0, 1, 16).reshape(4, 4)
+    np.testing.assert_array_equal(as_colors(with_opacity.tolist(), 4), with_opacity)
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (np.zeros((3, 3)), r"cells must have shape \(4, 3\) or \(4, 4\), got \(3, 3\)"),
+        (np.zeros((4, 5)), "cells must have shape"),
+        (np.full((4, 3), 200.0), r"cells must be in \[0, 1\]; divide"),
+        (-np.ones((4, 3)), r"cells must be in \[0, 1\]"),
+        ("no colour", "cells is 'no colour', which is not a colour"),
+    ],
+)
+def test_wrong_colours_are_named(values, message):
+    with pytest.raises(ValueError, match=message):
+        as_colors(values, 4, "cells")

@@ -33,6 +33,20 @@ def test_an_opaque_ball_hides_its_far_side():
     assert of(items, Dots)[0].centers.shape == (2, 2)
 
 
+@pytest.mark.parametrize("length", [1e-200, 1e200])
+def test_lengths_of_directions_do_not_matter(length):
+    def places(points):
+        scene = Scene()
+        scene.add_points(points)
+        scene.add_edges(points, [[0, 1]], name="delaunay")
+        items = scene.layout(View(20, 30))
+        return [of(items, Dots)[0].centers, *(item.path for item in of(items, Stroke, "delaunay"))]
+
+    points = np.array([[1.0, 0.0, 0.0], [0.0, 3.0, 4.0]])
+    for found, expected in zip(places(length * points), places(points), strict=True):
+        np.testing.assert_allclose(found, expected, atol=1e-15)
+
+
 def test_a_glass_ball_shows_it_fainter_and_first():
     scene = Scene(style="glass")
     scene.add_arcs(graticule(30), name="graticule")

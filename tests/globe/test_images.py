@@ -95,7 +95,7 @@ def test_damaged_files_are_named(tmp_path):
 
 def test_what_is_no_picture(tmp_path):
     (tmp_path / "note.txt").write_text("lon,lat\n")
-    with pytest.raises(ValueError, match=r"note\.txt is no picture that Pillow can read"):
+    with pytest.raises(ValueError, match=r"note\.txt is not an image that Pillow can read"):
         Raster.open(tmp_path / "note.txt")
     with pytest.raises(FileNotFoundError, match=r"missing\.png"):
         Raster.open(tmp_path / "missing.png")

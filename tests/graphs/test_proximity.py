@@ -134,6 +134,15 @@ def test_quarter_turns_change_nothing_that_ties_do_not_decide(points, turns):
         assert pairs(graph(points)) == pairs(graph(turned))
 
 
+@pytest.mark.parametrize("graph", FROM_THE_INSIDE)
+@pytest.mark.parametrize("length", [2.0**-900, 2.0**900])
+def test_lengths_of_directions_do_not_matter(graph, length):
+    """On a great circle too, where a step may be longer than a third of it."""
+    circle = lonlat_to_xyz([(0, 0), (100, 0), (220, 0)])
+    for points in (circle, lonlat_to_xyz([(0, 0), (100, 0), (220, 10), (40, 60), (50, -70)])):
+        np.testing.assert_array_equal(graph(length * points), graph(points))
+
+
 def test_points_or_triangulation():
     points = np.random.default_rng(4).normal(size=(50, 3))
     for graph in FROM_THE_INSIDE:

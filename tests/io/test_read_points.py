@@ -194,6 +194,25 @@ def test_wrong_features(geometry, message):
         read_points(io.StringIO(json.dumps({"type": "FeatureCollection", "features": features})))
 
 
+@pytest.mark.parametrize(
+    ("feature", "message"),
+    [
+        (None, "row 2: is not a GeoJSON Feature"),
+        ([1, 2], "row 2: is not a GeoJSON Feature"),
+        ({"properties": [1], "geometry": {"type": "Point", "coordinates": [1, 2]}}, "row 2: is not a GeoJSON Feature"),
+        (
+            {"geometry": {"type": "Point", "coordinates": [1]}},
+            r"row 2: a Point has two or three coordinates, not \[1\]",
+        ),
+        ({"geometry": {"type": "Point", "coordinates": "ab"}}, "row 2: a Point has two or three coord"),
+    ],
+)
+def test_what_is_no_feature_is_named(feature, message):
+    features = [{"geometry": {"type": "Point", "coordinates": [1, 2, 3]}}, feature]
+    with pytest.raises(ValueError, match=message):
+        read_points(io.StringIO(json.dumps({"type": "FeatureCollection", "features": features})))
+
+
 def test_unknown_format():
     with pytest.raises(ValueError, match="format is 'xlsx'"):
         read_points(io.BytesIO(b""), format="xlsx")

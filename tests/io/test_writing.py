@@ -272,13 +272,16 @@ def test_streams():
     assert stream.getvalue() == b"lon,lat,name\n1.5,2.0,a\n"
     with pytest.raises(ValueError, match="format is None"):
         write(stream, PointTable([[1.5, 2.0]]))
+    with pytest.raises(ValueError, match="format is 'pdf', a picture"):
+        write(stream, SphericalVoronoi(SPHERE), format="pdf")
 
 
 @pytest.mark.parametrize(
     ("name", "content", "options", "error", "message"),
     [
-        ("a.svg", SphericalVoronoi(SPHERE), {}, ValueError, "format is '.svg', a picture, .* save a page"),
-        ("a.xlsx", PointTable([[1, 2]]), {}, ValueError, "format is '.xlsx'"),
+        ("a.svg", SphericalVoronoi(SPHERE), {}, ValueError, "format is 'svg', a picture, .* save a page"),
+        ("a.PNG", SphericalVoronoi(SPHERE), {}, ValueError, "format is 'png', a picture, .* save a page"),
+        ("a.xlsx", PointTable([[1, 2]]), {}, ValueError, "format is 'xlsx'"),
         ("a.csv", [[1, 2]], {}, TypeError, "thing must be a mesh, a PointTable or a GeoDataFrame, not list"),
         ("a.csv", PointTable([[1, 2]]), {"what": "cells"}, TypeError, "what is not an option"),
         ("a.glb", PointTable([[1, 2]]), {}, TypeError, "mesh must be a triangulation"),
