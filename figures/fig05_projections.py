@@ -57,7 +57,7 @@ def draw(g: dict) -> Page:
     items = [
         item for number, name in enumerate(PANELS) for item in panel(g, name).layout(VIEW, at=(PITCH * number, 0.0))
     ]
-    return Page((-1.82, PITCH + 2.02, -2.16, 1.2), tuple(items), views=(VIEW.matrix,))
+    return Page((-1.82, PITCH + 2.02, -2.24, 1.2), tuple(items), views=(VIEW.matrix,))
 
 
 def panel(g: dict, name: str) -> Scene:

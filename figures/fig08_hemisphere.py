@@ -4,7 +4,8 @@ Figure 8: Inverse stereographic projection to hemisphere (as seen through a tran
 
 The sites of Figure 7 lifted to the tangent sphere whose diameter is half the diagonal of the rectangle. Only vertices
 are lifted: Delaunay edges are rebuilt as great-circle arcs, Voronoi edges as perpendicular bisectors of them. The
-sides of the rectangle become arcs of circles (red) whose corners lie on the equator.
+sides of the rectangle become arcs of circles (red) whose ends, the lifted corners (red dots), lie on the equator
+(dashed).
 
 Chosen by us: the view from below, tilted so that the plane is seen as a sheet.
 """
@@ -15,6 +16,7 @@ from _rectangle import CORNERS, lift, sites
 
 from stereodel import PlanarDelaunay, SphericalVoronoi
 from stereodel.drawing import Page, Scene, View
+from stereodel.drawing.style import LINES
 from stereodel.render import Figure
 from stereodel.sphere import SphereArc, SphereCircle
 
@@ -22,7 +24,7 @@ VIEW = View(0, -78)
 
 
 def geometry() -> dict:
-    """Lifted sites and sides, edges of the planar triangulation, Voronoi diagram of the sphere, the plane's corners."""
+    """Lifted sites, sides and corners, planar edges, Voronoi diagram of the sphere, equator, the plane's corners."""
     raised = lift()
     points = sites()
     lifted = raised.forward(points)
@@ -34,6 +36,8 @@ def geometry() -> dict:
         "vertices": voronoi.vertices,
         "ridges": np.array(voronoi.ridge_vertices),
         "sides": to_rows(lifted_side(a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, axis=0), strict=True)),
+        "corners": raised.forward(CORNERS),
+        "equator": np.array([0.0, 0.0, -1.0, 0.0]),  # normal and offset
         "plane": raised.sphere.in_space(CORNERS),
     }
 
@@ -50,8 +54,12 @@ def draw(g: dict) -> Page:
     scene = Scene(radius=radius)
     scene.add_edges(g["lifted"], g["edges"], name="delaunay")
     scene.add_edges(g["vertices"], g["ridges"], name="voronoi")
+    scene.add_circles(
+        [SphereCircle(g["equator"][:3], float(g["equator"][3]))], name="equator", style=LINES["construction"]
+    )
     scene.add_arcs(from_rows(g["sides"]), name="chord")
     scene.add_points(g["lifted"], name="sites")
+    scene.add_points(g["corners"], name="points")
     scene.add_flat_polygon(g["plane"], name="plane")
     scene.add_outline(g["plane"], name="outline")
     return scene.page(VIEW, extent=(-1.56, 1.56, -1.22, 0.95))

@@ -17,21 +17,26 @@ from stereodel.render import Figure
 
 RADIUS = 1.0
 PHI = 25.0  # degrees south of the equator
-KNOTS = np.linspace(0.0, 90.0, 19)
+STEPS = np.linspace(0.0, 90.0, 181)
+EVERY = 10
+KNOTS = STEPS[::EVERY]  # of the graph
 EXTENT = (-1.4, 4.75, -0.24, 2.2)
 ORIGIN, WIDTH, HEIGHT = np.array([2.55, 0.1]), 1.95, 1.75  # the graph's box on the page
 
 
 def geometry() -> dict:
-    """The lifted point and its projection, and the scale of the lift at the knots of the graph."""
+    """The lifted point and its projection; the lift's scale, its rate and the slope of the rate at the knots."""
     lift = RectangleLift(4 * RADIUS, 0.0)  # only its sphere matters: diagonal 4R
-    meridian = lonlat_to_xyz(np.stack([np.full_like(KNOTS, 90.0), -KNOTS], axis=-1))
+    meridian = lonlat_to_xyz(np.stack([np.full_like(STEPS, 90.0), -STEPS], axis=-1))
+    plane = lift.inverse(meridian)
+    rate = lift.scale_rate(plane)
     point = lonlat_to_xyz((90.0, -PHI))
     return {
         "point": RADIUS * (point[1:] + [0.0, 1.0]),
         "projected": np.array([lift.inverse(point)[0], 0.0]),
-        "scale": lift.scale_factor(lift.inverse(meridian)),
-        "rate": np.cos(np.radians(KNOTS)) / 2,
+        "scale": lift.scale_factor(plane[::EVERY]),
+        "rate": rate[::EVERY],
+        "bend": np.gradient(rate, np.radians(STEPS), edge_order=2)[::EVERY],
     }
 
 
@@ -82,11 +87,10 @@ def add_graph(sketch: Sketch, g: dict) -> None:
     """The two curves over φ from 0° to 90°."""
     x = ORIGIN[0] + WIDTH * KNOTS / 90.0
     rise = HEIGHT * np.radians(90.0) / WIDTH  # page slope of a derivative by φ in radians
-    sine, cosine = np.sin(np.radians(KNOTS)), np.cos(np.radians(KNOTS))
     for y in (0.5, 1.0):
         sketch.add_segment(ORIGIN + [0, HEIGHT * y], ORIGIN + [WIDTH, HEIGHT * y], name="grid")
-    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["scale"], rise * cosine / 2, name="accent1")
-    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["rate"], -rise * sine / 2, name="accent2")
+    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["scale"], rise * g["rate"], name="accent1")
+    sketch.add_graph(x, ORIGIN[1] + HEIGHT * g["rate"], rise * g["bend"], name="accent2")
     sketch.add_segment(ORIGIN, ORIGIN + [WIDTH, 0], name="axis").add_segment(ORIGIN, ORIGIN + [0, HEIGHT], name="axis")
     for phi in (0, 30, 60, 90):
         sketch.add_segment(ORIGIN + [WIDTH * phi / 90, 0], ORIGIN + [WIDTH * phi / 90, -0.035], name="axis")

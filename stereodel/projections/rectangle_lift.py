@@ -108,6 +108,26 @@ class RectangleLift:
         ratio = self._centered(rows) / self.sphere.unit_distance
         return (1.0 / (1.0 + dot(ratio, ratio))).round()
 
+    def scale_rate(self, xy: npt.ArrayLike) -> FloatArray:
+        """Rate of change of `scale_factor` along meridians at plane points (..., 2), per radian of latitude φ south.
+
+        ∂s/∂φ = cos φ / 2 (claim P11), which at distance d is t/(1 + t²), t = d/2R: 0 at the centroid and ½ at the
+        corners. Along parallels the scale is constant.
+
+        Examples
+        --------
+        >>> print(RectangleLift(4.0, 3.0).scale_rate([[0.0, 0.0], [2.0, 1.5]]))
+        [0.  0.5]
+        """
+        return by_blocks(self._rate, as_vectors(xy, 2, "xy"))
+
+    def _rate(self, rows: FloatArray) -> FloatArray:
+        ratio = (self._centered(rows) / self.sphere.unit_distance).round()
+        with np.errstate(divide="ignore", over="ignore"):
+            t = np.hypot(ratio[..., 0], ratio[..., 1])
+            t = np.minimum(t, 1.0 / t)  # t and 1/t have one rate; the square of the smaller one is finite
+        return np.asarray(t / (1.0 + t * t))
+
     def separation_bounds(self, d: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Least and largest angle, in degrees, between the lifted images of points of the rectangle at distance d.
 

@@ -1,37 +1,25 @@
 """What each figure shows is what the paper says of it: statements about the drawn geometry, figure by figure."""
 
-import runpy
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from stereodel import MoebiusMap, PlanarDelaunay, SphericalDelaunay, Stereographic, fisheye, lonlat_to_xyz
-from stereodel.drawing import View
+from stereodel import (
+    MoebiusMap,
+    PlanarDelaunay,
+    RectangleLift,
+    SphericalDelaunay,
+    Stereographic,
+    fisheye,
+    lonlat_to_xyz,
+    xyz_to_lonlat,
+)
+from stereodel.drawing import Dots, Fill, Label, Stroke, View
 from stereodel.sphere import angular_distance, graticule
 from stereodel.triangulation import check_delaunay
-
-FOLDER = Path(__file__).parents[2] / "figures"
-ROWS = ("fig10_earth", "fig11_fisheye4", "fig12_fisheye20")
-
-
-def script(name):
-    sys.path.insert(0, str(FOLDER))
-    try:
-        return runpy.run_path(str(FOLDER / f"{name}.py"))
-    finally:
-        sys.path.remove(str(FOLDER))
-
-
-def geometry(name):
-    return script(name)["geometry"]() if name not in ROWS else script(name)["FIGURE"].geometry()
-
-
-def arc_points(rows, steps=33):
-    """Points (n, steps, 3) of arcs given as centre, two radii and sweep."""
-    t = np.linspace(0, 1, steps)[None, :, None] * rows[:, None, 9:]
-    return rows[:, None, 0:3] + np.cos(t) * rows[:, None, 3:6] + np.sin(t) * rows[:, None, 6:9]
+from tests.figures.scripts import FIGURES, ROWS, arc_points, geometry, page, path_points, script
+from tools.image import ink_boxes
 
 
 def test_figure_1_shows_dual_graphs():
@@ -69,6 +57,30 @@ def test_figure_5_points_images_and_centre_of_projection_are_on_one_line():
         assert np.isclose(u @ v, 0, atol=1e-12)
 
 
+@pytest.mark.parametrize("name", FIGURES)
+def test_nothing_leaves_the_page(name):
+    drawn = page(name)
+    left, right, bottom, top = np.array(drawn.extent)
+    for item in drawn.items:
+        match item:
+            case Stroke():
+                points, reach = path_points(item.path), item.width / 2
+            case Fill():
+                points, reach = np.vstack([path_points(path) for path in item.paths]), 0.0
+            case Dots():
+                points, reach = item.centers, item.radius
+            case Label():
+                continue
+            case _:
+                raise AssertionError(f"{type(item).__name__} is not looked at")
+        reach /= drawn.points_per_unit
+        assert (points >= [left + reach, bottom + reach]).all(), item.name
+        assert (points <= [right - reach, top - reach]).all(), item.name
+    ink = ink_boxes(drawn)[[bool(label.text) for label in drawn.labels]]
+    assert (ink[:, :2] > 0).all()
+    assert (ink[:, 2:] < [drawn.width, drawn.height]).all()
+
+
 def test_figure_6_smaller_spheres_have_larger_extents():
     module = script("fig06_sphere_size")
     g = module["geometry"]()
@@ -94,6 +106,28 @@ def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     assert planar <= {tuple(sorted(row)) for row in spherical.simplices.tolist()}
 
 
+def test_figure_8_shows_the_equator_and_the_corners_on_it():
+    g, drawn = geometry("fig08_hemisphere"), page("fig08_hemisphere")
+    radius, view = float(g["radius"]), script("fig08_hemisphere")["VIEW"]
+    axis, offset = g["equator"][:3], g["equator"][3]
+    assert offset == 0
+    assert np.allclose(np.cross(axis, [0, 0, 1]), 0)
+    assert np.allclose(g["corners"] @ axis, offset, atol=1e-15)
+    # What is drawn lies on the ellipse as which the equator is seen, and covers its near half.
+    strokes = [item for item in drawn.items if item.name == "equator"]
+    assert all(item.dash for item in strokes)
+    points = np.vstack([path_points(item.path) for item in strokes]) / radius
+    semiminor = np.sin(np.radians(-view.lat))
+    assert np.allclose(points[:, 0] ** 2 + (points[:, 1] / semiminor) ** 2, 1, atol=1e-6)
+    assert (points[:, 1] >= -1e-9).all()
+    assert np.ptp(points[:, 0]) == pytest.approx(2, abs=1e-4)
+    # The two corners on the near side are dots, and the red arcs end in them.
+    (dots,) = [item for item in drawn.items if item.name == "points"]
+    near = g["corners"][view.depth(g["corners"]) > 0]
+    assert len(near) == 2
+    assert np.allclose(np.sort(dots.centers, axis=0), np.sort(radius * view.project(near), axis=0))
+
+
 def test_figure_9_scale_is_that_of_the_similar_triangles():
     module = script("fig09_scale")
     g = module["geometry"]()
@@ -103,6 +137,59 @@ def test_figure_9_scale_is_that_of_the_similar_triangles():
     height = 2 * radius - g["point"][1]
     assert np.isclose(height / (2 * radius), g["point"][0] / g["projected"][0])
     assert np.isclose(height, radius + radius * np.sin(np.radians(module["PHI"])))
+
+
+def test_figure_9_draws_the_scale_and_its_rate_as_the_library_has_them():
+    module, g, drawn = script("fig09_scale"), geometry("fig09_scale"), page("fig09_scale")
+    # The rate by central differences of the scale along a meridian.
+    lift, step = RectangleLift(4 * module["RADIUS"], 0.0), 1e-3
+    inner = module["KNOTS"][1:-1]
+
+    def scale(phi):
+        return lift.scale_factor(lift.inverse(lonlat_to_xyz(np.stack([np.full_like(phi, 90.0), -phi], axis=-1))))
+
+    differences = (scale(inner + step) - scale(inner - step)) / np.radians(2 * step)
+    assert np.allclose(g["rate"][1:-1], differences, atol=1e-9)
+    # Both curves between their knots too, within a hundredth of a point.
+    graphs = {item.name: item for item in drawn.items if isinstance(item, Stroke) and item.name.startswith("accent")}
+    for name, value in (("accent1", lambda phi: (1 + np.sin(phi)) / 2), ("accent2", lambda phi: np.cos(phi) / 2)):
+        across, up = ((path_points(graphs[name].path) - module["ORIGIN"]) / [module["WIDTH"], module["HEIGHT"]]).T
+        assert (across.min(), across.max()) == pytest.approx((0, 1))
+        away = np.abs(up - value(across * np.pi / 2)) * module["HEIGHT"] * drawn.points_per_unit
+        assert away.max() < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("name", "magnification", "coarse", "fine", "half_width"),
+    [("fig10_earth", 1, 10, 2, 8), ("fig11_fisheye4", 4, 5, 1, 8), ("fig12_fisheye20", 20, 5, 0.5, 1.5)],
+)
+def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half_width):
+    """The paper's S, graticule and fine step, and our half-width, read off the drawn arcs by undoing the fisheye."""
+    back, g = fisheye((0, 40), magnification=magnification).inverse(), geometry(name)
+    parallels, meridians = straightened(back, g["coarse"])
+    assert parallels == pytest.approx(np.arange(coarse - 90, 90, coarse))
+    assert meridians == pytest.approx(np.arange(-180, 180, coarse))
+    parallels, meridians = straightened(back, g["fine"])
+    steps = np.arange(-half_width, half_width + fine / 2, fine)
+    assert parallels == pytest.approx(40 + steps)
+    assert meridians == pytest.approx(steps, abs=1e-9)
+    lon, lat = np.moveaxis(xyz_to_lonlat(back(arc_points(g["fine"]))), -1, 0)
+    assert (lon.min(), lon.max()) == pytest.approx((-half_width, half_width))
+    assert (lat.min(), lat.max()) == pytest.approx((40 - half_width, 40 + half_width))
+
+
+def straightened(back, rows):
+    """The latitudes and longitudes of arcs that are images of parallels and meridians."""
+    parallels, meridians = [], []
+    for points in back(arc_points(rows)[:, 1:-1]):
+        lon, lat = xyz_to_lonlat(points).T
+        turns = np.exp(1j * np.radians(lon))
+        if np.ptp(lat) < 1e-9:
+            parallels.append(lat.mean())
+        else:
+            assert np.abs(turns - turns[0]).max() < 1e-9, "neither a parallel nor a meridian"
+            meridians.append((np.degrees(np.angle(turns[0])) + 180 + 1e-9) % 360 - 180 - 1e-9)
+    return np.unique(np.round(parallels, 6)), np.unique(np.round(meridians, 6))
 
 
 @pytest.mark.parametrize("name", ROWS)

@@ -55,6 +55,22 @@ def test_p11_derivatives_of_the_scale(south, lon):
     assert (scale(south, lon + step) - scale(south, lon - step)) / np.radians(2 * step) == pytest.approx(0, abs=1e-9)
 
 
+@given(SIDES, PAIRS)
+def test_p11_rate_by_latitude(sides, fractions):
+    lift = RectangleLift(*sides, center=CENTER)
+    point = in_rectangle(lift, fractions[:2])[0]
+    south = np.radians(xyz_to_lonlat(lift.forward(point))[1])
+    assert lift.scale_rate(point) == pytest.approx(np.cos(south) / 2, rel=1e-12, abs=1e-14)
+
+
+def test_p11_rate_far_out_and_at_the_ends():
+    lift = RectangleLift(4.0, 3.0)
+    assert lift.scale_rate([0.0, 0.0]) == 0
+    assert lift.scale_rate([[1e-320, 0.0], [1e200, 1e200], [1e290, 1e290]]) == pytest.approx(0, abs=1e-199)
+    # North of the equator the same again: a point at t and one at 1/t have latitudes of opposite sign.
+    assert lift.scale_rate([2.5 * 3, 0.0]) == pytest.approx(lift.scale_rate([2.5 / 3, 0.0]), rel=1e-15)
+
+
 @given(SIDES, st.lists(st.tuples(UNIT, UNIT), min_size=2, max_size=6))
 def test_p12_paths_shrink_by_a_factor_between_half_and_one(sides, fractions):
     lift = RectangleLift(*sides, center=CENTER)

@@ -1,0 +1,163 @@
+"""The numbers in captions: each is read out of the text and compared with what the library computes."""
+
+import ast
+import re
+from collections import Counter
+
+import numpy as np
+import pytest
+
+from stereodel import fisheye, lonlat_to_xyz
+from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
+from tests.figures.scripts import FIGURES, FOLDER, arc_points, geometry, script
+
+WORDS = {"three": 3, "four": 4, "five": 5, "eight": 8, "twenty": 20}
+NUMBER = re.compile(rf"(?P<digits>\d+(?:\.\d+)?)(?:/(?P<over>\d+))?|\b(?P<word>{'|'.join(WORDS)})\b", re.IGNORECASE)
+REFERENCE = re.compile(r"Figures? \d+")
+FORMULAS = {
+    "fig09_scale": ("heights R + R sin φ and 2R", "s = (R + R sin φ)/2R", "∂s/∂φ = cos φ / 2"),
+    "fig13_latitudes": (
+        "tan((90° + φ)/2) = d/2R",
+        "S tan((90° + φ)/2) = tan((90° + Φ)/2)",
+        "tan((90° + Φ)/2) = d/2r",
+    ),
+}
+"""What captions write as formulas; rows P11 and P18 of the ledger have their tests."""
+
+
+def caption(name):
+    """The text of a script on one line, without references and formulas."""
+    text = " ".join(ast.get_docstring(ast.parse((FOLDER / f"{name}.py").read_text(encoding="utf-8"))).split())
+    for formula in FORMULAS.get(name, ()):
+        assert formula in text
+        text = text.replace(formula, "")
+    return REFERENCE.sub("", text)
+
+
+def numbers(text):
+    """Each number of a text and how far it may be from the truth: half a unit of its last digit."""
+    for found in NUMBER.finditer(text):
+        if found["word"]:
+            yield WORDS[found["word"].lower()], 0.0
+        elif found["over"]:
+            yield int(found["digits"]) / int(found["over"]), 0.0
+        else:
+            decimals = len(found["digits"].partition(".")[2])
+            yield float(found["digits"]), 0.5 * 10.0**-decimals if decimals else 0.0
+
+
+def five_views(name):
+    """What is drawn in Figures 10 to 12: magnification, graticule, fine grid, its centre and its half-width."""
+    panels, fine = script(name)["PANELS"], geometry(name)["fine"]
+    bend = fisheye((0, 40), magnification=panels.magnification)
+    lat = xyz_to_lonlat(bend.inverse()(arc_points(fine)))[..., 1]
+    return {
+        "magnification": float(bend.scale_factor(lonlat_to_xyz((0, 40)))),
+        "coarse": panels.coarse,
+        "fine": panels.fine,
+        "focus": (lat.min() + lat.max()) / 2,
+        "half_width": np.ptp(lat) / 2,
+    }
+
+
+def hidden_up_to(magnification):
+    """The largest half-width, in degrees, of a region about 40° N that the south pole does not see through the lens."""
+    bend = fisheye((0, 40), magnification=magnification)
+
+    def is_hidden(half_width):
+        arcs = graticule_patch((0, 40), half_width, half_width)
+        return min(bend(arc.sample(65))[:, 2].min() for arc in arcs) > 0
+
+    low, high = 0.1, 30.0
+    assert is_hidden(low)
+    assert not is_hidden(high)
+    for _ in range(50):
+        middle = (low + high) / 2
+        low, high = (middle, high) if is_hidden(middle) else (low, middle)
+    return low
+
+
+def share_of_hemisphere(magnification, half_width):
+    """How much of the hemisphere about the focus the region's image covers: the integral of the scale squared."""
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    lon, lat = np.meshgrid(half_width * nodes, 40 + half_width * nodes, indexing="ij")
+    scale = fisheye((0, 40), magnification=magnification).scale_factor(lonlat_to_xyz(np.stack([lon, lat], axis=-1)))
+    area = np.outer(weights, weights) * np.radians(half_width) ** 2 * np.cos(np.radians(lat)) * scale**2
+    return area.sum() / (2 * np.pi)
+
+
+def cap_that_fills_a_hemisphere(magnification):
+    """The angular radius of what the lens makes a hemisphere about its focus."""
+    hemisphere = SphereCircle((0, 40), 0.0)
+    return fisheye((0, 40), magnification=magnification).inverse().image_of(hemisphere).angular_radius
+
+
+def truth(name):
+    """The numbers of a caption, in their order, as what is drawn has them."""
+    g = geometry(name)
+    match name:
+        case "fig01_sphere" | "fig02_plane":
+            return [len(g["sites"])]
+        case "fig03_bubbles":
+            circle = SphereCircle(g["normal"], float(g["offset"]))
+            return [circle.angular_radius, *xyz_to_lonlat(circle.center)]
+        case "fig04_triangles":
+            return [len(g["vertices"])]
+        case "fig05_projections":
+            return [len(g["normal_points"])]
+        case "fig06_sphere_size":
+            radii = [(x[0] ** 2 + x[1] ** 2) / (2 * x[1]) for x in g["lifted"][:, 0]]  # circles through the origin
+            return [len(g["extents"]), np.ptp(g["ends"][:, 0]), *radii]
+        case "fig07_rectangle":
+            (outline,) = [item for item in script(name)["draw"](g).items if item.name == "outline"]
+            return list(np.ptp(outline.path.reshape(-1, 2), axis=0))
+        case "fig08_hemisphere":
+            return []
+        case "fig09_scale":
+            x, y = g["point"]
+            return [np.degrees(np.arctan2(1 - y, x))]
+        case "fig13_latitudes":
+            return [np.divide(*g["radii"]), script(name)["DISTANCE"] / g["radii"][0]]
+    drawn, panels = five_views(name), len(script(name)["FIGURE"].page().views)
+    size, coarse, fine = (drawn[key] for key in ("magnification", "coarse", "fine"))
+    focus, half = drawn["focus"], drawn["half_width"]
+    match name:
+        case "fig10_earth":
+            return [panels, coarse, focus, fine, focus, half]
+        case "fig11_fisheye4":
+            return [panels, size, coarse, fine, focus, size, half, hidden_up_to(size)]
+        case "fig12_fisheye20":
+            filled = [2 * half, 100 * share_of_hemisphere(size, half), cap_that_fills_a_hemisphere(size)]
+            return [panels, size, coarse, fine, focus, size, *filled, half, hidden_up_to(size)]
+    raise AssertionError(f"{name} has a caption that nobody checks")
+
+
+@pytest.mark.parametrize("name", FIGURES)
+def test_numbers_of_a_caption_are_those_of_the_picture(name):
+    written, true = list(numbers(caption(name))), truth(name)
+    assert len(written) == len(true), (written, true)
+    for (value, slack), expected in zip(written, true, strict=True):
+        assert abs(value - expected) <= slack + 1e-6, (written, true)
+
+
+def test_the_region_of_figure_12_lies_in_the_hemisphere_that_it_is_a_part_of():
+    corners = lonlat_to_xyz([[x, 40 + y] for x in (-1.5, 1.5) for y in (-1.5, 1.5)])
+    bend = fisheye((0, 40), magnification=20)
+    assert angular_distance(bend(corners), lonlat_to_xyz((0, 40))).max() < 90
+
+
+def test_row_p20_has_the_numbers_of_the_captions():
+    ledger = (FOLDER.parent / "docs" / "paper.md").read_text(encoding="utf-8")
+    (row,) = re.findall(r"^\| P20 \|(.*)$", ledger, re.MULTILINE)
+    holds = row.split("|")[1]
+    written = [float(x) for x in re.findall(r"[\d.]+(?=°)", holds)]
+    assert written == [
+        round(hidden_up_to(4), 2),
+        round(hidden_up_to(20), 3),
+        *(five_views(name)["half_width"].round(6) for name in ("fig11_fisheye4", "fig12_fisheye20")),
+    ]
+
+
+def test_every_number_of_a_caption_is_read():
+    found = Counter(value for value, _ in numbers("a 3° patch, 1/2°, four views of 12.5 %"))
+    assert found == Counter([3.0, 0.5, 4, 12.5])

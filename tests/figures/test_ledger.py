@@ -1,0 +1,434 @@
+"""Claims about algorithms, and the words "only" and "completely determined" (rows P3, P5, P6 and P23 to P25)."""
+
+import itertools
+from collections import Counter
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mp, mpf, workdps
+
+from stereodel import Gnomonic, MoebiusMap, Orthographic, Stereographic, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.conformal import three_points
+from stereodel.predicates.plane import filter_coordinates, incircle_filter, orient2d_filter
+from stereodel.predicates.rays import bubble_filter, units
+from stereodel.sphere import SphereCircle, angular_distance, great_circle_points
+from stereodel.triangulation import (
+    HullInsertion,
+    PlanarDelaunay,
+    PlanarVoronoi,
+    SphericalDelaunay,
+    SphericalVoronoi,
+    planar_part,
+)
+from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
+
+
+def directions(count, seed=0):
+    vectors = np.random.default_rng(seed).normal(size=(count, 3))
+    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
+
+
+def triangles(simplices):
+    return {tuple(sorted(row)) for row in np.asarray(simplices).tolist()}
+
+
+# P3: linear time.
+
+
+def vertices_made(points):
+    """Voronoi vertices made by inserting points in their order: each new facet has one, each old one was made once."""
+    return sum(len(step.new) for step in HullInsertion(points))
+
+
+@pytest.mark.parametrize("draw", [directions, lambda count: np.random.default_rng(1).random((count, 2))])
+def test_both_graphs_built_together_make_linearly_many_vertices(draw):
+    """A new point has fewer than six neighbours on average if it is any of them (Euler), whatever the points."""
+    points = draw(800)
+    half, whole = vertices_made(points[:400]), vertices_made(points)
+    assert 1.9 < whole / half < 2.1
+    assert whole < 6.2 * len(points)
+
+
+def test_a_bad_order_makes_quadratically_many():
+    """What the count would show if it were not linear: points that come nearer to a row of others one by one."""
+
+    def rows(count):
+        up = np.column_stack([np.zeros(count), np.linspace(0.1, 1.0, count)])
+        nearer = np.column_stack([np.linspace(10.0, 5.0, count), np.zeros(count)])
+        return np.vstack([up, nearer])
+
+    assert vertices_made(rows(80)) / vertices_made(rows(40)) > 3.5
+    shuffled = np.random.default_rng(0).permutation(rows(80))
+    assert vertices_made(shuffled) < 6.5 * len(shuffled)
+
+
+@pytest.mark.parametrize("draw", [directions, lambda count: np.random.default_rng(1).random((count, 2))])
+def test_the_way_back_looks_at_no_coordinates(draw):
+    """The triangulation is read off the diagram: other places of the sites change nothing, so nothing is searched."""
+    points = draw(500)
+    diagram = (SphericalVoronoi if points.shape[1] == 3 else PlanarVoronoi)(points)
+    expected = diagram.delaunay().simplices
+    diagram.points = draw(500)[::-1].copy()
+    assert diagram.delaunay().simplices.tolist() == expected.tolist()
+
+
+# P5: the counters of the paper's own engine.
+
+
+def flat(spread, count=25, seed=3):
+    rng = np.random.default_rng(seed)
+    return rng.normal(size=3) + spread * rng.normal(size=(count, 3))
+
+
+RAYS = {
+    "random": directions(40),
+    "flat": flat(2e-16),
+    "cube": np.array(list(itertools.product((-1.0, 1.0), repeat=3))),
+    "flat and octahedron": np.vstack([np.eye(3), -np.eye(3), flat(3e-16, 12)]),
+}
+PLANES = {
+    "random": np.random.default_rng(4).random((40, 2)),
+    "grid": np.array(list(itertools.product(range(5), range(4))), dtype=float),
+    "tiny far cluster": 1.0 + 2.0**-50 * np.random.default_rng(5).integers(0, 40, size=(25, 2)),
+}
+
+
+def recorded(monkeypatch, kind, name):
+    """Lists the arguments of all calls of a method."""
+    calls, method = [], getattr(kind, name)
+
+    def wrapper(self, *numbers):
+        calls.append(numbers)
+        return method(self, *numbers)
+
+    monkeypatch.setattr(kind, name, wrapper)
+    return calls
+
+
+def bubble(*four):
+    """det(b̂−â, ĉ−â, p̂−â) in the digits of the context."""
+    exact = [[mpf(float(x)) for x in vector] for vector in four]
+    a, *others = [[x / mp.sqrt(mp.fsum(y * y for y in vector)) for x in vector] for vector in exact]
+    return mp.det(mp.matrix([[x - y for x, y in zip(v, a, strict=True)] for v in others]))
+
+
+@pytest.mark.parametrize("name", RAYS)
+def test_the_engine_counts_what_floating_point_leaves_open_on_the_sphere(monkeypatch, name):
+    asked = recorded(monkeypatch, RaySites, "sees")
+    engine = HullInsertion(RAYS[name])
+    engine.run()
+    unit = [tuple(row) for row in units(RAYS[name]).tolist()]
+    left_open = []
+    for four in asked:
+        value, bound = bubble_filter(*(unit[i] for i in four))
+        if abs(value) <= bound:
+            left_open.append(four)
+    with workdps(120):
+        ties = sum(abs(bubble(*RAYS[name][list(four)])) < mpf("1e-100") for four in left_open)
+    assert engine.inconclusive == {"filter": len(left_open), "exact": ties}
+    assert name == "random" or left_open
+    assert name in ("random", "flat") or ties > 0
+
+
+@pytest.mark.parametrize("name", PLANES)
+def test_the_engine_counts_what_floating_point_leaves_open_in_the_plane(monkeypatch, name):
+    points = PLANES[name]
+    circles, turns = recorded(monkeypatch, PlaneSites, "sees"), recorded(monkeypatch, PlaneSites, "turn")
+    edges = recorded(monkeypatch, PlaneSites, "_sees_edge")
+    engine = HullInsertion(points)
+    engine.run()
+    filtered = [tuple(row) for row in filter_coordinates(points).tolist()]
+    exact = [tuple(map(Fraction, row)) for row in points.tolist()]
+    expected = Counter(filter=0, exact=0)
+    for numbers, test, truth in (
+        *((four, incircle_filter, incircle) for four in circles if GHOST not in four),
+        *((three, orient2d_filter, orientation) for three in turns),
+    ):
+        value, bound = test(*(filtered[i] for i in numbers))
+        if abs(value) <= bound:
+            expected["filter"] += 1
+            expected["exact"] += test is incircle_filter and truth(*(exact[i] for i in numbers)) == 0
+    expected["exact"] += sum(orientation(*(exact[i] for i in three)) == 0 for three in edges)
+    assert engine.inconclusive == expected
+    assert name == "random" or expected["filter"] > 0
+    assert (expected["exact"] > 0) == (name == "grid")
+
+
+def orientation(a, b, c):
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def incircle(a, b, c, d):
+    rows = [(p[0] - d[0], p[1] - d[1]) for p in (a, b, c)]
+    (ax, ay), (bx, by), (cx, cy) = rows
+    a2, b2, c2 = (x * x + y * y for x, y in rows)
+    return ax * (by * c2 - cy * b2) - ay * (bx * c2 - cx * b2) + a2 * (bx * cy - cx * by)
+
+
+# P6: curvature makes the test conclusive.
+
+
+@pytest.mark.parametrize("size", [1e-4, 1e-6, 1e-8, 1e-10])
+def test_curvature_decides_the_exact_sign_in_a_flat_region(size):
+    """Four points next to one small circle: the curvature form has the exact sign, the plain one guesses."""
+    rng = np.random.default_rng(9)
+    fours, plain, signs, decided = [], [], [], []
+    for _ in range(200):
+        axis, u, v = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+        angle = rng.uniform(0, 2 * np.pi, size=(4, 1))
+        fours.append(axis + size * (np.cos(angle) * u + np.sin(angle) * v))
+    for four in fours:
+        value, bound = bubble_filter(*(tuple(row) for row in units(four).tolist()))
+        decided.append(np.sign(value) if abs(value) > bound else 0)
+        a, *others = four / np.linalg.norm(four, axis=1)[:, None]
+        plain.append(np.sign(np.linalg.det(np.array(others) - a)))
+        with workdps(120):
+            signs.append(int(mp.sign(bubble(*four))))
+    decided, plain, signs = map(np.array, (decided, plain, signs))
+    assert (decided != 0).mean() > 0.9
+    assert (decided == signs)[decided != 0].all()
+    assert (plain != signs).mean() > 0.1
+
+
+# P23: all stereographic projections keep the combinatorial triangulation, and only they.
+
+PLACE = (10.0, 35.0)
+
+
+def tangent(stretch):
+    """An azimuthal projection about `PLACE`, by the distance in the plane of angular distance χ."""
+
+    def forward(xyz):
+        plane = Stereographic(PLACE).forward(xyz)
+        reach = np.linalg.norm(plane, axis=-1, keepdims=True)
+        return plane / reach * stretch(2 * np.arctan(reach / 2))
+
+    return forward
+
+
+def mercator(xyz):
+    lon, lat = np.radians(xyz_to_lonlat(xyz)).T
+    return np.column_stack([lon, np.arctanh(np.sin(lat))])
+
+
+def conic(xyz):
+    """Lambert's conformal conic projection with the constant ½."""
+    lon, lat = np.radians(xyz_to_lonlat(xyz)).T
+    reach = np.sqrt(np.tan(np.pi / 4 - lat / 2))
+    return np.column_stack([reach * np.sin(lon / 2), -reach * np.cos(lon / 2)])
+
+
+OTHERS = {
+    "gnomonic": Gnomonic(PLACE).forward,
+    "orthographic": Orthographic(PLACE).forward,
+    "equidistant": tangent(lambda chi: chi),
+    "equal area": tangent(lambda chi: 2 * np.sin(chi / 2)),
+    "Mercator (conformal)": mercator,
+    "conic (conformal)": conic,
+}
+
+
+def sites_of_a_cap(count=400, radius=50.0):
+    points = directions(8 * count, seed=6)
+    return points[angular_distance(points, lonlat_to_xyz(PLACE)) < radius][:count]
+
+
+def kept_and_broken(points, plane):
+    """Triangles of the sphere with bubbles below 20° that are triangles of the plane too, and those that are not."""
+    sphere = SphericalDelaunay(points)
+    a, b, c = np.moveaxis(points[sphere.simplices], 1, 0)
+    normal = np.cross(b - a, c - a)
+    height = np.sum(normal * a, axis=1) / np.linalg.norm(normal, axis=1)
+    own = triangles(sphere.simplices[height > np.cos(np.radians(20))])
+    flat_ones = triangles(PlanarDelaunay(plane).simplices)
+    return len(own & flat_ones), len(own - flat_ones)
+
+
+@pytest.mark.parametrize("center", [PLACE, (-70.0, -10.0), (0.0, 90.0)])
+def test_stereographic_projections_keep_all_triangles(center):
+    projection, points = Stereographic(center), directions(300, seed=7)
+    part = planar_part(SphericalDelaunay(points), -lonlat_to_xyz(center))
+    assert triangles(PlanarDelaunay(projection.forward(points)).simplices) == triangles(part)
+    kept, broken = kept_and_broken(sites_of_a_cap(), Stereographic(PLACE).forward(sites_of_a_cap()))
+    assert kept > 500
+    assert broken == 0
+
+
+@pytest.mark.parametrize("name", OTHERS)
+def test_other_projections_break_triangles(name):
+    """Conformal ones too: circles must stay circles, and not only those too small to see."""
+    points = sites_of_a_cap()
+    kept, broken = kept_and_broken(points, OTHERS[name](points))
+    assert kept > 100
+    assert broken > 0
+
+
+@pytest.mark.parametrize("name", ["stereographic", *OTHERS])
+def test_a_circle_that_does_not_stay_one_breaks_a_quadrangle(name):
+    """Why there are no others: four points next to such a circle have one diagonal before and another one after."""
+    projection = OTHERS.get(name, Stereographic(PLACE).forward)
+    circle = SphereCircle.around((35.0, 20.0), 25.0)
+    agrees = []
+    for nudge in (-1e-4, 1e-4):
+        points = circle.sample(360)[[0, 80, 170, 260]]
+        points[3] += nudge * circle.center
+        part = planar_part(SphericalDelaunay(points), -circle.center)
+        assert len(part) == 2
+        agrees.append(triangles(part) == triangles(PlanarDelaunay(projection(points)).simplices))
+    assert all(agrees) == (name == "stereographic")
+
+
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("mirrored", [False, True])
+def test_a_projection_that_keeps_circles_is_stereographic(seed, mirrored):
+    """Any conformal map of the sphere, then a projection: one from another point, but for a similitude of the plane."""
+    rng = np.random.default_rng(seed)
+    lens = fisheye((rng.uniform(-180, 180), rng.uniform(-80, 80)), magnification=rng.uniform(2, 6))
+    lens = lens @ MoebiusMap.rotation((rng.uniform(-180, 180), 20.0), rng.uniform(0, 360))
+    mirror = np.array([1.0, 1.0, -1.0 if mirrored else 1.0])
+    pole = lens.inverse()(np.array([0.0, 0.0, 1.0])) * mirror  # what goes to infinity
+    points = directions(200, seed + 20)
+    points = points[angular_distance(points, pole) > 20]
+    image = Stereographic((0, -90)).forward(lens(points * mirror)) @ [1, 1j]
+    other = Stereographic(-pole).forward(points) @ [1, 1j]
+    if mirrored:
+        other = other.conj()
+    factor = (image[1] - image[0]) / (other[1] - other[0])
+    assert np.abs(image - image[0] - factor * (other - other[0])).max() < 1e-11 * np.abs(image).max()
+    # Which the same from a point a degree away is not.
+    beside = Stereographic(MoebiusMap.rotation((0.0, 0.0), 1.0)(-pole)).forward(points) @ [1, 1j]
+    beside = beside.conj() if mirrored else beside
+    factor = (image[1] - image[0]) / (beside[1] - beside[0])
+    assert np.abs(image - image[0] - factor * (beside - beside[0])).max() > 1e-4 * np.abs(image).max()
+
+
+# P24: only similitudes keep the edges, point by point.
+
+
+def bend(curve):
+    """How far points (n, 2) of a curve stray from the line through its ends, over the distance of the ends."""
+    along = curve[-1] - curve[0]
+    across = np.array([-along[1], along[0]])
+    return np.abs((curve - curve[0]) @ across).max() / (along @ along)
+
+
+def broken_in_plane(points, image):
+    return len(triangles(PlanarDelaunay(points).simplices) ^ triangles(PlanarDelaunay(image).simplices))
+
+
+SIMILITUDES = [[[3, -4], [4, 3]], [[3, 4], [4, -3]], [[-2, 0], [0, -2]], [[0, 1], [1, 0]]]
+
+
+@pytest.mark.parametrize("matrix", SIMILITUDES)
+def test_similitudes_of_the_plane_keep_triangles(matrix):
+    points = np.random.default_rng(8).integers(-(2**20), 2**20, size=(200, 2)).astype(float)
+    assert broken_in_plane(points, points @ np.array(matrix, dtype=float).T + [5.0, -7.0]) == 0
+
+
+@given(st.floats(0, 180), st.floats(0, 180), st.floats(1.001, 50))
+def test_any_other_linear_map_breaks_a_rhombus(first, second, ratio):
+    """Its diagonals lie along what is stretched most and least; the shorter one is the Delaunay edge."""
+    (u, v), (a, b) = (np.array([[np.cos(t), np.sin(t)], [-np.sin(t), np.cos(t)]]) for t in np.radians([first, second]))
+    matrix = ratio * np.outer(a, u) + np.outer(b, v)
+    longer = np.sqrt(ratio) * v  # longer than u, but its image is shorter than that of u
+    points = np.array([u, longer, -u, -longer])
+    assert PlanarDelaunay(points).edges.tolist().count([0, 2]) == 1
+    assert PlanarDelaunay(points @ matrix.T).edges.tolist().count([1, 3]) == 1
+
+
+def test_maps_that_keep_lines_or_triangles_but_not_both():
+    """In the plane: an affine and a projective map bend no edge and break triangles; inversion the other way round."""
+    points = np.random.default_rng(9).random((200, 2)) + [1.0, 1.0]
+    edge = points[0] + np.linspace(0, 1, 9)[:, None] * (points[1] - points[0])
+    for name, image in {
+        "affine": lambda p: p @ np.array([[1.0, 0.6], [0.0, 1.0]]),
+        "projective": lambda p: p / (0.2 + p @ [[0.7], [0.1]]),
+    }.items():
+        assert bend(image(edge)) < 1e-14, name
+        assert broken_in_plane(points, image(points)) > 20, name
+    inverted = points / np.sum(points**2, axis=1, keepdims=True)
+    assert bend(edge / np.sum(edge**2, axis=1, keepdims=True)) > 1e-3
+    assert len(triangles(PlanarDelaunay(points).simplices) & triangles(PlanarDelaunay(inverted).simplices)) > 300
+
+
+def test_from_the_sphere_to_the_plane_nothing_keeps_edges_and_triangles():
+    points = sites_of_a_cap()
+    arcs = [great_circle_points(points[i], points[i + 1], 9) for i in range(40)]
+    rng = np.random.default_rng(10)
+    for _ in range(5):
+        after = rng.normal(size=(2, 2))
+        images = [Gnomonic(PLACE).forward(arc) @ after for arc in arcs]
+        assert max(map(bend, images)) < 1e-10
+        assert kept_and_broken(points, Gnomonic(PLACE).forward(points) @ after)[1] > 20
+    assert min(bend(Stereographic(PLACE).forward(arc)) for arc in arcs) > 1e-6
+    for name, projection in OTHERS.items():
+        assert name == "gnomonic" or max(bend(projection(arc)) for arc in arcs) > 1e-3, name
+
+
+def test_from_the_sphere_to_itself_only_rotations_and_inversions():
+    points = directions(200, seed=11)
+    own = triangles(SphericalDelaunay(points).simplices)
+    turn = MoebiusMap.rotation((20.0, 50.0), 70.0)
+    for image in (turn(points), -points, points * [1, 1, -1]):
+        assert triangles(SphericalDelaunay(image).simplices) == own
+    # A linear map keeps great circles and breaks triangles; the fisheye keeps triangles and bends great circles.
+    squeezed = points * [1.0, 1.0, 1.3]
+    assert len(triangles(SphericalDelaunay(squeezed).simplices) - own) > 10
+    lens = fisheye((20.0, 50.0), magnification=3)
+    assert triangles(SphericalDelaunay(lens(points)).simplices) == own
+    a, middle, b = lens(great_circle_points(points[0], points[1], 3))
+    assert abs(np.linalg.det([a, middle, b])) > 1e-3
+    a, middle, b = great_circle_points(points[0], points[1], 3) * [1.0, 1.0, 1.3]
+    assert abs(np.linalg.det([a, middle, b])) < 1e-14
+
+
+# P25: conformal maps are rigid.
+
+LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
+
+
+@given(LONLAT, LONLAT, st.floats(1.5, 8), st.floats(0, 360), st.floats(0.1, 2))
+def test_agreement_near_a_point_is_agreement_everywhere(focus, place, magnification, turn, size):
+    """Three points of a neighbourhood, `size` degrees wide, and their images determine the map on the whole sphere."""
+    lens = fisheye(focus, magnification=magnification) @ MoebiusMap.rotation(place, turn)
+    near = neighbourhood(place, size)
+    found = three_points(near, lens(near))
+    # Rounding of the images counts by the square of how small their triangle is.
+    images = np.radians(angular_distance(lens(near), np.roll(lens(near), 1, axis=0))).min()
+    points = directions(50, seed=12)
+    assert np.radians(angular_distance(found(points), lens(points))).max() < 1e-13 * magnification / images**2
+
+
+def neighbourhood(place, size):
+    axis = lonlat_to_xyz(place)
+    start = MoebiusMap.rotation(np.cross(axis, np.roll(axis, 1) + [0, 0, 0.5]), size)(axis)
+    return np.array([MoebiusMap.rotation(axis, angle)(start) for angle in (0.0, 120.0, 240.0)])
+
+
+def test_agreement_of_place_scale_and_direction_at_a_point_is_not_enough():
+    """Two maps with one image and one derivative at a point: the neighbourhood is needed."""
+    place = np.array([0.0, 0.0, -1.0])
+    # In the plane from the other pole ζ ↦ ζ/(1 + ζ/2), which fixes 0 with derivative 1.
+    other = three_points(*([on_sphere(z) for z in pair] for pair in ((0, 1, -1), (0, 1 / 1.5, -2))))
+    assert np.allclose(other(place), place, atol=1e-15)
+    assert other.scale_factor(place) == pytest.approx(1, rel=1e-12)
+    ahead = on_sphere(1e-7)
+    assert np.allclose((other(ahead) - place) / 1e-7, (ahead - place) / 1e-7, atol=1e-6)
+    assert not other.is_close(MoebiusMap.identity(), tolerance=0.1)
+    assert angular_distance(other(np.array([1.0, 0.0, 0.0])), [1.0, 0.0, 0.0]) > 10
+
+
+def on_sphere(z):
+    return Stereographic((0, -90)).inverse([2 * np.real(z), 2 * np.imag(z)])
+
+
+def test_a_map_and_its_mirror_agree_on_a_circle_and_nowhere_else():
+    """A circle is no neighbourhood: what turns angles round agrees on it with a map that does not."""
+    lens, points = fisheye((20.0, 50.0), magnification=3), directions(100, seed=13)
+    mirror = np.array([1.0, 1.0, -1.0])
+    equator = points * [1, 1, 0]
+    assert np.allclose(lens(equator), lens(equator * mirror), atol=1e-15)
+    assert angular_distance(lens(points), lens(points * mirror)).min() > 1e-3
