@@ -152,9 +152,10 @@ def in_sight(
     loops = together(flat.take(whole), joined)
     loop_owner = np.concatenate([shown[whole], closed_by])
     area, length = signed_areas(loops)
-    there = np.abs(area) > length * np.where(
-        np.arange(len(loops)) < whole.sum(), border.slack, border.slack + border.blur
-    )
+    # A region thinner than its chords stray may come out clockwise at the border, as if it went round all the rest;
+    # what it then overlaps its neighbours by is as thin. Counterclockwise it stays, or there would be a gap.
+    blur = np.where(np.arange(len(loops)) < whole.sum(), 0.0, border.blur)
+    there = (area > length * border.slack) | (area < -length * (border.slack + blur))
     loops, loop_owner = loops.take(there), loop_owner[there]
     around = np.bincount(loop_owner, area[there], minlength=count) < 0
     loops, loop_owner = bordered(loops, loop_owner, around, border)

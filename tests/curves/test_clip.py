@@ -169,12 +169,13 @@ def test_circles_that_touch_the_limb(lon):
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 @pytest.mark.parametrize("seed", [2, 3])
-def test_slivers_at_the_limb_do_not_add_the_disc(tolerance, seed):
+def test_slivers_at_the_limb_neither_add_the_disc_nor_leave_it_bare(tolerance, seed):
     """One of 2000 cells is so thin in front of the limb that its chords run clockwise, as if round all the rest."""
     arcs, sides = cells(SphericalVoronoi(np.random.default_rng(seed).normal(size=(2000, 3))))
     lens = fisheye((10.0, 50.0), magnification=1.0)
     loops, _ = in_sight(arcs.through(lens), sides, View(10, 40), tolerance, np.arange(2000), 2000)
-    assert np.pi - 0.03 < area(loops) < np.pi  # without slivers thinner than the tolerance
+    # Those that run clockwise are left out; were all others as thin, up to a hundredth of the disc would be bare.
+    assert area(loops) == pytest.approx(np.pi, abs=1e-2 * tolerance)
     assert (clip.signed_areas(loops)[0] > 0).all()
 
 
@@ -234,9 +235,10 @@ def test_a_region_whose_rings_are_empty_is_not_hidden():
     loops, owner = in_sight(arcs, some, FRONT, 1e-5, np.arange(3), 3)
     assert owner.tolist() == [1]
     assert area(loops) == pytest.approx(np.pi / 4, abs=1e-4)
+    # One side of the hidden ring is on the limb, where its chords leave a sliver.
     hidden, owner = in_sight(*[ring([-X, Z, Y])[0], some], FRONT, 1e-5, np.arange(3), 3)
-    assert not len(owner)
-    assert not len(hidden)
+    assert set(owner.tolist()) <= {1}
+    assert abs(area(hidden)) < 2e-5
 
 
 def test_regions_whose_rings_are_all_hidden_are_all_or_nothing():

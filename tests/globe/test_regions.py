@@ -154,7 +154,7 @@ def test_cells_tile_the_disc(size, view):
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     assert np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum() / 2 == pytest.approx(area.sum(), rel=1e-6)
     (border,) = union(loops)
-    # But for needles at the limb, thinner than the tolerance, that fall out.
+    # But for needles at the limb, thinner than the tolerance, that come out clockwise and fall out.
     assert np.abs(np.hypot(*border.T) - 1).max() < 1e-3
     xy, xyz = seen_places(chart.lens, view, n=200)
     clear = near_to(loops, xy) > 3e-4
