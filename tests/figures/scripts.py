@@ -22,10 +22,12 @@ def script(name):
         sys.path.remove(str(FOLDER))
 
 
+@cache
 def geometry(name):
     return script(name)["FIGURE"].geometry()
 
 
+@cache
 def page(name):
     return script(name)["FIGURE"].page()
 
