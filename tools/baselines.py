@@ -27,8 +27,8 @@ from stereodel._arrays import FloatArray, Pixels
 from stereodel._files import replacing
 from stereodel.drawing.page import Page
 from stereodel.film import Film
-from stereodel.render.digest import pixel_hash
 from stereodel.render.figure import Figure
+from stereodel.render.rows import pixel_hash
 from tools.build import BuildError, find_scripts, load_drawing
 from tools.image import (
     TYPE_PIXELS,

@@ -25,7 +25,7 @@ from stereodel.film.progress import counting
 from stereodel.film.shots import GlobePages, Motion, Shot, sampled
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
-from stereodel.render.script import run_script
+from stereodel.render.figure import run_script
 from stereodel.render.sizes import LARGEST_SIZE
 
 T = TypeVar("T")

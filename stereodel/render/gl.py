@@ -33,7 +33,7 @@ from stereodel._arrays import FloatArray, IntArray, Pixels
 from stereodel._extras import MissingExtraError
 from stereodel.drawing.colors import Color
 from stereodel.render.mends import import_pyrender, mend_offscreen
-from stereodel.render.triangles import Triangles, Window
+from stereodel.render.pieces import Triangles, Window
 
 VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""

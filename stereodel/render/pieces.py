@@ -1,22 +1,63 @@
-"""A page as triangles for OpenGL, and those of them that a window of the picture needs."""
+"""The triangles of a picture: pieces of items in painter's order, and what of them a window needs for OpenGL."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Pixels, SingleArray
-from stereodel.render.ribbons import Corners
-from stereodel.render.triangles import Disc, Triangles, Window
+from stereodel._arrays import BoolArray, FloatArray, IntArray, Pixels, SingleArray
 
-"""Left, bottom, right, top in pixels, a row each; rounded to float32, of which `MARGIN` takes care."""
+Corners = FloatArray
+"""Triangles by their corners, (n, 3, 2)."""
+
+Disc = tuple[float, float, float, float]
+"""Centre x, y and radius along x and y, in pixels, which need not be quite as high as wide."""
 
 MARGIN = 1.0
 """Pixels by which a window is widened when it is asked what lies in it: coordinates to 2²⁴ are rounded by 1/2."""
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Coloured triangles in painter's order.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+        Pixels from the lower left corner, x right, y up.
+    colors : (n, 4) array
+        sRGB and opacity in [0, 1].
+    slots : (n,) int array
+        Number of the item that a vertex belongs to; must not decrease along `faces`.
+    faces : (m, 3) int array
+        Either orientation.
+    textures : mapping of int to (height, width, 4) uint8 array
+        Number of an item → the window that is drawn as it alone would look, sRGB and opacity, rows from the top: what
+        the colours of its triangles are multiplied by, pixel for pixel.
+    balls : mapping of int to tuple of float
+        Number of an item → centre x, y and radius along x and y, pixels from the lower left corner: the ball in whose
+        light it is drawn, see `stereodel.drawing.page.Ball`.
+    """
+
+    points: FloatArray
+    colors: FloatArray
+    slots: IntArray
+    faces: IntArray
+    textures: Mapping[int, Pixels] = field(default_factory=dict)
+    balls: Mapping[int, Disc] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Window:
+    """A part of a picture, in pixels from its lower left corner, x right, y up."""
+
+    left: int
+    bottom: int
+    width: int
+    height: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,10 +123,8 @@ def _around(boxes: SingleArray) -> SingleArray:
     return np.concatenate([boxes[:, :2].min(axis=0), boxes[:, 2:].max(axis=0)])
 
 
-def _touching(boxes: SingleArray, window: Window) -> npt.NDArray[np.bool_]:
+def _touching(boxes: SingleArray, window: Window) -> BoolArray:
     left, bottom, right, top = boxes.T
     across = (left < window.left + window.width + MARGIN) & (right > window.left - MARGIN)
-    touching: npt.NDArray[np.bool_] = (
-        across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
-    )
+    touching: BoolArray = across & (bottom < window.bottom + window.height + MARGIN) & (top > window.bottom - MARGIN)
     return touching

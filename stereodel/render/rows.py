@@ -7,19 +7,21 @@ weight.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import hashlib
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any, Final, Literal
 
 import numpy as np
+import numpy.typing as npt
 
 from stereodel._arrays import Pixels, as_choice
 from stereodel._extras import of_extra
 from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Page
 from stereodel.render import gl
-from stereodel.render.raster import triangulate
 from stereodel.render.sizes import pixel_height
+from stereodel.render.triangles import triangulate
 from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
 
 with of_extra("draw"):
@@ -76,6 +78,39 @@ def averaged(large: Pixels) -> Pixels:
     for row, column in np.ndindex(n, n):
         total += large[row::n, column::n]
     return (total // np.uint16(n * n)).astype(np.uint8)
+
+
+class PixelDigest:
+    """SHA-256 of a picture of known shape, of which rows are added from the top; `pixel_hash` of the whole."""
+
+    def __init__(self, shape: tuple[int, ...], dtype: npt.DTypeLike = np.uint8) -> None:
+        self._digest = hashlib.sha256(f"{shape} {np.dtype(dtype).str}\n".encode())
+
+    def add(self, rows: npt.NDArray[Any]) -> None:
+        """Add the next rows."""
+        self._digest.update(np.ascontiguousarray(rows).data)
+
+    def passed(self, rows: Iterable[Pixels]) -> Iterator[Pixels]:
+        """The rows of a picture as they are, each added on its way."""
+        for part in rows:
+            self.add(part)
+            yield part
+
+    def __str__(self) -> str:
+        return self._digest.hexdigest()
+
+
+def pixel_hash(picture: npt.NDArray[Any]) -> str:
+    """SHA-256 of the decoded pixels: of shape, type and values in row order.
+
+    Examples
+    --------
+    >>> pixel_hash(np.zeros((2, 3, 3), dtype=np.uint8))[:16]
+    '541ff73e8d70c4c6'
+    """
+    digest = PixelDigest(picture.shape, picture.dtype)
+    digest.add(picture)
+    return str(digest)
 
 
 def _over_white(color: Color) -> Color:

@@ -22,10 +22,9 @@ import numpy as np
 from stereodel._arrays import Pixels
 from stereodel._files import replacing
 from stereodel.drawing.page import Page
-from stereodel.render.digest import PixelDigest
 from stereodel.render.gl import OpenGLError
 from stereodel.render.png import png_chunks
-from stereodel.render.rows import Renderer, bare_rows
+from stereodel.render.rows import PixelDigest, Renderer, bare_rows
 from stereodel.render.sizes import as_width, pixel_height, print_pixels
 from stereodel.render.text import labelled
 from stereodel.render.vector import save_vector

@@ -1,51 +1,364 @@
-"""What goes into OpenGL and comes out: coloured triangles, windows, pixels."""
+"""A page as triangles for OpenGL: every item but labels, in painter's order.
+
+Items are placed on the picture, and from there on all is in its pixels: strokes are ribbons of constant width, dots are
+discs, and regions are cut into slabs or, where they are polygons, into fans and ears. The triangles of one item may
+overlap (a ribbon is rectangles, with a wedge at each bend and end); `stereodel.render.gl` draws an item as the union of
+its triangles. A region is cut at the height of every corner and crossing into slabs, in which the even-odd rule pairs
+the edges off; the horizontal cuts are exact, so nothing shows between the slabs.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
-from stereodel._arrays import FloatArray, IntArray, Pixels
+import numpy as np
 
-Disc = tuple[float, float, float, float]
-"""Centre x, y and radius along x and y, in pixels, which need not be quite as high as wide."""
+from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
+from stereodel.constants import FLATNESS
+from stereodel.curves.fill import triangles
+from stereodel.curves.ragged import Ragged
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import (
+    Ball,
+    Beziers,
+    Dots,
+    Fill,
+    Item,
+    Page,
+    Picture,
+    Polygons,
+    Polylines,
+    Stroke,
+)
+from stereodel.render.pieces import Corners, Disc, Piece, Pieces, Window
+
+
+def triangulate(page: Page, width: int, height: int) -> Pieces:
+    """Everything on a page but its labels as triangles of a picture of `width` by `height` pixels."""
+    left, right, bottom, top = page.extent
+    scale = np.array([width / (right - left), height / (top - bottom)])
+    canvas = _Canvas(np.array([left, bottom]), scale, width / page.width)
+    return Pieces((number, piece) for number, item in enumerate(page.items) for piece in canvas.pieces(item))
 
 
 @dataclass(frozen=True, eq=False)
-class Triangles:
-    """Coloured triangles in painter's order.
+class _Canvas:
+    """Where page coordinates and points lie in a picture."""
+
+    origin: FloatArray
+    scale: FloatArray
+    pixels_per_point: float
+
+    def pieces(self, item: Item) -> list[Piece]:
+        """What an item is made of; where pieces overlap, the first is seen."""
+        match item:
+            case Stroke():
+                return [_flat(self._stroke(item), item.color)]
+            case Polylines():
+                return [_flat(self._polylines(item), item.color)]
+            case Polygons():
+                return [self._polygons(item)]
+            case Fill():
+                return [_colored(region(self._outlines(item.paths)), np.array(item.color), self._disc(item.ball))]
+            case Dots():
+                return self._dots(item)
+            case Picture():
+                return [self._picture(item)]
+        return []
+
+    def _place(self, points: FloatArray) -> FloatArray:
+        placed: FloatArray = (points - self.origin) * self.scale
+        return placed
+
+    def _disc(self, ball: Ball | None) -> Disc | None:
+        if ball is None:
+            return None
+        (x, y), (across, up) = self._place(np.array(ball.center)).tolist(), (ball.radius * self.scale).tolist()
+        return x, y, across, up
+
+    def _outlines(self, paths: tuple[Beziers, ...]) -> list[FloatArray]:
+        return [flatten(self._place(path)) for path in paths]
+
+    def _stroke(self, stroke: Stroke) -> Corners:
+        points = flatten(self._place(stroke.path))
+        dash = stroke.dash and (stroke.dash[0] * self.pixels_per_point, stroke.dash[1] * self.pixels_per_point)
+        width = stroke.width * self.pixels_per_point
+        return ribbon(points, width, closed=stroke.closed, round_caps=stroke.cap == "round", dash=dash or None)
+
+    def _polylines(self, lines: Polylines) -> Corners:
+        return ribbons(self._place(lines.points), lines.offsets, lines.width * self.pixels_per_point)
+
+    def _polygons(self, polygons: Polygons) -> Piece:
+        loops = Ragged(self._place(polygons.points), polygons.offsets)
+        corners, owner = triangles(loops, polygons.owner)
+        return _colored(corners, polygons.colors[owner, None], self._disc(polygons.ball))
+
+    def _dots(self, dots: Dots) -> list[Piece]:
+        centers = self._place(dots.centers)
+        inner, outer = (r * self.pixels_per_point for r in (dots.radius - dots.rim_width, dots.radius))
+        pieces = [_flat(discs(centers, inner), dots.color)]
+        if dots.rim_width:
+            pieces.append(_flat(discs(centers, outer), dots.rim))
+        return pieces
+
+    def _picture(self, picture: Picture) -> Piece:
+        width, height = 1 / self.scale
+
+        def texture(window: Window) -> Pixels:
+            left, bottom = self.origin + np.array([window.left, window.bottom]) / self.scale
+            place = (left, bottom + window.height * height, width, height)
+            return picture.painter.paint(place, (window.width, window.height))
+
+        return replace(_flat(region(self._outlines(picture.outline)), (1.0, 1.0, 1.0, 1.0)), texture=texture)
+
+
+def _flat(corners: Corners, color: Color) -> Piece:
+    return _colored(corners, np.array(color), None)
+
+
+def _colored(corners: Corners, colors: FloatArray, ball: Disc | None) -> Piece:
+    """Triangles in colours that spread to their corners (n, 3, 4)."""
+    if ball is None:
+        # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
+        colors = np.floor(255 * colors + 0.5) / 255
+    return Piece(corners, np.broadcast_to(colors, (len(corners), 3, 4)), ball=ball)
+
+
+def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
+    """Points along a run of cubics so close that their chords stay within `tolerance`.
+
+    A cubic cut into n equal parts of its parameter is off by at most (3/4) M/n², M = max |Pᵢ − 2Pᵢ₊₁ + Pᵢ₊₂|
+    (Wang's formula).
+
+    Parameters
+    ----------
+    path : (k, 4, 2) array
+    tolerance : float
+        In the units of `path`.
+
+    Returns
+    -------
+    (m, 2) array
+        First to last point, m ≥ 2; neighbours may coincide.
+
+    Examples
+    --------
+    >>> line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
+    >>> flatten(line).tolist()
+    [[0.0, 0.0], [3.0, 0.0]]
+    """
+    bend = np.linalg.norm(path[:, :-2] - 2 * path[:, 1:-1] + path[:, 2:], axis=-1).max(axis=-1)
+    parts = np.maximum(1, np.ceil(np.sqrt(0.75 * bend / tolerance))).astype(np.intp)
+    piece = np.repeat(np.arange(len(path)), parts)
+    s = (_count_up(parts) / parts[piece])[:, None]
+    p0, p1, p2, p3 = (path[piece, i] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return np.concatenate([points, path[-1:, 3]])
+
+
+def ribbon(
+    points: FloatArray,
+    width: float,
+    *,
+    closed: bool = False,
+    round_caps: bool = True,
+    dash: tuple[float, float] | None = None,
+) -> Corners:
+    """A polyline of constant width with round joins.
+
+    Parameters
+    ----------
+    points : (m, 2) array
+    width : float
+        In pixels, as `dash`.
+    closed : bool
+        Whether the end is joined to the beginning.
+    round_caps : bool
+        Half discs at the ends, also of dashes; otherwise the ends are cut straight.
+    dash : (float, float), optional
+        Length of dash and gap; the first dash begins at the first point.
+
+    Returns
+    -------
+    (n, 3, 2) array
+        Triangles, which overlap; a point alone is a disc when caps are round, and nothing otherwise.
+    """
+    if closed:
+        points = np.concatenate([points, points[:1]])
+    points = _without_repeats(points)
+    if len(points) < 2:
+        return discs(points, width / 2) if round_caps else np.zeros((0, 3, 2))
+    drawn = np.ones(len(points) - 1, dtype=bool)
+    if dash is not None:
+        points, drawn = _dashed(points, *dash)
+    rings = np.array([[0, len(points) - 1]] if closed else np.zeros((0, 2)), dtype=np.intp)
+    return np.concatenate([_rectangles(points, drawn, width / 2), _bends(points, drawn, width / 2, rings, round_caps)])
+
+
+def ribbons(points: FloatArray, offsets: Indices, width: float) -> Corners:
+    """Polylines of one constant width, all at once, with round joins and ends.
 
     Parameters
     ----------
     points : (n, 2) array
-        Pixels from the lower left corner, x right, y up.
-    colors : (n, 4) array
-        sRGB and opacity in [0, 1].
-    slots : (n,) int array
-        Number of the item that a vertex belongs to; must not decrease along `faces`.
-    faces : (m, 3) int array
-        Either orientation.
-    textures : mapping of int to (height, width, 4) uint8 array
-        Number of an item → the window that is drawn as it alone would look, sRGB and opacity, rows from the top: what
-        the colours of its triangles are multiplied by, pixel for pixel.
-    balls : mapping of int to tuple of float
-        Number of an item → centre x, y and radius along x and y, pixels from the lower left corner: the ball in whose
-        light it is drawn, see `stereodel.drawing.page.Ball`.
+        In pixels, as `width`.
+    offsets : (m + 1,) int array
+        Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; a point alone is a disc.
+    width : float
+
+    Returns
+    -------
+    (k, 3, 2) array
+        Triangles, which overlap.
+
+    Examples
+    --------
+    >>> square = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]])
+    >>> both = ribbons(np.concatenate([square, square + 20]), np.array([0, 5, 10]), 1.0)
+    >>> len(both) == 2 * len(ribbon(square[:-1], 1.0, closed=True))
+    True
     """
+    line = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    kept = np.ones(len(points), dtype=bool)
+    kept[1:] = np.any(points[1:] != points[:-1], axis=1) | (line[1:] != line[:-1])
+    points, line = points[kept], line[kept]
+    drawn = line[1:] == line[:-1]
+    first = np.flatnonzero(np.concatenate([[True], ~drawn])[: len(points)])
+    last = np.append(first[1:], len(points)) - 1 if len(points) else first
+    alone = first == last
+    ring = np.all(points[first] == points[last], axis=1) & ~alone
+    rings = np.stack([first[ring], last[ring]], axis=1)
+    if not drawn.any():
+        return discs(points, width / 2)
+    bends = _bends(points, drawn, width / 2, rings, round_caps=True)
+    return np.concatenate([_rectangles(points, drawn, width / 2), bends, discs(points[first[alone]], width / 2)])
 
-    points: FloatArray
-    colors: FloatArray
-    slots: IntArray
-    faces: IntArray
-    textures: Mapping[int, Pixels] = field(default_factory=dict)
-    balls: Mapping[int, Disc] = field(default_factory=dict)
+
+def discs(centers: FloatArray, radius: float) -> Corners:
+    """A disc at each of (n, 2) centres."""
+    turn = np.full(len(centers), 2 * np.pi)
+    return _wedges(centers, np.zeros(len(centers)), turn, radius)
 
 
-@dataclass(frozen=True)
-class Window:
-    """A part of a picture, in pixels from its lower left corner, x right, y up."""
+def region(runs: Sequence[FloatArray]) -> Corners:
+    """The region inside closed polygons, (m, 2) each, by the even-odd rule; they may cross."""
+    starts = np.concatenate(runs)
+    ends = np.concatenate([np.roll(run, -1, axis=0) for run in runs])
+    sloping = starts[:, 1] != ends[:, 1]
+    down = (starts[:, 1] > ends[:, 1])[:, None]
+    low, high = np.where(down, ends, starts)[sloping], np.where(down, starts, ends)[sloping]
+    levels = np.unique(np.concatenate([low[:, 1], high[:, 1], _crossing_heights(low, high)]))
+    first = np.searchsorted(levels, low[:, 1])
+    spans = np.searchsorted(levels, high[:, 1]) - first
+    edge = np.repeat(np.arange(len(low)), spans)
+    slab = np.repeat(first, spans) + _count_up(spans)
+    bottom, top = levels[slab], levels[slab + 1]
+    left_to_right = np.lexsort((_abscissa(low, high, edge, (bottom + top) / 2), slab))
+    edge, bottom, top = edge[left_to_right], bottom[left_to_right], top[left_to_right]
+    feet = np.stack([_abscissa(low, high, edge, bottom), bottom], axis=1)
+    heads = np.stack([_abscissa(low, high, edge, top), top], axis=1)
+    quads = np.stack([feet[0::2], feet[1::2], heads[1::2], heads[0::2]], axis=1)
+    return _halved(quads)
 
-    left: int
-    bottom: int
-    width: int
-    height: int
+
+def _count_up(counts: Indices) -> Indices:
+    """The numbers 0 to counts[0] − 1, then 0 to counts[1] − 1, and so on."""
+    ends = np.cumsum(counts)
+    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
+
+
+def _without_repeats(points: FloatArray) -> FloatArray:
+    keep = np.ones(len(points), dtype=bool)
+    keep[1:] = np.any(points[1:] != points[:-1], axis=1)
+    return points[keep]
+
+
+def _halved(quads: FloatArray) -> Corners:
+    """Quadrilaterals (n, 4, 2) as two triangles each."""
+    return quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3, 2)
+
+
+def _dashed(points: FloatArray, dash: float, gap: float) -> tuple[FloatArray, BoolArray]:
+    """The polyline with points added where dashes begin and end, and which of its segments are drawn."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    begins = np.arange(0.0, along[-1], dash + gap)
+    cuts = np.concatenate([begins, begins + dash])
+    at = np.unique(np.concatenate([along, cuts[cuts < along[-1]]]))
+    cut = np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1)
+    drawn = (at[:-1] + at[1:]) / 2 % (dash + gap) < dash
+    # Cuts closer than the spacing of doubles give the same point twice.
+    apart = np.any(cut[1:] != cut[:-1], axis=1)
+    return cut[np.concatenate([[True], apart])], drawn[apart]
+
+
+def _rectangles(points: FloatArray, drawn: BoolArray, radius: float) -> Corners:
+    start, end = points[:-1][drawn], points[1:][drawn]
+    along = (end - start) / np.linalg.norm(end - start, axis=1, keepdims=True)
+    side = radius * np.stack([-along[:, 1], along[:, 0]], axis=1)
+    return _halved(np.stack([start - side, end - side, end + side, start + side], axis=1))
+
+
+def _bends(points: FloatArray, drawn: BoolArray, radius: float, rings: Indices, round_caps: bool) -> Corners:
+    """The outer side of each bend, and half a disc at each end; `rings` are first and last points of closed lines."""
+    steps = np.diff(points, axis=0)
+    angle = np.arctan2(steps[:, 1], steps[:, 0])
+    before, after = np.concatenate([[False], drawn]), np.concatenate([drawn, [False]])
+    angle_in, angle_out = np.concatenate([angle[:1], angle]), np.concatenate([angle, angle[-1:]])
+    first, last = rings.T
+    before[first], angle_in[first] = drawn[last - 1], angle[last - 1]
+    after[last] = drawn[first]
+    turn = (angle_out - angle_in + np.pi) % (2 * np.pi) - np.pi
+    joins = before & after
+    joins[last] = False  # where a closed line ends it begins, and has its bend there
+    # Turning left (turn > 0) opens the right side, a quarter turn clockwise from the direction of travel.
+    wedges = [_wedges(points[joins], (angle_in - np.copysign(np.pi / 2, turn))[joins], turn[joins], radius)]
+    if round_caps:
+        for ends, way in ((after & ~before, angle_out + np.pi / 2), (before & ~after, angle_in - np.pi / 2)):
+            wedges.append(_wedges(points[ends], way[ends], np.full(int(ends.sum()), np.pi), radius))
+    return np.concatenate(wedges)
+
+
+def _wedges(centers: FloatArray, start_rad: FloatArray, turn_rad: FloatArray, radius: float) -> Corners:
+    """Sectors of discs from the direction `start_rad` through `turn_rad`, in triangles flat to `FLATNESS`."""
+    # A chord of angle a is off by r(1 − cos(a/2)).
+    step = 2 * np.arccos(max(1 - FLATNESS / radius, 0.5)) if radius > 0 else np.pi
+    parts = np.ceil(np.abs(turn_rad) / step).astype(np.intp)
+    wedge = np.repeat(np.arange(len(parts)), parts)
+    size = turn_rad[wedge] / parts[wedge]
+    begin = start_rad[wedge] + _count_up(parts) * size
+    rim = [radius * np.stack([np.cos(a), np.sin(a)], axis=1) for a in (begin, begin + size)]
+    center = centers[wedge]
+    return np.stack([center, center + rim[0], center + rim[1]], axis=1)
+
+
+def _abscissa(low: FloatArray, high: FloatArray, edge: Indices, y: FloatArray) -> FloatArray:
+    """Where edges meet horizontal lines; exactly their ends at the heights of their ends."""
+    (x0, y0), (x1, y1) = low[edge].T, high[edge].T
+    share = (y - y0) / (y1 - y0)
+    x: FloatArray = x0 * (1 - share) + x1 * share
+    return x
+
+
+def _crossing_heights(low: FloatArray, high: FloatArray) -> FloatArray:
+    """Heights at which two edges cross inside both, found among pairs that overlap in height and width."""
+    heights = [np.zeros(0)]
+    left, right = np.minimum(low[:, 0], high[:, 0]), np.maximum(low[:, 0], high[:, 0])
+    for i in range(len(low) - 1):
+        j = (
+            i
+            + 1
+            + np.flatnonzero(
+                (low[i + 1 :, 1] < high[i, 1])
+                & (high[i + 1 :, 1] > low[i, 1])
+                & (left[i + 1 :] <= right[i])
+                & (right[i + 1 :] >= left[i])
+            )
+        )
+        bottom, top = np.maximum(low[i, 1], low[j, 1]), np.minimum(high[i, 1], high[j, 1])
+        mine = np.full(len(j), i)
+        gap0 = _abscissa(low, high, mine, bottom) - _abscissa(low, high, j, bottom)
+        gap1 = _abscissa(low, high, mine, top) - _abscissa(low, high, j, top)
+        swap = (gap0 < 0) != (gap1 < 0)
+        heights.append((bottom + (top - bottom) * gap0 / np.where(gap0 == gap1, 1.0, gap0 - gap1))[swap])
+    return np.concatenate(heights)

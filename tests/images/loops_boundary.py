@@ -18,7 +18,6 @@ class LoopsBoundary:
         self.sides = np.concatenate([np.stack([loop[:-1], loop[1:]], axis=1) for loop in loops])
         self.lengths = np.array([np.linalg.norm(np.diff(loop, axis=0), axis=1).sum() for loop in loops])
         self.areas = np.array([_area(loop) for loop in loops])
-        self.area = self.areas.sum()
 
     def wrong(self, mark):
         """What is wrong with a path that is filled in place of the loops."""
@@ -27,13 +26,13 @@ class LoopsBoundary:
         if away.max(initial=0.0) > AWAY:
             return f"the outline lies {away.max():.4g} points off"
         lost = distances(self.points, chords, FINEST_POINTS) > AWAY
-        missing = np.unique(self.loop[lost])
-        missing = missing[np.abs(self.areas[missing]) > PLACE * self.lengths[missing]]  # not needles of no width
-        longest = self.lengths[missing].max(initial=0.0)
+        wide = np.unique(self.loop[lost])
+        wide = wide[np.abs(self.areas[wide]) > THIN * self.lengths[wide]]
+        longest = self.lengths[wide].max(initial=0.0)
         if longest > LOST:
             return f"a loop {longest:.4g} points long is missing"
         length = float(np.linalg.norm(chords[:, 1] - chords[:, 0], axis=1).sum())
-        off = abs(float(area(mark.path).sum()) - self.area)
+        off = abs(float(area(mark.path).sum()) - self.areas.sum())
         return f"the area is {off:.4g} square points off" if off > FINEST_POINTS * (length + 1) else ""
 
 
@@ -42,6 +41,9 @@ AWAY = 1.05 * FINEST_POINTS + PLACE
 
 LOST = 4 * FINEST_POINTS + PLACE
 """Loops that are no longer than this may fall out: one of three corners in as many pieces of the length."""
+
+THIN = FINEST_POINTS / 20
+"""Area for its length, points, of loops that may fall out however long they are: they are straightened to lines."""
 
 
 def union_boundary(loops):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.page import Fill, Label, Polygons, Polylines, Stroke
-from stereodel.render import raster, rows, vector
+from stereodel.render import rows, triangles, vector
 from stereodel.render import text as labels
-from stereodel.render.ribbons import discs, ribbon, ribbons
+from stereodel.render.triangles import discs, ribbon, ribbons
 from tests.images.scripts import STORE, case
 from tests.images.test_vector_files import wrong_in_files
 from tools.baselines import SIZE
@@ -50,8 +50,8 @@ def test_without_a_change_all_nets_are_empty(name):
 
 @pytest.mark.parametrize("name", ["fig08_hemisphere", "globe_europe"])
 def test_lines_a_tenth_wider_in_opengl(name, monkeypatch):
-    monkeypatch.setattr(raster, "ribbon", lambda points, width, **look: ribbon(points, 1.1 * width, **look))
-    monkeypatch.setattr(raster, "ribbons", lambda points, offsets, width: ribbons(points, offsets, 1.1 * width))
+    monkeypatch.setattr(triangles, "ribbon", lambda points, width, **look: ribbon(points, 1.1 * width, **look))
+    monkeypatch.setattr(triangles, "ribbons", lambda points, offsets, width: ribbons(points, offsets, 1.1 * width))
     assert nets(name) == {"T2"}
 
 
@@ -64,7 +64,7 @@ def test_lines_a_tenth_wider_in_agg(name, monkeypatch):
 
 @pytest.mark.parametrize("name", ["fig08_hemisphere", "globe_europe"])
 def test_one_site_missing_in_opengl(name, monkeypatch):
-    monkeypatch.setattr(raster, "discs", lambda centers, radius: discs(centers[1:], radius))
+    monkeypatch.setattr(triangles, "discs", lambda centers, radius: discs(centers[1:], radius))
     assert nets(name) == {"T2"}
 
 

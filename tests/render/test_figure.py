@@ -11,9 +11,8 @@ import pytest
 
 from stereodel.drawing.page import Dots, Label, Page
 from stereodel.drawing.style import BLACK
-from stereodel.render.digest import pixel_hash
-from stereodel.render.figure import Figure
-from stereodel.render.script import default_folder
+from stereodel.render.figure import Figure, default_folder
+from stereodel.render.rows import pixel_hash
 
 
 def geometry():

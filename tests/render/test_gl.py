@@ -9,7 +9,7 @@ import pytest
 
 from stereodel.render import gl
 from stereodel.render.gl import Door, OpenGLError, choose, describe, draw
-from stereodel.render.triangles import Triangles
+from stereodel.render.pieces import Triangles
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 
@@ -186,8 +186,8 @@ def test_shaders_are_compiled_once(monkeypatch):
 SCRIPT = """
 import numpy as np
 from stereodel.render.gl import describe, draw
-from stereodel.render.triangles import Triangles
-from stereodel.render.digest import pixel_hash
+from stereodel.render.pieces import Triangles
+from stereodel.render.rows import pixel_hash
 rng = np.random.default_rng(1)
 colors = np.repeat(rng.uniform(0, 1, (300, 4)), 3, axis=0)
 slots = np.repeat(np.arange(300, dtype=np.int32), 3)

@@ -13,14 +13,14 @@ from stereodel.drawing import Label, Page, Scene, View
 from stereodel.drawing.page import Dots, Fill, Polygons, Polylines, Stroke
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
-from stereodel.render import gl, raster, rows, vector
+from stereodel.render import gl, rows, vector
 from stereodel.render import save as saving
 from stereodel.render import text as labels
-from stereodel.render.digest import PixelDigest, pixel_hash
 from stereodel.render.figure import Figure
-from stereodel.render.raster import triangulate
+from stereodel.render.pieces import Piece, Pieces, Window
+from stereodel.render.rows import PixelDigest, pixel_hash
 from stereodel.render.text import LabelLayer, labelled
-from stereodel.render.triangles import Window
+from stereodel.render.triangles import triangulate
 from stereodel.sphere import SphereCircle
 
 
@@ -99,7 +99,7 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
     rng = np.random.default_rng(6)
     corners, colors = rng.uniform(2, 38, (60, 3, 2)), np.repeat(rng.integers(0, 256, (60, 1, 4)) / 255, 3, axis=1)
     pieces, moved = (
-        raster.Pieces(enumerate(raster.Piece(c[None] + move, k[None]) for c, k in zip(corners, colors, strict=True)))
+        Pieces(enumerate(Piece(c[None] + move, k[None]) for c, k in zip(corners, colors, strict=True)))
         for move in ((0, 0), far)
     )
     near, away = Window(0, 0, 40, 40), Window(*far, 40, 40)

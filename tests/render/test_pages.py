@@ -8,9 +8,9 @@ import pytest
 
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polylines, Stroke
 from stereodel.render import gl
-from stereodel.render.raster import triangulate
+from stereodel.render.pieces import Window
 from stereodel.render.rows import SUPERSAMPLING
-from stereodel.render.triangles import Window
+from stereodel.render.triangles import triangulate
 from tools.image import compare
 
 render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")
