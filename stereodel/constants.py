@@ -269,3 +269,15 @@ OPPOSITE: Final = 1e-9
 
 Above it rounding turns the circle between them by less than 1e-6 rad, which no picture shows.
 """
+
+CHART_TOLERANCE: Final = 1e-4
+"""How far what a chart draws may be from what it stands for where nothing is said, page units: radii of its disc.
+
+A tenth of a pixel at a radius of 1000 pixels; pages of globes say it in points instead.
+"""
+
+REACH_MARGIN: Final = 1e-6
+"""Part of its radius by which a view is taken to be wider where it is asked what cannot come into sight.
+
+Rounding then leaves nothing out that touches the border; an edge too many costs a microsecond.
+"""

@@ -9,7 +9,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import UNIT_ROUNDOFF
+from stereodel.constants import CHART_TOLERANCE, REACH_MARGIN, UNIT_ROUNDOFF
 from stereodel.curves import clip, trace
 from stereodel.curves.borders import Cap, Pieces
 from stereodel.curves.ragged import Ragged, thinned
@@ -43,7 +43,7 @@ class Chart:
     view: MapView
     at: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0
-    tolerance: float = 1e-4
+    tolerance: float = CHART_TOLERANCE
 
     @cached_property
     def outline(self) -> tuple[Beziers, ...]:
@@ -104,7 +104,7 @@ class Chart:
     @property
     def _reach(self) -> float:
         """The radius of `source`, and a millionth more, so that rounding leaves nothing out that touches the border."""
-        return float(np.radians(self.source.angular_radius)) * (1 + 1e-6) + UNIT_ROUNDOFF * 8
+        return float(np.radians(self.source.angular_radius)) * (1 + REACH_MARGIN) + UNIT_ROUNDOFF * 8
 
     def _images(self, edges: trace.Edges) -> trace.Arcs:
         """Edges through the lens in view axes; half the tolerance is for this, half for the chords of the images."""

@@ -13,7 +13,18 @@ from typing import Final
 from stereodel import _kernel
 from stereodel.render.gl import VARIABLE
 
-LIBRARIES: Final = ("numpy", "scipy", "matplotlib", "trimesh", "imageio", "av", "pillow", "pyrender2", "PyOpenGL")
+LIBRARIES: Final = (
+    "numpy",
+    "scipy",
+    "matplotlib",
+    "mapbox_earcut",
+    "trimesh",
+    "imageio",
+    "av",
+    "pillow",
+    "pyrender2",
+    "PyOpenGL",
+)
 """Distributions whose version can change a picture."""
 
 NOT_DRAWN_WITH: Final = ("cli",)
