@@ -16,7 +16,6 @@ TOLERANCE = 1e-3
 
 # Bounds of errors stand beside the arithmetic that they bound; the threshold of SciPy's signature beside that.
 MAY_HOLD_SMALL_NUMBERS = ("constants.py", "predicates/", "spatial/spherical_voronoi.py")
-# These are to move to constants.py; the list only shrinks.
 
 
 def value_of(node):
