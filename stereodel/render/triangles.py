@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import BoolArray, FloatArray, Indices, Pixels
 from stereodel.constants import FLATNESS
 from stereodel.curves.fill import triangles
-from stereodel.curves.ragged import Ragged
+from stereodel.curves.ragged import Ragged, spans
 from stereodel.drawing.colors import Color
 from stereodel.drawing.page import (
     Ball,
@@ -151,7 +151,7 @@ def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
     bend = np.linalg.norm(path[:, :-2] - 2 * path[:, 1:-1] + path[:, 2:], axis=-1).max(axis=-1)
     parts = np.maximum(1, np.ceil(np.sqrt(0.75 * bend / tolerance))).astype(np.intp)
     piece = np.repeat(np.arange(len(path)), parts)
-    s = (_count_up(parts) / parts[piece])[:, None]
+    s = (spans(np.zeros_like(parts), parts) / parts[piece])[:, None]
     p0, p1, p2, p3 = (path[piece, i] for i in range(4))
     points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
     return np.concatenate([points, path[-1:, 3]])
@@ -250,9 +250,8 @@ def region(runs: Sequence[FloatArray]) -> Corners:
     low, high = np.where(down, ends, starts)[sloping], np.where(down, starts, ends)[sloping]
     levels = np.unique(np.concatenate([low[:, 1], high[:, 1], _crossing_heights(low, high)]))
     first = np.searchsorted(levels, low[:, 1])
-    spans = np.searchsorted(levels, high[:, 1]) - first
-    edge = np.repeat(np.arange(len(low)), spans)
-    slab = np.repeat(first, spans) + _count_up(spans)
+    slabs = np.searchsorted(levels, high[:, 1]) - first
+    edge, slab = np.repeat(np.arange(len(low)), slabs), spans(first, slabs)
     bottom, top = levels[slab], levels[slab + 1]
     left_to_right = np.lexsort((_abscissa(low, high, edge, (bottom + top) / 2), slab))
     edge, bottom, top = edge[left_to_right], bottom[left_to_right], top[left_to_right]
@@ -260,12 +259,6 @@ def region(runs: Sequence[FloatArray]) -> Corners:
     heads = np.stack([_abscissa(low, high, edge, top), top], axis=1)
     quads = np.stack([feet[0::2], feet[1::2], heads[1::2], heads[0::2]], axis=1)
     return _halved(quads)
-
-
-def _count_up(counts: Indices) -> Indices:
-    """The numbers 0 to counts[0] − 1, then 0 to counts[1] − 1, and so on."""
-    ends = np.cumsum(counts)
-    return np.arange(ends[-1] if len(ends) else 0) - np.repeat(ends - counts, counts)
 
 
 def _without_repeats(points: FloatArray) -> FloatArray:
@@ -326,7 +319,7 @@ def _wedges(centers: FloatArray, start_rad: FloatArray, turn_rad: FloatArray, ra
     parts = np.ceil(np.abs(turn_rad) / step).astype(np.intp)
     wedge = np.repeat(np.arange(len(parts)), parts)
     size = turn_rad[wedge] / parts[wedge]
-    begin = start_rad[wedge] + _count_up(parts) * size
+    begin = start_rad[wedge] + spans(np.zeros_like(parts), parts) * size
     rim = [radius * np.stack([np.cos(a), np.sin(a)], axis=1) for a in (begin, begin + size)]
     center = centers[wedge]
     return np.stack([center, center + rim[0], center + rim[1]], axis=1)
