@@ -15,6 +15,7 @@ from stereodel.curves.clip import signed_areas
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.globe.lines import SphereLines
+from stereodel.io.faces import triangle_sides, voronoi_sides
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
@@ -90,32 +91,22 @@ class SphereRegions:
     @classmethod
     def cells(cls, voronoi: SphericalVoronoi) -> SphereRegions:
         """The cells of a diagram, a region for each site."""
-        pairs, ends = voronoi.ridge_points.astype(np.intp), voronoi.ridge_vertices.astype(np.intp)
-        offsets, count = voronoi.region_offsets.astype(np.intp), len(voronoi.points)
-        sizes = np.diff(offsets)
+        sizes = np.diff(voronoi.region_offsets)
         if (sizes == 2).any() or (len(sizes) and len(voronoi.region_indices) == 0):
             raise ValueError(
                 "a cell has fewer than three vertices, as where all sites are on one circle; draw its ridges"
             )
-        # A ridge runs counterclockwise about its first site; in a cell a vertex is the start of one side.
-        base = len(voronoi.vertices)
-        corners = np.repeat(np.arange(count), sizes) * base + voronoi.region_indices
-        side = np.empty(len(corners), dtype=np.intp)
-        side[np.argsort(corners)] = np.argsort(pairs.T.ravel() * base + ends.T.ravel())
-        edge = np.where(side < len(pairs), side, ~(side - len(pairs)))
-        arcs = trace.great(voronoi.vertices[ends[:, 0]], voronoi.vertices[ends[:, 1]], voronoi.ridge_normals())
-        return cls._of(arcs, Ragged(edge, offsets), np.arange(count), count)
+        start, end = (voronoi.vertices[voronoi.ridge_vertices[:, k]] for k in (0, 1))
+        arcs, count = trace.great(start, end, voronoi.ridge_normals()), len(voronoi.points)
+        return cls._of(arcs, voronoi_sides(voronoi), np.arange(count), count)
 
     @classmethod
     def triangles(cls, triangulation: SphericalDelaunay) -> SphereRegions:
         """The triangles of a triangulation but the closing ones, a region for each simplex."""
         kept = np.flatnonzero(~triangulation.closing)
-        points, corners = units(triangulation.points), triangulation.simplices[kept].astype(np.intp)
-        start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
-        pairs, edge = np.unique(np.sort(np.stack([start, end], axis=1), axis=1), axis=0, return_inverse=True)
-        edge = np.where(start < end, edge.ravel(), ~edge.ravel())
+        points, (sides, pairs) = units(triangulation.points), triangle_sides(triangulation.simplices[kept])
         arcs = trace.great(points[pairs[:, 0]], points[pairs[:, 1]])
-        return cls._of(arcs, Ragged(edge, np.arange(0, len(edge) + 1, 3)), kept, len(triangulation.simplices))
+        return cls._of(arcs, sides, kept, len(triangulation.simplices))
 
     @classmethod
     def circles(cls, circles: Iterable[SphereCircle]) -> SphereRegions:
