@@ -1,4 +1,12 @@
-"""Exact Delaunay triangulations and Voronoi diagrams of the plane and the sphere, conformal maps of the sphere."""
+"""Exact Delaunay triangulations and Voronoi diagrams of the plane and the sphere, conformal maps of the sphere.
+
+What is named here needs NumPy and nothing else; the other modules, such as ``stereodel.io``, are loaded when they are
+used.
+"""
+
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import Any
 
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
 from stereodel.predicates import in_bubble, incircle, orient2d, orient3d
@@ -62,3 +70,16 @@ __all__ = [
     "solid_angle",
     "xyz_to_lonlat",
 ]
+
+_MODULES = frozenset(module.name for module in iter_modules(__path__) if not module.name.startswith("_"))
+
+
+def __getattr__(name: str) -> Any:
+    """A module of the package that was not imported yet."""
+    if name in _MODULES:
+        return import_module(f"{__name__}.{name}")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_MODULES})

@@ -30,6 +30,8 @@ BigIntegers = npt.NDArray[Any]
 Bytes = npt.NDArray[np.uint8]
 Pixels = npt.NDArray[np.uint8]
 Texts = npt.NDArray[np.str_]
+Codes = npt.NDArray[np.uint32]
+"""Letters by their numbers in Unicode."""
 Column = npt.NDArray[np.generic]
 """One value a row, of any type."""
 Geometries = npt.NDArray[np.object_]

@@ -44,8 +44,14 @@ EXTRAS: Final[Mapping[str, Extra]] = {
     ),
     "scipy": Extra("stereodel.spatial, grids as NetCDF", {"scipy": "scipy"}),
     "geo": Extra(
-        "GeoJSON of shapes, GeoPackage, Parquet, GeoDataFrames",
-        {"shapely": "shapely", "geopandas": "geopandas", "pyarrow": "pyarrow"},
+        "GeoJSON of shapes, Parquet, GDAL's formats, coordinate systems, GeoDataFrames",
+        {
+            "shapely": "shapely",
+            "geopandas": "geopandas",
+            "pyogrio": "pyogrio",
+            "pyproj": "pyproj",
+            "pyarrow": "pyarrow",
+        },
     ),
     "grid": Extra("UGRID", {"xarray": "xarray", "netCDF4": "netCDF4"}),
     "mesh": Extra("GLB, PLY, VTP", {"trimesh": "trimesh", "pyvista": "pyvista"}),

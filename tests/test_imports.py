@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+import stereodel
+
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
@@ -284,10 +286,14 @@ def test_figures_draw_through_the_library():
         assert not roots & (GRAPHICS | {"scipy"}), f"{path.name} imports {roots & NOT_IN_CORE}"
 
 
-def loaded_by(statement):
-    code = f"{statement}\nimport sys; print(*sorted({{name.split('.')[0] for name in sys.modules}}))"
+def loaded_modules(statement):
+    code = f"{statement}\nimport sys; print(*sys.modules)"
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     return set(ran.stdout.split())
+
+
+def loaded_by(statement):
+    return {name.split(".")[0] for name in loaded_modules(statement)}
 
 
 def test_import_loads_no_graphics():
@@ -302,6 +308,15 @@ def test_help_loads_nothing_heavy():
 def test_import_adds_few_modules_to_numpy():
     """A cheap stand-in for the import time, which benchmarks/import_time.py measures."""
     assert len(loaded_by("import stereodel") - loaded_by("import numpy")) < 60
+
+
+def test_modules_are_loaded_when_they_are_used():
+    assert "stereodel.io" not in loaded_modules("import stereodel; dir(stereodel)")
+    assert "stereodel.io" in loaded_modules("import stereodel; stereodel.io.read_points")
+    modules = {path.stem for path in PACKAGE.iterdir() if re.fullmatch(r"[a-z]\w*(\.py)?", path.name)} - {"kernel"}
+    assert modules < set(dir(stereodel))
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        stereodel.nothing  # noqa: B018
 
 
 def test_import_of_io_loads_no_other_library():

@@ -21,12 +21,11 @@ from stereodel.cli.options import Latitude
 from stereodel.cli.sources import LONLAT, Columns
 from stereodel.io import write
 from stereodel.io.csv_text import write_csv
+from stereodel.io.text import EXACT_INTEGERS
 
-TABLES = ("csv", "geojson", "parquet", "gpkg")
+TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 PICTURES = ("svg", "pdf")
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
-EXACT_INTEGERS = 2.0**53
-"""Larger ones would be written with digits that doubles do not have."""
 
 
 @dataclass(frozen=True)
@@ -37,12 +36,19 @@ class Destination:
     kind: str
 
     @classmethod
-    def of(cls, name: str, kind: str | None, allowed: tuple[str, ...]) -> Destination:
-        """The destination that the options --out and --format name, refused before the work if it cannot do."""
+    def of(
+        cls, name: str, kind: str | None, allowed: tuple[str, ...], *inputs: str | None, overwrite: bool = False
+    ) -> Destination:
+        """The destination that the options --out and --format name, refused before the work if it cannot do.
+
+        A file that is there is not replaced unasked, one of the inputs never.
+        """
         if name != "-" and kind is not None:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is told by its extension")
         chosen = (kind or allowed[0]) if name == "-" else Path(name).suffix
         chosen = chosen.lower().removeprefix(".")
+        if name == "-" and chosen == "shp":
+            raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
         if chosen not in allowed:
             kinds = ", ".join(f".{kind}" for kind in allowed)
             raise ValueError(f"{name}: cannot write {chosen or 'a file without extension'}; choose {kinds}")
@@ -50,6 +56,12 @@ class Destination:
             raise ValueError(f"{name}: there is no folder {Path(name).parent}")
         if Path(name).is_dir():
             raise ValueError(f"{name}: is a folder")
+        if Path(name).is_file():
+            for given in inputs:
+                if given is not None and Path(given).exists() and Path(given).samefile(name):
+                    raise ValueError(f"{name}: is read, so it cannot be written; choose another name")
+            if not overwrite:
+                raise ValueError(f"{name}: is there already; replace it with --overwrite, or choose another name")
         return cls(name, chosen)
 
     def write(self, save: Callable[[Path], object]) -> None:
@@ -60,21 +72,32 @@ class Destination:
         with tempfile.TemporaryDirectory() as folder:
             whole = Path(folder, f"stdout.{self.kind}")
             save(whole)
-            with whole.open("rb") as source:
-                shutil.copyfileobj(source, sys.stdout.buffer)
-            sys.stdout.buffer.flush()
+            if sys.stdout is None:
+                raise ValueError("stdout is closed; name a file with --out")
+            try:
+                with whole.open("rb") as source:
+                    shutil.copyfileobj(source, sys.stdout.buffer)
+                sys.stdout.buffer.flush()
+            except OSError as error:
+                error.filename = error.filename or "stdout"
+                raise
 
 
 def save_table(path: Path, axes: tuple[str, str], columns: Columns) -> None:
     """Write a table of points, as the extension says; `axes` are the columns that hold the places."""
     if path.suffix.lower() == ".csv":
-        with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-            write_csv({name: _cells(values) for name, values in columns.items()}, file)
+        save_csv(path, columns)
         return
     geopandas = optional("geopandas", "geo")
     others = {name: values for name, values in columns.items() if name not in axes}
     geometry = geopandas.points_from_xy(*(columns[axis] for axis in axes))
     write(path, geopandas.GeoDataFrame(others, geometry=geometry, crs="EPSG:4326" if axes == LONLAT else None))
+
+
+def save_csv(path: Path, columns: Columns) -> None:
+    """Write columns as text."""
+    with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
+        write_csv({name: _cells(values) for name, values in columns.items()}, file)
 
 
 def save_mesh(

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
+import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
 import typer
+
+from stereodel.io.columns import RenamedColumnWarning
 
 NOTHING_TO_DO: Final = 1
 WRONG_INPUT: Final = 2
@@ -18,15 +22,43 @@ BROKEN_PIPE: Final = 1
 """As rich and Python's own documentation have it."""
 
 
+OPTIONS: Final = {
+    "lon": "--lon",
+    "lat": "--lat",
+    "layer": "--layer-name",
+    "crs": "--crs",
+    "skip_missing": "--skip-missing",
+    "max_segment": "--max-segment",
+    "latitude": "--latitude",
+    "angular_radius": "--angular-radius",
+}
+"""Arguments of the library that messages name, and the options that stand for them here."""
+
+_ARGUMENT: Final = re.compile(
+    rf"(?P<before>^|: |with )(?P<name>{'|'.join(OPTIONS)})(?P<after>=| (?=is |must ))|with (?P<alone>skip_missing)"
+)
+
+
 class NothingToDoError(Exception):
     """The input is right, but there is nothing to write."""
 
 
 @contextmanager
 def told_plainly() -> Iterator[None]:
-    """Turn errors that a user can mend into a message and an exit code; others pass with their traceback."""
+    """Turn errors that a user can mend into a message and an exit code; others pass with their traceback.
+
+    That columns were renamed is a line on stderr, too.
+    """
     try:
-        yield
+        with warnings.catch_warnings():
+            warnings.simplefilter("always", RenamedColumnWarning)
+            show = warnings.showwarning
+            warnings.showwarning = lambda message, category, *where: (
+                typer.echo(f"note: {message}", err=True)
+                if issubclass(category, RenamedColumnWarning)
+                else show(message, category, *where)
+            )
+            yield
     except BrokenPipeError:
         # Python flushes stdout once more on its way out, and would complain there.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -41,8 +73,27 @@ def told_plainly() -> Iterator[None]:
         typer.echo("error: not enough memory for so many points", err=True)
         raise typer.Exit(WRONG_INPUT) from None
     except (OSError, ValueError, ImportError) as error:
-        typer.echo(f"error: {_in_one_line(error)}", err=True)
+        typer.echo(f"error: {in_options(_in_one_line(error))}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
+
+
+def in_options(message: str) -> str:
+    """A message in the words of the command line.
+
+    Examples
+    --------
+    >>> in_options("no column looks like the latitude; say which with lat=, the columns are 'a', 'b'")
+    "no column looks like the latitude; say which with --lat, the columns are 'a', 'b'"
+    >>> in_options("max_segment is 0.0, but must be above 0")
+    '--max-segment is 0.0, but must be above 0'
+    """
+
+    def option(found: re.Match[str]) -> str:
+        if found["alone"]:
+            return f"with {OPTIONS[found['alone']]}"
+        return f"{found['before']}{OPTIONS[found['name']]}{found['after'].rstrip('=')}"
+
+    return _ARGUMENT.sub(option, message)
 
 
 def _in_one_line(error: Exception) -> str:

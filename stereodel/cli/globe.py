@@ -36,8 +36,12 @@ def command(
     size: globe.Size = None,
     lon: options.Lon = None,
     lat: options.Lat = None,
-    latitude: options.LatitudeKind = options.Latitude.spherical,
+    layer_name: options.LayerName = None,
+    crs: options.Crs = None,
+    skip_missing: options.SkipMissing = False,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
     format: globe.Format = None,
+    overwrite: options.Overwrite = False,
 ) -> None:
     """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye.
 
@@ -51,12 +55,15 @@ def command(
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, PICTURES + FILMS)
+    read_from = (points, texture, *map(str, layer or ()))
+    destination = Destination.of(out, format, PICTURES + FILMS, *read_from, overwrite=overwrite)
     filming = destination.kind in FILMS
     if (spin or fly) and not filming:
         raise ValueError(f"--spin and --fly are for films, but {out} is none; the endings are .{', .'.join(FILMS)}")
     aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, angular_radius)
-    table = read(points, lon=lon, lat=lat) if points is not None else None
+    table = None
+    if points is not None:
+        table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage("reading maps"):
         spacing = aim.spacing if graticule is None and not filming else graticule
         lines = SPACINGS[0] if spacing is None else spacing

@@ -43,14 +43,23 @@ def command(
         str | None, typer.Option(metavar="W,S,E,N", help="Borders of the grid in degrees; the whole Earth by default.")
     ] = None,
     method: Annotated[Method, typer.Option(help="How values are found between the points.")] = Method.linear,
-    skip_missing: Annotated[
-        bool, typer.Option("--skip-missing", help="Leave out points without a value instead of refusing them.")
-    ] = False,
+    skip_missing: options.SkipMissing = False,
     lon: options.Lon = None,
     lat: options.Lat = None,
     plane: options.Plane = None,
-    latitude: options.LatitudeKind = options.Latitude.spherical,
+    at_lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Longitudes of the points of --at.")] = None,
+    at_lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Latitudes of the points of --at.")] = None,
+    layer_name: options.LayerName = None,
+    at_layer_name: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Layer of the points of --at, where a file has several.")
+    ] = None,
+    crs: options.Crs = None,
+    at_crs: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of --at.")
+    ] = None,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
     format: options.Format = None,
+    overwrite: options.Overwrite = False,
 ) -> None:
     """Interpolate values at other points, or on a grid of longitude and latitude.
 
@@ -68,19 +77,20 @@ def command(
         raise ValueError("--grid is one of longitudes and latitudes; give the points of a plane with --at")
     if at == points == "-":
         raise ValueError("POINTS and --at cannot both be stdin")
-    destination = Destination.of(out, format, TABLES if grid is None else GRIDS)
+    destination = Destination.of(out, format, TABLES if grid is None else GRIDS, points, at, overwrite=overwrite)
     wanted = None if grid is None else _grid(grid, box)
-    table = read(points, lon=lon, lat=lat, plane=plane)
+    table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     interpolated = _interpolator(table, value, method, latitude, skip_missing)
     if wanted is not None:
         places = np.stack(np.meshgrid(*wanted), axis=-1).reshape(-1, 2)
         values = dict(zip(value, interpolated(lonlat_to_xyz(places, latitude=latitude.value)).T, strict=True))
         destination.write(lambda path: _save_grid(path, *wanted, values))
         return
-    asking = read(str(at), lon=lon, lat=lat, plane=plane)
-    columns = asking.all_columns()
-    for name, found in zip(value, interpolated(asking.points(latitude)).T, strict=True):
-        columns[f"{name}_interpolated" if name in columns else name] = found
+    asking = read(
+        str(at), lon=at_lon, lat=at_lat, plane=plane, layer=at_layer_name, crs=at_crs, skip_missing=skip_missing
+    )
+    results = dict(zip(value, interpolated(asking.points(latitude)).T, strict=True))
+    columns = asking.beside(results, taken=["geometry"])
     destination.write(lambda path: save_table(path, asking.axes, columns))
 
 
@@ -123,7 +133,7 @@ def _values(table: Table, names: list[str], skip_missing: bool) -> tuple[FloatAr
         )
     kept = np.ones(len(values), dtype=np.bool_)
     kept[missing[:, 0]] = False
-    return values[kept], table.subset(kept)
+    return values[kept], table.taken(kept)
 
 
 def _grid(spacing: float, box: str | None) -> tuple[FloatArray, FloatArray]:

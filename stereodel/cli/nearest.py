@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -9,7 +10,7 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
-    from stereodel._arrays import FloatArray, IntArray
+    from stereodel._arrays import FloatArray, Indices, IntArray
     from stereodel.cli.sources import Columns, Table
 
 EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
@@ -29,41 +30,82 @@ def command(
     of_lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Longitudes of the points that ask.")] = None,
     of_lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Latitudes of the points that ask.")] = None,
     plane: options.Plane = None,
-    latitude: options.LatitudeKind = options.Latitude.spherical,
+    layer_name: options.LayerName = None,
+    of_layer_name: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Layer of the points that ask, where a file has several.")
+    ] = None,
+    crs: options.Crs = None,
+    of_crs: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of the points that ask.")
+    ] = None,
+    skip_missing: options.SkipMissing = False,
+    max_distance: Annotated[
+        float | None, typer.Option(metavar="KM", min=0, help="Leave out sites farther away; in a plane in its unit.")
+    ] = None,
+    exclude_self: Annotated[
+        bool, typer.Option("--exclude-self", help="Leave out sites at the very place of the point that asks.")
+    ] = False,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
     format: options.Format = None,
+    overwrite: options.Overwrite = False,
 ) -> None:
     """Find the sites that are nearest to each point, and their distances in kilometres.
 
     Writes the columns of the points that ask, then the row of each site in its table, the columns kept of it, and the
-    distance. With several sites a point has several rows, ranked from 1.
+    distance. With several sites a point has several rows, ranked from 1; one without any has none.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.progress import say
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, TABLES)
+    destination = Destination.of(out, format, TABLES, sites, queries, overwrite=overwrite)
     if sites == queries == "-":
         raise ValueError("SITES and --of cannot both be stdin")
-    chosen = read(sites, lon=lon, lat=lat, plane=plane)
-    asking = read(queries, lon=of_lon, lat=of_lat, plane=plane)
-    found, distances = _nearest(chosen.points(latitude), asking.points(latitude), min(count, len(chosen)))
-    columns = _columns(chosen, asking, found, distances, _kept(chosen, keep))
+    chosen = read(sites, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
+    asking = read(
+        queries, lon=of_lon, lat=of_lat, plane=plane, layer=of_layer_name, crs=of_crs, skip_missing=skip_missing
+    )
+    pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
+    columns = _columns(chosen, asking, pairs, _kept(chosen, keep), ranked=count > 1)
     destination.write(lambda path: save_table(path, asking.axes, columns))
     say(f"{out}: nearest of {len(chosen)} sites for {len(asking)} points")
 
 
-def _nearest(sites: FloatArray, queries: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
-    """Indices of the nearest sites and distances, kilometres on the sphere, both (n, count)."""
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Points that ask, by number, each with one of its sites, its rank from 1 and its distance; (m,) each."""
+
+    query: Indices
+    site: IntArray
+    rank: Indices
+    distance: FloatArray
+
+
+def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: float | None, exclude_self: bool) -> Pairs:
+    """The nearest sites of each query, up to `count`; distances are kilometres on the sphere."""
     import numpy as np
 
     from stereodel import PlanarDelaunay, SphericalDelaunay, angular_distance
     from stereodel.earth import MEAN_RADIUS_KM
 
-    kind = PlanarDelaunay if sites.shape[1] == 2 else SphericalDelaunay
-    found = np.reshape(kind(sites).nearest(queries, k=count), (len(queries), count))
-    if sites.shape[1] == 2:
-        return found, np.hypot(*np.moveaxis(sites[found] - queries[:, None], -1, 0))
-    return found, np.radians(angular_distance(queries[:, None], sites[found])) * MEAN_RADIUS_KM
+    planar = sites.shape[1] == 2
+    triangulation = PlanarDelaunay(sites) if planar else SphericalDelaunay(sites)
+    # Sites at the place of a query come before all others: so many more are asked for.
+    here = int(np.unique(sites, axis=0, return_counts=True)[1].max()) if exclude_self else 0
+    asked = min(count + here, len(sites))
+    found = np.reshape(triangulation.nearest(queries, k=asked), (len(queries), asked))
+    if planar:
+        distance = np.hypot(*np.moveaxis(sites[found] - queries[:, None], -1, 0))
+    else:
+        distance = np.radians(angular_distance(queries[:, None], sites[found])) * MEAN_RADIUS_KM
+    kept = np.ones(found.shape, dtype=np.bool_)
+    if exclude_self:
+        kept &= (sites[found] != queries[:, None]).any(axis=-1)
+    rank = np.cumsum(kept, axis=1)
+    kept &= rank <= count
+    if max_distance is not None:
+        kept &= distance <= max_distance
+    return Pairs(np.nonzero(kept)[0], found[kept], rank[kept].astype(np.intp), distance[kept])
 
 
 def _kept(sites: Table, keep: list[str] | None) -> Columns:
@@ -72,17 +114,13 @@ def _kept(sites: Table, keep: list[str] | None) -> Columns:
     return {name: sites.column(name) for name in names}
 
 
-def _columns(sites: Table, asking: Table, found: IntArray, distances: FloatArray, kept: Columns) -> Columns:
+def _columns(sites: Table, asking: Table, pairs: Pairs, kept: Columns, *, ranked: bool) -> Columns:
     """One row for each point and each of its sites."""
-    import numpy as np
+    from stereodel.io.columns import beside
 
-    count = found.shape[1]
-    flat = found.ravel()
-    table = dict(zip(asking.axes, np.repeat(asking.places, count, axis=0).T, strict=True))
-    table |= {name: np.repeat(values, count) for name, values in asking.columns.items()}
-    if count > 1:
-        table["rank"] = np.tile(np.arange(1, count + 1), len(found))
-    table["site_row"] = sites.rows[flat]
-    table |= {f"site_{name}": values[flat] for name, values in kept.items()}
-    table["distance" if sites.planar else "distance_km"] = distances.ravel()
-    return table
+    results: Columns = {"rank": pairs.rank} if ranked else {}
+    results["site_row"] = sites.rows[pairs.site]
+    distance: Columns = {"distance" if sites.planar else "distance_km": pairs.distance}
+    of_sites = {f"site_{name}": values[pairs.site] for name, values in kept.items()}
+    results |= beside([*results, *distance], of_sites) | distance
+    return asking.taken(pairs.query).beside(results, taken=["geometry"])

@@ -19,9 +19,10 @@ class Latitude(StrEnum):
 
 
 Points = Annotated[
-    str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .parquet, .gpkg; - for stdin.")
+    str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - for stdin.")
 ]
 Out = Annotated[str, typer.Option("--out", "-o", metavar="FILE", help="File to write, by its extension; - for stdout.")]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file to write, if it is there.")]
 Format = Annotated[
     str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; csv by default.")
 ]
@@ -31,12 +32,28 @@ Lon = Annotated[
 Lat = Annotated[
     str | None, typer.Option("--lat", metavar="COLUMN", help="Column of the latitudes; guessed by default.")
 ]
+LayerName = Annotated[
+    str | None, typer.Option("--layer-name", metavar="NAME", help="Layer of the points, where a file has several.")
+]
+Crs = Annotated[
+    str | None,
+    typer.Option(
+        "--crs", metavar="NAME", help="Coordinate system of the columns, e.g. EPSG:25832; degrees by default."
+    ),
+]
+SkipMissing = Annotated[
+    bool, typer.Option("--skip-missing", help="Leave out rows without a place or a value instead of refusing them.")
+]
 MaxSegment = Annotated[
     float, typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc in map formats.")
 ]
 LatitudeKind = Annotated[
     Latitude,
-    typer.Option("--latitude", help="What the latitudes are: as on a globe, as GPS and maps have them, or equal-area."),
+    typer.Option(
+        "--latitude",
+        help="What the Earth is taken for: an ellipsoid, by directions from its centre (geodetic) or with true areas "
+        "(authalic), or a sphere.",
+    ),
 ]
 Plane = Annotated[
     tuple[str, str] | None,

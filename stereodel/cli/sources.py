@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -15,7 +15,9 @@ from stereodel.cli.failures import NothingToDoError
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import stage
 from stereodel.io import read_points
+from stereodel.io.columns import beside
 from stereodel.io.reading import read_plane_points
+from stereodel.io.text import doubles
 
 Columns = dict[str, Column]
 
@@ -70,20 +72,25 @@ class Table:
         column = self.column(name)
         if column.dtype.kind in "iuf":
             return column.astype(np.float64)
-        for row, cell in zip(self.rows.tolist(), column.tolist(), strict=True):
-            if isinstance(cell, str):
-                raise ValueError(f"{self.name}: row {row}: {name} is {cell!r}, not a number")
-        return np.array([np.nan if cell is None else cell for cell in column.tolist()], dtype=np.float64)
+        values, wrong = doubles(column)
+        if wrong.any():
+            row = np.flatnonzero(wrong)[0]
+            raise ValueError(f"{self.name}: row {self.rows[row]}: {name} is {column.tolist()[row]!r}, not a number")
+        return values
 
-    def all_columns(self) -> Columns:
-        """The two of the places, then the others."""
-        places: Columns = dict(zip(self.axes, self.places.T, strict=True))
-        return places | self.columns
+    def beside(self, results: Columns, *, first: Columns | None = None, taken: Collection[str] = ()) -> Columns:
+        """The places, `first`, the other columns of the table, and results; none hides another.
 
-    def subset(self, kept: BoolArray) -> Table:
-        """Some of the points."""
-        columns = {name: values[kept] for name, values in self.columns.items()}
-        return Table(self.name, self.places[kept], self.axes, columns, self.rows[kept])
+        The names of the places, of what is new and those `taken` stay; a column that has one is renamed, and that is
+        said.
+        """
+        own: Columns = dict(zip(self.axes, self.places.T, strict=True)) | dict(first or {})
+        return own | beside([*own, *results, *taken], self.columns) | results
+
+    def taken(self, which: BoolArray | Indices) -> Table:
+        """Some of the points, by number or by whether they are kept."""
+        columns = {name: values[which] for name, values in self.columns.items()}
+        return Table(self.name, self.places[which], self.axes, columns, self.rows[which])
 
 
 def read(
@@ -92,16 +99,19 @@ def read(
     lon: str | None = None,
     lat: str | None = None,
     plane: tuple[str, str] | None = None,
+    layer: str | None = None,
+    crs: str | None = None,
+    skip_missing: bool = False,
 ) -> Table:
     """The table in a file, or on stdin when `name` is "-"; a table without points is nothing to do."""
     shown = "stdin" if name == "-" else name
     source = sys.stdin.buffer if name == "-" else name
     with stage(f"reading {shown}"), naming(shown):
         if plane is not None:
-            places, columns, rows = read_plane_points(source, *plane)
+            places, columns, rows = read_plane_points(source, *plane, layer=layer, skip_missing=skip_missing)
             table = Table(shown, places, plane, columns, rows)
         else:
-            found = read_points(source, lon=lon, lat=lat)
+            found = read_points(source, lon=lon, lat=lat, layer=layer, crs=crs, skip_missing=skip_missing)
             table = Table(shown, found.lonlat, LONLAT, dict(found.columns), found.rows)
     if len(table) == 0:
         raise NothingToDoError(f"{shown}: there are no points")

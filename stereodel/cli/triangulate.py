@@ -25,8 +25,12 @@ def command(
     lon: options.Lon = None,
     lat: options.Lat = None,
     plane: options.Plane = None,
-    latitude: options.LatitudeKind = options.Latitude.spherical,
+    layer_name: options.LayerName = None,
+    crs: options.Crs = None,
+    skip_missing: options.SkipMissing = False,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
     format: options.Format = None,
+    overwrite: options.Overwrite = False,
 ) -> None:
     """Write the Delaunay triangles of points, or their edges.
 
@@ -39,8 +43,8 @@ def command(
     from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, TABLES + MESHES)
-    table = read(points, lon=lon, lat=lat, plane=plane)
+    destination = Destination.of(out, format, TABLES + MESHES, points, overwrite=overwrite)
+    table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage(f"triangulating {len(table)} points"):
         kind = PlanarDelaunay if table.planar else SphericalDelaunay
         triangulation = kind(table.points(latitude))
@@ -62,12 +66,12 @@ def _save(
     latitude: options.Latitude,
 ) -> None:
     """Write the rows in the table of each triangle's corners, or of each edge's ends."""
-    from stereodel.cli.destinations import MESHES, TABLES, save_mesh, save_table
+    from stereodel.cli.destinations import MESHES, TABLES, save_csv, save_mesh
     from stereodel.io import to_geodataframe, write
 
     kind = path.suffix.lower().removeprefix(".")
     if kind == "csv":
-        save_table(path, ("a", "b"), _corner_rows(triangulation, what, table))
+        save_csv(path, _corner_rows(triangulation, what, table))
     elif kind in MESHES and what == "edges":
         raise ValueError(f"{path.name}: holds faces, not edges; leave out --edges or choose {', '.join(TABLES)}")
     elif kind in MESHES:

@@ -34,21 +34,25 @@ def command(
     lon: options.Lon = None,
     lat: options.Lat = None,
     plane: options.Plane = None,
-    latitude: options.LatitudeKind = options.Latitude.spherical,
+    layer_name: options.LayerName = None,
+    crs: options.Crs = None,
+    skip_missing: options.SkipMissing = False,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
     format: options.Format = None,
+    overwrite: options.Overwrite = False,
 ) -> None:
     """Write the Voronoi cell of each point: what is nearer to it than to any other, with its area.
 
-    A table has the columns of the points and the area; map formats have the cell's shape too. Of points at one place
-    the first has the cell, the others none and the area 0.
+    A table has the columns of the points and the area; map formats have the cell's shape and the point's row too. Of
+    points at one place the first has the cell, the others none and the area 0.
     """
     from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel.cli.destinations import MESHES, TABLES, Destination
     from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, TABLES + MESHES)
-    table = read(points, lon=lon, lat=lat, plane=plane)
+    destination = Destination.of(out, format, TABLES + MESHES, points, overwrite=overwrite)
+    table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage(f"cells of {len(table)} points"):
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
@@ -79,16 +83,17 @@ def _save(
 ) -> None:
     """Write the cells of a table's points with the table's columns and their areas, (n,)."""
     from stereodel._extras import optional
-    from stereodel.cli.destinations import MESHES, save_mesh, save_table
+    from stereodel.cli.destinations import MESHES, save_csv, save_mesh
     from stereodel.io import to_geodataframe, write
 
     kind = path.suffix.lower().removeprefix(".")
     if kind == "csv":
-        save_table(path, table.axes, table.all_columns() | areas)
+        save_csv(path, table.beside(areas))
     elif kind in MESHES:
         save_mesh(path, diagram, latitude)
     else:
         cells = to_geodataframe(diagram, latitude=latitude.value, max_segment=max_segment)
         point = cells["point"].to_numpy()
-        columns = {name: values[point] for name, values in ({"row": table.rows} | table.columns | areas).items()}
+        rows = table.beside(areas, first={"row": table.rows}, taken=["geometry"])
+        columns = {name: values[point] for name, values in rows.items()}
         write(path, optional("geopandas", "geo").GeoDataFrame(columns, geometry=cells.geometry, crs=cells.crs))

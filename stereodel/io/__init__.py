@@ -4,6 +4,7 @@ Every other library is imported when a function needs it; the extras ``draw``, `
 them.
 """
 
+from stereodel.io.columns import RenamedColumnWarning
 from stereodel.io.frames import to_geodataframe
 from stereodel.io.geojson import to_geojson
 from stereodel.io.meshes import to_polydata, to_trimesh
@@ -15,6 +16,7 @@ from stereodel.io.writing import write
 
 __all__ = [
     "PointTable",
+    "RenamedColumnWarning",
     "from_geodataframe",
     "from_ugrid",
     "read_points",

@@ -1,9 +1,17 @@
-"""Which columns of a table are longitude and latitude."""
+"""Names of columns: which are longitude and latitude, and what becomes of two with one name."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+import warnings
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import count
+from typing import TypeVar
+
+T = TypeVar("T")
+
+NAMES_SHOWN, NAME_SHOWN = 30, 40
+"""Columns, and letters of the name of one, that a message lists."""
 
 NAMES = {
     "lon": ({"lon", "lng", "long", "longitude"}, {"x"}),
@@ -34,6 +42,68 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
     return found[0], found[1]
 
 
+def has_lonlat(names: Sequence[str]) -> bool:
+    """Whether names are those of longitude and latitude without asking."""
+    try:
+        find_lonlat(names)
+    except ValueError:
+        return False
+    return True
+
+
+class RenamedColumnWarning(UserWarning):
+    """A column is written under another name, because its own belongs to something else there."""
+
+
+def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = False) -> dict[str, T]:
+    """Columns under names that are free beside others; a warning tells which were renamed.
+
+    A name that is taken, in any case, gets the first free number behind it: ``lon`` becomes ``lon_1``.
+
+    Parameters
+    ----------
+    taken : iterable of str
+        Names that belong to something else, such as the places.
+    columns : mapping
+        What came with the points.
+    any_case : bool
+        Whether the columns must differ in more than the case of letters among themselves, too, as in databases.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as said:
+    ...     warnings.simplefilter("always")
+    ...     beside(["lon", "lat"], {"name": 1, "Lon": 2, "lon_1": 3})
+    {'name': 1, 'Lon_1': 2, 'lon_1': 3}
+    >>> print(said[0].message)
+    column 'Lon' is written as 'Lon_1', because its name is taken
+    """
+    reserved = {name.casefold() for name in taken}
+    used: set[str] = set()
+    result: dict[str, T] = {}
+    renamed: list[str] = []
+
+    def key(name: str) -> str:
+        return name.casefold() if any_case else name
+
+    def is_free(name: str) -> bool:
+        return name.casefold() not in reserved and key(name) not in used
+
+    for name, values in columns.items():
+        free = name
+        if not is_free(name):
+            free = next(new for k in count(1) if is_free(new := f"{name}_{k}") and new not in columns)
+            renamed.append(f"{name!r} {'is written ' if not renamed else ''}as {free!r}")
+        used.add(key(free))
+        result[free] = values
+    if renamed:
+        said = " and ".join(renamed)
+        whose = "their names are" if len(renamed) > 1 else "its name is"
+        warnings.warn(f"column {said}, because {whose} taken", RenamedColumnWarning, stacklevel=2)
+    return result
+
+
 def _find(names: Sequence[str], kind: str, given: str | None) -> str:
     if given is not None:
         same = [name for name in names if name == given] or [n for n in names if n.lower() == str(given).lower()]
@@ -61,5 +131,7 @@ def words(name: str) -> set[str]:
 
 
 def listed(names: Sequence[str]) -> str:
-    """Names for a message."""
-    return ", ".join(map(repr, names)) if names else "none at all"
+    """Names for a message, which has room for so many of such lengths."""
+    shown = [repr(name if len(name) <= NAME_SHOWN else name[: NAME_SHOWN - 1] + "…") for name in names[:NAMES_SHOWN]]
+    more = [f"and {len(names) - len(shown)} more"] if len(names) > len(shown) else []
+    return ", ".join(shown + more) if names else "none at all"

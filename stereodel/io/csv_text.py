@@ -5,46 +5,66 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import islice
 from typing import TextIO
 
 import numpy as np
 
 from stereodel._arrays import Column, Indices
-from stereodel.io.columns import find_lonlat
-from stereodel.io.tables import MISSING, PointTable, table_of
+from stereodel.io.columns import has_lonlat
+from stereodel.io.text import NUMBER, texts, typed
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50
 """Lines from which the separator is found."""
 BLOCK = 20_000
 """Rows that are taken apart at once."""
+COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
+"""Lines on top that begin with a hash."""
 
 Rows = list[list[str]]
 
 
-def read_csv(text: str, *, lon: str | None = None, lat: str | None = None) -> PointTable:
-    """Points of a table as text, its columns separated by commas, semicolons, tabs, bars or blanks."""
-    table, numbers = split_columns(text)
-    where = find_lonlat(list(table), lon, lat)
-    columns = {name: typed(values) for name, values in table.items() if name not in where}
-    return table_of(table[where[0]], table[where[1]], columns, numbers)
+@dataclass(frozen=True, eq=False)
+class TextTable:
+    """Columns of text by name, the numbers of their rows, and whether commas are decimal signs."""
+
+    columns: dict[str, Column]
+    rows: Indices
+    comma: bool
+
+    def typed(self, *, without: Collection[str] = ()) -> dict[str, Column]:
+        """The columns, but some, as numbers where all their values are."""
+        return {name: typed(values, comma=self.comma) for name, values in self.columns.items() if name not in without}
 
 
-def split_columns(text: str) -> tuple[dict[str, Column], Indices]:
-    """Columns of a table as text by name, and the numbers of its rows."""
-    rows = (row for row in _split(text) if any(row) and (len(row) > 1 or row[0].strip()))
+def split_columns(text: str, wanted: Collection[str] = ()) -> TextTable:
+    """Columns of a table as text; a first line that has one of the names `wanted` is known for a header."""
+    comments = COMMENTS.match(text)
+    above = text[: comments.end()] if comments else ""
+    text = text[len(above) :]
+    mark = _separator(text)
+    lines = len(above.splitlines())
+    rows = (row for row in _rows(text, mark, lines) if any(row) and (len(row) > 1 or row[0].strip()))
     first = next(rows, None)
     if first is None:
         raise ValueError("the table is empty: there is not even a line with the names of the columns")
-    names, data = _header(first)
+    names, data = _header(first, wanted)
     # In blocks: a million lists at once keep the interpreter's collector of garbage busy.
-    blocks = [_columns(data, len(names), 0)]
+    blocks, before = [_columns(data, len(names), 0)], len(data)
     while block := list(islice(rows, BLOCK)):
-        blocks.append(_columns(block, len(names), sum(len(columns[0]) for columns in blocks)))
-    table = {name: np.concatenate(parts) for name, parts in zip(names, zip(*blocks, strict=True), strict=True)}
-    return table, np.arange(1, len(table[names[0]]) + 1)
+        blocks.append(_columns(block, len(names), before))
+        before += len(block)
+    columns = [np.concatenate(parts) for parts in zip(*blocks, strict=True)]
+    # Spreadsheets write columns without a name or a value.
+    named = {
+        name or f"column_{k}": values
+        for k, (name, values) in enumerate(zip(names, columns, strict=True), 1)
+        if name or (values != "").any()
+    }
+    return TextTable(named, np.arange(1, before + 1), comma=mark != ",")
 
 
 def _columns(rows: Rows, width: int, before: int) -> list[Column]:
@@ -52,20 +72,21 @@ def _columns(rows: Rows, width: int, before: int) -> list[Column]:
     for number, row in enumerate(rows, before + 1):
         if len(row) != width:
             raise ValueError(f"row {number} has {len(row)} fields, but there are {width} columns")
-    return [np.array(column) for column in zip(*rows, strict=True)] or [np.zeros(0, dtype="<U1")] * width
+    return [texts(column) for column in zip(*rows, strict=True)] or [np.zeros(0, dtype="<U1")] * width
 
 
-def _split(text: str) -> Iterable[list[str]]:
-    """Rows of fields: by the separator that gives all the first lines the same number, the largest one."""
-    lines = text.splitlines()[:LOOKED_AT]
+def _separator(text: str) -> str | None:
+    """The mark that gives all the first lines the same number of fields, the largest one; None for blanks."""
+    # A table may have one field as long as itself; csv refuses those of 131 072 letters, whoever asks.
+    csv.field_size_limit(max(csv.field_size_limit(), len(text)))
+    lines = list(islice(io.StringIO(text, newline=""), LOOKED_AT))
     lengths = {mark: _lengths(lines, mark) for mark in SEPARATORS}
     several = [mark for mark in SEPARATORS if max(lengths[mark], default=0) > 1]
     even = [mark for mark in several if len(lengths[mark]) == 1]
     blanks = {len(line.split()) for line in lines if line.strip()}
     if not several or (not even and len(blanks) == 1 and blanks != {1}):
-        return (line.split() for line in text.splitlines())
-    mark = max(even or several, key=lambda mark: max(lengths[mark]))
-    return csv.reader(io.StringIO(text, newline=""), delimiter=mark)
+        return None
+    return max(even or several, key=lambda mark: max(lengths[mark]))
 
 
 def _lengths(lines: list[str], mark: str) -> set[int]:
@@ -74,51 +95,41 @@ def _lengths(lines: list[str], mark: str) -> set[int]:
     return set(lengths[:-1] or lengths)
 
 
-def _header(row: list[str]) -> tuple[list[str], Rows]:
-    """Names of the columns, and the row if it is data; two columns without names are longitude and latitude."""
+def _rows(text: str, mark: str | None, above: int) -> Iterator[list[str]]:
+    """Fields of each row; a quotation mark that nothing closes is an error, not the rest of the table."""
+    lines = io.StringIO(text, newline="")
+    if mark is None:
+        yield from (line.split() for line in lines)
+        return
+    reader = csv.reader(lines, delimiter=mark, strict=True)
+    while True:
+        line = above + reader.line_num + 1
+        try:
+            row = next(reader)
+        except StopIteration:
+            return
+        except csv.Error as error:
+            raise ValueError(
+                f"line {line}: a field begins with a quotation mark but does not end with one ({error}); "
+                "inside such a field write it twice"
+            ) from error
+        yield row
+
+
+def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Rows]:
+    """Names of the columns, empty where there is none, and the row if it is data.
+
+    It is data where most of its fields are numbers, unless names of coordinates are among them. Two columns without
+    names are longitude and latitude.
+    """
     first = [field.strip() for field in row]
-    if any(_NUMBER.fullmatch(field) for field in first):
-        names = [f"column_{k}" for k in range(1, len(first) + 1)]
-        return (["lon", "lat"] if len(first) == 2 else names), [row]
-    repeated = sorted({name for name in first if first.count(name) > 1})
+    numbers = sum(NUMBER.fullmatch(field) is not None for field in first)
+    if 2 * numbers > sum(map(bool, first)) and not (set(wanted) & set(first) or has_lonlat(first)):
+        return (["lon", "lat"] if len(first) == 2 else [f"column_{k}" for k in range(1, len(first) + 1)]), [row]
+    repeated = sorted({name for name in first if name and first.count(name) > 1})
     if repeated:
         raise ValueError(f"there are several columns with the name {', '.join(map(repr, repeated))}")
     return first, []
-
-
-_NUMBER = re.compile(r"[-+]?(\d+[.,]?\d*|[.,]\d+)([eE][-+]?\d+)?")
-
-
-def typed(values: Sequence[str] | Column) -> Column:
-    """A column of text as integers or floating-point numbers, where all values are; empty ones are NaN.
-
-    Digits after a leading zero are a code, not a number.
-    """
-    text = np.asarray(values, dtype=np.str_)
-    if not _has_codes(text):
-        for kind in (np.int64, np.float64):
-            try:
-                return text.astype(kind)
-            except (ValueError, OverflowError):
-                continue
-    text = np.char.strip(text)
-    if _has_codes(text):
-        return text
-    try:
-        return np.where(np.isin(np.char.lower(text), MISSING), "nan", text).astype(np.float64)
-    except ValueError:
-        return text
-
-
-def _has_codes(text: Column) -> bool:
-    """Whether a value begins with a zero and another digit, a sign before them or not."""
-    if not text.size or text.dtype.itemsize < 8:
-        return False
-    letters = np.ascontiguousarray(text).view("<U1").reshape(len(text), -1)
-    signed = np.isin(letters[:, 0], ["+", "-"])
-    first = np.where(signed, letters[:, 1], letters[:, 0])
-    second = np.where(signed, letters[:, min(2, letters.shape[1] - 1)], letters[:, 1])
-    return bool(((first == "0") & (second >= "0") & (second <= "9")).any())
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:

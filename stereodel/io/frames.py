@@ -10,6 +10,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice, as_scalar
 from stereodel._extras import optional
 from stereodel.curves.borders import frame_of
+from stereodel.io.columns import beside
 from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
 from stereodel.sphere.latitudes import KINDS, Latitude
 
@@ -58,7 +59,8 @@ def to_geodataframe(
     geopandas.GeoDataFrame
         ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
         corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites; then
-        `columns`, then ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row.
+        `columns`, then ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. Of
+        `columns`, one with such a name gets a number behind it, which a warning tells.
 
     Raises
     ------
@@ -103,7 +105,8 @@ def to_geodataframe(
         found, shapes = geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
     given = point_columns(columns, len(mesh.points))
     if "point" in found:
-        found |= {name: values[found["point"]] for name, values in given.items()}
+        named = beside([*found, "geometry"], given)
+        found |= {name: values[found["point"]] for name, values in named.items()}
     elif given:
         raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
     kept = ~optional("shapely", "geo").is_empty(shapes)

@@ -12,7 +12,7 @@ from stereodel._arrays import as_count
 from stereodel._extras import optional
 
 
-def to_geojson(frame: Any, *, decimals: int | None = None) -> str:
+def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = False) -> str:
     """A GeoDataFrame as the text of a GeoJSON FeatureCollection.
 
     Parameters
@@ -24,6 +24,8 @@ def to_geojson(frame: Any, *, decimals: int | None = None) -> str:
         Digits after the point to which coordinates are rounded; 7 are a centimetre. By default all that are needed to
         read the same doubles back. Neighbours that share points still share them, but narrow polygons may become
         invalid.
+    sequence : bool
+        A feature a line and nothing else, as programs for large data read it, instead of a collection.
 
     Returns
     -------
@@ -55,10 +57,12 @@ def to_geojson(frame: Any, *, decimals: int | None = None) -> str:
     names = [name for name in frame.columns if name != frame.geometry.name]
     rows = zip(*(_values(frame[name].to_numpy()) for name in names), strict=True) if names else iter([()] * len(frame))
     compact = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), default=str).encode
-    features = (
+    features = [
         f'{{"type":"Feature","properties":{compact(dict(zip(names, row, strict=True)))},"geometry":{text or "null"}}}'
         for row, text in zip(rows, shapely.to_geojson(geometry), strict=True)
-    )
+    ]
+    if sequence:
+        return "\n".join(features)
     return '{"type":"FeatureCollection","features":[\n' + ",\n".join(features) + "\n]}"
 
 

@@ -1,38 +1,69 @@
-"""Reading tables of points: what a file is, and the readers that need libraries."""
+"""Reading tables of points: what a file is, and the readers of each kind."""
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import io
 import json
 import os
 import zlib
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, BinaryIO, Literal, TextIO
+from typing import Any, BinaryIO, Final, Literal, TextIO
 
 import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices, as_choice
 from stereodel._extras import optional
 from stereodel.io.columns import find_lonlat, listed
-from stereodel.io.csv_text import read_csv, split_columns, typed
-from stereodel.io.shapes import POINT
+from stereodel.io.csv_text import split_columns
+from stereodel.io.shapes import MULTIPOINT, POINT
 from stereodel.io.tables import PointTable, numbers, table_of
+from stereodel.io.text import column, texts
+from stereodel.io.vector_files import read_frame
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
-Format = Literal["csv", "geojson", "parquet", "gpkg"]
+Format = Literal["csv", "geojson", "parquet", "vector"]
+TEXT: Final = (".csv", ".tsv", ".txt")
 ENDINGS: dict[str, Format] = {
-    ".csv": "csv",
-    ".tsv": "csv",
-    ".txt": "csv",
-    ".geojson": "geojson",
-    ".json": "geojson",
-    ".parquet": "parquet",
-    ".geoparquet": "parquet",
-    ".gpkg": "gpkg",
+    **dict.fromkeys(TEXT, "csv"),
+    **dict.fromkeys((".geojson", ".json", ".geojsonl", ".geojsons"), "geojson"),
+    **dict.fromkeys((".parquet", ".geoparquet"), "parquet"),
+    **dict.fromkeys((".gpkg", ".shp", ".fgb", ".kml", ".kmz", ".gml", ".gpx", ".zip", ".xlsx", ".ods"), "vector"),
 }
+BEGINNINGS: Final[dict[bytes, str]] = {
+    b"PAR1": ".parquet",
+    b"SQLite format 3": ".gpkg",
+    b"fgb": ".fgb",
+    b"PK\x03\x04": ".zip",
+    b"\x00\x00\x27\x0a": ".shp",
+    b"<": ".kml",
+    b"{": ".geojson",
+    b"\x1e{": ".geojson",
+}
+"""First bytes of files, and the ending that files of the kind have; XML is KML or GPX, a zip archive a spreadsheet or a
+shapefile."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a caller of `read_points` says of the table."""
+
+    lon: str | None = None
+    lat: str | None = None
+    layer: str | None = None
+    crs: str | None = None
+    skip_missing: bool = False
+
+    def table(self, columns: dict[str, Column], rows: Indices, others: dict[str, Column] | None = None) -> PointTable:
+        """A table with coordinates in two of its columns; `others` are the columns as they are kept, if differently."""
+        where = find_lonlat(list(columns), self.lon, self.lat)
+        kept = {name: values for name, values in (others or columns).items() if name not in where}
+        lon, lat = (columns[name] for name in where)
+        return table_of(lon, lat, kept, rows, crs=self.crs, skip_missing=self.skip_missing)
 
 
 def read_points(
@@ -41,6 +72,9 @@ def read_points(
     lon: str | None = None,
     lat: str | None = None,
     format: Format | None = None,
+    layer: str | None = None,
+    crs: str | None = None,
+    skip_missing: bool = False,
 ) -> PointTable:
     r"""Read a table of points with longitude and latitude.
 
@@ -51,8 +85,16 @@ def read_points(
     lon, lat : str, optional
         Names of the columns in degrees. By default the one whose name is or has in it one of the words lon, lng, long,
         longitude and lat, latitude, else x and y, in any case. Files with geometries need none.
-    format : {"csv", "geojson", "parquet", "gpkg"}, optional
-        By default what the ending of the path says, else what the first bytes are.
+    format : {"csv", "geojson", "parquet", "vector"}, optional
+        By default what the ending of the path says, else what the first bytes are. "vector" is whatever GDAL reads:
+        GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).
+    layer : str, optional
+        Name of the layer, where a file has several.
+    crs : str, optional
+        Coordinate system of the columns `lon` and `lat`, eastern first, such as "EPSG:25832"; by default they are
+        degrees. Files with geometries say it themselves.
+    skip_missing : bool
+        Whether rows without a place are left out, which are an error by default.
 
     Returns
     -------
@@ -66,16 +108,19 @@ def read_points(
         latitude outside [−90, 90]; where no column or several look like longitude or latitude, listing the columns;
         for geometries other than points.
     ImportError
-        For Parquet and GeoPackage without their libraries (``pip install stereodel[geo]``). CSV and GeoJSON need none.
+        For what CSV and GeoJSON are not without its libraries, and for coordinate systems (``pip install
+        stereodel[geo]``).
     OSError
         Where the file cannot be read.
 
     Notes
     -----
-    Text is UTF-8, or UTF-16 with its mark, compressed by gzip or not. CSV: commas, semicolons, tabs, bars or blanks; a
-    decimal comma beside another separator; a line of names unless the first line has numbers. Columns become numbers
-    where all their values are, but not where digits follow a leading zero. Geometries in another coordinate system are
-    transformed to EPSG:4326; those without any are taken for longitude and latitude in degrees.
+    Text is UTF-8, or UTF-16 with its mark, compressed by gzip, bzip2 or not. CSV: commas, semicolons, tabs, bars or
+    blanks; a decimal comma beside another separator; a line of names unless most fields of the first line are numbers;
+    lines on top that begin with # are comments. Columns become numbers where all their values are and doubles hold all
+    their digits, but not where digits follow a leading zero. Geometries in another coordinate system, in GeoJSON those
+    with a member ``crs``, are transformed to EPSG:4326; those without any are taken for longitude and latitude in
+    degrees. A multipoint of one point is a point.
 
     Examples
     --------
@@ -89,18 +134,23 @@ def read_points(
         ...
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
-    content = _content(source)
-    kind = _kind(source, content)
-    return READERS[as_choice(format or kind, tuple(READERS), "format")](content, lon, lat)
+    asked = Asked(lon, lat, layer, crs, skip_missing)
+    content, path = _content(source), _path(source)
+    kind = as_choice(format or _kind(path, content), (*READERS, "vector"), "format")
+    if kind == "vector":
+        return _of_frame(_vector_frame(content, path, layer), asked)
+    return READERS[kind](content, asked)
 
 
-def read_plane_points(source: Source, x: str, y: str) -> tuple[FloatArray, dict[str, Column], Indices]:
-    r"""Points of a plane by the names of two columns of a CSV or Parquet table: (n, 2), other columns, row numbers.
+def read_plane_points(
+    source: Source, x: str, y: str, *, layer: str | None = None, skip_missing: bool = False
+) -> tuple[FloatArray, dict[str, Column], Indices]:
+    r"""Points of a plane by the names of two columns of a table: (n, 2), other columns, row numbers.
 
     Raises
     ------
     ValueError
-        For other files, columns that are not there, and rows without finite numbers, by number.
+        For GeoJSON, columns that are not there, and rows without finite numbers, by number.
 
     Examples
     --------
@@ -110,48 +160,73 @@ def read_plane_points(source: Source, x: str, y: str) -> tuple[FloatArray, dict[
     >>> points.tolist(), others["site"].tolist()
     ([[3500.0, 5400.0], [3600.0, 5410.0]], ['A', 'B'])
     """
-    content = _content(source)
-    kind = _kind(source, content)
+    content, path = _content(source), _path(source)
+    kind = _kind(path, content)
     if kind == "csv":
-        table, rows = split_columns(_text(content))
+        text = split_columns(_text(content), (x, y))
+        table, rows, others = text.columns, text.rows, text.typed(without=(x, y))
     elif kind == "parquet":
         read = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(content))
-        table = {name: read[name].to_numpy() for name in read.column_names if name != "geometry"}
-        rows = np.arange(1, read.num_rows + 1)
+        table = {name: _of_arrow(read[name]) for name in read.column_names if name != "geometry"}
+        rows, others = np.arange(1, read.num_rows + 1), table
+    elif kind == "vector":
+        frame = _vector_frame(content, path, layer)
+        table = _columns_of(frame)
+        rows, others = np.arange(1, len(frame) + 1), table
     else:
-        raise ValueError(f"columns of coordinates are those of CSV and Parquet, not of {kind}")
+        raise ValueError("columns of a plane are those of tables, not of GeoJSON")
     missing = [name for name in (x, y) if name not in table]
     if missing:
         raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(list(table))}")
-    places = np.column_stack([numbers(table[name], name, rows) for name in (x, y)])
-    others = {name: typed(values) if kind == "csv" else _plain(values) for name, values in table.items()}
-    return places, {name: values for name, values in others.items() if name not in (x, y)}, rows
+    places = np.column_stack([numbers(table[name], name, rows, gaps=skip_missing) for name in (x, y)])
+    there = ~np.isnan(places).any(axis=1)
+    kept = {name: values[there] for name, values in others.items() if name not in (x, y)}
+    return places[there], kept, rows[there]
 
 
-def _kind(source: Source, content: bytes) -> Format:
-    """By the ending of a path, else by the first bytes."""
-    ending = Path(source).suffix.lower() if isinstance(source, str | os.PathLike) else ""
-    return ENDINGS.get(ending) or _by_content(content)
+def _path(source: Source) -> Path | None:
+    return Path(source) if isinstance(source, str | os.PathLike) else None
+
+
+def _vector_frame(content: bytes, path: Path | None, layer: str | None) -> Any:
+    """The frame in a file of GDAL's formats, which it knows by their ending and beside others of their name."""
+    if path is not None:
+        return read_frame(path, layer=layer)
+    with TemporaryDirectory() as folder:
+        named = Path(folder, f"points{_ending(content)}")
+        named.write_bytes(content)
+        return read_frame(named, layer=layer)
+
+
+def _kind(path: Path | None, content: bytes) -> Format:
+    """By the ending of a path, also before that of its compression, else by the first bytes."""
+    endings = [ending.lower() for ending in path.suffixes[-2:]] if path is not None else []
+    for ending in (endings[-1:], endings[:1] if endings[-1:] in ([".gz"], [".bz2"]) else []):
+        if ending and ending[0] in ENDINGS:
+            return ENDINGS[ending[0]]
+    return ENDINGS[_ending(content)]
+
+
+def _ending(content: bytes) -> str:
+    """The ending that a file with these bytes should have."""
+    start = content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
+    found = next((ending for mark, ending in BEGINNINGS.items() if start.startswith(mark)), ".csv")
+    if found == ".zip" and b"xl/workbook.xml" in content:
+        return ".xlsx"
+    return ".gpx" if found == ".kml" and b"<gpx" in content[:1000] else found
 
 
 def _content(source: Source) -> bytes:
     content = Path(source).read_bytes() if isinstance(source, str | os.PathLike) else source.read()
     if isinstance(content, str):
         return content.encode()
-    if not content.startswith(b"\x1f\x8b"):
-        return content
     try:
-        return gzip.decompress(content)
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+        for mark, unpack in ((b"\x1f\x8b", gzip.decompress), (b"BZh", bz2.decompress)):
+            if content.startswith(mark):
+                return unpack(content)
+        return content
+    except (EOFError, zlib.error, gzip.BadGzipFile, ValueError, OSError) as error:
         raise ValueError(f"the compressed file is damaged: {error}") from error
-
-
-def _by_content(content: bytes) -> Format:
-    if content.startswith(b"PAR1"):
-        return "parquet"
-    if content.startswith(b"SQLite format 3"):
-        return "gpkg"
-    return "geojson" if content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{") else "csv"
 
 
 def _text(content: bytes) -> str:
@@ -163,15 +238,14 @@ def _text(content: bytes) -> str:
         raise ValueError(f"line {line} is not text in UTF-8; save the file in that encoding") from error
 
 
-def _read_csv(content: bytes, lon: str | None, lat: str | None) -> PointTable:
-    return read_csv(_text(content), lon=lon, lat=lat)
+def _read_csv(content: bytes, asked: Asked) -> PointTable:
+    table = split_columns(_text(content), [name for name in (asked.lon, asked.lat) if name is not None])
+    where = find_lonlat(list(table.columns), asked.lon, asked.lat)
+    return asked.table(table.columns, table.rows, table.typed(without=where))
 
 
-def _read_geojson(content: bytes, lon: str | None, lat: str | None) -> PointTable:
-    try:
-        collection = json.loads(_text(content))
-    except json.JSONDecodeError as error:
-        raise ValueError(f"the file is not JSON: {error}") from error
+def _read_geojson(content: bytes, asked: Asked) -> PointTable:
+    collection = _json(_text(content))
     features = collection.get("features") if isinstance(collection, dict) else None
     if not isinstance(features, list):
         raise ValueError("the file is not a GeoJSON FeatureCollection of points")
@@ -179,50 +253,73 @@ def _read_geojson(content: bytes, lon: str | None, lat: str | None) -> PointTabl
         if not isinstance(feature, dict) or not isinstance(feature.get("properties") or {}, dict):
             raise ValueError(f"row {row}: is not a GeoJSON Feature with properties by name; see RFC 7946")
     rows = np.arange(1, len(features) + 1)
-    places = [_position(feature.get("geometry"), row) for row, feature in enumerate(features, 1)]
+    places = [_position(feature.get("geometry"), row, asked) for row, feature in enumerate(features, 1)]
     names = dict.fromkeys(name for feature in features for name in feature.get("properties") or {})
-    columns = {name: _property(features, name) for name in names}
-    return table_of(np.array([p[0] for p in places]), np.array([p[1] for p in places]), columns, rows)
+    columns = {name: column((feature.get("properties") or {}).get(name) for feature in features) for name in names}
+    lon, lat = (column(place[k] for place in places) for k in (0, 1))
+    return table_of(lon, lat, columns, rows, crs=_crs_of(collection), skip_missing=asked.skip_missing)
 
 
-def _position(geometry: Any, row: int) -> tuple[float, float]:
-    if not isinstance(geometry, dict) or geometry.get("type") != "Point":
-        kind = geometry.get("type") if isinstance(geometry, dict) else "no geometry"
-        raise ValueError(f"row {row}: a Point is needed, not {kind}; take e.g. centroids first")
-    coordinates = geometry.get("coordinates") or (np.nan, np.nan)
+def _json(text: str) -> Any:
+    """A document of JSON, or a sequence of features (RFC 8142, or one a line) as a collection."""
+    try:
+        return json.loads(text)
+    except RecursionError:
+        raise ValueError("the file is no table: its JSON is nested too deeply") from None
+    except json.JSONDecodeError as error:
+        lines = [line.strip("\x1e \t\r") for line in text.split("\n")]
+        if not lines[0].endswith("}"):
+            raise ValueError(f"the file is not JSON: {error}") from error
+        try:
+            return {"features": [json.loads(line) for line in lines if line]}
+        except (json.JSONDecodeError, RecursionError):
+            raise ValueError(f"the file is not JSON: {error}") from error
+
+
+def _crs_of(collection: dict[str, Any]) -> str | None:
+    """The coordinate system that a collection names as GeoJSON did before RFC 7946; None for degrees."""
+    crs = collection.get("crs")
+    if crs is None:
+        return None
+    name = (crs.get("properties") or {}).get("name") if isinstance(crs, dict) else None
+    if not isinstance(name, str):
+        raise ValueError(f"the member crs of the file is {crs!r}, which names no coordinate system")
+    return None if name.upper().endswith(("CRS84", "EPSG::4326", "EPSG:4326")) else name
+
+
+def _position(geometry: Any, row: int, asked: Asked) -> tuple[Any, Any]:
+    nothing = (None, None)
+    if geometry is None and asked.skip_missing:
+        return nothing
+    kind = geometry.get("type") if isinstance(geometry, dict) else "no geometry"
+    coordinates = geometry.get("coordinates") if isinstance(geometry, dict) else None
+    if kind == "MultiPoint" and isinstance(coordinates, list) and len(coordinates) == 1:
+        kind, coordinates = "Point", coordinates[0]
+    if kind != "Point":
+        raise ValueError(f"row {row}: a Point is needed, not {kind}{_advice(kind)}")
+    if not coordinates:
+        return nothing
     if not isinstance(coordinates, list | tuple) or len(coordinates) < 2:
         raise ValueError(f"row {row}: a Point has two or three coordinates, not {coordinates!r}")
     return coordinates[0], coordinates[1]
 
 
-def _property(features: list[dict[str, Any]], name: str) -> Column:
-    """A column of properties: numbers where all are, text where all are, else objects."""
-    values = [(feature.get("properties") or {}).get(name) for feature in features]
-    if all(isinstance(value, int | float) or value is None for value in values) and not all(v is None for v in values):
-        whole = all(isinstance(value, int) for value in values)
-        return np.array([np.nan if value is None else value for value in values], dtype=None if whole else np.float64)
-    if all(isinstance(value, str) for value in values):
-        return np.array(values, dtype=np.str_)
-    array = np.empty(len(values), dtype=object)
-    array[:] = values
-    return array
+def _advice(kind: Any) -> str:
+    return "; leave such rows out with skip_missing" if kind == "no geometry" else "; take e.g. centroids first"
 
 
-def _read_parquet(content: bytes, lon: str | None, lat: str | None) -> PointTable:
+def _read_parquet(content: bytes, asked: Asked) -> PointTable:
     table = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(content))
     if b"geo" in (table.schema.metadata or {}):
-        return from_geodataframe(optional("geopandas", "geo").read_parquet(io.BytesIO(content)))
-    where = find_lonlat(table.column_names, lon, lat)
-    columns = {name: table[name].to_numpy() for name in table.column_names}
-    others = {name: _plain(values) for name, values in columns.items() if name not in where}
-    return table_of(columns[where[0]], columns[where[1]], others, np.arange(1, table.num_rows + 1))
+        return _of_frame(optional("geopandas", "geo").read_parquet(io.BytesIO(content)), asked)
+    columns = {name: _of_arrow(table[name]) for name in table.column_names}
+    return asked.table(columns, np.arange(1, table.num_rows + 1))
 
 
-def _read_gpkg(content: bytes, lon: str | None, lat: str | None) -> PointTable:
-    with TemporaryDirectory() as folder:  # a database is read in place, and named after its format
-        path = Path(folder, "points.gpkg")
-        path.write_bytes(content)
-        return from_geodataframe(optional("geopandas", "geo").read_file(path))
+def _of_arrow(values: Any) -> Column:
+    """A column of Arrow; whole numbers with gaps are no doubles where these would round them."""
+    whole = optional("pyarrow", "geo").types.is_integer(values.type)
+    return column(values.to_pylist()) if whole and values.null_count else _plain(values.to_numpy())
 
 
 def from_geodataframe(frame: Any) -> PointTable:
@@ -251,37 +348,52 @@ def from_geodataframe(frame: Any) -> PointTable:
     >>> from_geodataframe(frame).lonlat.tolist()
     [[10.0, 48.4]]
     """
+    return _of_frame(frame, Asked())
+
+
+def _of_frame(frame: Any, asked: Asked) -> PointTable:
+    """Points of a frame: of its geometries, or of two columns where it has none."""
+    if not hasattr(frame, "geometry"):
+        if not hasattr(frame, "columns"):
+            raise TypeError(f"frame must be a GeoDataFrame or GeoSeries, not {type(frame).__name__}")
+        return asked.table(_columns_of(frame), np.arange(1, len(frame) + 1))
     shapely = optional("shapely", "geo")
     series = frame.geometry
     if series.crs is not None:
         series = series.to_crs("EPSG:4326")
-    geometry, rows = np.asarray(series), np.arange(1, len(series) + 1)
-    wrong = np.flatnonzero(
-        shapely.is_missing(geometry) | shapely.is_empty(geometry) | (shapely.get_type_id(geometry) != POINT)
-    )
+    geometry, rows = np.asarray(series, dtype=object), np.arange(1, len(series) + 1)
+    alone = (shapely.get_type_id(geometry) == MULTIPOINT) & (shapely.get_num_geometries(geometry) == 1)
+    geometry = np.where(alone, shapely.get_geometry(geometry, 0), geometry)
+    nothing = shapely.is_missing(geometry) | shapely.is_empty(geometry)
+    wrong = np.flatnonzero((nothing & (not asked.skip_missing)) | (~nothing & (shapely.get_type_id(geometry) != POINT)))
     if len(wrong):
-        kind = (
-            "no geometry"
-            if geometry[wrong[0]] is None
-            else f"an empty or other geometry ({geometry[wrong[0]].geom_type})"
-        )
-        raise ValueError(f"row {rows[wrong[0]]}: a Point is needed, not {kind}; take e.g. centroids first")
+        first = geometry[wrong[0]]
+        kind = "no geometry" if first is None or first.is_empty else first.geom_type
+        raise ValueError(f"row {rows[wrong[0]]}: a Point is needed, not {kind}{_advice(kind)}")
+    x, y = shapely.get_x(geometry), shapely.get_y(geometry)
+    return table_of(x, y, _columns_of(frame), rows, skip_missing=asked.skip_missing)
+
+
+def _columns_of(frame: Any) -> dict[str, Column]:
+    """The columns of a frame that are no geometries; a series has none."""
     names = [name for name in getattr(frame, "columns", ()) if frame[name].dtype != "geometry"]
-    columns = {str(name): _plain(frame[name].to_numpy()) for name in names}
-    return table_of(shapely.get_x(geometry), shapely.get_y(geometry), columns, rows)
+    return {str(name): _plain(frame[name].to_numpy()) for name in names}
 
 
 def _plain(values: Any) -> Column:
-    """Text as an array of text rather than of objects."""
+    """Objects of one kind as an array of that kind."""
     array = np.asarray(values)
-    if array.dtype.kind == "O" and len(array) and all(isinstance(value, str) for value in array.tolist()):
-        return array.astype(np.str_)
-    return array
+    if array.dtype.kind != "O" or not len(array):
+        return array
+    cells = array.tolist()
+    if all(isinstance(cell, str) for cell in cells):
+        return texts(cells)
+    whole = all(cell is None or type(cell) is int for cell in cells)
+    return column(cells) if whole else array
 
 
-READERS: dict[str, Callable[[bytes, str | None, str | None], PointTable]] = {
+READERS: dict[Format, Callable[[bytes, Asked], PointTable]] = {
     "csv": _read_csv,
     "geojson": _read_geojson,
     "parquet": _read_parquet,
-    "gpkg": _read_gpkg,
 }

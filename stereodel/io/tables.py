@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
 import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices, as_lonlat, as_points, read_only
+from stereodel._extras import optional
+from stereodel.io.text import doubles
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,15 +63,42 @@ class PointTable:
         return len(self.lonlat)
 
 
-def table_of(lon: Column, lat: Column, columns: Mapping[str, Column], rows: Indices) -> PointTable:
+def table_of(
+    lon: Column,
+    lat: Column,
+    columns: Mapping[str, Column],
+    rows: Indices,
+    *,
+    crs: str | None = None,
+    skip_missing: bool = False,
+) -> PointTable:
     """A table of two columns of coordinates, numbers or text; what is wrong is told with the number of its row.
+
+    Parameters
+    ----------
+    lon, lat : (n,) arrays
+        Longitude and latitude, or the coordinates of another system, eastern first.
+    columns, rows
+        As for `PointTable`.
+    crs : str, optional
+        That other system, which is transformed to EPSG:4326.
+    skip_missing : bool
+        Whether rows without a place are left out.
 
     Raises
     ------
     ValueError
         Naming the first row whose longitude or latitude is missing, not a number, or out of range.
     """
-    lonlat = np.column_stack([numbers(lon, "longitude", rows), numbers(lat, "latitude", rows)])
+    names = ("longitude", "latitude") if crs is None else ("easting", "northing")
+    places = np.column_stack(
+        [numbers(v, name, rows, gaps=skip_missing) for v, name in zip((lon, lat), names, strict=True)]
+    )
+    there = ~np.isnan(places).any(axis=1)
+    lonlat, rows = places[there], rows[there]
+    columns = {name: np.asarray(values)[there] for name, values in columns.items()}
+    if crs is not None:
+        lonlat = transformed(lonlat, crs, rows)
     outside = np.flatnonzero(np.abs(lonlat[:, 1]) > 90.0)
     if len(outside):
         raise ValueError(
@@ -80,45 +108,37 @@ def table_of(lon: Column, lat: Column, columns: Mapping[str, Column], rows: Indi
     return PointTable(lonlat, columns, rows)
 
 
-def numbers(values: Column, name: str, rows: Indices) -> FloatArray:
-    """A column as finite numbers, or a ValueError that names the first row that has none."""
+def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
+    """Coordinates of another system, eastern first, as longitude and latitude."""
+    pyproj = optional("pyproj", "geo")
+    try:
+        transformer = pyproj.Transformer.from_crs(crs, "EPSG:4326", always_xy=True)
+    except pyproj.exceptions.CRSError as error:
+        raise ValueError(f"crs is {crs!r}, which PROJ does not know; give one such as EPSG:25832") from error
+    lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
+    lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
+    if len(lost):
+        x, y = places[lost[0]]
+        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) is no place of {crs}{_more(lost)}")
+    return lonlat
+
+
+def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False) -> FloatArray:
+    """A column as finite numbers, or NaN for gaps if they may be; else a ValueError that names the first such row."""
     array = np.asarray(values)
-    if array.dtype.kind not in "iuf":
-        array = _parsed(array, name, rows)
-    result = array.astype(np.float64)
-    bad = np.flatnonzero(~np.isfinite(result))
+    if array.dtype.kind in "iuf":
+        result = array.astype(np.float64)
+    else:
+        result, wrong = doubles(array)
+        if wrong.any():
+            places = np.flatnonzero(wrong)
+            said = str(array[places[0]]).strip()
+            raise ValueError(f"row {rows[places[0]]}: the {name} {said!r} is not a number{_more(places)}")
+    bad = np.flatnonzero(np.isinf(result) if gaps else ~np.isfinite(result))
     if len(bad):
         what = "is missing" if np.isnan(result[bad[0]]) else f"is {result[bad[0]]}, but must be finite"
         raise ValueError(f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; drop or fill such rows first")
     return result
-
-
-def _parsed(array: Column, name: str, rows: Indices) -> FloatArray:
-    """Text as numbers, NaN where it is empty; a comma may be the decimal sign."""
-    if array.dtype.kind == "U":
-        with suppress(ValueError):
-            return array.astype(np.float64)
-    text = np.array(["" if value is None else str(value).strip() for value in array.tolist()], dtype=np.str_)
-    text = np.where(np.isin(np.char.lower(text), MISSING), "nan", text)
-    for form in (text, np.char.replace(text, ",", ".")):
-        try:
-            return form.astype(np.float64)
-        except ValueError:
-            continue
-    wrong = np.array([not _is_number(value) for value in text.tolist()]).nonzero()[0]
-    raise ValueError(f"row {rows[wrong[0]]}: the {name} {str(text[wrong[0]])!r} is not a number{_more(wrong)}")
-
-
-MISSING = ["", "na", "n/a", "nan", "null", "none", "<na>", "-"]
-"""What stands for no value, in any case."""
-
-
-def _is_number(text: str) -> bool:
-    try:
-        float(text.replace(",", "."))
-    except ValueError:
-        return False
-    return True
 
 
 def _more(places: Column) -> str:

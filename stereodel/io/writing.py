@@ -14,6 +14,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel._files import replacing
+from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
 from stereodel.io.frames import to_geodataframe
@@ -22,6 +23,7 @@ from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
 from stereodel.io.ugrid import to_ugrid
+from stereodel.io.vector_files import DRIVERS, write_frame
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -32,6 +34,10 @@ ENDINGS = {
     ".parquet": "parquet",
     ".geoparquet": "parquet",
     ".gpkg": "gpkg",
+    ".fgb": "fgb",
+    ".shp": "shp",
+    ".kml": "kml",
+    ".geojsonl": "geojsonl",
     ".nc": "nc",
     ".glb": "glb",
     ".ply": "ply",
@@ -58,8 +64,9 @@ def write(
     format : str, optional
         By default what the ending of the path says. For a stream it is needed.
     **options
-        Of the function that makes what is in the file: `to_geodataframe` for csv, geojson (and ``decimals`` of
-        `to_geojson`), parquet and gpkg; `to_ugrid` for nc; `to_trimesh` for glb and ply; `to_polydata` for vtp.
+        Of the function that makes what is in the file: `to_geodataframe` for csv, geojson and geojsonl (and
+        ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
+        `to_polydata` for vtp.
 
     Raises
     ------
@@ -93,15 +100,18 @@ def write(
     if kind in PICTURES:
         raise ValueError(f"format is {kind!r}, a picture, but data are written here; save a page, as of `diagram_page`")
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
+    stem = Path(path).stem if isinstance(path, str | os.PathLike) else "layer"
     with TemporaryDirectory() as folder:
-        made = Path(folder, f"made.{kind}")  # libraries look at the ending
+        made = Path(folder, f"{stem}.{kind}")  # libraries look at the ending, and name the layer after the rest
         writer(thing, made, options)
-        if isinstance(path, str | os.PathLike):
-            with replacing(path) as temporary:
-                shutil.copyfile(made, temporary)
-        else:
+        if not isinstance(path, str | os.PathLike):
             with made.open("rb") as stream:
                 shutil.copyfileobj(stream, path)
+            return
+        # A shapefile is several files, and none without the one that is named.
+        for part in sorted(Path(folder).iterdir(), key=lambda part: part == made):
+            with replacing(path if part == made else Path(path).with_suffix(part.suffix)) as temporary:
+                shutil.copyfile(part, temporary)
 
 
 def _frame(thing: Any, options: dict[str, Any]) -> Any:
@@ -111,7 +121,8 @@ def _frame(thing: Any, options: dict[str, Any]) -> Any:
     _no_options(options)
     if isinstance(thing, PointTable):
         geometry = optional("shapely", "geo").points(thing.lonlat)
-        return optional("geopandas", "geo").GeoDataFrame(dict(thing.columns), geometry=geometry, crs="EPSG:4326")
+        columns = beside(["geometry"], thing.columns)
+        return optional("geopandas", "geo").GeoDataFrame(columns, geometry=geometry, crs="EPSG:4326")
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
     return thing
@@ -128,7 +139,8 @@ def _write_csv(thing: Any, path: Path, options: dict[str, Any]) -> None:
     else:
         _no_options(options)
         table = thing if isinstance(thing, PointTable) else from_geodataframe(_frame(thing, {}))
-        columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True)) | dict(table.columns)
+        places: Columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True))
+        columns = places | beside(places, table.columns)
     with path.open("w", encoding="utf-8", newline="") as stream:
         write_csv(columns, stream)
 
@@ -154,12 +166,13 @@ def _mesh_columns(
     found = dict(zip(("lon", "lat") if is_spherical(mesh) else ("x", "y"), places.T, strict=True))
     if kind == "cells":
         found["area"] = diagram_of(mesh).areas(radius=radius)
-    return found | point_columns(columns, len(places))
+    return found | beside(found, point_columns(columns, len(places)))
 
 
 def _write_geojson(thing: Any, path: Path, options: dict[str, Any]) -> None:
     decimals = options.pop("decimals", None)
-    path.write_text(to_geojson(_frame(thing, options), decimals=decimals) + "\n", encoding="utf-8")
+    sequence = path.suffix == ".geojsonl"
+    path.write_text(to_geojson(_frame(thing, options), decimals=decimals, sequence=sequence) + "\n", encoding="utf-8")
 
 
 def _write_parquet(thing: Any, path: Path, options: dict[str, Any]) -> None:
@@ -167,8 +180,8 @@ def _write_parquet(thing: Any, path: Path, options: dict[str, Any]) -> None:
     _frame(thing, options).to_parquet(path)
 
 
-def _write_gpkg(thing: Any, path: Path, options: dict[str, Any]) -> None:
-    _frame(thing, options).to_file(path, driver="GPKG")
+def _write_vector(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    write_frame(_frame(thing, options), path, layer=path.stem)
 
 
 def _write_nc(thing: Any, path: Path, options: dict[str, Any]) -> None:
@@ -188,7 +201,8 @@ WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {
     "csv": _write_csv,
     "geojson": _write_geojson,
     "parquet": _write_parquet,
-    "gpkg": _write_gpkg,
+    "geojsonl": _write_geojson,
+    **dict.fromkeys(DRIVERS, _write_vector),
     "nc": _write_nc,
     "glb": _write_trimesh,
     "ply": _write_trimesh,

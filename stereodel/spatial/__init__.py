@@ -2,9 +2,12 @@
 
 `Delaunay`, `Voronoi` and `SphericalVoronoi` have SciPy's signatures, attributes and methods over the exact
 triangulations of this library; they are subclasses of SciPy's classes, so that code which asks `isinstance` accepts
-them. `QhullError` and every other name of `scipy.spatial` are SciPy's own.
+them. `QhullError` and every other name of `scipy.spatial` are SciPy's own, submodules such as
+``stereodel.spatial.distance`` too.
 """
 
+import sys
+from importlib import import_module
 from typing import Any
 
 from stereodel._extras import of_extra
@@ -18,6 +21,12 @@ with of_extra("scipy"):
     from stereodel.spatial.voronoi import Voronoi
 
 __all__ = ["Delaunay", "QhullError", "SphericalVoronoi", "Voronoi"]
+
+for _name in ("distance", "transform"):
+    sys.modules[f"{__name__}.{_name}"] = import_module(f"scipy.spatial.{_name}")
+# Older names of modules of SciPy, whose classes have moved to the package itself: here they are the package.
+for _name in ("ckdtree", "kdtree", "qhull"):
+    sys.modules[f"{__name__}.{_name}"] = sys.modules[__name__]
 
 
 def __getattr__(name: str) -> Any:

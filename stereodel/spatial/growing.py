@@ -11,7 +11,10 @@ from stereodel._arrays import FloatArray, as_points
 from stereodel.spatial.options import Options, as_options
 from stereodel.triangulation import PlanarDelaunay
 
-OTHER_DIMENSIONS = "for other dimensions use the class of scipy.spatial"
+
+def other_dimensions(kind: type) -> str:
+    """What helps who has points of other dimensions: to compute these inexactly in silence would break a promise."""
+    return f"for other dimensions: from scipy.spatial import {kind.__name__}"
 
 
 class GrowingPoints:
@@ -29,7 +32,7 @@ class GrowingPoints:
     ) -> None:
         self._options: Options = as_options(qhull_options, furthest_site, bool(incremental))
         self._incremental = bool(incremental)
-        self._triangulation = PlanarDelaunay(as_points(points, 2, hint=OTHER_DIMENSIONS))
+        self._triangulation = PlanarDelaunay(as_points(points, 2, hint=other_dimensions(type(self))))
 
     @cached_property
     def points(self) -> FloatArray:
@@ -69,7 +72,7 @@ class GrowingPoints:
         """
         if not self._incremental:
             raise RuntimeError("incremental mode not enabled or already closed; construct with incremental=True")
-        added = as_points(points, 2, hint=OTHER_DIMENSIONS)
+        added = as_points(points, 2, hint=other_dimensions(type(self)))
         if restart:
             self._triangulation = PlanarDelaunay(np.concatenate([self._triangulation.points, added]))
         else:

@@ -8,7 +8,7 @@ import scipy.spatial
 
 from stereodel import triangulation as exact
 from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_scalar
-from stereodel.spatial.growing import OTHER_DIMENSIONS
+from stereodel.spatial.growing import other_dimensions
 
 
 class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
@@ -70,7 +70,7 @@ class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
         if radius is None:
             raise ValueError("`radius` is `None`. Please provide a floating point number (i.e. `radius=1`).")
         self.radius = as_scalar(radius, "radius", low=0.0, open_low=True)
-        self.points = np.array(as_points(points, 3, hint=OTHER_DIMENSIONS))
+        self.points = np.array(as_points(points, 3, hint=other_dimensions(type(self))))
         self.center = np.zeros(3) if center is None else _as_center(center)
         directions = self.points - self.center
         self._refuse_off_sphere(directions, as_scalar(threshold, "threshold", low=0.0))

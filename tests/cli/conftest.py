@@ -33,6 +33,7 @@ def run(folder):
         ran = CliRunner().invoke(app, [str(argument) for argument in arguments], input=stdin)
         assert ran.exit_code == code, ran.output
         assert ran.exception is None or isinstance(ran.exception, SystemExit)
+        run.said = ran.stderr
         return ran.stderr if code else ran.stdout
 
     return run

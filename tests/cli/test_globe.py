@@ -203,7 +203,7 @@ def test_pdf_to_stdout(folder):
         (["--magnify", "inf"], "--magnify is inf,"),
         (["--magnify", "nan"], "--magnify is nan,"),
         (["--magnify", "1e200"], "magnification is 1e+200, outside the range"),
-        (["--projection", "stereographic", "--angular-radius", "180"], "angular_radius"),
+        (["--projection", "stereographic", "--angular-radius", "180"], "--angular-radius"),
         (["--graticule", "7"], "must be a whole multiple"),
         (["--graticule", "-5"], "spacing is -5"),
         (["--texture", "missing.png"], "missing.png: No such file or directory"),

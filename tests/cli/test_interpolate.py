@@ -23,7 +23,7 @@ def values(folder):
 def test_values_at_the_points_themselves(values, method, run, rows):
     text = run("interpolate", "values.csv", "--value", "z", "--at", "values.csv", "--method", method, "-o", "-")
     for row in rows(text):
-        assert float(row["z_interpolated"]) == pytest.approx(float(row["z"]), abs=1e-9)
+        assert float(row["z"]) == pytest.approx(float(row["z_1"]), abs=1e-9)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -54,7 +54,7 @@ def test_missing_values(folder, run, rows):
     message = run(*options, code=2)
     assert "holes.csv: row 2: t is missing" in message
     assert "--skip-missing" in message
-    assert [row["t_interpolated"] for row in rows(run(*options, "--skip-missing"))] == ["1", "1", "3"]
+    assert [row["t"] for row in rows(run(*options, "--skip-missing"))] == ["1", "1", "3"]
 
 
 def test_outside_is_empty(folder, run, rows):

@@ -62,7 +62,8 @@ def test_interruption_leaves_nothing(folder):
 def test_a_failure_keeps_the_old_file(folder, run):
     (folder / "old.csv").write_text("kept", encoding="utf-8")
     (folder / "wrong.csv").write_text("lon,lat\n1,2\n3,95.2\n", encoding="utf-8")
-    message = run("nearest", "wrong.csv", "--of", "cities.csv", "-o", "old.csv", code=2)
+    options = ("nearest", "wrong.csv", "--of", "cities.csv", "-o", "old.csv")
+    message = run(*options, "--overwrite", code=2)
     assert message.startswith("error: wrong.csv: row 2: latitude 95.2")
     assert message.count("\n") == 1
     assert (folder / "old.csv").read_text(encoding="utf-8") == "kept"

@@ -29,12 +29,12 @@ def test_plane(folder, run, rows):
     assert areas == ["4", "", "", "", ""]
 
 
-@pytest.mark.parametrize("kind", ["geojson", "parquet", "gpkg"])
+@pytest.mark.parametrize("kind", ["geojson", "geojsonl", "parquet", "gpkg", "shp"])
 def test_shapes_tile_the_map(folder, run, kind):
     run("voronoi", "cities.csv", "-o", f"cells.{kind}", "--max-segment", 10)
     read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
     cells = read(folder / f"cells.{kind}")
-    assert list(cells.columns) == ["row", "name", "people", "area_km2", "geometry"]
+    assert list(cells.columns) == ["lon", "lat", "row", "name", "people", "area_km2", "geometry"]
     assert cells["name"].tolist() == ["Quito", "Lagos", "Ulm", "Kyoto", "Perth"]
     assert cells.is_valid.all()
     assert sum(shape.area for shape in cells.geometry) == pytest.approx(360 * 180)

@@ -239,7 +239,7 @@ def test_points_are_added_in_incremental_mode_until_closed():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((np.zeros((4, 3)),), "for other dimensions use the class of scipy.spatial"),
+        ((np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
         ((np.zeros((4, 2)), True), "furthest_site=True"),
         ((np.zeros((4, 2)), False, True, "Qbb Qz Qc"), "'Qbb', 'Qz' cannot be used with incremental=True"),
         ((np.zeros((4, 2)), False, False, "Qc QG0"), "'QG0'; known here are"),

@@ -21,3 +21,19 @@ def test_imports_work():
     names = {}
     exec(code, names)
     assert {"Delaunay", "KDTree", "SphericalVoronoi", "Voronoi", "voronoi_plot_2d"} <= set(names)
+
+
+def test_submodules_of_scipy_are_imported_by_their_paths():
+    """A script changes `scipy.spatial` to `stereodel.spatial` wherever that stands."""
+    import scipy.spatial
+
+    import stereodel.spatial.distance
+    from stereodel.spatial.distance import cdist
+    from stereodel.spatial.kdtree import KDTree
+    from stereodel.spatial.qhull import ConvexHull, Delaunay
+    from stereodel.spatial.transform import Rotation, Slerp
+
+    assert cdist is scipy.spatial.distance.cdist is stereodel.spatial.distance.cdist
+    assert (KDTree, ConvexHull) == (scipy.spatial.KDTree, scipy.spatial.ConvexHull)
+    assert (Rotation, Slerp) == (scipy.spatial.transform.Rotation, scipy.spatial.transform.Slerp)
+    assert Delaunay is stereodel.spatial.Delaunay

@@ -12,7 +12,7 @@ import pytest
 HERE = Path(__file__).resolve().parent
 FILES = ("test_qhull", "test_spherical_voronoi", "test__plotutils")
 
-DIMENSION = "for other dimensions use the class of scipy.spatial"
+DIMENSION = "for other dimensions: from scipy.spatial import "
 FURTHEST = "use the class of scipy.spatial for furthest sites"
 DIFFERENT = "AssertionError"  # a comparison fails, for the reason beside it
 ANSWERED = "DID NOT RAISE"

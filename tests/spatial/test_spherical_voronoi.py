@@ -151,7 +151,7 @@ def test_areas_fill_the_sphere(vectors, radius):
         ((sphere(), 1, [0.1, 0, 0]), "Radius inconsistent"),
         ((sphere(), -1), "radius is -1"),
         ((sphere(), 1, [0, 0]), r"center must have shape \(3,\)"),
-        ((sphere()[:, :2],), "for other dimensions use the class of scipy.spatial"),
+        ((sphere()[:, :2],), "for other dimensions: from scipy.spatial import "),
         (([[0, 0, np.nan]],), r"points\[0, 2\] is nan"),
         ((sphere(), 1, None, -1e-6), "threshold is -1e-06"),
     ],

@@ -132,7 +132,7 @@ def test_points_that_qhull_cannot_separate_have_cells_of_their_own():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ((np.zeros((4, 3)),), "for other dimensions use the class of scipy.spatial"),
+        ((np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
         ((np.zeros((4, 2)), True), "furthest_site=True"),
         ((np.zeros((4, 2)), False, False, "Qu"), "'Qu'; known here are"),
         (([[0, np.inf]],), r"points\[0, 1\] is inf"),

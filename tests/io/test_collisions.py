@@ -1,0 +1,99 @@
+"""Columns whose names are taken: every writer keeps the place that was computed with, and loses nothing."""
+
+import warnings
+
+import geopandas
+import numpy as np
+import pytest
+
+from stereodel import PlanarVoronoi, SphericalVoronoi
+from stereodel.io import PointTable, read_points, to_geodataframe, write
+from stereodel.io.columns import RenamedColumnWarning, beside
+
+LONLAT = np.array([[10.0, 48.4], [-78.5, -0.2], [135.8, 35.0], [115.9, -32.0]])
+TAKEN = {
+    "lon": [99.0, 98.0, 97.0, 96.0],
+    "LAT": [88.0, 87.0, 86.0, 85.0],
+    "area": [1, 2, 3, 4],
+    "point": [5, 6, 7, 8],
+    "geometry": ["a", "b", "c", "d"],
+    "fid": [4, 4, 4, 4],
+    "geom": [1, 1, 1, 2],
+    "name": ["Ulm", "Quito", "Kyoto", "Perth"],
+    "Name": ["U", "Q", "K", "P"],
+}
+FORMATS = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb")
+
+
+def kept(columns):
+    """What columns hold, whatever they are called: no name, no order, no type."""
+    return sorted(sorted(str(value) for value in np.asarray(values).tolist()) for values in columns.values())
+
+
+def told(said):
+    return [warning for warning in said if issubclass(warning.category, RenamedColumnWarning)]
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+@pytest.mark.parametrize("name", TAKEN)
+def test_tables_keep_their_places_and_columns(tmp_path, kind, name):
+    path = tmp_path / f"table.{kind}"
+    table = PointTable(LONLAT, {name: TAKEN[name]})
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        write(path, table)
+    found = read_points(path)
+    order = np.argsort(found.lonlat[:, 0])  # FlatGeobuf has its own
+    assert np.array_equal(found.lonlat[order], LONLAT[np.argsort(LONLAT[:, 0])])
+    assert kept(found.columns) == kept(table.columns)
+    assert len(told(said)) == (0 if list(found.columns) == [name] else 1)
+
+
+@pytest.mark.parametrize("kind", FORMATS)
+def test_cells_keep_everything(tmp_path, kind):
+    path = tmp_path / f"cells.{kind}"
+    diagram = SphericalVoronoi.from_lonlat(LONLAT)
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        write(path, diagram, columns=TAKEN)
+    assert told(said)
+    read = {"csv": lambda path: read_points(path).columns, "parquet": geopandas.read_parquet}
+    found = read.get(kind, geopandas.read_file)(path)
+    columns = {key: np.asarray(found[key]) for key in found if kind == "csv" or key != "geometry"}
+    assert np.allclose(np.sort(columns["area"]), np.sort(diagram.areas()), rtol=1e-12)
+    for values in TAKEN.values():
+        assert sorted(map(str, values)) in kept(columns)
+
+
+def test_cells_of_the_plane_keep_their_coordinates(tmp_path):
+    diagram = PlanarVoronoi([[0, 0], [4, 0], [0, 4], [4, 4.5]])
+    with pytest.warns(RenamedColumnWarning, match="'x' is written as 'x_1' and 'area' as 'area_1'"):
+        write(tmp_path / "cells.csv", diagram, columns={"x": [7, 7, 7, 7], "area": [8, 8, 8, 8]})
+    found = (tmp_path / "cells.csv").read_text(encoding="utf-8").splitlines()
+    assert found[0] == "x,y,area,x_1,area_1"
+    assert found[2].startswith("4.0,0.0,")
+
+
+def test_shapefiles_say_which_names_they_cut(tmp_path):
+    table = PointTable(LONLAT, {"a_very_long_name": [1, 2, 3, 4], "a_very_long_name_too": [5, 6, 7, 8]})
+    with pytest.warns(RenamedColumnWarning, match="as long as the format allows"):
+        write(tmp_path / "table.shp", table)
+    assert kept(read_points(tmp_path / "table.shp").columns) == kept(table.columns)
+
+
+def test_frames_of_triangles_take_no_columns_and_cells_rename_them():
+    diagram = SphericalVoronoi.from_lonlat(LONLAT)
+    with pytest.warns(RenamedColumnWarning):
+        frame = to_geodataframe(diagram, columns={"area": [1, 2, 3, 4]})
+    assert list(frame.columns) == ["point", "area", "area_1", "geometry"]
+    assert frame["area_1"].tolist() == [1, 2, 3, 4]
+
+
+def test_free_names():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert beside(["lon"], {"lat": 1, "A": 2, "a": 3}) == {"lat": 1, "A": 2, "a": 3}
+    with pytest.warns(RenamedColumnWarning):
+        assert list(beside(["a"], {"A": 1, "A_1": 2, "a_2": 3})) == ["A_2", "A_1", "a_2"]
+    with pytest.warns(RenamedColumnWarning):
+        assert list(beside([], {"A": 1, "a": 2}, any_case=True)) == ["A", "a_1"]

@@ -1,0 +1,113 @@
+"""Columns of text: nothing is lost that is not asked to be."""
+
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stereodel.io.text import LONG, column, doubles, texts, typed
+
+
+@pytest.mark.parametrize(
+    ("cells", "kind"),
+    [
+        (["1", "-2", "+3"], "i"),
+        (["1", "2.5"], "f"),
+        (["1", ""], "f"),
+        (["1", "NA"], "f"),
+        (["", ""], "f"),
+        (["NA", "NA"], "U"),
+        (["1_2", "3"], "U"),
+        (["\uff11\uff12", "3"], "U"),
+        (["007", "8"], "U"),
+        (["-07", "8"], "U"),
+        (["0", "0.5", "-0.5"], "f"),
+        (["9223372036854775807", "1"], "i"),
+        (["9223372036854775808", "1"], "U"),
+        (["9007199254740993", ""], "U"),
+        (["9007199254740992", ""], "f"),
+        (["9007199254740993", "0.5"], "U"),
+        (["0.1234567890123456789", "1"], "U"),
+        (["0.30000000000000004", "1"], "f"),
+        (["0.50000000000000000000", "1"], "f"),
+        (["1e400", "1"], "U"),
+        (["1e-400", "1"], "U"),
+        (["1.23456789e-320", "1"], "U"),
+        (["5e-324", "1"], "f"),
+        (["inf", "1"], "U"),
+        (["1,5", "2"], "U"),
+        (["1e", "2"], "U"),
+        (["--1", "2"], "U"),
+        (["a", "1"], "U"),
+    ],
+)
+def test_numbers_are_taken_where_doubles_hold_them(cells, kind):
+    found = typed(np.array(cells))
+    assert found.dtype.kind == kind
+    if kind == "U":
+        assert found.tolist() == cells
+    else:
+        known = [(cell, value) for cell, value in zip(cells, found.tolist(), strict=True) if value == value]
+        assert all(Fraction(cell) == Fraction(repr(value)) for cell, value in known)
+
+
+@pytest.mark.parametrize(
+    ("cells", "values"),
+    [(["1,5", "2"], [1.5, 2]), (["1,5", ""], [1.5, None]), (["1.5", "2,5"], None), (["1.234,5", "2"], None)],
+)
+def test_decimal_commas_beside_another_separator(cells, values):
+    found = typed(np.array(cells), comma=True).tolist()
+    assert [None if value != value else value for value in found] == (cells if values is None else values)
+
+
+@given(st.lists(st.one_of(st.integers(), st.floats(allow_nan=False, allow_infinity=False)), min_size=1, max_size=5))
+def test_what_is_written_comes_back(values):
+    cells = [repr(value) for value in values]
+    for cell, found in zip(cells, typed(np.array(cells)).tolist(), strict=True):
+        assert cell == found or Fraction(cell) == Fraction(repr(found))
+
+
+def test_one_long_field_costs_its_own_bytes():
+    cells = ["a"] * 1000 + ["x" * 50_000]
+    found = texts(cells)
+    assert found.dtype == object
+    assert found.tolist() == cells
+    assert texts(["a" * LONG] * 3).dtype.kind == "U"
+    assert texts(["a" * 200] * 3).dtype.kind == "U"
+    assert texts([]).tolist() == []
+
+
+@pytest.mark.parametrize(
+    ("values", "kind", "kept"),
+    [
+        ([1, 2], "i", [1, 2]),
+        ([1, None], "f", None),
+        ([1, 2.5], "f", [1, 2.5]),
+        ([2**53 + 1, None], "O", [2**53 + 1, None]),
+        ([2**63, -1], "O", [2**63, -1]),
+        ([2**60, 0.5], "O", [2**60, 0.5]),
+        (["a", "b"], "U", ["a", "b"]),
+        (["a", None], "O", ["a", None]),
+        ([True, False], "b", [True, False]),
+        ([True, 1], "O", [True, 1]),
+        ([None, None], "O", [None, None]),
+        ([{"a": 1}, [2]], "O", [{"a": 1}, [2]]),
+        ([], "O", []),
+    ],
+)
+def test_columns_of_values(values, kind, kept):
+    found = column(values)
+    assert found.dtype.kind == kind
+    if kept is not None:
+        assert found.tolist() == kept
+
+
+@pytest.mark.parametrize("dtype", [np.str_, object])
+def test_doubles_of_what_is_asked_for_as_numbers(dtype):
+    cells = np.array([" 1,5 ", "2.25", "-", "0.1234567890123456789", "1_0", "north", "inf"], dtype=dtype)
+    values, wrong = doubles(cells)
+    assert wrong.tolist() == [False, False, False, False, True, True, False]
+    assert values[[0, 1, 3, 6]].tolist() == [1.5, 2.25, 0.12345678901234568, np.inf]
+    assert np.isnan(values[2])
