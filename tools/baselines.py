@@ -4,8 +4,8 @@
 
 A case is a figure, or one of three frames of an animation: first, middle, last. Of each the store holds NAME.npz.xz,
 the arrays that are drawn and the geometry behind them (T0), its pixel hash in `pixels.json` (T1), NAME.png, the picture
-without text at 640 pixels (T2), and in `labels.json` the boxes of the ink of its labels (T3); see
-`tools.image`.
+without text at 640 pixels (T2), and in `labels.json` the box and the pixel hash of the ink of each label, and what set
+them (T3); see `tools.image`.
 """
 
 from __future__ import annotations
@@ -25,20 +25,23 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, Pixels
 from stereodel._files import replacing
-from stereodel.drawing.page import Page
+from stereodel.drawing.page import Label, Page
 from stereodel.film import Film
 from stereodel.render.figure import Figure
 from stereodel.render.rows import pixel_hash
 from tools.build import BuildError, find_scripts, load_drawing
+from tools.fields import item_of
 from tools.image import (
     TYPE_PIXELS,
     Arrays,
     array_differences,
     compare,
     ink_boxes,
+    ink_hashes,
     load_arrays,
     read_picture,
     save_arrays,
+    set_with,
     summarised,
 )
 
@@ -49,7 +52,7 @@ ARRAYS: Final = "npz.xz"
 """Ending of stored arrays."""
 
 HASHES: Final = "pixels.json"
-BOXES: Final = "labels.json"
+LABELS: Final = "labels.json"
 
 FRAMES: Final = ("first", "middle", "last")
 """Frames of an animation that are kept."""
@@ -81,6 +84,31 @@ class Case:
         """What T3 compares: where the ink of each label lies, (n, 4)."""
         return ink_boxes(self.page)
 
+    @cached_property
+    def ink_hashes(self) -> list[str]:
+        """What T3 compares where type is set with the same libraries: the hash of the picture of each label."""
+        return ink_hashes(self.page, SIZE)
+
+
+@dataclass(frozen=True, eq=False)
+class Lettering:
+    """A label as it was stored and as it is.
+
+    Parameters
+    ----------
+    text : str
+        Of today's.
+    stored, found : (4,) array
+        Left, bottom, right and top of its ink, in points from the lower left; NaN where there is none.
+    wrong : str
+        How it differs; empty when it does not.
+    """
+
+    text: str
+    stored: FloatArray
+    found: FloatArray
+    wrong: str
+
 
 @dataclass(frozen=True)
 class Store:
@@ -94,9 +122,9 @@ class Store:
         return self._table(HASHES)
 
     @cached_property
-    def boxes(self) -> dict[str, list[list[float] | None]]:
-        """Name → left, bottom, right and top of the ink of each label, in points; None for a label without ink."""
-        return self._table(BOXES)
+    def labels(self) -> dict[str, dict[str, Any]]:
+        """Name → what set the type and, of each label, the box of its ink in points, None without ink, and its hash."""
+        return self._table(LABELS)
 
     def otherwise(self, case: Case) -> list[str]:
         """What all nets find, the coarse ones first, which can be seen."""
@@ -107,7 +135,9 @@ class Store:
         path = self.folder / f"{case.name}.{ARRAYS}"
         if not path.is_file():
             return [f"T0: {path.name} is missing; look at the picture, then run `make baselines`"]
-        return [f"T0: {name}: {wrong}" for name, wrong in array_differences(load_arrays(path), case.arrays).items()]
+        differences = array_differences(load_arrays(path), case.arrays)
+        texts = {number: label.text for number, label in _numbered(case.page)}
+        return [f"T0: {item_of(name, texts)}: {wrong}" for name, wrong in differences.items()]
 
     def looks_otherwise(self, case: Case) -> list[str]:
         """T1, and T2 where T1 differs: what is wrong with the pixels; empty when nothing is."""
@@ -116,34 +146,57 @@ class Store:
             return [f"T1: {path.name} or its hash is missing; look at the picture, then run `make baselines`"]
         if pixel_hash(case.picture) == self.hashes[case.name]:
             return []
-        found = compare(read_picture(path), case.picture)
+        stored = read_picture(path)
+        if stored.shape != case.picture.shape:
+            (height, width), (rows, columns) = stored.shape[:2], case.picture.shape[:2]
+            return [f"T2: {columns} × {rows} pixels, expected {width} × {height}"]
+        found = compare(stored, case.picture)
         return [] if found.passes else [f"T2: {found}"]
 
     def set_otherwise(self, case: Case) -> list[str]:
-        """T3: which labels do not lie where they lay, a line each; empty when all do."""
-        if case.name not in self.boxes:
-            return [f"T3: {BOXES} has no {case.name}; look at the picture, then run `make baselines`"]
-        stored = np.array([box or [np.nan] * 4 for box in self.boxes[case.name]]).reshape(-1, 4)
-        if stored.shape != case.ink.shape:
-            return [f"T3: {len(stored)} labels expected, {len(case.ink)} found"]
+        """T3: which labels are not what they were, a line each; empty when all are."""
+        if case.name not in self.labels:
+            return [f"T3: {LABELS} has no {case.name}; look at the picture, then run `make baselines`"]
+        if (count := len(self.labels[case.name]["boxes"])) != len(case.ink):
+            return [f"T3: {count} labels expected, {len(case.ink)} found"]
+        found = zip(_numbered(case.page), self.lettering(case), strict=True)
+        return [f'T3: label {number} ("{label.text}") {found.wrong}' for (number, label), found in found if found.wrong]
+
+    def exact_type(self, case: Case) -> bool:
+        """Whether the stored type was set with the libraries of today, so that its pixels are compared."""
+        return self.labels.get(case.name, {}).get("set_with") == set_with()
+
+    def lettering(self, case: Case) -> list[Lettering]:
+        """Each label of a case beside the stored one of its place in the order."""
+        entry = self.labels.get(case.name, {"boxes": [], "hashes": []})
+        stored = np.array([box or [np.nan] * 4 for box in entry["boxes"]]).reshape(-1, 4)
         limit = TYPE_PIXELS * case.page.width / SIZE
-        return [
-            f"T3: label {number} ({label.text!r}) has its ink {apart.max():.2f} points from where it was"
-            for number, (label, apart) in enumerate(zip(case.page.labels, np.abs(stored - case.ink), strict=True))
-            if (np.isnan(stored[number]) != np.isnan(case.ink[number])).any() or (apart > limit).any()
-        ]
+        exact, letterings = self.exact_type(case), []
+        for at, (label, found) in enumerate(zip(case.page.labels, case.ink, strict=True)):
+            box, wrong = np.full(4, np.nan), "is new"
+            if at < len(stored):
+                box = stored[at]
+                other = exact and case.ink_hashes[at] != entry["hashes"][at]
+                wrong = _moved(box, found, limit) or ("looks otherwise where it was" if other else "")
+            letterings.append(Lettering(label.text, box, found, wrong))
+        return letterings
 
     def write(self, case: Case) -> None:
-        """Store a case; its hash and its boxes go into their files with `write_tables`."""
+        """Store a case; its hash and its labels go into their files with `write_tables`."""
         save_arrays(case.arrays, self.folder / f"{case.name}.{ARRAYS}")
         data = iio.imwrite("<bytes>", case.picture, extension=".png", plugin="pillow", optimize=True)
         _replace(self.folder / f"{case.name}.png", data)
         self.hashes[case.name] = pixel_hash(case.picture)
-        self.boxes[case.name] = [None if np.isnan(box).any() else box.round(1).tolist() for box in case.ink]
+        self.write_labels(case)
+
+    def write_labels(self, case: Case) -> None:
+        """Store the labels of a case, which another version of what sets type may set otherwise."""
+        boxes = [None if np.isnan(box).any() else box.round(1).tolist() for box in case.ink]
+        self.labels[case.name] = {"set_with": set_with(), "boxes": boxes, "hashes": case.ink_hashes}
 
     def write_tables(self) -> None:
         """Write `pixels.json` and `labels.json`, a line for each case."""
-        for file, table in ((HASHES, self.hashes), (BOXES, self.boxes)):
+        for file, table in ((HASHES, self.hashes), (LABELS, self.labels)):
             lines = [f" {json.dumps(name)}: {json.dumps(entry)}" for name, entry in sorted(table.items())]
             _replace(self.folder / file, ("{\n" + ",\n".join(lines) + "\n}\n").encode())
 
@@ -155,7 +208,7 @@ class Store:
         stale = [name for name in stale if name not in kept]
         for name in stale:
             self.hashes.pop(name, None)
-            self.boxes.pop(name, None)
+            self.labels.pop(name, None)
             for kind in (ARRAYS, "png"):
                 (self.folder / f"{name}.{kind}").unlink(missing_ok=True)
         return stale
@@ -196,6 +249,8 @@ def write_baselines(scripts: Path, folder: Path, names: Sequence[str] = ()) -> I
             changed = store.otherwise(case)
             if changed:
                 store.write(case)
+            elif not store.exact_type(case):
+                store.write_labels(case)
             yield f"{case.name}: {('changed' if known else 'new') if changed else 'as it was'}"
     for name in store.forget_others(n for script in find_scripts(scripts) for n in case_names(script)):
         yield f"{name}: removed, no script draws it"
@@ -216,6 +271,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         print(f"error: {error}", file=sys.stderr)
         return 2
     return 0
+
+
+def _numbered(page: Page) -> list[tuple[int, Label]]:
+    """The labels of a page with their numbers among its items."""
+    return [(number, item) for number, item in enumerate(page.items) if isinstance(item, Label)]
+
+
+def _moved(stored: FloatArray, found: FloatArray, limit: float) -> str:
+    """How the ink of a label lies otherwise by more than a limit, in points; empty when it does not."""
+    if np.isnan(stored).any() or np.isnan(found).any():
+        return "" if np.array_equal(stored, found, equal_nan=True) else "has ink where it had none, or none any more"
+    apart = float(np.abs(stored - found).max())
+    return f"has its ink {apart:.2f} points from where it was" if apart > limit else ""
 
 
 def _replace(path: Path, data: bytes) -> None:

@@ -3,7 +3,8 @@
 Four nets. T0 compares the arrays that are drawn: integers and text equal, floats within `GOLDEN_ERROR`. T1 compares
 the SHA-256 of the pixels of the picture without text. T2 compares the pixels themselves with a stored picture and lets
 a few of them differ, in the whole picture and in each part of it, because another processor may round another way. T3
-compares the places of the text (`ink_boxes`), and lets them differ by a pixel. What each of them lets pass stands here
+compares the text, label by label: its pixels where the libraries that set it are those of the stored one
+(`ink_hashes`), elsewhere its place (`ink_boxes`), which may differ by a pixel. What each of them lets pass stands here
 and not among the tolerances of the library, which know nothing of its tests.
 """
 
@@ -13,6 +14,7 @@ import io
 import lzma
 import math
 import os
+import platform
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,11 +23,15 @@ from typing import Any, Final
 import imageio.v3 as iio
 import numpy as np
 import numpy.typing as npt
+from matplotlib import ft2font
 
 from stereodel._arrays import BoolArray, FloatArray, Pixels
 from stereodel._files import replacing
 from stereodel.drawing.page import Page
+from stereodel.render.provenance import library_version
+from stereodel.render.rows import pixel_hash
 from stereodel.render.text import LabelLayer
+from tools.fields import fields_of, place_in
 
 Arrays = Mapping[str, npt.NDArray[Any]]
 
@@ -164,6 +170,16 @@ def ink_boxes(page: Page) -> FloatArray:
     return boxes
 
 
+def ink_hashes(page: Page, width_px: int) -> list[str]:
+    """SHA-256 of the picture of each label alone, on a page `width_px` pixels wide."""
+    return [pixel_hash(LabelLayer(replace(page, items=(label,)), width_px).rows()) for label in page.labels]
+
+
+def set_with() -> str:
+    """What the pixels of type depend on beside the page: versions of matplotlib and of its FreeType, and processor."""
+    return f"matplotlib {library_version('matplotlib')}, FreeType {ft2font.__freetype_version__}, {platform.machine()}"
+
+
 def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GOLDEN_ERROR) -> dict[str, str]:
     """What differs between two sets of named arrays.
 
@@ -189,7 +205,7 @@ def array_differences(expected: Arrays, actual: Arrays, *, tolerance: float = GO
             found[name] = MISSING
         elif name not in expected:
             found[name] = "not expected"
-        elif wrong := _array_difference(expected[name], actual[name], tolerance):
+        elif wrong := _array_difference(name, expected[name], actual[name], tolerance):
             found[name] = wrong
     return found
 
@@ -277,7 +293,7 @@ def levels_apart(expected: Pixels, actual: Pixels) -> npt.NDArray[np.int16]:
     return apart
 
 
-def _array_difference(expected: npt.NDArray[Any], actual: npt.NDArray[Any], tolerance: float) -> str:
+def _array_difference(name: str, expected: npt.NDArray[Any], actual: npt.NDArray[Any], tolerance: float) -> str:
     """What is wrong with an array; empty when nothing is."""
     if expected.shape != actual.shape:
         return f"shape {expected.shape} expected, {actual.shape} found"
@@ -290,6 +306,16 @@ def _array_difference(expected: npt.NDArray[Any], actual: npt.NDArray[Any], tole
         wrong = expected != actual
     if not wrong.any():
         return ""
+    if len(fields_of(name)) >= len(wrong):
+        named = zip(fields_of(name), wrong, expected, actual, strict=False)
+        return "; ".join(
+            f"{field} is {_told(found)}, expected {_told(wanted)}" for field, other, wanted, found in named if other
+        )
     first = tuple(int(i) for i in np.argwhere(wrong)[0])
     count = f"{int(wrong.sum())} of {wrong.size} entries differ"
-    return f"{count}, first at {first}: {expected[first]} expected, {actual[first]} found"
+    return f"{count}, first {place_in(name, first)}: {expected[first]} expected, {actual[first]} found"
+
+
+def _told(value: Any) -> str:
+    """A number to as many digits as are compared, or a text."""
+    return f"{value:.12g}" if isinstance(value, float) else str(value)

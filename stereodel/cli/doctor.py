@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import platform
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from typing import TYPE_CHECKING, Final
 
 import typer
 
@@ -16,20 +20,71 @@ if TYPE_CHECKING:
 
 EXAMPLE = "STEREODEL_GL=egl stereodel doctor"
 
+TRIAL: Final = """
+import dataclasses, json, sys
+from stereodel.render.gl import describe
+print(json.dumps(dataclasses.asdict(describe(sys.argv[1]))))
+"""
+"""A process draws on one platform only, and a driver may end it: so each is tried in one of its own."""
+
+SECONDS: Final = 120
+"""After which a platform that has not drawn a few pixels never will."""
+
 
 def command() -> None:
-    """Say which extras work here, what would draw, and how to get the rest; exit code 1 where no globe can be drawn."""
-    from stereodel.render import gl
+    """Draw a small picture on each platform, and say what draws, which extras work here, and how to get the rest.
 
-    found = gl.describe()
-    for title, rows in (("Versions", _versions()), ("Extras", _extras()), ("Rendering", _rendering(found))):
+    Exit code 1 where no globe can be drawn.
+    """
+    found = tried()
+    chosen, reason, problem = _choice(found)
+    rendering = _rendering(found, chosen, reason)
+    for title, rows in (("Versions", _versions()), ("Extras", _extras()), ("Rendering", rendering)):
         typer.echo(f"{title}\n{_table(rows)}\n")
-    if found.problem:
-        typer.echo(f"Globes cannot be drawn as PNG: {found.problem}.")
-        if not _missing("draw"):
+    if problem:
+        typer.echo(f"Globes cannot be drawn as PNG: {problem}.")
+        if draws := [name for name, what in found.items() if not what.problem]:
+            typer.echo(f"But {draws[0]} draws: set STEREODEL_GL={draws[0]}.")
+        elif not _missing("draw"):
             typer.echo("Plane figures, SVG and PDF files and all computations work without OpenGL.")
         raise typer.Exit(1)
     typer.echo("Ready: globes can be drawn.")
+
+
+def tried() -> dict[str, gl.Description]:
+    """Each platform whose library is there, and what came of drawing on it."""
+    from stereodel.render import gl
+
+    here = [name for name in gl.PLATFORMS if gl.can_open(name)]
+    with ThreadPoolExecutor() as pool:
+        return dict(zip(here, pool.map(_tried, here), strict=True))
+
+
+def _tried(name: str) -> gl.Description:
+    from stereodel.render import gl
+
+    try:
+        ran = subprocess.run(
+            [sys.executable, "-c", TRIAL, name], capture_output=True, text=True, timeout=SECONDS, check=False
+        )
+    except subprocess.TimeoutExpired:
+        return gl.Description(name, "argument", problem=f"{name} has drawn nothing in {SECONDS} seconds")
+    if ran.returncode:
+        last = (ran.stderr.splitlines() or ["it said nothing"])[-1]
+        problem = f"the process that drew on {name} ended with code {ran.returncode}: {last}"
+        return gl.Description(name, "argument", problem=problem)
+    return gl.Description(**json.loads(ran.stdout.splitlines()[-1]))
+
+
+def _choice(found: Mapping[str, gl.Description]) -> tuple[str, str, str]:
+    """The platform that a program would draw on, what decides it, and what is wrong with it."""
+    from stereodel.render import gl
+
+    try:
+        name, reason = gl.choose()
+    except gl.OpenGLError as error:
+        return "", "", str(error)
+    return name, reason, found[name].problem if name in found else f"no library of {name} can be opened"
 
 
 def _versions() -> list[tuple[str, str]]:
@@ -64,20 +119,24 @@ def _missing(extra: str) -> list[str]:
     return [name for name in distributions(extra) if library_version(name) == NOT_INSTALLED]
 
 
-def _rendering(found: gl.Description) -> list[tuple[str, str]]:
-    """What draws and why, and which libraries are there."""
+def _rendering(found: Mapping[str, gl.Description], chosen: str, reason: str) -> list[tuple[str, str]]:
+    """What draws and why, and what came of drawing on each platform."""
     from stereodel.render import gl
 
     reasons = {"found": "the first that can be opened"}
-    rows = [("would be used", f"{found.platform} ({reasons.get(found.chosen_by, found.chosen_by)})")]
-    if not found.platform:
-        rows = [("would be used", "nothing")]
-    if not found.problem:
-        rows += [("OpenGL", found.version), ("renderer", found.renderer)]
+    rows = [("would be used", f"{chosen} ({reasons.get(reason, reason)})" if chosen else "nothing")]
+    if chosen in found and found[chosen].version:
+        rows += [("OpenGL", found[chosen].version), ("renderer", found[chosen].renderer)]
     for name in gl.PLATFORMS:
-        here = "library found" if gl.can_open(name) else f"library missing; Debian: apt-get install {gl.PACKAGES[name]}"
-        rows.append((name, here))
+        missing = f"library missing; Debian: apt-get install {gl.PACKAGES[name]}"
+        rows.append((name, _verdict(found[name], name == chosen) if name in found else missing))
     return rows
+
+
+def _verdict(found: gl.Description, chosen: bool) -> str:
+    if found.problem:
+        return "does not draw" if chosen else f"does not draw: {found.problem}"
+    return "draws" if found.multisamples else "draws, each picture four times: it has no multisampling"
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> str:

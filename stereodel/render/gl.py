@@ -4,6 +4,9 @@ Everything goes through pyrender (the distribution pyrender2) on a software rend
 EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
 when it is first imported, so a process has one `Door`, `DOOR`, which chooses before that and opens when it is needed.
 
+Each pixel has four samples. Renderers that take one alone, like Mesa's softpipe, draw a picture four times, each time
+with another of the four in the middle of the pixels.
+
 A picture is drawn in windows, so that memory does not grow with it. They lie on one grid, counted from its upper left
 corner, whatever part is asked for: where OpenGL cuts a triangle at the edge of a window it rounds the new corners, and
 so a picture drawn at once and one written row by row are the same bits.
@@ -22,8 +25,8 @@ import ctypes
 import os
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any, Final
 
@@ -32,6 +35,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, IntArray, Pixels
 from stereodel._extras import MissingExtraError
 from stereodel.drawing.colors import Color
+from stereodel.render import trial
 from stereodel.render.mends import import_pyrender, mend_offscreen
 from stereodel.render.pieces import Triangles, Window
 
@@ -62,6 +66,9 @@ SUBPIXELS: Final = 256
 STRIDE: Final = 8192
 """Coordinates lose whole multiples of it, pixels, so that those in a window keep `SUBPIXELS` as float32 of 24 bits."""
 
+SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875))
+"""Where in a pixel llvmpipe takes its four samples, from the lower left corner; Direct3D's standard pattern too."""
+
 NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
 """How texels are looked up: names of OpenGL's C header."""
@@ -79,13 +86,17 @@ class OpenGLError(OSError):
 
 @dataclass(frozen=True)
 class Description:
-    """What would draw, for `stereodel doctor`; `problem` is empty when it works."""
+    """What would draw, for `stereodel doctor`; `problem` is empty when it works.
+
+    Without `multisamples` each picture is drawn four times.
+    """
 
     platform: str
     chosen_by: str
     version: str = ""
     renderer: str = ""
     problem: str = ""
+    multisamples: bool = True
 
     @property
     def mesa(self) -> str:
@@ -212,6 +223,8 @@ def bands(
 def describe(platform: str | None = None) -> Description:
     """What would draw in this process and with which versions; a failure is the `problem`, never an exception.
 
+    A small picture is drawn and compared with what it must be.
+
     Examples
     --------
     >>> describe("osmesa").platform
@@ -243,13 +256,15 @@ class Door:
 
     def describe(self, platform: str | None = None) -> Description:
         """See `describe` of this module."""
-        name, reason = "", ""
+        found = Description("", "")
         try:
-            name, reason = self._choice(platform)
-            version, renderer = self.context(platform).strings()
+            found = Description(*self._choice(platform))
+            context = self.context(platform)
+            version, renderer = context.strings()
+            found = replace(found, version=version, renderer=renderer, multisamples=context.multisamples)
+            return replace(found, problem=context.trial_problem())
         except (OpenGLError, MissingExtraError, ValueError) as error:
-            return Description(name, reason, problem=str(error))
-        return Description(name, reason, version, renderer)
+            return replace(found, problem=str(error))
 
     def close(self) -> None:
         """Give the context back."""
@@ -281,22 +296,47 @@ class _Context:
                 with _environment(EGL_DEVICE_ID=device):
                     self._offscreen = self._pyrender.OffscreenRenderer(16, 16)
                 self._offscreen._renderer._program_cache.shader_dir = SHADERS
-                mend_offscreen(self._offscreen, GL)
+                self.multisamples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)) >= len(SAMPLES)
+                mend_offscreen(self._offscreen, GL, multisamples=self.multisamples)
             except OpenGLError:
                 raise
             except Exception as error:
                 # pyrender and PyOpenGL raise anything from AssertionError to AttributeError where a context fails.
-                raise OpenGLError(
-                    _missing(f"{platform} gives no OpenGL context ({type(error).__name__}: {error})", platform)
-                ) from error
+                raise OpenGLError(_missing(f"{platform} gives no OpenGL context ({_told(error)})", platform)) from error
 
     def draw(self, triangles: Triangles, window: Window, background: Color) -> Pixels:
         """What a window shows of triangles, rows from the top."""
         scene = _scene(self._pyrender, triangles, window, background)
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
+        try:
+            return self._rendered(scene) if self.multisamples else self._sample_by_sample(scene)
+        except MemoryError:
+            raise
+        except Exception as error:  # pyrender and PyOpenGL raise anything here too
+            raise OpenGLError(f"{self.platform} gives an OpenGL context but cannot draw ({_told(error)})") from error
+
+    def trial_problem(self) -> str:
+        """What is wrong with a small picture whose pixels are known; empty if nothing is."""
+        whole = Window(0, 0, trial.SIDE, trial.SIDE)
+        wrong = trial.trial_problem(self.draw(trial.trial_triangles(), whole, (1.0, 1.0, 1.0, 1.0)))
+        return wrong and f"{self.platform} draws wrongly: {wrong}"
+
+    def _rendered(self, scene: Any) -> Pixels:
         flags = self._pyrender.RenderFlags.FLAT | self._pyrender.RenderFlags.SKIP_CULL_FACES
         color, _ = self._offscreen.render(scene, flags=flags)
         return color
+
+    def _sample_by_sample(self, scene: Any) -> Pixels:
+        """The scene drawn once for each sample of a pixel, that lying in the middle, and averaged, rounded half up."""
+        camera = scene.main_camera_node
+        pose = camera.matrix
+        total = np.full((self._offscreen.viewport_height, self._offscreen.viewport_width, 3), 2, dtype=np.uint16)
+        for sample in SAMPLES:
+            aside = np.eye(4)
+            aside[:2, 3] = np.array(sample) - 0.5
+            scene.set_pose(camera, aside @ pose)
+            total += self._rendered(scene)
+        return (total // 4).astype(np.uint8)
 
     def strings(self) -> tuple[str, str]:
         """GL_VERSION and GL_RENDERER."""
@@ -305,7 +345,9 @@ class _Context:
 
     def close(self) -> None:
         """Give everything back."""
-        self._offscreen.delete()
+        # A context in which something failed fails again here, and so do those of drivers at the end of a process.
+        with suppress(Exception):
+            self._offscreen.delete()
 
 
 def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Color) -> Any:
@@ -422,6 +464,12 @@ def _loads(library: str) -> bool:
     except OSError:
         return False
     return True
+
+
+def _told(error: Exception) -> str:
+    """An error in a line; PyOpenGL's own are short as `repr` alone."""
+    text = repr(error) if hasattr(error, "err") else f"{type(error).__name__}: {error}"
+    return " ".join(text.split())
 
 
 def _missing(what: str, *platforms: str) -> str:

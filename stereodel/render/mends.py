@@ -4,6 +4,7 @@ pyrender, on objects that `stereodel.render.gl` owns:
 
 * its viewer loads a windowing library, which fails on machines without a display;
 * it denies that OSMesa has framebuffer objects, and draws without multisampling;
+* it asks for four samples a pixel of whatever cannot give them;
 * it compiles its shaders for each picture, and keeps them all;
 * it reads depths that nobody asks for.
 
@@ -41,7 +42,7 @@ def import_pyrender() -> Any:
     return pyrender
 
 
-def mend_offscreen(offscreen: Any, opengl: Any) -> None:
+def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
     """Let an `OffscreenRenderer` sample each pixel four times, compile a shader once, and read colours alone.
 
     Parameters
@@ -49,7 +50,14 @@ def mend_offscreen(offscreen: Any, opengl: Any) -> None:
     offscreen : pyrender.OffscreenRenderer
     opengl : module
         OpenGL.GL.
+    multisamples : bool
+        Whether OpenGL can sample a pixel four times; else it does so once, in the middle.
     """
+    if not multisamples:
+        module: Any = sys.modules["pyrender.renderer"]
+        module.glRenderbufferStorageMultisample = lambda target, samples, *rest: (
+            opengl.glRenderbufferStorageMultisample(target, 0, *rest)
+        )
     # OSMesa has framebuffer objects, which multisampling needs.
     offscreen._platform.supports_framebuffers = lambda: True
     renderer = offscreen._renderer

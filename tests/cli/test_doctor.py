@@ -10,7 +10,7 @@ from typer.testing import CliRunner
 
 import stereodel
 from stereodel._extras import EXTRAS, installing
-from stereodel.cli import app
+from stereodel.cli import app, doctor
 from stereodel.render import gl, provenance
 
 run = CliRunner().invoke
@@ -36,6 +36,7 @@ def test_doctor_tells_what_draws(platform):
     assert f"{platform} (STEREODEL_GL)" in ran.stdout
     assert "Mesa" in ran.stdout
     rows = [line.split() for line in ran.stdout.splitlines()]
+    assert [row for row in rows if row[:1] in (["osmesa"], ["egl"])] == [["osmesa", "draws"], ["egl", "draws"]]
     assert ["numpy", version("numpy")] in rows
     for name, extra in EXTRAS.items():
         (row,) = [row for row in rows if row[:1] == [name]]
@@ -48,7 +49,39 @@ def test_doctor_says_how_to_get_what_is_missing():
     ran = doctor_here(STEREODEL_GL="metal")
     assert ran.returncode == 1
     assert "STEREODEL_GL is 'metal'" in ran.stdout
+    assert "osmesa draws: set STEREODEL_GL=osmesa" in ran.stdout
     assert "Traceback" not in ran.stdout + ran.stderr
+
+
+def test_doctor_says_what_does_not_draw_and_what_draws_instead():
+    """Mesa's softpipe has no multisampling, and EGL gets no context from it."""
+    ran = doctor_here(STEREODEL_GL="egl", GALLIUM_DRIVER="softpipe")
+    assert ran.returncode == 1
+    assert "egl gives no OpenGL context (EGLError( err=EGL_BAD_MATCH" in ran.stdout
+    assert "osmesa         draws, each picture four times: it has no multisampling\n" in ran.stdout
+    assert ran.stdout.splitlines()[-1] == "But osmesa draws: set STEREODEL_GL=osmesa."
+    assert "Traceback" not in ran.stdout + ran.stderr
+
+
+@pytest.mark.parametrize(
+    ("trial", "problem"),
+    [
+        ("import os; os.kill(os.getpid(), 11)", "the process that drew on osmesa ended with code -11"),
+        (
+            "raise OSError('no memory left')",
+            "the process that drew on osmesa ended with code 1: OSError: no memory left",
+        ),
+        ("import time; time.sleep(60)", "osmesa has drawn nothing in 0.5 seconds"),
+    ],
+)
+def test_doctor_outlives_what_draws(monkeypatch, trial, problem):
+    monkeypatch.setattr(doctor, "TRIAL", trial)
+    monkeypatch.setattr(doctor, "SECONDS", 0.5 if "sleep" in trial else 60)
+    monkeypatch.setenv("STEREODEL_GL", "osmesa")
+    ran = run(app, ["doctor"])
+    assert ran.exit_code == 1
+    assert f"Globes cannot be drawn as PNG: {problem}" in ran.stdout
+    assert "osmesa         does not draw\n" in ran.stdout
 
 
 def test_doctor_without_opengl_names_the_packages():
@@ -65,7 +98,7 @@ def test_doctor_names_missing_libraries(monkeypatch):
     monkeypatch.setattr(
         provenance, "library_version", lambda name: provenance.NOT_INSTALLED if name == "shapely" else found(name)
     )
-    monkeypatch.setattr(gl, "describe", lambda: gl.Description("osmesa", "found", "4.5 Mesa 22.3.6", "llvmpipe"))
+    monkeypatch.setattr(doctor, "tried", lambda: {name: gl.Description(name, "argument") for name in gl.PLATFORMS})
     ran = run(app, ["doctor"])
     assert ran.exit_code == 0
     (row,) = [line.strip() for line in ran.stdout.splitlines() if " lacks " in line]

@@ -152,8 +152,11 @@ def test_a_frame_that_fails_elsewhere_ends_all_processes(balls, out, wrong, mess
     assert [path.name for path in out.iterdir()] == ["balls.png.frames"]
 
 
+# Whoever runs the tests in the background has SIGINT ignored, and programs inherit that.
 FILM = """
+import signal
 import sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 import balls
 from stereodel.film import Film
 film = Film(balls.slow_ball, [k / 10 for k in range(10, 30)], size=80)

@@ -1,5 +1,6 @@
 """The program that stores baselines: what it writes, what it leaves alone, and what a missing one means."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -141,10 +142,16 @@ def labelled(x, text="north"):
     return Case("labelled", Page((0.0, 4.0, 0.0, 2.0), (Label(text, (x, 1.0)), Label("", (1.0, 1.0)))), {}, "agg")
 
 
-def test_labels_keep_their_place_to_a_pixel(tmp_path):
+@pytest.fixture
+def stored_label(tmp_path):
     store = Store(tmp_path)
     store.write(labelled(2.0))
     store.write_tables()
+
+
+def test_labels_keep_their_place_to_a_pixel(tmp_path, stored_label, monkeypatch):
+    """Where another FreeType sets them."""
+    monkeypatch.setattr("tools.baselines.set_with", lambda: "matplotlib 3.10.9, FreeType 2.6.1, x86_64")
     pixel = 4.0 / 640
     for kept in (labelled(2.0), labelled(2.0 + 0.8 * pixel)):
         assert Store(tmp_path).set_otherwise(kept) == []
@@ -153,3 +160,34 @@ def test_labels_keep_their_place_to_a_pixel(tmp_path):
         assert message.startswith("T3: label 0 (")
     bare = Case("labelled", labelled(2.0).page.without_labels(), {}, "agg")
     assert Store(tmp_path).set_otherwise(bare) == ["T3: 2 labels expected, 0 found"]
+
+
+def test_labels_keep_their_pixels_where_the_same_libraries_set_them(tmp_path, stored_label):
+    assert Store(tmp_path).set_otherwise(labelled(2.0)) == []
+    red, light = ({"color": (value, 0.0, 0.0, 1.0)} for value in (1.0, 2 / 255))
+    label, empty = labelled(2.0).page.items
+    for change in (red, light, {"offset": (0.5, 0.0)}, {"size": 1.01 * label.size}, {"halo": 0.1}, {"text": "uorth"}):
+        page = replace(labelled(2.0).page, items=(replace(label, **change), empty))
+        assert Store(tmp_path).set_otherwise(Case("labelled", page, {}, "agg")) == [
+            f'T3: label 0 ("{change.get("text", "north")}") looks otherwise where it was'
+        ], change
+
+
+def test_type_set_with_other_libraries_is_stored_anew(project, monkeypatch):
+    scripts, folder = project
+    list(write_baselines(scripts, folder))
+    monkeypatch.setattr("tools.baselines.set_with", lambda: "another")
+    assert list(write_baselines(scripts, folder, ["fig90"])) == ["fig90_dot: as it was"]
+    assert Store(folder).labels["fig90_dot"]["set_with"] == "another"
+
+
+def test_what_differs_is_named(tmp_path):
+    """A moved label, by its number, its field and its text."""
+    store, label = Store(tmp_path), Label("north", (1.0, 1.0), offset=(3.0, 0.0))
+    store.write(Case("labelled", Page((0.0, 4.0, 0.0, 2.0), (label,)), {}, "agg"))
+    moved = replace(label, offset=(4.5, 0.0), text="south", color=(0.0, 0.5, 0.0, 1.0))
+    t0 = Store(tmp_path).drawn_otherwise(Case("labelled", Page((0.0, 4.0, 0.0, 2.0), (moved,)), {}, "agg"))
+    assert t0 == [
+        'T0: label 0 ("south"), place: offset x is 4.5, expected 3; colour green is 0.5, expected 0',
+        'T0: label 0 ("south"), text: text is south, expected north',
+    ]

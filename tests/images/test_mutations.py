@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import View
-from stereodel.drawing.page import Label, Page, Stroke
+from stereodel.drawing.page import Dots, Label, Page, Stroke
 from tests.images.scripts import ROOT, STORE
 from tools.baselines import Case
 from tools.build import load_drawing
@@ -76,10 +76,38 @@ def test_another_magnification():
     assert caught_by_t0(case("fig11_fisheye4", figure.PANELS.draw(figure.PANELS.geometry()), geometry))
 
 
-@pytest.mark.parametrize(("lon", "lat"), [(20.5, 25), (20, 25.5), (20, 24.5)])
-def test_a_view_turned_by_half_a_degree(sphere, monkeypatch, lon, lat):
+def test_a_missing_site(sphere):
+    """The one nearest to the viewer."""
     g = sphere.geometry()
-    monkeypatch.setattr(sphere, "VIEW", View(lon, lat))
+    nearest = int(np.argmax(sphere.VIEW.depth(g["sites"])))
+    page = sphere.draw(g)
+    dots = {id(item) for item in page.items if isinstance(item, Dots) and len(item.centers) > 1}
+    at = sphere.VIEW.project(g["sites"][nearest])
+    items = [replace(i, centers=without(i.centers, at)) if id(i) in dots else i for i in page.items]
+    mutant = case("fig01_sphere", replace(page, items=tuple(items)), g)
+    assert caught_by_t0(mutant)
+    assert caught_by_t2(mutant)
+
+
+def without(centers, place):
+    return np.delete(centers, np.argmin(np.linalg.norm(centers - place, axis=1)), axis=0)
+
+
+@pytest.mark.parametrize("role", ["delaunay", "voronoi", "limb"])
+def test_lines_a_tenth_wider(sphere, role):
+    g = sphere.geometry()
+    items = [
+        replace(i, width=1.1 * i.width) if isinstance(i, Stroke) and i.name == role else i for i in sphere.draw(g).items
+    ]
+    mutant = case("fig01_sphere", replace(sphere.draw(g), items=tuple(items)), g)
+    assert caught_by_t0(mutant)
+    assert caught_by_t2(mutant)
+
+
+@pytest.mark.parametrize("turn", [(0.3, 0.0, 0.0), (0.0, 0.3, 0.0), (0.0, -0.3, 0.0), (0.0, 0.0, 0.3)])
+def test_a_view_turned_a_little(sphere, monkeypatch, turn):
+    g, view = sphere.geometry(), sphere.VIEW
+    monkeypatch.setattr(sphere, "VIEW", View(*np.add((view.lon, view.lat, view.roll), turn)))
     mutant = case("fig01_sphere", sphere.draw(g), g)
     assert caught_by_t0(mutant)
     assert caught_by_t2(mutant)
@@ -93,7 +121,10 @@ def recoloured(page: Page, role: str, color) -> Page:
 @pytest.mark.parametrize("role", ["delaunay", "voronoi", "limb"])
 def test_another_colour(sphere, role):
     g = sphere.geometry()
-    mutant = case("fig01_sphere", recoloured(sphere.draw(g), role, (0.3, 0.2, 0.2, 1.0)), g)
+    page = sphere.draw(g)
+    (color, *_) = [item.color for item in page.items if item.name == role]
+    # Two levels of 255, which nobody sees.
+    mutant = case("fig01_sphere", recoloured(page, role, (*color[:2], color[2] + 2 / 255, color[3])), g)
     assert caught_by_t0(mutant)
     assert caught_by_t2(mutant)
 

@@ -31,6 +31,11 @@ def with_items(change):
     return lambda page: replace(page, items=tuple(change(item) for item in page.items))
 
 
+def of(kinds, change):
+    """A change of some fields of all items of some kinds, each a function of the item."""
+    return with_items(lambda item: replace(item, **change(item)) if isinstance(item, kinds) else item)
+
+
 def with_lines(role, change):
     """A change of the lines of a page that have a role."""
     return with_items(lambda item: change(item) if isinstance(item, Stroke | Polylines) and item.name == role else item)
@@ -109,6 +114,22 @@ def test_labels_two_pixels_aside_in_pictures(monkeypatch, tmp_path):
     assert all(message.startswith("svg: ") and "elsewhere" in message for message in wrong)
 
 
+TYPE_CHANGES = {
+    "paler": lambda label: {"color": paler(label.color)},
+    "a fiftieth more see-through": lambda label: {"color": (*label.color[:3], 0.98)},
+    "a twentieth larger": lambda label: {"size": 1.05 * label.size},
+    "without halo": lambda label: {"halo": 0.0},
+    "with another halo": lambda label: {"halo_color": paler(label.halo_color)},
+    "half a pixel aside": lambda label: {"offset": (label.offset[0] + 0.15, label.offset[1])},
+}
+
+
+@pytest.mark.parametrize("change", TYPE_CHANGES)
+def test_type_that_is_set_otherwise_in_pictures(change, monkeypatch):
+    monkeypatch.setattr(labels, "drawn", before(labels.drawn, of(Label, TYPE_CHANGES[change])))
+    assert nets("anim_flight_first") == {"T3"}
+
+
 def test_labels_two_pixels_aside_everywhere(monkeypatch):
     name, draw = "fig03_bubbles", vector._draw_label
     monkeypatch.setattr(vector, "_draw_label", lambda axes, label: draw(axes, moved(label, case(name).page.width)))
@@ -121,11 +142,6 @@ def test_rows_of_labels_that_slip(monkeypatch):
         labels.LabelLayer, "_drawn", lambda self, *span: np.roll(draw(self, *span), self.width // 300, 0)
     )
     assert nets("fig03_bubbles") == {"T3"}
-
-
-def of(kinds, change):
-    """A change of some fields of all items of some kinds, each a function of the item."""
-    return with_items(lambda item: replace(item, **change(item)) if isinstance(item, kinds) else item)
 
 
 FILE_CHANGES = {

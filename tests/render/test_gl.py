@@ -1,15 +1,23 @@
 """The door to OpenGL: which platform, what it says when there is none, and that both draw the same pixels."""
 
 import os
+import re
 import subprocess
 import sys
+from dataclasses import replace
+from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from stereodel.render import gl
 from stereodel.render.gl import Door, OpenGLError, choose, describe, draw
+from stereodel.render.mends import mend_offscreen
 from stereodel.render.pieces import Triangles
+from stereodel.render.trial import trial_triangles
+from tests.images.scripts import case
+from tools.image import PIXEL_LEVELS, PIXEL_SHARE_ANY, PIXEL_SHARE_VISIBLE, levels_apart
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
 
@@ -160,6 +168,55 @@ def test_describe_names_platform_and_versions():
     assert found.mesa in found.version
 
 
+@pytest.mark.parametrize("change", [lambda p: p[::-1], lambda p: p[:, ::-1], lambda p: 0 * p, lambda p: p[..., ::-1]])
+def test_describe_tells_of_wrong_pixels(monkeypatch, change):
+    drawn = gl._Context.draw
+    monkeypatch.setattr(gl._Context, "draw", lambda *given: change(drawn(*given)))
+    assert re.search("draws wrongly: [0-9]+ of 64 pixels", describe().problem)
+
+
+@pytest.mark.parametrize("missing", range(4))
+def test_describe_tells_of_a_missing_triangle(monkeypatch, missing):
+    shapes = trial_triangles()
+    fewer = replace(shapes, faces=np.delete(shapes.faces, missing, axis=0))
+    monkeypatch.setattr("stereodel.render.trial.trial_triangles", lambda: fewer)
+    assert "draws wrongly" in describe().problem
+
+
+@pytest.fixture
+def sample_by_sample(monkeypatch):
+    """A context that samples each pixel once."""
+    gl.DOOR.close()
+    monkeypatch.setattr(gl, "mend_offscreen", lambda *given, **named: mend_offscreen(*given, multisamples=False))
+    # Put back at the end: it is replaced where there is no multisampling.
+    monkeypatch.setattr("pyrender.renderer.glRenderbufferStorageMultisample", None)
+    gl.DOOR.context().multisamples = False
+    yield
+    gl.DOOR.close()
+
+
+@pytest.mark.parametrize(
+    "samples",
+    [
+        ((0.5, 0.5),) * 4,
+        tuple((x + 0.25, y) for x, y in gl.SAMPLES),
+        tuple((-x, y) for x, y in gl.SAMPLES),
+    ],
+)
+def test_describe_tells_of_edges_sampled_otherwise(sample_by_sample, monkeypatch, samples):
+    assert describe().problem == ""
+    monkeypatch.setattr(gl, "SAMPLES", samples)
+    assert "draws wrongly" in describe().problem
+
+
+def test_describe_tells_of_what_dies_while_it_draws(monkeypatch):
+    def dies(*given):
+        raise RuntimeError("no\nshader")
+
+    monkeypatch.setattr(gl._Context, "_rendered", dies)
+    assert describe().problem.endswith("gives an OpenGL context but cannot draw (RuntimeError: no shader)")
+
+
 def test_a_process_keeps_to_one_platform():
     used = describe().platform
     other = "egl" if used == "osmesa" else "osmesa"
@@ -203,6 +260,61 @@ def test_both_platforms_give_the_same_pixels():
     assert osmesa[:2] == ["osmesa", "STEREODEL_GL"]
     assert egl[:2] == ["egl", "STEREODEL_GL"]
     assert osmesa[2] == egl[2]
+
+
+PICTURE = """
+import sys
+import numpy as np
+from stereodel.render.gl import describe
+from tests.images.scripts import case
+np.save(sys.stdout.buffer, case("fig08_hemisphere").picture)
+print(describe(), file=sys.stderr)
+"""
+
+
+def test_a_renderer_without_multisampling_draws_the_same():
+    """Mesa's softpipe, whose blending rounds otherwise: a level of 255 is let pass, a few samples in an edge too."""
+    run = subprocess.run(
+        [sys.executable, "-c", PICTURE],
+        env={**os.environ, "STEREODEL_GL": "osmesa", "GALLIUM_DRIVER": "softpipe"},
+        cwd=Path(__file__).parents[2],
+        capture_output=True,
+        check=False,
+    )
+    assert run.returncode == 0, run.stderr.decode()
+    assert run.stderr.decode().count("\n") == 1
+    assert "renderer='softpipe', problem='', multisamples=False" in run.stderr.decode()
+    apart = levels_apart(case("fig08_hemisphere").picture, np.load(BytesIO(run.stdout)))
+    assert apart.any()
+    assert (apart > PIXEL_LEVELS).mean() <= PIXEL_SHARE_VISIBLE
+    assert (apart > 1).mean() <= PIXEL_SHARE_ANY
+
+
+def test_samples_one_by_one_are_those_of_multisampling(request):
+    """Edges of many directions, see-through, on a lit ball and with a texture."""
+    rng = np.random.default_rng(5)
+    shapes = triangles(rng.uniform(0, 128, (30, 3, 2)), rng.integers(0, 256, (30, 4)) / 255, np.arange(30))
+    texels = rng.integers(0, 256, (128, 128, 4), dtype=np.uint8)
+    shapes = replace(shapes, textures={7: texels}, balls={3: (60.0, 60.0, 70.0, 70.0)})
+    at_once = draw(shapes, 128, 128)
+    request.getfixturevalue("sample_by_sample")
+    apart = levels_apart(at_once, draw(shapes, 128, 128))
+    assert (apart > 1).mean() <= PIXEL_SHARE_ANY
+    assert (apart > 0).mean() < 0.1
+
+
+def test_an_error_of_opengl_is_told_and_leaves_nothing_at_the_end():
+    """Four samples asked of softpipe, which has one."""
+    code = (
+        "from stereodel.render import gl, mends;"
+        "gl.mend_offscreen = lambda *given, **named: mends.mend_offscreen(*given, multisamples=True);"
+        "print(gl.describe().problem)"
+    )
+    run = in_new_process(code, STEREODEL_GL="osmesa", GALLIUM_DRIVER="softpipe")
+    assert run.stdout.startswith("osmesa gives an OpenGL context but cannot draw (GLError( err=1282, ")
+    assert run.stdout.count("\n") == 1
+    assert run.stderr == ""
+    assert run.returncode == 0
 
 
 def test_an_earlier_import_of_opengl_is_named():

@@ -1,0 +1,71 @@
+"""A small picture whose pixels are known, drawn to see whether a machine draws.
+
+A picture of its own texels, and before it a veil of two triangles: a texel out of place, a triangle that is missing, an
+edge that is not sampled four times and a seam along the diagonal all show.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from stereodel._arrays import Pixels
+from stereodel.render.pieces import Triangles
+
+SIDE: Final = 8
+"""Pixels across and down."""
+
+VEIL: Final = (1.25, 2.0, 6.5, 7.0)
+"""Left, bottom, right and top: three quarters of a column of pixels, whole ones, and half of one."""
+
+VEILED: Final = np.array([0.0, 0.75, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0])
+"""Which share of the samples of each column the veil covers, in the rows that it covers."""
+
+ROUNDING: Final = 2
+"""Levels of 255 by which a pixel may differ: blending is rounded once, and the average of the samples once."""
+
+
+def trial_triangles() -> Triangles:
+    """What is drawn, `SIDE` pixels wide and high."""
+    left, bottom, right, top = VEIL
+    ground = [(0, 0), (SIDE, 0), (SIDE, SIDE), (0, SIDE)]
+    veil = [(left, bottom), (right, bottom), (right, top), (left, top)]
+    colors = [[1.0, 1.0, 1.0, 1.0]] * 4 + [[0.0, 0.0, 0.0, 0.5]] * 4
+    faces = np.array([[0, 1, 2], [0, 2, 3], [4, 5, 6], [4, 6, 7]], dtype=np.int32)
+    texels = np.dstack([_texels(), np.full((SIDE, SIDE), 255, dtype=np.uint8)])
+    slots = np.repeat(np.arange(2, dtype=np.int32), 4)
+    return Triangles(np.array(ground + veil, dtype=float), np.array(colors), slots, faces, {0: texels})
+
+
+def trial_pixels() -> Pixels:
+    """What must be seen of it, (SIDE, SIDE, 3)."""
+    _, bottom, _, top = VEIL
+    rows = np.arange(SIDE - 1, -1, -1)
+    share = np.outer((rows >= bottom) & (rows < top), VEILED)[..., None]
+    return np.rint(_texels() * (1 - share / 2)).astype(np.uint8)
+
+
+def trial_problem(picture: Pixels) -> str:
+    """What is wrong with a picture that was drawn; empty if nothing is.
+
+    Examples
+    --------
+    >>> trial_problem(trial_pixels())
+    ''
+    >>> trial_problem(trial_pixels()[::-1])
+    '64 of 64 pixels of a trial picture are wrong, the first is (0, 224, 90) in place of (0, 0, 90)'
+    """
+    expected = trial_pixels()
+    wrong = (np.abs(expected.astype(np.int16) - picture) > ROUNDING).any(axis=-1)
+    if not wrong.any():
+        return ""
+    found, wanted = (tuple(pixels[wrong][0].tolist()) for pixels in (picture, expected))
+    count = f"{np.count_nonzero(wrong)} of {wrong.size} pixels of a trial picture are wrong"
+    return f"{count}, the first is {found} in place of {wanted}"
+
+
+def _texels() -> Pixels:
+    """Each texel of another colour: red tells the column, green the row."""
+    row, column = np.indices((SIDE, SIDE))
+    return np.stack([32 * column, 32 * row, np.full_like(row, 90)], axis=-1).astype(np.uint8)
