@@ -7,11 +7,12 @@ MAKEFLAGS += --no-builtin-rules --warn-undefined-variables --no-print-directory
 
 VENV := .venv
 OUT := out
+STYLE :=
 JOBS := auto
 PYTEST_ARGS :=
 FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
-BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT)
+BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
 .PHONY: help install system figures poster animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
 	names readme-images docs clean
@@ -34,7 +35,7 @@ install: $(VENV)/installed-library ## create .venv with the compiled kernel and 
 system: ## get the offscreen OpenGL libraries, or say how
 	@tools/system_libraries.sh
 
-figures: $(VENV)/installed-figures system ## draw every figure that is out of date into out/
+figures: $(VENV)/installed-figures system ## draw every figure that is out of date into out/; STYLE=dark, slide or column: into a folder of it
 	@$(BUILD) fig globe earth sky
 
 poster: $(VENV)/installed-figures system ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory

@@ -5,7 +5,7 @@ script must run again is decided by the contents of everything that its picture 
 wrote, before a script is started: when there is nothing to do, that takes a fraction of a second. Rules of `make` would
 look at times, and know nothing of versions.
 
-    python -m tools.build --scripts figures --out out [NAME…]
+    python -m tools.build --scripts figures --out out [--style STYLE] [NAME…]
 """
 
 from __future__ import annotations
@@ -26,8 +26,10 @@ from typing import Any
 
 from stereodel._files import replacing
 from stereodel._threads import thread_count
+from stereodel.drawing.page_styles import STYLES
 from stereodel.film import Film
 from stereodel.film.pool import in_processes
+from stereodel.render.figure import style_names, styled_folder
 from stereodel.render.gl import OpenGLError, describe
 from stereodel.render.provenance import library_digest, library_versions
 
@@ -54,7 +56,13 @@ class Outcome:
 
 
 def build(
-    scripts: Path, out: Path, names: Iterable[str] = (), *, jobs: int | None = None, force: bool = False
+    scripts: Path,
+    out: Path,
+    names: Iterable[str] = (),
+    *,
+    styles: tuple[str, ...] = (),
+    jobs: int | None = None,
+    force: bool = False,
 ) -> list[Outcome]:
     """Run every script in `scripts` that is out of date, say so in a line for each, and write the manifest.
 
@@ -66,6 +74,8 @@ def build(
         Folder to write to; made when it is missing.
     names : iterable of str, optional
         Beginnings of script names; all scripts when empty.
+    styles : tuple of str
+        Of the pictures, see `stereodel.drawing.styled`.
     jobs : int, optional
         Scripts that run at once; the usable cores by default.
     force : bool
@@ -90,7 +100,7 @@ def build(
     # The longest first, so that none of them is waited for at the end.
     late.sort(key=lambda script: -manifest.get(script.stem, {}).get("seconds", 0.0))
     outcomes: list[Outcome] = []
-    for outcome in _run_all(late, out, jobs or thread_count(-1, len(late))):
+    for outcome in _run_all(late, out, styles, jobs or thread_count(-1, len(late))):
         outcomes.append(outcome)
         name, record = outcome.script.stem, outcome.record
         took = "failed" if outcome.error else f"{record['seconds']:.1f} s"
@@ -160,18 +170,19 @@ def _digest(data: bytes) -> str:
 # Running
 
 
-def _run_all(scripts: list[Path], out: Path, jobs: int) -> Iterator[Outcome]:
+def _run_all(scripts: list[Path], out: Path, styles: tuple[str, ...], jobs: int) -> Iterator[Outcome]:
     """Outcomes as they come."""
-    for number, done in in_processes(partial(run_script, out=out), scripts, jobs=jobs):
+    for number, done in in_processes(partial(run_script, out=out, styles=styles), scripts, jobs=jobs):
         # Without a result the process died: most likely inside a graphics library.
         yield done.result or Outcome(scripts[number], {}, f"{done.error}, without a Python error")
 
 
-def run_script(script: Path, out: Path) -> Outcome:
+def run_script(script: Path, out: Path, styles: tuple[str, ...] = ()) -> Outcome:
     """Load one script in this process and save its picture; an error becomes text."""
     begin = time.perf_counter()
     try:
         drawing = load_drawing(script)
+        drawing = drawing.styled(*styles) if styles else drawing
         record = save_film(drawing, out / f"{script.stem}.gif") if isinstance(drawing, Film) else drawing.save(out)
     except (BuildError, PermissionError, OpenGLError) as error:
         return Outcome(script, {}, str(error))  # which the user can mend
@@ -224,12 +235,18 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument("names", nargs="*", help="beginnings of script names, e.g. fig03 or anim; all by default")
     parser.add_argument("--scripts", type=Path, default=Path("figures"), help="folder of the scripts")
     parser.add_argument("--out", type=Path, default=Path("out"), help="folder to write to")
+    parser.add_argument(
+        "--style", type=style_names, default=(), help=f"{', '.join(STYLES)}, or several with commas; goes into a folder"
+    )
     parser.add_argument("--jobs", type=int, default=None, help="scripts that run at once; the cores by default")
     parser.add_argument("--force", action="store_true", help="draw also what is up to date")
     options = parser.parse_args(arguments)
+    out = styled_folder(options.out, options.style)
     begin = time.perf_counter()
     try:
-        outcomes = build(options.scripts, options.out, options.names, jobs=options.jobs, force=options.force)
+        outcomes = build(
+            options.scripts, out, options.names, styles=options.style, jobs=options.jobs, force=options.force
+        )
     except BuildError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
@@ -238,7 +255,7 @@ def main(arguments: list[str] | None = None) -> int:
         return 130
     failed = [outcome for outcome in outcomes if outcome.error]
     done = f"{len(outcomes) - len(failed)} drawn, {len(failed)} failed" if outcomes else "everything is up to date"
-    print(f"{options.out}: {done} ({time.perf_counter() - begin:.1f} s)")
+    print(f"{out}: {done} ({time.perf_counter() - begin:.1f} s)")
     for outcome in failed:
         print(f"\n{outcome.script}:\n{outcome.error.rstrip()}", file=sys.stderr)
     return 1 if failed else 0

@@ -3,6 +3,7 @@
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
+from stereodel.drawing.page_styles import styled
 from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
@@ -32,4 +33,5 @@ __all__ = [
     "View",
     "as_color",
     "diagram_page",
+    "styled",
 ]

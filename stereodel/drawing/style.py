@@ -1,7 +1,8 @@
 """The one look: colours, line widths, dots, tints and type of every picture.
 
-Widths and radii are in points (1/72 inch) for a picture that is printed 17 cm wide. The accents are those of Okabe and
-Ito's palette, which readers with any colour vision tell apart. The type is STIX, which matplotlib ships and which has
+Widths and radii are in points (1/72 inch) for a picture that is printed 17 cm wide. The accents have the hues of Okabe
+and Ito's palette, which readers with any colour vision tell apart, and lightnesses that printing in gray leaves apart.
+The type is STIX, which matplotlib ships and which has
 the mathematics too.
 """
 
@@ -33,12 +34,12 @@ def _hex(code: str, opacity: float = 1.0) -> Color:
 
 WHITE: Final = _hex("#ffffff")
 BLACK: Final = _hex("#000000")
-GRAY: Final = _hex("#8a8a8a")
-LIGHT_GRAY: Final = _hex("#b4b4b4")
-DARK_GRAY: Final = _hex("#4d4d4d")
-BLUE: Final = _hex("#0072b2")
-VERMILION: Final = _hex("#d55e00")
-GREEN: Final = _hex("#009e73")
+GRAY: Final = _hex("#7a7a7a")
+LIGHT_GRAY: Final = _hex("#a6a6a6")
+DARK_GRAY: Final = _hex("#3d3d3d")
+BLUE: Final = _hex("#005a94")
+VERMILION: Final = _hex("#c64e00")
+GREEN: Final = _hex("#00a075")
 ORANGE: Final = _hex("#e69f00")
 SKY: Final = _hex("#56b4e9")
 
@@ -182,17 +183,17 @@ DOTS: Final[Mapping[str, DotStyle]] = {
 FILLS: Final[Mapping[str, Color]] = {
     "ball": _hex("#f4f6f8"),
     "glass": _hex("#dfe7ee", 0.3),
-    "small_bubble": _hex("#f6cf8e"),
-    "large_bubble": _hex("#bfdcf0"),
-    "triangle": with_opacity(SKY, 0.3),
-    "chordal": with_opacity(ORANGE, 0.55),
+    "small_bubble": _hex("#f8d79f"),
+    "large_bubble": _hex("#a3c8e5"),
+    "triangle": with_opacity(SKY, 0.37),
+    "chordal": with_opacity(ORANGE, 0.65),
     "plane": _hex("#9db4c8", 0.28),
     "facet": _hex("#c9d3dc"),
     "visible": _hex("#f0a35e"),
     "new": _hex("#6fb7e0"),
     "cell": with_opacity(SKY, 0.25),
-    "accent1": with_opacity(BLUE, 0.25),
-    "accent2": with_opacity(VERMILION, 0.25),
+    "accent1": with_opacity(BLUE, 0.27),
+    "accent2": with_opacity(VERMILION, 0.16),
     "accent3": with_opacity(GREEN, 0.25),
 }
 """What a region stands for → its tint."""
@@ -202,7 +203,7 @@ MAP_LINES: Final[Mapping[str, LineStyle]] = {
     "coast": LineStyle((0.25, 0.33, 0.40, 1.0), 0.45),
     "borders": LineStyle((0.55, 0.48, 0.45, 1.0), 0.35),
     "rivers": LineStyle((0.36, 0.58, 0.74, 1.0), 0.35),
-    "graticule": LineStyle((0.62, 0.68, 0.72, 1.0), 0.3),
+    "graticule": LineStyle((0.50, 0.56, 0.61, 1.0), 0.3),
     "line": LineStyle(BLACK, 0.5),
     "outline": LineStyle(DARK_GRAY, 0.4),
 }
@@ -212,7 +213,7 @@ MAP_DOT: Final = DotStyle(VERMILION, 1.8, rim=WHITE, rim_width=0.4)
 """Dots of globes."""
 
 MAP_FILLS: Final[Mapping[str, Color]] = {
-    "ocean": (0.855, 0.910, 0.945, 1.0),
+    "ocean": (0.780, 0.860, 0.915, 1.0),
     "land": (0.957, 0.937, 0.890, 1.0),
     "area": (0.400, 0.640, 0.780, 1.0),
     "circle": with_opacity(VERMILION, 0.30),

@@ -18,6 +18,7 @@ from stereodel._files import replacing
 from stereodel._threads import thread_count
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.page import Page
+from stereodel.drawing.page_styles import StyledDraw
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.pool import Done, attempt, in_processes, main_script_here, refuse_in_import
@@ -192,6 +193,16 @@ class Film(Generic[T]):
         """How long it takes to see it, seconds."""
         return float(self.times.sum())
 
+    def styled(self, *styles: str) -> Film[T]:
+        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must give pages.
+
+        Raises
+        ------
+        ValueError
+            For styles that there are not, and for a column and a slide at once.
+        """
+        return replace(self, draw=StyledDraw(self.draw, styles))
+
     def page(self, number: int) -> Page:
         """One frame as a page; a TypeError where `draw` gives pixels."""
         drawn = self.draw(self.shots[number])
@@ -315,6 +326,10 @@ class _Script(Generic[T]):
 
     film: Film[T]
     name: str
+
+    def styled(self, *styles: str) -> _Script[T]:
+        """The same script, whose film has other styles."""
+        return replace(self, film=self.film.styled(*styles))
 
     def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
         """Write NAME.gif into a folder, which is made when it is missing."""

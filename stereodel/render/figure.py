@@ -8,13 +8,14 @@ import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
 from stereodel._arrays import Pixels, as_choice
 from stereodel.drawing.page import Page
+from stereodel.drawing.page_styles import STYLES, StyledDraw, as_styles
 from stereodel.render.sizes import LARGEST_SIZE
 
 Geometry = Mapping[str, Any]
@@ -53,6 +54,16 @@ class Figure:
     def page(self) -> Page:
         """The picture before any renderer sees it."""
         return self.draw(self.geometry())
+
+    def styled(self, *styles: str) -> Figure:
+        """The same figure in other styles, see `stereodel.drawing.styled`.
+
+        Raises
+        ------
+        ValueError
+            For styles that there are not, and for a column and a slide at once.
+        """
+        return replace(self, draw=StyledDraw(self.draw, styles))
 
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
         """The picture, (height, width, 3), rows from the top; `size` and `text` as for `Page.pixels`."""
@@ -109,6 +120,9 @@ class Drawing(Protocol):
     def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
         """Write the files into a folder and return a record with "files" and "seconds"."""
 
+    def styled(self, *styles: str) -> Drawing:
+        """The same in other styles."""
+
 
 def run_script(
     drawing: Drawing, argv: Sequence[str] | None, *, source: Callable[..., Any], kind: str, usual_size: str
@@ -126,15 +140,19 @@ def run_script(
         What is drawn and how wide it is by default, for the help.
     """
     parser = argparse.ArgumentParser(description=f"Draw {drawing.name} as {kind}.")
-    parser.add_argument("--out", type=Path, default=default_folder(source), help="folder to write to (%(default)s)")
+    out = default_folder(source)
+    parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")
     parser.add_argument("--size", type=pixel_count, help=f"width in pixels ({usual_size})")
     parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
+    parser.add_argument("--style", type=style_names, default=(), help=f"{', '.join(STYLES)}, or several with commas")
     options = parser.parse_args(sys.argv[1:] if argv is None else argv)
+    folder = styled_folder(out, options.style) if options.out is None else options.out
     try:
-        record = drawing.save(options.out, size=options.size, text=options.text)
+        shown = drawing.styled(*options.style) if options.style else drawing
+        record = shown.save(folder, size=options.size, text=options.text)
     except (OSError, RuntimeError, ValueError) as error:
         raise SystemExit(f"{drawing.name}: {error}") from None
-    print(f"{drawing.name}: {', '.join(record['files'])} in {options.out} ({record['seconds']:.1f} s)")
+    print(f"{drawing.name}: {', '.join(record['files'])} in {folder} ({record['seconds']:.1f} s)")
 
 
 def pixel_count(text: str) -> int:
@@ -146,6 +164,19 @@ def pixel_count(text: str) -> int:
     if not 1 <= size <= LARGEST_SIZE:
         raise argparse.ArgumentTypeError(f"{size} pixels is outside 1 to {LARGEST_SIZE}")
     return size
+
+
+def style_names(text: str) -> tuple[str, ...]:
+    """Names of styles from the command line."""
+    try:
+        return as_styles(tuple(text.split(",")))
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
+def styled_folder(out: Path, styles: tuple[str, ...]) -> Path:
+    """Where pictures in other styles go: a folder of their own in that of the pictures."""
+    return out / "-".join(styles)
 
 
 def default_folder(source: Callable[..., Any]) -> Path:

@@ -1,0 +1,90 @@
+"""The styles in which a page may be had: for a column or a slide, on a dark ground. A style makes a page of a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, Final
+
+from stereodel.drawing.dark import dark_page
+from stereodel.drawing.media import COLUMN, SLIDE, page_for
+from stereodel.drawing.page import Page
+
+STYLES: Final[Mapping[str, Callable[[Page], Page]]] = {
+    "column": lambda page: page_for(page, COLUMN),
+    "slide": lambda page: page_for(page, SLIDE),
+    "dark": dark_page,
+}
+"""Name → what makes a page of that style."""
+
+MEDIA: Final = ("column", "slide")
+"""Of which a page can be for one."""
+
+
+def styled(page: Page, *styles: str) -> Page:
+    """The same picture in another style, or in several.
+
+    Parameters
+    ----------
+    page : Page
+    *styles : {"column", "slide", "dark"}
+        "column": 8.4 cm wide, for a column of a journal; type is not smaller than 7 points. "slide": 33.87 × 19.05 cm,
+        16 to 9, with heavier lines and larger type, the picture in the middle. "dark": on a dark ground, where each
+        colour keeps its hue and its contrast; a page whose ground is dark already stays as it is, and so do pictures of
+        pixels, such as rasters on a globe. The order does not matter.
+
+    Returns
+    -------
+    Page
+
+    Raises
+    ------
+    ValueError
+        For another style, and for a column and a slide at once.
+
+    Notes
+    -----
+    On a column and a slide type finds its place anew: above and below the picture it is broken into lines, and the page
+    grows; in the picture it moves aside where it would cover other type, and what has no room then is left out, as on
+    maps.
+
+    Examples
+    --------
+    >>> from stereodel.drawing import Sketch
+    >>> page = Sketch().add_circle((0, 0), 1, name="circle").page((-2, 2, -1, 1))
+    >>> slide = styled(page, "slide", "dark")
+    >>> [round(2.54 * side / 72, 2) for side in (slide.width, slide.height)], slide.background[0]
+    ([33.87, 19.05], 0.07)
+    """
+    for name in as_styles(styles):
+        page = STYLES[name](page)
+    return page
+
+
+def as_styles(styles: tuple[str, ...]) -> tuple[str, ...]:
+    """Names of styles, each once and in the order in which they are applied; a ValueError for what `styled` refuses."""
+    for name in styles:
+        if name not in STYLES:
+            raise ValueError(f"style is {name!r}; give {', '.join(list(STYLES)[:-1])} or {list(STYLES)[-1]}")
+    chosen = tuple(name for name in STYLES if name in styles)
+    if len(set(chosen) & set(MEDIA)) > 1:
+        raise ValueError(f"styles {' and '.join(MEDIA)} are both the size of a page; give one of them")
+    return chosen
+
+
+@dataclass(frozen=True)
+class StyledDraw:
+    """What draws pages, in other styles: a function of the same arguments, which can be sent to other processes."""
+
+    draw: Callable[..., Any]
+    styles: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        as_styles(self.styles)
+
+    def __call__(self, *arguments: Any) -> Page:
+        """The page that `draw` gives, in the styles; a TypeError where it gives pixels."""
+        page = self.draw(*arguments)
+        if not isinstance(page, Page):
+            raise TypeError(f"draw gives {type(page).__name__}, which has no style; let it give a Page")
+        return styled(page, *self.styles)

@@ -1,0 +1,263 @@
+"""Room for the type of a page whose picture has become smaller than its type, or larger.
+
+Type above and below the picture is broken into lines and moves away from it, and the page grows. Type in the picture
+moves aside, as little as it can, where it would cover other type, or lines that it was clear of; what finds no room is
+left out, as on maps.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+from stereodel.drawing.label import GAP, label_box
+from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
+
+Box = tuple[float, float, float, float]
+"""Left, right, bottom, top."""
+
+LEADING: Final = 1.25
+"""From line to line of broken type, in its size."""
+
+EDGE: Final = 2.0
+"""Between type and the edge of a page, points."""
+
+FARTHEST: Final = 1.5
+"""By how much type moves aside at most, in its size."""
+
+STEPS: Final = 6
+"""In which it does."""
+
+DIRECTIONS: Final = 16
+
+CHORDS: Final = 8
+"""For a cubic, where lines are looked at: those of an eighth of a circle are off by a thousandth of its radius."""
+
+OPPOSITE: Final[Mapping[str, Any]] = {
+    "left": "right",
+    "right": "left",
+    "bottom": "top",
+    "top": "bottom",
+    "center": "center",
+    "baseline": "top",
+}
+"""Alignments on the other side of an anchor."""
+
+WORD: Final = re.compile(r"(?:\$[^$]*\$|\S)+")
+"""What is not broken: formulas hold spaces."""
+
+
+def clear_labels(page: Page) -> list[bool]:
+    """For each label of a page, whether no line crosses it."""
+    setter = _Setter(page.points_per_unit, page.extent[:2], _chords(page.items))
+    return [not setter.crossed(label) for label in page.labels]
+
+
+def set_anew(
+    items: Sequence[Item],
+    extent: Box,
+    points_per_unit: float,
+    room: tuple[float, float],
+    clear: Sequence[bool],
+) -> tuple[tuple[Item, ...], Box]:
+    """Items whose labels have found room, and the extent that they need.
+
+    Parameters
+    ----------
+    items : sequence of Item
+    extent : tuple of float
+        Left, right, bottom and top of the page so far, page units.
+    points_per_unit : float
+        Scale of the page.
+    room : (float, float)
+        Left and right end of where type may be, page units.
+    clear : sequence of bool
+        For each label, whether it is to be clear of lines where it can.
+    """
+    unit = points_per_unit
+    picture = [item for item in items if not isinstance(item, Label)]
+    labels = [item for item in items if isinstance(item, Label)]
+    ink, setter = _ink(picture, extent), _Setter(unit, room, _chords(picture))
+    kept = setter.within(
+        [(label, free) for label, free in zip(labels, clear, strict=True) if ink[2] <= label.anchor[1] <= ink[3]]
+    )
+    taken = setter.boxes(kept)
+    kept += setter.beyond([label for label in labels if label.anchor[1] > ink[3]], 1.0, unit * ink[3], taken)
+    kept += setter.beyond([label for label in labels if label.anchor[1] < ink[2]], -1.0, unit * ink[2], taken)
+    boxes = setter.boxes(kept)
+    low = min(extent[2], float(np.min(boxes[:, 0, 1], initial=np.inf) - EDGE) / unit)
+    high = max(extent[3], float(np.max(boxes[:, 1, 1], initial=-np.inf) + EDGE) / unit)
+    left = min(extent[0], float(np.min(boxes[:, 0, 0], initial=np.inf)) / unit)
+    right = max(extent[1], float(np.max(boxes[:, 1, 0], initial=-np.inf)) / unit)
+    return (*picture, *kept), (left, right, low, high)
+
+
+@dataclass(frozen=True)
+class _Setter:
+    """Sets labels on a page of a scale, between two ends in page units, with lines given by their chords (n, 2, 2)."""
+
+    unit: float
+    room: tuple[float, float]
+    chords: FloatArray
+
+    def box(self, label: Label) -> FloatArray:
+        """Lower left and upper right corner of a label, turned as it is, in points."""
+        box = label_box(label, self.unit)
+        if not label.rotation:
+            return box
+        pivot = self.unit * np.array(label.anchor) + np.array(label.offset)
+        corners = np.array([(x, y) for x in box[:, 0] for y in box[:, 1]]) - pivot
+        angle = np.radians(label.rotation)
+        turned = pivot + np.stack(
+            [
+                np.cos(angle) * corners[:, 0] - np.sin(angle) * corners[:, 1],
+                np.sin(angle) * corners[:, 0] + np.cos(angle) * corners[:, 1],
+            ],
+            axis=1,
+        )
+        return np.stack([turned.min(axis=0), turned.max(axis=0)])
+
+    def boxes(self, labels: Sequence[Label]) -> FloatArray:
+        """Those of several labels, (n, 2, 2)."""
+        return np.array([self.box(label) for label in labels]).reshape(-1, 2, 2)
+
+    def crossed(self, label: Label) -> bool:
+        """Whether a line crosses a label."""
+        low, high = self.box(label) / self.unit
+        (a, b), middle = (self.chords[:, 0], self.chords[:, 1]), (low + high) / 2
+        near = ((np.maximum(a, b) > low) & (np.minimum(a, b) < high)).all(axis=1)
+        along, to = b[near] - a[near], a[near] - middle
+        # A chord that overlaps a box in both directions misses it where all corners are on one side of its line.
+        reach = np.abs(along[:, ::-1]) @ ((high - low) / 2)
+        return bool((np.abs(along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) < reach).any())
+
+    def within(self, labels: Iterable[tuple[Label, bool]]) -> list[Label]:
+        """Labels in the picture, each where it is or beside, none over another; without those that have no room.
+
+        With each comes whether it is to be clear of lines; it is not where there is room on a line alone.
+        """
+        kept: list[Label] = []
+        for label, free in labels:
+            boxes = self.boxes(kept)
+            tried = [place for place in map(self._held, _places(label)) if not _meet(self.box(place)[None], boxes)]
+            uncrossed = (place for place in tried if not self.crossed(place))
+            kept += [next(uncrossed, tried[0]) if free else tried[0]] if tried else []
+        return kept
+
+    def beyond(self, labels: Sequence[Label], way: float, edge: float, taken: FloatArray) -> list[Label]:
+        """Labels above (`way` 1) or below (-1) a picture that ends at `edge` points, broken into lines.
+
+        The nearest first, each moves away until it covers neither the picture nor the boxes `taken` nor others.
+        """
+        kept: list[Label] = []
+        for label in sorted(labels, key=lambda label: way * label.anchor[1]):
+            lines = [self._held(line) for line in self._broken(label, way)]
+            boxes = self.boxes(lines)
+            push = np.array([0.0, max(0.0, edge - boxes[:, 0, 1].min() if way > 0 else boxes[:, 1, 1].max() - edge)])
+            while _meet(boxes + way * push, taken):
+                push[1] += label.size / STEPS
+            kept += [_moved(line, *(way * push)) for line in lines]
+            taken = np.concatenate([taken, boxes + way * push])
+        return kept
+
+    def _held(self, label: Label) -> Label:
+        """A label moved sideways into the room, as far as it is no wider."""
+        box, left, right = self.box(label), self.unit * self.room[0] + EDGE, self.unit * self.room[1] - EDGE
+        return _moved(label, max(min(0.0, right - box[1, 0]), left - box[0, 0]), 0.0)
+
+    def _broken(self, label: Label, way: float) -> list[Label]:
+        """The lines of a label no wider than the room on its side: the last or the first of them is where it was."""
+        start = self.unit * label.anchor[0] + label.offset[0]
+        left, right = self.unit * self.room[0] + EDGE, self.unit * self.room[1] - EDGE
+        room = right - (start if label.align == "left" else left)
+        lines = [""]
+        for word in WORD.findall(label.text):
+            longer = f"{lines[-1]} {word}".lstrip()
+            box = label_box(replace(label, text=longer), self.unit)
+            lines = [*lines[:-1], longer] if not lines[-1] or box[1, 0] - box[0, 0] <= room else [*lines, word]
+        first = len(lines) - 1 if way > 0 else 0
+        drop = LEADING * label.size
+        return [_moved(replace(label, text=line), 0.0, drop * (first - k)) for k, line in enumerate(lines)]
+
+
+def _places(label: Label) -> Iterator[Label]:
+    """Where a label may be: in its place, close by, on the other sides of its anchor, and farther away."""
+    step = label.size * FARTHEST / STEPS
+    turn = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
+    yield label
+    for ring in range(1, STEPS + 1):
+        yield from (_moved(label, ring * step * np.cos(angle), ring * step * np.sin(angle)) for angle in turn)
+        if ring == STEPS // 3:
+            yield from _other_sides(label)
+
+
+def _other_sides(label: Label) -> Iterator[Label]:
+    """A label beside its anchor on the other sides of it."""
+    (x, y), align, valign = label.offset, OPPOSITE[label.align], OPPOSITE[label.valign]
+    yield replace(label, offset=(-x, y), align=align)
+    yield replace(label, offset=(x, -y), valign=valign)
+    yield replace(label, offset=(-x, -y), align=align, valign=valign)
+
+
+def _moved(label: Label, x: float, y: float) -> Label:
+    """A label moved by points."""
+    return replace(label, offset=(label.offset[0] + float(x), label.offset[1] + float(y)))
+
+
+def _meet(boxes: FloatArray, others: FloatArray) -> bool:
+    """Whether any of some boxes (n, 2, 2) comes closer to any of others (m, 2, 2) than labels may."""
+    a, b = boxes[:, None], others[None]
+    return bool(((a[..., 0, :] < b[..., 1, :] + GAP) & (b[..., 0, :] < a[..., 1, :] + GAP)).all(axis=-1).any())
+
+
+def _chords(items: Iterable[Item]) -> FloatArray:
+    """Chords (n, 2, 2) of all lines."""
+    runs = []
+    for item in items:
+        if isinstance(item, Stroke):
+            points = _flat(item.path)
+            runs.append(np.stack([points[:-1], points[1:]], axis=1))
+        elif isinstance(item, Polylines):
+            chords = np.stack([item.points[:-1], item.points[1:]], axis=1)
+            runs.append(np.delete(chords, item.offsets[1:-1] - 1, axis=0))
+    return np.concatenate([np.zeros((0, 2, 2)), *runs])
+
+
+def _ink(picture: Sequence[Item], extent: Box) -> Box:
+    """Left, right, bottom and top of what is no type, as far as it is on the page; the page, where there is nothing."""
+    found = [points.reshape(-1, 2) for item in picture for points in _outlines(item)]
+    low, high = np.array(extent[::2]), np.array(extent[1::2])
+    if found:
+        points = np.concatenate(found)
+        low, high = np.clip(points.min(axis=0), low, high), np.clip(points.max(axis=0), low, high)
+    return (float(low[0]), float(high[0]), float(low[1]), float(high[1]))
+
+
+def _flat(path: Beziers) -> FloatArray:
+    """Points along a run, (m, 2)."""
+    s = np.arange(CHORDS)[None, :, None] / CHORDS
+    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return np.concatenate([points.reshape(-1, 2), path[-1:, 3]])
+
+
+def _outlines(item: Item) -> Sequence[FloatArray]:
+    """Points between which an item lies."""
+    match item:
+        case Stroke():
+            return (item.path,)
+        case Fill():
+            return item.paths
+        case Picture():
+            return item.outline
+        case Dots():
+            return (item.centers,)
+        case Polylines() | Polygons():
+            return (item.points,)
+        case Label():
+            return ()
