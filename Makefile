@@ -36,7 +36,7 @@ system: ## get the offscreen OpenGL libraries, or say how
 	@tools/system_libraries.sh
 
 figures: $(VENV)/installed-figures system ## draw every figure that is out of date into out/; STYLE=dark, slide or column: into a folder of it
-	@$(BUILD) fig globe earth sky
+	@$(BUILD) fig claim globe earth sky
 
 poster: $(VENV)/installed-figures system ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory
 	@mkdir -p $(OUT)/poster

@@ -75,7 +75,7 @@ html_sidebars = {
 sphinx_gallery_conf = {
     "examples_dirs": "../figures",
     "gallery_dirs": "gallery",
-    "filename_pattern": r"/(fig\d\d|globe|earth|sky|anim)_",
+    "filename_pattern": r"/(fig\d\d|claim|globe|earth|sky|anim)_",
     "ignore_pattern": r"^_",
     "within_subsection_order": "figure_gallery.FiguresFirst",
     "reset_argv": "figure_gallery.script_arguments",

@@ -39,11 +39,11 @@ def written_pictures(block, block_vars, gallery_conf):
 
 
 class FiguresFirst:
-    """Order of the gallery: the figures by number, then globes through lenses, real data, animations."""
+    """Order of the gallery: figures by number, claims beside them, globes through lenses, real data, animations."""
 
     def __init__(self, src_dir):
         self.src_dir = src_dir
 
     def __call__(self, filename):
         """Sort key of a script."""
-        return [not filename.startswith(kind) for kind in ("fig", "globe_", "earth_", "sky_")], filename
+        return [not filename.startswith(kind) for kind in ("fig", "claim_", "globe_", "earth_", "sky_")], filename

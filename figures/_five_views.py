@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
-from stereodel.drawing import Page, Scene, View
+from stereodel.drawing import Page, Scene, Solid, View
 from stereodel.sphere import graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees
@@ -32,14 +32,20 @@ class FiveViews:
             "fine": to_rows(bend.image_of(arc) for arc in patch),
         }
 
-    def draw(self, g: dict) -> Page:
+    def scenes(self, g: dict) -> list:
         """Five globes in a row."""
-        items = tuple(
-            item for number, view in enumerate(VIEWS) for item in globe(g).layout(view, at=(PITCH * number, 0.0))
-        )
+        return [globe(g).placed(view, at=(PITCH * number, 0.0)) for number, view in enumerate(VIEWS)]
+
+    def draw(self, g: dict) -> Page:
+        """What is seen of them."""
+        items = tuple(item for placed in self.scenes(g) for item in placed.page_items())
         reach = 1 + MARGIN
         extent = (-reach, PITCH * (len(VIEWS) - 1) + reach, -reach, reach)
         return Page(extent, items, views=tuple(view.matrix for view in VIEWS))
+
+    def solid(self, g: dict) -> Solid:
+        """All of them in space."""
+        return Solid(self.draw(g), self.scenes(g))
 
 
 def globe(g: dict) -> Scene:

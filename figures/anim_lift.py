@@ -8,12 +8,11 @@ never changes.
 """
 
 import numpy as np
-from _rectangle import CORNERS, lift, sites
+from _rectangle import CORNERS, lift, lifted_sides, sites
 
 from stereodel import PlanarDelaunay, Stereographic
-from stereodel.drawing import CircleArc, Page, Scene, View
+from stereodel.drawing import Page, Scene, View
 from stereodel.film import Film
-from stereodel.sphere import SphereArc, SphereCircle
 
 VIEW = View(0, -52)
 STEPS, HOLD = 30, 10
@@ -39,17 +38,9 @@ def frame(curvature: float) -> Page:
     scene.add_flat_polygon(plane, name="plane")
     scene.add_outline(plane, name="frame")
     scene.add_edges(lifted, PlanarDelaunay(points).edges, name="delaunay")
-    scene.add_arcs(
-        [lifted_side(sphere, a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, 0), strict=True)], name="chord"
-    )
+    scene.add_arcs(lifted_sides(sphere.inverse), name="chord")
     scene.add_points(lifted, name="sites")
     return scene.page(VIEW, extent=EXTENT, width=200.0)
-
-
-def lifted_side(sphere: Stereographic, a: np.ndarray, b: np.ndarray) -> CircleArc:
-    """The image of a side: the arc of the circle through its lifted ends and middle."""
-    start, middle, end = sphere.inverse(np.array([a, (a + b) / 2, b]))
-    return CircleArc.of(SphereArc(SphereCircle.through(start, middle, end), start, end))
 
 
 def film() -> Film:

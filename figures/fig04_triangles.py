@@ -2,9 +2,9 @@
 Figure 4: A spherical triangle and its chordal plane triangle
 =============================================================
 
-The sides of a spherical triangle are arcs of great circles (blue). The plane triangle below it has the same vertices
-and chords for sides (red): a facet of the convex hull. The Delaunay triangulation of points on the sphere is
-the convex hull of the points.
+The sides of a spherical triangle are arcs of great circles (blue), each in a plane through the centre O of the sphere.
+The plane triangle below it (hatched) has the same vertices and chords for sides (red): a facet of the convex hull. The
+Delaunay triangulation of points on the sphere is the convex hull of the points.
 
 Chosen by us: the three vertices and the view.
 """
@@ -12,12 +12,17 @@ Chosen by us: the three vertices and the view.
 import numpy as np
 
 from stereodel import lonlat_to_xyz
-from stereodel.drawing import Layer, Page, Scene, View
+from stereodel.drawing import Layer, LineStyle, Page, Scene, Sketch, Solid, View
+from stereodel.drawing.style import LINES, VERMILION
 from stereodel.render import Figure
+from stereodel.sphere import graticule
 
-VERTICES = np.array([[-42.0, -18.0], [48.0, -12.0], [4.0, 58.0]])  # degrees
+VERTICES = np.array([[-28.0, -18.0], [56.0, -12.0], [10.0, 60.0]])  # degrees
 VIEW = View(26, 12)
-NAMES = (("$a$", (-8, -6)), ("$b$", (9, -5)), ("$c$", (3, 9)))
+NAMES = (("$a$", (-9, -4), 0.0), ("$b$", (9, -5), 0.0), ("$c$", (3, 9), 0.0), ("$O$", (-9, 7), 1.0))
+SPACING = 30  # degrees
+HATCH, LINES_OF_HATCH = LineStyle(VERMILION, 0.4), 24
+HALO = (0.80, 0.90, 0.96, 1.0)  # as the triangle on the ball
 
 
 def geometry() -> dict:
@@ -25,21 +30,37 @@ def geometry() -> dict:
     return {"vertices": lonlat_to_xyz(VERTICES)}
 
 
-def draw(g: dict) -> Page:
+def scene(g: dict) -> Scene:
     """The chordal triangle inside a glass ball, the spherical one on it."""
     vertices, sides = g["vertices"], np.array([[0, 1], [1, 2], [2, 0]])
+    a, b, c = vertices
+    steps = np.linspace(0, 1, LINES_OF_HATCH + 2)[1:-1, None]
     scene = Scene(style="glass")
-    scene.add_flat_polygon(vertices, name="chordal")
+    scene.add_arcs(graticule(SPACING), name="graticule")
+    scene.add_segments(np.zeros(3), vertices, name="radius", style=LINES["construction"])
+    scene.add_segments(a + steps * (c - a), b + steps * (c - b), name="hatch", style=HATCH)
     scene.add_triangle_patch(*vertices, name="triangle")
     scene.add_segments(vertices, vertices[[1, 2, 0]], name="chord", layer=Layer.LINE)
     scene.add_edges(vertices, sides, name="arc")
     scene.add_points(vertices, name="sites")
-    for (name, offset), vertex in zip(NAMES, vertices, strict=True):
-        scene.add_label(vertex, name, offset=offset, size=12.0)
-    return scene.page(VIEW, extent=(-1.03, 1.03, -1.03, 1.03), width=260.0)
+    scene.add_space_points(np.zeros((1, 3)), name="vertices")
+    return scene
 
 
-FIGURE = Figure("fig04_triangles", geometry, draw)
+def draw(g: dict) -> Page:
+    """All of it, with the names of the points."""
+    sketch, vertices = Sketch().add_scene(scene(g), VIEW), g["vertices"]
+    for (name, offset, halo), place in zip(NAMES, VIEW.project([*vertices, np.zeros(3)]), strict=True):
+        sketch.add_label(place, name, offset, halo=halo, halo_color=HALO)
+    return sketch.page((-1.03, 1.03, -1.03, 1.03), width=260.0)
+
+
+def solid(g: dict) -> Solid:
+    """All of it in space."""
+    return Solid(draw(g), [scene(g).placed(VIEW)])
+
+
+FIGURE = Figure("fig04_triangles", geometry, draw, in_space=solid)
 
 if __name__ == "__main__":
     FIGURE.main()

@@ -2,9 +2,10 @@
 Figure 5: Normal (left) and oblique stereographic projection
 ============================================================
 
-Left, the plane touches the sphere at the south pole and rays from the north pole carry points of the sphere to it.
-Right, the plane touches at another point and the rays start at its antipode. The circle through the three points
-(blue) goes to a circle in both.
+Left, the plane touches the sphere at the south pole S and rays from the north pole N carry points p of the sphere to
+points π(p) of it. Right, the plane touches at another point t and the rays start at its antipode −t. The diameter to
+the point of contact (dashed) is perpendicular to the plane. The circle through the three points (blue) goes to a circle
+in both.
 
 Chosen by us: the points, the tangent point of the oblique plane, the view.
 """
@@ -12,7 +13,8 @@ Chosen by us: the points, the tangent point of the oblique plane, the view.
 import numpy as np
 
 from stereodel import SphereCircle, Stereographic, lonlat_to_xyz
-from stereodel.drawing import CircleArc, Page, Scene, View
+from stereodel.drawing import CircleArc, Page, Scene, Segment, Sketch, Solid, View
+from stereodel.drawing.style import LINES
 from stereodel.render import Figure
 
 PANELS = {  # tangent point; centre and angular radius of the circle; directions of its points, all in degrees
@@ -20,9 +22,16 @@ PANELS = {  # tangent point; centre and angular radius of the circle; directions
     "oblique": ((100.0, -42.0), (92.0, -32.0), 48.0, (215.0, 285.0, 325.0)),
 }
 NAMES = {"normal": ("$N$", "$S$"), "oblique": ("$-t$", "$t$")}
+LABELS = {  # which of the points is called p; where the four names stand, in points
+    "normal": (1, ((-8, 7), (-8, 4), (-6, 6), (-15, 4))),
+    "oblique": (0, ((-7, 7), (8, -7), (-11, -7), (-13, -6))),
+}
+SIDE = {"normal": 1, "oblique": 3}  # the corner of the plane to which a side of the right angle points
+CORNER = 0.12  # side of the mark of a right angle
 VIEW = View(0, 18)
 HALF_SIDE = {"normal": 1.75, "oblique": 1.5}  # of the square of the plane that is drawn
 PITCH = 3.55
+EXTENT = (-1.82, PITCH + 2.02, -2.47, 1.26)
 
 
 def geometry() -> dict:
@@ -54,32 +63,48 @@ def lay_out(tangent_point: tuple, center: tuple, radius: float, directions: tupl
 
 def draw(g: dict) -> Page:
     """Two panels side by side."""
-    items = [
-        item for number, name in enumerate(PANELS) for item in panel(g, name).layout(VIEW, at=(PITCH * number, 0.0))
-    ]
-    return Page((-1.82, PITCH + 2.02, -2.24, 1.2), tuple(items), views=(VIEW.matrix,))
+    sketch = Sketch()
+    for number, name in enumerate(PANELS):
+        sketch.add_scene(panel(g, name), VIEW, at=(PITCH * number, 0.0))
+        title = f"{name}: centre of projection {NAMES[name][0]}"
+        sketch.add_label((PITCH * number, EXTENT[2]), title, (0, 3), valign="baseline")
+    return sketch.page(EXTENT, width=360.0)
 
 
 def panel(g: dict, name: str) -> Scene:
     """Glass ball, translucent plane, rays from the antipode through the points to the plane."""
-    tangent, points, images = (g[f"{name}_{key}"] for key in ("tangent", "points", "images"))
+    tangent, points, images, plane = (g[f"{name}_{key}"] for key in ("tangent", "points", "images", "plane"))
     scene = Scene(style="glass")
-    scene.add_flat_polygon(g[f"{name}_plane"], name="plane")
-    scene.add_outline(g[f"{name}_plane"], name="plane")
+    scene.add_flat_polygon(plane, name="plane")
+    scene.add_outline(plane, name="plane")
     scene.add_circles([SphereCircle(g[f"{name}_circle"][:3], float(g[f"{name}_circle"][3]))], name="arc")
     scene.add_curves([CircleArc(*g[f"{name}_image_circle"])], name="arc")
+    scene.add_segments(-tangent, tangent[None], name="diameter", style=LINES["construction"])
+    scene.add_curves(right_angle(tangent, plane[SIDE[name]] - plane[0]), name="plane")
     scene.add_segments(-tangent, images, name="ray")
     scene.add_points(points, name="sites")
-    scene.add_points(np.array([-tangent, tangent]), name="pole")
+    scene.add_points(tangent[None], name="pole")
+    scene.add_points(-tangent[None], name="ring")
     scene.add_space_points(images, name="points")
-    for text, point, offset in zip(NAMES[name], (-tangent, tangent), ((-7, 6), (6, -8)), strict=True):
-        scene.add_label(point, text, offset=offset, always=True)
-    scene.add_label(points[1], "$p$", offset=(-7, 3), always=True)
-    scene.add_label(images[1], r"$\pi(p)$", offset=(0, -9))
+    p, offsets = LABELS[name]
+    places = (-tangent, tangent, points[p], images[p])
+    for text, place, offset in zip((*NAMES[name], "$p$", r"$\pi(p)$"), places, offsets, strict=True):
+        scene.add_label(place, text, offset=offset, always=True)
     return scene
 
 
-FIGURE = Figure("fig05_projections", geometry, draw)
+def right_angle(tangent: np.ndarray, side: np.ndarray) -> list[Segment]:
+    """Two sides of a small square between the diameter and a direction of the plane, at the point of contact."""
+    along, up = CORNER * side / np.linalg.norm(side), -CORNER * tangent
+    return [Segment.between(tangent + along, tangent + along + up), Segment.between(tangent + along + up, tangent + up)]
+
+
+def solid(g: dict) -> Solid:
+    """Both in space."""
+    return Solid(draw(g), [panel(g, name).placed(VIEW, at=(PITCH * k, 0.0)) for k, name in enumerate(PANELS)])
+
+
+FIGURE = Figure("fig05_projections", geometry, draw, in_space=solid)
 
 if __name__ == "__main__":
     FIGURE.main()

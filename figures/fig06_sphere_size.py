@@ -2,8 +2,9 @@
 Figure 6: Inverse stereographic projections in cross-section
 ============================================================
 
-One segment of the plane, lifted to three tangent spheres. The smaller the sphere, the larger the arc that the segment
-covers: the radius sets how much curvature the lift adds.
+One segment of the plane, lifted to three tangent spheres by rays from their top points. The smaller the radius R, the
+larger the extent of the arc that the segment covers, which is written below it: the radius sets how much curvature the
+lift adds. One ray of each sphere is in its colour.
 
 Chosen by us: a segment of length 3.2 and the radii 2, 1 and 1/2.
 """
@@ -12,13 +13,15 @@ import numpy as np
 
 from stereodel import Stereographic
 from stereodel.drawing import Page, Sketch
+from stereodel.drawing.style import line
 from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 
 HALF_LENGTH = 1.6
 RADII = (2.0, 1.0, 0.5)
-EXTENT = (-3.3, 3.3, -0.4, 4.2)
-KEY, ROW = (-3.15, 3.95), 0.3  # where the list of extents begins, and its line height
+NAMES = ("2", "1", "½")
+HEIGHTS = (2.7, 1.28, 0.36)  # where they stand
+EXTENT = (-2.35, 2.35, -0.3, 4.15)
 
 
 def geometry() -> dict:
@@ -33,14 +36,14 @@ def geometry() -> dict:
 
 
 def draw(g: dict) -> Page:
-    """Circles, projection lines from each top point, covered arcs thick, extents written."""
+    """Circles, projection lines from each top point, covered arcs thick, radii and extents written."""
     sketch = Sketch()
-    sketch.add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.2, 0), name="axis")
+    sketch.add_segment((EXTENT[0] + 0.1, 0), (EXTENT[1] - 0.1, 0), name="axis")
     for number, radius in enumerate(RADII):
         add_sphere(sketch, number, radius, g)
     sketch.add_segment(*g["ends"], name="outline").add_points(g["ends"], name="pole")
-    sketch.add_label((EXTENT[1] - 0.2, 0), "plane", (0, -8), align="right")
-    return sketch.page(EXTENT)
+    sketch.add_label((EXTENT[1] - 0.1, 0), "plane", (0, -8), align="right")
+    return sketch.page(EXTENT, width=340.0)
 
 
 def add_sphere(sketch: Sketch, number: int, radius: float, g: dict) -> None:
@@ -48,15 +51,14 @@ def add_sphere(sketch: Sketch, number: int, radius: float, g: dict) -> None:
     center, top = (0.0, radius), (0.0, 2 * radius)
     name = f"accent{number + 1}"
     half = g["extents"][number] / 2
+    first, last = g["ends"]
     sketch.add_circle(center, radius, name="frame")
-    for end in g["ends"]:
-        sketch.add_segment(top, end, name="construction")
+    sketch.add_segment(top, first, name="construction").add_segment(top, last, name=name, style=line(name).scaled(0.7))
     sketch.add_arc(center, radius, -90 - half, -90 + half, name=f"covered{number + 1}")
     sketch.add_points(g["lifted"][number], name=name).add_points(top, name="pole")
-    row = np.array(KEY) - [0.0, ROW * number]
-    sketch.add_segment(row, row + [0.3, 0.0], name=f"covered{number + 1}")
-    text = rf"$R = {radius:g}$, extent ${g['extents'][number]:.1f}°$"
-    sketch.add_label(row + [0.3, 0.0], text, (6, 0), align="left")
+    place, color = (0.0, HEIGHTS[number]), line(name).color
+    sketch.add_label(place, f"$R = {NAMES[number]}$", (0, 6), color=color)
+    sketch.add_label(place, f"${g['extents'][number]:.1f}°$", (0, -6), color=color)
 
 
 FIGURE = Figure("fig06_sphere_size", geometry, draw, renderer="agg")

@@ -2,20 +2,24 @@
 Figure 7: Rectangular region prior to inverse stereographic projection to hemisphere
 ====================================================================================
 
-A rectangular map with its sites, Delaunay triangulation (gray) and Voronoi diagram (black). The blue circle is the
-footprint of the sphere that will be attached at the centre: its diameter is half the diagonal of the rectangle.
+A rectangular map with its sites, Delaunay triangulation (gray) and Voronoi diagram (black). The dashed circle is the
+outline of the sphere that will be attached at the centre, seen from above: its diameter is half the diagonal D of the
+rectangle, so that its radius R is a quarter of D.
 
-Chosen by us: sides 3 : 2, the number of sites and their seed.
+Chosen by us: sides 3 : 2, the number of sites, their seed and the oval on which those of the hull lie.
 """
 
 import numpy as np
+from _legend import PAGE_WIDTH, with_graphs
 from _rectangle import CORNERS, HEIGHT, WIDTH, lift, sites
 
 from stereodel import PlanarDelaunay, PlanarVoronoi
 from stereodel.drawing import Page, Sketch
+from stereodel.drawing.style import LINES, VERMILION
 from stereodel.render import Figure
 
 MARGIN = 0.05
+LETTERS = {"$D$": -0.87, "$R$": 0.38}  # where they stand on the diagonal, as parts of its upper half
 
 
 def geometry() -> dict:
@@ -29,11 +33,16 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """The map, the diagonal and the footprint."""
     sketch = Sketch().add_edges(g["sites"], g["edges"], name="delaunay").add_segments(g["ridges"], name="voronoi")
-    sketch.add_circle((0, 0), float(g["radius"]), name="footprint")
     sketch.add_points(g["sites"], name="sites")
     sketch.add_polyline(CORNERS, closed=True, name="outline")
+    sketch.add_circle((0, 0), float(g["radius"]), name="footprint")
+    sketch.add_dimension(-CORNERS[2], CORNERS[2], "", name="diagonal", style=LINES["ray"])
+    sketch.add_dimension((0, 0), CORNERS[2] / 2, "", name="diagonal", style=LINES["ray"])
+    for text, place in LETTERS.items():
+        sketch.add_label(place * CORNERS[2], text, (-2, 3), valign="bottom", color=VERMILION, halo=1.5)
     half = np.array([WIDTH, HEIGHT]) / 2 + MARGIN
-    return sketch.page((-half[0], half[0], -half[1], half[1]))
+    page = sketch.page((-half[0], half[0], -half[1], half[1]), width=PAGE_WIDTH)
+    return with_graphs(page, {"sphere of radius $R = D/4$": LINES["footprint"], "diagonal $D$": LINES["ray"]})
 
 
 FIGURE = Figure("fig07_rectangle", geometry, draw, renderer="agg")

@@ -5,22 +5,24 @@ Figure 8: Inverse stereographic projection to hemisphere (as seen through a tran
 The sites of Figure 7 lifted to the tangent sphere whose diameter is half the diagonal of the rectangle. Only vertices
 are lifted: Delaunay edges are rebuilt as great-circle arcs, Voronoi edges as perpendicular bisectors of them. The
 sides of the rectangle become arcs of circles (red) whose ends, the lifted corners (red dots), lie on the equator
-(dashed).
+(dashed). One ray is shown, from a lifted corner to the corner; the plane touches the sphere at the south pole S.
 
 Chosen by us: the view from below, tilted so that the plane is seen as a sheet.
 """
 
 import numpy as np
 from _arcs import from_rows, to_rows
-from _rectangle import CORNERS, lift, sites
+from _rectangle import CORNERS, lift, lifted_sides, sites
 
 from stereodel import PlanarDelaunay, SphericalVoronoi
-from stereodel.drawing import Page, Scene, View
-from stereodel.drawing.style import LINES
+from stereodel.drawing import Page, Scene, Solid, View
+from stereodel.drawing.style import DOTS, LINES
 from stereodel.render import Figure
-from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere import SphereCircle
 
 VIEW = View(0, -78)
+SOUTH = np.array([0.0, 0.0, -1.0])
+SHOWN = 2  # the corner whose ray is drawn
 
 
 def geometry() -> dict:
@@ -35,20 +37,14 @@ def geometry() -> dict:
         "edges": PlanarDelaunay(points).edges,
         "vertices": voronoi.vertices,
         "ridges": np.array(voronoi.ridge_vertices),
-        "sides": to_rows(lifted_side(a, b) for a, b in zip(CORNERS, np.roll(CORNERS, -1, axis=0), strict=True)),
+        "sides": to_rows(lifted_sides(raised.forward)),
         "corners": raised.forward(CORNERS),
         "equator": np.array([0.0, 0.0, -1.0, 0.0]),  # normal and offset
         "plane": raised.sphere.in_space(CORNERS),
     }
 
 
-def lifted_side(a: np.ndarray, b: np.ndarray) -> SphereArc:
-    """The image of a side: the arc of the circle through its lifted ends and middle."""
-    start, middle, end = lift().forward(np.array([a, (a + b) / 2, b]))
-    return SphereArc(SphereCircle.through(start, middle, end), start, end)
-
-
-def draw(g: dict) -> Page:
+def scene(g: dict) -> Scene:
     """The ball behind the plane."""
     radius = float(g["radius"])
     scene = Scene(radius=radius)
@@ -61,11 +57,25 @@ def draw(g: dict) -> Page:
     scene.add_points(g["lifted"], name="sites")
     scene.add_points(g["corners"], name="points")
     scene.add_flat_polygon(g["plane"], name="plane")
-    scene.add_outline(g["plane"], name="outline")
-    return scene.page(VIEW, extent=(-1.56, 1.56, -1.22, 0.95))
+    scene.add_outline(g["plane"], name="plane")
+    scene.add_segments(radius * g["corners"][SHOWN], g["plane"][[SHOWN]], name="ray")
+    scene.add_space_points(g["plane"][[SHOWN]], name="corner", style=DOTS["points"])
+    scene.add_points(SOUTH[None], name="ring")
+    scene.add_label(radius * SOUTH, "$S$", offset=(3, -9), always=True)
+    return scene
 
 
-FIGURE = Figure("fig08_hemisphere", geometry, draw)
+def draw(g: dict) -> Page:
+    """What is seen through the plane."""
+    return scene(g).page(VIEW, extent=(-1.56, 1.56, -1.22, 0.95), width=340.0)
+
+
+def solid(g: dict) -> Solid:
+    """All of it in space."""
+    return Solid(draw(g), [scene(g).placed(VIEW)])
+
+
+FIGURE = Figure("fig08_hemisphere", geometry, draw, in_space=solid)
 
 if __name__ == "__main__":
     FIGURE.main()

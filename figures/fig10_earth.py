@@ -14,7 +14,7 @@ from stereodel.render import Figure
 
 PANELS = FiveViews(magnification=1, coarse=10, fine=2, half_width=8)  # degrees
 
-FIGURE = Figure("fig10_earth", PANELS.geometry, PANELS.draw)
+FIGURE = Figure("fig10_earth", PANELS.geometry, PANELS.draw, in_space=PANELS.solid)
 
 if __name__ == "__main__":
     FIGURE.main()

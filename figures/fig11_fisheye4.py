@@ -14,7 +14,7 @@ from stereodel.render import Figure
 
 PANELS = FiveViews(magnification=4, coarse=5, fine=1, half_width=8)  # degrees
 
-FIGURE = Figure("fig11_fisheye4", PANELS.geometry, PANELS.draw)
+FIGURE = Figure("fig11_fisheye4", PANELS.geometry, PANELS.draw, in_space=PANELS.solid)
 
 if __name__ == "__main__":
     FIGURE.main()

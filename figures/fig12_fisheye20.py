@@ -15,7 +15,7 @@ from stereodel.render import Figure
 
 PANELS = FiveViews(magnification=20, coarse=5, fine=0.5, half_width=1.5)  # degrees
 
-FIGURE = Figure("fig12_fisheye20", PANELS.geometry, PANELS.draw)
+FIGURE = Figure("fig12_fisheye20", PANELS.geometry, PANELS.draw, in_space=PANELS.solid)
 
 if __name__ == "__main__":
     FIGURE.main()

@@ -14,13 +14,24 @@ import numpy as np
 
 from stereodel import Stereographic
 from stereodel.drawing import Page, Sketch
+from stereodel.drawing.style import BLACK, BLUE, VERMILION, line
 from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 
 RADIUS, S = 2.0, 2.5
 DISTANCE = 1.6 * RADIUS
-EXTENT = (-2.4, 4.1, -0.75, 4.4)
-NAMES = ((r"$(90°\!+\!\varphi)/2$", r"$\varphi$", "$R$"), (r"$(90°\!+\!\Phi)/2$", r"$\Phi$", "$r$"))
+EXTENT = (-2.15, 4.75, -0.72, 4.42)
+NAMES = (
+    (r"$(90°\!+\!\varphi)/2$", r"$\varphi$", "$R$", (0, 7)),
+    (r"$(90°\!+\!\Phi)/2$", r"$\Phi$", "$r = R/S$", (0, -8)),
+)
+"""Of each circle: the inscribed angle, the latitude, the radius and where that stands."""
+EQUATIONS = (
+    (r"$\tan((90°\!+\!\varphi)/2) = d/2R$", BLUE),
+    (r"$\tan((90°\!+\!\Phi)/2) = d/2r$", VERMILION),
+    (r"$S\,\tan((90°\!+\!\varphi)/2) = \tan((90°\!+\!\Phi)/2)$", BLACK),
+)
+CORNER, ROW = (2.05, 4.1), 16.0  # of the equations: upper left corner; height of a row, points
 
 
 def geometry() -> dict:
@@ -35,41 +46,35 @@ def geometry() -> dict:
 
 
 def draw(g: dict) -> Page:
-    """Both circles, both rays, the arcs that the inscribed angles see."""
-    sketch = Sketch().add_segment((EXTENT[0] + 0.2, 0), (EXTENT[1] - 0.15, 0), name="axis")
+    """Both circles, both rays, the arcs that the inscribed angles see, and what follows."""
+    sketch = Sketch().add_segment((EXTENT[0] + 0.1, 0), (EXTENT[1] - 0.1, 0), name="axis")
     target = (DISTANCE, 0.0)
     sketch.add_segment((0, 0), (0, 2 * RADIUS), name="axis")
     for number, (radius, point, arc) in enumerate(zip(g["radii"], g["points"], g["arcs"], strict=True)):
         add_sphere(sketch, float(radius), point, float(arc), f"accent{number + 1}", NAMES[number])
     sketch.add_points([target], name="points").add_points([(0, 0)], name="pole")
-    add_distance(sketch)
-    return sketch.page(EXTENT)
+    sketch.add_dimension((DISTANCE, -0.3), (0.0, -0.3), "$d$", name="frame")
+    for number, (text, color) in enumerate(EQUATIONS):
+        sketch.add_label(CORNER, text, (0, -ROW * number), align="left", valign="baseline", color=color)
+    return sketch.page(EXTENT, width=360.0)
 
 
 def add_sphere(sketch: Sketch, radius: float, point: np.ndarray, arc: float, name: str, names: tuple) -> None:
     """One circle with its ray, its inscribed angle and the arc that the angle sees."""
-    inscribed, latitude, size = names
-    center, top = (0.0, radius), (0.0, 2 * radius)
+    inscribed, latitude, size, beside = names
+    center, top, equator = (0.0, radius), (0.0, 2 * radius), (radius, radius)
+    color = line(name).color
     sketch.add_circle(center, radius, name="frame")
-    equator = (radius, radius)
     sketch.add_segment(center, equator, name="construction").add_segment(center, point, name="construction")
     sketch.add_segment(top, (DISTANCE, 0.0), name=name)
     sketch.add_arc(center, radius, -90, -90 + arc, name=f"covered{name[-1]}")
     sketch.add_angle(top, (0, 0), (DISTANCE, 0), 0.5 * radius, "", name=name)
-    sketch.add_label((0, 1.5 * radius), inscribed, (-4, 0), align="right")
+    sketch.add_label((0, 1.5 * radius), inscribed, (-4, 0), align="right", color=color, halo=2.0)
     first, second = (point, equator) if arc < 90 else (equator, point)
-    sketch.add_angle(center, first, second, 0.55 * radius, latitude, name="frame", gap=7.0)
-    sketch.add_label((0.25 * radius, radius), size, (0, -7 if arc > 90 else 7))
+    sketch.add_angle(center, first, second, 0.62 * radius, latitude, name="frame", gap=7.0, color=color)
+    sketch.add_label((0.4 * radius, radius), size, beside)
+    sketch.add_label(top, "$N$", (-5, 4), align="right", valign="bottom")
     sketch.add_points([top, center], name="pole").add_points([point], name=name)
-
-
-def add_distance(sketch: Sketch) -> None:
-    """The measure d below the plane."""
-    y, tick = -0.42, 0.06
-    sketch.add_segment((0, y), (DISTANCE, y), name="frame")
-    for x in (0.0, DISTANCE):
-        sketch.add_segment((x, y - tick), (x, y + tick), name="frame")
-    sketch.add_label((DISTANCE / 2, y), "$d$", (0, -4), valign="top")
 
 
 FIGURE = Figure("fig13_latitudes", geometry, draw, renderer="agg")

@@ -36,7 +36,11 @@ EXTRAS: Final[Mapping[str, Extra]] = {
         "SVG, PDF, pictures of the plane, matplotlib axes",
         {"matplotlib": "matplotlib", "pillow": "PIL", "mapbox_earcut": "mapbox_earcut"},
     ),
-    "render": Extra("globes as PNG", {"pyrender2": "pyrender", "PyOpenGL": "OpenGL"}, ("draw",)),
+    "render": Extra(
+        "globes as PNG, scenes as GLB",
+        {"pyrender2": "pyrender", "PyOpenGL": "OpenGL", "trimesh": "trimesh"},
+        ("draw",),
+    ),
     "film": Extra(
         "moving pictures",
         {"av": "av", "imageio": "imageio", "rich": "rich"},
@@ -54,6 +58,7 @@ EXTRAS: Final[Mapping[str, Extra]] = {
         },
     ),
     "grid": Extra("UGRID", {"xarray": "xarray", "netCDF4": "netCDF4"}),
+    "raster": Extra("GeoTIFF", {"rasterio": "rasterio"}),
     "mesh": Extra("GLB, PLY, VTP", {"trimesh": "trimesh", "pyvista": "pyvista"}),
 }
 """By name, as in pyproject.toml, where the least versions stand; tests compare the two. ``all`` is all of them."""

@@ -54,6 +54,10 @@ DOORS = {
     "picture().save('page.png', size=100)": ["render"],
     "picture().pixels(size=100)": ["render"],
     "from stereodel.render import Figure; Figure('a', dict, lambda _: picture(), renderer='agg').save('.')": ["draw"],
+    "from stereodel.drawing import *; Scene().solid(View(0, 0)).save('ball.glb')": ["render"],
+    "from stereodel.drawing import *; Scene().solid(View(0, 0)).save('ball.png', size=50)": ["render"],
+    "from stereodel.drawing import *; Scene().solid(View(0, 0)).pixels(size=50)": ["render"],
+    "from stereodel.drawing import *; Scene().solid(View(0, 0)).to_trimesh()": ["render"],
     "from stereodel.data import blue_marble; blue_marble()": ["draw"],
     "from stereodel.globe import Globe; g = Globe(); g.add_polygons([RINGS]); g.save('a.svg')": ["draw"],
     "from stereodel.globe import Globe; g = Globe(); g.add_land(); g.add_coastlines(); g.save('a.svg')": ["draw"],
@@ -74,8 +78,11 @@ DOORS = {
     "from stereodel.io import write; write('a.nc', MESH)": ["grid"],
     "from stereodel.io import write; write('a.glb', MESH)": ["mesh"],
     "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
-    "from stereodel.cli.interpolate import _save_grid; from pathlib import Path; "
-    "_save_grid(Path('a.nc'), np.arange(3.0), np.arange(2.0), {'z': np.zeros(6)})": ["cli", "scipy"],
+    "from stereodel.io import *; write('a.nc', Grid([0], [0], {'z': [[1]]}))": ["scipy"],
+    "from stereodel.io import *; write('a.tif', Grid([0], [0], {'z': [[1]]}))": ["raster"],
+    "from stereodel.io import Grid; Grid([0], [0]).to_xarray()": ["grid"],
+    "from stereodel.interpolation import contours; from stereodel.io import to_geodataframe; "
+    "to_geodataframe(contours(MESH, POINTS[:, 0], 0.1))": ["geo"],
 }
 """Calls that need a library, and the extras that they ask for one after the other when there is NumPy alone."""
 

@@ -40,7 +40,7 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE | {"_files", "conformal", "curves", "sphere", "triangulation"},
+    "io": BASE | {"_files", "conformal", "curves", "interpolation", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "__main__": {"_extras", "cli"},
     "drawing": MATHEMATICS | {"curves"},
@@ -115,13 +115,16 @@ def imported(path, tree=None):
                 yield inner if inner in MODULES else node.module
 
 
-# `Page.save` and `Page.pixels` load what draws pages when they are called, as matplotlib's figures do.
-LOADED_ON_USE = ("stereodel.drawing.page", "stereodel.render.save")
+# `Page.save` and `Page.pixels` load what draws pages when they are called, as matplotlib's figures do; so does `Solid`.
+LOADED_ON_USE = {
+    "stereodel.drawing.page": "stereodel.render.save",
+    "stereodel.drawing.solid": "stereodel.render.solid",
+}
 
 
 def own_imports(name):
     found = {target for target in imported(MODULES[name]) if target in MODULES}
-    return sorted(target for target in found if (name, target) != LOADED_ON_USE)
+    return sorted(target for target in found if target != LOADED_ON_USE.get(name))
 
 
 def part(name):
@@ -202,8 +205,8 @@ def imported_at_head(path):
     )
 
 
-def test_a_page_draws_itself_by_one_module_and_on_use_alone():
-    source, target = LOADED_ON_USE
+@pytest.mark.parametrize(("source", "target"), LOADED_ON_USE.items())
+def test_a_page_draws_itself_by_one_module_and_on_use_alone(source, target):
     assert {t for t in imported(MODULES[source]) if t.startswith("stereodel.render")} == {target}
     assert target not in imported_at_head(MODULES[source])
     assert not loaded_by("import stereodel.drawing") & GRAPHICS

@@ -33,8 +33,9 @@ from stereodel.render.figure import style_names, styled_folder
 from stereodel.render.gl import OpenGLError, describe
 from stereodel.render.provenance import library_digest, library_versions
 
-SCRIPTS = ("fig", "globe_", "earth_", "sky_", "anim_")
-"""Beginnings of the names of scripts: the paper's figures, globes through lenses, pictures of real data, animations."""
+SCRIPTS = ("fig", "claim_", "globe_", "earth_", "sky_", "anim_")
+"""Beginnings of the names of scripts: the paper's figures, claims that it does not draw, globes through lenses,
+pictures of real data, animations."""
 
 LARGEST_FILM = 3_000_000
 """Bytes that a film of the gallery may have."""

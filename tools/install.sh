@@ -39,6 +39,7 @@ if [[ ! -x $venv/bin/python || ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
     # hide another copy from PYTHONPATH; its kernel is built beside it below, so that changed sources need no network.
     "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
         --config-settings wheel.cmake=false --config-settings wheel.packages='[]' ".${extras:+[$extras]}"
+    if [[ $what == test ]]; then tools/gltf_validator.sh "$venv"; fi
     pwd >"$site/stereodel.pth"
     printf '%s\n' "$wanted" >"$stamp"
 fi

@@ -1,4 +1,4 @@
-"""Draw the small pictures of the README and the start page into docs/images.
+"""Draw the small pictures of the README, the start page and the page on scenes into docs/images.
 
 python tools/readme_images.py
 """
@@ -19,6 +19,9 @@ WIDTHS = {
 }
 """Pixels across by figure."""
 
+SOLID = {"fig05_projections": 1200}
+"""The same of those that are shown in space."""
+
 
 def main() -> None:
     """Draw them all."""
@@ -28,6 +31,9 @@ def main() -> None:
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
         path = figure.page().save(folder / f"{name}.png", size=width, renderer=figure.renderer)
         print(path.relative_to(ROOT))
+    for name, width in SOLID.items():
+        figure = load_drawing(ROOT / "figures" / f"{name}.py")
+        print(figure.solid().save(folder / f"{name}_solid.png", size=width).relative_to(ROOT))
 
 
 if __name__ == "__main__":

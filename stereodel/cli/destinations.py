@@ -8,20 +8,14 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
-
-import numpy as np
-import numpy.typing as npt
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
-from stereodel._arrays import Column
 from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.cli.options import Latitude
 from stereodel.cli.sources import LONLAT, Columns
 from stereodel.io import write
 from stereodel.io.csv_text import write_csv
-from stereodel.io.text import EXACT_INTEGERS
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 PICTURES = ("svg", "pdf")
@@ -97,7 +91,7 @@ def save_table(path: Path, axes: tuple[str, str], columns: Columns) -> None:
 def save_csv(path: Path, columns: Columns) -> None:
     """Write columns as text."""
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
-        write_csv({name: _cells(values) for name, values in columns.items()}, file)
+        write_csv(columns, file)
 
 
 def save_mesh(
@@ -111,15 +105,3 @@ def save_mesh(
     from stereodel.drawing import diagram_page
 
     diagram_page(mesh).save(path)
-
-
-def _cells(values: Column) -> Column:
-    """What a text table says: nothing where there is no number, and no fraction where a column has none."""
-    if values.dtype.kind != "f":
-        return values
-    known = np.isfinite(values.astype(np.float64))
-    numbers = values[known].astype(np.float64)
-    cells: npt.NDArray[Any] = np.full(len(values), None, dtype=object)
-    whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
-    cells[known] = list(map(int, numbers.tolist())) if whole else numbers.tolist()
-    return cells

@@ -6,7 +6,7 @@ import os
 import re
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Final
 
@@ -33,10 +33,6 @@ OPTIONS: Final = {
     "angular_radius": "--angular-radius",
 }
 """Arguments of the library that messages name, and the options that stand for them here."""
-
-_ARGUMENT: Final = re.compile(
-    rf"(?P<before>^|: |with )(?P<name>{'|'.join(OPTIONS)})(?P<after>=| (?=is |must ))|with (?P<alone>skip_missing)"
-)
 
 
 class NothingToDoError(Exception):
@@ -77,7 +73,7 @@ def told_plainly() -> Iterator[None]:
         raise typer.Exit(WRONG_INPUT) from None
 
 
-def in_options(message: str) -> str:
+def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
     """A message in the words of the command line.
 
     Examples
@@ -90,10 +86,15 @@ def in_options(message: str) -> str:
 
     def option(found: re.Match[str]) -> str:
         if found["alone"]:
-            return f"with {OPTIONS[found['alone']]}"
-        return f"{found['before']}{OPTIONS[found['name']]}{found['after'].rstrip('=')}"
+            return f"with {options[found['alone']]}"
+        return f"{found['before']}{options[found['name']]}{found['after'].rstrip('=')}"
 
-    return _ARGUMENT.sub(option, message)
+    names = "|".join(options)
+    return re.sub(
+        rf"(?P<before>^|: |with )(?P<name>{names})(?P<after>=| (?=is |are |must ))|with (?P<alone>{names})\b",
+        option,
+        message,
+    )
 
 
 def _in_one_line(error: Exception) -> str:

@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stereodel.cli import options
+from stereodel.cli.failures import in_options
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from stereodel._arrays import FloatArray
     from stereodel.cli.sources import Table
+    from stereodel.io import Grid
 
-GRIDS = ("csv", "nc")
+GRIDS = ("csv", "nc", "tif", "tiff")
 EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o temperature.csv"
 
 
@@ -42,6 +43,12 @@ def command(
     box: Annotated[
         str | None, typer.Option(metavar="W,S,E,N", help="Borders of the grid in degrees; the whole Earth by default.")
     ] = None,
+    centers: Annotated[
+        bool, typer.Option("--centers", help="Values of the cells of the grid, in their middles, instead of its nodes.")
+    ] = False,
+    unit: Annotated[
+        list[str] | None, typer.Option(metavar="NAME", help="Unit of the values, for grids; one for each --value.")
+    ] = None,
     method: Annotated[Method, typer.Option(help="How values are found between the points.")] = Method.linear,
     skip_missing: options.SkipMissing = False,
     lon: options.Lon = None,
@@ -65,26 +72,29 @@ def command(
 
     Give either --at or --grid. Where the points do not reach, linear, smooth and natural leave the value empty.
     """
-    import numpy as np
-
     from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.sources import read
+    from stereodel.io import write
     from stereodel.sphere import lonlat_to_xyz
 
     if (at is None) == (grid is None):
         raise ValueError("give either --at, a table of points, or --grid, a spacing in degrees")
+    if unit is not None and len(unit) != len(value):
+        raise ValueError(f"there are {len(unit)} of --unit, but {len(value)} of --value; give each its own")
     if at is None and plane is not None:
         raise ValueError("--grid is one of longitudes and latitudes; give the points of a plane with --at")
     if at == points == "-":
         raise ValueError("POINTS and --at cannot both be stdin")
     destination = Destination.of(out, format, TABLES if grid is None else GRIDS, points, at, overwrite=overwrite)
-    wanted = None if grid is None else _grid(grid, box)
+    wanted = None if grid is None else _grid(grid, box, centers)
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     interpolated = _interpolator(table, value, method, latitude, skip_missing)
     if wanted is not None:
-        places = np.stack(np.meshgrid(*wanted), axis=-1).reshape(-1, 2)
-        values = dict(zip(value, interpolated(lonlat_to_xyz(places, latitude=latitude.value)).T, strict=True))
-        destination.write(lambda path: _save_grid(path, *wanted, values))
+        found = interpolated(lonlat_to_xyz(wanted.lonlat.reshape(-1, 2), latitude=latitude.value))
+        shape = wanted.lonlat.shape[:2]
+        values = {name: column.reshape(shape) for name, column in zip(value, found.T, strict=True)}
+        filled = replace(wanted, values=values, units=dict(zip(value, unit or (), strict=False)))
+        destination.write(lambda path: write(path, filled))
         return
     asking = read(
         str(at), lon=at_lon, lat=at_lat, plane=plane, layer=at_layer_name, crs=at_crs, skip_missing=skip_missing
@@ -103,7 +113,7 @@ def _interpolator(
     from stereodel import interpolation
     from stereodel.cli.progress import in_pieces, stage
 
-    values, table = _values(table, names, skip_missing)
+    values, table = table.values(names, skip_missing=skip_missing)
     kinds = {
         Method.nearest: interpolation.NearestInterpolator,
         Method.linear: interpolation.LinearInterpolator,
@@ -120,66 +130,12 @@ def _interpolator(
     return interpolated
 
 
-def _values(table: Table, names: list[str], skip_missing: bool) -> tuple[FloatArray, Table]:
-    """Values (n, number of columns) and their points, without those that lack one if they may be left out."""
-    import numpy as np
+def _grid(spacing: float, box: str | None, centers: bool) -> Grid:
+    """A grid of the whole Earth, or of a box "W,S,E,N"."""
+    from stereodel.io import Grid
 
-    values = np.column_stack([table.numbers(name) for name in names])
-    missing = np.argwhere(~np.isfinite(values))
-    if len(missing) and not skip_missing:
-        row, column = missing[0]
-        raise ValueError(
-            f"{table.name}: row {table.rows[row]}: {names[column]} is missing; leave such rows out with --skip-missing"
-        )
-    kept = np.ones(len(values), dtype=np.bool_)
-    kept[missing[:, 0]] = False
-    return values[kept], table.taken(kept)
-
-
-def _grid(spacing: float, box: str | None) -> tuple[FloatArray, FloatArray]:
-    """Longitudes from west to east, running on past 180, and latitudes from south to north.
-
-    Of the whole Earth, −180 without 180, or of a box "W,S,E,N" with its borders.
-    """
-    import numpy as np
-
-    from stereodel._arrays import as_scalar, as_steps
-    from stereodel.constants import GRID_ROUNDING
-
-    if box is None:
-        steps = as_steps(180.0, spacing, "--grid")
-        return np.arange(-steps, steps) * 180.0 / steps, np.linspace(-90.0, 90.0, steps + 1)
-
-    def steps_between(low: float, high: float) -> FloatArray:
-        step = as_scalar(spacing, "--grid", low=0.0, high=high - low, open_low=True)
-        count = int(np.floor((high - low) / step + GRID_ROUNDING))
-        return np.minimum(low + step * np.arange(count + 1), high)
-
-    west, south, east, north = options.box_of(box, "--box")
-    return steps_between(west, east), steps_between(south, north)
-
-
-def _save_grid(path: Path, lon: FloatArray, lat: FloatArray, columns: dict[str, FloatArray]) -> None:
-    """Write values (h·w,) by name, in rows from south to north, as a table or as NetCDF with CF attributes."""
-    import numpy as np
-
-    from stereodel._extras import optional
-    from stereodel._files import replacing
-    from stereodel.cli.destinations import save_table
-    from stereodel.cli.sources import LONLAT
-
-    if path.suffix.lower() == ".csv":
-        grid = (axis.ravel() for axis in np.meshgrid(lon, lat))
-        save_table(path, LONLAT, {**dict(zip(LONLAT, grid, strict=True)), **columns})
-        return
-    netcdf_file = optional("scipy.io", "scipy").netcdf_file
-    with replacing(path) as temporary, netcdf_file(temporary, "w", version=2) as file:
-        file.Conventions = "CF-1.8"
-        axes = (("lat", lat, "degrees_north", "latitude"), ("lon", lon, "degrees_east", "longitude"))
-        for name, places, units, meaning in axes:
-            file.createDimension(name, len(places))
-            axis = file.createVariable(name, "f8", (name,))
-            axis[:], axis.units, axis.standard_name = places, units, meaning
-        for name, values in columns.items():
-            variable = file.createVariable(name, "f8", ("lat", "lon"))
-            variable[:], variable._FillValue = values.reshape(len(lat), len(lon)), np.nan
+    bounds = None if box is None else options.box_of(box, "--box")
+    try:
+        return Grid.regular(spacing, bounds, centers=centers)
+    except ValueError as error:
+        raise ValueError(in_options(str(error), {"spacing": "--grid", "bounds": "--box"})) from error

@@ -78,6 +78,20 @@ class Table:
             raise ValueError(f"{self.name}: row {self.rows[row]}: {name} is {column.tolist()[row]!r}, not a number")
         return values
 
+    def values(self, names: list[str], *, skip_missing: bool) -> tuple[FloatArray, Table]:
+        """Columns of numbers (n, number of names) and their points; rows that lack one are left out if they may be."""
+        values = np.column_stack([self.numbers(name) for name in names])
+        missing = np.argwhere(~np.isfinite(values))
+        if len(missing) and not skip_missing:
+            row, column = missing[0]
+            raise ValueError(
+                f"{self.name}: row {self.rows[row]}: {names[column]} is missing; "
+                "leave such rows out with --skip-missing"
+            )
+        kept = np.ones(len(values), dtype=np.bool_)
+        kept[missing[:, 0]] = False
+        return values[kept], self.taken(kept)
+
     def beside(self, results: Columns, *, first: Columns | None = None, taken: Collection[str] = ()) -> Columns:
         """The places, `first`, the other columns of the table, and results; none hides another.
 

@@ -2,12 +2,14 @@
 
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
+from stereodel.drawing.legend import with_legend
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page_styles import styled
 from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.sketch import Sketch
+from stereodel.drawing.solid import PlacedScene, Solid
 from stereodel.drawing.space_curves import CircleArc, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.view import StereographicView, View
@@ -23,15 +25,18 @@ __all__ = [
     "Layer",
     "LineStyle",
     "Page",
+    "PlacedScene",
     "Polygons",
     "Polylines",
     "Scene",
     "Segment",
     "Sketch",
+    "Solid",
     "StereographicView",
     "Stroke",
     "View",
     "as_color",
     "diagram_page",
     "styled",
+    "with_legend",
 ]

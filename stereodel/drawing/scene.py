@@ -7,7 +7,6 @@ globes on a page, or the frames of an animation.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -30,6 +29,7 @@ from stereodel.drawing.scene_items import (
     SceneRegion,
     SceneSheet,
 )
+from stereodel.drawing.solid import PlacedScene, Solid
 from stereodel.drawing.space_curves import CircleArc, Curve, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.view import View
@@ -275,13 +275,35 @@ class Scene:
         scale : float
             Page units for one unit of space.
         """
+        return self.placed(view, at=at, scale=scale).page_items()
+
+    def placed(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> PlacedScene:
+        """The scene in its place on a page, for a `Solid` of more than one; all as for `layout`."""
         size = as_scalar(scale, "scale", low=0.0, open_low=True)
-        layout = Layout(view.matrix, self.center, self.radius, self.style, at, size)
-        planes = [item.plane(layout) for item in self._items if isinstance(item, SceneSheet)]
-        sheets = tuple(plane for plane in planes if plane[2] is not Layer.INSIDE_SHEET)
-        layout = replace(layout, sheets=sheets)
-        laid = [part for item in self._items for part in item.lay(layout)]
-        return tuple(item for _, item in sorted(laid, key=lambda pair: pair[0]))
+        return PlacedScene(Layout(view.matrix, self.center, self.radius, self.style, at, size), tuple(self._items))
+
+    def solid(
+        self,
+        view: View,
+        *,
+        extent: tuple[float, float, float, float] | None = None,
+        width: float = Page.width,
+        background: ColorLike = styles.WHITE,
+    ) -> Solid:
+        """The scene in space as seen from one side; all as for `page`, which raises the same errors.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> from pathlib import Path
+        >>> scene = Scene()
+        >>> scene.add_circles([SphereCircle.around((20, 30), 40)])
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     scene.solid(View(0, 20), width=200.0).save(Path(folder, "circle.glb")).stat().st_size > 1000
+        True
+        """
+        page = self.page(view, extent=extent, width=width, background=background)
+        return Solid(page, (self.placed(view),))
 
 
 def _circle_arc(arc: SphereArc | CircleArc) -> CircleArc:

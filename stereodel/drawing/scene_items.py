@@ -120,6 +120,14 @@ class SceneItem(Protocol):
         """Its visible parts as page items with their layers."""
 
 
+def laid_out(items: Sequence[SceneItem], layout: Layout) -> tuple[Item, ...]:
+    """Page items of all that a scene holds, in painter's order."""
+    planes = [item.plane(layout) for item in items if isinstance(item, SceneSheet)]
+    layout = replace(layout, sheets=tuple(plane for plane in planes if plane[2] is not Layer.INSIDE_SHEET))
+    laid = [part for item in items for part in item.lay(layout)]
+    return tuple(item for _, item in sorted(laid, key=lambda pair: pair[0]))
+
+
 @dataclass(frozen=True, eq=False)
 class SceneLines:
     """Curves drawn as lines of one style."""

@@ -1,14 +1,16 @@
 """Drawings of the plane and cross-sections: what `Scene` is for the globe, without depth.
 
 A `Sketch` collects segments, circles, arcs, regions, dots, graphs and labels in the order in which they are painted and
-hands them out as the items of a `Page`. Coordinates are the page's own (x right, y up).
+hands them out as the items of a `Page`. Coordinates are the page's own (x right, y up). Ticks and heads of arrows are
+measured in points, as type is: they are made when the page is, which knows how many points a unit has.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
@@ -16,10 +18,24 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_vectors
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
+from stereodel.drawing.scene import Scene
 from stereodel.drawing.space_curves import CircleArc, Segment, page_path
 from stereodel.drawing.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
+from stereodel.drawing.view import View
 
 Point = Sequence[float] | FloatArray
+
+InPoints = Callable[[float], Iterable[Item]]
+"""Makes items when it is known how many points a page unit has."""
+
+TICK: Final = 3.0
+"""Length of a tick of an axis, and of either half of one at the end of a dimension, points."""
+
+GAP: Final = 3.0
+"""Between a line or its tick and its name, points."""
+
+HEAD: Final = (6.0, 2.0)
+"""Length and half width of the head of an arrow, points."""
 
 
 class Sketch:
@@ -37,7 +53,8 @@ class Sketch:
     """
 
     def __init__(self) -> None:
-        self._items: list[Item] = []
+        self._parts: list[Item | InPoints] = []
+        self._views: list[FloatArray] = []
 
     def add_segment(self, a: Point, b: Point, *, name: str, style: LineStyle | None = None) -> Sketch:
         """A straight line from a to b."""
@@ -75,12 +92,29 @@ class Sketch:
         return self._stroke(arc_path(center, radius, start, stop), name, style)
 
     def add_graph(
-        self, x: npt.ArrayLike, y: npt.ArrayLike, slope: npt.ArrayLike, *, name: str, style: LineStyle | None = None
+        self,
+        x: npt.ArrayLike,
+        y: npt.ArrayLike,
+        slope: npt.ArrayLike | None = None,
+        *,
+        name: str,
+        style: LineStyle | None = None,
     ) -> Sketch:
-        """The graph of a smooth function by values and derivatives (n,) at its knots, as cubic Hermite pieces."""
-        knots = np.stack([np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)], axis=-1)
+        """The graph of a smooth function by values and derivatives (n,) at its knots, as cubic Hermite pieces.
+
+        Without `slope` the derivatives are those of the parabolas through three neighbouring knots each.
+
+        Raises
+        ------
+        ValueError
+            For fewer than three knots without `slope`.
+        """
+        across, up = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
+        if slope is None and len(across) < 3:
+            raise ValueError(f"x has {len(across)} knots, but a parabola needs 3; give more of them, or slope=")
+        steep = np.gradient(up, across, edge_order=2) if slope is None else np.asarray(slope, dtype=np.float64)
+        knots, tangent = np.stack([across, up], axis=-1), np.stack([np.ones(len(across)), steep], axis=-1)
         third = np.diff(knots[:, :1], axis=0) / 3
-        tangent = np.stack([np.ones(len(knots)), np.asarray(slope, dtype=np.float64)], axis=-1)
         controls = [knots[:-1], knots[:-1] + third * tangent[:-1], knots[1:] - third * tangent[1:], knots[1:]]
         return self._stroke(np.stack(controls, axis=1), name, style)
 
@@ -120,7 +154,7 @@ class Sketch:
     ) -> Sketch:
         """The angle at a vertex, from the direction of a counterclockwise to that of b, with its name beside the arc.
 
-        The name stands on the bisector, `gap` points outside the arc.
+        The name, if there is one, stands on the bisector, `gap` points outside the arc.
         """
         arms = np.array([a, b], dtype=np.float64) - np.asarray(vertex, dtype=np.float64)
         start, stop = np.degrees(np.arctan2(arms[:, 1], arms[:, 0]))
@@ -129,11 +163,115 @@ class Sketch:
         outward = np.array([np.cos(middle), np.sin(middle)])
         place = np.asarray(vertex, dtype=np.float64) + radius * outward
         self.add_arc(vertex, radius, start, stop, name=name, style=style)
+        if not text:
+            return self
         return self.add_label(place, text, (gap * float(outward[0]), gap * float(outward[1])), **options)
+
+    def add_dimension(
+        self,
+        a: Point,
+        b: Point,
+        text: str,
+        *,
+        name: str,
+        style: LineStyle | None = None,
+        gap: float = GAP,
+        **options: Any,
+    ) -> Sketch:
+        """The measure from a to b: a line with a tick across each end, and its name along it, `gap` points off.
+
+        The name, if there is one, stands on the left of the way from a to b, and never upside down; `options` go to
+        `Label`.
+
+        Raises
+        ------
+        ValueError
+            When a and b are one point.
+        """
+        first, last = (np.array(end, dtype=np.float64) for end in (a, b))
+        ahead, left = _frame(first, last)
+        self.add_segment(first, last, name=name, style=style)
+        for end in (first, last):
+            self._add_tick(end, left, name, style, both_ways=True)
+        if not text:
+            return self
+        turn = float(np.degrees(np.arctan2(ahead[1], ahead[0])))
+        upright = -90.0 < turn <= 90.0
+        beside: dict[str, Any] = {"rotation": turn if upright else turn - np.copysign(180.0, turn)}
+        beside["valign"] = "bottom" if upright else "top"
+        offset = (gap * float(left[0]), gap * float(left[1]))
+        return self.add_label((first + last) / 2, text, offset, **beside | options)
+
+    def add_arrow(self, a: Point, b: Point, *, name: str, style: LineStyle | None = None) -> Sketch:
+        """An arrow from a to b, whose head is filled.
+
+        Raises
+        ------
+        ValueError
+            When a and b are one point.
+        """
+        drawn = line(name, style)
+        tail, tip = (np.array(end, dtype=np.float64) for end in (a, b))
+        ahead, left = _frame(tail, tip)
+
+        def arrow(points_per_unit: float) -> list[Item]:
+            length, half = (size / points_per_unit for size in HEAD)
+            foot = tip - length * ahead
+            head = _run([tip, foot + half * left, foot - half * left, tip])
+            return [_line(_run([tail, foot]), name, drawn), Fill((head,), drawn.color, name)]
+
+        self._parts.append(arrow)
+        return self
+
+    def add_axes(
+        self,
+        corner: Point,
+        width: float,
+        height: float,
+        across: Mapping[float, str],
+        up: Mapping[float, str],
+        *,
+        name: str,
+        style: LineStyle | None = None,
+        **options: Any,
+    ) -> Sketch:
+        """The axes of a graph: lines along the left and the lower side of a rectangle, with ticks and numbers.
+
+        Parameters
+        ----------
+        corner : (float, float)
+            The lower left one of the rectangle.
+        width, height : float
+            Of the rectangle, page units.
+        across, up : mapping of float to str
+            Numbers and what is written beside them, below the rectangle and on its left. The least and the largest
+            stand at its corners.
+        name, style
+            Of the lines.
+        options
+            Go to `Label`.
+        """
+        origin = np.array(corner, dtype=np.float64)
+        right, above = np.array([1.0, 0.0]), np.array([0.0, 1.0])
+        self.add_polyline([origin + height * above, origin, origin + width * right], name=name, style=style)
+        for foot, text in _spaced(origin, width * right, across):
+            self._add_tick(foot, -above, name, style)
+            self.add_label(foot, text, (0.0, -GAP - TICK), valign="top", **options)
+        for foot, text in _spaced(origin, height * above, up):
+            self._add_tick(foot, -right, name, style)
+            self.add_label(foot, text, (-GAP - TICK, 0.0), align="right", **options)
+        return self
+
+    def add_scene(
+        self, scene: Scene, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0
+    ) -> Sketch:
+        """A globe: a scene as a view shows it, the origin of its space at a point, a unit of it `scale` page units."""
+        self._views.append(view.matrix)
+        return self.add_items(scene.layout(view, at=at, scale=scale))
 
     def add_items(self, items: Iterable[Item]) -> Sketch:
         """Finished items, on top."""
-        self._items.extend(items)
+        self._parts.extend(items)
         return self
 
     def page(
@@ -150,11 +288,45 @@ class Sketch:
         ValueError
             For an extent without area, a width that is not positive and what is no colour.
         """
-        return Page(extent, tuple(self._items), width, as_color(background, "background"))
+        blank = Page(extent, (), width, as_color(background, "background"), tuple(self._views))
+        scale = blank.points_per_unit
+        items = [item for part in self._parts for item in (part(scale) if callable(part) else (part,))]
+        return replace(blank, items=tuple(items))
+
+    def _add_tick(
+        self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False
+    ) -> None:
+        """A tick from a point one way, or both ways as far."""
+
+        def tick(points_per_unit: float) -> list[Item]:
+            reach = TICK / points_per_unit * way
+            return [_line(_run([at - both_ways * reach, at + reach]), name, style)]
+
+        self._parts.append(tick)
 
     def _stroke(self, path: Beziers, name: str, style: LineStyle | None, *, closed: bool = False) -> Sketch:
-        drawn = line(name, style)
-        return self.add_items([Stroke(path, drawn.color, drawn.width, drawn.dash, closed=closed, name=name)])
+        return self.add_items([_line(path, name, style, closed=closed)])
+
+
+def _frame(a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Unit vectors from a to b, and to the left of that way."""
+    away = b - a
+    length = float(np.hypot(*away))
+    if length == 0:
+        raise ValueError(f"a and b must be two points, got ({a[0]:g}, {a[1]:g}) twice")
+    ahead = away / length
+    return ahead, np.array([-ahead[1], ahead[0]])
+
+
+def _spaced(origin: FloatArray, away: FloatArray, names: Mapping[float, str]) -> list[tuple[FloatArray, str]]:
+    """Where names stand on an axis from the least of their numbers, at the origin, to the largest."""
+    low, high = min(names), max(names)
+    return [(origin + (number - low) / (high - low) * away, text) for number, text in names.items()]
+
+
+def _line(path: Beziers, name: str, style: LineStyle | None, *, closed: bool = False) -> Stroke:
+    drawn = line(name, style)
+    return Stroke(path, drawn.color, drawn.width, drawn.dash, closed=closed, name=name)
 
 
 def arc_path(center: Point, radius: float, start: float, stop: float) -> Beziers:

@@ -7,6 +7,7 @@ them.
 from stereodel.io.columns import RenamedColumnWarning
 from stereodel.io.frames import to_geodataframe
 from stereodel.io.geojson import to_geojson
+from stereodel.io.grids import Grid
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe, read_points
 from stereodel.io.tables import PointTable
@@ -15,6 +16,7 @@ from stereodel.io.warping import warp
 from stereodel.io.writing import write
 
 __all__ = [
+    "Grid",
     "PointTable",
     "RenamedColumnWarning",
     "from_geodataframe",

@@ -14,7 +14,7 @@ import numpy as np
 
 from stereodel._arrays import Column, Indices
 from stereodel.io.columns import has_lonlat
-from stereodel.io.text import NUMBER, texts, typed
+from stereodel.io.text import EXACT_INTEGERS, NUMBER, objects, texts, typed
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50
@@ -133,7 +133,22 @@ def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Rows]:
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
-    """Columns with a line of their names, numbers with as many digits as it takes to read the same ones back."""
+    """Columns with a line of their names, numbers with as many digits as it takes to read the same ones back.
+
+    A number that is missing is empty; a column of doubles that are whole numbers is written as such.
+    """
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows(zip(*(np.asarray(values).tolist() for values in columns.values()), strict=True))
+    writer.writerows(zip(*(_cells(np.asarray(values)).tolist() for values in columns.values()), strict=True))
+
+
+def _cells(values: Column) -> Column:
+    """What stands in the fields of a column."""
+    if values.dtype.kind != "f":
+        return values
+    known = np.isfinite(values.astype(np.float64))
+    numbers = values[known].astype(np.float64)
+    whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
+    cells = objects([None] * len(values))
+    cells[known] = list(map(int, numbers.tolist())) if whole else numbers.tolist()
+    return cells

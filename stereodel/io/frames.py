@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 
 import numpy.typing as npt
@@ -10,6 +10,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice, as_scalar
 from stereodel._extras import optional
 from stereodel.curves.borders import frame_of
+from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
 from stereodel.sphere.latitudes import KINDS, Latitude
@@ -20,7 +21,7 @@ LARGEST_SEGMENT = 90.0
 
 
 def to_geodataframe(
-    mesh: Mesh,
+    mesh: Mesh | list[Contour],
     *,
     what: What | None = None,
     columns: Mapping[str, npt.ArrayLike] | None = None,
@@ -30,12 +31,13 @@ def to_geodataframe(
     bounds: npt.ArrayLike | None = None,
     crs: Any = None,
 ) -> Any:
-    """Cells, triangles, edges, ridges or sites as a GeoDataFrame.
+    """Cells, triangles, edges, ridges, sites or contours as a GeoDataFrame.
 
     Parameters
     ----------
-    mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi or PlanarDelaunay
-        The other one of the two is computed where `what` asks for it.
+    mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi, PlanarDelaunay, or list of Contour
+        The other one of the two is computed where `what` asks for it. Contours are those of `contours`; of the options
+        they have `latitude`, `max_segment` and `crs`.
     what : {"cells", "triangles", "edges", "ridges", "sites"}, optional
         Voronoi cells, Delaunay triangles, Delaunay edges, Voronoi ridges or the points themselves. By default cells of
         a diagram and triangles of a triangulation.
@@ -58,7 +60,8 @@ def to_geodataframe(
     -------
     geopandas.GeoDataFrame
         ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
-        corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites; then
+        corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites;
+        ``level`` and ``closed`` for contours, whose higher values are on the left of the lines; then
         `columns`, then ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. Of
         `columns`, one with such a name gets a number behind it, which a warning tells.
 
@@ -93,6 +96,11 @@ def to_geodataframe(
     5      5    S  2.094       Polygon
     """
     geopandas = optional("geopandas", "geo")
+    if isinstance(mesh, list):
+        if what is not None or columns or bounds is not None:
+            raise ValueError("what, columns and bounds are options of triangulations and diagrams, not of contours")
+        as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+        return _of_contours(mesh, max_segment, latitude, crs)
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
     as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
     chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
@@ -112,3 +120,17 @@ def to_geodataframe(
     kept = ~optional("shapely", "geo").is_empty(shapes)
     table = {name: values[kept] for name, values in found.items()}
     return geopandas.GeoDataFrame(table, geometry=shapes[kept], crs="EPSG:4326" if is_spherical(mesh) else crs)
+
+
+def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Latitude | None, crs: Any) -> Any:
+    """A row for each contour."""
+    from stereodel.io.isolines import isolines
+
+    for number, contour in enumerate(contours):
+        if not isinstance(contour, Contour):
+            raise TypeError(f"mesh[{number}] must be a Contour, not {type(contour).__name__}")
+    chosen = None if latitude is None else as_choice(latitude, KINDS, "latitude")
+    found, lines = isolines(contours, max_segment, chosen)
+    spherical = not contours or contours[0].points.shape[1] == 3
+    system = "EPSG:4326" if spherical else crs
+    return optional("geopandas", "geo").GeoDataFrame(found, geometry=lines, crs=system)

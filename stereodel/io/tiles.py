@@ -28,13 +28,12 @@ WORLD = 360.0 * 180.0
 """Area of the map, square degrees."""
 
 
-def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude) -> Geometries:
-    """A LineString for each arc, a MultiLineString for one that crosses the 180th meridian or a pole."""
+def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude, lines: Ragged | None = None) -> Geometries:
+    """A LineString for each arc or row of arcs, a MultiLineString for one that crosses the 180th meridian or a pole."""
     border = Antimeridian(latitude=latitude)
     pieces = border.cut(arcs)
-    count, each = len(arcs), np.arange(len(arcs))
-    sides = Ragged(each, np.arange(count + 1))
-    return lines_on_map(sides, each, count, pieces, _sampled(pieces, max_segment), border)
+    rows = Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)) if lines is None else lines
+    return lines_on_map(rows, np.arange(len(rows)), len(rows), pieces, _sampled(pieces, max_segment), border)
 
 
 def sphere_polygons(

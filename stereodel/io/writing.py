@@ -14,11 +14,13 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
 from stereodel._files import replacing
+from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
 from stereodel.io.frames import to_geodataframe
 from stereodel.io.geojson import to_geojson
+from stereodel.io.grids import Grid, write_geotiff, write_grid_table, write_netcdf
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
@@ -39,6 +41,8 @@ ENDINGS = {
     ".kml": "kml",
     ".geojsonl": "geojsonl",
     ".nc": "nc",
+    ".tif": "tif",
+    ".tiff": "tif",
     ".glb": "glb",
     ".ply": "ply",
     ".vtp": "vtp",
@@ -48,19 +52,20 @@ PICTURES = ("svg", "pdf", "png")
 
 def write(
     path: str | os.PathLike[str] | BinaryIO,
-    thing: Mesh | PointTable | Any,
+    thing: Mesh | PointTable | Grid | list[Contour] | Any,
     *,
     format: str | None = None,
     **options: Any,
 ) -> None:
-    """Write a triangulation, a diagram, a table of points or a GeoDataFrame as data.
+    """Write a triangulation, a diagram, a table of points, a grid of values or a GeoDataFrame as data.
 
     Parameters
     ----------
     path : path-like or binary stream
         A file is written whole or not at all; an existing one is replaced.
-    thing : Mesh, PointTable or geopandas.GeoDataFrame
-        A triangulation or diagram of plane or sphere; a table or frame where the format holds tables.
+    thing : Mesh, PointTable, Grid, list of Contour, or geopandas.GeoDataFrame
+        A triangulation or diagram of plane or sphere; a table or frame where the format holds tables; a grid as csv,
+        nc or tif; contours where the format holds lines.
     format : str, optional
         By default what the ending of the path says. For a stream it is needed.
     **options
@@ -91,7 +96,7 @@ def write(
     >>> stream = io.BytesIO()
     >>> write(stream, diagram, format="csv", columns={"name": ["A", "B", "C"]}, radius=2.0)
     >>> print(stream.getvalue().decode().splitlines()[:2])
-    ['lon,lat,area,name', '10.0,50.0,16.05702911834783,A']
+    ['lon,lat,area,name', '10,50,16.05702911834783,A']
     """
     kind = format
     if isinstance(path, str | os.PathLike):
@@ -116,7 +121,7 @@ def write(
 
 def _frame(thing: Any, options: dict[str, Any]) -> Any:
     """A GeoDataFrame of whatever was given."""
-    if isinstance(thing, Mesh):
+    if isinstance(thing, Mesh | list):
         return to_geodataframe(thing, **options)
     _no_options(options)
     if isinstance(thing, PointTable):
@@ -134,6 +139,10 @@ def _no_options(options: dict[str, Any]) -> None:
 
 
 def _write_csv(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    if isinstance(thing, Grid):
+        _no_options(options)
+        write_grid_table(thing, path)
+        return
     if isinstance(thing, Mesh):
         columns = _mesh_columns(thing, **options)
     else:
@@ -184,7 +193,18 @@ def _write_vector(thing: Any, path: Path, options: dict[str, Any]) -> None:
     write_frame(_frame(thing, options), path, layer=path.stem)
 
 
+def _write_tif(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    if not isinstance(thing, Grid):
+        raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(thing).__name__}")
+    _no_options(options)
+    write_geotiff(thing, path)
+
+
 def _write_nc(thing: Any, path: Path, options: dict[str, Any]) -> None:
+    if isinstance(thing, Grid):
+        _no_options(options)
+        write_netcdf(thing, path)
+        return
     optional("netCDF4", "grid")
     to_ugrid(thing, **options).to_netcdf(path, engine="netcdf4")
 
@@ -204,6 +224,7 @@ WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {
     "geojsonl": _write_geojson,
     **dict.fromkeys(DRIVERS, _write_vector),
     "nc": _write_nc,
+    "tif": _write_tif,
     "glb": _write_trimesh,
     "ply": _write_trimesh,
     "vtp": _write_polydata,

@@ -16,6 +16,7 @@ from typing import Any, Literal, Protocol
 from stereodel._arrays import Pixels, as_choice
 from stereodel.drawing.page import Page
 from stereodel.drawing.page_styles import STYLES, StyledDraw, as_styles
+from stereodel.drawing.solid import Solid
 from stereodel.render.sizes import LARGEST_SIZE
 
 Geometry = Mapping[str, Any]
@@ -35,6 +36,8 @@ class Figure:
         (geometry) → `Page`.
     renderer : {"gl", "agg"}
         What makes the PNG: OpenGL for globes, matplotlib for the plane.
+    in_space : callable, optional
+        (geometry) → `Solid`: what the picture shows, in space.
 
     Examples
     --------
@@ -47,6 +50,7 @@ class Figure:
     geometry: Callable[[], Geometry]
     draw: Callable[[Any], Page]
     renderer: Literal["gl", "agg"] = "gl"
+    in_space: Callable[[Any], Solid] | None = None
 
     def __post_init__(self) -> None:
         as_choice(self.renderer, ("gl", "agg"), "renderer")
@@ -65,12 +69,29 @@ class Figure:
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
+    def solid(self) -> Solid:
+        """The picture in space.
+
+        Raises
+        ------
+        ValueError
+            For a figure without `in_space`.
+        """
+        return self._solid(self.geometry())
+
+    def _solid(self, geometry: Geometry) -> Solid:
+        if self.in_space is None:
+            raise ValueError(f"figure {self.name!r} shows nothing in space; give it in_space=")
+        return self.in_space(geometry)
+
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
         """The picture, (height, width, 3), rows from the top; `size` and `text` as for `Page.pixels`."""
         return self.page().pixels(size=size, text=text, renderer=self.renderer)
 
-    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
-        """Write NAME.png, NAME.svg and NAME.pdf into a folder.
+    def save(
+        self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True, solid: bool = False
+    ) -> dict[str, Any]:
+        """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of what it shows in space.
 
         Parameters
         ----------
@@ -78,6 +99,8 @@ class Figure:
             The folder; made when it is missing.
         size, text
             As for `Page.save`.
+        solid : bool
+            Whether to write NAME_solid.png too: what stands in space with light and shade.
 
         Returns
         -------
@@ -88,6 +111,8 @@ class Figure:
         ------
         OSError
             When the folder cannot be made or written to.
+        ValueError
+            Where `solid` is asked for and there is no `in_space`.
         """
         from stereodel.render.save import save_page
 
@@ -95,7 +120,13 @@ class Figure:
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{self.name}.{kind}" for kind in ("png", "svg", "pdf")]
-        width, digest = save_page(self.page(), *files, size=size, text=text, renderer=self.renderer)
+        geometry = self.geometry()
+        width, digest = save_page(self.draw(geometry), *files, size=size, text=text, renderer=self.renderer)
+        if self.in_space is not None or solid:
+            bodies = self._solid(geometry)
+            files.append(bodies.save(folder / f"{self.name}.glb"))
+            if solid:
+                files.append(bodies.save(folder / f"{self.name}_solid.png", size=size, text=text))
         return {
             "figure": self.name,
             "files": [file.name for file in files],
@@ -107,7 +138,9 @@ class Figure:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files, say where; what goes wrong becomes a message and exit code 1."""
-        run_script(self, argv, source=self.draw, kind="PNG, SVG and PDF", usual_size="17 cm at 300 dpi")
+        solid = self.in_space is not None
+        kind = "PNG, SVG, PDF and GLB" if solid else "PNG, SVG and PDF"
+        run_script(self, argv, source=self.draw, kind=kind, usual_size="17 cm at 300 dpi", solid=solid)
 
 
 class Drawing(Protocol):
@@ -117,7 +150,8 @@ class Drawing(Protocol):
     def name(self) -> str:
         """Stem of the files."""
 
-    def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
+    @property
+    def save(self) -> Callable[..., dict[str, Any]]:
         """Write the files into a folder and return a record with "files" and "seconds"."""
 
     def styled(self, *styles: str) -> Drawing:
@@ -125,7 +159,13 @@ class Drawing(Protocol):
 
 
 def run_script(
-    drawing: Drawing, argv: Sequence[str] | None, *, source: Callable[..., Any], kind: str, usual_size: str
+    drawing: Drawing,
+    argv: Sequence[str] | None,
+    *,
+    source: Callable[..., Any],
+    kind: str,
+    usual_size: str,
+    solid: bool = False,
 ) -> None:
     """Write the files and say where; what goes wrong becomes a message and exit code 1.
 
@@ -138,18 +178,25 @@ def run_script(
         A function that the script defines; `out` beside the script's folder is where files go by default.
     kind, usual_size : str
         What is drawn and how wide it is by default, for the help.
+    solid : bool
+        Whether it can be drawn in space as well, with ``--solid``.
     """
     parser = argparse.ArgumentParser(description=f"Draw {drawing.name} as {kind}.")
     out = default_folder(source)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")
     parser.add_argument("--size", type=pixel_count, help=f"width in pixels ({usual_size})")
     parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
+    if solid:
+        parser.add_argument(
+            "--solid", action="store_true", help=f"draw {drawing.name}_solid.png too, with light and shade"
+        )
     parser.add_argument("--style", type=style_names, default=(), help=f"{', '.join(STYLES)}, or several with commas")
     options = parser.parse_args(sys.argv[1:] if argv is None else argv)
     folder = styled_folder(out, options.style) if options.out is None else options.out
+    more = {"solid": True} if solid and options.solid else {}
     try:
         shown = drawing.styled(*options.style) if options.style else drawing
-        record = shown.save(folder, size=options.size, text=options.text)
+        record = shown.save(folder, size=options.size, text=options.text, **more)
     except (OSError, RuntimeError, ValueError) as error:
         raise SystemExit(f"{drawing.name}: {error}") from None
     print(f"{drawing.name}: {', '.join(record['files'])} in {folder} ({record['seconds']:.1f} s)")

@@ -69,6 +69,9 @@ STRIDE: Final = 8192
 SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875))
 """Where in a pixel llvmpipe takes its four samples, from the lower left corner; Direct3D's standard pattern too."""
 
+FAR: Final = 100.0
+"""Distance of the camera from bodies in space, in sides of the picture: light is reflected as to a viewer far away."""
+
 NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
 """How texels are looked up: names of OpenGL's C header."""
@@ -213,11 +216,87 @@ def bands(
     if min(width, height) < 1:
         raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
     context = DOOR.context(platform)
+    for windows in _windows(width, height):
+        yield np.concatenate([finish(context.draw(part(w), w, background)) for w in windows], axis=1)
+
+
+def space_bands(
+    make: Callable[[Any], Any],
+    box: tuple[float, float, float, float, float, float],
+    width: int,
+    height: int,
+    *,
+    numbered: bool = False,
+    platform: str | None = None,
+    finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
+) -> Iterator[Pixels]:
+    """Draw bodies in space from the top, `BAND` rows at a time: pyrender's own light, and its depth test.
+
+    Parameters
+    ----------
+    make : callable
+        (module pyrender) → a scene of it without a camera. Its meshes are drawn in the order of their nodes' names, see
+        `node_name`, which counts where something is transparent.
+    box : tuple of float
+        Left, right, bottom, top, and the least and largest z of what is shown; it is seen along −z, from far away.
+    width, height : int
+        In pixels.
+    numbered : bool
+        Instead of light, each mesh in the colour that is its number from 1 on in 24 bits, red first, on black; without
+        multisampling: what is seen in the middle of each pixel.
+    platform, finish
+        As for `bands`, which raises the same errors.
+
+    Yields
+    ------
+    (rows, width, 3) uint8 array
+        Or what `finish` makes of it.
+    """
+    context = DOOR.context(platform)
+    scene, camera = make(context.pyrender), None
+    for windows in _windows(width, height):
+        parts = []
+        for window in windows:
+            if camera is not None:
+                scene.remove_node(camera)
+            camera = _aim(context.pyrender, scene, box, width, height, window)
+            parts.append(finish(context.draw_space(scene, window, numbered=numbered)))
+        yield np.concatenate(parts, axis=1)
+
+
+def node_name(number: int) -> str:
+    """Of the mesh that is drawn as one of that number, from 0."""
+    return f"{number:08d}"
+
+
+def _windows(width: int, height: int) -> Iterator[list[Window]]:
+    """The windows of a picture, row by row from the top."""
     for top in range(0, height, BAND):
         rows = min(BAND, height - top)
         lefts = range(0, width, COLUMNS)
-        windows = [Window(left, height - top - rows, min(COLUMNS, width - left), rows) for left in lefts]
-        yield np.concatenate([finish(context.draw(part(w), w, background)) for w in windows], axis=1)
+        yield [Window(left, height - top - rows, min(COLUMNS, width - left), rows) for left in lefts]
+
+
+def _aim(
+    pyrender: Any,
+    scene: Any,
+    box: tuple[float, float, float, float, float, float],
+    width: int,
+    height: int,
+    window: Window,
+) -> Any:
+    """Put a camera before a window of a picture of a box."""
+    left, right, bottom, top, low, high = box
+    across, up = (right - left) / width, (top - bottom) / height
+    distance = FAR * max(right - left, top - bottom)
+    pose = np.eye(4)
+    pose[0, 3] = left + across * (window.left + window.width / 2)
+    pose[1, 3] = bottom + up * (window.bottom + window.height / 2)
+    pose[2, 3] = high + distance
+    camera = pyrender.OrthographicCamera(
+        xmag=across * window.width / 2, ymag=up * window.height / 2, znear=distance, zfar=distance + high - low
+    )
+    return scene.add(camera, pose=pose)
 
 
 def describe(platform: str | None = None) -> Description:
@@ -287,15 +366,16 @@ class _Context:
     def __init__(self, platform: str) -> None:
         self.platform = platform
         with _environment(PYOPENGL_PLATFORM=platform):
-            self._pyrender = _import_pyrender(platform)
+            self.pyrender = _import_pyrender(platform)
             from OpenGL import GL
 
             self._gl = GL
             try:
                 device = str(_software_device()) if platform == "egl" else "0"
                 with _environment(EGL_DEVICE_ID=device):
-                    self._offscreen = self._pyrender.OffscreenRenderer(16, 16)
-                self._offscreen._renderer._program_cache.shader_dir = SHADERS
+                    self._offscreen = self.pyrender.OffscreenRenderer(16, 16)
+                cache = self._offscreen._renderer._program_cache
+                self._shaders = {True: SHADERS, False: cache.shader_dir}
                 self.multisamples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)) >= len(SAMPLES)
                 mend_offscreen(self._offscreen, GL, multisamples=self.multisamples)
             except OpenGLError:
@@ -306,10 +386,26 @@ class _Context:
 
     def draw(self, triangles: Triangles, window: Window, background: Color) -> Pixels:
         """What a window shows of triangles, rows from the top."""
-        scene = _scene(self._pyrender, triangles, window, background)
+        scene = _scene(self.pyrender, triangles, window, background)
+        flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
+        return self._rendered(scene, window, own=True, flags=flags)
+
+    def draw_space(self, scene: Any, window: Window, *, numbered: bool) -> Pixels:
+        """What a window shows of a scene of pyrender with a camera, rows from the top."""
+        if not numbered:
+            return self._rendered(scene, window, own=False, flags=self.pyrender.RenderFlags.NONE)
+        nodes = sorted(scene.mesh_nodes, key=lambda node: node.name)
+        colors = {node: [k >> 16 & 255, k >> 8 & 255, k & 255] for k, node in enumerate(nodes, start=1)}
+        return self._rendered(scene, window, own=False, flags=self.pyrender.RenderFlags.SEG, seg_node_map=colors)
+
+    def _rendered(self, scene: Any, window: Window, *, own: bool, **options: Any) -> Pixels:
+        """By our own shaders or by those of pyrender."""
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
+        self._offscreen._renderer._program_cache.shader_dir = self._shaders[own]
         try:
-            return self._rendered(scene) if self.multisamples else self._sample_by_sample(scene)
+            if self.multisamples or "seg_node_map" in options:  # numbers have no mean
+                return self._passed(scene, options)
+            return self._sample_by_sample(scene, options)
         except MemoryError:
             raise
         except Exception as error:  # pyrender and PyOpenGL raise anything here too
@@ -321,21 +417,21 @@ class _Context:
         wrong = trial.trial_problem(self.draw(trial.trial_triangles(), whole, (1.0, 1.0, 1.0, 1.0)))
         return wrong and f"{self.platform} draws wrongly: {wrong}"
 
-    def _rendered(self, scene: Any) -> Pixels:
-        flags = self._pyrender.RenderFlags.FLAT | self._pyrender.RenderFlags.SKIP_CULL_FACES
-        color, _ = self._offscreen.render(scene, flags=flags)
+    def _passed(self, scene: Any, options: dict[str, Any]) -> Pixels:
+        """What one pass of pyrender draws."""
+        color, _ = self._offscreen.render(scene, **options)
         return color
 
-    def _sample_by_sample(self, scene: Any) -> Pixels:
+    def _sample_by_sample(self, scene: Any, options: dict[str, Any]) -> Pixels:
         """The scene drawn once for each sample of a pixel, that lying in the middle, and averaged, rounded half up."""
         camera = scene.main_camera_node
-        pose = camera.matrix
+        pose, pixel = camera.matrix, 2 * camera.camera.xmag / self._offscreen.viewport_width
         total = np.full((self._offscreen.viewport_height, self._offscreen.viewport_width, 3), 2, dtype=np.uint16)
         for sample in SAMPLES:
             aside = np.eye(4)
-            aside[:2, 3] = np.array(sample) - 0.5
-            scene.set_pose(camera, aside @ pose)
-            total += self._rendered(scene)
+            aside[:2, 3] = (np.array(sample) - 0.5) * pixel
+            scene.set_pose(camera, pose @ aside)
+            total += self._passed(scene, options)
         return (total // 4).astype(np.uint8)
 
     def strings(self) -> tuple[str, str]:

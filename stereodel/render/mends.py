@@ -6,7 +6,8 @@ pyrender, on objects that `stereodel.render.gl` owns:
 * it denies that OSMesa has framebuffer objects, and draws without multisampling;
 * it asks for four samples a pixel of whatever cannot give them;
 * it compiles its shaders for each picture, and keeps them all;
-* it reads depths that nobody asks for.
+* it reads depths that nobody asks for;
+* it draws meshes in the order of a set, those that are transparent by the places of their nodes, which tell nothing.
 
 matplotlib, while `stereodel.render.vector` writes a file:
 
@@ -43,7 +44,7 @@ def import_pyrender() -> Any:
 
 
 def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
-    """Let an `OffscreenRenderer` sample each pixel four times, compile a shader once, and read colours alone.
+    """Let an `OffscreenRenderer` sample each pixel four times, keep shaders, draw in order, and read colours alone.
 
     Parameters
     ----------
@@ -63,6 +64,7 @@ def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
     renderer = offscreen._renderer
     cache = renderer._program_cache
     cache.get_program = _kept(cache.get_program)
+    renderer._sorted_mesh_nodes = lambda scene: sorted(scene.mesh_nodes, key=lambda node: node.name or "")
     renderer._read_main_framebuffer = lambda scene, flags: (_colors(renderer, opengl), None)
 
 

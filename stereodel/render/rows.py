@@ -46,7 +46,7 @@ def bare_rows(page: Page, width: int, renderer: Renderer, platform: str | None =
 
 def gl_rows(page: Page, width: int, platform: str | None = None) -> Iterator[Pixels]:
     """All but the labels of a page, by OpenGL."""
-    ground = _over_white(page.background)
+    ground = over_white(page.background)
     large = SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(page, width)
     triangles = triangulate(page, *large)
     return gl.bands(triangles.within, *large, background=ground, platform=platform, finish=averaged)
@@ -113,6 +113,7 @@ def pixel_hash(picture: npt.NDArray[Any]) -> str:
     return str(digest)
 
 
-def _over_white(color: Color) -> Color:
+def over_white(color: Color) -> Color:
+    """A colour as it looks on white paper, opaque, of 8 bits."""
     red, green, blue = (np.floor(255 * (1 - color[3] * (1 - value)) + 0.5) / 255 for value in color[:3])
     return (red, green, blue, 1.0)

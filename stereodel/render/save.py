@@ -13,6 +13,7 @@ pixels.
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
@@ -87,9 +88,13 @@ def mosaic_pictures(page: Page, width: int, platform: str | None = None) -> list
 
 def _write_png(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> str:
     """Write a page as PNG and return the hash of its pixels without text."""
-    height = pixel_height(page, width)
-    digest = PixelDigest((height, width, 3))
-    rows = labelled(digest.passed(bare_rows(page, width, renderer, platform)), page, width)
-    with replacing(target) as temporary, temporary.open("wb") as file:
-        file.writelines(png_chunks(rows, width, height, page_width=page.width))
+    digest = PixelDigest((pixel_height(page, width), width, 3))
+    write_png(digest.passed(bare_rows(page, width, renderer, platform)), page, target, width)
     return str(digest)
+
+
+def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> None:
+    """Write rows of a picture `width` pixels wide as PNG, with the labels of its page over them."""
+    lettered = labelled(rows, page, width)
+    with replacing(target) as temporary, temporary.open("wb") as file:
+        file.writelines(png_chunks(lettered, width, pixel_height(page, width), page_width=page.width))

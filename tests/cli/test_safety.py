@@ -28,6 +28,7 @@ WRITING = {
 EVERY = {
     **WRITING,
     "triangulate": ["triangulate", "cities.csv"],
+    "contour": ["contour", "cities.csv", "--value", "people", "--levels", "2e6"],
     "globe": ["globe", "cities.csv", "--size", "40", "--no-land", "--no-coastlines"],
 }
 
@@ -77,7 +78,7 @@ def test_results_of_a_result_keep_the_first_answer(folder, run, kind):
 
 @pytest.mark.parametrize("command", EVERY)
 def test_an_input_is_never_written_and_a_file_not_unasked(own, run, command):
-    ending = "svg" if command == "globe" else "csv"
+    ending = {"globe": "svg", "contour": "geojson"}.get(command, "csv")
     out = own / f"out.{ending}"
     out.write_text("mine", encoding="utf-8")
     message = run(*EVERY[command], "-o", out.name, code=2)

@@ -12,14 +12,16 @@ from stereodel import data, earth, fisheye, lonlat_to_xyz
 from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
 from tests.figures.scripts import FIGURES, FOLDER, arc_points, geometry, script
 
-WORDS = {"three": 3, "four": 4, "five": 5, "eight": 8, "twenty": 20}
+WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
 NUMBER = re.compile(
     r"(?P<digits>\d+(?: \d{3})*(?:\.\d+)?)(?P<million> million)?(?:/(?P<over>\d+))?"
     rf"|\b(?P<word>{'|'.join(WORDS)})\b",
     re.IGNORECASE,
 )
-REFERENCE = re.compile(r"Figures? \d+|claim P\d+")
+REFERENCE = re.compile(r"Figures? \d+|[Cc]laims? P\d+(?: and P\d+)?")
 FORMULAS = {
+    "claim_scales": ("cos² (χ/2) / cos² (Ξ/2)",),
+    "claim_separation": ("R = D/4", "(d/D) 180°", "2/π", "4/π", "4 arctan(d/D)", "2 arcsin(d/D)"),
     "fig09_scale": ("heights R + R sin φ and 2R", "s = (R + R sin φ)/2R", "∂s/∂φ = cos φ / 2"),
     "fig13_latitudes": (
         "tan((90° + φ)/2) = d/2R",
@@ -27,11 +29,16 @@ FORMULAS = {
         "tan((90° + Φ)/2) = d/2r",
     ),
 }
-"""What captions write as formulas; rows P11 and P18 of the ledger have their tests."""
+"""What captions write as formulas; rows P11 and P18 of the ledger have their tests, claims `test_claim_figures.py`."""
 OTHERS = (
     "anim_fisheye",
     "anim_flight",
     "anim_hull",
+    "claim_planet",
+    "claim_projections",
+    "claim_scales",
+    "claim_separation",
+    "claim_terrain",
     "earth_airports",
     "earth_cities",
     "globe_europe",
@@ -115,7 +122,9 @@ def truth(name):
     """The numbers of a caption, in their order, as what is drawn has them."""
     g = geometry(name)
     match name:
-        case "fig01_sphere" | "fig02_plane":
+        case "fig01_sphere":
+            return [len(g["sites"]), len(g["triangle"])]
+        case "fig02_plane":
             return [len(g["sites"])]
         case "fig03_bubbles":
             circle = SphereCircle(g["normal"], float(g["offset"]))
@@ -164,6 +173,19 @@ def truth_of_others(name):
         case "anim_hull":
             last = list(module["facets_over_time"]())[-1][0]
             return [len(np.unique(last))]
+        case "claim_planet":
+            return [len(module["FIGURE"].geometry()["points"])]
+        case "claim_projections":
+            return [module["SITES"], module["REACH"], len(module["DRAWN"])]
+        case "claim_scales":
+            bounds = lift_scales()
+            kinds = [module["SEGMENTS"], module["SEGMENTS"], module["WANDERINGS"], module["STOPS"]]
+            return [*bounds, *bounds[::-1], *kinds, 1 / bounds[1], 0]
+        case "claim_separation":
+            low, high = lift_scales()[::-1]
+            return [module["DOTS"], PAPER_CONSTANT, low, high, *np.array([module["WIDTH"], module["HEIGHT"]])]
+        case "claim_terrain":
+            return [len(module["FIGURE"].geometry()["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":
             areas = module["geometry"]()["areas"]
             return [len(areas), np.count_nonzero(areas == 0), areas.max()]
@@ -176,6 +198,16 @@ def truth_of_others(name):
         case "sky_stars":
             return [len(data.stars().magnitude), module["BRIGHT"]]
     raise AssertionError(f"{name} has a caption that nobody checks")
+
+
+PAPER_CONSTANT = 1 / 2
+"""Of row P13, as the paper has it."""
+
+
+def lift_scales():
+    """The scale of the rectangle of Figure 7 at its centre and at a corner."""
+    rectangle = script("claim_scales")["lift"]()
+    return rectangle.scale_factor([[0.0, 0.0], [rectangle.width / 2, rectangle.height / 2]]).tolist()
 
 
 @pytest.mark.parametrize("name", FIGURES)

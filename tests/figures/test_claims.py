@@ -34,6 +34,50 @@ def test_figure_1_shows_dual_graphs():
     assert (nearest[:, 3] > nearest[:, 2] + 1e-9).all()
 
 
+def test_figure_1_marks_a_triangle_whose_bubble_is_empty():
+    module, g, drawn = script("fig01_sphere"), geometry("fig01_sphere"), page("fig01_sphere")
+    center, offset = g["circle"][:3], g["circle"][3]
+    heights = g["sites"] @ center
+    assert np.allclose(heights[g["triangle"]], offset, atol=1e-14)
+    assert (np.delete(heights, g["triangle"]) < offset - 1e-3).all()
+    assert angular_distance(g["vertices"], center).min() < 1e-9
+    # All of it is on the near side, and the dot is where three Voronoi edges meet.
+    assert (module["VIEW"].depth(g["sites"][g["triangle"]]) > 0.3).all()
+    (dot,) = [item for item in drawn.items if item.name == "points"]
+    ends = np.vstack([item.path[[0, -1], [0, -1]] for item in drawn.items if item.name == "voronoi"])
+    assert np.count_nonzero(np.linalg.norm(ends - dot.centers, axis=1) < 1e-9) == 3
+    (bubble,) = [item for item in drawn.items if item.name == "bubble"]
+    rim = path_points(bubble.path)
+    corners = module["VIEW"].project(g["sites"][g["triangle"]])
+    assert np.linalg.norm(rim[:, None] - corners, axis=-1).min(axis=0).max() < 1e-2
+
+
+@pytest.mark.parametrize("name", ["fig02_plane", "fig07_rectangle"])
+def test_triangles_of_the_plane_are_no_slivers(name):
+    g, drawn = geometry(name), page(name)
+    corners = g["sites"][PlanarDelaunay(g["sites"]).simplices]
+    sides = np.roll(corners, -1, axis=1) - corners
+    longest = np.linalg.norm(sides, axis=-1).max(axis=1)
+    height = np.abs(sides[:, 0, 0] * sides[:, 1, 1] - sides[:, 0, 1] * sides[:, 1, 0]) / longest
+    assert (height * drawn.points_per_unit).min() > 15
+    assert (longest * drawn.points_per_unit).max() < 80
+
+
+@pytest.mark.parametrize("name", ["fig01_sphere", "fig02_plane", "fig07_rectangle"])
+def test_legends_name_what_is_drawn(name):
+    drawn = page(name)
+    legend = [item for item in drawn.items if item.name == "legend"]
+    samples = {tuple(item.path[0, 0]): item for item in legend if isinstance(item, Stroke)}
+    words = {item.text: samples.get(item.anchor) for item in legend if isinstance(item, Label)}
+    for text, kind in (("Delaunay triangulation", "delaunay"), ("Voronoi diagram", "voronoi")):
+        lines = [item for item in drawn.items if item.name == kind]
+        assert {(item.color, item.width, item.dash) for item in lines} == {
+            (words[text].color, words[text].width, words[text].dash)
+        }
+    picture = [item for item in drawn.items if isinstance(item, Stroke) and item.name != "legend"]
+    assert max(anchor[1] for anchor in samples) < min(item.path[..., 1].min() for item in picture)
+
+
 def test_figure_2_ridges_are_perpendicular_bisectors_inside_the_frame():
     module = script("fig02_plane")
     g = module["geometry"]()
@@ -43,6 +87,47 @@ def test_figure_2_ridges_are_perpendicular_bisectors_inside_the_frame():
     middles = g["ridges"].mean(axis=1)
     distances = np.sort(np.linalg.norm(middles[:, None] - g["sites"][None], axis=-1), axis=1)
     assert np.allclose(distances[:, 0], distances[:, 1], atol=1e-9)
+
+
+def test_figure_3_section_is_the_ball_seen_along_its_plane():
+    module, g, drawn = script("fig03_bubbles"), geometry("fig03_bubbles"), page("fig03_bubbles")
+    items = {item.name: item for item in drawn.items if isinstance(item, Stroke | Dots)}
+    center, plane = module["SECTION"], items["slicing_plane"].path
+    small, large = (path_points(items[name].path) - center for name in ("small", "large"))
+    assert np.allclose(np.linalg.norm(np.vstack([small, large]), axis=1), 1, atol=1e-6)
+    assert np.allclose(small[[0, -1]], large[[-1, 0]])
+    # The plane passes through the ends of the arcs, as far from the centre as the circle's; it separates the arcs.
+    foot, tip = items["normal"].path[0, [0, 3]] - center
+    normal = (tip - foot) / np.linalg.norm(tip - foot)
+    assert np.linalg.norm(foot) == pytest.approx(g["offset"])
+    assert np.allclose((plane.reshape(-1, 2) - center) @ normal, g["offset"])
+    assert np.allclose(items["sites"].centers - center, small[[0, -1]])
+    assert (small[1:-1] @ normal > g["offset"]).all()
+    assert (large[1:-1] @ normal < g["offset"]).all()
+    # It points as the axis of the circle on the left does, whose label is in the middle of the ellipse.
+    axis = module["VIEW"].project(g["normal"])
+    assert np.allclose(axis / np.linalg.norm(axis), normal)
+    (label,) = [item for item in drawn.labels if item.text == "small bubble" and item.anchor[0] < 1.03]
+    (ellipse,) = [item for item in drawn.items if item.name == "circle"]
+    middle = (path_points(ellipse.path).min(axis=0) + path_points(ellipse.path).max(axis=0)) / 2
+    assert np.allclose(label.anchor, middle, atol=1e-3)
+
+
+def test_figure_4_hatches_the_plane_triangle_and_joins_its_corners_to_the_centre():
+    module, g, drawn = script("fig04_triangles"), geometry("fig04_triangles"), page("fig04_triangles")
+    corners = module["VIEW"].project(g["vertices"])
+    hatch = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "hatch"])
+    assert len(hatch) == module["LINES_OF_HATCH"]
+    for ends, (start, stop) in zip(np.moveaxis(hatch, 1, 0), corners[[[0, 2], [1, 2]]], strict=True):
+        along = (ends - start) @ (stop - start) / np.sum((stop - start) ** 2)
+        assert np.allclose(ends, start + along[:, None] * (stop - start))
+        assert np.allclose(along, np.arange(1, len(hatch) + 1) / (len(hatch) + 1))
+    radii = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "radius"])
+    assert np.allclose(radii[:, 0], 0)
+    assert np.allclose(radii[:, 1], corners)
+    # Parallels and meridians are seen through the ball, fainter.
+    shades = {item.color[0] for item in drawn.items if item.name == "graticule"}
+    assert len(shades) == 2
 
 
 def test_figure_5_points_images_and_centre_of_projection_are_on_one_line():
@@ -55,6 +140,29 @@ def test_figure_5_points_images_and_centre_of_projection_are_on_one_line():
         center, u, v = g[f"{name}_image_circle"]
         assert np.allclose(np.linalg.norm(images - center, axis=1), np.linalg.norm(u))
         assert np.isclose(u @ v, 0, atol=1e-12)
+
+
+def test_figure_5_marks_right_angles_between_planes_and_diameters():
+    module, g = script("fig05_projections"), geometry("fig05_projections")
+    for name in ("normal", "oblique"):
+        tangent, plane = g[f"{name}_tangent"], g[f"{name}_plane"]
+        assert np.allclose((plane - tangent) @ tangent, 0, atol=1e-12)
+        first, second = module["right_angle"](tangent, plane[module["SIDE"][name]] - plane[0])
+        on_plane, corner, on_diameter = first.sample(0.0), first.sample(1.0), second.sample(1.0)
+        assert np.allclose(second.sample(0.0), corner)
+        assert (on_plane - tangent) @ tangent == pytest.approx(0, abs=1e-15)
+        assert np.allclose(np.cross(on_diameter, tangent), 0, atol=1e-15)
+        assert np.linalg.norm(on_diameter) < 1
+        assert np.allclose(corner - on_plane, on_diameter - tangent)
+
+
+def test_figure_5_draws_both_centres_of_projection_alike():
+    module, drawn = script("fig05_projections"), page("fig05_projections")
+    first, second = [item for item in drawn.items if item.name == "ring"]
+    assert (first.radius, first.color, first.rim) == (second.radius, second.color, second.rim)
+    for number, (name, dot) in enumerate(zip(module["PANELS"], (first, second), strict=True)):
+        center = module["VIEW"].project(-geometry("fig05_projections")[f"{name}_tangent"])
+        assert np.allclose(dot.centers, center + [number * module["PITCH"], 0])
 
 
 @pytest.mark.parametrize("name", FIGURES)
@@ -76,7 +184,7 @@ def test_nothing_leaves_the_page(name):
         reach /= drawn.points_per_unit
         assert (points >= [left + reach, bottom + reach]).all(), item.name
         assert (points <= [right - reach, top - reach]).all(), item.name
-    ink = ink_boxes(drawn)[[bool(label.text) for label in drawn.labels]]
+    ink = ink_boxes(drawn)
     assert (ink[:, :2] > 0).all()
     assert (ink[:, 2:] < [drawn.width, drawn.height]).all()
 
@@ -91,6 +199,31 @@ def test_figure_6_smaller_spheres_have_larger_extents():
         assert np.allclose(np.linalg.norm(ends - [0, radius], axis=1), radius)
 
 
+def test_figure_6_writes_radius_and_extent_into_each_circle():
+    module, g, drawn = script("fig06_sphere_size"), geometry("fig06_sphere_size"), page("fig06_sphere_size")
+    names, extents = drawn.labels[:-1:2], drawn.labels[1:-1:2]
+    for radius, extent, name, written in zip(module["RADII"], g["extents"], names, extents, strict=True):
+        assert float(written.text.strip("$°")) == pytest.approx(extent, abs=0.05)
+        assert {"2": 2.0, "1": 1.0, "½": 0.5}[name.text.strip("$R= ")] == radius
+        arc = next(item for item in drawn.items if item.name.startswith("covered") and item.color == name.color)
+        assert np.allclose(np.linalg.norm(path_points(arc.path) - [0, radius], axis=1), radius, atol=1e-6)
+        # Inside its own circle, and outside the next.
+        inside = [abs(name.anchor[1] - r) < r for r in module["RADII"]]
+        assert sum(inside) == module["RADII"].index(radius) + 1
+
+
+def test_figure_7_circle_cuts_the_diagonal_in_quarters():
+    g, drawn = geometry("fig07_rectangle"), page("fig07_rectangle")
+    lines = [item.path[0, [0, 3]] for item in drawn.items if item.name == "diagonal"]
+    diagonal, radius = (lines[0], lines[3])  # each with two ticks
+    assert np.linalg.norm(diagonal[1] - diagonal[0]) == pytest.approx(4 * g["radius"])
+    assert np.allclose(radius[0], diagonal.mean(axis=0), atol=1e-15)
+    assert np.allclose(radius[1], diagonal.T @ [0.25, 0.75])
+    (circle,) = [item for item in drawn.items if item.name == "footprint"]
+    assert np.linalg.norm(path_points(circle.path) - radius[1], axis=1).min() < 1e-2
+    assert circle.dash
+
+
 def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     plane, ball = geometry("fig07_rectangle"), geometry("fig08_hemisphere")
     sphere = Stereographic((0, -90), radius=float(ball["radius"]))
@@ -100,6 +233,9 @@ def test_figures_7_and_8_share_sites_and_the_corners_land_on_the_equator():
     corners = arc_points(ball["sides"])[:, [0, -1], 2]
     assert np.allclose(corners, 0, atol=1e-14)
     assert (arc_points(ball["sides"])[..., 2] <= 1e-14).all()
+    # Brought back to the plane, each is a side of the rectangle.
+    sides = np.abs(sphere.forward(arc_points(ball["sides"]))) / [1.5, 1.0]
+    assert np.allclose(sides.max(axis=-1), 1, atol=1e-12)
     # The planar triangulation is the spherical one without the facets that see the pole (Theorem 1).
     spherical = SphericalDelaunay(ball["lifted"])
     planar = {tuple(sorted(row)) for row in PlanarDelaunay(plane["sites"]).simplices.tolist()}
@@ -126,6 +262,21 @@ def test_figure_8_shows_the_equator_and_the_corners_on_it():
     near = g["corners"][view.depth(g["corners"]) > 0]
     assert len(near) == 2
     assert np.allclose(np.sort(dots.centers, axis=0), np.sort(radius * view.project(near), axis=0))
+
+
+def test_figure_8_shows_a_ray_from_a_lifted_corner_to_its_corner():
+    module, g, drawn = script("fig08_hemisphere"), geometry("fig08_hemisphere"), page("fig08_hemisphere")
+    radius, view = float(g["radius"]), module["VIEW"]
+    lifted, corner = radius * g["corners"][module["SHOWN"]], g["plane"][module["SHOWN"]]
+    north = np.array([0.0, 0.0, radius])
+    assert np.allclose(np.cross(lifted - north, corner - north), 0, atol=1e-12)
+    assert view.depth(lifted) > 0
+    rays = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "ray"])
+    assert np.allclose([rays[0, 0], rays[-1, 1]], view.project([lifted, corner]))
+    assert np.allclose(rays[1:, 0], rays[:-1, 1])
+    (south,) = [item for item in drawn.items if item.name == "ring"]
+    assert np.allclose(south.centers, view.project([-north]))
+    assert g["plane"].mean(axis=0) == pytest.approx(-north)
 
 
 def test_figure_9_scale_is_that_of_the_similar_triangles():
@@ -157,6 +308,11 @@ def test_figure_9_draws_the_scale_and_its_rate_as_the_library_has_them():
         assert (across.min(), across.max()) == pytest.approx((0, 1))
         away = np.abs(up - value(across * np.pi / 2)) * module["HEIGHT"] * drawn.points_per_unit
         assert away.max() < 1e-3
+    # The dots are those of φ on the left.
+    for name, value in (("accent1", (1 + np.sin(np.radians(25))) / 2), ("accent2", np.cos(np.radians(25)) / 2)):
+        (dot,) = [item for item in drawn.items if isinstance(item, Dots) and item.name == name]
+        place = (dot.centers[0] - module["ORIGIN"]) / [module["WIDTH"], module["HEIGHT"]]
+        assert place == pytest.approx([25 / 90, value], abs=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -236,6 +392,24 @@ def test_figure_13_relates_the_latitudes():
     half_arcs = np.radians(g["arcs"]) / 2
     assert np.allclose(np.tan(half_arcs), module["DISTANCE"] / (2 * g["radii"]))
     assert np.isclose(np.tan(half_arcs[1]), module["S"] * np.tan(half_arcs[0]))
+
+
+def test_figure_13_measures_d_and_says_what_follows():
+    module, g, drawn = script("fig13_latitudes"), geometry("fig13_latitudes"), page("fig13_latitudes")
+    (d,) = [label for label in drawn.labels if label.text == "$d$"]
+    (measure,) = [i for i in drawn.items if i.name == "frame" and np.allclose(i.path.mean(axis=(0, 1)), d.anchor)]
+    assert np.ptp(measure.path[..., 0]) == pytest.approx(module["DISTANCE"])
+    assert np.divide(*g["radii"]) == module["S"]
+    written = [label.text for label in drawn.labels if r"\tan" in label.text]
+    shown = [text.replace(r"\!", "").replace(r"\tan", "tan").replace(r"\,", " ").strip("$") for text in written]
+    shown = [text.replace(r"\varphi", "φ").replace(r"\Phi", "Φ").replace("+", " + ") for text in shown]
+    assert shown == [
+        "tan((90° + φ)/2) = d/2R",
+        "tan((90° + Φ)/2) = d/2r",
+        "S tan((90° + φ)/2) = tan((90° + Φ)/2)",
+    ]
+    caption = " ".join(module["__doc__"].split())
+    assert all(text in caption for text in shown)
 
 
 def test_views_of_the_five_panels():

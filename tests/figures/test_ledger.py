@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 
-from stereodel import Gnomonic, MoebiusMap, Orthographic, Stereographic, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel import Gnomonic, MoebiusMap, Stereographic, fisheye, lonlat_to_xyz
 from stereodel.conformal import three_points
 from stereodel.predicates.plane import filter_coordinates, incircle_filter, orient2d_filter
 from stereodel.predicates.rays import bubble_filter, units
@@ -24,6 +24,7 @@ from stereodel.triangulation import (
     planar_part,
 )
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
+from tests.figures.scripts import script
 
 
 def directions(count, seed=0):
@@ -195,40 +196,9 @@ def test_curvature_decides_the_exact_sign_in_a_flat_region(size):
 
 # P23: all stereographic projections keep the combinatorial triangulation, and only they.
 
-PLACE = (10.0, 35.0)
-
-
-def tangent(stretch):
-    """An azimuthal projection about `PLACE`, by the distance in the plane of angular distance χ."""
-
-    def forward(xyz):
-        plane = Stereographic(PLACE).forward(xyz)
-        reach = np.linalg.norm(plane, axis=-1, keepdims=True)
-        return plane / reach * stretch(2 * np.arctan(reach / 2))
-
-    return forward
-
-
-def mercator(xyz):
-    lon, lat = np.radians(xyz_to_lonlat(xyz)).T
-    return np.column_stack([lon, np.arctanh(np.sin(lat))])
-
-
-def conic(xyz):
-    """Lambert's conformal conic projection with the constant ½."""
-    lon, lat = np.radians(xyz_to_lonlat(xyz)).T
-    reach = np.sqrt(np.tan(np.pi / 4 - lat / 2))
-    return np.column_stack([reach * np.sin(lon / 2), -reach * np.cos(lon / 2)])
-
-
-OTHERS = {
-    "gnomonic": Gnomonic(PLACE).forward,
-    "orthographic": Orthographic(PLACE).forward,
-    "equidistant": tangent(lambda chi: chi),
-    "equal area": tangent(lambda chi: 2 * np.sin(chi / 2)),
-    "Mercator (conformal)": mercator,
-    "conic (conformal)": conic,
-}
+CONVERSE = script("claim_projections")
+PLACE = CONVERSE["PLACE"]
+OTHERS = {name: forward for name, forward in CONVERSE["PROJECTIONS"].items() if name != "stereographic"}
 
 
 def sites_of_a_cap(count=400, radius=50.0):

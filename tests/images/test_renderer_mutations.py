@@ -76,7 +76,7 @@ def test_one_site_missing_in_opengl(name, monkeypatch):
 @pytest.mark.parametrize(
     ("name", "role"),
     [
-        *(("fig08_hemisphere", role) for role in ("delaunay", "voronoi", "chord", "limb", "outline")),
+        *(("fig08_hemisphere", role) for role in ("delaunay", "voronoi", "chord", "limb", "plane")),
         *(("globe_europe", role) for role in ("borders", "limb")),
         *(("fig10_earth", role) for role in ("graticule", "fine")),
     ],
@@ -88,7 +88,7 @@ def test_lines_of_one_look_two_levels_paler_in_opengl(name, role, monkeypatch):
     assert nets(name) == {"T2"}
 
 
-@pytest.mark.parametrize("role", ["axis", "construction", "ray", "grid"])
+@pytest.mark.parametrize("role", ["axis", "construction", "ray", "frame"])
 def test_lines_of_one_look_two_levels_paler_in_agg(role, monkeypatch):
     change = with_lines(role, lambda line: replace(line, color=paler(line.color)))
     monkeypatch.setattr(rows, "drawn", before(rows.drawn, change))

@@ -269,7 +269,7 @@ def test_polydata_comes_back(tmp_path, diagram):
 def test_streams():
     stream = io.BytesIO()
     write(stream, PointTable([[1.5, 2.0]], {"name": ["a"]}), format="csv")
-    assert stream.getvalue() == b"lon,lat,name\n1.5,2.0,a\n"
+    assert stream.getvalue() == b"lon,lat,name\n1.5,2,a\n"
     with pytest.raises(ValueError, match="format is None"):
         write(stream, PointTable([[1.5, 2.0]]))
     with pytest.raises(ValueError, match="format is 'pdf', a picture"):
@@ -282,7 +282,8 @@ def test_streams():
         ("a.svg", SphericalVoronoi(SPHERE), {}, ValueError, "format is 'svg', a picture, .* save a page"),
         ("a.PNG", SphericalVoronoi(SPHERE), {}, ValueError, "format is 'png', a picture, .* save a page"),
         ("a.xlsx", PointTable([[1, 2]]), {}, ValueError, "format is 'xlsx'"),
-        ("a.csv", [[1, 2]], {}, TypeError, "thing must be a mesh, a PointTable or a GeoDataFrame, not list"),
+        ("a.csv", [[1, 2]], {}, TypeError, r"mesh\[0\] must be a Contour, not list"),
+        ("a.csv", 5, {}, TypeError, "thing must be a mesh, a PointTable or a GeoDataFrame, not int"),
         ("a.csv", PointTable([[1, 2]]), {"what": "cells"}, TypeError, "what is not an option"),
         ("a.glb", PointTable([[1, 2]]), {}, TypeError, "mesh must be a triangulation"),
         ("a.geojson", SphericalVoronoi(SPHERE), {"radius": -1}, ValueError, "radius"),

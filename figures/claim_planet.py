@@ -1,0 +1,118 @@
+"""
+Claim P22: a planet as a triangulated irregular network
+=======================================================
+
+The same on the sphere: 450 points of a planet with heights. Left, the Delaunay triangulation: tints, edges and contours
+are on the sphere, arcs of great circles all of them. Right, the planet turned, with its facets in space and heights
+exaggerated.
+
+The facets are painted from back to front in the order of n·v / d, where v is the direction to the viewer and n·x = d
+the plane of the facet of the convex hull, before any point was raised. From a facet to the one that lies before it
+across an edge this grows, for the hull is convex and holds the centre, and raising points along their rays does not
+change which is before which.
+
+Chosen by us: the relief, which is a formula and no planet, the number of points, and the views.
+"""
+
+import numpy as np
+from _terrain import COAST, CONTOUR, EDGE, brightness, cut_at_sea, keep_points, relief, tint, turned_away
+
+from stereodel import SphericalDelaunay
+from stereodel.drawing import CircleArc, Page, Scene, Sketch, View
+from stereodel.drawing.style import PRINT_WIDTH
+from stereodel.interpolation import contours
+from stereodel.render import Figure
+
+POINTS, FIRST, CANDIDATES = 450, 120, 9000
+SEED, WAVELENGTH = 11, 1.3
+STEP = 0.4  # between contours
+STEEP = 0.09
+"""Radii for a unit of height."""
+
+VIEW, SIDEWAYS = View(35, 20), View(75, -12)
+LIGHT = np.array([-1.0, 1.0, 1.4]) / np.sqrt(3.96)  # right, up and toward the viewer
+PITCH = 2.3  # radii, between the middles of the two globes
+EXTENT = (-1.04, PITCH + 1.13, -1.12, 1.12)
+
+
+def geometry() -> dict:
+    """The points that are kept, their heights, the facets from back to front, and the contours."""
+    directions = np.concatenate([spiral(FIRST), spiral(CANDIDATES)])
+    heights = relief(directions, WAVELENGTH, SEED)
+    kept = keep_points(SphericalDelaunay, directions, heights, np.arange(FIRST), POINTS)
+    points, network = directions[kept], SphericalDelaunay(directions[kept])
+    levels = np.arange(np.ceil(heights.min() / STEP), heights.max() / STEP) * STEP
+    lines = contours(network, heights[kept], levels)
+    normals = network.circumcenters
+    offsets = np.einsum("ij,ij->i", normals, points[network.simplices[:, 0]])
+    return {
+        "points": points,
+        "heights": heights[kept],
+        "triangles": network.simplices,
+        "middles": normals,
+        "edges": network.edges,
+        "order": np.argsort(normals @ SIDEWAYS.matrix[2] / offsets, kind="stable"),
+        "levels": np.array([line.level for line in lines]),
+        "sizes": np.array([len(line.points) for line in lines]),
+        "contours": np.concatenate([line.points for line in lines]),
+    }
+
+
+def spiral(count: int) -> np.ndarray:
+    """Evenly spread directions (count, 3): each has the same area between its parallels and those of the next."""
+    turn = np.arange(count)
+    z, lon = 1 - (2 * turn + 1) / count, turn * np.pi * (3 - np.sqrt(5))
+    reach = np.sqrt(1 - z * z)
+    return np.column_stack([reach * np.cos(lon), reach * np.sin(lon), z])
+
+
+def draw(g: dict) -> Page:
+    """The network on the sphere and its facets in space."""
+    sketch = Sketch().add_items(globe(g).layout(VIEW))
+    places = SIDEWAYS.project(raised(g)) + [PITCH, 0.0]
+    light = brightness(raised(g)[g["triangles"]], SIDEWAYS.matrix.T @ LIGHT)
+    for facet in g["order"]:
+        corners = places[g["triangles"][facet]]
+        if turned_away(corners):
+            continue
+        for polygon, height in cut_at_sea(corners, g["heights"][g["triangles"][facet]]):
+            sketch.add_polygon(polygon, name="facet", color=tint(height, light[facet]))
+        sketch.add_polyline(corners, closed=True, name="delaunay", style=EDGE)
+    return sketch.page(EXTENT, width=PRINT_WIDTH)
+
+
+def raised(g: dict) -> np.ndarray:
+    """The points in space."""
+    return g["points"] * (1 + STEEP * g["heights"][:, None])
+
+
+def globe(g: dict) -> Scene:
+    """Tints, edges and contours on the side of the sphere that is seen."""
+    scene, points, toward = Scene(), g["points"], VIEW.matrix[2]
+    light = brightness(raised(g)[g["triangles"]], local_light(g["middles"]))
+    for facet, triangle in enumerate(g["triangles"]):
+        if (points[triangle] @ toward > 0).any():
+            for polygon, height in cut_at_sea(points[triangle], g["heights"][triangle]):
+                sides = [CircleArc.great(a, b) for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True)]
+                scene.add_region(sides, name="facet", color=tint(height, light[facet]))
+    near = (points @ toward)[g["edges"]].max(axis=1) > 0
+    scene.add_edges(points, g["edges"][near], name="delaunay", style=EDGE)
+    for line, level in zip(np.split(g["contours"], np.cumsum(g["sizes"])[:-1]), g["levels"], strict=True):
+        pairs = np.column_stack([np.arange(len(line) - 1), np.arange(1, len(line))])
+        pairs = pairs[(line @ toward)[pairs].max(axis=1) > 0]
+        scene.add_edges(line, pairs, name="contour", style=COAST if level == 0 else CONTOUR)
+    return scene
+
+
+def local_light(up: np.ndarray) -> np.ndarray:
+    """Light from the upper left of the page as it falls at points (m, 3) of a map wrapped round the ball."""
+    right, top, _ = VIEW.matrix
+    along = (top - right) - (up @ (top - right))[:, None] * up
+    light = along / np.linalg.norm(along, axis=1, keepdims=True) + up
+    return light / np.linalg.norm(light, axis=1, keepdims=True)
+
+
+FIGURE = Figure("claim_planet", geometry, draw)
+
+if __name__ == "__main__":
+    FIGURE.main()

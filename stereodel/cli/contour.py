@@ -1,0 +1,90 @@
+"""`stereodel contour`: lines of equal values between points."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stereodel.cli import options
+
+if TYPE_CHECKING:
+    from stereodel._arrays import FloatArray
+
+EXAMPLE = "stereodel contour stations.csv --value temperature --interval 5 -o isotherms.geojson"
+
+LINES = ("geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
+MOST_LEVELS = 10_000
+
+
+def command(
+    points: options.Points,
+    value: Annotated[str, typer.Option(metavar="COLUMN", help="Column of the values.")],
+    out: options.Out,
+    levels: Annotated[
+        str | None, typer.Option(metavar="VALUE,…", help="Values of the lines, with commas between them.")
+    ] = None,
+    interval: Annotated[
+        float | None, typer.Option(metavar="STEP", help="Lines at all multiples of this instead.")
+    ] = None,
+    max_segment: options.MaxSegment = 1.0,
+    skip_missing: options.SkipMissing = False,
+    lon: options.Lon = None,
+    lat: options.Lat = None,
+    plane: options.Plane = None,
+    layer_name: options.LayerName = None,
+    crs: options.Crs = None,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
+    format: options.Format = None,
+    overwrite: options.Overwrite = False,
+) -> None:
+    """Write lines of equal values, of the function that is linear in each Delaunay triangle of the points.
+
+    Give either --levels or --interval. Higher values are on the left of a line; lines are cut at ±180°.
+    """
+    from stereodel import PlanarDelaunay, SphericalDelaunay
+    from stereodel.cli.destinations import Destination
+    from stereodel.cli.failures import NothingToDoError
+    from stereodel.cli.progress import say, stage
+    from stereodel.cli.sources import read
+    from stereodel.interpolation import contours
+    from stereodel.io import write
+
+    if (levels is None) == (interval is None):
+        raise ValueError("give either --levels, values with commas between them, or --interval, a step")
+    destination = Destination.of(out, format, LINES, points, overwrite=overwrite)
+    table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
+    values, table = table.values([value], skip_missing=skip_missing)
+    wanted = _values_of(levels) if levels is not None else _multiples(values[:, 0], interval or 0.0)
+    with stage(f"lines between {len(table)} points"):
+        if table.planar:
+            found = contours(PlanarDelaunay(table.places), values[:, 0], wanted)
+        else:
+            triangulation = SphericalDelaunay.from_lonlat(table.places, latitude=latitude.value)
+            found = contours(triangulation, values[:, 0], wanted)
+    if not found:
+        raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
+    with stage(f"writing {out}"):
+        destination.write(lambda path: write(path, found, max_segment=max_segment))
+    say(f"{out}: {len(found)} lines of {len(wanted)} levels")
+
+
+def _values_of(text: str) -> list[float]:
+    """Numbers with commas between them."""
+    try:
+        return [float(part) for part in text.split(",")]
+    except ValueError:
+        raise ValueError(f"--levels is {text!r}, but must be numbers, e.g. --levels=-10,0,10") from None
+
+
+def _multiples(values: FloatArray, interval: float) -> list[float]:
+    """The multiples of an interval between the smallest value and the largest."""
+    import numpy as np
+
+    from stereodel._arrays import as_scalar
+
+    step = as_scalar(interval, "--interval", low=0.0, open_low=True)
+    low, high = np.ceil(np.min(values, initial=np.inf) / step), np.floor(np.max(values, initial=-np.inf) / step)
+    if high - low >= MOST_LEVELS:
+        raise ValueError(f"--interval is {step:g}, which makes {high - low + 1:.0f} lines; {MOST_LEVELS} are drawn")
+    return [float(k) * step for k in np.arange(low, high + 1)]

@@ -1,0 +1,91 @@
+"""Legends: what lines, dots and tints stand for, in rows below a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, as_count
+from stereodel.drawing.colors import ColorLike, as_color
+from stereodel.drawing.page import Page
+from stereodel.drawing.sketch import Sketch
+from stereodel.drawing.style import BLACK, LABEL_SIZE, DotStyle, LineStyle
+
+SAMPLE: Final = (18.0, 7.0)
+"""Length of a sample, and height of one of a tint, points."""
+
+GAP: Final = 5.0
+"""Between a sample and its words, points."""
+
+ROW: Final = 1.5
+"""Height of a row in terms of that of type."""
+
+
+def with_legend(
+    page: Page,
+    entries: Mapping[str, LineStyle | DotStyle | ColorLike],
+    *,
+    columns: int = 1,
+    indent: float = 0.0,
+    ink: ColorLike = BLACK,
+    size: float = LABEL_SIZE,
+) -> Page:
+    """The page with a legend below the picture.
+
+    Parameters
+    ----------
+    page : Page
+        Stays as wide as it is and grows downwards.
+    entries : mapping of str to LineStyle, DotStyle or color-like
+        What is written, and what it is written beside: a short line, a dot or a box of a tint. They are read row by
+        row.
+    columns : int
+        In which the entries stand, at least 1; all are equally wide.
+    indent : float
+        White space left of the first column, and right of the last, points.
+    ink : color-like
+        Of the type.
+    size : float
+        Of the type, points.
+
+    Raises
+    ------
+    ValueError
+        For less than one column, and what is no colour.
+
+    Examples
+    --------
+    >>> from stereodel.drawing import LineStyle
+    >>> page = with_legend(Page((0.0, 2.0, 0.0, 1.0), width=200.0), {"coast": LineStyle("blue", 0.5)})
+    >>> [item.name for item in page.items], page.height > 100.0
+    (['legend', 'legend'], True)
+    """
+    count, color = as_count(columns, "columns"), as_color(ink, "ink")
+    left, right, bottom, top = page.extent
+    point = 1 / page.points_per_unit
+    row, step = ROW * size * point, (page.width - 2 * indent) * point / count
+    sketch = Sketch()
+    for number, (text, style) in enumerate(entries.items()):
+        down, across = divmod(number, count)
+        place = np.array([left + indent * point + step * across, bottom - row * (down + 1)])
+        _add_sample(sketch, style, place, point)
+        sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, color=color, name="legend")
+    rows = -(-len(entries) // count)
+    extent = (left, right, bottom - row * (rows + 0.5), top)
+    return replace(page, extent=extent, items=(*page.items, *sketch.page(extent, width=page.width).items))
+
+
+def _add_sample(sketch: Sketch, style: LineStyle | DotStyle | ColorLike, place: FloatArray, point: float) -> None:
+    """A short line, a dot or a box, the middle of whose left side is a place."""
+    length, height = (point * size for size in SAMPLE)
+    end = place + np.array([length, 0.0])
+    if isinstance(style, LineStyle):
+        sketch.add_segment(place, end, name="legend", style=style)
+    elif isinstance(style, DotStyle):
+        sketch.add_points((place + end) / 2, name="legend", style=style)
+    else:
+        up = np.array([0.0, height / 2])
+        sketch.add_polygon([place - up, end - up, end + up, place + up], name="legend", color=style)

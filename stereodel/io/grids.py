@@ -1,0 +1,217 @@
+"""Values on regular grids of longitude and latitude: NetCDF, GeoTIFF, tables, xarray."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_steps, as_vectors, read_only
+from stereodel._extras import optional
+from stereodel.constants import GRID_ROUNDING
+from stereodel.io.columns import beside
+from stereodel.io.csv_text import write_csv
+
+WGS84: Final = {
+    "grid_mapping_name": "latitude_longitude",
+    "longitude_of_prime_meridian": 0.0,
+    "semi_major_axis": 6378137.0,
+    "inverse_flattening": 298.257223563,
+    "crs_wkt": (
+        'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]],'
+        'AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],'
+        'UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AUTHORITY["EPSG","4326"]]'
+    ),
+}
+"""The coordinate system of longitude and latitude, as the CF conventions (1.8, appendix F) and GDAL name it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Values at the nodes of a regular grid of longitude and latitude, or in the middles of its cells.
+
+    Parameters
+    ----------
+    lon : (w,) array_like
+        Degrees, from west to east with equal steps; beyond 180 where the grid crosses the 180th meridian.
+    lat : (h,) array_like
+        Degrees in [−90, 90], from south to north with equal steps.
+    values : mapping of str to (h, w) array_like
+        By name, rows from south to north; NaN where there is none.
+    units : mapping of str to str, optional
+        Of some of the values.
+    centers : bool
+        Whether the values are those of cells, whose middles the places are.
+
+    Raises
+    ------
+    ValueError, TypeError
+        For steps that are not equal, latitudes out of range, and values of another shape.
+
+    Examples
+    --------
+    >>> grid = Grid.regular(90)
+    >>> grid.lon.tolist(), grid.lat.tolist(), grid.lonlat.shape
+    ([-180.0, -90.0, 0.0, 90.0], [-90.0, 0.0, 90.0], (3, 4, 2))
+    >>> Grid.regular(90, centers=True).lat.tolist()
+    [-45.0, 45.0]
+    """
+
+    lon: FloatArray
+    lat: FloatArray
+    values: Mapping[str, FloatArray] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    centers: bool = False
+
+    def __post_init__(self) -> None:
+        lon, lat = (read_only(as_floats(axis, name)) for axis, name in ((self.lon, "lon"), (self.lat, "lat")))
+        for axis, name in ((lon, "lon"), (lat, "lat")):
+            if axis.ndim != 1 or not len(axis):
+                raise ValueError(f"{name} must have shape (n,) with at least one entry, got {axis.shape}")
+            steps = np.diff(axis)
+            if len(steps) and (steps.min() <= 0 or np.ptp(steps) > GRID_ROUNDING * steps.max()):
+                raise ValueError(f"{name} must grow by equal steps, which go from {steps.min()} to {steps.max()}")
+        as_lonlat(np.column_stack([np.zeros(len(lat)), lat]), "lat")
+        values = {str(name): read_only(np.asarray(array, dtype=np.float64)) for name, array in self.values.items()}
+        for name, array in values.items():
+            if array.shape != (len(lat), len(lon)):
+                raise ValueError(f"values[{name!r}] must have shape {(len(lat), len(lon))}, got {array.shape}")
+        unknown = sorted(set(self.units) - set(values))
+        if values and unknown:
+            raise ValueError(f"units are given for {', '.join(map(repr, unknown))}, which are not among the values")
+        for name, value in (("lon", lon), ("lat", lat)):
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "values", MappingProxyType(values))
+
+    @classmethod
+    def regular(cls, spacing: float, bounds: npt.ArrayLike | None = None, *, centers: bool = False) -> Grid:
+        """A grid without values, for the whole Earth or a part of it.
+
+        Parameters
+        ----------
+        spacing : float
+            Degrees between neighbours. For the whole Earth 180 is a whole multiple of it.
+        bounds : (4,) array_like, optional
+            (west, south, east, north) in degrees; east may be less than west, across the 180th meridian. The grid
+            begins in the southwest and goes as far as it fits.
+        centers : bool
+            Whether the bounds are those of cells, half a step beyond the places.
+        """
+        half = 0.5 if centers else 0.0
+        if bounds is None:
+            steps = as_steps(180.0, spacing, "spacing")
+            step, rows = 180.0 / steps, steps if centers else steps + 1
+            lon, lat = (np.arange(low, high, dtype=np.float64) + half for low, high in ((-steps, steps), (0, rows)))
+            return cls(lon * step, lat * step - 90.0, centers=centers)
+        west, south, east, north = as_vectors(bounds, 4, "bounds").tolist()
+        as_lonlat([[west, south], [east, north]], "bounds")
+        if not south < north:
+            raise ValueError(f"bounds are {(west, south, east, north)}, but south must be below north")
+        east = east if east > west else east + 360.0
+        axes = []
+        for low, high in ((west, east), (south, north)):
+            step = as_scalar(spacing, "spacing", low=0.0, high=high - low, open_low=True)
+            count = int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1)
+            axes.append(np.minimum(low + step * (np.arange(count) + half), high))
+        return cls(axes[0], axes[1], centers=centers)
+
+    @property
+    def lonlat(self) -> FloatArray:
+        """The places, (h, w, 2) in degrees, rows from south to north."""
+        return np.stack(np.meshgrid(self.lon, self.lat), axis=-1)
+
+    @property
+    def steps(self) -> tuple[float, float]:
+        """Degrees between neighbours, in longitude and latitude; those of a cell where a side has one place."""
+        lon, lat = (
+            float(axis[-1] - axis[0]) / (len(axis) - 1) if len(axis) > 1 else 0.0 for axis in (self.lon, self.lat)
+        )
+        return lon or lat or 1.0, lat or lon or 1.0
+
+    def to_xarray(self) -> Any:
+        """The values as an xarray.Dataset with the names and units of the CF conventions.
+
+        Examples
+        --------
+        >>> grid = Grid([0, 1], [0, 1], {"depth": [[1, 2], [3, 4]]}, {"depth": "m"})
+        >>> grid.to_xarray()["depth"].attrs["units"]
+        'm'
+        """
+        coordinates, variables = self._described()
+        return optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
+
+    def _described(self) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Coordinates and variables as (dimensions, values, attributes)."""
+        coordinates: dict[str, Any] = {}
+        variables: dict[str, Any] = {"crs": ((), np.int32(0), WGS84)}
+        axes = (
+            ("lat", self.lat, self.steps[1], "degrees_north", "latitude", "Y"),
+            ("lon", self.lon, self.steps[0], "degrees_east", "longitude", "X"),
+        )
+        for name, places, step, units, meaning, letter in axes:
+            attributes = {"units": units, "standard_name": meaning, "long_name": meaning, "axis": letter}
+            if self.centers:
+                attributes["bounds"] = f"{name}_bnds"
+                edges = np.stack([places - step / 2, places + step / 2], axis=1)
+                variables[f"{name}_bnds"] = ((name, "bnds"), edges, {})
+            coordinates[name] = ((name,), places, attributes)
+        named = beside([*variables, *coordinates, "bnds"], self.values)
+        for (given, values), name in zip(self.values.items(), named, strict=True):
+            attributes = {"long_name": given, "grid_mapping": "crs"}
+            if given in self.units:
+                attributes["units"] = self.units[given]
+            variables[name] = (("lat", "lon"), values, attributes)
+        return coordinates, variables
+
+
+def write_netcdf(grid: Grid, path: Path) -> None:
+    """A grid as NetCDF, in the classic format that everything reads."""
+    coordinates, variables = grid._described()
+    with optional("scipy.io", "scipy").netcdf_file(path, "w", version=2) as file:
+        file.Conventions = "CF-1.8"
+        sizes = {"lat": len(grid.lat), "lon": len(grid.lon), **({"bnds": 2} if grid.centers else {})}
+        for name, size in sizes.items():
+            file.createDimension(name, size)
+        for name, (dimensions, values, attributes) in (coordinates | variables).items():
+            kind = "i4" if not dimensions else "f8"
+            variable = file.createVariable(name, kind, dimensions)
+            if dimensions:
+                variable[:] = values
+            else:
+                variable.data[()] = values
+            if name not in coordinates and len(dimensions) == 2 and "bnds" not in dimensions:
+                variable._FillValue = np.nan
+            for key, value in attributes.items():
+                setattr(variable, key, value)
+
+
+def write_geotiff(grid: Grid, path: Path) -> None:
+    """A grid as a GeoTIFF of EPSG:4326, a band for each of the values; rows from the north, as pictures have them."""
+    rasterio = optional("rasterio", "raster")
+    (dx, dy), bands = grid.steps, list(grid.values.items())
+    if not bands:
+        raise ValueError("the grid has no values to write")
+    transform = rasterio.Affine(dx, 0.0, grid.lon[0] - dx / 2, 0.0, -dy, grid.lat[-1] + dy / 2)
+    profile = {"driver": "GTiff", "dtype": "float64", "nodata": np.nan, "crs": "EPSG:4326", "transform": transform}
+    shape = {"count": len(bands), "height": len(grid.lat), "width": len(grid.lon)}
+    with rasterio.open(path, "w", **profile, **shape, compress="deflate", predictor=3) as file:
+        file.update_tags(AREA_OR_POINT="Area" if grid.centers else "Point")
+        for number, (name, values) in enumerate(bands, 1):
+            file.write(values[::-1], number)
+            file.set_band_description(number, name)
+            if name in grid.units:
+                file.set_band_unit(number, grid.units[name])
+
+
+def write_grid_table(grid: Grid, path: Path) -> None:
+    """A grid as a table, a row for each place, from the southwest."""
+    lon, lat = grid.lonlat.reshape(-1, 2).T
+    columns = {"lon": lon, "lat": lat}
+    columns |= {name: values.ravel() for name, values in beside(columns, grid.values).items()}
+    with path.open("w", encoding="utf-8", newline="") as stream:
+        write_csv(columns, stream)

@@ -1,0 +1,153 @@
+"""Scenes in space as files and pictures: `stereodel.drawing.Solid` calls it.
+
+    scenes → bodies → trimesh → glTF, or pyrender, its lights and its depth test → rows of pixels → labels over them
+
+What is drawn is what is written.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, Pixels
+from stereodel._files import replacing
+from stereodel.drawing.colors import Color
+from stereodel.drawing.scene_items import Layer
+from stereodel.drawing.solid import Solid
+from stereodel.render import gl
+from stereodel.render.bodies import ROUGHNESS
+from stereodel.render.glb import depths, glb_bytes, to_trimesh
+from stereodel.render.rows import SUPERSAMPLING, averaged, over_white
+from stereodel.render.save import write_png
+from stereodel.render.sizes import as_width, pixel_height
+from stereodel.render.text import labelled
+
+__all__ = ["draw_solid", "save_solid", "to_trimesh"]
+
+GAMMA: Final = 2.2
+"""Exponent of pyrender's colours, which it takes for sRGB."""
+
+AMBIENT: Final = 0.45
+"""Light from everywhere: what is turned away from the lamps has that share of its brightness, in linear light."""
+
+LAMPS: Final = (((-0.35, 0.45, 0.82), 0.75), ((0.0, 0.0, 1.0), 0.25), ((-0.2, 0.9, 0.1), 0.15))
+"""Directions toward the lamps and shares of the rest of the light: one from the upper left, as on pages, one from
+where the viewer is, which lights all that is seen so that the edge of the first one's light is not, and one from above.
+"""
+
+
+GLASS_RIM: Final = 3.0
+"""Exponent of the cosine with which glass grows denser toward the limb: the picture has no line there."""
+
+
+def save_solid(
+    solid: Solid, path: str | os.PathLike[str], *, size: int | None, text: bool, platform: str | None = None
+) -> None:
+    """What `Solid.save` promises."""
+    target = Path(path)
+    match target.suffix.lower():
+        case ".glb":
+            data = glb_bytes(solid)
+            with replacing(target) as temporary:
+                temporary.write_bytes(data)
+        case ".png":
+            page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
+            write_png(lit_rows(solid, width, platform), page, target, width)
+        case _:
+            raise ValueError(f"path must end in .glb or .png, got {target.name!r}")
+
+
+def draw_solid(solid: Solid, *, size: int | None, text: bool, platform: str | None = None) -> Pixels:
+    """What `Solid.pixels` promises."""
+    page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
+    return np.concatenate(list(labelled(lit_rows(solid, width, platform), page, width)))
+
+
+def lit_rows(solid: Solid, width: int, platform: str | None = None) -> Iterator[Pixels]:
+    """A picture `width` pixels wide, without its labels: rows (k, width, 3) after rows."""
+    scene, large = to_trimesh(solid), (SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(solid.page, width))
+    box = (*solid.page.extent, *depths(scene))
+    ground = over_white(solid.page.background)
+    return gl.space_bands(
+        lambda pyrender: lit(pyrender, scene, ground), box, *large, platform=platform, finish=averaged
+    )
+
+
+def lit(pyrender: Any, scene: Any, ground: Color) -> Any:
+    """A scene of trimesh as one of pyrender, with lamps."""
+    made = pyrender.Scene(bg_color=[*map(float, ground[:3]), 1.0], ambient_light=[AMBIENT] * 3)
+    for toward, share in LAMPS:
+        lamp = pyrender.DirectionalLight(intensity=np.pi * (1 - AMBIENT) * share)
+        made.add(lamp, pose=_facing(np.array(toward)))
+    nodes = scene.graph.geometry_nodes
+    parts = [part for name in scene.geometry for part in _parts(pyrender, scene, name, nodes[name])]
+    # What is opaque first, then what is behind.
+    for number, (_, primitive) in enumerate(sorted(parts, key=lambda part: part[0])):
+        made.add(pyrender.Mesh([primitive]), name=gl.node_name(number))
+    return made
+
+
+def _facing(toward: FloatArray) -> FloatArray:
+    """The pose of a lamp in a direction: it shines along its −z."""
+    z = toward / np.sqrt(np.sum(toward**2))
+    x = np.cross([0.0, 1.0, 0.0], z)
+    x /= np.sqrt(np.sum(x**2))
+    pose = np.eye(4)
+    pose[:3, :3] = np.column_stack([x, np.cross(z, x), z])
+    return pose
+
+
+def _parts(pyrender: Any, scene: Any, name: str, nodes: list[str]) -> Iterator[tuple[int, Any]]:
+    """What is drawn of a mesh, with its place in painter's order: 0 for what is opaque."""
+    mesh = scene.geometry[name]
+    poses = np.array([scene.graph.get(node)[0] for node in nodes])
+    color, layer = mesh.metadata["color"], mesh.metadata["layer"]
+    if color[3] == 1:
+        yield 0, _primitive(pyrender, mesh, color, poses)
+    elif layer == Layer.BALL:
+        for pose in poses:
+            yield layer, _primitive(pyrender, mesh, color, pose[None], opacity=_glass(mesh, pose, color[3]))
+    else:
+        if layer == Layer.TINT:
+            yield Layer.FAR_TINT, _primitive(pyrender, mesh, color, poses, inward=True)
+        yield layer, _primitive(pyrender, mesh, color, poses)
+
+
+def _primitive(
+    pyrender: Any,
+    mesh: Any,
+    color: Color,
+    poses: FloatArray,
+    *,
+    inward: bool = False,
+    opacity: FloatArray | None = None,
+) -> Any:
+    side = -1 if inward else 1
+    base = [*(np.array(color[:3]) ** GAMMA).tolist(), color[3] if opacity is None else 1.0]
+    material = pyrender.MetallicRoughnessMaterial(
+        baseColorFactor=base,
+        metallicFactor=0.0,
+        roughnessFactor=ROUGHNESS,
+        alphaMode="OPAQUE" if color[3] == 1 else "BLEND",
+    )
+    tints = None if opacity is None else np.column_stack([np.ones((len(opacity), 3)), opacity])
+    return pyrender.Primitive(
+        mesh.vertices,
+        normals=side * mesh.vertex_normals,
+        color_0=tints,
+        indices=mesh.faces[:, ::side],
+        material=material,
+        poses=poses,
+    )
+
+
+def _glass(mesh: Any, pose: FloatArray, opacity: float) -> FloatArray:
+    """Opacity at the points of a ball of glass: more of it is in the way, and more light reflected, toward the limb."""
+    normals = mesh.vertex_normals @ pose[:3, :3].T
+    facing = np.abs(normals[:, 2]) / np.sqrt(np.sum(normals**2, axis=1))
+    return np.asarray(opacity + (1 - opacity) * (1 - facing) ** GLASS_RIM)

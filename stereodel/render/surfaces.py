@@ -1,0 +1,289 @@
+"""Surfaces of space as triangles: balls, tubes along curves, regions of a sphere, flat polygons.
+
+Triangles are counterclockwise seen from outside. Corners carry the normals of the true surface: light is smooth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, Indices
+from stereodel._extras import of_extra
+from stereodel.drawing.regions import SphereRegion
+from stereodel.drawing.space_curves import CircleArc, Curve, Segment
+from stereodel.sphere.vectors import units
+from stereodel.triangulation import SphericalDelaunay
+
+CURVE_ERROR: Final = 1 / 2000
+"""Distance of a curve from its chords, at most, in radii of the scene's ball: half a pixel of a thousand."""
+
+BALL_LEVELS: Final = (4, 5, 6)
+"""How often the sides of an icosahedron may be halved for a ball: 5120, 20480 or 81920 triangles."""
+
+DOT_LEVEL: Final = 2
+"""The same for dots, which are small: 320 triangles."""
+
+LEAST_SIDES: Final = 6
+"""Of the section of a tube."""
+
+CAP_ANGLES: Final = np.radians([45.0])
+"""Latitudes of the rings between the end of a tube and the tip of the half ball that closes it."""
+
+BISECTIONS: Final = 24
+"""Rounds in which sides of a region that its triangulation does not have are halved: then they are below 1e-8 radii."""
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """Triangles that share corners.
+
+    Parameters
+    ----------
+    points : (n, 3) array
+    normals : (n, 3) array
+        Unit vectors outward.
+    faces : (m, 3) int array
+    """
+
+    points: FloatArray
+    normals: FloatArray
+    faces: Indices
+
+    @property
+    def depth(self) -> float:
+        """Of a part of the unit sphere, how far its triangles are below the sphere where they are lowest."""
+        a, b, c = (self.points[self.faces[:, k]] for k in range(3))
+        return 1 - float(np.sum(a * units(np.cross(b - a, c - a)), axis=1).min())
+
+    @classmethod
+    def joined(cls, surfaces: Sequence[Surface]) -> Surface:
+        """Several surfaces as one; at least one of them."""
+        first = np.cumsum([0, *(len(surface.points) for surface in surfaces)])
+        faces = [surface.faces + start for surface, start in zip(surfaces, first[:-1], strict=True)]
+        points, normals = ([getattr(s, name) for s in surfaces] for name in ("points", "normals"))
+        return cls(np.concatenate(points), np.concatenate(normals), np.concatenate(faces))
+
+
+@cache
+def ball(level: int) -> Surface:
+    """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere.
+
+    Examples
+    --------
+    >>> len(ball(2).faces), round(ball(2).depth, 4)
+    (320, 0.0178)
+    """
+    with of_extra("render"):
+        from trimesh.creation import icosphere
+
+    made: Any = icosphere(subdivisions=level, radius=1.0)
+    points = units(np.array(made.vertices, dtype=np.float64))
+    return Surface(points, points, np.array(made.faces, dtype=np.intp))
+
+
+def ball_level(error: float) -> int:
+    """The least of `BALL_LEVELS` that is no farther than `error` radii from the ball, or the last one."""
+    return next((level for level in BALL_LEVELS if ball(level).depth <= error), BALL_LEVELS[-1])
+
+
+# Tubes
+
+
+def tube(curve: Curve, radius: float, error: float) -> Surface | None:
+    """What is within `radius` of a curve, its ends round; None for one without length.
+
+    Parameters
+    ----------
+    curve : Segment or CircleArc
+        Not seen by any view yet: of an arc both radii have one length.
+    radius : float
+    error : float
+        Distance of the curve from its chords, at most. Sections have enough sides to be as exact, and six at least.
+
+    Examples
+    --------
+    >>> bar = tube(Segment.between([0, 0, 0], [0, 0, 5]), 0.1, 0.001)
+    >>> bar.points[:, 2].min().round(9).tolist(), bar.points[:, 2].max().round(9).tolist()
+    (-0.1, 5.1)
+    """
+    found = _frames(curve, error)
+    if found is None:
+        return None
+    middle, along, side = found
+    sides = max(LEAST_SIDES, _pieces(2 * np.pi, radius, error))
+    turn = 2 * np.pi * np.arange(sides)[:, None] / sides
+    rings = np.cos(turn) * side[:, None] + np.sin(turn) * np.cross(along, side)[:, None]
+    if not curve.closed:
+        begin, end = _cap_rings(rings[0], -along[0])[::-1], _cap_rings(rings[-1], along[-1])
+        rings = np.concatenate([begin, rings, end])
+        middle = np.concatenate([np.repeat(middle[:1], len(begin), 0), middle, np.repeat(middle[-1:], len(end), 0)])
+    normals, points = rings.reshape(-1, 3), (middle[:, None] + radius * rings).reshape(-1, 3)
+    faces = _sleeve(len(middle), sides, closed=curve.closed)
+    if curve.closed:
+        return Surface(points, normals, faces)
+    tips = np.array([-along[0], along[-1]])
+    return Surface(
+        np.concatenate([points, middle[[0, -1]] + radius * tips]),
+        np.concatenate([normals, tips]),
+        np.concatenate([faces, _tips(len(middle), sides)]),
+    )
+
+
+def dashed(curve: Curve, dash: float, gap: float) -> list[Curve]:
+    """The dashes of a curve, of some length, whole ones only but for the last."""
+    length = _speed(curve) * (curve.stop - curve.start)
+    if length == 0:
+        return []
+    starts = np.arange(0.0, length, dash + gap)
+    ends = np.minimum(starts + dash, length)
+    rate = (curve.stop - curve.start) / length
+    return [
+        curve.part(curve.start + rate * float(a), curve.start + rate * float(b))
+        for a, b in zip(starts, ends, strict=True)
+    ]
+
+
+def _frames(curve: Curve, error: float) -> tuple[FloatArray, FloatArray, FloatArray] | None:
+    """Points along a curve, its direction there, and a direction across it that turns as little as can be, (k, 3)."""
+    speed = _speed(curve)
+    if speed == 0 or curve.stop <= curve.start:
+        return None
+    if isinstance(curve, Segment):
+        along = curve.direction / speed
+        # Across what the segment is least along, so that the product has all its digits.
+        across = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
+        t = np.array([curve.start, curve.stop])
+        return curve.sample(t), np.tile(along, (2, 1)), np.tile(across / np.sqrt(np.sum(across**2)), (2, 1))
+    if not isinstance(curve, CircleArc):
+        raise TypeError(f"curve must be a Segment or a CircleArc, not {type(curve).__name__}")
+    sweep = curve.stop - curve.start
+    pieces = _pieces(sweep, speed, error)
+    t = curve.start + sweep * np.arange(pieces + (not curve.closed)) / pieces
+    cosine, sine = np.cos(t)[:, None], np.sin(t)[:, None]
+    return curve.sample(t), (cosine * curve.v - sine * curve.u) / speed, (cosine * curve.u + sine * curve.v) / speed
+
+
+def _speed(curve: Curve) -> float:
+    """Length for a unit of the parameter."""
+    step = curve.u if isinstance(curve, CircleArc) else curve.sample(1.0) - curve.sample(0.0)
+    return float(np.sqrt(np.sum(step**2)))
+
+
+def _pieces(sweep: float, radius: float, error: float) -> int:
+    """Chords of an arc, so many that it is at most `error` away: one over the angle 2a is radius·(1 − cos a) away."""
+    widest = 2 * float(np.arccos(max(1 - error / radius, 0.5)))
+    return max(1, int(np.ceil(sweep / widest)))
+
+
+def _sleeve(rings: int, sides: int, *, closed: bool) -> Indices:
+    """Triangles between neighbouring rings of as many points each."""
+    ring = np.arange(rings if closed else rings - 1)[:, None]
+    here, after = ring * sides + np.arange(sides), ring * sides + np.roll(np.arange(sides), -1)
+    there, there_after = (here + sides) % (rings * sides), (after + sides) % (rings * sides)
+    return np.stack([here, after, there, after, there_after, there], axis=-1).reshape(-1, 3)
+
+
+def _cap_rings(ring: FloatArray, outward: FloatArray) -> FloatArray:
+    """Normals (k, sides, 3) on the rings of a half ball, from its rim on."""
+    cosine, sine = np.cos(CAP_ANGLES)[:, None, None], np.sin(CAP_ANGLES)[:, None, None]
+    return np.asarray(cosine * ring + sine * outward)
+
+
+def _tips(rings: int, sides: int) -> Indices:
+    """Triangles from the outermost rings of a tube to its two tips, the points behind those of its rings."""
+    ring, after = np.arange(sides), np.roll(np.arange(sides), -1)
+    first, last = np.full(sides, rings * sides), np.full(sides, rings * sides + 1)
+    high = (rings - 1) * sides
+    return np.concatenate([np.column_stack([first, after, ring]), np.column_stack([last, high + ring, high + after])])
+
+
+# Flat polygons and regions of a sphere
+
+
+def polygon(corners: FloatArray, normal: FloatArray) -> Surface:
+    """A flat polygon that does not cross itself, corners (n, 3) in either order, seen from the side of its normal."""
+    with of_extra("draw"):
+        import mapbox_earcut
+
+    side = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
+    flat = corners @ np.column_stack([side, np.cross(normal, side)])
+    rings = np.array([len(corners)], dtype=np.uint32)
+    faces = mapbox_earcut.triangulate_float64(flat, rings).astype(np.intp).reshape(-1, 3)
+    a, b, c = (flat[faces[:, i]] for i in range(3))
+    clockwise = _doubled_areas(a, b, c) < 0
+    faces[clockwise] = faces[clockwise][:, ::-1]
+    return Surface(corners, np.tile(normal, (len(corners), 1)), faces)
+
+
+def _doubled_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
+    """Of flat triangles, positive counterclockwise."""
+    (ux, uy), (vx, vy) = (b - a).T, (c - a).T
+    return np.asarray(ux * vy - uy * vx)
+
+
+def patch(region: SphereRegion, level: int) -> Surface:
+    """A region as one of the unit sphere, its corners on the sphere and its sides on the boundary.
+
+    The points of a ball of that level and those of the boundary are triangulated together, but for points of the ball
+    that would come between two of the boundary. What is on the left of the boundary is the region.
+
+    Raises
+    ------
+    ValueError
+        For a boundary that crosses itself.
+    """
+    arcs = [arc.scaled(1 / region.radius, np.zeros(3)) for arc in region.boundary]
+    steps = [np.linspace(a.start, a.stop, _pieces(a.stop - a.start, _speed(a), CURVE_ERROR) + 1) for a in arcs]
+    for _ in range(BISECTIONS):
+        rim = units(np.concatenate([arc.sample(t[:-1]) for arc, t in zip(arcs, steps, strict=True)]))
+        mesh = SphericalDelaunay(np.concatenate([rim, _away_from(rim, ball(level).points)]))
+        crossed = ~_has_edges(mesh.simplices, len(rim))
+        if not crossed.any():
+            inside = _left_of(mesh.simplices, mesh.neighbors, len(rim))
+            return _only(mesh.points, mesh.simplices[inside])
+        parts = np.split(crossed, np.cumsum([len(t) - 1 for t in steps])[:-1])
+        steps = [np.sort([*t, *((t[:-1] + t[1:])[part] / 2)]) for t, part in zip(steps, parts, strict=True)]
+    raise ValueError("the boundary of a region crosses itself; give the arcs of a loop that does not")
+
+
+def _away_from(rim: FloatArray, points: FloatArray) -> FloatArray:
+    """Points outside circles about the sides of a loop of points, a quarter wider than these are long."""
+    after = np.roll(rim, -1, axis=0)
+    middle, reach = (rim + after) / 2, 0.625 * np.sqrt(np.sum((rim - after) ** 2, axis=1))
+    distance = np.sqrt(np.sum((points[:, None] - middle) ** 2, axis=-1))
+    return points[(distance > reach).all(axis=1)]
+
+
+def _has_edges(simplices: AnyIndices, count: int) -> BoolArray:
+    """Which sides of the loop of points 0 … `count` − 1 are sides of triangles."""
+    starts, ends = simplices.ravel(), np.roll(simplices, -1, axis=1).ravel()
+    found = np.zeros(count, dtype=bool)
+    found[starts[(starts < count) & (ends == (starts + 1) % count)]] = True
+    return found
+
+
+def _left_of(simplices: AnyIndices, neighbors: AnyIndices, count: int) -> BoolArray:
+    """The triangles on the left of a loop of points 0 … `count` − 1, all of whose sides are sides of triangles."""
+    # Side k of a triangle is opposite corner k: from corner k + 1 to corner k + 2.
+    starts, ends = np.roll(simplices, -1, axis=1), np.roll(simplices, -2, axis=1)
+    ahead = (starts < count) & (ends == (starts + 1) % count)
+    behind = (ends < count) & (starts == (ends + 1) % count)
+    beyond = np.where(ahead | behind, -1, neighbors)
+    inside = ahead.any(axis=1)
+    front = np.flatnonzero(inside)
+    while len(front):
+        reached = np.unique(beyond[front])
+        front = reached[(reached >= 0) & ~inside[reached]]
+        inside[front] = True
+    return inside
+
+
+def _only(points: FloatArray, faces: AnyIndices) -> Surface:
+    """Triangles of the unit sphere with the points that they need."""
+    used, numbers = np.unique(faces, return_inverse=True)
+    return Surface(points[used], points[used], numbers.reshape(-1, 3))

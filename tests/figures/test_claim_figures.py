@@ -1,0 +1,182 @@
+"""What the pictures of claims without a figure of the paper show: computed once more, in another way."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from stereodel import SphereCircle, bubble_to_bubble, in_bubble, lonlat_to_xyz
+from stereodel.interpolation import LinearInterpolator
+from stereodel.sphere import angular_distance
+from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
+from tests.figures.scripts import page, script
+
+# P12 and P13: claim_separation.
+
+
+@pytest.fixture(scope="module")
+def separation():
+    return script("claim_separation")["FIGURE"].geometry()
+
+
+def test_the_curves_of_separation_have_closed_forms(separation):
+    for name, bound in (("largest", lambda t: 4 * np.arctan(t)), ("smallest", lambda t: 2 * np.arcsin(t))):
+        share, constant = separation[name][1:].T
+        assert constant == pytest.approx(bound(share) / (np.pi * share), rel=1e-10), name
+    assert separation["bounds"] == pytest.approx([2 / np.pi, 4 / np.pi], rel=1e-15)
+    assert [separation[name][0, 1] for name in ("smallest", "largest")] == separation["bounds"].tolist()
+
+
+def test_no_pair_lies_beyond_the_curves_and_sides_end_on_them(separation):
+    for name in ("pairs", "short_side", "long_side"):
+        share, constant = separation[name].T
+        assert (constant <= 4 * np.arctan(share) / (np.pi * share) * (1 + 1e-12)).all()
+        assert (constant >= 2 * np.arcsin(np.minimum(share, 1)) / (np.pi * share) * (1 - 1e-12)).all()
+    for name in ("short_side", "long_side"):
+        share, constant = separation[name][-1]
+        assert constant == pytest.approx(2 * np.arcsin(share) / (np.pi * share), rel=1e-12)
+
+
+def test_the_chart_of_separation_has_both_scales():
+    """On the right 1/2, 3/4 and 1 stand at the constants by which the length R·angle is that share of d."""
+    module = script("claim_separation")
+    radius = module["lift"]().sphere.radius / module["lift"]().diagonal
+    for share, constant in ((0.5, 2 / np.pi), (1.0, 4 / np.pi)):
+        assert radius * constant * np.pi == pytest.approx(share)
+    heights = {
+        label.text: label.anchor[1] for label in page("claim_separation").labels if label.text in ("$2/\\pi$", "$3/4$")
+    }
+    (half,) = [x.anchor[1] for x in page("claim_separation").labels if x.text == "$1/2$" and x.align == "left"]
+    assert half == pytest.approx(heights["$2/\\pi$"])
+
+
+# P12 and P17: claim_scales.
+
+
+def test_ratios_of_lengths_are_those_of_the_images():
+    module = script("claim_scales")
+    rectangle = module["lift"]()
+    paths = np.random.default_rng(1).uniform(-1, 1, size=(40, 5, 2)) * [rectangle.width / 2, rectangle.height / 2]
+    t = np.linspace(0, 1, 401)[:, None]
+    for path, ratio in zip(paths, module["ratios"](rectangle, paths), strict=True):
+        points = np.concatenate([a + t * (b - a) for a, b in pairwise(path)])
+        lifted = rectangle.forward(points)
+        image = np.radians(angular_distance(lifted[:-1], lifted[1:])).sum() * rectangle.sphere.radius
+        assert ratio == pytest.approx(image / np.linalg.norm(np.diff(points, axis=0), axis=1).sum(), rel=1e-4)
+        assert 0.5 < ratio < 1
+
+
+def test_curves_of_equal_ratio():
+    """Their points are maps between bubbles whose scales differ by that much, and levels run from 1/2 to 2."""
+    g = script("claim_scales")["FIGURE"].geometry()
+    assert len(g["levels"]) == 9
+    for line, level in zip(np.split(g["curves"], np.cumsum(g["sizes"])[:-1]), g["levels"], strict=True):
+        chi, xi = np.radians(line).T
+        assert (np.cos(chi / 2) / np.cos(xi / 2)) ** 2 == pytest.approx(level, rel=2e-3)
+        assert 0.5 < level < 2
+    chi, xi = line[len(line) // 3]
+    source = SphereCircle.around((0, 20), chi)
+    scale = bubble_to_bubble(source, SphereCircle.around((90, 0), xi)).scale_factor(
+        [source.center, source.sample(1)[0]]
+    )
+    assert scale[0] / scale[1] == pytest.approx(level, rel=2e-3)
+
+
+# P23: claim_projections.
+
+
+def test_triangles_said_to_be_broken_have_sites_in_both_bubbles():
+    module = script("claim_projections")
+    g = module["FIGURE"].geometry()
+    sites = sphere_sites(module)
+    for name in module["DRAWN"]:
+        triangles, broken = g[f"{name}_triangles"], g[f"{name}_broken"]
+        a, b, c = np.moveaxis(sites[triangles], 1, 0)
+        signs = in_bubble(a[:, None], b[:, None], c[:, None], sites[None])
+        others = ~(np.arange(len(sites)) == triangles[..., None]).any(axis=1)
+        both = ((signs > 0) & others).any(axis=1) & ((signs < 0) & others).any(axis=1)
+        assert broken.tolist() == both.tolist(), name
+        assert broken.any() == (name != "stereographic"), name
+
+
+def sphere_sites(module):
+    """The sites, from where the stereographic panel has them: back by its formula, up to the panel's size."""
+    projection, g = module["Stereographic"](module["PLACE"]), module["FIGURE"].geometry()
+    rim = module["CIRCLE"].sample(720)
+    drawn, true = g["stereographic_circle"], projection.forward(rim)
+    size = np.linalg.norm(drawn[0] - drawn[360]) / np.linalg.norm(true[0] - true[360])
+    found = projection.inverse((g["stereographic_sites"] - drawn[0]) / size + true[0])
+    assert angular_distance(found, lonlat_to_xyz(module["PLACE"])).max() <= module["REACH"]
+    return found
+
+
+# P22: claim_terrain and claim_planet.
+
+
+@pytest.mark.parametrize("name", ["claim_terrain", "claim_planet"])
+def test_facets_are_painted_from_back_to_front(name):
+    """Of two facets that cover one place of the page, the one nearer to the viewer comes later: the depths decide."""
+    module = script(name)
+    g = module["FIGURE"].geometry()
+    if name == "claim_terrain":
+        places = module["block_place"](g["points"], g["heights"])
+        depth = np.column_stack([g["points"], module["STEEP"] * g["heights"]]) @ module["toward"]()
+    else:
+        space = module["raised"](g)
+        places = module["SIDEWAYS"].project(space)
+        depth = space @ module["SIDEWAYS"].matrix[2]
+    triangles = g["triangles"][g["order"]]
+    low, high = places.min(axis=0), places.max(axis=0)
+    several = 0
+    for place in np.random.default_rng(3).uniform(low, high, size=(4000, 2)):
+        weights = barycentric(places[triangles], place)
+        covering = np.flatnonzero((weights > 1e-9).all(axis=1))
+        nearness = (weights[covering] * depth[triangles[covering]]).sum(axis=1)
+        assert (np.diff(nearness) > -1e-9).all(), (name, covering)
+        several += len(covering) > 1
+    assert several > (40 if name == "claim_terrain" else 2000), several
+
+
+def barycentric(corners, place):
+    """Weights (m, 3) of a place in triangles of the page (m, 3, 2)."""
+    a, b, c = np.moveaxis(corners, 1, 0)
+
+    def cross(p, q):
+        return p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0]
+
+    whole = cross(b - a, c - a)
+    return np.column_stack([cross(c - b, place - b), cross(a - c, place - c), cross(b - a, place - a)]) / whole[:, None]
+
+
+@pytest.mark.parametrize("name", ["claim_terrain", "claim_planet"])
+def test_contours_have_their_heights_and_the_points_those_of_the_relief(name):
+    module = script(name)
+    g = module["FIGURE"].geometry()
+    network = (PlanarDelaunay if name == "claim_terrain" else SphericalDelaunay)(g["points"])
+    levels = np.repeat(g["levels"], g["sizes"])
+    # Rounding may put a point on the hull outside: a third of the way along each piece lies inside.
+    inside = np.flatnonzero(np.diff(levels) == 0)
+    middle = (2 * g["contours"][inside] + g["contours"][inside + 1]) / 3
+    found = LinearInterpolator(network, g["heights"])(middle)
+    step = np.linalg.norm(g["contours"][inside + 1] - g["contours"][inside], axis=1)
+    same = step < 0.05  # else from one line to the next of its level
+    assert same.mean() > 0.5
+    assert np.nanmax(np.abs(found - levels[inside])[same & within_a_line(g, inside)]) < 1e-9
+    space = g["points"] if g["points"].shape[1] == 3 else np.column_stack([g["points"], np.zeros(len(g["points"]))])
+    assert g["heights"].tolist() == module["relief"](space, module["WAVELENGTH"], module["SEED"]).tolist()
+
+
+def within_a_line(g, first):
+    """Whether a point of the contours and the next one belong to one line."""
+    return ~np.isin(first + 1, np.cumsum(g["sizes"]))
+
+
+def test_facets_are_cut_where_the_sea_begins():
+    cut = script("claim_terrain")["cut_at_sea"]
+    corners = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
+    (land, above), (sea, below) = cut(corners, np.array([3.0, -1.0, -1.0]))
+    assert land.tolist() == [[0, 0], [3, 0], [0, 3]]
+    assert sea.tolist() == [[3, 0], [4, 0], [0, 4], [0, 3]]
+    assert (above, below) == (1.0, -0.5)
+    ((whole, _),) = cut(corners, np.array([3.0, 0.0, 1.0]))
+    assert whole.tolist() == corners.tolist()

@@ -1,0 +1,171 @@
+"""Surfaces in space: closed, facing outward, as near to the true shape as they say."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.spatial import cKDTree
+
+from stereodel.drawing.regions import SphereRegion
+from stereodel.drawing.space_curves import CircleArc, Segment
+from stereodel.render.surfaces import (
+    BALL_LEVELS,
+    CURVE_ERROR,
+    Surface,
+    ball,
+    ball_level,
+    dashed,
+    patch,
+    polygon,
+    tube,
+)
+from stereodel.sphere import SphereCircle, lonlat_to_xyz, solid_angle
+
+
+def volume(surface):
+    a, b, c = (surface.points[surface.faces[:, k]] for k in range(3))
+    return float(np.sum(a * np.cross(b, c))) / 6
+
+
+def areas(surface):
+    """Vectors along the normals of the triangles, as long as their areas."""
+    a, b, c = (surface.points[surface.faces[:, k]] for k in range(3))
+    return np.cross(b - a, c - a) / 2
+
+
+def total_area(surface):
+    return np.sqrt(np.sum(areas(surface) ** 2, axis=1)).sum()
+
+
+def is_closed(surface):
+    """Each side of a triangle is that of one other, which has it the other way round."""
+    sides = {(int(u), int(v)) for face in surface.faces for u, v in zip(face, np.roll(face, -1), strict=True)}
+    return len(sides) == 3 * len(surface.faces) and {(v, u) for u, v in sides} == sides
+
+
+def faces_out(surface):
+    """Triangles and normals of their corners look the same way."""
+    flat = areas(surface)
+    return all((np.sum(flat * surface.normals[surface.faces[:, k]], axis=1) > 0).all() for k in range(3))
+
+
+ARC = CircleArc.great([1.0, 0.2, 0.1], [-0.3, 1.0, 0.4])
+RING = CircleArc(np.array([0.1, 0.2, 0.3]), np.array([0.0, 0.6, 0.0]), np.array([0.0, 0.0, 0.6]))
+LINES = {"arc": ARC, "part": ARC.part(0.3, 0.9), "ring": RING, "bar": Segment.between([0, 0, 1], [0.5, 0, -1])}
+
+
+@pytest.mark.parametrize("name", LINES)
+@pytest.mark.parametrize("radius", [0.001, 0.02])
+def test_a_tube_is_what_lies_within_its_radius(name, radius):
+    line = LINES[name]
+    made = tube(line, radius, CURVE_ERROR)
+    assert is_closed(made)
+    assert faces_out(made)
+    near = cKDTree(line.sample(np.linspace(line.start, line.stop, 200_001)))
+    assert np.abs(near.query(made.points)[0] - radius).max() < 1e-6
+    # The middles of its triangles' sides lie below by what chords are below arcs, along and around.
+    a, b = (made.points[made.faces[:, k]] for k in (0, 1))
+    assert radius - near.query((a + b) / 2)[0].min() < max(2.1 * CURVE_ERROR, 0.3 * radius)
+    step = line.direction if isinstance(line, Segment) else line.u
+    length = (line.stop - line.start) * np.sqrt(np.sum(step**2)) + (0 if line.closed else 4 / 3 * radius)
+    assert 0.8 < volume(made) / (np.pi * radius**2 * length) < 1.0
+
+
+def test_chords_are_near_to_their_curve():
+    made = tube(RING, 1e-6, CURVE_ERROR)
+    middles = made.points.reshape(-1, 6, 3).mean(axis=1)  # of its sections
+    chords = (middles + np.roll(middles, -1, axis=0)) / 2 - RING.center
+    below = 0.6 - np.sqrt(np.sum(chords**2, axis=1))
+    assert 0.5 * CURVE_ERROR < below.max() <= CURVE_ERROR * (1 + 1e-9)
+
+
+@pytest.mark.parametrize("line", [ARC.part(0.5, 0.5), Segment.between([1, 1, 1], [1, 1, 1])])
+def test_what_has_no_length_has_no_tube(line):
+    assert tube(line, 0.1, CURVE_ERROR) is None
+    assert dashed(line, 1.0, 1.0) == []
+
+
+def test_dashes_and_gaps_have_their_lengths():
+    pieces = dashed(RING, 0.1, 0.05)
+    assert len(pieces) == int(np.ceil(2 * np.pi * 0.6 / 0.15))
+    lengths = [0.6 * (piece.stop - piece.start) for piece in pieces]
+    assert np.allclose(lengths[:-1], 0.1)
+    assert 0 < lengths[-1] <= 0.1 + 1e-12
+    gaps = [0.6 * (b.start - a.stop) for a, b in pairwise(pieces)]
+    assert np.allclose(gaps, 0.05)
+
+
+@pytest.mark.parametrize("level", [2, *BALL_LEVELS[:2]])
+def test_a_ball_is_closed_and_round(level):
+    made = ball(level)
+    assert is_closed(made)
+    assert faces_out(made)
+    assert np.allclose(np.sqrt(np.sum(made.points**2, axis=1)), 1, rtol=1e-15)
+    lowest = made.points[made.faces].mean(axis=1)
+    assert made.depth == pytest.approx(1 - np.sqrt(np.sum(lowest**2, axis=1)).min(), rel=0.05)
+
+
+def test_a_ball_is_as_fine_as_is_asked():
+    assert [ball_level(error) for error in (1.0, 0.00114, 0.00113, 1e-9)] == [4, 4, 5, 6]
+
+
+def region(*corners, radius=2.0):
+    xyz = lonlat_to_xyz(np.array(corners))
+    sides = [
+        CircleArc.great(a, b).scaled(radius, np.zeros(3)) for a, b in zip(xyz, np.roll(xyz, -1, axis=0), strict=True)
+    ]
+    return SphereRegion(tuple(sides), radius), xyz
+
+
+def cap(radius_deg, radius=0.5):
+    circle = CircleArc.circle(SphereCircle.around((30, 32), radius_deg)).scaled(radius, np.zeros(3))
+    return SphereRegion((circle,), radius)
+
+
+@pytest.mark.parametrize("angle", [0.5, 20, 90, 140, 179])
+def test_a_patch_of_a_circle_is_its_cap(angle):
+    made = patch(cap(angle), 4)
+    around = 2 * np.pi * np.sin(np.radians(angle)) * CURVE_ERROR
+    assert total_area(made) == pytest.approx(2 * np.pi * (1 - np.cos(np.radians(angle))), rel=0.003, abs=around)
+    middle = lonlat_to_xyz((30.0, 32.0))
+    assert (made.points @ middle).min() == pytest.approx(np.cos(np.radians(angle)), abs=1e-12)
+    assert np.array_equal(made.points, made.normals)
+    assert faces_out(made)
+
+
+def test_a_patch_of_a_thin_triangle_has_its_area():
+    thin, corners = region((0, 0), (60, 0.6), (60, 0.9))
+    assert total_area(patch(thin, 4)) == pytest.approx(solid_angle(*corners), rel=0.01)
+
+
+def test_a_boundary_the_other_way_round_is_the_rest_of_the_sphere():
+    corners = [(0, 0), (40, 0), (20, 50)]
+    inner, outer = (
+        np.sqrt(np.sum(areas(patch(region(*c)[0], 5)) ** 2, axis=1)).sum() for c in (corners, corners[::-1])
+    )
+    assert inner + outer == pytest.approx(4 * np.pi, rel=1e-3)
+    assert inner < outer
+
+
+def test_a_boundary_that_crosses_itself_is_refused():
+    with pytest.raises(ValueError, match="crosses itself"):
+        patch(region((0, 0), (40, 30), (40, 0), (0, 30))[0], 4)
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_polygon_need_not_be_convex(order):
+    star = np.array([[0, 0], [2, 0], [2, 2], [1, 0.5], [0, 2]], dtype=float)[::order]
+    normal = np.array([1.0, 2.0, -2.0]) / 3
+    across = np.array([2.0, -1.0, 0.0]) / np.sqrt(5)
+    corners = star @ np.array([across, np.cross(normal, across)]) + 0.7 * normal
+    made = polygon(corners, normal)
+    assert len(made.faces) == 3
+    assert (areas(made) @ normal).sum() == pytest.approx(2.5)
+    assert total_area(made) == pytest.approx(2.5)
+
+
+def test_surfaces_are_joined_one_after_the_other():
+    parts = [tube(line, 0.02, CURVE_ERROR) for line in LINES.values()]
+    both = Surface.joined(parts)
+    assert volume(both) == pytest.approx(sum(map(volume, parts)))
+    assert is_closed(both)
