@@ -66,6 +66,8 @@ html_sidebars = {
         "spatial",
         "degenerate",
         "paper",
+        "theorem",
+        "references",
         "flat_regions",
         "benchmarks",
         "changelog",

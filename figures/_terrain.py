@@ -77,11 +77,12 @@ def keep_points(
 
 
 def cut_at_sea(corners: np.ndarray, heights: np.ndarray) -> list[tuple[np.ndarray, float]]:
-    """A facet as polygons that do not cross the level 0, each with the mean height of its corners.
+    """A facet as one or two polygons to be painted in this order, each with the height that it is tinted by.
 
-    `corners` (3, d) are where the facet is drawn, on a map or in space.
+    `corners` (3, d) are where the facet is drawn, on a map or in space. If it reaches above the level 0 and below it,
+    the second polygon is the part below, painted over the whole, so that no seam is left between them.
     """
-    found = []
+    found: list[tuple[np.ndarray, float]] = []
     for side in (heights >= 0, heights < 0):
         polygon, level = [], []
         for k, following in ((0, 1), (1, 2), (2, 0)):
@@ -93,7 +94,7 @@ def cut_at_sea(corners: np.ndarray, heights: np.ndarray) -> list[tuple[np.ndarra
                 polygon.append(corners[k] + part * (corners[following] - corners[k]))
                 level.append(0.0)
         if polygon:
-            found.append((np.array(polygon), float(np.mean(level))))
+            found.append((np.array(polygon) if found else corners, float(np.mean(level))))
     return found
 
 

@@ -249,6 +249,9 @@ FINEST_POINTS: Final = 0.02
 A dot of a printer at 3600 dots an inch; as far as `Globe.page` lets what it draws stray.
 """
 
+FINEST_PLACE: Final = 1e-3
+"""Step of the coordinates in vector files, points: 0.35 micrometres. What is shorter on paper is no line."""
+
 MOST_TEXELS: Final = 2**27
 """Pixels of the largest picture that is read or warped, 16384 × 8192: with its smaller copies it takes 1.4 GB.
 

@@ -1,6 +1,7 @@
 """What the documentation names exists: the ledger's functions, tests and figures, and the README's example runs."""
 
 import ast
+import doctest
 import importlib
 import re
 from pathlib import Path
@@ -74,6 +75,32 @@ def test_the_examples_of_a_page_run(page):
     code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
     assert code
     exec(compile(code, f"docs/{page}.md", "exec"), {})
+
+
+@pytest.mark.parametrize("page", ["theorem"])
+def test_what_a_page_prints_is_true(page):
+    """Its dialogues with the interpreter, as one."""
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    dialogue = "\n".join(re.findall(r"```pycon\n(.*?)```", text, re.DOTALL))
+    test = doctest.DocTestParser().get_doctest(dialogue, {}, page, f"docs/{page}.md", 0)
+    assert len(test.examples) > 20
+    report: list[str] = []
+    doctest.DocTestRunner().run(test, out=report.append)
+    assert "".join(report) == ""
+
+
+@pytest.mark.parametrize("page", ["theorem"])
+def test_tests_and_figures_that_a_page_names_exist(page):
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    named = re.findall(r"`(?:(tests/[\w/]+\.py)(?:::)?)?(test_\w+)?`", text)
+    named = [(path, name) for path, name in named if path or name]
+    assert named
+    path = ""
+    for given, name in named:
+        path = given or path  # a name alone is of the file before it
+        test_named_test_exists(path, name)
+    for figure in re.findall(r"gallery/(\w+)", text):
+        test_named_figure_exists(figure)
 
 
 @pytest.mark.parametrize("page", ["README.md", "docs/index.md"])

@@ -1,4 +1,4 @@
-"""Draw the small pictures of the README, the start page and the page on scenes into docs/images.
+"""Draw the small pictures of the README, the start page and the page on drawing into docs/images.
 
 python tools/readme_images.py
 """
@@ -21,6 +21,9 @@ WIDTHS = {
 
 SOLID = {"fig05_projections": 1200}
 """The same of those that are shown in space."""
+STYLED = "fig09_scale"
+STYLE_WIDTHS = {"column": 496, "slide": 800, "dark": 800}
+"""Pixels across by style, of one figure."""
 
 
 def main() -> None:
@@ -34,6 +37,10 @@ def main() -> None:
     for name, width in SOLID.items():
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
         print(figure.solid().save(folder / f"{name}_solid.png", size=width).relative_to(ROOT))
+    for style, width in STYLE_WIDTHS.items():
+        figure = load_drawing(ROOT / "figures" / f"{STYLED}.py").styled(style)
+        path = figure.page().save(folder / f"style_{style}.png", size=width, renderer=figure.renderer)
+        print(path.relative_to(ROOT))
 
 
 if __name__ == "__main__":

@@ -233,11 +233,6 @@ TYPE: Final[Mapping[str, Any]] = {
     "text.hinting": "no_hinting",
     "text.antialiased": True,
     "path.simplify": False,
-    "pdf.fonttype": 42,
-    "pdf.compression": 6,
-    "svg.fonttype": "path",
-    "svg.hashsalt": "stereodel",
-    "svg.image_inline": True,
 }
 """matplotlib settings under which every page is drawn; fonts are those that matplotlib ships."""
 

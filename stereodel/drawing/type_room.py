@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any, Final
 
 import numpy as np
@@ -23,6 +24,9 @@ Box = tuple[float, float, float, float]
 
 LEADING: Final = 1.25
 """From line to line of broken type, in its size."""
+
+GAP_OF_LINES: Final = 0.2
+"""Least distance between titles, credits and what is next to them, in their size."""
 
 EDGE: Final = 2.0
 """Between type and the edge of a page, points."""
@@ -92,9 +96,10 @@ def set_anew(
     boxes = setter.boxes(kept)
     low = min(extent[2], float(np.min(boxes[:, 0, 1], initial=np.inf) - EDGE) / unit)
     high = max(extent[3], float(np.max(boxes[:, 1, 1], initial=-np.inf) + EDGE) / unit)
-    left = min(extent[0], float(np.min(boxes[:, 0, 0], initial=np.inf)) / unit)
-    right = max(extent[1], float(np.max(boxes[:, 1, 0], initial=-np.inf)) / unit)
-    return (*picture, *kept), (left, right, low, high)
+    # The picture stays in the middle.
+    middle = (extent[0] + extent[1]) / 2
+    aside = float(np.max(np.abs(boxes[:, :, 0] / unit - middle), initial=(extent[1] - extent[0]) / 2))
+    return (*picture, *kept), (middle - aside, middle + aside, low, high)
 
 
 @dataclass(frozen=True)
@@ -107,20 +112,8 @@ class _Setter:
 
     def box(self, label: Label) -> FloatArray:
         """Lower left and upper right corner of a label, turned as it is, in points."""
-        box = label_box(label, self.unit)
-        if not label.rotation:
-            return box
         pivot = self.unit * np.array(label.anchor) + np.array(label.offset)
-        corners = np.array([(x, y) for x in box[:, 0] for y in box[:, 1]]) - pivot
-        angle = np.radians(label.rotation)
-        turned = pivot + np.stack(
-            [
-                np.cos(angle) * corners[:, 0] - np.sin(angle) * corners[:, 1],
-                np.sin(angle) * corners[:, 0] + np.cos(angle) * corners[:, 1],
-            ],
-            axis=1,
-        )
-        return np.stack([turned.min(axis=0), turned.max(axis=0)])
+        return pivot + _box_about_anchor(label.text, label.size, label.align, label.valign, label.rotation)
 
     def boxes(self, labels: Sequence[Label]) -> FloatArray:
         """Those of several labels, (n, 2, 2)."""
@@ -159,7 +152,8 @@ class _Setter:
             lines = [self._held(line) for line in self._broken(label, way)]
             boxes = self.boxes(lines)
             push = np.array([0.0, max(0.0, edge - boxes[:, 0, 1].min() if way > 0 else boxes[:, 1, 1].max() - edge)])
-            while _meet(boxes + way * push, taken):
+            around = boxes + GAP_OF_LINES * label.size * np.array([[0.0, -1.0], [0.0, 1.0]])
+            while _meet(around + way * push, taken):
                 push[1] += label.size / STEPS
             kept += [_moved(line, *(way * push)) for line in lines]
             taken = np.concatenate([taken, boxes + way * push])
@@ -175,14 +169,28 @@ class _Setter:
         start = self.unit * label.anchor[0] + label.offset[0]
         left, right = self.unit * self.room[0] + EDGE, self.unit * self.room[1] - EDGE
         room = right - (start if label.align == "left" else left)
+        if np.diff(self.box(label)[:, 0]) <= room:
+            return [label]
         lines = [""]
         for word in WORD.findall(label.text):
             longer = f"{lines[-1]} {word}".lstrip()
-            box = label_box(replace(label, text=longer), self.unit)
-            lines = [*lines[:-1], longer] if not lines[-1] or box[1, 0] - box[0, 0] <= room else [*lines, word]
+            (start, _), (end, _) = self.box(replace(label, text=longer))
+            lines = [*lines[:-1], longer] if not lines[-1] or end - start <= room else [*lines, word]
         first = len(lines) - 1 if way > 0 else 0
         drop = LEADING * label.size
         return [_moved(replace(label, text=line), 0.0, drop * (first - k)) for k, line in enumerate(lines)]
+
+
+@lru_cache(maxsize=4096)
+def _box_about_anchor(text: str, size: float, align: Any, valign: Any, rotation: float) -> FloatArray:
+    """Lower left and upper right corner of a label about its anchor, in points; type is slow to measure."""
+    box = label_box(Label(text, (0.0, 0.0), (0.0, 0.0), align, valign, size), 1.0)
+    corners = np.array([(x, y) for x in box[:, 0] for y in box[:, 1]])
+    cos, sin = np.cos(np.radians(rotation)), np.sin(np.radians(rotation))
+    turned = np.stack([cos * corners[:, 0] - sin * corners[:, 1], sin * corners[:, 0] + cos * corners[:, 1]], axis=1)
+    found = np.stack([turned.min(axis=0), turned.max(axis=0)])
+    found.flags.writeable = False
+    return found
 
 
 def _places(label: Label) -> Iterator[Label]:

@@ -145,7 +145,9 @@ class RectangleLift:
         -----
         Since the scale on the sphere of radius D/4 lies between ½ and 1, an image chord is at least d/2 and an image
         path at most d long (claim P13). The paper gives ½ as the lower constant; 2/π is larger and tight, approached by
-        close pairs at a corner, as 4/π is by close pairs at the centroid.
+        close pairs at a corner, as 4/π is by close pairs at the centroid. Of all rectangles of diagonal D, points at
+        distance d are separated by 2 arcsin(d/D), of two corners, to 4 arctan(d/D), of pairs symmetric about the
+        centroid; both bounds follow from these, as arcsin t ≥ t and arctan t ≤ t.
         """
         distance = as_lengths(d, "d")
         if (distance > self.diagonal).any():

@@ -11,12 +11,14 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal, Protocol
 
 from stereodel._arrays import Pixels, as_choice
 from stereodel.drawing.page import Page
 from stereodel.drawing.page_styles import STYLES, StyledDraw, as_styles
 from stereodel.drawing.solid import Solid
+from stereodel.render.caption import caption_of, captioned, script_of
 from stereodel.render.sizes import LARGEST_SIZE
 
 Geometry = Mapping[str, Any]
@@ -29,7 +31,7 @@ class Figure:
     Parameters
     ----------
     name : str
-        Stem of the files.
+        Stem of the files; and of the script that defines it, whose docstring gives the page title and description.
     geometry : callable
         () → named arrays: everything that the picture shows, computed by the library.
     draw : callable
@@ -56,8 +58,14 @@ class Figure:
         as_choice(self.renderer, ("gl", "agg"), "renderer")
 
     def page(self) -> Page:
-        """The picture before any renderer sees it."""
-        return self.draw(self.geometry())
+        """The picture before any renderer sees it, with the script's title and description where it has none."""
+        return self._page(self.geometry())
+
+    def _page(self, geometry: Geometry) -> Page:
+        page = self.draw(geometry)
+        script = script_of(self.draw, self.name)
+        title, description = caption_of(script) if script else ("", "")
+        return replace(page, title=page.title or title, description=page.description or description)
 
     def styled(self, *styles: str) -> Figure:
         """The same figure in other styles, see `stereodel.drawing.styled`.
@@ -89,7 +97,13 @@ class Figure:
         return self.page().pixels(size=size, text=text, renderer=self.renderer)
 
     def save(
-        self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True, solid: bool = False
+        self,
+        out: str | os.PathLike[str],
+        *,
+        size: int | None = None,
+        text: bool = True,
+        caption: bool = False,
+        solid: bool = False,
     ) -> dict[str, Any]:
         """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of what it shows in space.
 
@@ -99,6 +113,8 @@ class Figure:
             The folder; made when it is missing.
         size, text
             As for `Page.save`.
+        caption : bool
+            Whether title and description stand below the picture, if it has text.
         solid : bool
             Whether to write NAME_solid.png too: what stands in space with light and shade.
 
@@ -121,7 +137,9 @@ class Figure:
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{self.name}.{kind}" for kind in ("png", "svg", "pdf")]
         geometry = self.geometry()
-        width, digest = save_page(self.draw(geometry), *files, size=size, text=text, renderer=self.renderer)
+        page = self._page(geometry)
+        shown = captioned(page) if caption and text else page
+        width, digest = save_page(shown, *files, size=size, text=text, renderer=self.renderer)
         if self.in_space is not None or solid:
             bodies = self._solid(geometry)
             files.append(bodies.save(folder / f"{self.name}.glb"))
@@ -138,9 +156,11 @@ class Figure:
 
     def main(self, argv: Sequence[str] | None = None) -> None:
         """Run as a script: write the files, say where; what goes wrong becomes a message and exit code 1."""
-        solid = self.in_space is not None
-        kind = "PNG, SVG, PDF and GLB" if solid else "PNG, SVG and PDF"
-        run_script(self, argv, source=self.draw, kind=kind, usual_size="17 cm at 300 dpi", solid=solid)
+        kind = "PNG, SVG and PDF" if self.in_space is None else "PNG, SVG, PDF and GLB"
+        flags = {"caption": "set title and text of the script below the picture"}
+        if self.in_space is not None:
+            flags["solid"] = f"draw {self.name}_solid.png too, with light and shade"
+        run_script(self, argv, source=self.draw, kind=kind, usual_size="17 cm at 300 dpi", flags=flags)
 
 
 class Drawing(Protocol):
@@ -152,7 +172,7 @@ class Drawing(Protocol):
 
     @property
     def save(self) -> Callable[..., dict[str, Any]]:
-        """Write the files into a folder and return a record with "files" and "seconds"."""
+        """Write the files into a folder, with the options of the script; a record with "files" and "seconds"."""
 
     def styled(self, *styles: str) -> Drawing:
         """The same in other styles."""
@@ -165,7 +185,7 @@ def run_script(
     source: Callable[..., Any],
     kind: str,
     usual_size: str,
-    solid: bool = False,
+    flags: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
     """Write the files and say where; what goes wrong becomes a message and exit code 1.
 
@@ -178,25 +198,23 @@ def run_script(
         A function that the script defines; `out` beside the script's folder is where files go by default.
     kind, usual_size : str
         What is drawn and how wide it is by default, for the help.
-    solid : bool
-        Whether it can be drawn in space as well, with ``--solid``.
+    flags : mapping of str to str, optional
+        Further options of `Drawing.save` that are on or off, and what the help says of them.
     """
     parser = argparse.ArgumentParser(description=f"Draw {drawing.name} as {kind}.")
     out = default_folder(source)
     parser.add_argument("--out", type=Path, help=f"folder to write to ({out}, and in it one for each style)")
     parser.add_argument("--size", type=pixel_count, help=f"width in pixels ({usual_size})")
     parser.add_argument("--text", action=argparse.BooleanOptionalAction, default=True, help="draw the labels")
-    if solid:
-        parser.add_argument(
-            "--solid", action="store_true", help=f"draw {drawing.name}_solid.png too, with light and shade"
-        )
+    for flag, told in flags.items():
+        parser.add_argument(f"--{flag}", action="store_true", help=told)
     parser.add_argument("--style", type=style_names, default=(), help=f"{', '.join(STYLES)}, or several with commas")
     options = parser.parse_args(sys.argv[1:] if argv is None else argv)
     folder = styled_folder(out, options.style) if options.out is None else options.out
-    more = {"solid": True} if solid and options.solid else {}
     try:
         shown = drawing.styled(*options.style) if options.style else drawing
-        record = shown.save(folder, size=options.size, text=options.text, **more)
+        chosen = {flag: getattr(options, flag) for flag in flags}
+        record = shown.save(folder, size=options.size, text=options.text, **chosen)
     except (OSError, RuntimeError, ValueError) as error:
         raise SystemExit(f"{drawing.name}: {error}") from None
     print(f"{drawing.name}: {', '.join(record['files'])} in {folder} ({record['seconds']:.1f} s)")

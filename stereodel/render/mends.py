@@ -9,9 +9,9 @@ pyrender, on objects that `stereodel.render.gl` owns:
 * it reads depths that nobody asks for;
 * it draws meshes in the order of a set, those that are transparent by the places of their nodes, which tell nothing.
 
-matplotlib, while `stereodel.render.vector` writes a file:
+matplotlib, which sets the type of `stereodel.render.type`:
 
-* it rounds the sizes of formulas that are set as outlines.
+* it tells where the outlines of characters lie, but not which characters they are.
 """
 
 from __future__ import annotations
@@ -19,16 +19,12 @@ from __future__ import annotations
 import sys
 import types
 from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
-
-FINER: Final = 64
-"""By how much the pixels are smaller to which the size of a formula is rounded up: then it is 1/64 of a point."""
 
 
 def import_pyrender() -> Any:
@@ -101,34 +97,31 @@ def _colors(renderer: Any, gl: Any) -> Pixels:
     return pixels[::-1]
 
 
-@contextmanager
-def exact_mathtext() -> Iterator[None]:
-    """Set formulas in their place.
+def characters(text: str, font: Any) -> Iterator[tuple[Any, int, str, float, float]]:
+    """Font, number and characters of each glyph of a line of type, and its place in units of the font's size.
 
-    The size of a formula is rounded up to whole pixels, those of PDF being points, and its letters are moved up by what
-    was added: by three quarters of a point beside the same label in SVG and PNG. So it is set with finer pixels.
+    Parameters
+    ----------
+    text : str
+    font : matplotlib.ft2font.FT2Font
+        With the fonts that stand in for what it lacks.
     """
     with of_extra("draw"):
-        from matplotlib.mathtext import MathTextParser, VectorParse
+        from matplotlib import _text_helpers
+        from matplotlib.textpath import TextToPath
 
-    parser: Any = MathTextParser
-    parse = parser.parse
+    item: Any
+    for item in _text_helpers.layout(text, font):
+        # Before matplotlib 3.11 all characters stood on the line, and the name was another.
+        index = item.glyph_index if hasattr(item, "glyph_index") else item.glyph_idx
+        x, y = item.x / TextToPath.FONT_SCALE, getattr(item, "y", 0.0) / TextToPath.FONT_SCALE
+        yield item.ft_object, index, item.char, x, y
 
-    def reduced(width: float, height: float, depth: float, glyphs: list[Any], rectangles: list[Any]) -> VectorParse:
-        return VectorParse(
-            width / FINER,
-            height / FINER,
-            depth / FINER,
-            [(*what, x / FINER, y / FINER) for *what, x, y in glyphs],
-            [tuple(side / FINER for side in rectangle) for rectangle in rectangles],
-        )
 
-    def finer(self: Any, text: str, dpi: float = 72, *options: Any, **named: Any) -> Any:
-        parsed = parse(self, text, FINER * dpi, *options, **named)
-        return reduced(*parsed) if isinstance(parsed, VectorParse) else parse(self, text, dpi, *options, **named)
+def font_of(properties: Any) -> Any:
+    """The font of some properties, at the size of which `characters` gives places."""
+    with of_extra("draw"):
+        from matplotlib.textpath import text_to_path
 
-    parser.parse = finer
-    try:
-        yield
-    finally:
-        parser.parse = parse
+    maker: Any = text_to_path
+    return maker._get_font(properties)

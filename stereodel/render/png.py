@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import struct
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Final
 
 import numpy as np
@@ -40,7 +40,9 @@ ROWS: Final = 32
 METERS_PER_POINT: Final = 0.0254 / 72
 
 
-def png_chunks(rows: Iterable[Pixels], width: int, height: int, *, page_width: float) -> Iterator[bytes]:
+def png_chunks(
+    rows: Iterable[Pixels], width: int, height: int, *, page_width: float, texts: Mapping[str, str] | None = None
+) -> Iterator[bytes]:
     """A PNG file piece by piece.
 
     Parameters
@@ -51,6 +53,8 @@ def png_chunks(rows: Iterable[Pixels], width: int, height: int, *, page_width: f
         In pixels.
     page_width : float
         Width in print, points; the file says how large it is meant to be.
+    texts : mapping, optional
+        What the file says of itself, by the format's keywords: Title, Description. Empty texts are left out.
 
     Raises
     ------
@@ -70,6 +74,7 @@ def png_chunks(rows: Iterable[Pixels], width: int, height: int, *, page_width: f
     yield SIGNATURE
     yield _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
     yield _chunk(b"pHYs", struct.pack(">IIB", density, density, 1))
+    yield from (_text(keyword, text) for keyword, text in (texts or {}).items() if text)
     packer, above, missing = zlib.compressobj(LEVEL, memLevel=9), np.zeros((1, width, CHANNELS), dtype=np.uint8), height
     for part in rows:
         if part.shape[1:] != (width, CHANNELS) or part.dtype != np.uint8 or len(part) > missing:
@@ -92,6 +97,16 @@ def png_chunks(rows: Iterable[Pixels], width: int, height: int, *, page_width: f
 
 def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+
+def _text(keyword: str, text: str) -> bytes:
+    """A text as Latin-1, which every program reads, or as UTF-8."""
+    key = keyword.encode("latin-1")
+    try:
+        return _chunk(b"tEXt", key + b"\0" + text.encode("latin-1"))
+    except UnicodeEncodeError:
+        # Not packed, of no language, without a translated keyword.
+        return _chunk(b"iTXt", key + b"\0\0\0\0\0" + text.encode())
 
 
 def _filtered(rows: Pixels, kind: int) -> bytes:

@@ -20,9 +20,9 @@ from stereodel._extras import of_extra
 from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Page
 from stereodel.render import gl
+from stereodel.render.canvas import drawn, matplotlib_settings, pixel_grid
 from stereodel.render.sizes import pixel_height
 from stereodel.render.triangles import triangulate
-from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
 
 with of_extra("draw"):
     from matplotlib.backends.backend_agg import FigureCanvasAgg

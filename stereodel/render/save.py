@@ -4,8 +4,7 @@
 
 Each stage takes from the one before and hands on; what comes after the triangles takes and gives rows, from the top, so
 that a picture is drawn, lettered and written some rows at a time and memory does not grow with the square of its width.
-SVG and PDF are written from the page itself, but for mosaics, which have too many cells for them: of these they hold
-pixels.
+SVG and PDF are written from the page itself, but for regions in very many colours: of these they hold pixels.
 
 `stereodel.drawing.Page` loads this module where it is saved or drawn.
 """
@@ -55,7 +54,7 @@ def save_page(
     renderer: Renderer,
     platform: str | None = None,
 ) -> tuple[int, str]:
-    """What `Page.save` promises, for several files of one picture; mosaics are drawn once for all of them.
+    """What `Page.save` promises, for several files of one picture; what all of them hold as pixels is drawn once.
 
     Returns
     -------
@@ -68,22 +67,22 @@ def save_page(
             raise ValueError(f"path must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}, got {target.name!r}")
     shown, width, digest = page if text else page.without_labels(), as_width(page, size), ""
     try:
-        mosaics = mosaic_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
+        pictures = region_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
         for target, kind in files:
             if kind == ".png":
                 digest = _write_png(shown, target, width, renderer, platform)
             else:
-                save_vector(shown, target, mosaics=mosaics)
+                save_vector(shown, target, pictures=pictures)
     except OpenGLError as error:
         raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
     return width, digest
 
 
-def mosaic_pictures(page: Page, width: int, platform: str | None = None) -> list[Pixels]:
-    """A picture of each item alone that has too many colours for a vector file."""
+def region_pictures(page: Page, width: int, platform: str | None = None) -> list[Pixels]:
+    """Of each item with too many colours for a vector file, a picture of it alone."""
     size = min(width, print_pixels(page, FINEST_DPI))
     alone = [replace(page, items=(item,)) for item in page.pictured]
-    return [draw_page(mosaic, size=size, text=False, renderer="gl", platform=platform) for mosaic in alone]
+    return [draw_page(part, size=size, text=False, renderer="gl", platform=platform) for part in alone]
 
 
 def _write_png(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> str:
@@ -95,6 +94,6 @@ def _write_png(page: Page, target: Path, width: int, renderer: Renderer, platfor
 
 def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> None:
     """Write rows of a picture `width` pixels wide as PNG, with the labels of its page over them."""
-    lettered = labelled(rows, page, width)
+    lettered, texts = labelled(rows, page, width), {"Title": page.title, "Description": page.description}
     with replacing(target) as temporary, temporary.open("wb") as file:
-        file.writelines(png_chunks(lettered, width, pixel_height(page, width), page_width=page.width))
+        file.writelines(png_chunks(lettered, width, pixel_height(page, width), page_width=page.width, texts=texts))

@@ -17,7 +17,7 @@ import numpy as np
 from stereodel._arrays import Pixels
 from stereodel._extras import of_extra
 from stereodel.drawing.page import Page
-from stereodel.render.vector import drawn, matplotlib_settings, pixel_grid
+from stereodel.render.canvas import drawn, matplotlib_settings, pixel_grid
 
 with of_extra("draw"):
     from matplotlib.backends.backend_agg import RendererAgg

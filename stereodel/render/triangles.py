@@ -32,13 +32,14 @@ from stereodel.drawing.page import (
     Stroke,
 )
 from stereodel.render.pieces import Corners, Disc, Piece, Pieces, Window
+from stereodel.render.shapes import has_length
 
 
 def triangulate(page: Page, width: int, height: int) -> Pieces:
     """Everything on a page but its labels as triangles of a picture of `width` by `height` pixels."""
     left, right, bottom, top = page.extent
     scale = np.array([width / (right - left), height / (top - bottom)])
-    canvas = _Canvas(np.array([left, bottom]), scale, width / page.width)
+    canvas = _Canvas(np.array([left, bottom]), scale, page.points_per_unit, width / page.width)
     return Pieces((number, piece) for number, item in enumerate(page.items) for piece in canvas.pieces(item))
 
 
@@ -48,13 +49,14 @@ class _Canvas:
 
     origin: FloatArray
     scale: FloatArray
+    points_per_unit: float
     pixels_per_point: float
 
     def pieces(self, item: Item) -> list[Piece]:
         """What an item is made of; where pieces overlap, the first is seen."""
         match item:
             case Stroke():
-                return [_flat(self._stroke(item), item.color)]
+                return [_flat(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
             case Polylines():
                 return [_flat(self._polylines(item), item.color)]
             case Polygons():

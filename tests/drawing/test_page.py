@@ -3,6 +3,8 @@
 import re
 from pathlib import Path
 
+import pytest
+
 from stereodel.drawing.page import Ball, Dots, Fill, Label
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "drawing.md").read_text(encoding="utf-8")
@@ -19,11 +21,14 @@ def pages():
 
 
 def test_the_examples_draw_what_they_say():
-    scene, sketch, globe = pages()
+    scene, sketch, slide, globe = pages()
     [bubble] = [item for item in scene.items if isinstance(item, Fill) and item.name == "bubble"]
     assert isinstance(bubble.ball, Ball)
     assert [label.text for label in scene.labels] == ["a site"]
     assert [item.name for item in sketch.items] == ["circle", "axis", "angle"]
+    assert [item.name for item in slide.items] == ["circle", "axis", "angle"]
+    assert slide.width / slide.height == pytest.approx(33.87 / 19.05)
+    assert slide.background[0] < 0.1
     amounts = [item for item in globe.items if isinstance(item, Dots)]
     assert [round(item.radius**2, 9) for item in amounts] == [11.2, 6.1, 6.8]
     assert [item.text for item in globe.items if isinstance(item, Label)] == ["11.2", "6.1", "6.8"]

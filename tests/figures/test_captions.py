@@ -10,7 +10,7 @@ import pytest
 
 from stereodel import data, earth, fisheye, lonlat_to_xyz
 from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
-from tests.figures.scripts import FIGURES, FOLDER, arc_points, geometry, script
+from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, arc_points, geometry, script
 
 WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
 NUMBER = re.compile(
@@ -18,7 +18,7 @@ NUMBER = re.compile(
     rf"|\b(?P<word>{'|'.join(WORDS)})\b",
     re.IGNORECASE,
 )
-REFERENCE = re.compile(r"Figures? \d+|[Cc]laims? P\d+(?: and P\d+)?")
+REFERENCE = re.compile(r"Figures? \d+|Theorem \d|[Cc]laims? P\d+(?: and P\d+)?")
 FORMULAS = {
     "claim_scales": ("cos² (χ/2) / cos² (Ξ/2)",),
     "claim_separation": ("R = D/4", "(d/D) 180°", "2/π", "4/π", "4 arctan(d/D)", "2 arcsin(d/D)"),
@@ -34,11 +34,7 @@ OTHERS = (
     "anim_fisheye",
     "anim_flight",
     "anim_hull",
-    "claim_planet",
-    "claim_projections",
-    "claim_scales",
-    "claim_separation",
-    "claim_terrain",
+    *CLAIMS,
     "earth_airports",
     "earth_cities",
     "globe_europe",
@@ -184,6 +180,8 @@ def truth_of_others(name):
         case "claim_separation":
             low, high = lift_scales()[::-1]
             return [module["DOTS"], PAPER_CONSTANT, low, high, *np.array([module["WIDTH"], module["HEIGHT"]])]
+        case "claim_theorem":
+            return [len(module["FIGURE"].geometry()["sites"])]
         case "claim_terrain":
             return [len(module["FIGURE"].geometry()["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":

@@ -11,6 +11,34 @@ from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 from tests.figures.scripts import page, script
 
+# P7: claim_theorem.
+
+
+def test_the_facets_left_out_are_those_whose_bubble_holds_the_pole():
+    module = script("claim_theorem")
+    g = module["FIGURE"].geometry()
+    own = {frozenset(corners) for corners in g["triangles"].tolist()}
+    left_out = {frozenset(corners) for corners in g["left_out"].tolist()}
+    facets = {frozenset(corners) for corners in g["facets"].tolist()}
+    assert own | left_out == facets
+    assert not own & left_out
+    assert len(left_out) == len(g["corners"]) - 2
+    for corners in g["left_out"]:
+        assert in_bubble(*g["lifts"][corners], module["POLE"]) > 0
+
+
+def test_the_circle_drawn_holds_no_site_on_the_sphere_and_all_in_the_plane():
+    module = script("claim_theorem")
+    g = module["FIGURE"].geometry()
+    *normal, offset = g["circle"]
+    others = np.delete(np.arange(len(g["sites"])), g["shown"])
+    assert (g["lifts"][others] @ normal < offset).all()
+    assert module["POLE"] @ normal > offset
+    away = np.linalg.norm(g["sites"] - g["image"][:2], axis=1)
+    assert away[g["shown"]] == pytest.approx(g["image"][2], rel=1e-12)
+    assert (away[others] < g["image"][2]).all()
+
+
 # P12 and P13: claim_separation.
 
 
@@ -175,7 +203,7 @@ def test_facets_are_cut_where_the_sea_begins():
     cut = script("claim_terrain")["cut_at_sea"]
     corners = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
     (land, above), (sea, below) = cut(corners, np.array([3.0, -1.0, -1.0]))
-    assert land.tolist() == [[0, 0], [3, 0], [0, 3]]
+    assert land.tolist() == corners.tolist()  # the sea is painted over it
     assert sea.tolist() == [[3, 0], [4, 0], [0, 4], [0, 3]]
     assert (above, below) == (1.0, -0.5)
     ((whole, _),) = cut(corners, np.array([3.0, 0.0, 1.0]))

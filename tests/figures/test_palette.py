@@ -1,5 +1,6 @@
 """The palette as others see it: with one kind of cone missing, and printed in gray. Pairs are those of the pages."""
 
+from collections import defaultdict
 from dataclasses import dataclass, replace
 from functools import cache
 from itertools import combinations
@@ -8,13 +9,16 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.colorimetry import contrast
+from stereodel.drawing.colors import color_map
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
-from stereodel.drawing.style import FILLS, LINES, fainter, with_opacity
-from tests.figures.color_vision import VISIONS, difference, lab_difference
-from tests.figures.scripts import FIGURES, page, path_points
+from stereodel.drawing.scales import usual_scale
+from stereodel.drawing.style import DOTS, FILLS, LINES, fainter, with_opacity
+from tests.figures.color_vision import VISIONS, difference, lab, lab_difference
+from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
 
-MAPS = ("globe_europe", "globe_new_york", "globe_tissot")
+MAPS = ("globe_europe", "globe_tissot")
+SCRIPTS = sorted(path.stem for kind in ("earth", "globe", "sky") for path in FOLDER.glob(f"{kind}_*.py"))
 by_name = pytest.mark.parametrize("name", [*FIGURES, *MAPS])
 
 TEXT = 4.5
@@ -43,6 +47,12 @@ WIDER = 1.3
 
 ASIDE = 1.5
 """Pixels beside a line where it is looked what is there: one that parts two regions stands out from one of them."""
+
+SYMMETRY = 5.0
+"""By how much L* may differ at places as far from the middle of a diverging scale."""
+
+SAMPLES = 500
+"""Of a look on a page."""
 
 PIXELS = 300
 """Across the picture of what lies under lines and type."""
@@ -129,29 +139,34 @@ def usual_contrast(color, *below):
     return float(np.median(np.max([contrast(over(color, place), place) for place in below], axis=0)))
 
 
-@by_name
-def test_lines_and_dots_stand_out_from_what_is_below(name):
-    shown, at, wrong = page(name), ground(name), []
-    if shown.pictured:
-        return  # cells coloured by numbers are of every lightness
+def drawn_points(shown):
+    """Name and colour of lines and dots, and points on them: at most some for each."""
+    places = defaultdict(list)
     for item in shown.items:
         match item:
             case Stroke():
-                points = path_points(item.path, 5)
+                places[item.name, item.color].append(path_points(item.path, 5))
             case Polylines():
-                points = item.points
-            case Dots(centers=points):
-                pass
-            case _:
-                continue
-        styles = [LINES[item.name].hidden.color] if item.name in LINES else []
-        hidden = item.color in styles or any(item.color == fainter(style.color) for style in LINES.values())
-        least = AUXILIARY_CONTRAST if item.name in AUXILIARY else GRAPHICS
-        least = HIDDEN_CONTRAST if hidden else least
-        below = [at(points, aside) for aside in ((ASIDE, 0), (-ASIDE, 0), (0, ASIDE), (0, -ASIDE))]
-        if len(points) and (found := usual_contrast(item.color, *below)) < least:
-            wrong.append(f"{item.name}: {found:.2f}")
-    assert sorted(set(wrong)) == []
+                places[item.name, item.color].append(item.points)
+            case Dots() if len(item.centers):
+                places[item.name, item.color].append(item.centers)
+    for look, runs in places.items():
+        points = np.concatenate(runs)
+        yield *look, points[:: -(-len(points) // SAMPLES)]
+
+
+@by_name
+def test_lines_and_dots_stand_out_from_what_is_below(name):
+    shown, wrong = page(name), []
+    if shown.pictured:
+        return  # cells coloured by numbers are of every lightness
+    faint = {fainter(look.color) for look in (*LINES.values(), *DOTS.values())}
+    for sign, color, points in drawn_points(shown):
+        least = HIDDEN_CONTRAST if color in faint else AUXILIARY_CONTRAST if sign in AUXILIARY else GRAPHICS
+        below = [ground(name)(points, aside) for aside in ((ASIDE, 0), (-ASIDE, 0), (0, ASIDE), (0, -ASIDE))]
+        if (found := usual_contrast(color, *below)) < least:
+            wrong.append(f"{sign}: {found:.2f}")
+    assert wrong == []
 
 
 @by_name
@@ -200,3 +215,40 @@ def test_grays_look_the_same_to_everybody():
     grays = np.repeat(np.linspace(0, 1, 11)[:, None], 3, axis=1)
     for seen in VISIONS.values():
         np.testing.assert_allclose(seen(grays), grays, atol=2e-3)
+
+
+def lightness(name):
+    """CIE L* along a scale."""
+    return lab(color_map(name)(np.linspace(0, 1, 101))[:, :3])[:, 0]
+
+
+def told_by_lightness(name):
+    """Whether lightness tells places of a scale apart: by rising or falling, on diverging scales from their middle."""
+    found = lightness(name)
+    steps = np.diff(found)
+    ordered = (steps > 0).all() or (steps < 0).all()
+    half = steps[: len(steps) // 2]
+    symmetric = np.abs(found - found[::-1]).max() < SYMMETRY and ((half > 0).all() or (half < 0).all())
+    return bool(ordered or symmetric)
+
+
+SCALES = {name: found for name in SCRIPTS if (found := script(name).get("SCALE"))}
+
+
+def test_scales_are_told_by_lightness():
+    assert len(SCALES) == 4
+    for name in {scale.name for scale in SCALES.values()} | {usual_scale(np.arange(2.0)).name, "cividis"}:
+        assert told_by_lightness(name), name
+
+
+@pytest.mark.parametrize("name", sorted(SCALES))
+def test_a_scale_has_two_ends_in_print(name):
+    first, *_, last = lightness(SCALES[name].name)
+    assert abs(first - last) > 60
+
+
+def test_a_rainbow_is_not_told_by_lightness():
+    assert not told_by_lightness("jet")
+    assert not told_by_lightness("hsv")
+    assert told_by_lightness("coolwarm")
+    assert not told_by_lightness("bwr")  # its blue is darker than its red

@@ -3,6 +3,7 @@
 Everything is in points from the lower left corner of the page. Shares nothing with what writes the files.
 """
 
+import re
 from dataclasses import dataclass
 from typing import Literal
 
@@ -11,7 +12,7 @@ import shapely
 from scipy.spatial import cKDTree
 
 PLACE = 1e-3
-"""Points by which a path may lie elsewhere: files hold six decimals, and no printer shows a twentieth of it."""
+"""Points by which a path may lie elsewhere: files hold three decimals."""
 
 FINE = 1e-4
 """Points by which a chord strays from its curve where two paths are compared by their distance."""
@@ -74,8 +75,42 @@ class Mark:
     pixels: np.ndarray | None = None
     """Of a picture: (h, w, 4), rows from the top."""
     clips: tuple[Path, ...] = ()
+    light: "Light | None" = None
+    """Of a fill that is lit: in place of its colour, of which the opacity stays."""
     group: str = ""
     """The named group that it lies in, with a number, in SVG."""
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """A radial gradient between circles about (1 − s) focus + s centre with radii s · radius."""
+
+    focus: np.ndarray
+    center: np.ndarray
+    radius: float
+    offsets: np.ndarray
+    """Values of s, from 0 to 1."""
+    colors: np.ndarray
+    """Red, green and blue at each of them (n, 3), from 0 to 1."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """What a file shows and tells."""
+
+    size: tuple[float, float]
+    """Width and height in points."""
+    marks: list[Mark]
+    """In painter's order."""
+    title: str
+    description: str
+    texts: list[str]
+    """The lines of type, as they are copied out of the file."""
+
+
+def short_numbers(text):
+    """Whether no number of a text has more decimals than three."""
+    return re.search(r"\.\d{4}", text) is None
 
 
 def levels(red, green, blue, opacity=1.0):

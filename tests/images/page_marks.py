@@ -6,16 +6,26 @@ from itertools import groupby
 
 import numpy as np
 
+from stereodel.constants import FINEST_PLACE
 from stereodel.drawing.page import FEW_COLORS, Dots, Fill, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.style import PRINT_DPI
+from stereodel.render.light import ball_gradient
+from stereodel.render.shapes import has_length
 from tests.images.loops_boundary import LoopsBoundary, union_boundary
-from tests.images.marks import PLACE, Mark, Path, area, distances, tidy, together
+from tests.images.marks import PLACE, Light, Mark, Path, area, distances, tidy, together
 
 WIDTH = 1e-5
-"""Points by which a width or the length of a dash may differ: files hold six decimals."""
+"""Points by which a width or the length of a dash may differ: files hold six digits of a width."""
 
 CORNER = 2e-3
-"""Points by which a picture may lie elsewhere: six decimals of the size of a pixel, two thousand times."""
+"""Points by which a picture may lie elsewhere: each side is rounded to a thousandth, and so is its length."""
+
+
+OFFSET = 1e-4
+"""By which an offset of a gradient may differ: files hold four digits."""
+
+LEVEL = 0.5001 / 255
+"""The same of a colour of a gradient, which SVG rounds to whole levels."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,18 +38,21 @@ class Expected:
     """(mark) → what is wrong, or nothing; in place of the comparison of paths."""
 
 
-def differences(page, size, marks, mosaics=()):
-    """What is wrong with the marks of a file, a line each; the type comes last and is not looked at.
+def differences(page, sheet, pictures=()):
+    """What is wrong with what a file shows and tells, a line each; the type comes last and is not looked at.
 
     Returns
     -------
     list of str, list of Mark
         The second are the marks of the type.
     """
-    wanted = list(_merged(expected(page, mosaics)))
+    wanted = list(_merged(expected(page, pictures)))
     whole = (page.width, page.height)
-    wrong = [] if np.allclose(size, whole, rtol=0.0, atol=PLACE) else [f"size {size}, expected {whole}"]
-    found, type_marks = _split(marks, wanted)
+    wrong = [] if np.allclose(sheet.size, whole, rtol=0.0, atol=PLACE) else [f"size {sheet.size}, expected {whole}"]
+    for what in ("title", "description"):
+        if getattr(sheet, what) != getattr(page, what):
+            wrong.append(f"{what} {getattr(sheet, what)!r}, expected {getattr(page, what)!r}")
+    found, type_marks = _split(sheet.marks, wanted)
     if len(found) < len(wanted):
         wrong.append(f"{len(found)} marks, expected {len(wanted)}")
     for want, mark in zip(wanted, found, strict=False):
@@ -47,14 +60,14 @@ def differences(page, size, marks, mosaics=()):
     return wrong, type_marks
 
 
-def expected(page, mosaics=()):
+def expected(page, pictures=()):
     """The marks of a page but for its type, in order."""
     yield Expected("ground", Mark("fill", levels_of(page.background), _rectangle(page.width, page.height)))
-    pictures = iter(mosaics)
+    rest = iter(pictures)
     place = _Place(page)
     for number, item in enumerate(page.items):
         name = f"{number} {type(item).__name__} {item.name}".rstrip()
-        for mark, check in place.marks(item, pictures):
+        for mark, check in place.marks(item, rest):
             yield Expected(name, mark, check)
 
 
@@ -88,13 +101,16 @@ class _Place:
 
     def marks(self, item, pictures):
         match item:
-            case Stroke():
+            case Stroke() if has_length(item, self.scale):
                 path = self.path([item.path], item.closed)
                 yield _stroke(item, path, item.dash or (), item.cap), None
+            case Stroke():
+                pass
             case Polylines():
-                yield _stroke(item, self.lines(item), (), "round"), None
+                yield from self.lines(item)
             case Fill():
-                yield Mark("fill", levels_of(item.color), self.path(item.paths, closed=True)), None
+                path = self.path(item.paths, closed=True)
+                yield Mark("fill", levels_of(item.color), path, light=self.light(item.ball, item.color)), None
             case Dots():
                 yield from self.dots(item)
             case Polygons():
@@ -117,18 +133,22 @@ class _Place:
         return together(parts)
 
     def lines(self, item):
-        """Straight pieces; lines of one point are pieces of length zero."""
-        points = self(item.points)
-        sizes = np.diff(item.offsets)
+        """Straight pieces, and discs for points alone."""
+        points, sizes = self(item.points), np.diff(item.offsets)
         line = np.repeat(np.arange(len(sizes)), sizes)
-        begin = np.flatnonzero(line[1:] == line[:-1])
-        alone = item.offsets[:-1][sizes == 1]
-        first = np.concatenate([begin, alone])
-        last = np.concatenate([begin + 1, alone])
-        order = np.argsort(first, kind="stable")
-        pieces = np.linspace(points[first[order]], points[last[order]], 4, axis=1)
-        starts, ends = item.points[item.offsets[:-1]], item.points[item.offsets[1:] - 1]
-        return tidy(pieces, line[first[order]], (starts == ends).all(axis=1) & (sizes > 3))
+        short = np.array([np.ptp(row, axis=0).max() <= FINEST_PLACE for row in np.split(points, item.offsets[1:-1])])
+        begin = np.flatnonzero((line[1:] == line[:-1]) & ~short[line[1:]])
+        if len(begin):
+            pieces = np.linspace(points[begin], points[begin + 1], 4, axis=1)
+            starts, ends = item.points[item.offsets[:-1]], item.points[item.offsets[1:] - 1]
+            path = tidy(pieces, line[begin], (starts == ends).all(axis=1) & (sizes > 3))
+            yield _stroke(item, path, (), "round"), None
+        centers = points[item.offsets[:-1][short]]
+        if len(centers):
+            yield self.discs(centers, item.width / 2, item.color)
+
+    def discs(self, centers, radius, color):
+        return Mark("fill", levels_of(color)), lambda mark: _disc_difference(mark, centers, radius)
 
     def polygons(self, item, pictures):
         """A path for each colour in their order, or a picture that shows within all loops."""
@@ -142,7 +162,16 @@ class _Place:
             return
         for color in distinct:
             own = [loop for loop, its in zip(loops, colors, strict=True) if (its == color).all()]
-            yield Mark("fill", levels_of(color)), LoopsBoundary(own).wrong
+            yield Mark("fill", levels_of(color), light=self.light(item.ball, color)), LoopsBoundary(own).wrong
+
+    def light(self, ball, color):
+        """The gradient of the unit disc on a ball."""
+        if ball is None:
+            return None
+        unit = ball_gradient()
+        focus, center = (self(np.array(ball.center) + ball.radius * np.array(p)) for p in (unit.focus, unit.center))
+        colors = np.array(unit.brightness)[:, None] * np.array(color[:3])
+        return Light(focus, center, unit.radius * ball.radius * self.scale, np.array(unit.offsets), colors)
 
     def dots(self, item):
         """Discs, and smaller ones on top where there is a rim."""
@@ -151,7 +180,7 @@ class _Place:
         if item.rim_width:
             discs.append((item.radius - item.rim_width, item.color))
         for radius, color in discs:
-            yield Mark("fill", levels_of(color)), lambda mark, r=radius: _disc_difference(mark, centers, r)
+            yield self.discs(centers, radius, color)
 
     def picture(self, item):
         """Pixels of print on a grid from the upper left corner of the page, as many as the outline needs."""
@@ -200,7 +229,13 @@ def _mark_difference(want, mark, page):
     if mark.kind == "image":
         found = _picture_difference(mark, expected, want.check)
         return [found] if found else []
-    wrong = [] if same_color(mark.color, expected.color) else [f"colour {mark.color}, expected {expected.color}"]
+    lit = [mark.light is not None, expected.light is not None]
+    if lit[0] != lit[1]:
+        return [f"is lit: {lit[0]}, expected {lit[1]}"]
+    ours, theirs = ((*m.color[:3] * (not lit[0]), m.color[3]) for m in (mark, expected))
+    wrong = [] if same_color(ours, theirs) else [f"colour {mark.color}, expected {expected.color}"]
+    if lit[0]:
+        wrong += _light_differences(mark.light, expected.light)
     if mark.kind == "stroke":
         for what in ("width", "dash"):
             ours, theirs = getattr(mark, what), getattr(expected, what)
@@ -219,6 +254,16 @@ def _mark_difference(want, mark, page):
     return [*wrong, found] if found else wrong
 
 
+def _light_differences(light, expected):
+    """How a gradient differs from another."""
+    wrong = []
+    for what, limit in (("focus", PLACE), ("center", PLACE), ("radius", PLACE), ("offsets", OFFSET), ("colors", LEVEL)):
+        ours, theirs = getattr(light, what), getattr(expected, what)
+        if np.shape(ours) != np.shape(theirs) or np.abs(np.subtract(ours, theirs)).max() > limit:
+            wrong.append(f"{what} of its light {ours}, expected {theirs}")
+    return wrong
+
+
 def same_color(found, expected):
     """Whether a colour in whole levels is the nearest one, as either of two may be."""
     return bool(np.all(np.abs(np.subtract(found, expected)) <= 0.5 + 1e-6))
@@ -234,16 +279,19 @@ def path_difference(path, expected, *, filled=False, cap="butt", page=None):
     if len(path.closed) != len(expected.closed):
         return f"{len(path.closed)} runs, expected {len(expected.closed)}"
     shut = [_shut(p, cap) for p in (path, expected)]
+    # Rounding may close or open a gap of no more than its steps.
+    nearly = [_shut(p, cap, 3 * PLACE) for p in (path, expected)]
+    differ = (shut[0] & ~nearly[1]) | (shut[1] & ~nearly[0])
     ours, theirs = path.runs(), expected.runs()
     if path.pieces.shape == expected.pieces.shape and (path.run == expected.run).all():
         apart = np.abs(path.pieces - expected.pieces).max(axis=(1, 2), initial=0.0)
         other = np.bincount(path.run[apart > PLACE], minlength=len(ours)) > 0
     else:
         other = np.ones(len(ours), dtype=bool)
-    other |= (shut[0] != shut[1]) & (not filled)
+    other |= differ & (not filled)
     for number in np.flatnonzero(other):
         leaves = not filled and page is not None and (_beyond(ours[number], page) or _beyond(theirs[number], page))
-        if not leaves and not filled and shut[0][number] != shut[1][number]:
+        if not leaves and not filled and differ[number]:
             return f"run {number} is closed or is open, and must not be"
         apart = _run_difference(ours[number], theirs[number], filled, page if leaves else None)
         if apart > PLACE:
@@ -268,13 +316,13 @@ def _on_page(chords, page):
     return np.stack([(start + s[:, None] * step)[kept] for s in (enter, leave)], axis=1)
 
 
-def _shut(path, cap):
+def _shut(path, cap, within=PLACE):
     """Which runs look closed: a round end on a round beginning is a round join."""
     if cap != "round":
         return path.closed
     first = np.searchsorted(path.run, np.arange(len(path.closed)))
     last = np.append(first[1:], len(path.run)) - 1
-    return path.closed | (np.abs(path.pieces[first, 0] - path.pieces[last, 3]).max(axis=1, initial=0.0) <= PLACE)
+    return path.closed | (np.abs(path.pieces[first, 0] - path.pieces[last, 3]).max(axis=1, initial=0.0) <= within)
 
 
 def _run_difference(ours, theirs, filled, page):

@@ -9,10 +9,10 @@ from io import BytesIO
 
 import numpy as np
 import pypdf
-from fontTools.pens.basePen import BasePen
 from fontTools.ttLib import TTFont
 
-from tests.images.marks import Mark, levels, path_of, transformed
+from tests.images.fonts import glyph_path
+from tests.images.marks import Light, Mark, Sheet, levels, path_of, short_numbers, transformed
 
 CAPS = ("butt", "round", "square")
 JOINS = ("miter", "round", "bevel")
@@ -41,6 +41,7 @@ class _State:
 
     matrix: np.ndarray = field(default_factory=lambda: np.eye(3))
     fill: tuple = (0.0, 0.0, 0.0)
+    light: object = None
     stroke: tuple = (0.0, 0.0, 0.0)
     fill_opacity: float = 1.0
     stroke_opacity: float = 1.0
@@ -54,28 +55,34 @@ class _State:
 
 
 def read_pdf(file):
-    """Width and height of the page in points, and its marks in order."""
-    (page,) = pypdf.PdfReader(file).pages
+    """What a PDF file of one page shows and tells."""
+    document = pypdf.PdfReader(file)
+    (page,) = document.pages
     left, bottom, right, top = (float(side) for side in page.mediabox)
     assert (left, bottom) == (0.0, 0.0)
     reader = _Reader()
     reader.run(page.get_contents().get_data(), page["/Resources"], _State())
-    return (right, top), reader.marks
+    told = document.metadata or {}
+    assert told.keys() <= {"/Title", "/Subject"}
+    title = told.get("/Title", "")
+    assert bool(title) == ("/ViewerPreferences" in document.root_object)
+    return Sheet((right, top), reader.marks, title, told.get("/Subject", ""), reader.texts)
 
 
 class _Reader:
     def __init__(self):
         self.marks = []
-        self.fonts = {}
+        self.fonts, self.texts = {}, []
 
     def run(self, content, resources, state):
         """Carry out the operators of a stream."""
         stack, operands = [], []
         commands, numbers, clipping = b"", [], False
-        text = line = np.eye(3)
+        text = np.eye(3)
         for kind, token in _tokens(content):
             if kind == "path":
                 commands += b"".join(COMMANDS[letter] for letter in re.findall(rb"[mlch]", token))
+                assert short_numbers(token.decode()), "a number has more than three decimals"
                 numbers.append(np.fromstring(re.sub(rb"[mlch]", b" ", token), sep=" "))
                 continue
             if kind != "operator":
@@ -94,16 +101,15 @@ class _Reader:
                     assert phase == 0
                     state = replace(state, dash=tuple(dash))
                 case b"g" | b"rg", _:
-                    state = replace(state, fill=tuple(operands * (3 // len(operands))))
+                    state = replace(state, fill=tuple(operands * (3 // len(operands))), light=None)
                 case b"G" | b"RG", _:
                     state = replace(state, stroke=tuple(operands * (3 // len(operands))))
-                case b"cs" | b"CS", ["DeviceRGB"]:
-                    state = replace(state, **{"fill" if token == b"cs" else "stroke": (0.0, 0.0, 0.0)})
+                case b"cs", ["Pattern"]:
+                    pass
+                case b"scn", [name]:
+                    state = replace(state, light=_light(resources["/Pattern"][f"/{name}"].get_object()))
                 case b"gs", [name]:
                     state = _with_settings(state, resources["/ExtGState"][f"/{name}"])
-                case b"re", [x, y, w, h]:
-                    commands += b"MLLLZ"
-                    numbers.append(np.array([x, y, x + w, y, x + w, y + h, x, y + h]))
                 case b"W", []:
                     clipping = True
                 case _, [] if token in PAINTS:
@@ -114,19 +120,16 @@ class _Reader:
                         state = replace(state, clips=(*state.clips, path))
                     commands, numbers, clipping = b"", [], False
                 case b"Do", [name]:
-                    self.show(resources["/XObject"][f"/{name}"].get_object(), resources, state)
+                    self.show(resources["/XObject"][f"/{name}"].get_object(), state)
                 case b"BT", []:
-                    text = line = np.eye(3)
+                    self.texts.append("")
+                    text = np.eye(3)
                 case b"ET", []:
                     pass
                 case b"Tf", [name, size]:
                     state = replace(state, font=self.font(resources["/Font"].raw_get(f"/{name}")), size=size)
-                case b"Td", [x, y]:
-                    text = line = line @ _matrix([1.0, 0.0, 0.0, 1.0, x, y])
                 case b"Tm", _:
-                    text = line = _matrix(operands)
-                case b"Tj", [bytes()]:
-                    text = self.write(operands, text, state)
+                    text = _matrix(operands)
                 case b"TJ", [list() as strings]:
                     text = self.write(strings, text, state)
                 case _:
@@ -144,7 +147,8 @@ class _Reader:
             raise NotImplementedError("paths that are closed when they are painted")
         if operator[:1] in (b"f", b"F", b"B"):
             color = levels(*state.fill, state.fill_opacity)
-            self.marks.append(Mark("fill", color, path, even_odd=operator[1:] == b"*", clips=state.clips))
+            even_odd = operator[1:] == b"*"
+            self.marks.append(Mark("fill", color, path, even_odd=even_odd, clips=state.clips, light=state.light))
         if operator[:1] in (b"S", b"B") and state.width > 0:
             scale = float(np.sqrt(abs(np.linalg.det(state.matrix))))
             self.marks.append(
@@ -160,14 +164,8 @@ class _Reader:
                 )
             )
 
-    def show(self, thing, resources, state):
-        """An image, or a form, which is a stream of its own."""
-        if thing["/Subtype"] == "/Form":
-            inner = replace(
-                state, matrix=state.matrix @ _matrix([float(n) for n in thing.get("/Matrix", [1, 0, 0, 1, 0, 0])])
-            )
-            self.run(thing.get_data(), thing.get("/Resources", resources), inner)
-            return
+    def show(self, thing, state):
+        """An image."""
         assert thing["/Subtype"] == "/Image"
         assert state.fill_opacity == 1
         pixels = np.asarray(thing.decode_as_image().convert("RGBA"))
@@ -192,6 +190,7 @@ class _Reader:
                 continue
             for code in np.frombuffer(part, dtype=">u2").tolist():
                 size = np.diag([state.size, state.size, 1.0])
+                self.texts[-1] += state.font.text(code)
                 path = transformed(state.font.outline(code), state.matrix @ text @ size)
                 if len(path.pieces):
                     color = levels(*state.fill, state.fill_opacity)
@@ -214,45 +213,50 @@ class _Font:
         for first in runs:
             for number, width in enumerate(next(runs)):
                 self.widths[int(first) + number] = float(width)
-        self.glyph_of = np.frombuffer(descendant["/CIDToGIDMap"].get_object().get_data(), dtype=">u2")
+        assert descendant["/CIDToGIDMap"] == "/Identity"
+        self.texts = _texts(font["/ToUnicode"].get_object().get_data().decode())
         self.file = TTFont(BytesIO(descendant["/FontDescriptor"].get_object()["/FontFile2"].get_object().get_data()))
-        self.glyphs = self.file.getGlyphSet()
+        assert re.fullmatch(r"/[A-Z]{6}\+.+", font["/BaseFont"])
         self.outlines = {}
 
     def width(self, code):
         return self.widths.get(code, self.missing_width)
 
+    def text(self, code):
+        return self.texts[code]
+
     def outline(self, code):
         """The outline of a character at size 1."""
         if code not in self.outlines:
-            pen = _Pen(self.glyphs)
-            self.glyphs[self.file.getGlyphName(int(self.glyph_of[code]))].draw(pen)
-            path = path_of(pen.commands, pen.numbers)
-            scale = 1 / self.file["head"].unitsPerEm
-            self.outlines[code] = transformed(path, np.diag([scale, scale, 1.0]))
+            self.outlines[code] = glyph_path(self.file, self.file.getGlyphName(code))
         return self.outlines[code]
 
 
-class _Pen(BasePen):
-    def __init__(self, glyphs):
-        super().__init__(glyphs)
-        self.commands, self.numbers = b"", []
+def _texts(cmap):
+    """The characters that glyphs stand for."""
+    blocks = re.findall(r"(\d+) beginbfchar\n(.*?)endbfchar", cmap, re.DOTALL)
+    pairs = [pair for _, block in blocks for pair in re.findall(r"<([0-9A-F]{4})> <((?:[0-9A-F]{4})+)>\n", block)]
+    assert sum(int(count) for count, _ in blocks) == len(pairs)
+    return {int(code, 16): bytes.fromhex(text).decode("utf-16-be") for code, text in pairs}
 
-    def _add(self, command, *points):
-        self.commands += command
-        self.numbers += [number for point in points for number in point]
 
-    def _moveTo(self, point):
-        self._add(b"M", point)
-
-    def _lineTo(self, point):
-        self._add(b"L", point)
-
-    def _curveToOne(self, *points):
-        self._add(b"C", *points)
-
-    def _closePath(self):
-        self._add(b"Z")
+def _light(pattern):
+    """A radial gradient whose colours are linear between the offsets."""
+    assert pattern["/PatternType"] == 2
+    assert "/Matrix" not in pattern
+    shading = pattern["/Shading"]
+    assert (shading["/ShadingType"], shading["/ColorSpace"]) == (3, "/DeviceRGB")
+    assert [bool(end) for end in shading["/Extend"]] == [True, True]
+    fx, fy, least, cx, cy, radius = map(float, shading["/Coords"])
+    assert least == 0
+    function = shading["/Function"]
+    parts = list(function["/Functions"])
+    assert [part["/N"] for part in parts] == [1] * len(parts)
+    assert list(function["/Encode"]) == [0, 1] * len(parts)
+    ends = np.array([[[float(n) for n in part[name]] for name in ("/C0", "/C1")] for part in parts])
+    assert (ends[1:, 0] == ends[:-1, 1]).all()
+    offsets = np.array([0.0, *map(float, function["/Bounds"]), 1.0])
+    return Light(np.array([fx, fy]), np.array([cx, cy]), radius, offsets, np.vstack([ends[:, 0], ends[-1:, 1]]))
 
 
 def _tokens(content):

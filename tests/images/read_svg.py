@@ -3,16 +3,19 @@
 import base64
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from io import BytesIO
+from unicodedata import normalize
 
 import imageio.v3 as iio
 import numpy as np
+from fontTools.ttLib import TTFont
 
-from tests.images.marks import Mark, levels, path_of, together, transformed
+from tests.images.fonts import glyph_path
+from tests.images.marks import Light, Mark, Sheet, levels, path_of, short_numbers, together, transformed
 
 SVG = "{http://www.w3.org/2000/svg}"
-LINK = "{http://www.w3.org/1999/xlink}href"
+SPACE = "{http://www.w3.org/XML/1998/namespace}space"
 
 DEFAULTS = {
     "fill": "#000000",
@@ -25,43 +28,87 @@ DEFAULTS = {
     "stroke-dashoffset": "0",
     "stroke-linecap": "butt",
     "stroke-linejoin": "miter",
+    "class": "",
+    "font-size": "",
 }
 """Properties that elements inherit."""
 
-OWN = {"opacity", "clip-path", "image-rendering"}
+OWN = {"clip-path"}
 """Properties that they do not."""
 
-SILENT = {"metadata", "defs", "title", "desc"}
+SILENT = {"title", "desc", "style", "clipPath", "radialGradient"}
 """Elements that show nothing."""
+
+KNOWN = {
+    "id",
+    "d",
+    "transform",
+    "role",
+    "aria-hidden",
+    "aria-labelledby",
+    "width",
+    "height",
+    "viewBox",
+    "x",
+    "y",
+    SPACE,
+}
+KNOWN |= {"href", "preserveAspectRatio", "text-rendering"}
+"""What elements may have beside properties."""
+
+FACE = re.compile(
+    r"@font-face\{font-family:'(?P<name>[^']+)';(?P<kind>font-style:\w+;font-weight:\w+);"
+    r"src:url\(data:font/woff;base64,(?P<data>[^)]*)\)\}\s*"
+    r"\.(?P<style>[\w-]+)\{font-family:'(?P=name)','(?P<family>[^']+)',(?P<others>[^;]+),serif;(?P=kind)\}\s*"
+)
+"""A font, and the class of what is set in it, or in others of the kind where a program knows no fonts of files."""
 
 
 @dataclass(frozen=True)
 class _State:
     look: dict
     matrix: np.ndarray
-    opacity: float = 1.0
     clips: tuple = ()
     group: str = ""
 
 
 def read_svg(file):
-    """Width and height of the page in points, and its marks in order."""
+    """What an SVG file shows and tells."""
     root = ET.parse(file).getroot()
     width, height = (float(re.fullmatch(r"([\d.]+)pt", root.get(name))[1]) for name in ("width", "height"))
     assert [float(n) for n in root.get("viewBox").split()] == [0.0, 0.0, width, height]
     # Upward, as paper is measured.
     flip = np.array([[1.0, 0.0, 0.0], [0.0, -1.0, height], [0.0, 0.0, 1.0]])
-    return (width, height), list(_Reader(root).children(root, _State(DEFAULTS, flip)))
+    reader = _Reader(root)
+    marks = list(reader.children(root, _State(DEFAULTS, flip)))
+    assert reader.named.keys() - reader.used <= reader.shown, "definitions that nothing uses"
+    return Sheet((width, height), marks, *_told(root), reader.texts)
+
+
+def _told(root):
+    """Title and description: they come first, and the picture says that they are its name."""
+    told = [(child.tag.removeprefix(SVG), child) for child in root if child.tag in (f"{SVG}title", f"{SVG}desc")]
+    assert [child for _, child in told] == list(root)[: len(told)]
+    assert root.get("role") == ("img" if told else None)
+    assert (root.get("aria-labelledby") or "").split() == [child.get("id") for _, child in told]
+    texts = {kind: child.text for kind, child in told}
+    return texts.get("title", ""), texts.get("desc", "")
 
 
 class _Reader:
     def __init__(self, root):
+        ids = [element.get("id") for element in root.iter() if element.get("id") is not None]
+        assert len(ids) == len(set(ids)), "an id stands twice"
+        assert all(re.fullmatch(r"[^\s]+", name) for name in ids)
         self.named = {element.get("id"): element for element in root.iter() if element.get("id")}
-        self.paths = {}
+        self.used = set((root.get("aria-labelledby") or "").split())
+        self.shown = {name for name, element in self.named.items() if element.tag.removeprefix(SVG) not in SILENT}
         self.groups = 0
-        (sheet,) = [element.text for element in root.iter(f"{SVG}style")]
-        (rules,) = re.fullmatch(r"\s*\*\s*\{([^{}]*)\}\s*", sheet).groups()
-        self.for_all = _properties(rules)
+        self.fonts, self.texts = {}, []
+        for sheet in root.iter(f"{SVG}style"):
+            faces = list(FACE.finditer(sheet.text + "\n"))
+            assert "".join(face[0] for face in faces) == sheet.text + "\n"
+            self.fonts |= {face["style"]: TTFont(BytesIO(base64.b64decode(face["data"])), lazy=False) for face in faces}
 
     def children(self, element, state):
         for child in element:
@@ -76,10 +123,12 @@ class _Reader:
         match kind:
             case "g":
                 yield from self.children(element, state)
-            case "use":
-                shift = _transform(f"translate({element.get('x', '0')} {element.get('y', '0')})")
-                used = self.named[element.get(LINK).removeprefix("#")]
-                yield from self.marks(used, replace(state, matrix=state.matrix @ shift))
+            case "text":
+                assert element.get("text-rendering") == "geometricPrecision"
+                self.texts.append("")
+                yield from self.children(element, state)
+            case "tspan":
+                yield from self.type_marks(element, state)
             case "path":
                 yield from self.path_marks(element, state)
             case "image":
@@ -88,9 +137,8 @@ class _Reader:
                 raise NotImplementedError(f"element {element.tag}")
 
     def state_in(self, element, state):
-        """What holds in an element: properties of its own over those of the sheet over those that it inherits."""
-        attributes = {name: element.get(name) for name in [*DEFAULTS, *OWN] if element.get(name) is not None}
-        own = {**attributes, **self.for_all, **_properties(element.get("style", ""))}
+        """What holds in an element: properties of its own over those that it inherits."""
+        own = {name: value for name, value in element.attrib.items() if name not in KNOWN}
         unknown = own.keys() - DEFAULTS.keys() - OWN
         assert not unknown, f"properties {unknown}"
         group = state.group
@@ -99,42 +147,74 @@ class _Reader:
             group = f"{element.get('id')}#{self.groups}"
         matrix = state.matrix @ _transform(element.get("transform", ""))
         clips = state.clips
-        if own.get("clip-path", "none") != "none":
+        if "clip-path" in own:
             clips += (self.clip(own["clip-path"], matrix),)
         look = {**state.look, **{name: value for name, value in own.items() if name in DEFAULTS}}
-        return _State(look, matrix, state.opacity * float(own.get("opacity", 1)), clips, group)
+        return _State(look, matrix, clips, group)
+
+    def referred(self, reference):
+        """The element that url(#name) means."""
+        (name,) = re.fullmatch(r"url\(#([^)]*)\)", reference).groups()
+        self.used.add(name)
+        return self.named[name]
 
     def clip(self, reference, matrix):
-        (name,) = re.fullmatch(r"url\(#([^)]*)\)", reference).groups()
-        shapes = [child for child in self.named[name] if child.tag == f"{SVG}path"]
-        assert len(shapes) == len(self.named[name])
-        return together(transformed(self.path(s), matrix @ _transform(s.get("transform", ""))) for s in shapes)
+        shapes = list(self.referred(reference))
+        assert all(child.tag == f"{SVG}path" for child in shapes)
+        return together(transformed(_path(s.get("d")), matrix) for s in shapes)
 
-    def path(self, element):
-        """The path of an element in its own units."""
-        if element not in self.paths:
-            self.paths[element] = _path(element.get("d", ""))
-        return self.paths[element]
+    def light(self, reference, matrix):
+        element = self.referred(reference)
+        assert element.tag == f"{SVG}radialGradient"
+        assert element.get("gradientUnits") == "userSpaceOnUse"
+        given = {name: element.get(name) for name in ("cx", "cy", "r", "fx", "fy")}
+        assert all(map(short_numbers, given.values()))
+        assert element.keys() - given.keys() == {"id", "gradientUnits"}
+        cx, cy, radius, fx, fy = map(float, given.values())
+        (focus, center) = (np.array([[fx, fy, 1.0], [cx, cy, 1.0]]) @ matrix.T)[:, :2]
+        assert all(stop.tag == f"{SVG}stop" and stop.keys() == ["offset", "stop-color"] for stop in element)
+        offsets = np.array([float(stop.get("offset")) for stop in element])
+        colors = np.array([_color(stop.get("stop-color"), 1.0)[:3] for stop in element]) / 255
+        return Light(focus, center, radius, offsets, colors)
+
+    def type_marks(self, element, state):
+        """A glyph for each character, in the place that is given for it."""
+        font, size = self.fonts[state.look["class"]], float(state.look["font-size"])
+        assert list(element) == []
+        x, y = (element.get(name).split() for name in "xy")
+        assert short_numbers(" ".join(x + y))
+        assert len(x) == len(element.text)
+        assert len(y) in (1, len(x))
+        color = _color(state.look["fill"], float(state.look["fill-opacity"]))
+        for code, left, low in zip(element.text, x, y * (len(x) // len(y)), strict=True):
+            self.texts[-1] += normalize("NFKC", code) if code in "\ufb00\ufb01\ufb02\ufb03\ufb04" else code
+            glyph = glyph_path(font, font.getBestCmap()[ord(code)])
+            place = np.array([[size, 0.0, float(left)], [0.0, -size, float(low)], [0.0, 0.0, 1.0]])
+            path = transformed(glyph, state.matrix @ place)
+            if len(path.pieces):
+                yield Mark("fill", color, path, clips=state.clips, group=state.group)
 
     def path_marks(self, element, state):
         """A path is filled, then stroked."""
-        look, path = state.look, transformed(self.path(element), state.matrix)
+        look, path = state.look, transformed(_path(element.get("d")), state.matrix)
         if len(path.pieces) == 0:
             return
         if look["fill"] != "none":
-            color = _color(look["fill"], state.opacity * float(look["fill-opacity"]))
+            opacity, light = float(look["fill-opacity"]), None
+            if look["fill"].startswith("url"):
+                light, color = self.light(look["fill"], state.matrix), levels(0, 0, 0, opacity)
+            else:
+                color = _color(look["fill"], opacity)
             even_odd = look["fill-rule"] == "evenodd"
-            yield Mark("fill", color, path, even_odd=even_odd, clips=state.clips, group=state.group)
-        if look["stroke"] != "none" and float(look["stroke-width"]) > 0:
-            scale = float(np.sqrt(abs(np.linalg.det(state.matrix))))
+            yield Mark("fill", color, path, even_odd=even_odd, clips=state.clips, group=state.group, light=light)
+        if look["stroke"] != "none":
             dash = look["stroke-dasharray"]
-            assert float(look["stroke-dashoffset"]) == 0
             yield Mark(
                 "stroke",
-                _color(look["stroke"], state.opacity * float(look["stroke-opacity"])),
+                _color(look["stroke"], float(look["stroke-opacity"])),
                 path,
-                width=float(look["stroke-width"]) * scale,
-                dash=() if dash == "none" else tuple(float(n) * scale for n in re.split(r"[,\s]+", dash.strip())),
+                width=float(look["stroke-width"]),
+                dash=() if dash == "none" else tuple(float(n) for n in dash.split()),
                 cap=look["stroke-linecap"],
                 join=look["stroke-linejoin"],
                 clips=state.clips,
@@ -142,28 +222,24 @@ class _Reader:
             )
 
     def image_mark(self, element, state):
-        kind, data = element.get(LINK).split(",", 1)
+        kind, data = element.get("href").split(",", 1)
         assert kind == "data:image/png;base64"
+        assert element.get("preserveAspectRatio") == "none"
         pixels = iio.imread(BytesIO(base64.b64decode(data)), extension=".png", mode="RGBA")
         x, y, w, h = (float(element.get(name, "0")) for name in ("x", "y", "width", "height"))
         corners = np.array([[x, y + h, 1.0], [x + w, y, 1.0]]) @ state.matrix.T
         (left, bottom), (right, top) = corners[:, :2]
         assert left < right and bottom < top and state.matrix[0, 1] == state.matrix[1, 0] == 0  # noqa: PT018
-        assert state.opacity == 1
         return Mark("image", place=(left, bottom, right, top), pixels=pixels, clips=state.clips, group=state.group)
 
 
 def _path(text):
-    """A path of absolute commands, with or without their letter repeated."""
+    """A path of absolute commands, each with its letter and its own numbers."""
     commands = re.findall(r"[A-Za-z]", text)
-    assert set(commands) <= set("MLQCZz"), f"commands {set(commands)} of a path"
-    numbers = np.fromstring(re.sub(r"[A-Za-z,]", " ", text), sep=" ")
-    return path_of("".join(commands).upper().encode(), numbers)
-
-
-def _properties(text):
-    pairs = [rule.split(":", 1) for rule in text.split(";") if rule.strip()]
-    return {name.strip(): value.strip() for name, value in pairs}
+    assert set(commands) <= set("MLCZ"), f"commands {set(commands)} of a path"
+    assert short_numbers(text), "a number has more than three decimals"
+    numbers = np.fromstring(re.sub(r"[A-Za-z]", " ", text), sep=" ")
+    return path_of("".join(commands).encode(), numbers)
 
 
 def _color(code, opacity):
@@ -172,22 +248,9 @@ def _color(code, opacity):
 
 
 def _transform(text):
-    matrix = np.eye(3)
-    for name, inside in re.findall(r"(\w+)\s*\(([^)]*)\)", text):
-        numbers = [float(n) for n in re.split(r"[,\s]+", inside.strip())]
-        step = np.eye(3)
-        match name:
-            case "matrix":
-                step[:2] = np.array(numbers).reshape(3, 2).T
-            case "translate":
-                step[:2, 2] = [*numbers, 0.0][:2]
-            case "scale":
-                step[0, 0], step[1, 1] = (numbers * 2)[:2]
-            case "rotate":
-                assert len(numbers) == 1
-                turn = np.radians(numbers[0])
-                step[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
-            case _:
-                raise NotImplementedError(f"transform {name}")
-        matrix = matrix @ step
-    return matrix
+    """A rotation about a place, which is all that files have."""
+    if not text:
+        return np.eye(3)
+    turn, x, y = map(float, re.fullmatch(r"rotate\(([-.\d]+) ([-.\d]+) ([-.\d]+)\)", text).groups())
+    c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+    return np.array([[c, -s, x - c * x + s * y], [s, c, y - s * x - c * y], [0.0, 0.0, 1.0]])

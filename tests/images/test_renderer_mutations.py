@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.page import Fill, Label, Polygons, Polylines, Stroke
-from stereodel.render import rows, triangles, vector
+from stereodel.render import canvas, rows, svg, triangles
+from stereodel.render import pdf as pdf_files
 from stereodel.render import text as labels
 from stereodel.render.triangles import discs, ribbon, ribbons
 from tests.images.scripts import STORE, case
@@ -62,8 +63,8 @@ def test_lines_a_tenth_wider_in_opengl(name, monkeypatch):
 
 @pytest.mark.parametrize("name", ["fig09_scale", "fig06_sphere_size"])
 def test_lines_a_tenth_wider_in_agg(name, monkeypatch):
-    patch = vector.PathPatch
-    monkeypatch.setattr(vector, "PathPatch", lambda *a, linewidth, **k: patch(*a, linewidth=1.1 * linewidth, **k))
+    patch = canvas.PathPatch
+    monkeypatch.setattr(canvas, "PathPatch", lambda *a, linewidth, **k: patch(*a, linewidth=1.1 * linewidth, **k))
     assert nets(name) == {"T2"}
 
 
@@ -131,8 +132,8 @@ def test_type_that_is_set_otherwise_in_pictures(change, monkeypatch):
 
 
 def test_labels_two_pixels_aside_everywhere(monkeypatch):
-    name, draw = "fig03_bubbles", vector._draw_label
-    monkeypatch.setattr(vector, "_draw_label", lambda axes, label: draw(axes, moved(label, case(name).page.width)))
+    name, draw = "fig03_bubbles", canvas._draw_label
+    monkeypatch.setattr(canvas, "_draw_label", lambda axes, label: draw(axes, moved(label, case(name).page.width)))
     assert nets(name) == {"T3"}
 
 
@@ -160,15 +161,8 @@ FILE_CHANGES = {
 @pytest.mark.parametrize("kind", ["svg", "pdf"])
 def test_files_that_are_drawn_otherwise(kind, change, monkeypatch, tmp_path):
     """One of the two files; the picture stays as it was."""
-    drawn, save = vector.drawn, vector.save_vector
-
-    def save_changed(page, path, **options):
-        with pytest.MonkeyPatch.context() as patch:
-            if path.suffix == f".{kind}":
-                patch.setattr(vector, "drawn", before(drawn, FILE_CHANGES[change]))
-            return save(page, path, **options)
-
-    monkeypatch.setattr("tests.images.test_vector_files.save_vector", save_changed)
+    module = {"svg": svg, "pdf": pdf_files}[kind]
+    monkeypatch.setattr(module, "_Sheet", before(module._Sheet, FILE_CHANGES[change]))
     name = "anim_flight_first"
     wrong = wrong_in_files(case(name).page, case(name).ink, tmp_path)
     assert wrong

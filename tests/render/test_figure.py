@@ -73,6 +73,26 @@ def test_default_folder_is_beside_that_of_the_script(figure, tmp_path, monkeypat
         assert default_folder(each.draw) == expected
 
 
+def test_a_style_has_a_folder_of_its_own(figure, tmp_path, monkeypatch):
+    monkeypatch.setattr("stereodel.render.figure.default_folder", lambda source: tmp_path)
+    figure.main(["--size", "100", "--style", "dark,slide"])
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["slide-dark"]
+    picture = iio.imread(tmp_path / "slide-dark" / "small.png")
+    assert picture.shape == (56, 100, 3)
+    assert picture[0, 0].tolist() == [18, 18, 18]
+    assert np.array_equal(picture, figure.styled("slide", "dark").pixels(size=100))
+    figure.main(["--size", "100", "--style", "column", "--out", str(tmp_path / "here")])
+    assert (tmp_path / "here" / "small.svg").is_file()
+
+
+def test_a_style_that_there_is_not_is_explained(figure, capsys):
+    for given, answer in (("bright", "style is 'bright'; give column, slide or dark"), ("slide,column", "give one")):
+        with pytest.raises(SystemExit) as stopped:
+            figure.main(["--style", given])
+        assert stopped.value.code == 2
+        assert answer in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("size", ["0", "-5", "many", "1e3", "100000"])
 def test_bad_sizes_are_explained(figure, tmp_path, capsys, size):
     with pytest.raises(SystemExit) as stopped:

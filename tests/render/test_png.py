@@ -85,6 +85,17 @@ def test_the_print_size_is_in_the_file():
         assert image.info["dpi"] == pytest.approx((300, 300), abs=0.02)
 
 
+@pytest.mark.parametrize(
+    ("text", "kind"), [("Zürich\n\nÉtat", b"tEXt"), ("φ = 5°", b"iTXt"), ("10 000 stars ★", b"iTXt")]
+)
+def test_texts_are_in_the_file(text, kind):
+    texts = {"Title": text, "Description": ""}
+    data = b"".join(png_chunks([picture(3, 4)], 4, 3, page_width=72.0, texts=texts))
+    assert [name for name, _ in chunks(data)][2:4] == [kind, b"IDAT"]
+    with Image.open(io.BytesIO(data)) as image:
+        assert image.text == {"Title": text}
+
+
 def defiltered(lines, width):
     """Rows from filtered ones, byte by byte, as the specification has it, whichever of its kinds they are."""
     rows = np.zeros((len(lines) + 1, width * 3 + 3), dtype=int)  # a row above and a pixel at the left of zeros

@@ -13,7 +13,8 @@ from stereodel.drawing import Label, Page, Scene, View
 from stereodel.drawing.page import Dots, Fill, Polygons, Polylines, Stroke
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
-from stereodel.render import gl, rows, vector
+from stereodel.render import canvas as canvases
+from stereodel.render import gl, rows
 from stereodel.render import save as saving
 from stereodel.render import text as labels
 from stereodel.render.figure import Figure
@@ -111,8 +112,8 @@ def test_pixels_far_from_the_corner_are_those_near_it(far):
 
 def by_matplotlib(page, size):
     """The labels on a canvas for the whole page."""
-    with vector.matplotlib_settings():
-        canvas = vector.drawn(replace(page, items=page.labels), *vector.pixel_grid(page, size))
+    with canvases.matplotlib_settings():
+        canvas = canvases.drawn(replace(page, items=page.labels), *canvases.pixel_grid(page, size))
         canvas.set_facecolor((1.0, 1.0, 1.0, 0.0))
         agg = FigureCanvasAgg(canvas)
         agg.draw()
@@ -250,8 +251,8 @@ def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
     colors = np.linspace(0, 1, 400).reshape(100, 4)
     many = Polygons(np.tile(triangle, (100, 1)), np.arange(0, 401, 4), np.arange(100), colors)
     page = Page((-1.0, 1.0, -1.0, 1.0), (many,), width=7.2)
-    assert [picture.shape for picture in saving.mosaic_pictures(page, 20)] == [(20, 20, 3)]
-    assert [picture.shape for picture in saving.mosaic_pictures(page, 9000)] == [(60, 60, 3)]
+    assert [picture.shape for picture in saving.region_pictures(page, 20)] == [(20, 20, 3)]
+    assert [picture.shape for picture in saving.region_pictures(page, 9000)] == [(60, 60, 3)]
 
 
 @pytest.mark.parametrize(

@@ -1,14 +1,15 @@
 """Vector files: true curves, exact size, the same bytes every time."""
 
-import re
 import xml.etree.ElementTree as ET
 from functools import partial
+from unicodedata import normalize
 
 import matplotlib as mpl
 import numpy as np
+import pypdf
 import pytest
 
-from stereodel.drawing.page import Dots, Fill, Label, Page, Stroke
+from stereodel.drawing.page import Dots, Fill, Label, Page, Polylines, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.style import BLACK
 from stereodel.drawing.view import View
@@ -35,7 +36,7 @@ def globe():
 @pytest.mark.parametrize("kind", ["svg", "pdf"])
 def test_bytes_are_the_same_twice_and_under_any_user_settings(tmp_path, kind):
     first = save_vector(globe(), tmp_path / f"a.{kind}").read_bytes()
-    with mpl.rc_context({"font.size": 30, "svg.fonttype": "none", "lines.linewidth": 9, "pdf.fonttype": 3}):
+    with mpl.rc_context({"font.size": 30, "font.family": "serif", "lines.linewidth": 9, "mathtext.fontset": "cm"}):
         again = save_vector(globe(), tmp_path / f"b.{kind}").read_bytes()
     assert first == again
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"a.{kind}", f"b.{kind}"]
@@ -47,30 +48,71 @@ def test_svg_has_the_exact_size_and_a_group_for_each_name(tmp_path):
     root = ET.parse(save_vector(globe(), tmp_path / "globe.svg")).getroot()
     assert root.get("width") == "200pt"
     assert float(root.get("height").removesuffix("pt")) == pytest.approx(globe().height, abs=1e-4)
-    names = [group.get("id") for group in root.iter(f"{SVG}g") if group.get("id")]
+    names = [element.get("id") for element in root.iter() if element.get("id")]
     assert len(names) == len(set(names))
     assert {"graticule", "graticule-2", "ball", "limb", "small_bubble", "sites", "label"} <= set(names)
 
 
+def test_ids_are_unique_whatever_items_are_called(tmp_path):
+    line = np.linspace([0.0, 2.0], [4.0, 2.0], 4)[None]
+    names = ["title", "a b", "a b", "a-b", "a-b-2", "", "item", "ground", "label-halo", 'x"<&']
+    lines = [Stroke(line, BLACK, 1.0 + k, name=name) for k, name in enumerate(names)]
+    page = Page((0, 4, 0, 4), (*lines, Label("text", (2.0, 2.0), halo=1.0)), title="Lines")
+    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
+    found = [element.get("id") for element in root.iter() if element.get("id")]
+    assert len(found) == len(names) + 4
+    assert len(found) == len(set(found))
+    assert not any(" " in name for name in found)
+    assert 'x"<&' in found
+
+
 def test_pdf_has_the_exact_size_and_text_that_can_be_searched(tmp_path):
-    with mpl.rc_context({"pdf.compression": 0}):
-        content = save_vector(globe(), tmp_path / "globe.pdf").read_bytes()
-    width, height = map(float, re.search(rb"/MediaBox \[ 0 0 ([\d.]+) ([\d.]+) \]", content).groups())
-    assert (width, height) == pytest.approx((200.0, globe().height), abs=1e-3)
-    assert b"/Type0" in content
-    assert b"STIXGeneral" in content
+    (page,) = pypdf.PdfReader(save_vector(globe(), tmp_path / "globe.pdf")).pages
+    assert [float(side) for side in page.mediabox] == pytest.approx([0.0, 0.0, 200.0, globe().height], abs=1e-3)
+    assert page.extract_text() == "φ north"
+    fonts = [font.get_object()["/BaseFont"].partition("+")[2] for font in page["/Resources"]["/Font"].values()]
+    assert fonts == ["STIXGeneral-Italic", "STIXGeneral-Regular"]
 
 
-def test_curves_stay_curves(tmp_path):
-    """A circle is twelve cubics; the one straight piece, of no length, is how matplotlib closes it."""
+def test_a_whole_circle_is_twelve_cubics_and_no_line(tmp_path):
     scene = Scene(style="none")
     scene.add_circles([SphereCircle.around((0, 90), 30)])
     page = Page((-1, 1, -1, 1), scene.layout(View(0, 60)))
     root = ET.parse(save_vector(page, tmp_path / "circle.svg")).getroot()
-    [group] = [g for g in root.iter(f"{SVG}g") if g.get("id") == "circle"]
-    [path] = group.iter(f"{SVG}path")
+    [path] = [p for p in root.iter(f"{SVG}path") if p.get("id") == "circle"]
     assert path.get("d").count("C") == 12
-    assert path.get("d").count("L") <= 1
+    assert "L" not in path.get("d")
+
+
+def test_lines_of_no_length_are_not_drawn(tmp_path):
+    """As what is left of arcs that touch the limb from behind; a point alone among lines is a dot."""
+    speck = np.full((1, 4, 2), 2.0)
+    lines = Polylines(np.array([[1.0, 1.0]]), np.array([0, 1]), BLACK, 2.0, "dot")
+    page = Page((0, 4, 0, 4), (Stroke(speck, BLACK, 9.0, name="speck"), lines), width=72.0)
+    text = save_vector(page, tmp_path / "page.svg").read_text(encoding="utf-8")
+    assert "speck" not in text
+    assert text.count("C") == 8
+    for draw in (Page.pixels, rasterize):
+        picture = draw(page, size=72)
+        assert (picture[30:42, 30:42] == 255).all()
+        assert picture[53, 18, 0] < 128
+
+
+def test_ligatures_are_found_as_letters(tmp_path):
+    page = Page((0, 4, 0, 4), (Label("fi & <fl>", (2.0, 2.0)),))
+    (sheet,) = pypdf.PdfReader(save_vector(page, tmp_path / "page.pdf")).pages
+    assert sheet.extract_text() == "fi & <fl>"
+    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
+    text = "".join(next(root.iter(f"{SVG}text")).itertext())
+    assert normalize("NFKC", text) == "fi & <fl>"
+
+
+def test_words_that_no_font_has_are_written_all_the_same(tmp_path):
+    """As boxes, as matplotlib does; with the letters that were meant."""
+    page = Page((0, 4, 0, 4), (Label("a\u6f22\U0001f30d\u6f22", (2.0, 2.0)), Label("two\nlines", (1.0, 1.0))))
+    with pytest.warns(UserWarning, match="missing from font"):
+        (sheet,) = pypdf.PdfReader(save_vector(page, tmp_path / "page.pdf")).pages
+    assert sheet.extract_text().splitlines() == ["a\u6f22\U0001f30d\u6f22", "two", "lines"]
 
 
 def test_endings_other_than_svg_and_pdf_are_refused(tmp_path):

@@ -137,6 +137,19 @@ def film():
 """
 
 
+def test_a_style_goes_into_a_folder_of_its_own(scripts, tmp_path):
+    (scripts / "anim_two.py").write_text(FILM)
+    ran = command("--scripts", scripts, "--out", "out", "--style", "slide,dark", "anim_two", cwd=tmp_path)
+    assert "out/slide-dark: 1 drawn, 0 failed" in ran.stdout
+    assert sorted(path.name for path in (tmp_path / "out" / "slide-dark").iterdir()) == [
+        "anim_two.gif",
+        "manifest.json",
+    ]
+    ran = command("--scripts", scripts, "--out", "out", "--style", "slide,dark", "anim_two", cwd=tmp_path)
+    assert "up to date" in ran.stdout
+    assert command("--scripts", scripts, "--style", "bright", cwd=tmp_path).returncode == 2
+
+
 def test_a_film_becomes_a_gif(scripts, tmp_path, monkeypatch):
     (scripts / "anim_two.py").write_text(FILM)
     out = tmp_path / "out"

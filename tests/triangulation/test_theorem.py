@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
@@ -69,6 +69,46 @@ def test_without_the_correction_it_fails():
     sphere = SphericalDelaunay(exact_lift(points))
     assert len(planar_part(sphere, PROJECTION_POLE)) < len(sphere.simplices) == 2 * 40 - 4
     assert merged_polygons(sphere) != merged_polygons(PlanarDelaunay(points))
+
+
+@pytest.mark.parametrize(
+    ("points", "hull", "plane"),
+    [
+        # A point inside the circle of the others: what holds no point is the outside.
+        ([[0, 0], [4, 0], [0, 4], [1, 1]], ["012", "013", "023", "123"], ["013", "023", "123"]),
+        # Three on a line, a circle through the pole, and its neighbour, whose bubble holds the pole.
+        ([[0, 0], [1, 0], [2, 0], [1, 3]], ["012", "013", "023", "123"], ["013", "123"]),
+        # A square with a fifth point on the right: the pole sees the two facets that reach around it.
+        ([[0, 0], [1, 0], [1, 1], [0, 1], [3, 0]], ["012", "014", "023", "034", "124", "234"], ["012", "023", "124"]),
+    ],
+)
+def test_facets_that_are_left_out_by_hand(points, hull, plane):
+    sphere = SphericalDelaunay(exact_lift(points))
+    for simplices, expected in ((sphere.simplices, hull), (planar_part(sphere, PROJECTION_POLE), plane)):
+        assert sorted("".join(map(str, sorted(corners))) for corners in simplices.tolist()) == expected
+    assert theorem_1_holds(points)
+
+
+@settings(deadline=None, max_examples=50)
+@given(st.lists(SMALL, min_size=4, max_size=14, unique=True))
+def test_as_many_facets_are_left_out_as_the_hull_has_points_but_two(points):
+    """2n − 4 triangles on the sphere, 2n − 2 − h in the plane, of h points on the boundary of the convex hull."""
+    sphere, plane = SphericalDelaunay(exact_lift(points)), PlanarDelaunay(np.array(points, dtype=float))
+    assume(plane.dimension == sphere.dimension == 2)
+    on_boundary = len(np.unique(plane.convex_hull))
+    left_out = len(sphere.simplices) - len(planar_part(sphere, PROJECTION_POLE))
+    assert len(sphere.simplices) == 2 * len(points) - 4
+    assert left_out == on_boundary - 2
+
+
+def test_the_octahedron_seen_from_one_of_its_corners():
+    """The pole as a site: its star is what the plane lacks."""
+    points = np.array([[0, 0], [1, 0], [0, 1], [-1, 0], [0, -1]], dtype=float)
+    octahedron = SphericalDelaunay(np.vstack([exact_lift(points), PROJECTION_POLE]))
+    part = planar_part(octahedron, PROJECTION_POLE)
+    assert len(octahedron.simplices) == 8
+    assert merged_polygons(octahedron, part) == merged_polygons(PlanarDelaunay(points))
+    assert len(part) == 4
 
 
 def test_the_open_bubble_is_not_enough():

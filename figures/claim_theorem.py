@@ -1,0 +1,109 @@
+r"""
+Claim P7: the facets that Theorem 1 leaves out
+==============================================
+
+Left, 16 sites in the plane with their Delaunay triangulation. Right, the same sites lifted to a sphere, and the facets
+of their convex hull as spherical triangles. Facets whose closed bubble does not hold the projection pole o are the
+triangles of the plane (gray). The others (vermilion), two fewer than the sites on the boundary of the plane's convex
+hull, close the hull round the pole and are no triangles of the plane.
+
+One of them is tinted, and dashed in the plane. Its bubble (blue) is empty and holds o. In the plane, what is empty is
+the outside of the circle, and inside are all other sites.
+
+Chosen by us: the sites and their seed, the size of the sphere, the facet and the view.
+"""
+
+import numpy as np
+from _sites import in_rectangle
+
+from stereodel import PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic
+from stereodel.drawing import Fill, LineStyle, Page, Scene, Sketch, View
+from stereodel.drawing.sketch import arc_path
+from stereodel.drawing.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, with_opacity
+from stereodel.render import Figure
+from stereodel.triangulation import planar_part
+
+SITES, SEED, SIDE = 16, 10, 2.0
+RADIUS = 0.45  # of the sphere, in units of the map
+POLE = np.array([0.0, 0.0, 1.0])
+VIEW = View(25, 38)
+PLANE, SCALE = (-2.4, 0.0), 0.8  # middle and scale of the map on the page
+WINDOW = 1.12  # half the side of the map, page units
+EXTENT = (-3.58, 1.16, -1.16, 1.16)
+KEPT, LEFT_OUT, CIRCLE = LineStyle(GRAY, 0.8), LineStyle(VERMILION, 1.1), LineStyle(BLUE, 1.1)
+MISSING = LineStyle(VERMILION, 0.9, (3.0, 2.0))
+
+
+def geometry() -> dict:
+    """Sites and triangles in the plane; lifts and facets on the sphere, those left out apart; one of their circles."""
+    sites = in_rectangle(SITES, SIDE, SIDE, SEED)
+    projection = Stereographic((0, -90), radius=RADIUS)
+    lifts = projection.inverse(sites)
+    hull = SphericalDelaunay(lifts)
+    kept = {frozenset(corners) for corners in planar_part(hull, POLE).tolist()}
+    left_out = np.array([corners for corners in hull.simplices.tolist() if frozenset(corners) not in kept])
+    circles = [SphereCircle.through(*lifts[corners]) for corners in left_out]
+    images = [projection.image_of(circle) for circle in circles]
+    shown = int(np.argmin([image.radius for image in images]))
+    circle, image = circles[shown], images[shown]
+    return {
+        "sites": sites,
+        "triangles": PlanarDelaunay(sites).simplices,
+        "corners": np.unique(PlanarDelaunay(sites).convex_hull),
+        "lifts": lifts,
+        "facets": hull.simplices,
+        "left_out": left_out,
+        "shown": left_out[shown],
+        "circle": np.append(circle.normal, circle.offset),
+        "image": np.append(image.center, image.radius),
+    }
+
+
+def draw(g: dict) -> Page:
+    """The plane and the sphere."""
+    sketch = Sketch()
+    add_plane(sketch, g)
+    sketch.add_items(sphere(g).layout(VIEW))
+    return sketch.page(EXTENT, width=PRINT_WIDTH)
+
+
+def add_plane(sketch: Sketch, g: dict) -> None:
+    """The map, with what is outside of the circle tinted."""
+    middle = np.array(PLANE)
+    window = middle + WINDOW * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
+    x, y, radius = g["image"] * SCALE
+    circle = arc_path(middle + [x, y], radius, 0.0, 360.0)
+    frame = np.linspace(window, np.roll(window, -1, axis=0), 4, axis=1)
+    sketch.add_items([Fill((frame, circle), with_opacity(BLUE, 0.12), "outside")])
+    sites = middle + SCALE * g["sites"]
+    sketch.add_edges(sites, sides(g["triangles"]), name="delaunay", style=KEPT)
+    sketch.add_polyline(sites[g["shown"]], closed=True, name="left_out", style=MISSING)
+    sketch.add_circle(middle + [x, y], radius, name="circle", style=CIRCLE)
+    sketch.add_points(sites, name="sites")
+    sketch.add_polyline(window, closed=True, name="frame")
+
+
+def sphere(g: dict) -> Scene:
+    """The lifted sites on a glass ball, with the facets that are left out and the bubble of one of them."""
+    scene = Scene(style="glass")
+    circle = SphereCircle(g["circle"][:3], float(g["circle"][3]))
+    scene.add_cap(circle, name="bubble", color=with_opacity(BLUE, 0.16))
+    scene.add_triangle_patch(*g["lifts"][g["shown"]], name="left_out", color=with_opacity(VERMILION, 0.25))
+    scene.add_edges(g["lifts"], sides(g["facets"]), name="delaunay", style=KEPT)
+    scene.add_edges(g["lifts"], sides(g["left_out"]), name="left_out", style=LEFT_OUT)
+    scene.add_circles([circle], style=CIRCLE)
+    scene.add_points(g["lifts"], name="sites")
+    scene.add_points(POLE[None], name="pole")
+    scene.add_label(POLE, "$o$", offset=(6, 5), size=11.0)
+    return scene
+
+
+def sides(triangles: np.ndarray) -> np.ndarray:
+    """Pairs of corners (m, 2), each side once."""
+    return np.unique(np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
+
+
+FIGURE = Figure("claim_theorem", geometry, draw)
+
+if __name__ == "__main__":
+    FIGURE.main()

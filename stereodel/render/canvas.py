@@ -1,0 +1,133 @@
+"""Pages on a canvas of matplotlib: the pictures that Agg draws, and the type over those of OpenGL."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+from stereodel._extras import of_extra
+from stereodel.constants import PIXEL_ROUNDING
+from stereodel.drawing.page import Beziers, Fill, Label, Page
+from stereodel.drawing.style import TYPE
+from stereodel.render.shapes import Drawn, Filled, Outline, Shape, Shown, shapes
+from stereodel.render.sizes import pixel_height
+
+with of_extra("draw"):
+    import matplotlib as mpl
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure as Canvas
+    from matplotlib.image import AxesImage
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
+    from matplotlib.patheffects import withStroke
+    from matplotlib.transforms import ScaledTranslation
+
+
+def matplotlib_settings() -> AbstractContextManager[None]:
+    """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
+    # rc_context does not give the backend back, so it stays out.
+    settings: dict[Any, Any] = {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"}
+    settings.update(TYPE)
+    return mpl.rc_context(settings)
+
+
+def pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
+    """Pixels per inch of a picture of a page, and its width and height in pixels."""
+    return 72.0 * width_px / page.width, (width_px, pixel_height(page, width_px))
+
+
+def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canvas:
+    """The page on a canvas of its own size, or of whole pixels."""
+    width, height = page.width, page.height
+    if pixels is not None:  # a little more, because Agg cuts a size such as 2007.9999999 to 2007
+        width, height = ((side + PIXEL_ROUNDING) * 72 / dpi for side in pixels)
+    canvas = Canvas(figsize=(width / 72, height / 72), dpi=dpi)
+    left, right, bottom, top = page.extent
+    axes = canvas.add_axes((0.0, 0.0, 1.0, 1.0), xlim=(left, right), ylim=(bottom, top))
+    axes.set_axis_off()
+    turned = replace(page, items=tuple(_turned(item) if isinstance(item, Fill) else item for item in page.items))
+    for number, shape in enumerate(shapes(turned, dpi)):
+        artist = _artist(shape, axes)
+        artist.set(zorder=1 + number, snap=False, clip_on=isinstance(artist, AxesImage))
+        axes.add_artist(artist)
+    for label in page.labels:
+        # FreeType refuses type much smaller than a pixel, and nobody could read it.
+        if pixels is None or label.size * dpi / 72 >= 1:
+            _draw_label(axes, label)
+    return canvas
+
+
+def _artist(shape: Shape, axes: Axes) -> PathPatch | AxesImage:
+    match shape:
+        case Filled():
+            return PathPatch(_path(shape.outline), facecolor=shape.color, linewidth=0.0, edgecolor="none")
+        case Drawn():
+            return PathPatch(
+                _path(shape.outline),
+                fill=False,
+                edgecolor=shape.color,
+                linewidth=shape.width,
+                linestyle=(0.0, shape.dash) if shape.dash else "solid",
+                capstyle=shape.cap,
+                joinstyle="round",
+            )
+        case Shown():
+            image = AxesImage(axes, extent=shape.extent, origin="upper", interpolation="none")
+            image.set_data(shape.pixels)
+            image.set(transform=axes.transData)
+            image.set_clip_path(_path(shape.outline), axes.transData)
+            return image
+
+
+def _path(outline: Outline) -> Path:
+    return Path(outline.points, outline.kinds)
+
+
+def _turned(fill: Fill) -> Fill:
+    """A region with runs turned so that the nonzero rule, all that matplotlib has, fills what the even-odd one does.
+
+    Runs do not cross, so a run inside an even number of others must go counterclockwise and any other clockwise.
+    """
+    turned = []
+    for number, path in enumerate(fill.paths):
+        others = fill.paths[:number] + fill.paths[number + 1 :]
+        depth = sum(_polygon_contains(_corners(other), path[0, 0]) for other in others)
+        corners = _corners(path)
+        x, y = (corners - corners[0]).T
+        counterclockwise = float(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) > 0
+        turned.append(path if counterclockwise == (depth % 2 == 0) else path[::-1, ::-1])
+    return replace(fill, paths=tuple(turned))
+
+
+def _corners(path: Beziers) -> FloatArray:
+    """Points along a run, close enough to tell its inside from its outside."""
+    s = np.linspace(0.0, 1.0, 8, endpoint=False)[None, :, None]
+    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return points.reshape(-1, 2)
+
+
+def _polygon_contains(corners: FloatArray, point: FloatArray) -> bool:
+    return bool(Path(corners).contains_point((point[0], point[1])))
+
+
+def _draw_label(axes: Axes, label: Label) -> None:
+    shift = ScaledTranslation(label.offset[0] / 72, label.offset[1] / 72, axes.figure.dpi_scale_trans)
+    axes.text(
+        *label.anchor,
+        label.text,
+        transform=axes.transData + shift,
+        fontsize=label.size,
+        color=label.color,
+        ha=label.align,
+        va=label.valign,
+        rotation=label.rotation,
+        rotation_mode="anchor",
+        zorder=1e6,
+        clip_on=False,
+        path_effects=[withStroke(linewidth=2 * label.halo, foreground=label.halo_color)] if label.halo else None,
+    )

@@ -1,0 +1,282 @@
+"""Pages as PDF: true curves, text that is text, balls lit by gradients.
+
+The same shapes and glyphs as in `stereodel.render.svg`, in points from the lower left corner, with three decimals. What
+is used of fonts is embedded, with the characters that glyphs stand for. Version 1.4 of the format (ISO 32000-1, 2008,
+describes all of it), one page.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import zlib
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby, pairwise
+from typing import Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, Pixels
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Ball, Label, Page
+from stereodel.drawing.style import PRINT_DPI
+from stereodel.render.light import ball_gradient
+from stereodel.render.paper import Paper, commands, exact, number, numbers
+from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Drawn, Filled, Outline, Shape, Shown, shapes
+from stereodel.render.type import Line, Subset, lines_of, subsets
+
+PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
+"""Operators of paths."""
+
+LEAST_STEP: Final = 0.05
+"""Steps between letters that are left out, in thousandths of their size: rounding of the font's own widths."""
+
+UPRIGHT: Final = 80
+"""Thickness of a font's stems, which PDF wants to know and nothing uses where the font is embedded; per mille."""
+
+
+def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
+    """A page as the bytes of a PDF file.
+
+    Parameters
+    ----------
+    page : Page
+    pictures : sequence of (h, w, 3) uint8 arrays
+        A picture of the whole page for each of `page.pictured`, of which the part inside the regions is shown.
+
+    Examples
+    --------
+    >>> pdf(Page((0.0, 2.0, 0.0, 1.0), width=144.0))[:8]
+    b'%PDF-1.4'
+    """
+    return _Sheet(page).file(pictures)
+
+
+class _Objects:
+    """The numbered objects of a file."""
+
+    def __init__(self) -> None:
+        self.bodies: list[bytes] = []
+
+    def add(self, body: str | bytes) -> str:
+        """Take an object up and give the reference to it."""
+        self.bodies.append(body if isinstance(body, bytes) else body.encode("ascii"))
+        return f"{len(self.bodies)} 0 R"
+
+    def stream(self, data: bytes, entries: str = "") -> str:
+        """Take data up, packed."""
+        packed = zlib.compress(data, 9)
+        head = f"<< {entries} /Filter /FlateDecode /Length {len(packed)} >>\nstream\n".encode("ascii")
+        return self.add(head + packed + b"\nendstream")
+
+    def file(self, catalog: str, info: str) -> bytes:
+        """All of it, with the table of where each object begins."""
+        file = bytearray(b"%PDF-1.4\n%\xb5\xb6\xb7\xb8\n")
+        places = []
+        for count, body in enumerate(self.bodies, start=1):
+            places.append(len(file))
+            file += b"%d 0 obj\n%s\nendobj\n" % (count, body)
+        name = hashlib.sha256(file).hexdigest()[:32]
+        begin, size = len(file), len(places) + 1
+        table = "".join(f"{place:010d} 00000 n \n" for place in places)
+        file += f"xref\n0 {size}\n0000000000 65535 f \n{table}".encode("ascii")
+        trailer = f"<< /Size {size} /Root {catalog} /Info {info} /ID [<{name}> <{name}>] >>"
+        file += f"trailer\n{trailer}\nstartxref\n{begin}\n%%EOF\n".encode("ascii")
+        return bytes(file)
+
+
+class _Sheet:
+    """A page while it is written."""
+
+    def __init__(self, page: Page) -> None:
+        self.page, self.paper, self.objects = page, Paper.upward(page), _Objects()
+        # What the content names, by kind: name → object.
+        self.resources: dict[str, dict[str, str]] = {"Font": {}, "XObject": {}, "Pattern": {}, "ExtGState": {}}
+
+    def file(self, pictures: Sequence[Pixels]) -> bytes:
+        page, add = self.page, self.objects.add
+        lettering = list(lines_of(page))
+        fonts = subsets(line for _, lines in lettering for line in lines)
+        named = {path: self.named("Font", _font(self.objects, font)) for path, font in fonts.items()}
+        left, right, bottom, top = page.extent
+        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
+        ground = Outline(corners, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8))
+        parts = [
+            self.shape(Filled(ground, page.background)),
+            *(self.shape(shape) for shape in shapes(page, PRINT_DPI, pictures)),
+            *(self.label(label, lines, fonts, named) for label, lines in lettering),
+        ]
+        content = self.objects.stream("".join(parts).encode("ascii"))
+        resources = " ".join(f"/{kind} {_dictionary(entries)}" for kind, entries in self.resources.items() if entries)
+        box = f"[0 0 {number(page.width)} {number(page.height)}]"
+        pages = f"{len(self.objects.bodies) + 2} 0 R"
+        sheet = add(
+            f"<< /Type /Page /Parent {pages} /MediaBox {box} /Resources << {resources} >> /Contents {content} "
+            "/Group << /S /Transparency /CS /DeviceRGB >> >>"
+        )
+        add(f"<< /Type /Pages /Kids [{sheet}] /Count 1 >>")
+        shown = " /ViewerPreferences << /DisplayDocTitle true >>" if page.title else ""
+        catalog = add(f"<< /Type /Catalog /Pages {pages}{shown} >>")
+        told = {"Title": page.title, "Subject": page.description}
+        info = add(_dictionary({key: f"<{_utf16(text, mark=True)}>" for key, text in told.items() if text}))
+        return self.objects.file(catalog, info)
+
+    def named(self, kind: str, body: str) -> str:
+        """The name by which the content calls a resource; the same for the same one."""
+        entries = self.resources[kind]
+        for name, known in entries.items():
+            if known == body:
+                return name
+        name = f"{kind[0]}{len(entries) + 1}"
+        entries[name] = body
+        return name
+
+    def opacity(self, color: Color) -> str:
+        if color[3] == 1:
+            return ""
+        settings = f"<< /Type /ExtGState /CA {exact(color[3])} /ca {exact(color[3])} >>"
+        return f"/{self.named('ExtGState', settings)} gs\n"
+
+    def path(self, outline: Outline) -> str:
+        return commands(self.paper.placed(outline), PATH)
+
+    def shape(self, shape: Shape) -> str:
+        match shape:
+            case Filled():
+                paint = f"{_rgb(shape.color)} rg"
+                if shape.ball:
+                    paint = f"/Pattern cs /{self.named('Pattern', self.gradient(shape.ball, shape.color))} scn"
+                fill = "f*" if shape.even_odd else "f"
+                return f"q\n{self.opacity(shape.color)}{paint}\n{self.path(shape.outline)}{fill}\nQ\n"
+            case Drawn():
+                dash = f"[{numbers(shape.dash)}] 0 d\n" if shape.dash else ""
+                return (
+                    f"q\n{self.opacity(shape.color)}{_rgb(shape.color)} RG\n{exact(shape.width)} w\n"
+                    f"{int(shape.cap == 'round')} J 1 j\n{dash}{self.path(shape.outline)}S\nQ\n"
+                )
+            case Shown():
+                left, right, bottom, top = shape.extent
+                (x, y), (end, high) = self.paper.points([(left, bottom), (right, top)]).tolist()
+                place = numbers((end - x, 0, 0, high - y, x, y))
+                image = self.named("XObject", _image(self.objects, shape.pixels))
+                return f"q\n{self.path(shape.outline)}W n\n{place} cm\n/{image} Do\nQ\n"
+
+    def gradient(self, ball: Ball, color: Color) -> str:
+        """A colour under the light of a ball: a pattern whose parts run linearly from one colour to the next."""
+        light, base = ball_gradient(), np.array(color[:3])
+        ends = [
+            self.paper.points(np.array(ball.center) + ball.radius * np.array(place))
+            for place in (light.focus, light.center)
+        ]
+        radius = light.radius * ball.radius * self.page.points_per_unit
+        colors = [_rgb(tuple(level * base)) for level in light.brightness]
+        parts = " ".join(
+            f"<< /FunctionType 2 /Domain [0 1] /N 1 /C0 [{one}] /C1 [{other}] >>" for one, other in pairwise(colors)
+        )
+        bounds = exact(*light.offsets[1:-1])
+        function = (
+            f"<< /FunctionType 3 /Domain [0 1] /Functions [{parts}] /Bounds [{bounds}] "
+            f"/Encode [{' '.join(['0 1'] * (len(colors) - 1))}] >>"
+        )
+        return (
+            "<< /Type /Pattern /PatternType 2 /Shading << /ShadingType 3 /ColorSpace /DeviceRGB "
+            f"/Coords [{numbers(ends[0])} 0 {numbers(ends[1])} {number(radius)}] /Extend [true true] "
+            f"/Function {function} >> >>"
+        )
+
+    def label(self, label: Label, lines: Iterable[Line], fonts: dict[str, Subset], named: dict[str, str]) -> str:
+        """A label: its halo, its lines of type, its bars."""
+        parts, lines = ["q\n"], list(lines)
+        if label.halo:
+            halo = "".join(commands(line.outline, PATH) for line in lines)
+            parts.append(
+                f"q\n{self.opacity(label.halo_color)}{_rgb(label.halo_color)} RG\n"
+                f"{exact(2 * label.halo)} w 1 j\n{halo}S\nQ\n"
+            )
+        parts.append(f"{self.opacity(label.color)}{_rgb(label.color)} rg\n")
+        for line in lines:
+            parts += ["BT\n", *_shows(line, fonts, named), "ET\n"]
+            if line.bars:
+                parts.append(f"{commands(line.placed(line.bar_outline), PATH)}f\n")
+        return "".join([*parts, "Q\n"])
+
+
+def _shows(line: Line, fonts: dict[str, Subset], named: dict[str, str]) -> Iterator[str]:
+    """The operators of a line of type: glyphs of one font, size and height together, with the steps between them."""
+    matrix = line.matrix
+    turned = exact(*matrix[:, :2].T.ravel())
+    for (font, size, y), group in groupby(line.glyphs, key=lambda glyph: (glyph.font, glyph.size, glyph.y)):
+        glyphs, widths = list(group), fonts[font].widths
+        begin: FloatArray = matrix @ [glyphs[0].x, y, 1.0]
+        pen, shown = glyphs[0].x, ""
+        for glyph in glyphs:
+            # Steps back, in thousandths of the size, measured from where steps before have led to.
+            step = round(1000 * (pen - glyph.x) / size, 2)
+            if abs(step) >= LEAST_STEP:
+                shown += f">{exact(step)}<"
+                pen -= step * size / 1000
+            shown += f"{glyph.index:04X}"
+            pen += widths[glyph.index] * size
+        yield f"/{named[font]} {exact(size)} Tf\n{turned} {numbers(begin)} Tm\n[<{shown}>] TJ\n"
+
+
+def _font(objects: _Objects, font: Subset) -> str:
+    """A font of glyphs by number, with the characters that they stand for."""
+    face = font.face
+    scale = 1000 / face["head"].unitsPerEm
+    head, across = face["head"], face["hhea"]
+    box = numbers(scale * side for side in (head.xMin, head.yMin, head.xMax, head.yMax))
+    data = font.file()
+    descriptor = objects.add(
+        f"<< /Type /FontDescriptor /FontName /{font.name} /Flags {4 + 64 * font.italic} /FontBBox [{box}] "
+        f"/ItalicAngle {number(face['post'].italicAngle)} /Ascent {number(scale * across.ascent)} "
+        f"/Descent {number(scale * across.descent)} /CapHeight {number(scale * across.ascent)} /StemV {UPRIGHT} "
+        f"/FontFile2 {objects.stream(data, f'/Length1 {len(data)}')} >>"
+    )
+    widths = " ".join(f"{index} [{exact(1000 * width)}]" for index, width in sorted(font.widths.items()))
+    glyphs = objects.add(
+        f"<< /Type /Font /Subtype /CIDFontType2 /BaseFont /{font.name} /CIDToGIDMap /Identity /DW 0 /W [{widths}] "
+        f"/CIDSystemInfo << /Registry (Adobe) /Ordering (Identity) /Supplement 0 >> /FontDescriptor {descriptor} >>"
+    )
+    return objects.add(
+        f"<< /Type /Font /Subtype /Type0 /BaseFont /{font.name} /Encoding /Identity-H /DescendantFonts [{glyphs}] "
+        f"/ToUnicode {objects.stream(_characters(font).encode('ascii'))} >>"
+    )
+
+
+def _characters(font: Subset) -> str:
+    """The map from glyphs to characters, in blocks of at most a hundred as the format wants them."""
+    entries = [f"<{index:04X}> <{_utf16(text)}>" for index, text in sorted(font.glyphs.items())]
+    blocks = [entries[first : first + 100] for first in range(0, len(entries), 100)]
+    maps = "".join(f"{len(block)} beginbfchar\n{chr(10).join(block)}\nendbfchar\n" for block in blocks)
+    return (
+        "/CIDInit /ProcSet findresource begin\n12 dict begin\nbegincmap\n"
+        "/CIDSystemInfo << /Registry (Adobe) /Ordering (UCS) /Supplement 0 >> def\n"
+        "/CMapName /Adobe-Identity-UCS def\n/CMapType 2 def\n"
+        f"1 begincodespacerange\n<0000> <FFFF>\nendcodespacerange\n{maps}"
+        "endcmap\nCMapName currentdict /CMap defineresource pop\nend\nend\n"
+    )
+
+
+def _image(objects: _Objects, pixels: Pixels) -> str:
+    """A picture, with a mask where it is seen through."""
+    height, width = pixels.shape[:2]
+    size = f"/Type /XObject /Subtype /Image /Width {width} /Height {height} /BitsPerComponent 8"
+    mask = ""
+    if pixels.shape[2] == 4 and (pixels[..., 3] < 255).any():
+        opacity = np.ascontiguousarray(pixels[..., 3]).tobytes()
+        mask = f" /SMask {objects.stream(opacity, f'{size} /ColorSpace /DeviceGray')}"
+    data = np.ascontiguousarray(pixels[..., :3]).tobytes()
+    return objects.stream(data, f"{size} /ColorSpace /DeviceRGB{mask}")
+
+
+def _dictionary(entries: dict[str, str]) -> str:
+    return "<< " + " ".join(f"/{key} {value}" for key, value in entries.items()) + " >>"
+
+
+def _utf16(text: str, *, mark: bool = False) -> str:
+    """Text as hexadecimal digits, behind a mark of its encoding where it could be another."""
+    return ("\ufeff" * mark + text).encode("utf-16-be").hex().upper()
+
+
+def _rgb(color: Iterable[float]) -> str:
+    return exact(*[*color][:3])

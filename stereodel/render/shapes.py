@@ -1,0 +1,269 @@
+"""A page as shapes that are filled, drawn or shown: what SVG, PDF and matplotlib's Agg are all written from.
+
+Curves stay cubics, neighbours of one style are one path, regions of many colours are the part of a picture that lies in
+them. Everything is in page coordinates; `Place` turns them into points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from stereodel._arrays import Bytes, FloatArray, Pixels
+from stereodel.constants import FINEST_PLACE, FINEST_POINTS, PIXEL_ROUNDING
+from stereodel.curves.fill import union
+from stereodel.curves.ragged import Ragged, thinned
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Page, Picture, Polygons, Polylines, Stroke
+
+CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
+"""Reach of the controls of a circle drawn as eight cubics, in radii."""
+
+STRAIGHTENED: Final = 4
+"""How often every other point of a loop is left out where it lies on the line of its neighbours."""
+
+MOVE, LINE, CURVE, CLOSE = 1, 2, 4, 79
+"""Kinds of points of an outline, as in `matplotlib.path.Path`; three points in a row make a curve."""
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Runs of straight lines and cubics.
+
+    Parameters
+    ----------
+    points : (n, 2) array
+    kinds : (n,) uint8 array
+        `MOVE` where a run begins, `LINE`, `CURVE` for two controls and an end; the point of a `CLOSE` means nothing.
+    """
+
+    points: FloatArray
+    kinds: Bytes
+
+    def __add__(self, other: Outline) -> Outline:
+        """The runs of both."""
+        return Outline(np.concatenate([self.points, other.points]), np.concatenate([self.kinds, other.kinds]))
+
+
+@dataclass(frozen=True, eq=False)
+class Filled:
+    """A region in one colour (even-odd rule, or nonzero), which may be lit as a ball is."""
+
+    outline: Outline
+    color: Color
+    name: str = ""
+    ball: Ball | None = None
+    even_odd: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """Lines of one style, width and dash in points."""
+
+    outline: Outline
+    color: Color
+    width: float
+    dash: tuple[float, float] | None = None
+    cap: Literal["round", "butt"] = "round"
+    name: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """The part of a picture that lies within an outline."""
+
+    pixels: Pixels
+    extent: tuple[float, float, float, float]
+    """Left, right, bottom and top of the picture."""
+    outline: Outline
+    name: str = ""
+
+
+Shape = Filled | Drawn | Shown
+
+
+def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[Shape]:
+    """What a page shows but its labels, in painter's order.
+
+    Parameters
+    ----------
+    page : Page
+    dpi : float
+        Pixels per inch of what a `Picture` paints.
+    pictures : sequence of (h, w, 3) uint8 arrays
+        A picture of the whole page for each of `page.pictured`.
+
+    Raises
+    ------
+    ValueError
+        For another number of pictures.
+    """
+    count = len(page.pictured)
+    if len(pictures) != count:
+        raise ValueError(
+            f"pictures has {len(pictures)} entries, but {count} items of the page have too many colours; give each one"
+        )
+    rest, scale = iter(pictures), page.points_per_unit
+    for _, group in groupby(page.without_labels().items, key=_style):
+        items = list(group)
+        match items[0]:
+            case Stroke() as first:
+                runs = [
+                    (item.path, item.closed) for item in items if isinstance(item, Stroke) and has_length(item, scale)
+                ]
+                if runs:
+                    yield Drawn(outline(runs, scale), first.color, first.width, first.dash, first.cap, first.name)
+            case Polylines() as lines:
+                yield from _lines(lines, scale)
+            case Polygons() as polygons if polygons.pictured:
+                border = thinned_loops(union(polygons.loops), FINEST_POINTS / scale)
+                yield Shown(next(rest), page.extent, _loops(border), polygons.name)
+            case Polygons() as polygons:
+                yield from _by_color(polygons, FINEST_POINTS / scale)
+            case Fill() as fill:
+                yield Filled(
+                    outline([(path, True) for path in fill.paths], scale),
+                    fill.color,
+                    fill.name,
+                    fill.ball,
+                    even_odd=True,
+                )
+            case Picture() as picture:
+                yield _painted(picture, page, dpi)
+            case Dots() as dots:
+                yield from _dots(dots, scale)
+
+
+def _style(item: Item) -> tuple[Any, ...]:
+    """What neighbours must have in common to be drawn as one; see-through strokes stay apart, as they darken."""
+    if isinstance(item, Stroke) and item.color[3] == 1:
+        return (Stroke, item.color, item.width, item.dash, item.cap, item.name)
+    return (id(item),)
+
+
+def has_length(stroke: Stroke, points_per_unit: float) -> bool:
+    """Whether a line is more than a point on paper; what is left of one that touches the limb from behind is not."""
+    return bool(np.ptp(stroke.path.reshape(-1, 2), axis=0).max() * points_per_unit > FINEST_PLACE)
+
+
+def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float) -> Outline:
+    """Runs of Béziers, each closed or not; pieces that are straight on paper become straight lines."""
+    # A piece strays by three quarters of what its controls do.
+    bend = FINEST_PLACE / 4 / points_per_unit
+    points: list[FloatArray] = []
+    kinds: list[int] = []
+    for path, closed in runs:
+        thirds = path[:, :1] + np.array([[[1 / 3], [2 / 3]]]) * (path[:, 3:] - path[:, :1])
+        close = np.abs(path[:, 1:3] - thirds) <= bend
+        points.append(path[:1, 0])
+        kinds.append(MOVE)
+        for piece, straight in zip(path, np.logical_and.reduce(close, axis=(1, 2)), strict=True):
+            points.append(piece[3:] if straight else piece[1:])
+            kinds += [LINE] if straight else [CURVE] * 3
+        if closed:
+            points.append(path[:1, 0])
+            kinds.append(CLOSE)
+    return Outline(np.concatenate([np.zeros((0, 2)), *points]), np.array(kinds, dtype=np.uint8))
+
+
+def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
+    """Lines, and a disc for each point alone, or as good as that: some programs draw nothing of a line of no length."""
+    rows = Ragged(lines.points, lines.offsets)
+    rows = rows.take(rows.sizes > 0)
+    if len(rows) == 0:
+        return
+    high, low = (extreme.reduceat(rows.values, rows.offsets[:-1]) for extreme in (np.maximum, np.minimum))
+    extended = (high - low).max(axis=1) * points_per_unit > FINEST_PLACE
+    alone, long = rows.values[rows.offsets[:-1][~extended]], rows.take(extended)
+    if len(long):
+        starts, ends = long.offsets[:-1], long.offsets[1:] - 1
+        kinds = np.full(len(long.values), LINE, dtype=np.uint8)
+        kinds[starts] = MOVE
+        closed = (long.values[starts] == long.values[ends]).all(axis=1) & (ends - starts > 2)
+        kinds[ends[closed]] = CLOSE
+        yield Drawn(Outline(long.values, kinds), lines.color, lines.width, name=lines.name)
+    if len(alone):
+        yield Filled(_discs(alone, lines.width / 2, points_per_unit), lines.color, lines.name)
+
+
+def _by_color(polygons: Polygons, spacing: float) -> Iterator[Filled]:
+    """A path for each colour."""
+    colors, number = polygons.by_color
+    for k, color in enumerate(colors):
+        loops = thinned_loops(polygons.loops.take(number == k), spacing)
+        red, green, blue, opacity = color.tolist()
+        yield Filled(_loops(loops), (red, green, blue, opacity), polygons.name, polygons.ball)
+
+
+def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
+    """Loops with at most a point in each piece of a length, and without what then encloses nothing.
+
+    Where points stray from a straight line by less than a twentieth of the length together, they are thinned, too: arcs
+    of the limb are very many chords.
+    """
+    loops = thinned(loops, spacing)
+    for _ in range(STRAIGHTENED):
+        points, row = loops.values, loops.row
+        place = np.arange(len(points)) - loops.offsets[row]
+        odd = np.flatnonzero((place % 2 == 1) & (place < loops.sizes[row] - 1))
+        a, b = points[odd - 1], points[odd + 1] - points[odd - 1]
+        step = points[odd] - a
+        across, ahead = np.abs(b[:, 0] * step[:, 1] - b[:, 1] * step[:, 0]), np.sum(step * b, axis=1)
+        kept = np.ones(len(points), dtype=bool)
+        # The tip of a needle is beyond its neighbours.
+        between = (ahead >= 0) & (ahead <= np.sum(b**2, axis=1))
+        kept[odd] = ~between | (across >= spacing / (20 * STRAIGHTENED) * np.hypot(*b.T))
+        loops = loops.kept(kept)
+    return loops.take(loops.sizes > 3)
+
+
+def _loops(loops: Ragged) -> Outline:
+    kinds = np.full(len(loops.values), LINE, dtype=np.uint8)
+    kinds[loops.offsets[:-1]] = MOVE
+    kinds[loops.offsets[1:] - 1] = CLOSE
+    return Outline(loops.values, kinds)
+
+
+def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
+    """A picture as far as its outline goes, on whole pixels of the page's own grid: those of Agg are met one to one."""
+    side = 72 / (dpi * page.points_per_unit)
+    corner = np.array([page.extent[0], page.extent[3]])
+    cells = (np.concatenate(picture.outline).reshape(-1, 2) - corner) / (side, -side)
+    (left, top), (right, bottom) = (
+        np.floor(cells.min(axis=0) + PIXEL_ROUNDING),
+        np.ceil(cells.max(axis=0) - PIXEL_ROUNDING),
+    )
+    place = (corner[0] + left * side, corner[1] - top * side, side, side)
+    extent = (place[0], corner[0] + right * side, corner[1] - bottom * side, place[1])
+    pixels = picture.painter.paint(place, (int(right - left), int(bottom - top)))
+    return Shown(
+        pixels, extent, outline([(path, True) for path in picture.outline], page.points_per_unit), picture.name
+    )
+
+
+def _dots(dots: Dots, points_per_unit: float) -> Iterator[Filled]:
+    """A dot is a disc, and a smaller one on top when it has a rim."""
+    discs = [(dots.radius, dots.rim if dots.rim_width else dots.color)]
+    if dots.rim_width:
+        discs.append((dots.radius - dots.rim_width, dots.color))
+    for radius, color in discs:
+        yield Filled(_discs(dots.centers, radius, points_per_unit), color, dots.name)
+
+
+def _discs(centers: FloatArray, radius: float, points_per_unit: float) -> Outline:
+    """Discs of a radius in points."""
+    return outline([(_disc(center, radius / points_per_unit), True) for center in centers], points_per_unit)
+
+
+def _disc(center: FloatArray, radius: float) -> Beziers:
+    t = np.arange(9) * (np.pi / 4)
+    ends = np.stack([np.cos(t), np.sin(t)], axis=1)
+    ends[-1] = ends[0]
+    reach = CIRCLE_KAPPA * np.stack([-ends[:, 1], ends[:, 0]], axis=1)
+    unit = np.stack([ends[:-1], ends[:-1] + reach[:-1], ends[1:] - reach[1:], ends[1:]], axis=1)
+    path: Beziers = center + radius * unit
+    return path

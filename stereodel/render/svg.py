@@ -1,0 +1,224 @@
+"""Pages as SVG: true curves, text that is text, balls lit by gradients.
+
+Coordinates are points from the upper left corner, with three decimals. Names of items become ids, each of them unique.
+Type has its glyphs in their places, in fonts that the file brings along: browsers show what PNG and PDF show, and find
+and select the words. Programs that take no fonts from files (librsvg, Inkscape) show the type of the same name where it
+is installed, otherwise another with serifs, in the same places; for them there is PDF.
+"""
+
+from __future__ import annotations
+
+import base64
+import io
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import groupby
+from typing import Final
+from xml.sax.saxutils import escape, quoteattr
+
+import numpy as np
+
+from stereodel._arrays import Pixels
+from stereodel._extras import of_extra
+from stereodel.drawing.colors import Color
+from stereodel.drawing.page import Ball, Label, Page
+from stereodel.drawing.style import PRINT_DPI
+from stereodel.render.light import ball_gradient
+from stereodel.render.paper import Paper, commands, exact, number, numbers
+from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Drawn, Filled, Outline, Shape, Shown, shapes
+from stereodel.render.type import Glyph, Line, Subset, lines_of, subsets
+
+with of_extra("draw"):
+    from PIL import Image
+
+PATH: Final = {MOVE: "M%s %s", LINE: "L%s %s", CURVE: "C%s %s %s %s %s %s", CLOSE: "Z"}
+"""Commands of paths."""
+
+SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
+"""Type that stands in where a program takes none from the file."""
+
+
+def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
+    """A page as the text of an SVG file.
+
+    Parameters
+    ----------
+    page : Page
+    pictures : sequence of (h, w, 3) uint8 arrays
+        A picture of the whole page for each of `page.pictured`, of which the part inside the regions is shown.
+
+    Examples
+    --------
+    >>> text = svg(Page((0.0, 2.0, 0.0, 1.0), width=144.0, title="Nothing"))
+    >>> print(text.split("viewBox=")[1].splitlines()[0])
+    "0 0 144 72" role="img" aria-labelledby="title">
+    """
+    return _Sheet(page).text(pictures)
+
+
+class _Sheet:
+    """A page while it is written."""
+
+    def __init__(self, page: Page) -> None:
+        self.page, self.paper = page, Paper.downward(page)
+        self.names: set[str] = set()
+
+    def text(self, pictures: Sequence[Pixels]) -> str:
+        page = self.page
+        sides = number(page.width), number(page.height)
+        told = [(name, text) for name, text in (("title", page.title), ("desc", page.description)) if text]
+        self.names.update(("title", "desc"))
+        labels = f' role="img" aria-labelledby="{" ".join(name for name, _ in told)}"' if told else ""
+        lettering = list(lines_of(page))
+        fonts = subsets(line for _, lines in lettering for line in lines)
+        left, right, bottom, top = page.extent
+        corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
+        ground = Outline(corners, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8))
+        lines = [
+            '<?xml version="1.0" encoding="UTF-8"?>',
+            f'<svg xmlns="http://www.w3.org/2000/svg" width="{sides[0]}pt" height="{sides[1]}pt" '
+            f'viewBox="0 0 {sides[0]} {sides[1]}"{labels}>',
+            *(f'<{name} id="{name}">{escape(text)}</{name}>' for name, text in told),
+            *([_sheet(fonts.values())] if fonts else []),
+            *self.shape(Filled(ground, page.background, "ground")),
+            *(line for shape in shapes(page, PRINT_DPI, pictures) for line in self.shape(shape)),
+            *(line for label, its in lettering for line in self.label(label, its, fonts)),
+            "</svg>",
+        ]
+        return "\n".join(lines) + "\n"
+
+    def name(self, wanted: str) -> str:
+        """An id that no other element has."""
+        stem = "-".join(wanted.split()) or "item"
+        name, count = stem, 1
+        while name in self.names:
+            count += 1
+            name = f"{stem}-{count}"
+        self.names.add(name)
+        return name
+
+    def path(self, outline: Outline) -> str:
+        return commands(self.paper.placed(outline), PATH)
+
+    def shape(self, shape: Shape) -> Iterator[str]:
+        match shape:
+            case Filled():
+                name = self.name(shape.name)
+                paint = _paint("fill", shape.color)
+                if shape.ball:
+                    light = self.name(f"{name}-light")
+                    yield self.gradient(light, shape.ball, shape.color)
+                    paint = f'fill="url(#{light})"{_opacity("fill", shape.color)}'
+                rule = ' fill-rule="evenodd"' if shape.even_odd else ""
+                yield f'<path id={quoteattr(name)} {paint}{rule} d="{self.path(shape.outline)}"/>'
+            case Drawn():
+                dash = f' stroke-dasharray="{numbers(shape.dash)}"' if shape.dash else ""
+                yield (
+                    f'<path id={quoteattr(self.name(shape.name))} fill="none" {_paint("stroke", shape.color)} '
+                    f'stroke-width="{exact(shape.width)}"{dash} stroke-linecap="{shape.cap}" stroke-linejoin="round" '
+                    f'd="{self.path(shape.outline)}"/>'
+                )
+            case Shown():
+                name = self.name(shape.name)
+                clip = self.name(f"{name}-outline")
+                left, right, bottom, top = shape.extent
+                (x, y), (end, low) = self.paper.points([(left, top), (right, bottom)]).tolist()
+                box = f'x="{number(x)}" y="{number(y)}" width="{number(end - x)}" height="{number(low - y)}"'
+                yield f'<clipPath id={quoteattr(clip)}><path d="{self.path(shape.outline)}"/></clipPath>'
+                yield (
+                    f'<image id={quoteattr(name)} clip-path="url(#{clip})" {box} preserveAspectRatio="none" '
+                    f'href="data:image/png;base64,{_png(shape.pixels)}"/>'
+                )
+
+    def gradient(self, name: str, ball: Ball, color: Color) -> str:
+        """A colour under the light of a ball."""
+        light = ball_gradient()
+        (cx, cy), (fx, fy) = (
+            self.paper.points(np.array(ball.center) + ball.radius * np.array(place)).tolist()
+            for place in (light.center, light.focus)
+        )
+        radius = light.radius * ball.radius * self.page.points_per_unit
+        stops = "".join(
+            f'<stop offset="{exact(offset)}" stop-color="{_hex((red, green, blue, 1.0))}"/>'
+            for offset, level in zip(light.offsets, light.brightness, strict=True)
+            for red, green, blue in [[level * value for value in color[:3]]]
+        )
+        return (
+            f'<radialGradient id={quoteattr(name)} gradientUnits="userSpaceOnUse" cx="{number(cx)}" cy="{number(cy)}" '
+            f'r="{number(radius)}" fx="{number(fx)}" fy="{number(fy)}">{stops}</radialGradient>'
+        )
+
+    def label(self, label: Label, lines: Iterable[Line], fonts: dict[str, Subset]) -> Iterator[str]:
+        """A label: its halo, its lines of type, its bars."""
+        name, lines = self.name(label.name), list(lines)
+        yield f"<g id={quoteattr(name)} {_paint('fill', label.color)}>"
+        if label.halo:
+            halo = "".join(self.typed(line.outline) for line in lines)
+            yield (
+                f'<path id={quoteattr(self.name(f"{name}-halo"))} aria-hidden="true" fill="none" '
+                f'{_paint("stroke", label.halo_color)} stroke-width="{exact(2 * label.halo)}" stroke-linejoin="round" '
+                f'd="{halo}"/>'
+            )
+        for line in lines:
+            yield self.line(line, fonts)
+            if line.bars:
+                yield f'<path d="{self.typed(line.placed(line.bar_outline))}"/>'
+        yield "</g>"
+
+    def typed(self, outline: Outline) -> str:
+        """A path of what is in points from the lower left corner."""
+        return commands(Outline(outline.points * [1, -1] + [0, self.page.height], outline.kinds), PATH)
+
+    def line(self, line: Line, fonts: dict[str, Subset]) -> str:
+        """A line of type: each character in its place, those of one font and size together."""
+        x, y = line.x, self.page.height - line.y
+        turn = f' transform="rotate({exact(-line.rotation)} {number(x)} {number(y)})"' if line.rotation else ""
+        spans = []
+        order = list(fonts)
+        for (font, size, _), group in groupby(line.glyphs, key=lambda glyph: _together(glyph, fonts)):
+            glyphs = list(group)
+            text = "".join(fonts[font].codes[glyph.index] for glyph in glyphs)
+            heights = [number(y - glyph.y) for glyph in glyphs]
+            spans.append(
+                f'<tspan class="type-{1 + order.index(font)}" font-size="{exact(size)}" '
+                f'x="{numbers(x + glyph.x for glyph in glyphs)}" '
+                f'y="{heights[0] if len(set(heights)) == 1 else " ".join(heights)}">{escape(text)}</tspan>'
+            )
+        # Left to themselves, browsers move letters to whole pixels.
+        return f'<text xml:space="preserve" text-rendering="geometricPrecision"{turn}>{"".join(spans)}</text>'
+
+
+def _together(glyph: Glyph, fonts: dict[str, Subset]) -> tuple[str, float, int]:
+    """What characters have in common that stand in one element; those beyond 16 bits would count as two places."""
+    code = ord(fonts[glyph.font].codes[glyph.index])
+    return glyph.font, glyph.size, id(glyph) if code > 0xFFFF else 0
+
+
+def _sheet(fonts: Iterable[Subset]) -> str:
+    """The fonts of a file, and a class for each of them."""
+    rules = []
+    for number_, font in enumerate(fonts, start=1):
+        data = base64.b64encode(font.file("woff")).decode()
+        kind = f"font-style:{'italic' if font.italic else 'normal'};font-weight:{'bold' if font.bold else 'normal'}"
+        rules += [
+            f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}",
+            f".type-{number_}{{font-family:'{font.name}','{font.family}',{SERIF};{kind}}}",
+        ]
+    return "<style>" + "\n".join(rules) + "</style>"
+
+
+def _png(pixels: Pixels) -> str:
+    buffer = io.BytesIO()
+    Image.fromarray(pixels).save(buffer, format="png", optimize=True)
+    return base64.b64encode(buffer.getvalue()).decode()
+
+
+def _paint(what: str, color: Color) -> str:
+    return f'{what}="{_hex(color)}"{_opacity(what, color)}'
+
+
+def _opacity(what: str, color: Color) -> str:
+    return "" if color[3] == 1 else f' {what}-opacity="{exact(color[3])}"'
+
+
+def _hex(color: Color) -> str:
+    return "#" + "".join(f"{int(np.floor(255 * value + 0.5)):02x}" for value in color[:3])

@@ -1,0 +1,303 @@
+"""The labels of a page as glyphs in their places, and the fonts that vector files carry for them.
+
+Matplotlib sets the type, as for pixels, on a canvas so fine that what it rounds is not seen. Files hold characters, so
+that they can be searched, copied and read aloud, and of each font the glyphs that they use.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
+from typing import Any, Final, Literal
+from unicodedata import normalize
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+from stereodel._extras import of_extra
+from stereodel.drawing.page import Label, Page
+from stereodel.render.canvas import drawn, matplotlib_settings
+from stereodel.render.mends import characters, font_of
+from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Outline
+
+with of_extra("draw"):
+    from fontTools.pens.basePen import BasePen
+    from fontTools.subset import Options, Subsetter
+    from fontTools.ttLib import TTFont, newTable
+    from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
+    from matplotlib.backend_bases import RendererBase
+
+FINER: Final = 64
+"""Pixels a point of the canvas on which type is set: matplotlib rounds the sizes of formulas to whole ones."""
+
+PRIVATE: Final = range(0xE000, 0xF900)
+"""The characters that Unicode leaves to everybody: for glyphs that no character of their own leads to."""
+
+TABLES: Final = ("GSUB", "GPOS", "GDEF", "kern", "DSIG", "FFTM", "MATH", "prop")
+"""What subsets of fonts do without: glyphs have their places, and no others take theirs."""
+
+
+@dataclass(frozen=True)
+class Glyph:
+    """A glyph in its place on a line of type, in points."""
+
+    font: str
+    """Path of the font's file."""
+    index: int
+    text: str
+    """The characters that it stands for: two for a ligature."""
+    size: float
+    x: float
+    y: float
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line of type: glyphs, and the bars of fractions and roots.
+
+    Parameters
+    ----------
+    glyphs : tuple of Glyph
+    bars : tuple of (x, y, width, height)
+    x, y : float
+        Where it begins on the page, in points from the lower left corner.
+    rotation : float
+        About that place, degrees, counterclockwise.
+    """
+
+    glyphs: tuple[Glyph, ...]
+    bars: tuple[tuple[float, float, float, float], ...]
+    x: float
+    y: float
+    rotation: float
+
+    @property
+    def matrix(self) -> FloatArray:
+        """From the line's coordinates to the page's, in points, (2, 3)."""
+        turn = np.radians(self.rotation)
+        return np.array([[np.cos(turn), -np.sin(turn), self.x], [np.sin(turn), np.cos(turn), self.y]])
+
+    def placed(self, outline: Outline) -> Outline:
+        """An outline of the line's coordinates on the page, in points."""
+        matrix = self.matrix
+        return Outline(outline.points @ matrix[:, :2].T + matrix[:, 2], outline.kinds)
+
+    @property
+    def outline(self) -> Outline:
+        """All that is inked, in points on the page."""
+        nothing = Outline(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
+        letters = (moved(glyph_outline(g.font, g.index), g.size, (g.x, g.y)) for g in self.glyphs)
+        return self.placed(sum((*letters, self.bar_outline), start=nothing))
+
+    @property
+    def bar_outline(self) -> Outline:
+        """The bars in the line's coordinates."""
+        corners = [[(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)] for x, y, w, h in self.bars]
+        kinds = np.tile(np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8), len(corners))
+        return Outline(np.array(corners).reshape(-1, 2), kinds)
+
+
+def moved(outline: Outline, scale: float, shift: tuple[float, float]) -> Outline:
+    """An outline of another size elsewhere."""
+    return Outline(scale * outline.points + np.array(shift), outline.kinds)
+
+
+def lines_of(page: Page) -> Iterator[tuple[Label, list[Line]]]:
+    """The labels of a page that show something, with their lines of type."""
+    if not page.labels:
+        return
+    with matplotlib_settings():
+        # Text with a halo is drawn as outlines, which are not told to be text.
+        bare = replace(page, items=tuple(replace(label, halo=0.0) for label in page.labels))
+        canvas = drawn(bare, 72.0 * FINER)
+        for label, text in zip(page.labels, canvas.axes[0].texts, strict=True):
+            recorder = _Recorder()
+            text.draw(recorder)
+            if recorder.lines:
+                yield label, recorder.lines
+
+
+class _Recorder(RendererBase):
+    """Takes down the lines that a text is drawn as."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: list[Line] = []
+
+    def flipy(self) -> bool:
+        """Places are measured upward."""
+        return False
+
+    def points_to_pixels(self, points: Any) -> Any:
+        """On a canvas of `FINER` pixels a point."""
+        return points * FINER
+
+    def draw_text(
+        self, gc: Any, x: float, y: float, s: str, prop: Any, angle: float, ismath: Any = False, mtext: Any = None
+    ) -> None:
+        glyphs, bars = _formula(self, s, prop) if ismath else (_words(s, prop), ())
+        glyphs = tuple(glyphs)
+        if any(not glyph.text.isspace() for glyph in glyphs) or bars:
+            self.lines.append(Line(glyphs, bars, x / FINER, y / FINER, angle))
+
+
+def _words(text: str, properties: Any) -> Iterator[Glyph]:
+    size = properties.get_size_in_points()
+    for font, index, written, x, y in characters(text, font_of(properties)):
+        yield Glyph(font.fname, index, written, size, x * size, y * size)
+
+
+def _formula(renderer: Any, text: str, properties: Any) -> tuple[Iterable[Glyph], tuple[Any, ...]]:
+    parsed = renderer._text2path.mathtext_parser.parse(text, 72.0 * FINER, properties)
+    glyphs = []
+    for font, size, code, *index, x, y in parsed.glyphs:  # before matplotlib 3.11 the code alone
+        number = index[0] if index else font.get_char_index(code)
+        glyphs.append(Glyph(font.fname, number, chr(code), size, x / FINER, y / FINER))
+    return glyphs, tuple(tuple(float(side) / FINER for side in bar) for bar in parsed.rects)
+
+
+# Fonts
+
+
+@cache
+def _font(path: str) -> Any:
+    return TTFont(path, recalcTimestamp=False)
+
+
+@cache
+def glyph_outline(path: str, index: int) -> Outline:
+    """The outline of a glyph of a font, at size 1."""
+    font = _font(path)
+    glyphs = font.getGlyphSet()
+    pen = _Pen(glyphs)
+    glyphs[font.getGlyphName(index)].draw(pen)
+    points = np.array(pen.points, dtype=np.float64).reshape(-1, 2) / font["head"].unitsPerEm
+    return Outline(points, np.array(pen.kinds, dtype=np.uint8))
+
+
+class _Pen(BasePen):  # type: ignore[misc]
+    """Takes down an outline, its quadratic curves as cubics."""
+
+    def __init__(self, glyphs: Any) -> None:
+        super().__init__(glyphs)
+        self.points: list[tuple[float, float]] = []
+        self.kinds: list[int] = []
+
+    def _moveTo(self, pt: tuple[float, float]) -> None:
+        self._add(MOVE, pt)
+
+    def _lineTo(self, pt: tuple[float, float]) -> None:
+        self._add(LINE, pt)
+
+    def _curveToOne(self, *pts: tuple[float, float]) -> None:
+        self._add(CURVE, *pts)
+
+    def _closePath(self) -> None:
+        self._add(CLOSE, self.points[-1])
+
+    def _add(self, kind: int, *points: tuple[float, float]) -> None:
+        self.points += points
+        self.kinds += [kind] * len(points)
+
+
+@dataclass(frozen=True, eq=False)
+class Subset:
+    """The glyphs of a font that a file uses, as a font of their own.
+
+    Parameters
+    ----------
+    path : str
+        Of the font.
+    glyphs : mapping
+        Number of each glyph in the font → the characters that it stands for.
+    """
+
+    path: str
+    glyphs: dict[int, str] = field(default_factory=dict)
+
+    @property
+    def face(self) -> Any:
+        """The whole font."""
+        return _font(self.path)
+
+    @property
+    def family(self) -> str:
+        """The family of the font."""
+        return str(self.face["name"].getBestFamilyName())
+
+    @property
+    def italic(self) -> bool:
+        """Whether it slopes."""
+        return bool(self.face["head"].macStyle & 2)
+
+    @property
+    def bold(self) -> bool:
+        """Whether it is heavy."""
+        return bool(self.face["head"].macStyle & 1)
+
+    @property
+    def name(self) -> str:
+        """Its name for programs, behind six letters that tell subsets apart, as PDF wants it."""
+        digest = hashlib.sha256(repr(sorted(self.glyphs.items())).encode()).digest()
+        letters = "".join(chr(ord("A") + byte % 26) for byte in digest[:6])
+        return f"{letters}+{self.face['name'].getDebugName(6)}"
+
+    @cached_property
+    def codes(self) -> dict[int, str]:
+        """The one character that leads to each glyph: its own, unless it has two or another glyph has it already."""
+        codes: dict[int, str] = {}
+        for index, text in sorted(self.glyphs.items()):
+            own = text if len(text) == 1 else _ligature(self.path, index, text)
+            taken = codes.values()
+            free = (chr(code) for code in PRIVATE if chr(code) not in {*taken, *self.glyphs.values()})
+            codes[index] = own if own and own not in taken else next(free)
+        return codes
+
+    @property
+    def widths(self) -> dict[int, float]:
+        """How far the place of the next glyph is, at size 1."""
+        font = self.face
+        return {i: font["hmtx"][font.getGlyphName(i)][0] / font["head"].unitsPerEm for i in self.glyphs}
+
+    def file(self, flavor: Literal["woff"] | None = None) -> bytes:
+        """The font, as TrueType or packed for the web; its glyphs keep their numbers."""
+        font = TTFont(self.path, recalcTimestamp=False)
+        options = Options(layout_features=[], hinting=False, notdef_outline=True, retain_gids=True)
+        options.drop_tables += TABLES
+        subsetter = Subsetter(options)
+        subsetter.populate(gids=sorted(self.glyphs))
+        subsetter.subset(font)
+        font["cmap"] = _character_map({ord(code): font.getGlyphName(index) for index, code in self.codes.items()})
+        font.flavor = flavor
+        buffer = io.BytesIO()
+        font.save(buffer)
+        return buffer.getvalue()
+
+
+def subsets(lines: Iterable[Line]) -> dict[str, Subset]:
+    """What lines of type use of each font, by the paths of the fonts."""
+    used: dict[str, Subset] = {}
+    for line in lines:
+        for glyph in line.glyphs:
+            used.setdefault(glyph.font, Subset(glyph.font)).glyphs.setdefault(glyph.index, glyph.text)
+    return used
+
+
+def _ligature(path: str, index: int, text: str) -> str:
+    """The character of a glyph for several ones, U+FB01 for f and i; nothing where there is none."""
+    font = _font(path)
+    name = font.getGlyphName(index)
+    codes = (chr(code) for code, glyph in font.getBestCmap().items() if glyph == name)
+    return next((code for code in codes if normalize("NFKC", code) == text), "")
+
+
+def _character_map(glyphs: dict[int, str]) -> Any:
+    """The table of a font that leads from characters to glyphs, for all of Unicode."""
+    entry = CmapSubtable.newSubtable(12)
+    entry.platformID, entry.platEncID, entry.language, entry.cmap = 3, 10, 0, glyphs
+    table = newTable("cmap")
+    table.tableVersion, table.tables = 0, [entry]
+    return table

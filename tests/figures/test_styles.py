@@ -1,0 +1,42 @@
+"""Every figure in a column and on a slide: type of a size that is read, none over another, none lost."""
+
+import numpy as np
+import pytest
+
+from stereodel.drawing import styled
+from stereodel.drawing.label import label_box
+from stereodel.drawing.media import COLUMN, SLIDE
+from tests.figures.scripts import FIGURES, page
+
+MAPS = ("globe_europe", "globe_tissot")
+by_name = pytest.mark.parametrize("name", [*FIGURES, *MAPS])
+
+
+def words(shown):
+    """All that is written, without the breaks of lines."""
+    return sorted(" ".join(label.text for label in shown.labels).split())
+
+
+def overlapping(shown):
+    """Pairs of labels that are not turned and whose boxes meet."""
+    level = [label for label in shown.labels if not label.rotation]
+    boxes = [label_box(label, shown.points_per_unit) for label in level]
+    pairs = [(i, j) for i in range(len(level)) for j in range(i)]
+    meet = [(np.maximum(boxes[i][0], boxes[j][0]) < np.minimum(boxes[i][1], boxes[j][1])).all() for i, j in pairs]
+    return [(level[i].text, level[j].text) for (i, j), found in zip(pairs, meet, strict=True) if found]
+
+
+@by_name
+@pytest.mark.parametrize(("style", "medium"), [("column", COLUMN), ("slide", SLIDE)])
+def test_type_can_be_read_and_none_is_lost(name, style, medium):
+    before = page(name)
+    shown = styled(before, style)
+    assert shown.width == pytest.approx(medium.width)
+    assert medium.height is None or shown.height == pytest.approx(medium.height)
+    assert all(label.size >= medium.least_type for label in shown.labels)
+    assert overlapping(shown) == []
+    # On maps labels that have no room are left out, but not more than a quarter of them.
+    if name in MAPS:
+        assert len(words(shown)) >= 0.75 * len(words(before))
+    else:
+        assert words(shown) == words(before)
