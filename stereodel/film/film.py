@@ -252,7 +252,7 @@ class Film(Generic[T]):
 
         Notes
         -----
-        A GIF has 255 colours, chosen from frames spread over the whole film, and keeps times in hundredths of a second,
+        A GIF has 255 colours, chosen at moments spread over the whole film, and keeps times in hundredths of a second,
         a WebP in thousandths: the sum of the first n times is the best there is for every n. An APNG is lossless; WebP
         and MP4 are not. An MP4 has an even number of rows and columns: the last one is repeated where a picture's is
         odd.

@@ -132,8 +132,8 @@ def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
 
 # By FFmpeg's libraries
 
-SAMPLED: Final = 12
-"""Frames of which the palette of a GIF is made."""
+SAMPLED: Final = 24
+"""Moments of which the palette of a GIF is made."""
 
 
 @dataclass(frozen=True)
@@ -280,15 +280,20 @@ def write_gif(reel: Reel, path: Path, seconds: FloatArray) -> None:
     """Write frames as a GIF of 255 colours that loops for ever; times are kept in hundredths of a second."""
     ticks = whole_ticks(seconds, 100)
     last = {"final_delay": str(ticks[-1])}
-    _GIF_ENCODER.write(frames_of(reel), path, ticks, Fraction(1, 100), muxing=last, palette=_shared_palette(reel))
+    _GIF_ENCODER.write(
+        frames_of(reel), path, ticks, Fraction(1, 100), muxing=last, palette=_shared_palette(reel, seconds)
+    )
 
 
-def _shared_palette(reel: Reel) -> Any:
-    """255 colours that serve frames spread over the whole film, as a frame of FFmpeg's; the last one is see-through."""
+def _shared_palette(reel: Reel, seconds: FloatArray) -> Any:
+    """255 colours that serve moments spread over the whole film, as a frame of FFmpeg's; the last one is see-through.
+
+    Moments, not frames: a picture that is shown for seconds has its colours, however many frames move before and after.
+    """
     av = optional("av", "film")
     chain = None
-    for now, number in enumerate(np.linspace(0, len(reel) - 1, min(len(reel), SAMPLED)).round()):
-        frame = av.VideoFrame.from_ndarray(as_frame(reel[int(number)], f"frame {number:.0f}"), format="rgb24")
+    for now, number in enumerate(_sampled_frames(seconds)):
+        frame = av.VideoFrame.from_ndarray(as_frame(reel[number], f"frame {number}"), format="rgb24")
         frame.time_base, frame.pts = Fraction(1, 100), now
         chain = chain or _Chain(frame, [("palettegen", "stats_mode=full")])
         list(chain(frame))  # nothing comes out before the end
@@ -296,6 +301,15 @@ def _shared_palette(reel: Reel) -> Any:
     (palette,) = chain(None)
     palette.time_base, palette.pts = Fraction(1, 100), 0
     return palette
+
+
+def _sampled_frames(seconds: FloatArray) -> list[int]:
+    """Numbers of all frames of a short film; of a long one those seen in the middles of equal parts, each once."""
+    if len(seconds) <= SAMPLED:
+        return list(range(len(seconds)))
+    ends = np.cumsum(seconds)
+    middles = (np.arange(SAMPLED) + 0.5) / SAMPLED * ends[-1]
+    return [int(number) for number in np.unique(np.searchsorted(ends, middles))]
 
 
 def write_apng(reel: Reel, path: Path, seconds: FloatArray) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from stereodel import data, earth, fisheye, lonlat_to_xyz
 from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
-from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, arc_points, geometry, script
+from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, ROWS, arc_points, geometry, script
 
 WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
 NUMBER = re.compile(
@@ -20,6 +20,7 @@ NUMBER = re.compile(
 )
 REFERENCE = re.compile(r"Figures? \d+|Theorem \d|[Cc]laims? P\d+(?: and P\d+)?")
 FORMULAS = {
+    "anim_hull": ("2n − 4",),
     "claim_scales": ("cos² (χ/2) / cos² (Ξ/2)",),
     "claim_separation": ("R = D/4", "(d/D) 180°", "2/π", "4/π", "4 arctan(d/D)", "2 arcsin(d/D)"),
     "fig09_scale": ("heights R + R sin φ and 2R", "s = (R + R sin φ)/2R", "∂s/∂φ = cos φ / 2"),
@@ -29,11 +30,13 @@ FORMULAS = {
         "tan((90° + Φ)/2) = d/2r",
     ),
 }
-"""What captions write as formulas; rows P11 and P18 of the ledger have their tests, claims `test_claim_figures.py`."""
+"""What captions write as formulas; rows P11, P14 and P18 of the ledger have their tests, claims `test_claim_figures.py`."""
 OTHERS = (
     "anim_fisheye",
     "anim_flight",
     "anim_hull",
+    "anim_lift",
+    "anim_sites",
     *CLAIMS,
     "earth_airports",
     "earth_cities",
@@ -161,14 +164,20 @@ def truth_of_others(name):
     module = script(name)
     match name:
         case "anim_fisheye":
-            sizes = module["magnifications"]()
-            ends = [sizes.min(), sizes.max()]
-            return [*ends, module["COARSE"], module["FINE"], module["FOCUS"][1], *ends]
+            sizes = sorted(size for (size, _), seconds in module["moments"]() if seconds >= module["READING"])
+            ends = [sizes[0], sizes[-1]]
+            drawn = [five_views(figure) for figure in ROWS]
+            (coarse, finer, _), fine = ([view[key] for view in drawn] for key in ("coarse", "fine"))
+            beside = [drawn[1]["half_width"], fine[1]]  # what of the fine grid becomes a part of the graticule
+            return [*ends, module["FOCUS"][1], *ends, *sizes, coarse, finer, *beside, *fine]
         case "anim_flight":
-            return [max(stop.magnification for stop in module["trip"]().stops)]
+            return [max(stop.magnification for leg in module["legs"]() for stop in leg.stops)]
         case "anim_hull":
-            last = list(module["facets_over_time"]())[-1][0]
-            return [len(np.unique(last))]
+            return [max(len(np.unique(moment.facets)) for moment, _ in module["moments"]())]
+        case "anim_lift":
+            return []
+        case "anim_sites":
+            return [len(module["changes"]()[0].before.sites)]
         case "claim_planet":
             return [len(module["FIGURE"].geometry()["points"])]
         case "claim_projections":

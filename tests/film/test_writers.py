@@ -138,6 +138,22 @@ def test_a_gif_of_a_million_colours_is_near_them(tmp_path):
     assert np.abs(frames.astype(int) - reel).mean() < 14
 
 
+def test_what_a_gif_shows_long_has_its_colours(tmp_path):
+    """A still among hundreds of frames that move keeps its tints, wherever it stands."""
+    rows, columns = np.mgrid[:16, :16]
+    moving = [
+        np.stack([rows * 16, columns * 16, np.full((16, 16), 2 * k)], axis=-1).astype(np.uint8) for k in range(90)
+    ]
+    still = np.stack([np.full((16, 16), 250), 6 * rows + 90, 6 * columns], axis=-1).astype(np.uint8)
+    errors = []
+    for place in (7, 41, 80):
+        reel = [*moving[:place], still, *moving[place:]]
+        seconds = [0.04] * place + [2.5] + [0.04] * (90 - place)
+        frames, _, _ = read(save(reel, tmp_path / f"{place}.gif", seconds=seconds))
+        errors.append(np.abs(frames[place].astype(float) - still).mean())
+    assert max(errors) < 8, errors
+
+
 @given(st.integers(1, 400), st.floats(1, 200), st.sampled_from([100, 1000]))
 def test_times_add_up(count, rate, per_second):
     ticks = whole_ticks(frame_seconds(1 / rate, count), per_second)

@@ -1,0 +1,208 @@
+"""What each animation shows is what its words say, it can be read in its time, and its end leads to its beginning."""
+
+import re
+
+import numpy as np
+import pytest
+
+from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, in_bubble
+from stereodel.drawing import Dots, Label
+from stereodel.sphere import graticule, graticule_patch
+from stereodel.triangulation import check_delaunay
+from tests.figures.scripts import FOLDER, script
+
+FILMS = tuple(path.stem for path in sorted(FOLDER.glob("anim_*.py")))
+SHORTEST = 2.0  # seconds for a line of words
+
+
+def labels(page):
+    return [item for item in page.items if isinstance(item, Label)]
+
+
+def centers(page, *names):
+    """Dots of some names, in any order."""
+    found = np.vstack([item.centers for item in page.items if isinstance(item, Dots) and item.name in names])
+    return found[np.lexsort(found.T)]
+
+
+@pytest.mark.parametrize("name", FILMS)
+def test_a_film_stands_still_for_its_words_and_begins_with_a_picture_that_does(name):
+    film = script(name)["film"]()
+    assert film.times[0] >= SHORTEST
+    assert film.times.min() >= 0.02  # what browsers show
+    assert 10 < film.duration < 40
+
+
+# The fisheye
+
+
+def test_the_fisheye_stops_at_the_numbers_of_figures_10_to_12():
+    module = script("anim_fisheye")
+    held = {size for (size, _), seconds in module["moments"]() if seconds >= SHORTEST}
+    assert held == {1.0, 4.0, 20.0}
+    lines = module["grids"]()
+    for stage, text in zip(module["STAGES"], module["SPACINGS"], strict=True):
+        looks = module["styles"](stage.magnification)
+        drawn = {name for name in lines if looks[name].color[3] > 0}
+        black = [arc for name in drawn if looks[name].color[:3] == (0.0, 0.0, 0.0) for arc in lines[name]]
+        assert same_arcs(black, graticule_patch(module["FOCUS"], stage.half_width, stage.fine))
+        gray = [arc for name in drawn if "graticule" in name for arc in lines[name]]
+        assert same_arcs(gray, graticule(stage.coarse))
+        assert all(looks[name].color[3] == 1 for name in drawn)
+        assert f"graticule {stage.coarse}°" in text
+        assert text.endswith(f"fine grid {'½' if stage.fine == 0.5 else stage.fine}°")
+
+
+def same_arcs(some, others):
+    """Whether arcs are the same, in any order, by three points of each."""
+    rows, expected = (np.array([arc.sample(3).ravel() for arc in arcs]).round(9) + 0.0 for arcs in (some, others))
+    return np.array_equal(*(array[np.lexsort(array.T)] for array in (rows, expected)))
+
+
+def test_the_scale_tells_the_magnification():
+    module = script("anim_fisheye")
+    lines = dict.fromkeys(module["grids"](), ())  # the scale alone
+
+    def page(size):
+        return module["frame"]((size, (1.0, 4.0)), lines)
+
+    ends = [centers(page(size), "points")[0, 0] for size in (1.0, np.sqrt(20.0), 20.0)]
+    assert np.diff(ends)[0] == pytest.approx(np.diff(ends)[1])
+    ticks = {label.text: label.anchor[0] for label in labels(page(4.0)) if label.text.isdigit()}
+    for size in (1, 2, 4, 10, 20):
+        assert centers(page(float(size)), "points")[0, 0] == pytest.approx(ticks[str(size)])
+
+
+def test_no_words_pass_by_that_nobody_can_read():
+    """On the way from one pause to the next no words are seen but theirs."""
+    module = script("anim_fisheye")
+    lines = dict.fromkeys(module["grids"](), ())
+    written = {
+        shot[1]: {label.text for label in labels(module["frame"](shot, lines)) if "Figure" in label.text}
+        for shot, _ in module["moments"]()
+        if 3.5 < shot[0] < 4.5
+    }
+    assert written.pop((20.0, 1.0)) == set()
+    assert all(len(texts) == 1 for texts in written.values())
+
+
+# The hull
+
+
+def test_each_step_of_the_hull_has_the_facets_that_it_says():
+    module = script("anim_hull")
+    sites = module["on_sphere"](module["SITES"], module["SEED"])
+    moments = [moment for moment, _ in module["moments"]()]
+    for moment in moments:
+        (text,) = [label.text for label in labels(module["frame"](moment, sites)) if "facets" in label.text]
+        step, n, facets = map(int, re.fullmatch(r"step (\d+):.*n = (\d+).*= (\d+)\$ facets", text).groups())
+        later = moment.point is not None and "new" not in moment.kinds
+        assert n == len(np.unique(moment.facets))
+        assert n == step + 3 - later
+        assert facets == len(moment.facets) == 2 * n - 4
+    whole = SphericalDelaunay(sites).simplices
+    for final in (moments[0], moments[-1]):
+        assert {tuple(sorted(row)) for row in final.facets.tolist()} == {tuple(sorted(row)) for row in whole.tolist()}
+
+
+def test_no_vertex_of_the_hull_is_shown_that_the_hull_hides():
+    """Seen from one side, every point is a vertex of the near side or of the far side, those on the outline of both."""
+    module = script("anim_hull")
+    sites = module["on_sphere"](module["SITES"], module["SEED"])
+    (moment, _), *_ = module["moments"]()
+    corners = sites[moment.facets]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    for view in module["VIEWS"].values():
+        shown = [
+            centers
+            for scene in module["hull"](moment, sites, view)
+            for centers in (item.centers for item in scene.layout(view) if isinstance(item, Dots))
+        ]
+        near = np.unique(moment.facets[normals @ view.matrix[2] > 0])
+        assert 0 < len(near) < len(sites)
+        assert np.allclose(np.vstack(shown), view.project(sites[near]))
+
+
+# The lift
+
+
+def test_the_lift_begins_with_the_plane_itself_and_ends_with_the_hemisphere():
+    module = script("anim_lift")
+    curvatures = [shot for shot, _ in module["moments"]()]
+    assert (curvatures[0], max(curvatures)) == (0.0, 1.0)
+    start, soon, end = (module["frame"](curvature) for curvature in (0.0, 1e-6, 1.0))
+    assert np.abs(centers(start, "sites") - centers(soon, "sites")).max() < 1e-3
+    lift = RectangleLift(3.0, 2.0)
+    raised = lift.forward(script("fig08_hemisphere")["sites"]()) * lift.sphere.radius
+    low = raised + [0.0, 0.0, lift.sphere.radius]
+    view = module["VIEW"]
+    seen = view.project(low)[(view.depth(raised) > 0) | (low[:, 2] < 0)]
+    expected = module["UNIT"] * seen + module["MIDDLE"]
+    assert np.allclose(centers(end, "sites"), expected[np.lexsort(expected.T)], atol=1e-9)
+    assert [round(module["extent"](place)) for place in (0.0, 0.25, 0.5, 1.0)] == [0, 56, 106, 180]
+
+
+def test_the_triangulation_of_the_lift_never_changes():
+    module = script("anim_lift")
+    edges = {tuple(edge) for edge in PlanarDelaunay(module["sites"]()).edges.tolist()}
+    for curvature in (0.0, 0.1, 0.7):
+        drawn = [item for item in module["frame"](curvature).items if item.name == "delaunay"]
+        assert len(drawn) >= len(edges)  # some in two pieces, where they pass under the plane's edge
+
+
+# The flight
+
+
+def test_names_fade_and_legs_join():
+    module = script("anim_flight")
+    film = module["film"]()
+    before = None
+    for number in range(len(film)):
+        strengths = dict.fromkeys(module["CITIES"], 0.0)
+        layer = film.draw.keywords["globe"].layers[-1]
+        lens, view = film.shots[number]
+        chart = module["Chart"](lens, view, (0.0, 0.0), 1.0)
+        strengths |= {label.text: label.color[3] for label in layer.lay(chart)}
+        if before is not None:
+            assert max(abs(strengths[name] - before[name]) for name in strengths) < 0.65, number
+        before = strengths
+    ends = module["legs"]()
+    for leg, following in zip(ends, [*ends[1:], ends[0]], strict=True):
+        (lens, view), (other, onward) = leg(leg.seconds), following(0.0)
+        assert lens.is_close(other)
+        assert np.allclose(view.matrix, onward.matrix, atol=1e-12)
+
+
+# Sites that come and go
+
+
+def test_what_goes_are_the_bubbles_that_contain_a_new_site():
+    for change in script("anim_sites")["changes"]():
+        if change.comes:
+            inside = [rows for rows in change.before.triangles.values() if in_bubble(*rows, change.site) > 0]
+            assert sorted(map(str, inside)) == sorted(map(str, change.gone))
+        else:
+            assert all((rows == change.site).all(axis=1).any() for rows in change.gone)
+        # Euler: a star of k + 2 triangles fills a cavity of k.
+        assert len(change.new) - len(change.gone) == (2 if change.comes else -2)
+        numbers = re.findall(r"\d+", " ".join(change.words(phase) for phase in ("open", "fill", "check")))
+        assert numbers == [str(len(change.gone)), *[str(len(change.new))] * 2]
+
+
+def test_the_triangles_are_those_of_a_fresh_start_and_the_film_closes():
+    changes = script("anim_sites")["changes"]()
+    for change in changes:
+        fresh = SphericalDelaunay(change.after.sites)
+        check_delaunay(fresh)
+        names = {frozenset(map(tuple, rows)) for rows in fresh.points[fresh.simplices].tolist()}
+        assert names == set(change.after.triangles)
+        assert len(change.after.ridges) == len(change.after.edges) == 3 * len(change.after.sites) - 6
+    for change, following in zip(changes, [*changes[1:], changes[0]], strict=True):
+        assert set(change.after.triangles) == set(following.before.triangles)
+
+
+def test_the_last_frame_of_the_sites_is_the_first_but_for_its_words():
+    film = script("anim_sites")["film"]()
+    first, last = film.draw(film.shots[0]), film.draw(film.shots[-1])
+    assert np.array_equal(centers(first, "sites"), centers(first, "sites", "points"))
+    assert np.allclose(centers(first, "sites"), centers(last, "sites", "points"))
