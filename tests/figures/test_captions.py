@@ -30,7 +30,7 @@ FORMULAS = {
         "tan((90° + Φ)/2) = d/2r",
     ),
 }
-"""What captions write as formulas; rows P11, P14 and P18 of the ledger have their tests, claims `test_claim_figures.py`."""
+"""What captions write as formulas; P11, P14, P18 have their tests, those of claims stand in `test_claim_figures.py`."""
 OTHERS = (
     "anim_fisheye",
     "anim_flight",

@@ -21,6 +21,9 @@ CORNER = 2e-3
 """Points by which a picture may lie elsewhere: each side is rounded to a thousandth, and so is its length."""
 
 
+ROUNDED = 2e-4
+"""Levels by which a colour may be nearer to another level: PDF holds six decimals of it."""
+
 OFFSET = 1e-4
 """By which an offset of a gradient may differ: files hold four digits."""
 
@@ -72,17 +75,17 @@ def expected(page, pictures=()):
 
 
 def _merged(wanted):
-    """Neighbours that are opaque lines of one look as one mark: how many paths they are written as does not show."""
-    for look, group in groupby(wanted, key=lambda want: _look(want.mark)):
+    """Neighbours that are opaque lines of one style as one mark: how many paths they are written as does not show."""
+    for style, group in groupby(wanted, key=lambda want: _style(want.mark)):
         group = list(group)
-        if look is None:
+        if style is None:
             yield from group
         else:
             path = together(want.mark.path for want in group)
             yield replace(group[0], name=f"{group[0].name} to {group[-1].name}", mark=replace(group[0].mark, path=path))
 
 
-def _look(mark):
+def _style(mark):
     if mark.kind != "stroke" or mark.color[3] != 255:
         return None
     return (mark.color, mark.width, mark.dash, mark.cap, mark.join)
@@ -207,15 +210,15 @@ def _rectangle(width, height):
 
 
 def _split(marks, wanted):
-    """Marks as they were expected, opaque lines of one look as one, and what is left: the type."""
+    """Marks as they were expected, opaque lines of one style as one, and what is left: the type."""
     found, rest = [], list(marks)
     for want in wanted:
         if not rest:
             break
         group = [rest.pop(0)]
-        if _look(want.mark) is not None:
+        if _style(want.mark) is not None:
             runs = len(want.mark.path.closed) - len(group[0].path.closed) if group[0].path else 0
-            while rest and runs > 0 and _look(rest[0]) == _look(group[0]) is not None:
+            while rest and runs > 0 and _style(rest[0]) == _style(group[0]) is not None:
                 runs -= len(rest[0].path.closed)
                 group.append(rest.pop(0))
         found.append(group[0] if len(group) == 1 else replace(group[0], path=together(m.path for m in group)))
@@ -266,7 +269,7 @@ def _light_differences(light, expected):
 
 def same_color(found, expected):
     """Whether a colour in whole levels is the nearest one, as either of two may be."""
-    return bool(np.all(np.abs(np.subtract(found, expected)) <= 0.5 + 1e-6))
+    return bool(np.all(np.abs(np.subtract(found, expected)) <= 0.5 + ROUNDED))
 
 
 def levels_of(color):

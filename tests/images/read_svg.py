@@ -66,7 +66,7 @@ FACE = re.compile(
 
 @dataclass(frozen=True)
 class _State:
-    look: dict
+    properties: dict
     matrix: np.ndarray
     clips: tuple = ()
     group: str = ""
@@ -149,8 +149,8 @@ class _Reader:
         clips = state.clips
         if "clip-path" in own:
             clips += (self.clip(own["clip-path"], matrix),)
-        look = {**state.look, **{name: value for name, value in own.items() if name in DEFAULTS}}
-        return _State(look, matrix, clips, group)
+        properties = {**state.properties, **{name: value for name, value in own.items() if name in DEFAULTS}}
+        return _State(properties, matrix, clips, group)
 
     def referred(self, reference):
         """The element that url(#name) means."""
@@ -179,13 +179,13 @@ class _Reader:
 
     def type_marks(self, element, state):
         """A glyph for each character, in the place that is given for it."""
-        font, size = self.fonts[state.look["class"]], float(state.look["font-size"])
+        font, size = self.fonts[state.properties["class"]], float(state.properties["font-size"])
         assert list(element) == []
         x, y = (element.get(name).split() for name in "xy")
         assert short_numbers(" ".join(x + y))
         assert len(x) == len(element.text)
         assert len(y) in (1, len(x))
-        color = _color(state.look["fill"], float(state.look["fill-opacity"]))
+        color = _color(state.properties["fill"], float(state.properties["fill-opacity"]))
         for code, left, low in zip(element.text, x, y * (len(x) // len(y)), strict=True):
             self.texts[-1] += normalize("NFKC", code) if code in "\ufb00\ufb01\ufb02\ufb03\ufb04" else code
             glyph = glyph_path(font, font.getBestCmap()[ord(code)])
@@ -196,27 +196,27 @@ class _Reader:
 
     def path_marks(self, element, state):
         """A path is filled, then stroked."""
-        look, path = state.look, transformed(_path(element.get("d")), state.matrix)
+        style, path = state.properties, transformed(_path(element.get("d")), state.matrix)
         if len(path.pieces) == 0:
             return
-        if look["fill"] != "none":
-            opacity, light = float(look["fill-opacity"]), None
-            if look["fill"].startswith("url"):
-                light, color = self.light(look["fill"], state.matrix), levels(0, 0, 0, opacity)
+        if style["fill"] != "none":
+            opacity, light = float(style["fill-opacity"]), None
+            if style["fill"].startswith("url"):
+                light, color = self.light(style["fill"], state.matrix), levels(0, 0, 0, opacity)
             else:
-                color = _color(look["fill"], opacity)
-            even_odd = look["fill-rule"] == "evenodd"
+                color = _color(style["fill"], opacity)
+            even_odd = style["fill-rule"] == "evenodd"
             yield Mark("fill", color, path, even_odd=even_odd, clips=state.clips, group=state.group, light=light)
-        if look["stroke"] != "none":
-            dash = look["stroke-dasharray"]
+        if style["stroke"] != "none":
+            dash = style["stroke-dasharray"]
             yield Mark(
                 "stroke",
-                _color(look["stroke"], float(look["stroke-opacity"])),
+                _color(style["stroke"], float(style["stroke-opacity"])),
                 path,
-                width=float(look["stroke-width"]),
+                width=float(style["stroke-width"]),
                 dash=() if dash == "none" else tuple(float(n) for n in dash.split()),
-                cap=look["stroke-linecap"],
-                join=look["stroke-linejoin"],
+                cap=style["stroke-linecap"],
+                join=style["stroke-linejoin"],
                 clips=state.clips,
                 group=state.group,
             )

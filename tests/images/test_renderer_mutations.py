@@ -56,7 +56,7 @@ def test_without_a_change_all_nets_are_empty(name):
 
 @pytest.mark.parametrize("name", ["fig08_hemisphere", "globe_europe"])
 def test_lines_a_tenth_wider_in_opengl(name, monkeypatch):
-    monkeypatch.setattr(triangles, "ribbon", lambda points, width, **look: ribbon(points, 1.1 * width, **look))
+    monkeypatch.setattr(triangles, "ribbon", lambda points, width, **named: ribbon(points, 1.1 * width, **named))
     monkeypatch.setattr(triangles, "ribbons", lambda points, offsets, width: ribbons(points, offsets, 1.1 * width))
     assert nets(name) == {"T2"}
 
@@ -82,7 +82,7 @@ def test_one_site_missing_in_opengl(name, monkeypatch):
         *(("fig10_earth", role) for role in ("graticule", "fine")),
     ],
 )
-def test_lines_of_one_look_two_levels_paler_in_opengl(name, role, monkeypatch):
+def test_lines_of_one_style_two_levels_paler_in_opengl(name, role, monkeypatch):
     """The thinnest, of a quarter of a point and see-through, cover less than a hundredth of their picture."""
     change = with_lines(role, lambda line: replace(line, color=paler(line.color)))
     monkeypatch.setattr(rows, "triangulate", before(rows.triangulate, change))
@@ -90,7 +90,7 @@ def test_lines_of_one_look_two_levels_paler_in_opengl(name, role, monkeypatch):
 
 
 @pytest.mark.parametrize("role", ["axis", "construction", "ray", "frame"])
-def test_lines_of_one_look_two_levels_paler_in_agg(role, monkeypatch):
+def test_lines_of_one_style_two_levels_paler_in_agg(role, monkeypatch):
     change = with_lines(role, lambda line: replace(line, color=paler(line.color)))
     monkeypatch.setattr(rows, "drawn", before(rows.drawn, change))
     assert nets("fig09_scale") == {"T2"}

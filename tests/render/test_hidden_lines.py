@@ -71,17 +71,18 @@ def alone(placed, reach):
 def seen_numbers(page, layout, ball, lines):
     """Number of what is seen at each pixel, rows from the bottom: 0 nothing, 1 the ball, from 2 on the lines."""
     scene = to_trimesh(Solid(page, (PlacedScene(layout, (ball, *lines)),)))
+    nodes = scene.graph.nodes_geometry
 
     def make(pyrender):
         made = pyrender.Scene()
-        for number, name in enumerate(scene.geometry):
-            (node,) = scene.graph.geometry_nodes[name]
+        for number, node in enumerate(nodes):
+            pose, name = scene.graph.get(node)
             mesh = scene.geometry[name]
-            primitive = pyrender.Primitive(mesh.vertices, indices=mesh.faces, poses=scene.graph.get(node)[0][None])
+            primitive = pyrender.Primitive(mesh.vertices, indices=mesh.faces, poses=pose[None])
             made.add(pyrender.Mesh([primitive]), name=gl.node_name(number))
         return made
 
-    assert len(scene.geometry) == 1 + len(lines)
+    assert len(nodes) == 1 + len(lines)
     box = (*page.extent, *depths(scene))
     pixels = np.concatenate(list(gl.space_bands(make, box, SIZE, SIZE, numbered=True))).astype(int)
     return (pixels @ [2**16, 2**8, 1])[::-1]

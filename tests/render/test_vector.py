@@ -1,5 +1,6 @@
 """Vector files: true curves, exact size, the same bytes every time."""
 
+import re
 import xml.etree.ElementTree as ET
 from functools import partial
 from unicodedata import normalize
@@ -176,3 +177,34 @@ def test_labels_are_placed_and_aligned():
     rows, columns = np.nonzero(LabelLayer(page, 100).rows()[..., 3])
     assert 60 <= columns.min() <= 62
     assert 46 <= rows.max() <= 50
+
+
+def bent(by):
+    """A curve 72 points long whose controls stray from a straight line by so many points."""
+    return np.array([[[0.0, 2.0], [4 / 3, 2.0 + by / 18], [8 / 3, 2.0 + by / 18], [4.0, 2.0]]])
+
+
+@pytest.mark.parametrize(("by", "letter"), [(0.01, "C"), (0.001, "C"), (0.0002, "L")])
+def test_what_is_straight_to_a_thousandth_of_a_point_is_a_line(tmp_path, by, letter):
+    page = Page((0, 4, 0, 4), (Stroke(bent(by), BLACK, 1.0, name="line"),), width=72.0)
+    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
+    [path] = [p for p in root.iter(f"{SVG}path") if p.get("id") == "line"]
+    assert path.get("d").startswith(f"M0 36{letter}")
+
+
+def test_runs_of_no_length_are_left_out_of_regions(tmp_path):
+    page = Page((0, 4, 0, 4), (Fill((square(1, 2), square(3, 3.00001)), BLACK, "region"),), width=72.0)
+    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
+    [path] = [p for p in root.iter(f"{SVG}path") if p.get("id") == "region"]
+    assert path.get("d") == "M18 54L36 54L36 36L18 36Z"
+
+
+def test_numbers_have_no_exponent(tmp_path):
+    """PDF knows none."""
+    faint = (1e-7, 0.5, 1.0, 1e-5)
+    turned = Label("turned", (2.0, 2.0), rotation=90.0, color=faint)
+    page = Page((0, 4, 0, 4), (Stroke(bent(9.0), faint, 1.0), turned), width=72.0)
+    (sheet,) = pypdf.PdfReader(save_vector(page, tmp_path / "page.pdf")).pages
+    assert not re.search(rb"\de[-+]?\d", sheet.get_contents().get_data())
+    assert "e-" not in str(sheet["/Resources"]["/ExtGState"])
+    assert sheet.extract_text(orientations=90) == "turned"
