@@ -8,9 +8,14 @@ from stereodel.drawing import CircleArc
 from stereodel.sphere import SphereArc
 
 
-def to_rows(arcs: Iterable[SphereArc]) -> np.ndarray:
+def to_rows(arcs: Iterable[SphereArc | CircleArc]) -> np.ndarray:
     """Centre, two radii and swept angle of each arc, (n, 10)."""
-    return np.array([np.hstack(arc.frame()) for arc in arcs])
+    return np.array([np.hstack(_frame(arc)) for arc in arcs]).reshape(-1, 10)
+
+
+def _frame(arc: SphereArc | CircleArc) -> tuple:
+    """Of `CircleArc`, those that begin at 0: images of a grid."""
+    return arc.frame() if isinstance(arc, SphereArc) else (arc.center, arc.u, arc.v, arc.stop)
 
 
 def from_rows(rows: np.ndarray) -> list[CircleArc]:

@@ -1,17 +1,26 @@
 """Figures 10 to 12: five orthographic views of a globe under the fisheye, which differ in four numbers."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
-from stereodel.drawing import Page, Scene, Solid, View
-from stereodel.sphere import graticule, graticule_patch
+from stereodel.drawing import Grid, Label, LineStyle, Page, Scene, Solid, View
+from stereodel.drawing.grids import WIDTHS_APART
+from stereodel.drawing.page import Item
+from stereodel.drawing.style import DARK_GRAY, LINES
 
 FOCUS = (0.0, 40.0)  # degrees
 VIEWS = (View(0, 0), View(0, 90), View(0, -90), View(0, 40), View(180, -40))
+NAMES = ("equator", "north pole", "south pole", "40° N", "antipode")
 PITCH, MARGIN = 2.14, 0.03  # globe radii
-WEIGHT = 0.65  # of the lines: the globes are small
+SIDE, FOOT = 0.33, 0.29  # of the strips for S on the left and the names below, globe radii
+WEIGHT = 0.625  # of the lines: the globes are small
+LIMB = LineStyle(DARK_GRAY, 0.96)
+TYPE = 8.5  # points
+EXTENT = (-1 - MARGIN - SIDE, PITCH * (len(VIEWS) - 1) + 1 + MARGIN)  # left and right of a row
+POINTS = Page.width / (EXTENT[1] - EXTENT[0])  # for a globe's radius
 
 
 @dataclass(frozen=True)
@@ -24,33 +33,49 @@ class FiveViews:
     half_width: float
 
     def geometry(self) -> dict:
-        """The images of both grids under the fisheye: circle arcs again."""
+        """What each view shows of the images of both grids under the fisheye: circle arcs again."""
         bend = fisheye(FOCUS, magnification=self.magnification)
-        patch = graticule_patch(FOCUS, self.half_width, self.fine)
-        return {
-            "coarse": to_rows(bend.image_of(arc) for arc in graticule(self.coarse)),
-            "fine": to_rows(bend.image_of(arc) for arc in patch),
-        }
+        coarse, fine = Grid.graticule(self.coarse), Grid.patch(FOCUS, self.half_width, self.fine)
+        rows = {}
+        for grid, name, style in ((coarse, "coarse", LINES["graticule"]), (fine, "fine", LINES["fine"])):
+            least = WIDTHS_APART * WEIGHT * style.width / POINTS
+            for number, view in enumerate(VIEWS):
+                rows[f"{name}_{number}"] = to_rows(grid.drawn(bend, view, least))
+        return rows
 
-    def scenes(self, g: dict) -> list:
-        """Five globes in a row."""
-        return [globe(g).placed(view, at=(PITCH * number, 0.0)) for number, view in enumerate(VIEWS)]
+    def items(self, g: dict, height: float = 0.0) -> list[Item]:
+        """Five globes in a row, their middles at a height of the page, and S beside them."""
+        items: list[Item] = [
+            Label(f"$S = {self.magnification:g}$", (EXTENT[0], height), (5.0, 0.0), size=TYPE, rotation=90.0)
+        ]
+        for number, view in enumerate(VIEWS):
+            items += globe(g, number).layout(view, at=(PITCH * number, height))
+        return items
 
     def draw(self, g: dict) -> Page:
-        """What is seen of them."""
-        items = tuple(item for placed in self.scenes(g) for item in placed.page_items())
-        reach = 1 + MARGIN
-        extent = (-reach, PITCH * (len(VIEWS) - 1) + reach, -reach, reach)
-        return Page(extent, items, views=tuple(view.matrix for view in VIEWS))
+        """One row, with the names of the views."""
+        return plate([self.items(g)])
 
     def solid(self, g: dict) -> Solid:
         """All of them in space."""
-        return Solid(self.draw(g), self.scenes(g))
+        placed = [globe(g, k).placed(view, at=(PITCH * k, 0.0)) for k, view in enumerate(VIEWS)]
+        return Solid(self.draw(g), placed)
 
 
-def globe(g: dict) -> Scene:
+def plate(rows: Sequence[list[Item]], pitch: float = PITCH) -> Page:
+    """Rows of globes, a pitch apart, the last about height 0, and the names of the views below."""
+    names = [
+        Label(name, (PITCH * number, -1 - MARGIN - FOOT), (0.0, 3.0), valign="baseline", size=TYPE)
+        for number, name in enumerate(NAMES)
+    ]
+    extent = (*EXTENT, -1 - MARGIN - FOOT, pitch * (len(rows) - 1) + 1 + MARGIN)
+    items = (*(item for row in rows for item in row), *names)
+    return Page(extent, items, views=tuple(view.matrix for view in VIEWS) * len(rows))
+
+
+def globe(g: dict, number: int) -> Scene:
     """One globe with both grids, coarse gray, fine black."""
-    scene = Scene(weight=WEIGHT)
-    scene.add_arcs(from_rows(g["coarse"]), name="graticule")
-    scene.add_arcs(from_rows(g["fine"]), name="fine")
+    scene = Scene(weight=WEIGHT, limb=LIMB)
+    scene.add_arcs(from_rows(g[f"coarse_{number}"]), name="graticule")
+    scene.add_arcs(from_rows(g[f"fine_{number}"]), name="fine")
     return scene

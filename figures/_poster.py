@@ -28,10 +28,19 @@ def captioned(
     return replace(page, extent=extent, items=(*page.items, *texts))
 
 
-def with_legend(page: Page, scale: ColorScale, ticks: dict, title: str, *, ink: tuple) -> Page:
-    """The same page with a bar of colours below the globe, in the strip below a caption's globe."""
+def with_legend(
+    page: Page, scale: ColorScale, ticks: dict, title: str, *, ink: tuple, ends: tuple[str, str] | None = None
+) -> Page:
+    """The same page with a bar of colours in the strip below a caption's globe, and words at its two ends."""
     left, right, bottom, _ = page.extent
     width = right - left
     corner, size = (left + 0.22 * width, bottom + 0.073 * width), (0.56 * width, 0.0136 * width)
     bar = scale.legend(corner, size, ticks, title=title, ink=ink, type_size=8.0)
-    return replace(page, items=(*page.items, *bar))
+    middle = corner[1] + size[1] / 2
+    words = [
+        Label(word, (x, middle), (shift, 0.0), align, "center", size=8.0, color=ink)
+        for word, x, shift, align in zip(
+            ends or (), (corner[0], corner[0] + size[0]), (-6.0, 6.0), ("right", "left"), strict=False
+        )
+    ]
+    return replace(page, items=(*page.items, *bar, *words))

@@ -23,7 +23,7 @@ from stereodel.drawing.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, with_opa
 from stereodel.render import Figure
 from stereodel.triangulation import planar_part
 
-SITES, SEED, SIDE = 16, 10, 2.0
+SITES, HULL, SEED, SIDE, MARGIN = 16, 8, 10, 2.0, 0.05
 RADIUS = 0.45  # of the sphere, in units of the map
 POLE = np.array([0.0, 0.0, 1.0])
 VIEW = View(25, 38)
@@ -36,7 +36,7 @@ MISSING = LineStyle(VERMILION, 0.9, (3.0, 2.0))
 
 def geometry() -> dict:
     """Sites and triangles in the plane; lifts and facets on the sphere, those left out apart; one of their circles."""
-    sites = in_rectangle(SITES, SIDE, SIDE, SEED)
+    sites = in_rectangle(SITES, HULL, SIDE, SIDE, SEED, margin=MARGIN)
     projection = Stereographic((0, -90), radius=RADIUS)
     lifts = projection.inverse(sites)
     hull = SphericalDelaunay(lifts)

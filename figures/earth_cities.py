@@ -3,7 +3,8 @@ Where people live
 =================
 
 The Voronoi cells of all cities and villages of the table whose population is known, 204 228 of 234 908; those at one
-point count together. The colour is the density: the people of a place per km² of its cell on the ellipsoid.
+point count together. The colour is the density: the people of a place per km² of its cell on the ellipsoid. Of cells
+that reach into the sea the land alone is shown.
 """
 
 from dataclasses import replace
@@ -20,6 +21,7 @@ from stereodel.render import Figure
 VIEW = View(68, 28)
 SCALE = ColorScale("inferno", 0.1, 1e4, log=True)  # people per km²
 TICKS = {1e-1: "0.1", 1e0: "1", 1e1: "10", 1e2: "100", 1e3: "1000", 1e4: "10 000"}
+SEA = (0.055, 0.058, 0.075, 1.0)
 NIGHT, INK = (0.03, 0.03, 0.045, 1.0), (0.9, 0.88, 0.84, 1.0)
 
 
@@ -39,7 +41,8 @@ def draw(g: dict) -> Page:
     globe = Globe(latitude=LATITUDE, limb=LineStyle((0.35, 0.33, 0.36, 1.0), 0.6))
     cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
     globe.add_cells(cells, colors=SCALE(g["density"]), style=None)
-    globe.add_coastlines(style=LineStyle((0.62, 0.62, 0.66, 1.0), 0.22))
+    globe.add_ocean(color=SEA)
+    globe.add_coastlines(style=LineStyle((0.333, 0.333, 0.333, 1.0), 0.25))
     subtitle = f"The surroundings of {spaced(len(g['density']))} cities and villages, by the number of their people"
     credit = "Places: GeoNames (CC BY 4.0). Coast: Natural Earth. Areas on WGS84."
     page = captioned(globe.page(view=VIEW), "Where people live", subtitle, credit, ink=INK)

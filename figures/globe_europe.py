@@ -9,11 +9,11 @@ Chosen by us: focus and magnification, and which airports are labelled.
 """
 
 import numpy as np
-from _poster import LATITUDE, captioned, with_legend
+from _poster import LATITUDE, captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, fisheye
 from stereodel.drawing import ColorScale, Page
-from stereodel.drawing.style import BLACK, WHITE, DotStyle, LineStyle
+from stereodel.drawing.style import BLACK, WHITE, DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
 
@@ -25,6 +25,7 @@ LABELLED = [
     *("FRA", "LHR", "CDG", "AMS", "MAD", "FCO", "IST", "ZRH", "VIE", "CPH", "ARN", "OSL", "HEL", "WAW", "PRG", "BUD"),
     *("ATH", "LIS", "DUB", "KEF", "BCN", "SVO", "MXP", "BEG", "OTP", "SOF", "KBP", "RIX", "EDI", "BGO", "PMI"),
 ]
+MEASURED = ("LHR", "FRA", "WAW", "PMI", "BUD")  # labelled with the area of their cells
 
 
 def geometry() -> dict:
@@ -36,16 +37,25 @@ def geometry() -> dict:
     return {"lonlat": table.lonlat[coded], "iata": table.iata[coded], "areas": areas}
 
 
+def named(code: str, area: float) -> str:
+    """A code, and the area of the cell in km² to two digits where it is asked for."""
+    rounded = int(float(f"{area:.1e}"))
+    size = str(rounded) if rounded < 10_000 else spaced(rounded)
+    return f"{code}, {size} km²" if code in MEASURED else code
+
+
 def draw(g: dict) -> Page:
     """Cells by area, coast and borders, and the codes of large airports."""
     globe = Globe(latitude=LATITUDE)
     cells = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
-    globe.add_cells(cells, colors=SCALE(g["areas"]), style=LineStyle(WHITE, 0.3))
-    globe.add_borders(style=LineStyle((0.1, 0.1, 0.1, 0.6), 0.25))
+    globe.add_cells(cells, colors=SCALE(g["areas"]), style=LineStyle(with_opacity(WHITE, 0.45), 0.2))
+    globe.add_borders(style=LineStyle((0.1, 0.1, 0.1, 0.75), 0.35))
     globe.add_coastlines(style=LineStyle(BLACK, 0.5))
-    labelled = g["lonlat"][[int(np.flatnonzero(g["iata"] == code)[0]) for code in LABELLED]]
+    rows = [int(np.flatnonzero(g["iata"] == code)[0]) for code in LABELLED]
+    labelled = g["lonlat"][rows]
+    texts = [named(code, g["areas"][row]) for code, row in zip(LABELLED, rows, strict=True)]
     globe.add_points(labelled, style=DotStyle(BLACK, 1.5, rim=WHITE, rim_width=0.4))
-    globe.add_labels(labelled, LABELLED, size=7.5, offset=(3.5, 0.0), halo=1.3)
+    globe.add_labels(labelled, texts, size=7.5, offset=(3.5, 0.0), halo=1.3)
     page = captioned(
         globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)),
         "Europe, airport by airport",

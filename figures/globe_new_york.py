@@ -5,20 +5,26 @@ A New Yorker's globe
 What lies within 100 km of Manhattan fills one hemisphere, the rest of the world the other: the conformal map that takes
 a bubble of the Earth onto half of it (claim P16 of the paper). Angles are true everywhere; the scale falls as the
 square of the distance, so that Boston is still a place, Chicago a suburb, and the other continents are a spot.
-Chosen by us: the radius, the labels, and that every dot is an airport with a code of three letters.
+Chosen by us: the radius, the labels, and that every dot is an airport with a code of three letters; where dots would
+touch, those that are nearer to New York stand for the others.
 """
+
+from dataclasses import replace
 
 import numpy as np
 from _poster import captioned
 
-from stereodel import SphereCircle, bubble_to_bubble, data, earth
-from stereodel.drawing import Page
-from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
+from stereodel import MoebiusMap, SphereCircle, bubble_to_bubble, data, earth, lonlat_to_xyz
+from stereodel.drawing import Dots, Label, Page, Stroke, View
+from stereodel.drawing.page import Item
+from stereodel.drawing.style import BLACK, DARK_GRAY, MAP_FILLS, VERMILION, WHITE, DotStyle
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render import Figure
 
 NEW_YORK = (-73.98, 40.75)
 RADIUS_KM = 100.0
+APART = 0.028  # between dots, radii of the globes
+AIRPORT = DotStyle(VERMILION, 0.75)
 NAMES_RIGHT = {
     "Manhattan": (-73.98, 40.77),
     "JFK": (-73.78, 40.64),
@@ -40,12 +46,34 @@ NAMES_LEFT = {
     "Philadelphia": (-75.16, 39.95),
     "Bermuda": (-64.78, 32.30),
 }
+FAR = {
+    "Europe": ((5.0, 48.0), (-0.30, 0.085), "right"),
+    "Africa": ((18.0, 5.0), (-0.38, 0.0), "right"),
+    "South America": ((-60.0, -10.0), (-0.10, -0.28), "right"),
+    "Asia": ((95.0, 45.0), (-0.06, -0.195), "right"),
+    "California": ((-120.0, 37.0), (0.30, -0.20), "left"),
+}
+"""Where it is, where its name stands in radii from the middle of the globe, and on which side."""
+GROUND = (*MAP_FILLS["ocean"][:3], 0.8)
+
+
+def lens_of(radius: float) -> MoebiusMap:
+    """The map that takes the bubble about New York onto a hemisphere."""
+    return bubble_to_bubble(SphereCircle.around(NEW_YORK, radius), SphereCircle.around(NEW_YORK, 90.0))
 
 
 def geometry() -> dict:
-    """Where the airports are, and the angular radius of the bubble in degrees."""
+    """Where airports are that keep their distance through the lens, and the angular radius of the bubble in degrees."""
     table = data.airports()
-    return {"airports": table.lonlat[table.iata != ""], "radius": np.degrees(RADIUS_KM / earth.MEAN_RADIUS_KM)}
+    radius = np.degrees(RADIUS_KM / earth.MEAN_RADIUS_KM)
+    lonlat = table.lonlat[table.iata != ""]
+    images = lens_of(radius)(lonlat_to_xyz(lonlat))
+    # From New York outward: those that are nearer win.
+    kept: list[int] = []
+    for row in np.argsort(-images @ lonlat_to_xyz(NEW_YORK), kind="stable").tolist():
+        if not kept or (np.sum((images[kept] - images[row]) ** 2, axis=1) > APART**2).all():
+            kept.append(row)
+    return {"airports": lonlat[kept], "radius": radius}
 
 
 def draw(g: dict) -> Page:
@@ -56,22 +84,48 @@ def draw(g: dict) -> Page:
     globe.add_rivers(resolution="10m")
     globe.add_coastlines(resolution="10m")
     globe.add_graticule(15)
-    globe.add_points(g["airports"], style=DotStyle(VERMILION, 0.75))
+    globe.add_points(g["airports"], style=AIRPORT)
     for names, offset in ((NAMES_RIGHT, (3.0, 0.0)), (NAMES_LEFT, (-3.0, 0.0))):
         globe.add_points(list(names.values()), style=DotStyle(DARK_GRAY, 1.3, rim=WHITE, rim_width=0.3))
         globe.add_labels(list(names.values()), names, size=7.0, offset=offset, halo=1.2)
-    lens = bubble_to_bubble(SphereCircle.around(NEW_YORK, g["radius"]), SphereCircle.around(NEW_YORK, 90.0))
+    lens = lens_of(g["radius"])
     near, far = hemispheres(*NEW_YORK)
     page = panels([Panel(globe, lens, near, "New York"), Panel(globe, lens, far, "everything else")])
-    return captioned(
+    page = replace(page, items=(*page.items, *leaders(page, lens, far)))
+    scale = float(lens.scale_factor(lonlat_to_xyz(NEW_YORK)))
+    page = captioned(
         page,
         "A New Yorker’s globe",
         "Half of it lies within 100 km of Manhattan, the other half is the rest of the world; every angle is true.",
-        "Land, rivers, lakes: Natural Earth. Airports: airportsdata.",
+        "Land, rivers, lakes: Natural Earth, made for 1 : 10 million and here, in the middle of New York, enlarged "
+        f"{scale:.0f} times. Airports: airportsdata.",
         ink=BLACK,
         above=46.0,
         below=16.0,
     )
+    return replace(page, items=(*page.items, *legend(page)))
+
+
+def leaders(page: Page, lens: MoebiusMap, view: View) -> list[Item]:
+    """Names of what is too small to be written on, at lines that lead to it."""
+    middle = np.array([3 * page.extent[1] / 4, page.extent[1] / 4])
+    items: list[Item] = []
+    for name, (lonlat, end, align) in FAR.items():
+        place = middle + view.project(lens(lonlat_to_xyz(lonlat)))
+        tip = middle + end
+        path = (place + np.linspace(0.0, 1.0, 4)[:, None] * (tip - place))[None]
+        items.append(Stroke(path, DARK_GRAY, 0.4, name="leader"))
+        shift = {"left": (2.0, 0.0), "right": (-2.0, 0.0)}[align]
+        items.append(Label(name, tuple(tip.tolist()), shift, align, "center", size=7.0, halo=1.2, halo_color=GROUND))
+    return items
+
+
+def legend(page: Page) -> list[Item]:
+    """What a dot is, at the right of the subtitle."""
+    point = 1 / page.points_per_unit
+    x, y = page.extent[1] - 78 * point, page.extent[3] - 35 * point
+    text = Label("airport with a code", (x, y), (5.0, 0.0), "left", "center", size=7.0)
+    return [Dots(np.array([[x, y]]), 1.2, AIRPORT.color, name="legend"), text]
 
 
 FIGURE = Figure("globe_new_york", geometry, draw)

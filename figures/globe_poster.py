@@ -9,8 +9,10 @@ Chosen by us: focus, magnification, colours, the cities and on which side of the
 
 from dataclasses import replace
 
-from stereodel import fisheye
-from stereodel.drawing import Label, Page
+import numpy as np
+
+from stereodel import MoebiusMap, earth, fisheye
+from stereodel.drawing import Label, Page, Stroke
 from stereodel.drawing.style import DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
@@ -21,7 +23,9 @@ SEA = (0.14, 0.30, 0.41, 1.0)
 LAND = (0.95, 0.90, 0.79, 1.0)
 BORDER = (0.62, 0.47, 0.36, 1.0)
 INK = (0.18, 0.14, 0.11, 1.0)
+CREAM = (0.97, 0.93, 0.83, 1.0)
 GOLD = (0.87, 0.74, 0.45, 1.0)
+BRONZE = (0.70, 0.55, 0.27, 1.0)
 NIGHT = (0.05, 0.09, 0.14, 1.0)
 
 EAST = {
@@ -43,37 +47,68 @@ EAST = {
     "Fès": (-5.00, 34.03),
 }
 WEST = {
+    "Barcelona": (2.17, 41.39),
     "Madrid": (-3.70, 40.42),
     "Marseille": (5.37, 43.30),
     "Venice": (12.34, 45.44),
     "Athens": (23.73, 37.98),
     "London": (-0.13, 51.51),
-    "Palermo": (13.36, 38.12),
     "Odesa": (30.72, 46.48),
 }
 SOUTH = {
-    "Barcelona": (2.17, 41.39),
     "Tunis": (10.17, 36.81),
     "Algiers": (3.06, 36.75),
     "Tripoli": (13.19, 32.89),
     "Benghazi": (20.07, 32.12),
-    "Valletta": (14.51, 35.90),
 }
+ISLANDS, BAYS = {"Valletta": (14.51, 35.90)}, {"Palermo": (13.36, 38.12)}  # their names stand on the sea
+SEAS = {
+    "Tyrrhenian Sea": (12.4, 39.5),
+    "Ionian Sea": (19.4, 36.1),
+    "Balearic Sea": (4.9, 40.9),
+    "Adriatic": (15.2, 42.95),
+    "Levantine Sea": (29.5, 33.9),
+    "Black Sea": (34.5, 43.2),
+    "Bay of Biscay": (-7.0, 45.9),
+    "North Sea": (3.0, 56.4),
+}
+BAR_KM = 200
 
 
 def draw(g: dict) -> Page:
     """The globe on a dark ground, its title below."""
     globe = Globe(ocean=SEA, limb=LineStyle(GOLD, 0.8))
     globe.add_land(resolution="10m", color=LAND)
-    globe.add_graticule(10, style=LineStyle(with_opacity(GOLD, 0.55), 0.25))
+    globe.add_graticule(10, style=LineStyle(with_opacity(BRONZE, 0.8), 0.25))
     globe.add_lakes(resolution="10m", color=SEA)
     globe.add_rivers(resolution="10m", style=LineStyle(SEA, 0.22))
     globe.add_borders(resolution="10m", style=LineStyle(BORDER, 0.25))
     globe.add_coastlines(resolution="10m", style=LineStyle(INK, 0.25))
     for names, offset in ((EAST, (2.6, 0.0)), (WEST, (-2.6, 0.0)), (SOUTH, (0.0, -2.6))):
         globe.add_points(list(names.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
-        globe.add_labels(list(names.values()), names, offset=offset, size=6.2, color=INK, halo=0.9, halo_color=LAND)
-    return framed(globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)))
+        globe.add_labels(list(names.values()), names, offset=offset, size=6.2, color=INK, halo=0.9)
+    for place, offset in ((ISLANDS, (0.0, -2.6)), (BAYS, (-2.6, 0.0))):
+        globe.add_points(list(place.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
+        globe.add_labels(list(place.values()), place, offset=offset, size=6.2, color=CREAM, halo=0.9)
+    seas = [rf"$\mathit{{{name.replace(' ', chr(92) + ' ')}}}$" for name in SEAS]
+    globe.add_labels(list(SEAS.values()), seas, offset=(0.0, 0.0), size=7.0, color=CREAM, halo=0.0)
+    lens = fisheye(FOCUS, magnification=MAGNIFICATION)
+    return framed(with_scale(globe.page(lens), lens))
+
+
+def with_scale(page: Page, lens: MoebiusMap) -> Page:
+    """The page with a bar of 200 km at the scale of the focus, which lies in the middle."""
+    left, right, bottom, top = page.extent
+    radius = page.points_per_unit  # points for the radius of the globe
+    length = BAR_KM / earth.MEAN_RADIUS_KM * float(lens.scale_factor(lens.focus))
+    x, y = (left + right - length) / 2, (bottom + top) / 2 - 0.075
+    path = np.array([[[x + share * length, y] for share in (0, 1 / 3, 2 / 3, 1)]])
+    ticks = [
+        np.array([[[x + end * length, y + share * 4 / radius] for share in (0, 1 / 3, 2 / 3, 1)]]) for end in (0, 1)
+    ]
+    lines = tuple(Stroke(each, CREAM, 0.5, name="scale") for each in (path, *ticks))
+    text = Label(f"{BAR_KM} km", (x + length / 2, y), (0.0, -2.5), valign="top", size=6.2, color=CREAM)
+    return replace(page, items=(*page.items, *lines, text))
 
 
 def framed(page: Page) -> Page:
@@ -92,7 +127,11 @@ def framed(page: Page) -> Page:
             0.165,
             8.0,
         ),
-        line("Natural Earth, 1 : 10 million", 0.215, 5.5),
+        line(
+            f"Magnification {MAGNIFICATION:g} about {FOCUS[1]:g}° N, {FOCUS[0]:g}° E. Natural Earth, 1 : 10 million.",
+            0.215,
+            6.0,
+        ),
     )
     extent = (left - margin, right + margin, bottom - foot, top + margin)
     return replace(page, extent=extent, items=(*page.items, *texts), background=NIGHT)

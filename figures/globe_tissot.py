@@ -10,9 +10,11 @@ Chosen by us: the place, one of the circles' centres; the magnification; one cir
 """
 
 import numpy as np
+from _poster import captioned
 
 from stereodel import earth, fisheye
 from stereodel.drawing import Page, View
+from stereodel.drawing.style import BLACK
 from stereodel.globe import Globe, Panel, panels
 from stereodel.render import Figure
 
@@ -20,6 +22,7 @@ FOCUS = (0.0, 40.0)
 MAGNIFICATION = 3.0
 RADIUS_KM = 250.0
 VIEW = View(*FOCUS)
+NUMBERED = {"1": (0.0, 40.0), "2": (-360 / 28, 40.0), "3": (180 / 23, 50.0)}  # of 28 and 23 circles on a parallel
 
 
 def geometry() -> dict:
@@ -34,8 +37,19 @@ def draw(g: dict) -> Page:
     globe.add_graticule(10)
     globe.add_coastlines()
     globe.add_tissot(10, g["radius"])
+    globe.add_labels(list(NUMBERED.values()), NUMBERED, offset=(0.0, 0.0), size=7.5, halo=1.0)
     lens = fisheye(FOCUS, magnification=MAGNIFICATION)
-    return panels([Panel(globe, view=VIEW, title="without a lens"), Panel(globe, lens, VIEW, "magnified three times")])
+    page = panels([Panel(globe, view=VIEW, title="without a lens"), Panel(globe, lens, VIEW, "magnified three times")])
+    return captioned(
+        page,
+        f"Circles of {RADIUS_KM:.0f} km stay circles",
+        "Orange: all that lies within that distance of a place, one about every 10°. The numbers mark the same three "
+        "circles on both globes.",
+        "Land and coast: Natural Earth.",
+        ink=BLACK,
+        above=46.0,
+        below=16.0,
+    )
 
 
 FIGURE = Figure("globe_tissot", geometry, draw)

@@ -5,17 +5,18 @@ Every star its own sky
 The Voronoi cells of the 117 955 stars of the Hipparcos catalogue, on the half of the sky about the galactic anticentre,
 seen from inside, the galactic equator across the middle. Where cells are small, the picture is light: the Milky Way and
 Orion show by the number of their stars alone. The colour is the mean area of a cell and its neighbours. The stars
-brighter than magnitude 4.5 are drawn in their own colours.
+brighter than magnitude 4.5 are drawn in their own colours, with faint lines for some constellations.
 """
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 from _poster import captioned, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, lonlat_to_xyz
 from stereodel.drawing import ColorScale, Page, View
-from stereodel.drawing.style import DotStyle, LineStyle
+from stereodel.drawing.style import DotStyle, LineStyle, with_opacity
 from stereodel.globe import Globe
 from stereodel.render import Figure
 
@@ -30,6 +31,17 @@ NAMES = {
     "right": {32349: "Sirius", 27989: "Betelgeuse", 30438: "Canopus", 17702: "Pleiades"},
     "below": {24436: "Rigel"},
 }
+FIGURES = {
+    "Orion": [(27989, 26207, 25336, 25930, 24436, 27366, 26727, 27989), (25930, 26311, 26727), (27989, 25336)],
+    "Auriga": [(24608, 28360, 28380, 25428, 23015, 24608)],
+    "Taurus": [(25428, 20889, 20205, 21421, 26451)],
+    "Gemini": [(36850, 37826)],
+    "Canis Major": [(30324, 32349, 34444, 33579), (34444, 35904)],
+    "Canis Minor": [(37279, 36188)],
+    "Perseus": [(14328, 15863, 17358, 18532), (15863, 14576)],
+    "Cassiopeia": [(8886, 6686, 4427, 3179, 746)],
+}
+"""Constellations about the anticentre, from star to star by their numbers in the catalogue."""
 OFFSETS = {"above": (0.0, 5.0), "right": (5.0, 0.0), "below": (0.0, -5.0)}
 
 
@@ -71,10 +83,19 @@ def star_color(index: float) -> tuple:
     return (*(float(np.interp(index, (-0.2, 0.25, 0.7, 1.6), channel)) for channel in stops.T), 1.0)
 
 
+def figure_lines(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Where the lines of the constellations begin and end."""
+    row = {hip: number for number, hip in enumerate(data.stars().hip.tolist())}
+    pairs = [(a, b) for lines in FIGURES.values() for line in lines for a, b in pairwise(line)]
+    first, last = np.array([(row[a], row[b]) for a, b in pairs]).T
+    return points[first], points[last]
+
+
 def draw(g: dict) -> Page:
     """Cells by area, bright stars by magnitude and colour, the names of the brightest."""
     globe = Globe(limb=LineStyle((0.4, 0.42, 0.5, 1.0), 0.6))
     globe.add_cells(SphericalVoronoi(g["points"]), colors=SCALE(g["areas"]), style=None)
+    globe.add_great_circles(*figure_lines(g["points"]), style=LineStyle(with_opacity(INK, 0.35), 0.6), name="figures")
     for star in np.flatnonzero(g["magnitude"] < BRIGHT):
         radius = 0.55 + 0.5 * (BRIGHT - g["magnitude"][star])
         look = DotStyle(star_color(g["color_index"][star]), radius, rim=NIGHT, rim_width=0.3)
@@ -89,7 +110,8 @@ def draw(g: dict) -> Page:
         "Seen from inside, the galactic anticentre in the middle, galactic north up."
     )
     page = captioned(globe.page(view=VIEW), "Every star its own sky", subtitle, credit, ink=INK)
-    return replace(with_legend(page, SCALE, TICKS, "area, square degrees", ink=INK), background=NIGHT)
+    page = with_legend(page, SCALE, TICKS, "area, square degrees", ink=INK, ends=("dense", "sparse"))
+    return replace(page, background=NIGHT)
 
 
 FIGURE = Figure("sky_stars", geometry, draw)

@@ -284,3 +284,18 @@ REACH_MARGIN: Final = 1e-6
 
 Rounding then leaves nothing out that touches the border; an edge too many costs a microsecond.
 """
+
+GRID_SAMPLES: Final = 97
+"""Places along a line of a grid, before a lens and as many behind it, between which it may end once.
+
+A line that came and went between two of them would do so within 4° of its circle, on the sphere and in its image.
+"""
+
+SRGB_LINEAR: Final = 0.04045
+"""Part of full intensity up to which sRGB is proportional to light; IEC 61966-2-1."""
+
+GROUND_PIXEL: Final = 2.0**-10
+"""Side of a pixel of which a picture below type is asked for its colour, page units: radii of the disc.
+
+A point, 1/72 inch, is four times as large on a globe 17 cm across.
+"""

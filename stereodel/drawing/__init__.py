@@ -2,6 +2,7 @@
 
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
+from stereodel.drawing.grids import Grid
 from stereodel.drawing.legend import with_legend
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page_styles import styled
@@ -21,6 +22,7 @@ __all__ = [
     "DotStyle",
     "Dots",
     "Fill",
+    "Grid",
     "Label",
     "Layer",
     "LineStyle",

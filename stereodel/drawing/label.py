@@ -20,8 +20,29 @@ GAP: Final = 1.0
 def placed_label(label: Label, offset: tuple[float, float]) -> Label:
     """A label on the side of its place that an offset in points points to."""
     align: Literal["left", "center", "right"] = "left" if offset[0] > 0 else "right" if offset[0] < 0 else "center"
-    valign: Literal["bottom", "center", "top"] = "center" if offset[0] else "bottom" if offset[1] > 0 else "top"
+    valign: Literal["bottom", "center", "top"] = "bottom" if offset[1] > 0 else "top"
+    if offset[0] or not offset[1]:
+        valign = "center"
     return replace(label, offset=offset, align=align, valign=valign)
+
+
+def within_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> Label:
+    """A label on the other side of its place where it would leave a disc of the page; without halo if it does so there.
+
+    A halo that left the disc would cut the line round it.
+    """
+    if _in_disc(label, center, radius, points_per_unit):
+        return label
+    other = placed_label(label, (-label.offset[0], -label.offset[1]))
+    return other if _in_disc(other, center, radius, points_per_unit) else replace(label, halo=0.0)
+
+
+def _in_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> bool:
+    low, high = label_box(label, points_per_unit) + np.array([[-label.halo], [label.halo]])
+    reach = np.maximum(
+        np.abs(low - points_per_unit * np.array(center)), np.abs(high - points_per_unit * np.array(center))
+    )
+    return float(np.hypot(*reach)) <= points_per_unit * radius
 
 
 def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], points_per_unit: float) -> list[Item]:

@@ -37,6 +37,7 @@ BLACK: Final = _hex("#000000")
 GRAY: Final = _hex("#7a7a7a")
 LIGHT_GRAY: Final = _hex("#a6a6a6")
 DARK_GRAY: Final = _hex("#3d3d3d")
+GRID_GRAY: Final = _hex("#8f959b")
 BLUE: Final = _hex("#005a94")
 VERMILION: Final = _hex("#c64e00")
 GREEN: Final = _hex("#00a075")
@@ -146,8 +147,8 @@ class DotStyle:
 LINES: Final[Mapping[str, LineStyle]] = {
     "delaunay": LineStyle(GRAY, 0.8),
     "voronoi": LineStyle(BLACK, 0.9),
-    "graticule": LineStyle(LIGHT_GRAY, 0.45),
-    "fine": LineStyle(BLACK, 0.45),
+    "graticule": LineStyle(GRID_GRAY, 0.4),
+    "fine": LineStyle(BLACK, 0.56),
     "limb": LineStyle(DARK_GRAY, 1.2),
     "circle": LineStyle(BLACK, 1.1),
     "arc": LineStyle(BLUE, 1.2),
@@ -199,11 +200,11 @@ FILLS: Final[Mapping[str, Color]] = {
 """What a region stands for → its tint."""
 
 MAP_LINES: Final[Mapping[str, LineStyle]] = {
-    "limb": LineStyle(DARK_GRAY, 0.9),
+    "limb": LineStyle(DARK_GRAY, 0.6),
     "coast": LineStyle((0.25, 0.33, 0.40, 1.0), 0.45),
     "borders": LineStyle((0.55, 0.48, 0.45, 1.0), 0.35),
     "rivers": LineStyle((0.36, 0.58, 0.74, 1.0), 0.35),
-    "graticule": LineStyle((0.50, 0.56, 0.61, 1.0), 0.3),
+    "graticule": LineStyle(GRID_GRAY, 0.25),
     "line": LineStyle(BLACK, 0.5),
     "outline": LineStyle(DARK_GRAY, 0.4),
 }
@@ -221,7 +222,10 @@ MAP_FILLS: Final[Mapping[str, Color]] = {
 """Regions of globes."""
 
 HALO: Final = 1.6
-"""Width of the white line round type on globes, points."""
+"""Width of the line round type on globes, points."""
+
+HALO_OPACITY: Final = 0.8
+"""Of that line, which has the colour of the ground: what it crosses is dimmed, not cut."""
 
 TYPE: Final[Mapping[str, Any]] = {
     "font.family": "STIXGeneral",

@@ -42,6 +42,12 @@ class MapView(Protocol):
     def raised(self, xy: FloatArray) -> FloatArray:
         """Unit vectors in view axes (..., 3) of points (..., 2) of the unit disc; NaN outside it."""
 
+    def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
+        """Distance on the page between two close lines, over their distance on the sphere, (...).
+
+        Both in view axes: unit vectors (..., 3), and the unit tangents there that point across the lines.
+        """
+
 
 @dataclass(frozen=True)
 class View:
@@ -109,6 +115,22 @@ class View:
         with np.errstate(invalid="ignore"):
             height = np.sqrt(1 - np.sum(xy**2, axis=-1, keepdims=True))
         return np.concatenate([np.where(np.isnan(height), np.nan, xy), height], axis=-1)
+
+    def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
+        """Distance on the page between two close lines, over their distance on the sphere; the far side as the near.
+
+        Areas shrink by |z|, z being the depth, and lengths along lines by √(z² + c²), c the depth of `across`: depths
+        of three perpendicular unit vectors have the sum of squares 1.
+
+        Examples
+        --------
+        >>> at, east, north = np.array([[0.6, 0.0, 0.8], [0.8, 0.0, -0.6], [0.0, 1.0, 0.0]])
+        >>> View(0, 0).breadth(at, np.stack([east, north])).tolist()
+        [0.8, 1.0]
+        """
+        depth = np.abs(axes[..., 2])
+        along = np.hypot(depth, across[..., 2])
+        return np.divide(depth, along, out=np.ones_like(along), where=along > 0)
 
     def axes(self, xyz: npt.ArrayLike) -> FloatArray:
         """Vectors (..., 3) in view axes (right, up, toward the viewer)."""
@@ -202,6 +224,13 @@ class StereographicView:
         square = np.sum(wide**2, axis=-1, keepdims=True)
         axes: FloatArray = np.concatenate([2 * wide, 1 - square], axis=-1) / (1 + square)
         return axes
+
+    def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
+        """Distance on the page between two close lines, over their distance on the sphere: the scale of the map."""
+        del across  # The map is conformal.
+        with np.errstate(divide="ignore"):
+            scale: FloatArray = 1 / ((1 + axes[..., 2]) * self._reach)
+        return scale
 
 
 def _frame(lon: float, lat: float, roll: float) -> FloatArray:

@@ -16,6 +16,7 @@ from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.page import Ball, Beziers
 from stereodel.drawing.regions import limb
 from stereodel.drawing.space_curves import page_path
+from stereodel.drawing.style import PRINT_WIDTH
 from stereodel.drawing.view import MapView
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
@@ -37,6 +38,8 @@ class Chart:
         Radius of the disc in page units.
     tolerance : float
         How far what is drawn may be from what it stands for, page units.
+    unit : float
+        Points (1/72 inch) for a page unit: what is measured in points, line widths and type, is as large as that.
     """
 
     lens: MoebiusMap
@@ -44,11 +47,19 @@ class Chart:
     at: tuple[float, float] = (0.0, 0.0)
     scale: float = 1.0
     tolerance: float = CHART_TOLERANCE
+    unit: float = PRINT_WIDTH / 2
 
     @cached_property
     def outline(self) -> tuple[Beziers, ...]:
         """The edge of the disc, counterclockwise."""
         return (page_path([limb(1.0)], self.at, self.scale),)
+
+    @property
+    def rim(self) -> FloatArray:
+        """Points of the edge, counterclockwise, whose chords stray from it by half the tolerance at most, (n, 2)."""
+        steps = int(np.ceil(np.pi / np.arccos(1 - min(0.5, self.tolerance / (2 * self.scale)))))
+        angle = np.arange(steps) * (2 * np.pi / steps)
+        return np.array(self.at) + self.scale * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
     @property
     def ball(self) -> Ball | None:

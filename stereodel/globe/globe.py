@@ -14,6 +14,7 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.colors import ColorLike, as_color, as_colors
+from stereodel.drawing.grids import Grid
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.scales import ColorScale, usual_scale
@@ -32,7 +33,8 @@ from stereodel.drawing.style import (
 from stereodel.drawing.view import MapView
 from stereodel.globe import features
 from stereodel.globe.chart import Chart
-from stereodel.globe.layers import Areas, Ground, Image, Lines, MapLayer, Names, Points, Rim
+from stereodel.globe.ground import haloed
+from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Outside, Points, Rim
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
@@ -40,7 +42,6 @@ from stereodel.globe.regions import Rings, SphereRegions
 from stereodel.io.shapes import shapes_of
 from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
-from stereodel.sphere.graticules import graticule
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
@@ -128,6 +129,10 @@ class Globe:
         """Fill the land of the Earth (Natural Earth), and draw its outline where a style is given."""
         self._add_polygons(features.land(resolution, self.latitude), color, outline, "land")
 
+    def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = "50m") -> None:
+        """Fill all that is not land of the Earth (Natural Earth): the layers below then show on land alone."""
+        self.add(Outside(features.land(resolution, self.latitude), as_color(color), "ocean"))
+
     def add_lakes(
         self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
@@ -147,8 +152,11 @@ class Globe:
         self.add(Lines(features.borders(resolution, self.latitude), style, "borders"))
 
     def add_graticule(self, spacing: float = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
-        """Draw meridians from pole to pole and parallels, `spacing` degrees apart, of which 180 must be a multiple."""
-        self.add(Lines(SphereLines.of_arcs(graticule(spacing, latitude=self.latitude)), style, "graticule"))
+        """Draw meridians and parallels, `spacing` degrees apart, of which 180 must be a multiple.
+
+        Where a picture would have less than three line widths between neighbours, as at the poles, some of them end.
+        """
+        self.add(GridLines(Grid.graticule(spacing, latitude=self.latitude), style, "graticule"))
 
     def add_lines(
         self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = MAP_LINES["line"], name: str = "lines"
@@ -203,19 +211,21 @@ class Globe:
         size: float = LABEL_SIZE,
         color: ColorLike = BLACK,
         halo: float = HALO,
-        halo_color: ColorLike = WHITE,
+        halo_color: ColorLike | None = None,
     ) -> None:
         """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
 
-        A label that would cover one that matters more is left out, and so is one whose place is out of sight.
+        A label that would cover one that matters more is left out, and so is one whose place is out of sight; one that
+        would leave the disc stands on the other side of its place, if it has room there. Without a `halo_color` halos
+        have the colour of the ground below them, at four fifths of full opacity.
         """
         xyz = self._xyz(places, "places")
-        paper, ink = as_color(halo_color, "halo_color"), as_color(color)
+        paper, ink = WHITE if halo_color is None else as_color(halo_color, "halo_color"), as_color(color)
         bare = Label("", (0.0, 0.0), size=size, color=ink, halo=halo, halo_color=paper)
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
-        self.add(Names(xyz, labels))
+        self.add(Names(xyz, labels, on_ground=halo_color is None))
 
     def add_cells(
         self,
@@ -337,7 +347,13 @@ class Globe:
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
         """What a chart shows, in painter's order; `panels` leaves out labels that would cover others."""
-        return tuple(item for layer in (*self.layers, self.limb) for item in layer.lay(chart))
+        items: list[Item] = []
+        for layer in (*self.layers, self.limb):
+            if isinstance(layer, Names) and layer.on_ground:
+                items += [haloed(label, items, chart.unit) if label.halo else label for label in layer.seen(chart)]
+            else:
+                items += layer.lay(chart)
+        return tuple(items)
 
     def page(
         self,

@@ -10,6 +10,8 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.drawing.colors import Color
+from stereodel.drawing.grids import WIDTHS_APART, Grid
+from stereodel.drawing.label import within_disc
 from stereodel.drawing.page import Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.globe.chart import Chart
@@ -65,6 +67,21 @@ class Lines:
 
 
 @dataclass(frozen=True, eq=False)
+class GridLines:
+    """Meridians and parallels, thinned where they would run together."""
+
+    grid: Grid
+    style: LineStyle
+    name: str
+
+    def lay(self, chart: Chart) -> Iterator[Item]:
+        """As `Lines`, of which some end where they come nearer to each other than `WIDTHS_APART` widths."""
+        least = WIDTHS_APART * self.style.width / (chart.unit * chart.scale)
+        shown = SphereLines.alone(self.grid.thinned(chart.lens, chart.view, least))
+        yield from Lines(shown, self.style, self.name).lay(chart)
+
+
+@dataclass(frozen=True, eq=False)
 class Areas:
     """Regions, each in one colour (n, 4)."""
 
@@ -88,6 +105,25 @@ class Areas:
         for color in range(int(number.max()) + 1):
             some, region = loops.take(number == color), owner[number == color]
             yield replace(whole, points=some.values, offsets=some.offsets, owner=region)
+
+
+@dataclass(frozen=True, eq=False)
+class Outside:
+    """All that is in none of some regions, in one colour: the sea about the land."""
+
+    regions: SphereRegions
+    color: Color
+    name: str
+
+    def lay(self, chart: Chart) -> Iterator[Item]:
+        """The disc with the regions as holes."""
+        holes, _ = chart.regions(self.regions)
+        disc = np.concatenate([chart.rim, chart.rim[:1]])
+        # Backwards, regions are holes of the disc.
+        points = np.concatenate([disc, holes.values[::-1]])
+        offsets = np.concatenate([[0], len(disc) + np.cumsum([0, *holes.sizes[::-1]])])
+        owner = np.zeros(len(offsets) - 1, dtype=np.intp)
+        yield Polygons(points, offsets, owner, np.array([self.color]), chart.ball, self.name)
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,9 +162,16 @@ class Names:
 
     xyz: FloatArray
     labels: tuple[Label, ...]
+    on_ground: bool = False
+    """Whether halos have the colour of the ground below, which `Globe.items` knows."""
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """Those whose place is seen."""
+        """Those whose place is seen, inside the disc where there is room."""
+        yield from self.seen(chart)
+
+    def seen(self, chart: Chart) -> Iterator[Label]:
+        """As `lay`."""
         places, seen = chart.points(self.xyz)
         for label, (x, y) in ((self.labels[k], places[k]) for k in np.flatnonzero(seen)):
-            yield replace(label, anchor=(float(x), float(y)))
+            placed = replace(label, anchor=(float(x), float(y)))
+            yield within_disc(placed, chart.at, chart.scale, chart.unit)

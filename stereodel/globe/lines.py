@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -50,15 +50,17 @@ class SphereLines:
     @classmethod
     def great(cls, starts: FloatArray, ends: FloatArray, normals: FloatArray | None = None) -> SphereLines:
         """A great-circle arc between each pair of unit vectors (n, 3): the shorter one, or the one about a normal."""
-        return cls._alone(trace.great(starts, ends, normals))
+        return cls.alone(trace.great(starts, ends, normals))
 
     @classmethod
     def of_arcs(cls, arcs: Iterable[SphereArc]) -> SphereLines:
         """Arcs of circles, each a line."""
-        return cls._alone(trace.exact(list(arcs)))
+        return cls.alone(trace.exact(list(arcs)))
 
     @classmethod
-    def _alone(cls, arcs: trace.Arcs) -> SphereLines:
+    def alone(cls, arcs: trace.Arcs) -> SphereLines:
+        """Arcs made ready, each a line."""
+        arcs = replace(arcs, edge=np.arange(len(arcs)))
         return cls(trace.Edges.of(arcs), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
 
     def through(self, lens: MoebiusMap, *, tolerance: float) -> tuple[FloatArray, Indices]:

@@ -112,7 +112,7 @@ def panels(
         lens = MoebiusMap.identity() if panel.lens is None else panel.lens
         view = default_view(lens) if panel.view is None else panel.view
         around = (at[0] - pitch / 2, at[0] + pitch / 2, at[1] - pitch / 2, at[1] + pitch / 2)
-        items += with_room(panel.globe.items(Chart(lens, view, at, 1.0, fine / unit)), around, unit)
+        items += with_room(panel.globe.items(Chart(lens, view, at, 1.0, fine / unit, unit)), around, unit)
         views.append(view.matrix)
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))

@@ -66,11 +66,11 @@ SUBPIXELS: Final = 256
 STRIDE: Final = 8192
 """Coordinates lose whole multiples of it, pixels, so that those in a window keep `SUBPIXELS` as float32 of 24 bits."""
 
-SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875))
-"""Where in a pixel llvmpipe takes its four samples, from the lower left corner; Direct3D's standard pattern too."""
-
 FAR: Final = 100.0
 """Distance of the camera from bodies in space, in sides of the picture: light is reflected as to a viewer far away."""
+
+SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875))
+"""Where in a pixel llvmpipe takes its four samples, from the lower left corner; Direct3D's standard pattern too."""
 
 NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
@@ -374,8 +374,7 @@ class _Context:
                 device = str(_software_device()) if platform == "egl" else "0"
                 with _environment(EGL_DEVICE_ID=device):
                     self._offscreen = self.pyrender.OffscreenRenderer(16, 16)
-                cache = self._offscreen._renderer._program_cache
-                self._shaders = {True: SHADERS, False: cache.shader_dir}
+                self._shaders = {True: SHADERS, False: self._offscreen._renderer._program_cache.shader_dir}
                 self.multisamples = int(GL.glGetIntegerv(GL.GL_MAX_SAMPLES)) >= len(SAMPLES)
                 mend_offscreen(self._offscreen, GL, multisamples=self.multisamples)
             except OpenGLError:
@@ -388,24 +387,24 @@ class _Context:
         """What a window shows of triangles, rows from the top."""
         scene = _scene(self.pyrender, triangles, window, background)
         flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
-        return self._rendered(scene, window, own=True, flags=flags)
+        return self._drawn(scene, window, own=True, flags=flags)
 
     def draw_space(self, scene: Any, window: Window, *, numbered: bool) -> Pixels:
         """What a window shows of a scene of pyrender with a camera, rows from the top."""
         if not numbered:
-            return self._rendered(scene, window, own=False, flags=self.pyrender.RenderFlags.NONE)
+            return self._drawn(scene, window, own=False, flags=self.pyrender.RenderFlags.NONE)
         nodes = sorted(scene.mesh_nodes, key=lambda node: node.name)
         colors = {node: [k >> 16 & 255, k >> 8 & 255, k & 255] for k, node in enumerate(nodes, start=1)}
-        return self._rendered(scene, window, own=False, flags=self.pyrender.RenderFlags.SEG, seg_node_map=colors)
+        return self._drawn(scene, window, own=False, flags=self.pyrender.RenderFlags.SEG, seg_node_map=colors)
 
-    def _rendered(self, scene: Any, window: Window, *, own: bool, **options: Any) -> Pixels:
-        """By our own shaders or by those of pyrender."""
+    def _drawn(self, scene: Any, window: Window, *, own: bool, flags: int, **more: Any) -> Pixels:
+        """By our own shaders or by those of pyrender; what is numbered with one sample a pixel."""
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
         self._offscreen._renderer._program_cache.shader_dir = self._shaders[own]
+        once = self.multisamples or bool(flags & self.pyrender.RenderFlags.SEG)
         try:
-            if self.multisamples or "seg_node_map" in options:  # numbers have no mean
-                return self._passed(scene, options)
-            return self._sample_by_sample(scene, options)
+            options = {"flags": flags, **more}
+            return self._rendered(scene, options) if once else self._sample_by_sample(scene, options)
         except MemoryError:
             raise
         except Exception as error:  # pyrender and PyOpenGL raise anything here too
@@ -417,8 +416,7 @@ class _Context:
         wrong = trial.trial_problem(self.draw(trial.trial_triangles(), whole, (1.0, 1.0, 1.0, 1.0)))
         return wrong and f"{self.platform} draws wrongly: {wrong}"
 
-    def _passed(self, scene: Any, options: dict[str, Any]) -> Pixels:
-        """What one pass of pyrender draws."""
+    def _rendered(self, scene: Any, options: dict[str, Any]) -> Pixels:
         color, _ = self._offscreen.render(scene, **options)
         return color
 
@@ -429,9 +427,9 @@ class _Context:
         total = np.full((self._offscreen.viewport_height, self._offscreen.viewport_width, 3), 2, dtype=np.uint16)
         for sample in SAMPLES:
             aside = np.eye(4)
-            aside[:2, 3] = (np.array(sample) - 0.5) * pixel
-            scene.set_pose(camera, pose @ aside)
-            total += self._passed(scene, options)
+            aside[:2, 3] = pixel * (np.array(sample) - 0.5)
+            scene.set_pose(camera, aside @ pose)
+            total += self._rendered(scene, options)
         return (total // 4).astype(np.uint8)
 
     def strings(self) -> tuple[str, str]:

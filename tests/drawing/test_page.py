@@ -21,7 +21,8 @@ def pages():
 
 
 def test_the_examples_draw_what_they_say():
-    scene, sketch, slide, globe = pages()
+    scene, solid, sketch, slide, globe = pages()
+    assert solid is scene
     [bubble] = [item for item in scene.items if isinstance(item, Fill) and item.name == "bubble"]
     assert isinstance(bubble.ball, Ball)
     assert [label.text for label in scene.labels] == ["a site"]

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from stereodel import data, earth, fisheye, lonlat_to_xyz
+from stereodel.drawing.grids import WIDTHS_APART
 from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
-from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, ROWS, arc_points, geometry, script
+from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, ROWS, arc_points, geometry, page, script
 
 WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
 NUMBER = re.compile(
@@ -18,7 +19,7 @@ NUMBER = re.compile(
     rf"|\b(?P<word>{'|'.join(WORDS)})\b",
     re.IGNORECASE,
 )
-REFERENCE = re.compile(r"Figures? \d+|Theorem \d|[Cc]laims? P\d+(?: and P\d+)?")
+REFERENCE = re.compile(r"Figures? \d+(?: to \d+)?|Theorem \d|[Cc]laims? P\d+(?: and P\d+)?")
 FORMULAS = {
     "anim_hull": ("2n − 4",),
     "claim_scales": ("cos² (χ/2) / cos² (Ξ/2)",),
@@ -72,7 +73,7 @@ def numbers(text):
 
 def five_views(name):
     """What is drawn in Figures 10 to 12: magnification, graticule, fine grid, its centre and its half-width."""
-    panels, fine = script(name)["PANELS"], geometry(name)["fine"]
+    panels, fine = script(name)["PANELS"], geometry(name)["fine_3"]
     bend = fisheye((0, 40), magnification=panels.magnification)
     lat = xyz_to_lonlat(bend.inverse()(arc_points(fine)))[..., 1]
     return {
@@ -145,6 +146,11 @@ def truth(name):
             return [np.degrees(np.arctan2(1 - y, x))]
         case "fig13_latitudes":
             return [np.divide(*g["radii"]), script(name)["DISTANCE"] / g["radii"][0]]
+    if name == "fig10_12_plate":
+        sizes = [row.magnification for row in script(name)["ROWS"]]
+        drawn = page(name)
+        views = len(drawn.views)
+        return [*sizes[1:], views / len(sizes), five_views("fig10_earth")["focus"], views, len(sizes), WIDTHS_APART]
     drawn, panels = five_views(name), len(script(name)["FIGURE"].page().views)
     size, coarse, fine = (drawn[key] for key in ("magnification", "coarse", "fine"))
     focus, half = drawn["focus"], drawn["half_width"]
@@ -195,7 +201,7 @@ def truth_of_others(name):
             return [len(module["FIGURE"].geometry()["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":
             areas = module["geometry"]()["areas"]
-            return [len(areas), np.count_nonzero(areas == 0), areas.max()]
+            return [len(areas), np.count_nonzero(areas == 0), areas.max(), module["NAMED"]]
         case "earth_cities":
             return [len(module["geometry"]()["density"]), len(data.cities().population)]
         case "globe_europe" | "globe_new_york":

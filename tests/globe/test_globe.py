@@ -111,7 +111,7 @@ def test_labels_make_room_for_those_that_matter_more():
 
 def test_labels_stay_on_the_page():
     globe = Globe()
-    globe.add_labels([(89.0, 0.0)], ["a long name at the very edge"])
+    globe.add_labels([(89.0, 0.0)], ["a long name at the very edge"], size=60.0)
     assert globe.page().labels == ()
 
 

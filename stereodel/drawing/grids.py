@@ -1,0 +1,244 @@
+"""Grids of meridians and parallels, thinned where they would run together into gray.
+
+Lines of a family crowd where a view sees them at a slant, where a lens makes things small, and meridians at the poles.
+How far apart two neighbours are on the page is known exactly: their distance on the sphere, times the scale of the
+lens, times what the view makes of a distance across the line. Where that is less than asked for, only each second line
+goes on, or each sixth and so on, in steps that divide the grid, so that those that stay are evenly spaced.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_steps
+from stereodel.conformal import MoebiusMap
+from stereodel.constants import GRID_SAMPLES
+from stereodel.curves.trace import Arcs, exact
+from stereodel.drawing.space_curves import CircleArc
+from stereodel.drawing.view import MapView
+from stereodel.sphere import SphereCircle, graticule, graticule_patch
+from stereodel.sphere.latitudes import Latitude
+from stereodel.sphere.vectors import crossed, turned
+
+WIDTHS_APART: Final = 3.0
+"""Least distance between neighbouring lines of a grid, in widths of its lines: closer ones are seen as a tint."""
+
+HALVINGS: Final = 40
+"""Of an interval in which a line ends: then a millionth of a millionth of it is left."""
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Meridians and parallels, and which of them stay when they are thinned.
+
+    Parameters
+    ----------
+    arcs : Arcs
+        Meridians, then parallels.
+    meridians : int
+        How many of them are meridians.
+    step : float
+        Between neighbours, radians.
+    strides : (n,) array of int
+        The line stays where each so many-th is drawn; 0 where it always stays.
+
+    Examples
+    --------
+    >>> from stereodel.drawing import View
+    >>> grid = Grid.graticule(10)
+    >>> len(grid.arcs), len(grid.drawn(MoebiusMap.identity(), View(0, 90), 0.02))
+    (53, 53)
+    >>> ends = grid.thinned(MoebiusMap.identity(), View(0, 90), 0.02).end[:2]
+    >>> np.degrees(np.arcsin(ends[:, 2])).round(2).tolist()  # the meridians 180° W and 170° W
+    [90.0, 83.42]
+    """
+
+    arcs: Arcs
+    meridians: int
+    step: float
+    strides: Indices
+
+    @classmethod
+    def graticule(cls, spacing: float = 15.0, *, latitude: Latitude = "spherical") -> Grid:
+        """All meridians and parallels, as `stereodel.sphere.graticule`; those of the quarters of the globe stay."""
+        steps = as_steps(180.0, spacing, "spacing")
+        half = (steps - 1) // 2
+        quarter = steps // 2 if steps % 2 == 0 else steps
+        numbers = np.concatenate([np.arange(-steps, steps), np.arange(-half, half + 1)])
+        arcs = exact(graticule(spacing, latitude=latitude))
+        return cls(arcs, 2 * steps, np.pi / steps, _strides(numbers, quarter))
+
+    @classmethod
+    def patch(cls, center: npt.ArrayLike, half_width: float, spacing: float) -> Grid:
+        """The grid of a box, as `stereodel.sphere.graticule_patch`; its borders stay, and its middle where it has one.
+
+        Examples
+        --------
+        >>> Grid.patch((0.0, 40.0), 1.5, 0.5).strides.tolist()
+        [0, 1, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 0]
+        """
+        arcs = exact(graticule_patch(center, half_width, spacing))
+        count = len(arcs) // 2
+        steps = count - 1
+        strides = _strides(np.arange(count), steps // 2 if steps % 2 == 0 else steps)
+        return cls(arcs, count, float(np.radians(2 * half_width)) / steps, np.tile(strides, 2))
+
+    def drawn(self, lens: MoebiusMap, view: MapView, least: float) -> list[CircleArc]:
+        """What a picture shows: the images of `thinned` lines behind the lens."""
+        thin = self.thinned(lens, view, least)
+        parts = replace(thin, edge=np.arange(len(thin))).through(lens)
+        # An image is cut at the apsides, between which it stays on its circle.
+        first = np.flatnonzero(np.diff(parts.edge, prepend=-1))
+        sweeps = np.add.reduceat(parts.stop - parts.begin, first) if len(first) else np.zeros(0)
+        parts = parts.take(first)
+        centers = parts.axis * parts.offset[:, None]
+        u = parts.start - centers
+        rows = zip(centers, u, crossed(parts.axis, u), sweeps.tolist(), strict=True)
+        return [CircleArc(center, u, v, 0.0, sweep) for center, u, v, sweep in rows]
+
+    def thinned(self, lens: MoebiusMap, view: MapView, least: float) -> Arcs:
+        """The parts of the lines that a picture shows, before the lens.
+
+        Parameters
+        ----------
+        lens : MoebiusMap
+        view : MapView
+            From the near and the far side alike, for balls of glass.
+        least : float
+            Distance between neighbours on the page below which lines are left out, radii of the disc.
+
+        Returns
+        -------
+        Arcs
+            In the order of the lines, whose numbers are their edges. A line ends exactly where its neighbours come too
+            near; lines that always stay are whole.
+        """
+        need = as_scalar(least, "least", low=0.0)
+        lines = _Lines(self, lens, view)
+        t = lines.parameters()
+        row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
+        # Lines that stay are drawn whatever is about them.
+        wanted = np.where(self.strides == 0, 0.0, need / np.maximum(self.strides, 1))
+        enough = lines.spacing(row, t) >= wanted[:, None]
+        line, cut, begins = lines.ends(t, enough, wanted)
+        starts, stops = enough[:, 0], enough[:, -1]
+        every = np.arange(len(t))
+        return self._parts(
+            np.concatenate([every[starts], line[begins]]),
+            np.concatenate([self.arcs.begin[starts], cut[begins]]),
+            np.concatenate([line[~begins], every[stops]]),
+            np.concatenate([cut[~begins], self.arcs.stop[stops]]),
+        )
+
+    def _parts(self, begun: Indices, begin: FloatArray, ended: Indices, stop: FloatArray) -> Arcs:
+        """Parts of lines that begin at some parameters and end at as many."""
+        begun_order, ended_order = np.lexsort([begin, begun]), np.lexsort([stop, ended])
+        line, begin, stop = begun[begun_order], begin[begun_order], stop[ended_order]
+        closed = np.sum((self.arcs.start - self.arcs.end) ** 2, axis=1) == 0
+        # Of a whole circle that was cut, the part up to its first point goes on from there.
+        last = np.flatnonzero(closed[line] & (stop == self.arcs.stop[line]) & (begin > self.arcs.begin[line]))
+        first = np.searchsorted(line, line[last])
+        joined = begin[first] == self.arcs.begin[line[last]]
+        last, first = last[joined], first[joined]
+        stop[last] += stop[first] - self.arcs.begin[line[last]]
+        kept = stop > begin
+        kept[first] = False
+        line, begin, stop = line[kept], begin[kept], stop[kept]
+        parts = self.arcs.take(line)
+        start, end = (self.arcs.points(line, t) for t in (begin, stop))
+        start = np.where((begin == parts.begin)[:, None], parts.start, start)
+        end = np.where((stop == parts.stop)[:, None], parts.end, end)
+        return replace(parts, start=start, end=end, begin=begin, stop=stop)
+
+
+@dataclass(frozen=True, eq=False)
+class _Lines:
+    """The lines of a grid on a page."""
+
+    grid: Grid
+    lens: MoebiusMap
+    view: MapView
+
+    def parameters(self) -> FloatArray:
+        """Where the spacing is looked at along each line, (n, k), ascending: at even steps before and behind the lens.
+
+        Before the lens they are fine where it makes things small, behind it where it makes them large. Besides where it
+        crosses the limb of a ball, at which all lines meet but those that are seen end on.
+        """
+        arcs = self.grid.arcs
+        begin, stop = arcs.begin[:, None], arcs.stop[:, None]
+        even = begin + np.linspace(0.0, 1.0, GRID_SAMPLES) * (stop - begin)
+        # A lens takes a circle to a circle, and tan(t/2) about its nearest point to the focus to a multiple of itself:
+        # the factor is the root of the ratio of the scales there and opposite.
+        _, _, nearest = arcs.waves(self.lens.focus)
+        every = np.arange(len(arcs))
+        near, far = (self.lens.scale_factor(arcs.points(every, nearest + turn)) for turn in (0.0, np.pi))
+        half = np.linspace(-np.pi / 2, np.pi / 2, GRID_SAMPLES)[1:-1]
+        bent = nearest[:, None] + 2 * np.arctan(np.tan(half) / np.sqrt(near / far)[:, None])
+        limb = self.lens.inverse().image_of(SphereCircle(self.view.matrix[2], 0.0))
+        middle, size, phase = arcs.waves(limb.normal)
+        cosine = np.divide(limb.offset - middle, size, out=np.ones_like(size), where=size > 0)
+        away = np.arccos(np.clip(cosine, -1.0, 1.0))
+        there = np.concatenate([bent, phase[:, None] + np.stack([away, -away], axis=1)], axis=1)
+        there = begin + np.mod(there - begin, 2 * np.pi)
+        return np.sort(np.concatenate([even, np.minimum(there, stop)], axis=1), axis=1)
+
+    def spacing(self, row: Indices, t: FloatArray) -> FloatArray:
+        """Distance on the page from neighbouring lines, radii of the disc, at parameters of lines."""
+        arcs = self.grid.arcs
+        axis, u = arcs.axis[row], arcs.u[row]
+        v, cos, sin = crossed(axis, u), np.cos(t)[..., None], np.sin(t)[..., None]
+        place = axis * arcs.offset[row][..., None] + cos * u + sin * v
+        across = crossed(place, cos * v - sin * u)
+        across /= np.sqrt(np.sum(across**2, axis=-1, keepdims=True))
+        gap = np.where(row < self.grid.meridians, np.hypot(place[..., 0], place[..., 1]), 1.0) * self.grid.step
+        image, matrix = self.lens(place), self.view.matrix
+        turn = self._turned(place, across, image)
+        breadth = self.view.breadth(turned(image, matrix), turned(turn, matrix))
+        found: FloatArray = gap * self.lens.scale_factor(place) * breadth
+        return found
+
+    def ends(self, t: FloatArray, enough: BoolArray, wanted: FloatArray) -> tuple[Indices, FloatArray, BoolArray]:
+        """Where parts of lines begin and end between samples t (n, k): the line, the parameter, whether one begins."""
+        line, at = np.nonzero(enough[:, 1:] != enough[:, :-1])
+        shown, hidden = t[line, at], t[line, at + 1]
+        begins = enough[line, at + 1]
+        shown[begins], hidden[begins] = hidden[begins], shown[begins]
+        for _ in range(HALVINGS):
+            middle = (shown + hidden) / 2
+            enough_there = self.spacing(line, middle) >= wanted[line]
+            shown, hidden = np.where(enough_there, middle, shown), np.where(enough_there, hidden, middle)
+        return line, shown, begins
+
+    def _turned(self, place: FloatArray, direction: FloatArray, image: FloatArray) -> FloatArray:
+        """Unit directions at places, as the lens turns them.
+
+        About its focus a fisheye moves places along great circles and keeps azimuths: of a direction the part along the
+        great circle stays along it, the part across stays across.
+        """
+        right, left = self.lens.right.matrix, self.lens.left.matrix
+        p, d, q = turned(place, right), turned(direction, right), turned(image, left.T)
+        aside = np.hypot(p[..., 0], p[..., 1])
+        at_focus = aside == 0
+        east = np.where(at_focus, 1.0, p[..., 0]) / np.where(at_focus, 1.0, aside)
+        north = np.where(at_focus, 0.0, p[..., 1]) / np.where(at_focus, 1.0, aside)
+        outward = (d[..., 0] * east + d[..., 1] * north) * p[..., 2] - d[..., 2] * aside
+        around = d[..., 1] * east - d[..., 0] * north
+        height, width = q[..., 2], np.hypot(q[..., 0], q[..., 1])
+        flat = outward * height
+        turn = np.stack([flat * east - around * north, flat * north + around * east, -outward * width], axis=-1)
+        return turned(turn, left)
+
+
+def _strides(numbers: Indices, whole: int) -> Indices:
+    """Of lines by number the largest stride of a chain 1, p, p·q … `whole` that they are in; 0 for multiples of all."""
+    strides, stride = np.ones(len(numbers), dtype=np.intp), 1
+    while stride < whole:
+        rest = whole // stride
+        stride *= next(p for p in range(2, rest + 1) if rest % p == 0)
+        strides[numbers % stride == 0] = stride
+    return np.where(numbers % whole == 0, 0, strides)

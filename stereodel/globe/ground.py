@@ -1,0 +1,122 @@
+"""The ground under the names of a map: what its layers paint there, in which the halos of the names are tinted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray
+from stereodel.constants import GROUND_PIXEL, SRGB_LINEAR
+from stereodel.drawing.colors import Color
+from stereodel.drawing.label import label_box
+from stereodel.drawing.page import Beziers, Fill, Item, Label, Picture, Polygons
+from stereodel.drawing.style import HALO_OPACITY, WHITE
+
+ACROSS: Final = 9
+UP: Final = 3
+"""Places in the box of a label at which the ground is looked at."""
+
+LEGIBLE: Final = 7.0
+"""Least contrast of small type: a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
+
+EVEN_LUMINANCE: Final = 0.179
+"""Of a colour with the same contrast to white and to black: √(1.05·0.05) − 0.05."""
+
+BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
+
+
+def haloed(label: Label, below: Sequence[Item], unit: float) -> Label:
+    """A label with a halo in the colour that most of the ground below it has; `unit` is points for a page unit."""
+    (left, bottom), (right, top) = label_box(label, unit) / unit
+    places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
+    colors, counts = np.unique(painted(below, places.reshape(-1, 2)).round(3), axis=0, return_counts=True)
+    red, green, blue = legible(colors[counts.argmax()], label.color).tolist()
+    return replace(label, halo_color=(red, green, blue, HALO_OPACITY))
+
+
+def legible(ground: FloatArray, ink: Color) -> FloatArray:
+    """A colour mixed with white or black, whichever is farther from the ink, until type on it can be read."""
+    own = _luminance(np.array(ink[:3]))
+    away = np.ones(3) if own < EVEN_LUMINANCE else np.zeros(3)
+    for share in np.linspace(0.0, 1.0, 21):
+        mixed: FloatArray = ground + share * (away - ground)
+        light, dark = sorted((_luminance(mixed), own), reverse=True)
+        if (light + 0.05) / (dark + 0.05) >= LEGIBLE:
+            break
+    return mixed
+
+
+def _luminance(color: FloatArray) -> float:
+    """Relative luminance of sRGB."""
+    linear = np.where(color <= SRGB_LINEAR, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
+    return float(np.sum(linear * [0.2126, 0.7152, 0.0722]))
+
+
+def painted(items: Sequence[Item], places: FloatArray) -> FloatArray:
+    """What regions and pictures paint at places of a page (n, 2), without lines and light: sRGB (n, 3)."""
+    colors = np.tile(np.array(WHITE[:3]), (len(places), 1))
+    for item in items:
+        match item:
+            case Fill():
+                inside = np.sum([_turns(_corners(path), places) for path in item.paths], axis=0) % 2 != 0
+                _lay(colors, np.where(inside[:, None], item.color, 0.0))
+            case Polygons():
+                _lay(colors, _polygon_colors(item, places))
+            case Picture():
+                inside = np.sum([_turns(_corners(path), places) for path in item.outline], axis=0) != 0
+                pixels = [
+                    item.painter.paint((x, y, GROUND_PIXEL, GROUND_PIXEL), (1, 1))[0, 0] / 255
+                    for x, y in places.tolist()
+                ]
+                _lay(colors, np.where(inside[:, None], pixels, 0.0))
+    return colors
+
+
+def _lay(colors: FloatArray, over: FloatArray) -> None:
+    """Lay colours with an opacity (n, 4) over others."""
+    colors += over[:, 3:] * (over[:, :3] - colors)
+
+
+def _polygon_colors(item: Polygons, places: FloatArray) -> FloatArray:
+    """The colour of the region that each place is in, (n, 4); of opacity 0 where it is in none."""
+    loops = item.loops
+    last = np.zeros(len(loops.values), dtype=bool)
+    last[loops.offsets[1:] - 1] = True
+    # Only edges that reach the heights of the places turn about one.
+    low, high = places[:, 1].min(), places[:, 1].max()
+    start, end = loops.values, np.roll(loops.values, -1, axis=0)
+    near = ~last & (np.minimum(start[:, 1], end[:, 1]) <= high) & (np.maximum(start[:, 1], end[:, 1]) >= low)
+    owner = item.owner[loops.row[near]]
+    regions, number = np.unique(owner, return_inverse=True)
+    found = np.zeros((len(places), 4))
+    for k, place in enumerate(places):
+        turns = np.bincount(number, _crossings(start[near], end[near], place), minlength=len(regions))
+        for region in regions[np.flatnonzero(turns)]:
+            found[k] = item.colors[region]
+    return found
+
+
+def _turns(corners: FloatArray, places: FloatArray) -> FloatArray:
+    """How often a closed line of corners (m, 2) goes round places (n, 2)."""
+    following = np.roll(corners, -1, axis=0)
+    return np.array([_crossings(corners, following, place).sum() for place in places])
+
+
+def _crossings(start: FloatArray, end: FloatArray, place: FloatArray) -> FloatArray:
+    """Of edges, +1 for those that go up on the right of a place, −1 for those that go down there, else 0."""
+    up = (start[:, 1] <= place[1]) & (end[:, 1] > place[1])
+    down = (start[:, 1] > place[1]) & (end[:, 1] <= place[1])
+    a, b = start - place, end - place
+    side = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return np.where(up & (side > 0), 1.0, 0.0) - np.where(down & (side < 0), 1.0, 0.0)
+
+
+def _corners(path: Beziers) -> FloatArray:
+    """Points along a run of Béziers."""
+    s = BEZIER_STEPS[None, :, None]
+    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
+    points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3
+    return points.reshape(-1, 2)

@@ -1,0 +1,105 @@
+"""Halos in the colour of the ground, names inside the disc, the sea about the land."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from stereodel import fisheye
+from stereodel.drawing import Fill, Label, Polygons, View
+from stereodel.drawing.label import label_box, within_disc
+from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
+from stereodel.globe import Globe, Raster
+from stereodel.globe.ground import legible, painted
+
+LENS = fisheye((10.0, 50.0), magnification=3.0)
+
+
+def contrast(a, b):
+    def light(color):
+        linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color[:3]]
+        return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] + 0.05
+
+    return max(light(a), light(b)) / min(light(a), light(b))
+
+
+@pytest.mark.parametrize("layers", ["land", "cells", "raster"])
+def test_what_is_painted_is_what_is_drawn(layers):
+    """Colours at random places against the pixels of the page, which Agg draws without light."""
+    globe = Globe()
+    if layers == "land":
+        globe.add_land(resolution="110m")
+        globe.add_polygons([[[(0, 40), (30, 40), (30, 60), (0, 60)]]], color=(0.5, 0.1, 0.1, 0.5), outline=None)
+    elif layers == "cells":
+        globe.add_ocean(color=(0.1, 0.2, 0.3, 1.0), resolution="110m")
+    else:
+        pixels = np.zeros((18, 36, 4), dtype=np.uint8)
+        pixels[..., 0], pixels[..., 1], pixels[..., 3] = np.arange(36) * 7, 90, 255
+        globe.add_raster(Raster(pixels), opacity=0.5)
+    page = globe.page(LENS, View(10, 40))
+    size = 1000
+    picture = page.pixels(size=size, renderer="agg") / 255
+    places = np.random.default_rng(4).uniform(0.1, 1.9, size=(300, 2))
+    row, column = (
+        ((page.extent[3] - places[:, 1]) / page.extent[1] * size).astype(int),
+        (places[:, 0] / page.extent[1] * size).astype(int),
+    )
+    items = [item for item in page.items if not isinstance(item, Label)]
+    off = np.abs(painted(items, places) - picture[row, column]).max(axis=1)
+    # A few places lie on a border, or on the limb.
+    assert np.mean(off < 0.02) > 0.97
+
+
+def test_the_sea_and_the_land_are_the_ball():
+    land, sea = Globe(ocean="black"), Globe(ocean="black")
+    land.add_land(color="white", resolution="110m")
+    sea.add_ocean(color="white", resolution="110m")
+    a, b = (globe.page(LENS, View(20, 30)).pixels(size=400, renderer="agg").astype(int) for globe in (land, sea))
+    inside = np.hypot(*np.meshgrid(np.linspace(-1.03, 1.03, 400), np.linspace(-1.03, 1.03, 400))) < 0.97
+    both = (a + b)[inside].mean(axis=-1)
+    assert np.mean(np.abs(both - 255) < 3) > 0.98
+
+
+@pytest.mark.parametrize(
+    ("place", "name"),
+    [((0.0, -30.0), "ocean"), ((20.0, 0.0), "land"), ((25.0, 25.0), "land"), ((-40.0, 20.0), "ocean")],
+)
+def test_a_halo_is_tinted_as_the_ground(place, name):
+    globe = Globe()
+    globe.add_land(resolution="110m")
+    globe.add_labels([place], ["here"])
+    (label,) = globe.page(view=View(*place)).labels
+    assert label.halo_color == pytest.approx((*MAP_FILLS[name][:3], HALO_OPACITY), abs=1e-3)
+
+
+def test_a_halo_is_as_light_or_dark_as_reading_needs():
+    for ink in ((0, 0, 0, 1.0), (1.0, 1.0, 1.0, 1.0), (0.4, 0.1, 0.1, 1.0)):
+        for ground in np.random.default_rng(1).uniform(size=(50, 3)):
+            found = legible(ground, ink)
+            assert contrast(found, ink) > 6.9 or found.tolist() in ([1.0] * 3, [0.0] * 3)
+            assert contrast(ground, ink) < 7.1 or found == pytest.approx(ground)
+
+
+def test_names_turn_to_where_the_disc_has_room():
+    unit, anchor = 100.0, (0.9, 0.0)
+    label = Label("a name", anchor, (4.0, 0.0), "left", "center", 9.0, halo=1.0)
+    turned = within_disc(label, (0.0, 0.0), 1.0, unit)
+    assert (turned.align, turned.offset, turned.halo) == ("right", (-4.0, 0.0), 1.0)
+    assert np.hypot(*np.abs(label_box(turned, unit)).max(axis=0)) < unit
+    assert within_disc(replace(label, anchor=(0.0, 0.0)), (0.0, 0.0), 1.0, unit).align == "left"
+    # Without room on either side a halo would cut the limb.
+    assert within_disc(label, (0.0, 0.0), 0.2, unit).halo == 0
+
+
+def test_the_graticule_of_a_globe_is_thinned():
+    globe = Globe()
+    globe.add_graticule(5)
+    small, large = (globe.page(view=View(0, 90), width=width) for width in (50.0, 5000.0))
+    ends = []
+    for page in (small, large):
+        (lines,) = [item for item in page.items if item.name == "graticule"]
+        away = np.hypot(*(lines.points - page.extent[1] / 2).T)
+        ends.append(np.sum(away < 0.02))
+        assert any(isinstance(item, Fill) for item in page.items)
+        assert not any(isinstance(item, Polygons) for item in page.items)
+    assert ends[0] <= 8 < 36 <= ends[1]
