@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._numbers import as_doubles, entry, refuse_masked
+from stereodel._numbers import as_doubles, entry, is_masked, refuse_masked
 from stereodel.constants import UNIT_ROUNDOFF
 
 FloatArray = npt.NDArray[np.float64]
@@ -62,13 +62,36 @@ def _refuse(wrong: BoolArray, array: FloatArray, name: str, expected: str) -> No
         raise ValueError(f"{entry(name, index)} is {array[index]}; {expected}")
 
 
-def as_values(values: npt.ArrayLike, size: int, name: str = "values") -> FloatArray:
-    """One value for each of `size` points, (size, ...): finite numbers, or NaN where the value is not known."""
-    array = as_doubles(values, name)
-    if array.ndim == 0 or len(array) != size:
-        raise ValueError(f"{name} must have shape ({size}, ...), one entry for each point, got {array.shape}")
+def as_values(values: npt.ArrayLike, size: int, name: str = "values", *, axis: int = 0) -> FloatArray:
+    """One value for each of `size` points along an axis: finite numbers, or NaN where the value is not known.
+
+    Masked values of masked arrays are not known.
+    """
+    array = _with_gaps(values, name)
+    if not -array.ndim <= axis < array.ndim or array.shape[axis] != size:
+        expected = f"({size}, ...)" if axis == 0 else f"(..., {size})" if axis == -1 else f"{size} along axis {axis}"
+        raise ValueError(
+            f"{name} must have shape {expected}, one entry for each point, got {array.shape}"
+            + _axis_advice(array, size, name)
+        )
     _refuse(np.isinf(array), array, name, "every value must be finite, or NaN where it is not known")
     return array
+
+
+def _with_gaps(values: npt.ArrayLike, name: str) -> FloatArray:
+    """Doubles, with NaN in the place of masked values."""
+    if not is_masked(values):
+        return as_doubles(values, name)
+    array = as_doubles(np.ma.filled(values, 0), name)
+    return np.where(np.ma.getmaskarray(np.ma.asarray(values)), np.nan, array)
+
+
+def _axis_advice(array: FloatArray, size: int, name: str) -> str:
+    """The end of a message about values whose points lie along another axis."""
+    if size not in array.shape:
+        return ""
+    axis = array.shape.index(size)
+    return f"; the points seem to lie along axis {axis}: give np.moveaxis({name}, {axis}, 0), or axis={axis} to weights"
 
 
 def as_levels(values: npt.ArrayLike) -> FloatArray:
@@ -116,7 +139,13 @@ def _advice(array: FloatArray, dimension: int, instead: str) -> str:
     return f", which means {'the plane' if dimension == 3 else 'directions'}; {instead}"
 
 
-def as_directions(values: npt.ArrayLike, name: str, *, points: bool = False, instead: str = "") -> FloatArray:
+def as_directions(
+    values: npt.ArrayLike,
+    name: str,
+    *,
+    points: bool = False,
+    instead: str = "make directions of longitude and latitude by lonlat_to_xyz",
+) -> FloatArray:
     """Non-zero vectors of space, (..., 3), or (n, 3) when `points`; their lengths do not matter.
 
     `instead` is what to do with points of the plane.

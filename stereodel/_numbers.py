@@ -30,10 +30,16 @@ def as_doubles(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
     return np.asarray(array, dtype=np.float64, order="C")
 
 
-def refuse_masked(values: npt.ArrayLike, name: str) -> None:
+def is_masked(values: npt.ArrayLike) -> bool:
+    """Whether some of the values of a masked array are masked."""
     # Nobody has a masked array before numpy.ma is loaded, and loading it would be a tenth of our import time.
     masked = sys.modules.get("numpy.ma")
-    if masked is not None and isinstance(values, masked.MaskedArray) and masked.is_masked(values):
+    return masked is not None and isinstance(values, masked.MaskedArray) and bool(masked.is_masked(values))
+
+
+def refuse_masked(values: npt.ArrayLike, name: str) -> None:
+    if is_masked(values):
+        masked = sys.modules["numpy.ma"]
         where = entry(name, tuple(int(i) for i in np.argwhere(masked.getmaskarray(values))[0]))
         raise ValueError(f"{where} is masked; drop such rows first, e.g. with np.ma.compress_rows({name})")
 

@@ -291,9 +291,6 @@ GRID_SAMPLES: Final = 97
 A line that came and went between two of them would do so within 4° of its circle, on the sphere and in its image.
 """
 
-SRGB_LINEAR: Final = 0.04045
-"""Part of full intensity up to which sRGB is proportional to light; IEC 61966-2-1."""
-
 GROUND_PIXEL: Final = 2.0**-10
 """Side of a pixel of which a picture below type is asked for its colour, page units: radii of the disc.
 

@@ -15,6 +15,8 @@ from stereodel import _kernel
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, IntArray, locked
 from stereodel._docs import shared
 from stereodel._spaces import space_of
+from stereodel.sphere.areas import solid_angle
+from stereodel.sphere.great_circles import angular_distance
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT
 from stereodel.sphere.vectors import units
@@ -26,6 +28,8 @@ from stereodel.triangulation.topology import as_edges
 __all__ = [
     "gabriel_graph",
     "hull",
+    "hull_area",
+    "hull_perimeter",
     "minimum_spanning_tree",
     "relative_neighborhood_graph",
     "urquhart_graph",
@@ -48,6 +52,10 @@ _SHARED = LONLAT | {
         ValueError, TypeError
             For points that cannot be triangulated: see `PlanarDelaunay` and `SphericalDelaunay`; for points and
             `lonlat` together, and `latitude` without `lonlat`.
+        """,
+    "hull_raises": """
+        ValueError, TypeError
+            As for `hull`; for points of the sphere that lie in no open hemisphere.
         """,
 }
 
@@ -279,6 +287,104 @@ def hull(
     triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
     corners = _corners(triangulation) if triangulation.dimension == 2 else _ends(triangulation)
     return locked(corners.astype(np.int32))
+
+
+@shared(**_SHARED)
+def hull_area(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+) -> float:
+    """Area of the convex hull.
+
+    Parameters
+    ----------
+    {points}
+    {instead}
+
+    Returns
+    -------
+    float
+        In squares of the plane's unit, on the sphere in steradians: times the square of a radius it is the area there.
+        0 without triangles.
+
+    Raises
+    ------
+    {hull_raises}
+
+    Notes
+    -----
+    The sum of the triangles of the first corner and each side that does not meet it. SciPy's `ConvexHull` calls it
+    volume.
+
+    Examples
+    --------
+    >>> from stereodel.graphs import hull_area
+    >>> hull_area([[1, 0], [0, 0], [2, 0], [2, 2], [1, 1], [0, 2]])
+    4.0
+    >>> round(hull_area(lonlat=[[0, 0], [90, 0], [0, 90]]) / np.pi, 15)
+    0.5
+    """
+    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
+    first, one, other = _fan(triangulation)
+    if isinstance(triangulation, SphericalDelaunay):
+        return float(solid_angle(first, one, other).sum())
+    d, e = one - first, other - first
+    return float((d[:, 0] * e[:, 1] - d[:, 1] * e[:, 0]).sum()) / 2
+
+
+@shared(**_SHARED)
+def hull_perimeter(
+    points: npt.ArrayLike | Triangulation | None = None,
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    latitude: Latitude | None = None,
+) -> float:
+    """Length of the boundary of the convex hull.
+
+    Parameters
+    ----------
+    {points}
+    {instead}
+
+    Returns
+    -------
+    float
+        In the plane's unit, on the sphere in degrees. For points of a line or an arc twice its length, there and back.
+
+    Raises
+    ------
+    {hull_raises}
+
+    Examples
+    --------
+    >>> from stereodel.graphs import hull_perimeter
+    >>> hull_perimeter([[1, 0], [0, 0], [2, 0], [2, 2], [1, 1], [0, 2]])
+    8.0
+    >>> hull_perimeter(lonlat=[[0, 0], [90, 0], [0, 90]])
+    270.0
+    """
+    triangulation = as_triangulation(points, lonlat=lonlat, latitude=latitude)
+    corners = _hull_points(triangulation)
+    following = np.roll(corners, -1, axis=0)
+    if isinstance(triangulation, SphericalDelaunay):
+        return float(angular_distance(corners, following).sum())
+    return float(np.hypot(*(following - corners).T).sum())
+
+
+def _fan(triangulation: Triangulation) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The hull as triangles, three arrays (h - 2, d) of their corners."""
+    corners = _hull_points(triangulation)
+    return np.broadcast_to(corners[:1], corners[2:].shape), corners[1:-1], corners[2:]
+
+
+def _hull_points(triangulation: Triangulation) -> FloatArray:
+    """Corners of the hull in their order, (h, 2) or (h, 3)."""
+    corners = triangulation.points[hull(triangulation)]
+    if len(triangulation.points) and not len(corners):
+        raise ValueError("points have no hull: on the sphere there is one if they lie in an open hemisphere")
+    return corners
 
 
 def _proximity_edges(

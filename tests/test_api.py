@@ -25,6 +25,7 @@ import stereodel.render
 import stereodel.spatial
 import stereodel.sphere
 import stereodel.triangulation
+import stereodel.xarray
 from stereodel._docs import shared
 
 DOCS = Path(__file__).resolve().parent.parent / "docs"
@@ -45,6 +46,7 @@ PACKAGES = [
     stereodel.spatial,
     stereodel.sphere,
     stereodel.triangulation,
+    stereodel.xarray,
 ]
 CLASSES = {name: value for name, value in PUBLIC.items() if inspect.isclass(value)}
 VALUES = {
@@ -106,6 +108,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.graphs") == set(stereodel.graphs.__all__)
     assert reference("stereodel.relaxation") == set(stereodel.relaxation.__all__)
     assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)
+    assert reference("stereodel.xarray") == set(stereodel.xarray.__all__)
     assert reference("stereodel.io") == set(stereodel.io.__all__)
     assert reference("stereodel.spatial") | {"QhullError"} == set(stereodel.spatial.__all__)
     assert reference("stereodel.globe") == set(stereodel.globe.__all__)

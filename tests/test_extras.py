@@ -75,6 +75,8 @@ DOORS = {
     "from stereodel.io import *; write('a.parquet', read_points(TABLE)); read_points('a.parquet')": ["geo"],
     "from stereodel.io import to_geodataframe, warp; warp(to_geodataframe(MESH), LENS)": ["geo"],
     "from stereodel.io import to_ugrid; to_ugrid(MESH)": ["grid"],
+    "import stereodel.xarray": ["grid"],
+    "from stereodel.interpolation import *; NearestInterpolator(POINTS, POINTS).weights(POINTS).to_scipy()": ["scipy"],
     "from stereodel.io import write; write('a.nc', MESH)": ["grid"],
     "from stereodel.io import write; write('a.glb', MESH)": ["mesh"],
     "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
@@ -90,6 +92,7 @@ ROOMS = {
     "stereodel.cli": "cli",
     "stereodel.mpl": "draw",
     "stereodel.spatial": "scipy",
+    "stereodel.xarray": "grid",
 }
 """Packages that cannot be imported without an extra; all others can."""
 

@@ -39,6 +39,7 @@ PACKAGES: Final = (
     "stereodel.spatial",
     "stereodel.data",
     "stereodel.io",
+    "stereodel.xarray",
     "stereodel.drawing",
     "stereodel.render",
     "stereodel.film",

@@ -66,6 +66,18 @@ def natural_neighbors(
     Sibson's interpolant of values (n, k) at the queries, (m, 1, k), or its gradients, (m, 2, k).
     """
 
+def natural_neighbor_weights(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    workers: int = 1,
+    checked: bool = False,
+) -> tuple:
+    """
+    Sibson's weights at the queries, row after row: offsets (m + 1,), points and their weights.
+    """
+
 def find_simplex(
     points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy.typing as npt
 
+from stereodel._calls import by_name
 from stereodel.conformal.moebius import MoebiusMap
 from stereodel.sphere import Rotation, as_direction
 
 
+@by_name("magnification= is a keyword")
 def fisheye(focus: npt.ArrayLike, *, magnification: float) -> MoebiusMap:
     """The conformal map that enlarges the surroundings of a focus S times and lets the rest shrink.
 

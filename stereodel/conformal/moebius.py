@@ -141,7 +141,7 @@ class MoebiusMap:
         -------
         ndarray, shape (..., 3)
         """
-        array = as_vectors(xyz, 3, "xyz", gaps=True)
+        array = as_vectors(xyz, 3, "xyz", gaps=True, instead="for longitude and latitude call its method lonlat")
         images, sound = _kernel.moebius_images(*self._for_kernel(array), thread_count(workers, array.size // 3))
         if not sound:
             as_directions(array, "xyz")  # raises: the kernel met a row that is none, without a pass of its own

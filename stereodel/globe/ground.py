@@ -9,11 +9,12 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.constants import GROUND_PIXEL, SRGB_LINEAR
+from stereodel.constants import GROUND_PIXEL
+from stereodel.drawing.colorimetry import contrast
 from stereodel.drawing.colors import Color
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Beziers, Fill, Item, Label, Picture, Polygons
-from stereodel.drawing.style import HALO_OPACITY, WHITE
+from stereodel.drawing.style import BLACK, HALO_OPACITY, WHITE
 
 ACROSS: Final = 9
 UP: Final = 3
@@ -21,9 +22,6 @@ UP: Final = 3
 
 LEGIBLE: Final = 7.0
 """Least contrast of small type: a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
-
-EVEN_LUMINANCE: Final = 0.179
-"""Of a colour with the same contrast to white and to black: √(1.05·0.05) − 0.05."""
 
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
@@ -39,20 +37,12 @@ def haloed(label: Label, below: Sequence[Item], unit: float) -> Label:
 
 def legible(ground: FloatArray, ink: Color) -> FloatArray:
     """A colour mixed with white or black, whichever is farther from the ink, until type on it can be read."""
-    own = _luminance(np.array(ink[:3]))
-    away = np.ones(3) if own < EVEN_LUMINANCE else np.zeros(3)
+    away = max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
     for share in np.linspace(0.0, 1.0, 21):
         mixed: FloatArray = ground + share * (away - ground)
-        light, dark = sorted((_luminance(mixed), own), reverse=True)
-        if (light + 0.05) / (dark + 0.05) >= LEGIBLE:
+        if contrast(mixed, ink[:3]) >= LEGIBLE:
             break
     return mixed
-
-
-def _luminance(color: FloatArray) -> float:
-    """Relative luminance of sRGB."""
-    linear = np.where(color <= SRGB_LINEAR, color / 12.92, ((color + 0.055) / 1.055) ** 2.4)
-    return float(np.sum(linear * [0.2126, 0.7152, 0.0722]))
 
 
 def painted(items: Sequence[Item], places: FloatArray) -> FloatArray:

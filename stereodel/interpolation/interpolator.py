@@ -10,10 +10,12 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, FloatArray, as_choice, as_directions, as_vectors, locked
+from stereodel._calls import by_name
 from stereodel._docs import shared
+from stereodel.interpolation.labelled import labels_of_one, places_of
 from stereodel.interpolation.values import PrecisePoints, as_site_values
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_asked
+from stereodel.sphere.lonlat import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 BLOCK = 4096
@@ -44,10 +46,12 @@ class Interpolator(ABC):
         self._values = locked(flat.copy())
         self.values = self._values.reshape(len(flat), *shape)
         self._value_shape = shape
+        self._labels = labels_of_one(values)
         self._sites = PrecisePoints(self.triangulation.points)
         self._nearest_outside = extrapolate is not None and bool(as_choice(extrapolate, ("nearest",), "extrapolate"))
 
     @classmethod
+    @by_name(IN_ROWS)
     @shared(**LONLAT)
     def from_lonlat(
         cls, lonlat: npt.ArrayLike, values: npt.ArrayLike, *, latitude: Latitude = "spherical", **options: Any
@@ -82,6 +86,7 @@ class Interpolator(ABC):
         """The kind of latitude by which the points were given, None if they were not given by one."""
         return self.triangulation.latitude
 
+    @by_name(BY_NAME)
     @shared(**LONLAT)
     def __call__(
         self,
@@ -95,15 +100,19 @@ class Interpolator(ABC):
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions.
+            Points of the plane, or directions. A tuple of two xarray.DataArrays, x and y, means all places of both:
+            points if they have the same dimensions, a grid if each has its own.
         {asked}
+            Two DataArrays in a tuple, longitude and latitude, as for `queries`.
         workers : int, optional
             Threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
 
         Returns
         -------
         array of the leading shape, then the shape of one value
-            NaN outside, unless `extrapolate` says otherwise, and where a NaN of `values` takes part.
+            NaN outside, unless `extrapolate` says otherwise, and where a NaN of `values` takes part. For DataArrays a
+            DataArray with their dimensions and coordinates, and those, name and attributes of `values`, if they are
+            one.
 
         Raises
         ------
@@ -114,7 +123,9 @@ class Interpolator(ABC):
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
             result = self._evaluate(flat, workers)
-        return result.reshape(array.shape[:-1] + self._value_shape)
+        found = result.reshape(array.shape[:-1] + self._value_shape)
+        places = places_of(queries, lonlat)
+        return found if places is None else places.array(found, self._labels)
 
     def gradient(
         self,
@@ -147,6 +158,9 @@ class Interpolator(ABC):
         return result.reshape(array.shape[:-1] + self._value_shape + array.shape[-1:])
 
     def _as_queries(self, queries: npt.ArrayLike | None, lonlat: npt.ArrayLike | None) -> tuple[FloatArray, FloatArray]:
+        places = places_of(queries, lonlat)
+        if places is not None:
+            queries, lonlat = (places.pairs, None) if lonlat is None else (None, places.pairs)
         given, dimension = as_asked(queries, lonlat, self.latitude), self.triangulation.points.shape[1]
         if dimension == 3:
             array = as_directions(given, "queries", instead="for longitude and latitude write lonlat=…")

@@ -6,13 +6,15 @@ import numpy as np
 
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._docs import shared
+from stereodel.curves.ragged import offsets_of
 from stereodel.interpolation.interpolator import TriangleInterpolator
 from stereodel.interpolation.triangles import LocatedQueries
 from stereodel.interpolation.values import FAMILY
+from stereodel.interpolation.weights import Shares, WeightedInterpolator
 
 
 @shared(**FAMILY)
-class LinearInterpolator(TriangleInterpolator):
+class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
     """Linear in each triangle, continuous over all of them.
 
     Parameters
@@ -65,7 +67,19 @@ class LinearInterpolator(TriangleInterpolator):
         values = self._values[corners]
         # From the heaviest corner: at a point the value is met to the last bit.
         first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
-        return first[:, 0] + np.einsum("mi,mik->mk", weights, values - first)
+        one, two, three = np.moveaxis(weights[:, :, None] * (values - first), 1, 0)
+        return first[:, 0] + (one + two + three)
 
     def _slope_within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         return LocatedQueries(self._sites, corners, queries).slope([self._values[corners[:, k]] for k in range(3)])
+
+    def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
+        weights = np.empty((len(queries), 3))
+        outside = self._in_blocks(
+            weights, queries, workers, lambda corners, at: LocatedQueries(self._sites, corners, at).weights()
+        )
+        found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
+        inside = found >= 0
+        corners = self.triangulation.simplices[found[inside]]
+        shares = Shares(offsets_of(3 * inside), corners.ravel(), weights[inside].ravel())
+        return self._with_nearest(shares, queries, outside, workers)

@@ -7,14 +7,14 @@ import numpy as np
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, Indices
 from stereodel._docs import shared
-from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.values import FAMILY, PrecisePoints
+from stereodel.interpolation.weights import Shares, WeightedInterpolator
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.triangulation.dispatch import threads_of
 
 
 @shared(**FAMILY)
-class NaturalNeighborInterpolator(Interpolator):
+class NaturalNeighborInterpolator(WeightedInterpolator):
     """Each point counts with the area that a Voronoi cell around the query would take from its own (Sibson).
 
     Parameters
@@ -82,17 +82,23 @@ class NaturalNeighborInterpolator(Interpolator):
                 triangulation.points, *mesh, self._values, queries, gradients, crew, True
             )
         sites, asked = self._sites.exact, PrecisePoints(queries).exact
+        points, closing = triangulation.points, triangulation.closing
+        places = queries, asked.hi, asked.lo
         return _kernel.sphere.natural_neighbors(
-            triangulation.points,
-            sites.hi,
-            sites.lo,
-            *mesh,
-            self._values,
-            queries,
-            asked.hi,
-            asked.lo,
-            triangulation.closing,
-            gradients,
-            crew,
-            True,
+            points, sites.hi, sites.lo, *mesh, self._values, *places, closing, gradients, crew, True
         )
+
+    def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
+        triangulation = self.triangulation
+        mesh = triangulation.simplices, triangulation.neighbors
+        crew = threads_of(triangulation, workers, len(queries))
+        if isinstance(triangulation, SphericalDelaunay):
+            sites, asked = self._sites.exact, PrecisePoints(queries).exact
+            points, closing = triangulation.points, triangulation.closing
+            places = queries, asked.hi, asked.lo
+            found = _kernel.sphere.natural_neighbor_weights(
+                points, sites.hi, sites.lo, *mesh, *places, closing, crew, True
+            )
+        else:
+            found = _kernel.plane.natural_neighbor_weights(triangulation.points, *mesh, queries, crew, True)
+        return self._with_nearest(Shares(*found), queries, self._outside(queries, workers), workers)

@@ -7,13 +7,13 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._docs import shared
-from stereodel.interpolation.interpolator import Interpolator
 from stereodel.interpolation.values import FAMILY
+from stereodel.interpolation.weights import Shares, WeightedInterpolator
 from stereodel.triangulation.dispatch import Triangulation
 
 
 @shared(**FAMILY)
-class NearestInterpolator(Interpolator):
+class NearestInterpolator(WeightedInterpolator):
     """The value of the nearest point, exactly the nearest: constant on Voronoi cells.
 
     Parameters
@@ -51,3 +51,9 @@ class NearestInterpolator(Interpolator):
     def _evaluate_gradient(self, queries: FloatArray, workers: int | None) -> FloatArray:
         size = 1 if len(self._values) else np.nan
         return np.zeros((*queries.shape, self._values.shape[1])) * size
+
+    def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
+        if len(self._values) == 0:
+            return Shares(np.zeros(len(queries) + 1, dtype=np.intp), np.zeros(0, dtype=np.int32), np.zeros(0))
+        nearest = np.asarray(self.triangulation.nearest(queries, workers=workers))
+        return Shares(np.arange(len(queries) + 1), nearest, np.ones(len(queries)))

@@ -9,7 +9,7 @@ import numpy as np
 from stereodel._arrays import AnyIndices
 from stereodel.curves.ragged import spans
 from stereodel.triangulation.dispatch import Triangulation, open_triangles
-from stereodel.triangulation.topology import edges_of
+from stereodel.triangulation.topology import adjacency_of, edges_of
 
 BLOCK = 4096
 """Points at a time: they have some 80 000 neighbours of neighbours."""
@@ -19,11 +19,9 @@ class Adjacency:
     """The points that an edge joins to each point, as flat arrays."""
 
     def __init__(self, edges: AnyIndices, size: int) -> None:
-        # Every edge in both directions, sorted by its first end: the row of a point is a range of second ends.
-        both = np.concatenate([edges, edges[:, ::-1]])
-        self._ends = both[np.argsort(both[:, 0], kind="stable"), 1].astype(np.int64)
-        self._counts = np.bincount(both[:, 0], minlength=size)
-        self._starts = np.cumsum(self._counts) - self._counts
+        indptr, ends = adjacency_of(edges, size)
+        self._ends = ends.astype(np.int64)
+        self._starts, self._counts = indptr[:-1].astype(np.int64), np.diff(indptr)
 
     def around(self, points: AnyIndices) -> tuple[AnyIndices, AnyIndices]:
         """Pairs of a place in `points` and a point joined to the point there."""

@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import AnyIndices, FloatArray, SignArray, as_bounds, as_floats
+from stereodel._arrays import AnyIndices, BoolArray, FloatArray, SignArray, as_bounds, as_floats
 from stereodel.curves.ragged import Ragged
 from stereodel.triangulation import PlanarVoronoi
 
@@ -34,11 +34,16 @@ def _sides(points: FloatArray, polygon: FloatArray) -> list[SignArray]:
     return [_kernel.plane.turn(start, end, points) for start, end in zip(starts, ends, strict=True)]
 
 
+def outside(points: FloatArray, polygon: FloatArray) -> BoolArray:
+    """Which points lie outside the polygon, (n,)."""
+    return np.asarray(np.any([sides < 0 for sides in _sides(points, polygon)], axis=0))
+
+
 def check_inside(points: FloatArray, polygon: FloatArray) -> None:
     """Refuse points outside the polygon."""
-    outside = np.any([sides < 0 for sides in _sides(points, polygon)], axis=0)
-    if outside.any():
-        k = int(np.argmax(outside))
+    wrong = outside(points, polygon)
+    if wrong.any():
+        k = int(np.argmax(wrong))
         raise ValueError(f"points[{k}] is {points[k].tolist()}, outside bounds")
 
 

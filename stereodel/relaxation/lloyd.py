@@ -9,20 +9,63 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import AnyIndices, FloatArray, as_count, as_scalar, as_weights, as_workers, locked
+from stereodel._arrays import AnyIndices, FloatArray, as_count, as_scalar, as_weights, as_workers, locked, read_only
 from stereodel._docs import shared
 from stereodel._double_double import unit
 from stereodel.constants import BALANCED
-from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells
+from stereodel.relaxation.flat_cells import as_polygon, check_inside, flat_cells, outside
 from stereodel.relaxation.quadrature import MIDPOINTS, RADON, flat_nodes, spherical_nodes
 from stereodel.relaxation.round_cells import RoundCells
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import LONLAT, as_sites, as_told, refuse_lonlat
-from stereodel.triangulation.dispatch import Triangulation
+from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 Density = Callable[[FloatArray], npt.ArrayLike]
+
+
+class Progress(NamedTuple):
+    """What `lloyd` tells after a step.
+
+    Attributes
+    ----------
+    step : int
+        Which one, from 1 on.
+    energy : float
+        After it.
+    move : float
+        The longest way of a point: in units of the plane, on the sphere in degrees.
+    """
+
+    step: int
+    energy: float
+    move: float
+
+
+@dataclass(frozen=True)
+class Quality:
+    """How even the cells of relaxed points are; the result of `Relaxation.quality`.
+
+    Attributes
+    ----------
+    neighbors : dict
+        How many points have how many neighbours in the triangulation. In the plane those on the hull do not count.
+    defects : int
+        Points that have not six.
+    area_ratio : float
+        Area of the largest cell, within the bounds, over that of the smallest.
+    energy : float
+        In the end.
+    converged : bool
+        As for `Relaxation`.
+    """
+
+    neighbors: dict[int, int]
+    defects: int
+    area_ratio: float
+    energy: float
+    converged: bool
 
 
 class Step(NamedTuple):
@@ -48,6 +91,8 @@ class Relaxation:
         Whether the last step moved no point farther than the tolerance.
     latitude : str or None
         The kind of latitude by which the points were given.
+    bounds : (k, 2) array or None
+        Corners of the part of the plane that the cells divide; None on the sphere.
     lonlat : (n, 2) array
         `points` in degrees, of that latitude.
 
@@ -63,11 +108,50 @@ class Relaxation:
     moves: FloatArray
     converged: bool
     latitude: Latitude | None = None
+    bounds: FloatArray | None = None
 
     @property
     def lonlat(self) -> FloatArray:
         """Longitude and latitude of `points`, (n, 2) in degrees, if the points were given by them."""
         return as_told(self.points, self.latitude)
+
+    def quality(self) -> Quality:
+        """How even the cells are.
+
+        Returns
+        -------
+        Quality
+            Neighbours, defects, ratio of areas; without a density the fewest possible defects on the sphere are twelve
+            points with five neighbours.
+
+        Examples
+        --------
+        >>> from stereodel.relaxation import lloyd
+        >>> steps = (1 + np.arange(40)) * (5**0.5 - 1) / 2 % 1, (np.arange(40) + 0.5) / 40
+        >>> even = lloyd(lonlat=np.column_stack([360 * steps[0], 180 * steps[1] - 90]), steps=60).quality()
+        >>> sum(even.neighbors.values()), even.area_ratio < 1.5
+        (40, True)
+        """
+        triangulation = as_triangulation(self.points)
+        degrees = np.diff(triangulation.vertex_neighbor_vertices[0])
+        if self.bounds is None:
+            areas = RoundCells(self.points, None).areas()
+        else:
+            degrees[triangulation.convex_hull] = 0
+            triangles, site = flat_cells(self.points, self.bounds, None)
+            one, other = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+            double = one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
+            areas = np.bincount(site, double, len(self.points)).astype(np.float64)
+        counts = np.unique_counts(degrees[degrees > 0])
+        neighbors = dict(zip(counts.values.tolist(), counts.counts.tolist(), strict=True))
+        held = areas[areas > 0]
+        return Quality(
+            neighbors,
+            sum(count for number, count in neighbors.items() if number != 6),
+            float(held.max() / held.min()) if len(held) else 1.0,
+            float(self.energies[-1]),
+            self.converged,
+        )
 
 
 @shared(**LONLAT)
@@ -80,6 +164,8 @@ def lloyd(
     density: Density | None = None,
     bounds: npt.ArrayLike | None = None,
     tolerance: float = 0.0,
+    factor: float = 1.0,
+    callback: Callable[[Progress], object] | None = None,
     workers: int | None = None,
 ) -> Relaxation:
     """Move points to the centroids of their Voronoi cells, again and again.
@@ -99,13 +185,20 @@ def lloyd(
         counterclockwise. On the sphere none: the cells divide it all.
     tolerance : float, optional
         Stop after a step that moves no point farther: in units of the plane, on the sphere in degrees.
+    factor : float, optional
+        How much of the way to the centroid a step takes, above 0 and below 2. Above 1 it goes beyond (over-relaxation):
+        with 1.9 little more than half as many steps do.
+    callback : callable, optional
+        Is called after each step with a `Progress`: step, energy, move. What it returns does not count; what it raises
+        ends the relaxation.
     workers : int, optional
         Threads; -1 for all processors. Never changes the result.
 
     Returns
     -------
     Relaxation
-        `points`, `energies`, `moves` and `converged`; `lonlat` if the points were given by longitude and latitude.
+        `points`, `energies`, `moves`, `converged` and `quality()`; `lonlat` if the points were given by longitude and
+        latitude.
 
     Raises
     ------
@@ -119,6 +212,10 @@ def lloyd(
     The energy is the sum over the cells of ∫ ρ(x) |x − p|² dx, on the sphere with the chord |x − p|. A step takes p
     to the mass centroid of its cell, on the sphere projected to it from the centre: where this integral is least. The
     new cells are at least as good, so the energy never grows, up to rounding and, with a density, quadrature.
+
+    That holds for each `factor` too: with the old cells the energy depends on the distance from the centroid alone (on
+    the sphere on the angle), and none is longer afterwards than before. A point that would leave the bounds stops at
+    the centroid.
 
     Without a density the integrals are exact up to rounding. With one they are sums over triangles of a site and two
     corners of its cell by Radon's rule of degree five; on the sphere triangles are first halved until no side is longer
@@ -152,33 +249,79 @@ def lloyd(
     else:
         given, kind = as_sites(points, lonlat, latitude)
     limit, threads = as_scalar(tolerance, "tolerance", low=0.0), as_workers(workers)
+    share = as_scalar(factor, "factor", low=0.0, high=2.0, open_low=True, open_high=True)
+    course = Course(as_count(steps, "steps", low=0), limit, callback)
     if given.shape[1] == 3:
         if bounds is not None:
             raise ValueError("bounds are for points of the plane; on the sphere leave them out")
-        relaxed = _relax(unit(given).hi, lambda p: _step_on_sphere(p, density, threads), steps, limit, _ways_on_sphere)
+        relaxed = _relax(
+            unit(given).hi,
+            lambda p: _step_on_sphere(p, density, threads),
+            lambda p, to: _on_sphere(p, to, share),
+            _ways_on_sphere,
+            course,
+        )
         return replace(relaxed, latitude=kind)
     polygon = as_polygon(bounds)
     check_inside(given, polygon)
-    return _relax(given, lambda p: _step_in_plane(p, polygon, density, threads), steps, limit, _ways_in_plane)
+    relaxed = _relax(
+        given,
+        lambda p: _step_in_plane(p, polygon, density, threads),
+        lambda p, to: _in_plane(p, to, share, polygon),
+        _ways_in_plane,
+        course,
+    )
+    return replace(relaxed, bounds=read_only(polygon))
+
+
+class Course(NamedTuple):
+    """How many steps are taken, and who hears of them."""
+
+    steps: int
+    tolerance: float
+    callback: Callable[[Progress], object] | None
 
 
 def _relax(
     points: FloatArray,
     step: Callable[[FloatArray], Step],
-    steps: int,
-    tolerance: float,
+    advance: Callable[[FloatArray, FloatArray], FloatArray],
     ways: Callable[[FloatArray, FloatArray], FloatArray],
+    course: Course,
 ) -> Relaxation:
     here = step(points)
     energies, moves, converged = [here.energy], [], False
-    for _ in range(as_count(steps, "steps", low=0)):
-        moves.append(float(ways(points, here.centroids).max(initial=0.0)))
-        points = here.centroids
+    for number in range(1, course.steps + 1):
+        before, points = points, advance(points, here.centroids)
+        moves.append(float(ways(before, points).max(initial=0.0)))
         here = step(points)
         energies.append(here.energy)
-        if converged := moves[-1] <= tolerance:
+        if course.callback is not None:
+            course.callback(Progress(number, energies[-1], moves[-1]))
+        if converged := moves[-1] <= course.tolerance:
             break
     return Relaxation(locked(points.copy()), locked(np.array(energies)), locked(np.array(moves)), converged)
+
+
+def _in_plane(points: FloatArray, centroids: FloatArray, factor: float, polygon: FloatArray) -> FloatArray:
+    """Points that went a part of the way to their centroids, or beyond, within the polygon."""
+    if factor == 1.0:
+        return centroids
+    reached = points + factor * (centroids - points)
+    return np.where(outside(reached, polygon)[:, None], centroids, reached)
+
+
+def _on_sphere(points: FloatArray, centroids: FloatArray, factor: float) -> FloatArray:
+    """The same along great circles."""
+    if factor == 1.0:
+        return centroids
+    step = centroids - points
+    tangent = step - points * np.einsum("ni,ni->n", points, step)[:, None]
+    length = np.linalg.norm(tangent, axis=1, keepdims=True)
+    angle = factor * np.arctan2(length, np.einsum("ni,ni->n", points, centroids)[:, None])
+    still = length == 0
+    reached = points * np.cos(angle) + tangent / np.where(still, 1.0, length) * np.sin(angle)
+    return np.where(still, points, unit(reached).hi)
 
 
 def _ways_in_plane(one: FloatArray, other: FloatArray) -> FloatArray:

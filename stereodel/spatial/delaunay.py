@@ -13,6 +13,7 @@ from stereodel.constants import INSIDE_TOLERANCE
 from stereodel.spatial.barycentric import NearMisses, transforms
 from stereodel.spatial.growing import GrowingPoints
 from stereodel.spatial.paraboloid import Paraboloid
+from stereodel.triangulation.topology import adjacency_of
 
 
 class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
@@ -127,12 +128,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
     @cached_property
     def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
         """Neighbors of each vertex k: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
-        edges = self._triangulation.edges
-        both = np.concatenate([edges, edges[:, ::-1]])
-        both = both[np.lexsort(both.T[::-1])]
-        indptr = np.zeros(self.npoints + 1, dtype=np.int32)
-        np.cumsum(np.bincount(both[:, 0], minlength=self.npoints), out=indptr[1:])
-        return indptr, both[:, 1].copy()
+        return adjacency_of(self._triangulation.edges, self.npoints)
 
     @cached_property
     def _paraboloid(self) -> Paraboloid:

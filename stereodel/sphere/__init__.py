@@ -6,6 +6,7 @@ from stereodel.sphere.circles import SphereCircle
 from stereodel.sphere.coordinates import as_direction, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.graticules import graticule, graticule_patch, meridian, parallel
 from stereodel.sphere.great_circles import angular_distance, great_circle_points
+from stereodel.sphere.healpix import healpix_centers
 from stereodel.sphere.rotations import Rotation
 
 __all__ = [
@@ -17,6 +18,7 @@ __all__ = [
     "graticule",
     "graticule_patch",
     "great_circle_points",
+    "healpix_centers",
     "lonlat_to_xyz",
     "meridian",
     "parallel",

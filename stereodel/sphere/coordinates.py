@@ -20,6 +20,7 @@ from stereodel._arrays import (
     as_lonlat,
     as_plane_or_sphere,
 )
+from stereodel._calls import by_name
 from stereodel._double_double import DoubleDouble, stack
 from stereodel._threads import thread_count
 from stereodel.sphere.chunks import by_blocks
@@ -27,6 +28,7 @@ from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
 
 
+@by_name("give longitude and latitude as one pair (lon, lat), or rows of such pairs, np.column_stack([lon, lat])")
 def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None) -> FloatArray:
     """Unit vectors of points given by longitude and latitude.
 

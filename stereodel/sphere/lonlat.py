@@ -44,6 +44,13 @@ LONLAT: Final = {
 """What docstrings say of it."""
 
 
+IN_ROWS: Final = "give rows (longitude, latitude), as np.column_stack([lon, lat]) makes them"
+"""The end of messages about other shapes and calls."""
+
+BY_NAME: Final = "give longitude and latitude by name, lonlat=np.column_stack([lon, lat])"
+"""The same of queries."""
+
+
 class Sites(NamedTuple):
     """Points of the plane, (n, 2), or directions, (n, 3), and their kind of latitude if they were given by one."""
 
@@ -59,7 +66,7 @@ def as_sites(points: npt.ArrayLike | None, lonlat: npt.ArrayLike | None, latitud
     if lonlat is None:
         raise TypeError("points are missing; give points, or longitude and latitude by lonlat=")
     kind: Latitude = "spherical" if latitude is None else latitude
-    return Sites(lonlat_to_xyz(as_points(lonlat, 2, "lonlat"), latitude=kind), kind)
+    return Sites(lonlat_to_xyz(as_points(lonlat, 2, "lonlat", hint=IN_ROWS), latitude=kind), kind)
 
 
 def refuse_lonlat(lonlat: npt.ArrayLike | None, latitude: Latitude | None) -> None:

@@ -20,13 +20,14 @@ from stereodel._arrays import (
     locked,
     private,
 )
+from stereodel._calls import by_name
 from stereodel._docs import shared
 from stereodel._spaces import Mesh, Space, Triangulated
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_asked
-from stereodel.triangulation.topology import boundary_of, edges_of, neighbors_of
+from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked
+from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of, neighbors_of
 from stereodel.triangulation.versions import Versioned, kept
 
 _T = TypeVar("_T")
@@ -41,6 +42,9 @@ FAMILY: Final = {
     "edges": """
         edges : (e, 2) array of int32
             Edges with i < j, in lexicographic order.
+        vertex_neighbor_vertices : tuple of two int32 arrays, (n + 1,) and (2e,)
+            ``indptr, indices``: edges join point k to ``indices[indptr[k]:indptr[k + 1]]``, in order; a dropped
+            duplicate to none.
         """,
     "changes": """
         Arrays are read-only; `insert` and `remove` replace them. Several threads may ask at the same time. While one of
@@ -182,6 +186,12 @@ class Delaunay(Versioned, ABC):
         return locked(edges_of(self.simplices))
 
     @kept
+    def vertex_neighbor_vertices(self) -> tuple[IntArray, IntArray]:
+        """Neighbours of each point: ``indices[indptr[k]:indptr[k + 1]]`` of the tuple (indptr, indices)."""
+        indptr, indices = adjacency_of(self.edges, self._size)
+        return locked(indptr), locked(indices)
+
+    @kept
     def convex_hull(self) -> IntArray:
         """Directed edges (h, 2) int32 around the triangles, which lie on the left, in lexicographic order."""
         return locked(boundary_of(self.simplices, self.neighbors, self._open))
@@ -283,6 +293,7 @@ class Delaunay(Versioned, ABC):
             self._put(before._fresh(rest) if version._mesh.is_flat else version)
         return number
 
+    @by_name(BY_NAME)
     @shared(**LONLAT)
     def find_simplex(
         self,
@@ -316,6 +327,7 @@ class Delaunay(Versioned, ABC):
         array, flat, threads = now._as_queries(as_asked(queries, lonlat, self._latitude), workers)
         return _shaped(now._space.find_simplex(*now._triangles(), flat, now._closed(), threads, True), array)
 
+    @by_name(BY_NAME)
     @shared(**LONLAT)
     def nearest(
         self,

@@ -8,10 +8,11 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, as_directions, locked
+from stereodel._calls import by_name
 from stereodel._docs import shared
 from stereodel._spaces import Space
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_sites, as_told
+from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.triangulation.delaunay import FAMILY, Delaunay
 from stereodel.triangulation.versions import kept
 
@@ -91,6 +92,7 @@ class SphericalDelaunay(Delaunay):
     _space: ClassVar[Space] = _kernel.sphere
 
     @classmethod
+    @by_name(IN_ROWS)
     @shared(**LONLAT)
     def from_lonlat(
         cls,

@@ -9,10 +9,11 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, IntArray, as_scalar, locked
+from stereodel._calls import by_name
 from stereodel._docs import shared
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.latitudes import Latitude
-from stereodel.sphere.lonlat import LONLAT, as_told
+from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_told
 from stereodel.triangulation.diagram import FAMILY, Diagram
 from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
@@ -92,6 +93,7 @@ class SphericalVoronoi(Diagram):
             self._set_circle(triangulation._flat_order)
 
     @classmethod
+    @by_name(IN_ROWS)
     @shared(**LONLAT)
     def from_lonlat(
         cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None

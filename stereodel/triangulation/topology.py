@@ -83,6 +83,18 @@ def _unpacked(edges: LongArray) -> IntArray:
     return np.column_stack([once >> 32, once & 0xFFFFFFFF]).astype(np.int32)
 
 
+def adjacency_of(edges: AnyIndices, size: int) -> tuple[IntArray, IntArray]:
+    """Neighbours of each of `size` vertices in a graph of edges, each given once: offsets (size + 1,), neighbours.
+
+    Those of vertex k are ``indices[indptr[k]:indptr[k + 1]]`` of the two, in order.
+    """
+    ends = edges.astype(np.int64)
+    directed = np.sort(np.concatenate([ends[:, 0] << 32 | ends[:, 1], ends[:, 1] << 32 | ends[:, 0]]))
+    indptr = np.zeros(size + 1, dtype=np.int32)
+    np.cumsum(np.bincount(directed >> 32, minlength=size), out=indptr[1:])
+    return indptr, (directed & 0xFFFFFFFF).astype(np.int32)
+
+
 def boundary_of(simplices: AnyIndices, neighbors: AnyIndices, inside: BoolArray) -> IntArray:
     """Directed edges (h, 2) of the triangles `inside` that border others or nothing, in lexicographic order."""
     bordering = inside[:, None] & ((neighbors < 0) | ~inside[neighbors])

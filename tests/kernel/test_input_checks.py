@@ -43,10 +43,12 @@ def calls():
         yield f"{place}.circumcenters", {"points": t.points, "triangles": t.simplices}
         if place == "plane":
             yield "plane.natural_neighbors", triangles(t) | {"values": np.zeros((12, 1))} | queries
+            yield "plane.natural_neighbor_weights", triangles(t) | queries
     yield "sphere.closing", {"points": SPHERE.points, "simplices": SPHERE.simplices}
     units = {"units": SPHERE.points, "rests": 0 * SPHERE.points}
     asked = {"queries": SPHERE.points, "query_units": SPHERE.points, "query_rests": 0 * SPHERE.points}
     yield "sphere.natural_neighbors", triangles(SPHERE) | units | {"values": np.zeros((12, 1))} | asked
+    yield "sphere.natural_neighbor_weights", triangles(SPHERE) | units | asked
     yield "lonlat_to_xyz", {"lonlat": PLANE.points}
     yield "xyz_to_lonlat", {"xyz": SPHERE.points}
     for name in ("moebius_images", "moebius_scales"):

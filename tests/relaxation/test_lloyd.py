@@ -230,3 +230,91 @@ def test_a_star_is_not_convex_though_it_always_turns_left():
     angles = np.arange(5) * 4 * np.pi / 5
     with pytest.raises(ValueError, match="convex"):
         lloyd([[0, 0]], bounds=np.column_stack([np.cos(angles), np.sin(angles)]))
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.5, 1.9])
+@given(points=st.lists(DIRECTION, min_size=2, max_size=12))
+@settings(max_examples=30)
+def test_a_factor_takes_that_part_of_the_way_on_the_sphere(factor, points):
+    """The same great circle; the energy never grows."""
+    full, part = lloyd(points, steps=1), lloyd(points, steps=1, factor=factor)
+    assert part.moves[0] == pytest.approx(factor * full.moves[0], abs=1e-6)
+    start = np.array(points) / np.linalg.norm(points, axis=1, keepdims=True)
+    assert np.allclose(np.einsum("ni,ni->n", np.cross(start, full.points), part.points), 0, rtol=0, atol=1e-12)
+    assert np.allclose(np.linalg.norm(part.points, axis=1), 1, rtol=0, atol=1e-15)
+    assert never_grows(lloyd(points, steps=5, factor=factor))
+
+
+@pytest.mark.parametrize("factor", [0.5, 1.5, 1.9])
+@given(points=st.lists(GRID_POINT, min_size=1, max_size=9))
+@settings(max_examples=30)
+def test_a_factor_takes_that_part_of_the_way_in_the_plane_and_stays_within_the_bounds(factor, points):
+    full, part = lloyd(points, steps=1, bounds=SQUARE), lloyd(points, steps=1, bounds=SQUARE, factor=factor)
+    wanted = np.array(points) + factor * (full.points - points)
+    outside = ((wanted < 0) | (wanted > 8)).any(axis=1)
+    assert np.allclose(part.points, np.where(outside[:, None], full.points, wanted), rtol=0, atol=1e-12)
+    assert never_grows(lloyd(points, steps=5, bounds=SQUARE, factor=factor))
+
+
+def test_a_point_that_would_leave_the_bounds_stops_at_the_centroid():
+    """A thin cell along a side of a triangle: its mass lies near one end, the point far beyond the other."""
+    corners = [[0, 0], [9, 0], [0, 9]]
+    relaxed = lloyd([[8.9, 0.05]], steps=1, bounds=corners, factor=1.9)
+    assert np.allclose(relaxed.points, [[3, 3]])
+    assert np.allclose(lloyd([[8.9, 0.05]], steps=1, bounds=corners, factor=1.2).points, [[1.82, 3.59]])
+
+
+def test_beyond_the_centroid_it_goes_faster():
+    points = np.random.default_rng(1).normal(size=(300, 3))
+    plain, beyond = lloyd(points, steps=60), lloyd(points, steps=60, factor=1.8)
+    assert beyond.energies[-1] < plain.energies[-1]
+    assert beyond.energies[-1] == pytest.approx(lloyd(points, steps=120).energies[-1], rel=2e-3)
+
+
+@pytest.mark.parametrize("factor", [0.0, 2.0, -1.0, np.nan])
+def test_factors_that_lead_nowhere_are_refused(factor):
+    with pytest.raises(ValueError, match="factor"):
+        lloyd([[1, 0, 0]], factor=factor)
+
+
+def test_a_callback_hears_of_each_step():
+    heard, points = [], np.random.default_rng(1).random((20, 2))
+    relaxed = lloyd(points, steps=7, bounds=(0, 0, 1, 1), callback=heard.append)
+    assert [progress.step for progress in heard] == list(range(1, 8))
+    assert [progress.energy for progress in heard] == relaxed.energies[1:].tolist()
+    assert [progress.move for progress in heard] == relaxed.moves.tolist()
+
+    def stop(progress):
+        if progress.step == 3:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        lloyd(points, bounds=(0, 0, 1, 1), callback=stop)
+
+
+def test_quality_of_a_dodecahedron():
+    """Twelve cells with five sides and equal areas."""
+    golden = (1 + 5**0.5) / 2
+    corners = [np.roll([0, a, b * golden], k) for a in (-1, 1) for b in (-1, 1) for k in range(3)]
+    quality = lloyd(corners, steps=1, tolerance=1e-9).quality()
+    assert quality.neighbors == {5: 12}
+    assert quality.defects == 12
+    assert quality.area_ratio == pytest.approx(1, abs=1e-12)
+    assert quality.converged
+
+
+def test_quality_within_bounds():
+    """Two cells, three and five squares large; and those of a grid."""
+    relaxed = lloyd([[0.5, 1], [2.5, 1]], steps=0, bounds=(0, 0, 4, 2))
+    assert relaxed.bounds.tolist() == [[0, 0], [4, 0], [4, 2], [0, 2]]
+    assert relaxed.quality().area_ratio == pytest.approx(5 / 3, abs=1e-12)
+    grid = np.stack(np.meshgrid(np.arange(5.0), np.arange(5.0)), axis=-1).reshape(-1, 2) + 0.5
+    quality = lloyd(grid, steps=0, bounds=(0, 0, 5, 5)).quality()
+    assert quality.area_ratio == pytest.approx(1, abs=1e-12)
+    assert sum(quality.neighbors.values()) == 9
+    assert quality.defects == 9 - quality.neighbors.get(6, 0)
+
+
+def test_quality_without_cells_and_with_equal_points():
+    assert lloyd(np.zeros((0, 3)), steps=1).quality().area_ratio == 1
+    assert lloyd([[1, 0, 0], [1, 0, 0]], steps=0).quality().area_ratio == 1

@@ -23,11 +23,12 @@ namespace {
 
 constexpr double UNKNOWN = std::numeric_limits<double>::quiet_NaN();
 
-// What a point counts for, and the derivative of that by the place of the query.
+// What a point counts for: an area, its part of all areas, and its derivative by the place of the query.
 struct Share {
     Index point;
     double area;
     Local slope;
+    double weight = 0.0;
 };
 
 // One thread's work.
@@ -52,8 +53,15 @@ class Interpolation {
         if (end.exit < 0) {
             around_.take(sphere() ? task_.query_units + 3 * k : query, sphere() ? task_.query_rests + 3 * k : nullptr);
             find_shares(end);
+            weigh();
         }
-        put(k);
+        if (task_.counts != nullptr) {
+            task_.counts[k] = static_cast<std::int64_t>(shares_.size());
+        } else if (task_.weights != nullptr) {
+            put_weights(static_cast<std::size_t>(task_.starts[k]));
+        } else {
+            put(k);
+        }
     }
 
   private:
@@ -71,6 +79,7 @@ class Interpolation {
             if (end.side[(k + 1) % 3] == 0 && end.side[(k + 2) % 3] == 0) {
                 has_slopes_ = false;
                 shares_.push_back({c[k], 1.0, {}});
+                total_ = 1.0;
                 return;
             }
         }
@@ -189,6 +198,23 @@ class Interpolation {
         has_slopes_ = false;
     }
 
+    // The heaviest share is the one that the others are compared with.
+    void weigh() {
+        for (Share& share : shares_) {
+            share.weight = share.area / total_;
+        }
+        const auto lighter = [](const Share& a, const Share& b) { return a.weight < b.weight; };
+        const auto heaviest = std::max_element(shares_.begin(), shares_.end(), lighter);
+        heaviest_ = static_cast<std::size_t>(heaviest - shares_.begin());
+    }
+
+    void put_weights(std::size_t place) {
+        for (const Share& share : shares_) {
+            task_.members[place] = share.point;
+            task_.weights[place++] = share.weight;
+        }
+    }
+
     void put(std::size_t k) {
         const std::size_t width = task_.width;
         for (std::size_t j = 0; j < width; ++j) {
@@ -198,20 +224,18 @@ class Interpolation {
                 put_unknown(k, j);
                 continue;
             }
-            // From the first value: equal ones stay equal to the last bit.
-            const double base = values[static_cast<std::size_t>(shares_[0].point) * width];
-            double sum = 0.0, total = 0.0;
+            // From the heaviest value: equal ones stay equal to the last bit.
+            const double base = values[static_cast<std::size_t>(shares_[heaviest_].point) * width];
+            double above = 0.0;
             for (const Share& share : shares_) {
-                sum += share.area * (values[static_cast<std::size_t>(share.point) * width] - base);
-                total += share.area;
+                above += share.weight * (values[static_cast<std::size_t>(share.point) * width] - base);
             }
-            const double above = sum / total;
             task_.found[k * width + j] = base + above;
-            put_gradient(k, j, base, above, total);
+            put_gradient(k, j, base, above);
         }
     }
 
-    void put_gradient(std::size_t k, std::size_t j, double base, double above, double total) {
+    void put_gradient(std::size_t k, std::size_t j, double base, double above) {
         if (task_.gradients == nullptr || !has_slopes_) {
             put_unknown(k, j);
             return;
@@ -222,8 +246,8 @@ class Interpolation {
             gradient.x += share.slope.x * rise;
             gradient.y += share.slope.y * rise;
         }
-        gradient.x /= total;
-        gradient.y /= total;
+        gradient.x /= total_;
+        gradient.y /= total_;
         around_.put_gradient(gradient, task_.gradients + k * dimension * task_.width + j, task_.width);
     }
 
@@ -239,7 +263,8 @@ class Interpolation {
     Around around_;
     std::vector<Edge> front_, rim_;
     std::vector<Share> shares_;
-    double total_ = 0.0;
+    double total_ = 0.0;         // of the areas
+    std::size_t heaviest_ = 0;  // place in shares_
     bool has_slopes_ = true;
     Stop stop_;
 };
@@ -248,6 +273,9 @@ template <class Query, class Around>
 void interpolate(const NaturalNeighborTask& task, int workers, Stop stop) {
     const Index start = first_open(task.triangles);
     if (start == static_cast<Index>(task.triangles.count())) {
+        if (task.counts != nullptr) {
+            std::fill_n(task.counts, task.count, 0);
+        }
         std::fill_n(task.found, task.count * task.width, UNKNOWN);
         if (task.gradients != nullptr) {
             std::fill_n(task.gradients, task.count * task.width * Query::Chart::dimension, UNKNOWN);

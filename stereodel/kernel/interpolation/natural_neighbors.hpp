@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "queries/queries.hpp"
 
@@ -17,16 +18,22 @@ namespace stereodel::interpolation {
 
 using queries::TriangleArrays;
 
+// What is asked: values and gradients; or how many points count for each query, and then these with their weights.
 struct NaturalNeighborTask {
     TriangleArrays triangles;
-    const double *units, *unit_rests;  // sphere: the points as unit vectors in double-double
-    const double* queries;
-    const double *query_units, *query_rests;  // sphere
-    std::size_t count;
-    const double* values;  // `width` for each point
-    std::size_t width;
-    double* found;      // `width` for each query; NaN where no triangle holds it
-    double* gradients;  // dimension times `width` for each query, or null; NaN at points and on the plane's hull too
+    const double *units = nullptr, *unit_rests = nullptr;  // sphere: the points as unit vectors in double-double
+    const double* queries = nullptr;
+    const double *query_units = nullptr, *query_rests = nullptr;  // sphere
+    std::size_t count = 0;
+    const double* values = nullptr;  // `width` for each point
+    std::size_t width = 0;
+    double* found = nullptr;  // `width` for each query; NaN where no triangle holds it
+    // Dimension times `width` for each query, or null; NaN at points and on the plane's hull too.
+    double* gradients = nullptr;
+    std::int64_t* counts = nullptr;        // one for each query
+    const std::int64_t* starts = nullptr;  // where to put the points of each query
+    Index* members = nullptr;
+    double* weights = nullptr;  // of sum one up to rounding
 };
 
 // The result does not depend on `workers`. Throws std::bad_alloc, Cancelled.

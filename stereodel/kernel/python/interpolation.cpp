@@ -2,6 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -41,32 +42,54 @@ Vectors answers(const NaturalNeighborTask& task, std::size_t dimension, bool gra
                      : to_array<Vectors>(std::move(both.first), {task.count, 1, task.width});
 }
 
-Vectors in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values,
-                    RowsIn<double, 2> queries, bool gradients, int workers, bool checked) {
-    check_same_length("points", points.shape(0), "values", values.shape(0));
-    check_points("queries", queries);
-    const NaturalNeighborTask task{to_triangles(points, simplices, neighbors, {}, checked),
-                                   nullptr,
-                                   nullptr,
-                                   queries.data(),
-                                   nullptr,
-                                   nullptr,
-                                   queries.shape(0),
-                                   values.data(),
-                                   values.shape(1),
-                                   nullptr,
-                                   nullptr};
-    return answers(task, 2, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
-        natural_neighbors_plane(filled, workers, stop);
+// Whose values count for each query, row after row: offsets (count + 1,), numbers of points, and weights.
+template <class Work>
+nb::tuple shares(const NaturalNeighborTask& task, Work&& work) {
+    struct Shares {
+        Buffer<std::int64_t> offsets;
+        Buffer<Index> members;
+        Buffer<double> weights;
+    };
+    Shares all = run_without_lock(task.count > long_work, [&](Stop stop) {
+        // First how many there are, so that the threads know where to put them.
+        Shares out;
+        out.offsets = Buffer<std::int64_t>{task.count + 1};
+        out.offsets.data()[0] = 0;
+        NaturalNeighborTask counted = task;
+        counted.counts = out.offsets.data() + 1;
+        work(counted, stop);
+        for (std::size_t k = 0; k < task.count; ++k) {
+            out.offsets.data()[k + 1] += out.offsets.data()[k];
+        }
+        const std::size_t size = static_cast<std::size_t>(out.offsets.data()[task.count]);
+        out.members = Buffer<Index>{size};
+        out.weights = Buffer<double>{size};
+        NaturalNeighborTask filled = task;
+        filled.starts = out.offsets.data();
+        filled.members = out.members.data();
+        filled.weights = out.weights.data();
+        work(filled, stop);
+        return out;
     });
+    return nb::make_tuple(to_values(std::move(all.offsets)), to_values(std::move(all.members)),
+                          to_values(std::move(all.weights)));
 }
 
-Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
-                     RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values, RowsIn<double, 3> queries,
-                     RowsIn<double, 3> query_units, RowsIn<double, 3> query_rests, std::optional<Closing> closing,
-                     bool gradients, int workers, bool checked) {
+NaturalNeighborTask plane_task(const RowsIn<double, 2>& points, const RowsIn<Index, 3>& simplices,
+                               const RowsIn<Index, 3>& neighbors, const RowsIn<double, 2>& queries, bool checked) {
+    check_points("queries", queries);
+    NaturalNeighborTask task{to_triangles(points, simplices, neighbors, {}, checked)};
+    task.queries = queries.data();
+    task.count = queries.shape(0);
+    return task;
+}
+
+NaturalNeighborTask sphere_task(const RowsIn<double, 3>& points, const RowsIn<double, 3>& units,
+                                const RowsIn<double, 3>& rests, const RowsIn<Index, 3>& simplices,
+                                const RowsIn<Index, 3>& neighbors, const RowsIn<double, 3>& queries,
+                                const RowsIn<double, 3>& query_units, const RowsIn<double, 3>& query_rests,
+                                const std::optional<Closing>& closing, bool checked) {
     const std::size_t size = points.shape(0), count = queries.shape(0);
-    check_same_length("points", size, "values", values.shape(0));
     check_same_length("points", size, "units", units.shape(0));
     check_same_length("points", size, "rests", rests.shape(0));
     check_same_length("queries", count, "query_units", query_units.shape(0));
@@ -78,18 +101,59 @@ Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<doub
         check_points("units", units);
         check_finite("rests", rests.data(), size, 3);
     }
-    const NaturalNeighborTask task{to_triangles(points, simplices, neighbors, closing, checked),
-                                   units.data(),
-                                   rests.data(),
-                                   queries.data(),
-                                   query_units.data(),
-                                   query_rests.data(),
-                                   count,
-                                   values.data(),
-                                   values.shape(1),
-                                   nullptr,
-                                   nullptr};
+    NaturalNeighborTask task{to_triangles(points, simplices, neighbors, closing, checked)};
+    task.units = units.data();
+    task.unit_rests = rests.data();
+    task.queries = queries.data();
+    task.query_units = query_units.data();
+    task.query_rests = query_rests.data();
+    task.count = count;
+    return task;
+}
+
+template <class Rows>
+void take_values(NaturalNeighborTask& task, const Rows& points, const Table& values) {
+    check_same_length("points", points.shape(0), "values", values.shape(0));
+    task.values = values.data();
+    task.width = values.shape(1);
+}
+
+Vectors in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values,
+                 RowsIn<double, 2> queries, bool gradients, int workers, bool checked) {
+    NaturalNeighborTask task = plane_task(points, simplices, neighbors, queries, checked);
+    take_values(task, points, values);
+    return answers(task, 2, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
+        natural_neighbors_plane(filled, workers, stop);
+    });
+}
+
+nb::tuple weights_in_plane(RowsIn<double, 2> points, RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors,
+                           RowsIn<double, 2> queries, int workers, bool checked) {
+    const NaturalNeighborTask task = plane_task(points, simplices, neighbors, queries, checked);
+    return shares(task, [workers](const NaturalNeighborTask& filled, Stop stop) {
+        natural_neighbors_plane(filled, workers, stop);
+    });
+}
+
+Vectors on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
+                  RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, Table values, RowsIn<double, 3> queries,
+                  RowsIn<double, 3> query_units, RowsIn<double, 3> query_rests, std::optional<Closing> closing,
+                  bool gradients, int workers, bool checked) {
+    NaturalNeighborTask task = sphere_task(points, units, rests, simplices, neighbors, queries, query_units,
+                                           query_rests, closing, checked);
+    take_values(task, points, values);
     return answers(task, 3, gradients, [workers](const NaturalNeighborTask& filled, Stop stop) {
+        natural_neighbors_sphere(filled, workers, stop);
+    });
+}
+
+nb::tuple weights_on_sphere(RowsIn<double, 3> points, RowsIn<double, 3> units, RowsIn<double, 3> rests,
+                            RowsIn<Index, 3> simplices, RowsIn<Index, 3> neighbors, RowsIn<double, 3> queries,
+                            RowsIn<double, 3> query_units, RowsIn<double, 3> query_rests,
+                            std::optional<Closing> closing, int workers, bool checked) {
+    const NaturalNeighborTask task = sphere_task(points, units, rests, simplices, neighbors, queries, query_units,
+                                                 query_rests, closing, checked);
+    return shares(task, [workers](const NaturalNeighborTask& filled, Stop stop) {
         natural_neighbors_sphere(filled, workers, stop);
     });
 }
@@ -103,6 +167,13 @@ void bind_interpolation(Modules& modules) {
     modules.sphere.def("natural_neighbors", on_sphere, "points"_a, "units"_a, "rests"_a, "simplices"_a, "neighbors"_a,
                "values"_a, "queries"_a, "query_units"_a, "query_rests"_a, "closing"_a = nb::none(),
                "gradients"_a = false, "workers"_a = 1, "checked"_a = false,
+               "The same for directions, which come as unit vectors in double-double too: units + rests.");
+    modules.plane.def("natural_neighbor_weights", weights_in_plane, "points"_a, "simplices"_a, "neighbors"_a,
+               "queries"_a, "workers"_a = 1, "checked"_a = false,
+               "Sibson's weights at the queries, row after row: offsets (m + 1,), points and their weights.");
+    modules.sphere.def("natural_neighbor_weights", weights_on_sphere, "points"_a, "units"_a, "rests"_a, "simplices"_a,
+               "neighbors"_a, "queries"_a, "query_units"_a, "query_rests"_a, "closing"_a = nb::none(), "workers"_a = 1,
+               "checked"_a = false,
                "The same for directions, which come as unit vectors in double-double too: units + rests.");
 }
 

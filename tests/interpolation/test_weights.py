@@ -1,0 +1,163 @@
+"""Weights as a sparse matrix: what they give is what the interpolators give."""
+
+import numpy as np
+import pytest
+
+from stereodel import PlanarDelaunay, SphericalDelaunay
+from stereodel.interpolation import (
+    LinearInterpolator,
+    NaturalNeighborInterpolator,
+    NearestInterpolator,
+    SmoothInterpolator,
+    Weights,
+)
+
+FUNCTIONS = [
+    (LinearInterpolator, {}),
+    (LinearInterpolator, {"extrapolate": "nearest"}),
+    (NearestInterpolator, {}),
+    (NaturalNeighborInterpolator, {}),
+    (NaturalNeighborInterpolator, {"extrapolate": "nearest"}),
+]
+every_function = pytest.mark.parametrize(("function", "options"), FUNCTIONS)
+
+
+def scene(dimension, rng, n=200):
+    """Points, on the sphere mostly of one side so that some queries are outside, values with a NaN, and queries."""
+    points = rng.normal(size=(n, dimension)) + ([0, 0] if dimension == 2 else [0, 0, 2])
+    values = rng.normal(size=(n, 2, 3))
+    values[40, 0] = np.nan
+    # Points, middles of edges, and places all over.
+    edges = (PlanarDelaunay if dimension == 2 else SphericalDelaunay)(points).edges[:60]
+    queries = np.concatenate([rng.normal(size=(880, dimension)), points[:60], points[edges].mean(axis=1)])
+    return points, values, queries.reshape(10, 100, dimension)
+
+
+@every_function
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_products_are_the_values_of_the_interpolator(function, options, dimension, rng):
+    """To the last bit, with NaN where it has them."""
+    points, values, queries = scene(dimension, rng)
+    interpolator = function(points, values, **options)
+    weights = interpolator.weights(queries)
+    expected = interpolator(queries)
+    assert np.array_equal(weights @ values, expected, equal_nan=True)
+    assert 0 < np.isnan(expected).mean() < 0.9
+    assert weights.shape == (10, 100)
+    assert (weights.data >= 0).all()
+    sums = np.bincount(weights.rows, weights.data, 1000)
+    assert np.allclose(sums[np.diff(weights.indptr) > 0], 1, rtol=0, atol=1e-15)
+
+
+@every_function
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_equal_points_share_the_weight_of_their_place(function, options, dimension, rng):
+    points, values, queries = scene(dimension, rng)
+    points[50:60] = points[:10]
+    points[60] = points[0]
+    interpolator = function(points, values, **options)
+    weights = interpolator.weights(queries)
+    assert np.allclose(weights @ values, interpolator(queries), rtol=0, atol=1e-14, equal_nan=True)
+    of_one_place = [weights.to_scipy()[:, [k]].toarray() for k in (0, 50, 60)]
+    assert of_one_place[0].max() > 0
+    assert all(np.array_equal(column, of_one_place[0]) for column in of_one_place)
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2, -1, -3])
+def test_the_axis_of_the_points_may_be_any(axis, rng):
+    points, _, queries = scene(2, rng)
+    weights = NaturalNeighborInterpolator(points, np.zeros(200), extrapolate="nearest").weights(queries)
+    values = rng.normal(size=(200, 4, 5))
+    moved = np.moveaxis(values, 0, axis)
+    found = weights.apply(moved, axis=axis)
+    first = axis % 3
+    assert found.shape == moved.shape[:first] + (10, 100) + moved.shape[first + 1 :]
+    assert np.array_equal(np.moveaxis(found, (first, first + 1), (0, 1)), weights @ values)
+
+
+@every_function
+def test_scipy_has_the_same_matrix(function, options, rng):
+    points, _, queries = scene(3, rng)
+    weights = function(points, np.zeros(200), **options).weights(queries)
+    matrix, values = weights.to_scipy(), rng.normal(size=200)
+    rows, columns = matrix.nonzero()
+    assert set(zip(rows, columns, strict=True)) <= set(zip(weights.rows, weights.columns, strict=True))
+    held = np.diff(weights.indptr) > 0
+    assert np.allclose((matrix @ values)[held], (weights @ values).ravel()[held], rtol=0, atol=1e-14)
+    assert not (matrix @ values)[~held].any()
+    matrix.data[:] = 0
+    assert weights.data.max() > 0
+
+
+def test_the_nearest_counts_alone(rng):
+    points, values, queries = scene(3, rng)
+    weights = NearestInterpolator(points, values).weights(queries)
+    assert np.array_equal(weights.columns, SphericalDelaunay(points).nearest(queries).ravel())
+    assert (weights.data == 1).all()
+    assert np.array_equal(weights.indptr, np.arange(1001))
+
+
+def test_without_points_there_is_no_value():
+    weights = NearestInterpolator(np.zeros((0, 2)), np.zeros(0)).weights([[1, 2], [3, 4]])
+    assert np.isnan(weights @ []).all()
+
+
+def test_one_place(rng):
+    points, values, _ = scene(2, rng)
+    linear = LinearInterpolator(points, values)
+    assert np.array_equal(linear.weights([0.1, 0.2]) @ values, linear([0.1, 0.2]))
+    assert linear.weights(np.zeros((0, 2))).apply(values).shape == (0, 2, 3)
+
+
+def test_constants_stay_what_they_are(rng):
+    points, _, queries = scene(2, rng)
+    for function, options in FUNCTIONS:
+        weights = function(points, np.zeros(200), **options).weights(queries)
+        found = weights @ np.full(200, 0.1)
+        assert set(found[~np.isnan(found)]) == {0.1}
+
+
+def test_a_file_gives_back_what_was_saved(tmp_path, rng):
+    points, values, queries = scene(2, rng)
+    weights = NaturalNeighborInterpolator(points, values).weights(queries)
+    weights.save(tmp_path / "weights.npz")
+    again = Weights.load(tmp_path / "weights.npz")
+    assert np.array_equal(again @ values, weights @ values, equal_nan=True)
+    assert repr(again) == repr(weights)
+    np.savez(tmp_path / "other.npz", a=1)
+    with pytest.raises(ValueError, match=r"other\.npz holds no weights: columns, data, indptr"):
+        Weights.load(tmp_path / "other.npz")
+    parts = {name: getattr(weights, name) for name in ("indptr", "columns", "data", "shape", "size")}
+    for wrong in ({"size": 3}, {"columns": weights.columns[1:]}, {"shape": (7,)}, {"indptr": weights.indptr[::-1]}):
+        np.savez(tmp_path / "wrong.npz", **parts | wrong)
+        with pytest.raises(ValueError, match="do not fit one another"):
+            Weights.load(tmp_path / "wrong.npz")
+
+
+def test_masked_values_are_not_known(rng):
+    points, _, queries = scene(2, rng)
+    values = np.ma.masked_less(rng.integers(-3, 9, size=200), 0)
+    known = values.astype(float).filled(np.nan)
+    linear = LinearInterpolator(points, values)
+    assert np.array_equal(linear.values, known, equal_nan=True)
+    weights = linear.weights(queries)
+    assert np.array_equal(weights @ values, weights @ known, equal_nan=True)
+    assert np.isfinite(weights @ values).any()
+
+
+def test_values_along_another_axis_are_refused_with_a_hint(rng):
+    points = rng.normal(size=(20, 2))
+    with pytest.raises(ValueError, match=r"shape \(20, \.\.\.\).*got \(24, 20\).*np\.moveaxis\(values, 1, 0\)"):
+        LinearInterpolator(points, np.zeros((24, 20)))
+    weights = LinearInterpolator(points, np.zeros(20)).weights([0, 0])
+    with pytest.raises(ValueError, match=r"got \(24, 20\).*axis=1 to weights"):
+        weights @ np.zeros((24, 20))
+    with pytest.raises(ValueError, match=r"shape \(\.\.\., 20\), one entry for each point, got \(20, 24\)"):
+        weights.apply(np.zeros((20, 24)), axis=-1)
+    with pytest.raises(ValueError, match="20 along axis 7"):
+        weights.apply(np.zeros(20), axis=7)
+    assert weights.apply(np.zeros((24, 20)), axis=1).shape == (24,)
+
+
+def test_gradients_that_are_fitted_have_no_weights():
+    assert not hasattr(SmoothInterpolator, "weights")
