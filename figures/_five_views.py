@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
-from stereodel.drawing import Grid, Label, LineStyle, Page, Scene, Solid, View
+from stereodel.drawing import CircleArc, Grid, Label, LineStyle, Page, Scene, Solid, View
 from stereodel.drawing.grids import WIDTHS_APART
 from stereodel.drawing.page import Item
 from stereodel.drawing.style import DARK_GRAY, LINES
+from stereodel.sphere import SphereArc, graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees
 VIEWS = (View(0, 0), View(0, 90), View(0, -90), View(0, 40), View(180, -40))
@@ -49,7 +50,8 @@ class FiveViews:
             Label(f"$S = {self.magnification:g}$", (EXTENT[0], height), (5.0, 0.0), size=TYPE, rotation=90.0)
         ]
         for number, view in enumerate(VIEWS):
-            items += globe(g, number).layout(view, at=(PITCH * number, height))
+            grids = (from_rows(g[f"{name}_{number}"]) for name in ("coarse", "fine"))
+            items += globe(*grids).layout(view, at=(PITCH * number, height))
         return items
 
     def draw(self, g: dict) -> Page:
@@ -57,9 +59,11 @@ class FiveViews:
         return plate([self.items(g)])
 
     def solid(self, g: dict) -> Solid:
-        """All of them in space."""
-        placed = [globe(g, k).placed(view, at=(PITCH * k, 0.0)) for k, view in enumerate(VIEWS)]
-        return Solid(self.draw(g), placed)
+        """All of them in space, with every line: bodies may be looked at from anywhere and as near as one likes."""
+        bend = fisheye(FOCUS, magnification=self.magnification)
+        coarse, fine = graticule(self.coarse), graticule_patch(FOCUS, self.half_width, self.fine)
+        whole = globe(*([bend.image_of(arc) for arc in arcs] for arcs in (coarse, fine)))
+        return Solid(self.draw(g), [whole.placed(view, at=(PITCH * k, 0.0)) for k, view in enumerate(VIEWS)])
 
 
 def plate(rows: Sequence[list[Item]], pitch: float = PITCH) -> Page:
@@ -73,9 +77,9 @@ def plate(rows: Sequence[list[Item]], pitch: float = PITCH) -> Page:
     return Page(extent, items, views=tuple(view.matrix for view in VIEWS) * len(rows))
 
 
-def globe(g: dict, number: int) -> Scene:
+def globe(coarse: Sequence[SphereArc | CircleArc], fine: Sequence[SphereArc | CircleArc]) -> Scene:
     """One globe with both grids, coarse gray, fine black."""
     scene = Scene(weight=WEIGHT, limb=LIMB)
-    scene.add_arcs(from_rows(g[f"coarse_{number}"]), name="graticule")
-    scene.add_arcs(from_rows(g[f"fine_{number}"]), name="fine")
+    scene.add_arcs(coarse, name="graticule")
+    scene.add_arcs(fine, name="fine")
     return scene

@@ -24,7 +24,7 @@ FAMILY: Final = {
         """,
     "values": """
         values : (n, ...) array_like
-            A number or an array of numbers for each point; NaN where it is not known.
+            A number or an array of numbers for each point; NaN, or masked, where it is not known.
         """,
     "extrapolate": """
         extrapolate : "nearest", optional

@@ -42,11 +42,11 @@ def healpix_centers(nside: int, *, nested: bool = False) -> FloatArray:
     --------
     >>> from stereodel.sphere import healpix_centers
     >>> print(healpix_centers(1)[:5].round(3))
-    [[ 45.     41.81 ]
-     [135.     41.81 ]
-     [225.     41.81 ]
-     [315.     41.81 ]
-     [  0.      0.   ]]
+    [[ 45.    41.81]
+     [135.    41.81]
+     [225.    41.81]
+     [315.    41.81]
+     [  0.     0.  ]]
     """
     size = as_count(nside, "nside", high=_LARGEST)
     if not nested:
