@@ -50,7 +50,7 @@ def scene(g: dict) -> Scene:
     scene.add_edges(g["sites"], g["edges"], name="delaunay")
     scene.add_edges(g["sites"], np.stack([g["triangle"], np.roll(g["triangle"], -1)], 1), name="triangle", style=HEAVY)
     scene.add_edges(g["vertices"], g["ridges"], name="voronoi")
-    scene.add_circles([circle], name="bubble", style=LINES["ray"])
+    scene.add_circles([circle], name="bubble", style=LINES["accent2"])
     scene.add_points(g["sites"], name="sites")
     scene.add_points([circle.center], name="points")
     return scene

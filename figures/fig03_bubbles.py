@@ -3,9 +3,9 @@ Figure 3: Every circle on a sphere bounds two bubbles
 =====================================================
 
 Any circle is where a plane slices through the sphere. It bounds a smaller bubble (orange) and a larger one (blue).
-Right, the same in cross-section. The Delaunay condition on the sphere is that one bubble is empty: the one on the outer
-side of the plane, to which its normal n points. Then the plane is that of a facet of the convex hull, and all other
-sites lie on its inner side, as does the centre O.
+Right, the same in cross-section, edged with their colours. The Delaunay condition on the sphere is that one bubble is
+empty: the one on the outer side of the plane, to which its normal n points. Then the plane is that of a facet of the
+convex hull, and all other sites lie on its inner side, as does the centre O.
 
 Chosen by us: a circle of angular radius 42° about (30° E, 32° N).
 """
@@ -13,8 +13,10 @@ Chosen by us: a circle of angular radius 42° about (30° E, 32° N).
 import numpy as np
 
 from stereodel import SphereCircle, lonlat_to_xyz
-from stereodel.drawing import LineStyle, Page, Scene, Sketch, Solid, View
-from stereodel.drawing.style import LINES, ORANGE, SKY
+from stereodel.drawing import Page, Scene, Sketch, Solid, View
+from stereodel.drawing.page import Beziers, Fill
+from stereodel.drawing.sketch import arc_path
+from stereodel.drawing.style import FILLS, LINES
 from stereodel.render import Figure
 
 CENTER, RADIUS = (30.0, 32.0), 42.0  # degrees
@@ -22,7 +24,8 @@ VIEW = View(12, 14)
 BELOW = (2.0, -38.0)  # where the large bubble is labelled
 SECTION = np.array([2.5, 0.0])  # its centre
 REACH, NORMAL = 0.95, 0.6  # half the length of the plane that is drawn, length of its normal
-EXTENT = (-1.03, 4.42, -1.24, 1.24)
+BAND = 0.09  # width of the tints round the section
+EXTENT = (-1.03, 4.42, -1.32, 1.24)
 
 
 def geometry() -> dict:
@@ -61,8 +64,7 @@ def add_section(sketch: Sketch, circle: SphereCircle) -> None:
     along = np.array([-across[1], across[0]])
     half, turn = circle.angular_radius, float(np.degrees(np.arctan2(across[1], across[0])))
     middle = SECTION + circle.offset * across
-    sketch.add_arc(SECTION, 1.0, turn + half, turn + 360.0 - half, name="large", style=LineStyle(SKY, 3.5))
-    sketch.add_arc(SECTION, 1.0, turn - half, turn + half, name="small", style=LineStyle(ORANGE, 3.5))
+    add_tints(sketch, turn, half, float(np.degrees(np.arccos(circle.offset / (1.0 + BAND)))))
     sketch.add_segment(middle - REACH * along, middle + REACH * along, name="slicing_plane", style=LINES["circle"])
     sketch.add_arrow(middle, middle + NORMAL * across, name="normal", style=LINES["axis"])
     rim = np.sin(np.radians(half)) * along
@@ -71,8 +73,25 @@ def add_section(sketch: Sketch, circle: SphereCircle) -> None:
     sketch.add_label(SECTION, "$O$", (-7, -6))
     sketch.add_label(middle + NORMAL * across, r"$\mathbf{n}$", (7, 2))
     sketch.add_label(middle - REACH * along, "slicing plane", (-4, -3), align="left", valign="top")
-    sketch.add_label(SECTION + [np.cos(beside), np.sin(beside)], "small bubble", (6, 3), align="left")
-    sketch.add_label(SECTION - [0.0, 1.0], "large bubble", (0, -5), valign="top")
+    sketch.add_label(SECTION + [np.cos(beside), np.sin(beside)], "small bubble", (10, 5), align="left")
+    sketch.add_label(SECTION - [0.0, 1.0], "large bubble", (0, -9), valign="top")
+
+
+def add_tints(sketch: Sketch, turn: float, half: float, wider: float) -> None:
+    """Both arcs of the section, edged: the plane cuts them at `half` and their edges at `wider` degrees from `turn`."""
+    for kind, inner, outer in (
+        ("large", (turn + half, turn + 360.0 - half), (turn + wider, turn + 360.0 - wider)),
+        ("small", (turn - half, turn + half), (turn - wider, turn + wider)),
+    ):
+        sketch.add_items([Fill((band(inner, outer),), FILLS[f"{kind}_bubble"], f"{kind}_bubble")])
+        sketch.add_arc(SECTION, 1.0, *inner, name=kind, style=LINES["limb"])
+
+
+def band(inner: tuple[float, float], outer: tuple[float, float]) -> Beziers:
+    """What lies between the section and a wider arc about it, each from one direction to another in degrees."""
+    near, far = arc_path(SECTION, 1.0, *inner), arc_path(SECTION, 1.0 + BAND, *outer)[::-1, ::-1]
+    ends = [np.linspace(near[-1, -1], far[0, 0], 4), np.linspace(far[-1, -1], near[0, 0], 4)]
+    return np.concatenate([near, ends[:1], far, ends[1:]])
 
 
 def solid(g: dict) -> Solid:

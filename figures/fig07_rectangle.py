@@ -9,6 +9,8 @@ rectangle, so that its radius R is a quarter of D.
 Chosen by us: sides 3 : 2, the number of sites, their seed and the oval on which those of the hull lie.
 """
 
+from dataclasses import replace
+
 import numpy as np
 from _legend import PAGE_WIDTH, with_graphs
 from _rectangle import CORNERS, HEIGHT, WIDTH, lift, sites
@@ -19,6 +21,7 @@ from stereodel.drawing.style import LINES, VERMILION
 from stereodel.render import Figure
 
 MARGIN = 0.05
+DIAGONAL = replace(LINES["footprint"], dash=None)
 LETTERS = {"$D$": -0.87, "$R$": 0.38}  # where they stand on the diagonal, as parts of its upper half
 
 
@@ -36,13 +39,13 @@ def draw(g: dict) -> Page:
     sketch.add_points(g["sites"], name="sites")
     sketch.add_polyline(CORNERS, closed=True, name="outline")
     sketch.add_circle((0, 0), float(g["radius"]), name="footprint")
-    sketch.add_dimension(-CORNERS[2], CORNERS[2], "", name="diagonal", style=LINES["ray"])
-    sketch.add_dimension((0, 0), CORNERS[2] / 2, "", name="diagonal", style=LINES["ray"])
+    sketch.add_dimension(-CORNERS[2], CORNERS[2], "", name="diagonal", style=DIAGONAL)
+    sketch.add_dimension((0, 0), CORNERS[2] / 2, "", name="diagonal", style=DIAGONAL)
     for text, place in LETTERS.items():
         sketch.add_label(place * CORNERS[2], text, (-2, 3), valign="bottom", color=VERMILION, halo=1.5)
     half = np.array([WIDTH, HEIGHT]) / 2 + MARGIN
     page = sketch.page((-half[0], half[0], -half[1], half[1]), width=PAGE_WIDTH)
-    return with_graphs(page, {"sphere of radius $R = D/4$": LINES["footprint"], "diagonal $D$": LINES["ray"]})
+    return with_graphs(page, {"sphere of radius $R = D/4$": LINES["footprint"], "diagonal $D$": DIAGONAL})
 
 
 FIGURE = Figure("fig07_rectangle", geometry, draw, renderer="agg")

@@ -58,7 +58,7 @@ def scene(g: dict) -> Scene:
     scene.add_points(g["corners"], name="points")
     scene.add_flat_polygon(g["plane"], name="plane")
     scene.add_outline(g["plane"], name="plane")
-    scene.add_segments(radius * g["corners"][SHOWN], g["plane"][[SHOWN]], name="ray")
+    scene.add_segments(radius * g["corners"][SHOWN], g["plane"][[SHOWN]], name="ray", style=LINES["chord"])
     scene.add_space_points(g["plane"][[SHOWN]], name="corner", style=DOTS["points"])
     scene.add_points(SOUTH[None], name="ring")
     scene.add_label(radius * SOUTH, "$S$", offset=(3, -9), always=True)

@@ -1,6 +1,7 @@
 """What each figure shows is what the paper says of it: statements about the drawn geometry, figure by figure."""
 
 import sys
+from colorsys import rgb_to_hsv
 from dataclasses import replace
 
 import numpy as np
@@ -105,6 +106,16 @@ def test_figure_3_section_is_the_ball_seen_along_its_plane():
     assert np.allclose(items["sites"].centers - center, small[[0, -1]])
     assert (small[1:-1] @ normal > g["offset"]).all()
     assert (large[1:-1] @ normal < g["offset"]).all()
+    # The tints, those of the ball, lie along the outer side of the arcs and meet where the plane is.
+    fills = {item.name: item for item in drawn.items if isinstance(item, Fill) and item.ball is None}
+    on_ball = {item.name: item.color for item in drawn.items if isinstance(item, Fill) and item.ball is not None}
+    for name, sign in (("small_bubble", 1), ("large_bubble", -1)):
+        assert fills[name].color == on_ball[name]
+        rim = path_points(*fills[name].paths) - center
+        distances = np.linalg.norm(rim, axis=1)
+        assert (distances.min(), distances.max()) == pytest.approx((1, 1 + module["BAND"]), abs=1e-6)
+        assert (sign * (rim @ normal - g["offset"])).min() == pytest.approx(0, abs=1e-6)
+        assert np.isclose(rim @ normal, g["offset"], rtol=0, atol=1e-9).sum() >= 2 * 65
     # It points as the axis of the circle on the left does, whose label is in the middle of the ellipse.
     axis = module["VIEW"].project(g["normal"])
     assert np.allclose(axis / np.linalg.norm(axis), normal)
@@ -203,10 +214,15 @@ def test_figure_6_smaller_spheres_have_larger_extents():
 def test_figure_6_writes_radius_and_extent_into_each_circle():
     module, g, drawn = script("fig06_sphere_size"), geometry("fig06_sphere_size"), page("fig06_sphere_size")
     names, extents = drawn.labels[:-1:2], drawn.labels[1:-1:2]
-    for radius, extent, name, written in zip(module["RADII"], g["extents"], names, extents, strict=True):
+    arcs = [item for item in drawn.items if item.name.startswith("covered")]
+    for radius, extent, name, written, arc in zip(module["RADII"], g["extents"], names, extents, arcs, strict=True):
         assert float(written.text.strip("$°")) == pytest.approx(extent, abs=0.05)
         assert {"2": 2.0, "1": 1.0, "½": 0.5}[name.text.strip("$R= ")] == radius
-        arc = next(item for item in drawn.items if item.name.startswith("covered") and item.color == name.color)
+        # In the hue of its arc, and as dark or darker.
+        hues, _, values = zip(*(rgb_to_hsv(*color[:3]) for color in (arc.color, name.color)), strict=True)
+        assert name.color == written.color
+        assert hues[1] == pytest.approx(hues[0], abs=1 / 360)
+        assert values[1] <= values[0]
         assert np.allclose(np.linalg.norm(path_points(arc.path) - [0, radius], axis=1), radius, atol=1e-6)
         # Inside its own circle, and outside the next.
         inside = [abs(name.anchor[1] - r) < r for r in module["RADII"]]

@@ -13,7 +13,7 @@ from stereodel.drawing.colors import color_map
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.scales import usual_scale
-from stereodel.drawing.style import DOTS, FILLS, LINES, fainter, with_opacity
+from stereodel.drawing.style import DOTS, FILLS, LINES, MAP_LINES, fainter, with_opacity
 from tests.figures.color_vision import VISIONS, difference, lab, lab_difference
 from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
 
@@ -35,6 +35,9 @@ AUXILIARY_CONTRAST = 2.0
 
 HIDDEN_CONTRAST = 1.5
 """Of what is seen through glass: that it is faint says where it is."""
+
+HIDDEN_AUXILIARY_CONTRAST = 1.3
+"""Of lines that are both: their near halves, which are darker, tell how the far ones go on."""
 
 TOLD_APART = {"line": 15.0, "dot": 15.0, "fill": 10.0}
 """From this difference on, CIEDE2000, things that are otherwise alike are meant to be told apart by their colour."""
@@ -139,20 +142,36 @@ def usual_contrast(color, *below):
     return float(np.median(np.max([contrast(over(color, place), place) for place in below], axis=0)))
 
 
+def dot_colors(item):
+    """Of the dot itself and of its rim, if it has one: it is seen by either."""
+    return (item.color, item.rim) if item.rim_width > 0 else (item.color,)
+
+
 def drawn_points(shown):
-    """Name and colour of lines and dots, and points on them: at most some for each."""
+    """Name and colours of lines and dots, and points on them: at most some for each."""
     places = defaultdict(list)
     for item in shown.items:
         match item:
             case Stroke():
-                places[item.name, item.color].append(path_points(item.path, 5))
+                places[item.name, (item.color,)].append(path_points(item.path, 5))
             case Polylines():
-                places[item.name, item.color].append(item.points)
+                places[item.name, (item.color,)].append(item.points)
             case Dots() if len(item.centers):
-                places[item.name, item.color].append(item.centers)
+                places[item.name, dot_colors(item)].append(item.centers)
     for look, runs in places.items():
         points = np.concatenate(runs)
         yield *look, points[:: -(-len(points) // SAMPLES)]
+
+
+FAINT = {fainter(look.color) for look in (*LINES.values(), *MAP_LINES.values(), *DOTS.values())}
+"""Colours of what is seen through glass."""
+
+
+def least_contrast(sign, color):
+    """That of a line or a dot by its name and colour."""
+    if sign in AUXILIARY:
+        return HIDDEN_AUXILIARY_CONTRAST if color in FAINT else AUXILIARY_CONTRAST
+    return HIDDEN_CONTRAST if color in FAINT else GRAPHICS
 
 
 @by_name
@@ -160,11 +179,9 @@ def test_lines_and_dots_stand_out_from_what_is_below(name):
     shown, wrong = page(name), []
     if shown.pictured:
         return  # cells coloured by numbers are of every lightness
-    faint = {fainter(look.color) for look in (*LINES.values(), *DOTS.values())}
-    for sign, color, points in drawn_points(shown):
-        least = HIDDEN_CONTRAST if color in faint else AUXILIARY_CONTRAST if sign in AUXILIARY else GRAPHICS
+    for sign, colors, points in drawn_points(shown):
         below = [ground(name)(points, aside) for aside in ((ASIDE, 0), (-ASIDE, 0), (0, ASIDE), (0, -ASIDE))]
-        if (found := usual_contrast(color, *below)) < least:
+        if (found := max(usual_contrast(color, *below) for color in colors)) < least_contrast(sign, colors[0]):
             wrong.append(f"{sign}: {found:.2f}")
     assert wrong == []
 
@@ -193,6 +210,22 @@ def test_bright_signs_of_one_hue_are_noticed():
 def test_a_pale_line_is_noticed():
     pale = with_opacity(FILLS["large_bubble"], 1.0)
     assert usual_contrast(pale, np.ones((3, 3))) < AUXILIARY_CONTRAST
+
+
+def test_a_white_dot_is_seen_by_its_rim():
+    ring, paper = DOTS["ring"], np.ones((3, 3))
+    bare, rimmed = (Dots(np.zeros((1, 2)), ring.radius, ring.color, ring.rim, width) for width in (0, ring.rim_width))
+    assert max(usual_contrast(color, paper) for color in dot_colors(bare)) == pytest.approx(1)
+    assert max(usual_contrast(color, paper) for color in dot_colors(rimmed)) > GRAPHICS
+
+
+def test_what_is_seen_through_glass_may_be_faint():
+    near, far = LINES["delaunay"].color, LINES["delaunay"].hidden.color
+    assert [least_contrast(sign, near) for sign in ("delaunay", "graticule")] == [GRAPHICS, AUXILIARY_CONTRAST]
+    assert [least_contrast(sign, far) for sign in ("delaunay", "graticule")] == [
+        HIDDEN_CONTRAST,
+        HIDDEN_AUXILIARY_CONTRAST,
+    ]
 
 
 @pytest.mark.parametrize(
