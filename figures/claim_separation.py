@@ -116,7 +116,7 @@ def add_words(sketch: Sketch, g: dict) -> None:
         (on_curve(g["long_side"], 0.53), "along a long side", (0, -8), "center", VERMILION),
     ):
         sketch.add_label(MAIN.place(at), text, offset, align=align, color=color)
-    sketch.add_label(SIDE.place((0.5, HIGH)), f"{PAIRS:,} pairs".replace(",", "\N{THIN SPACE}"), (0, -5))
+    sketch.add_label(SIDE.place((0.5, HIGH)), f"{PAIRS:,} pairs".replace(",", " "), (0, -5))
 
 
 def on_curve(curve: np.ndarray, share: float) -> tuple[float, float]:

@@ -53,7 +53,7 @@ def styled(page: Page, *styles: str) -> Page:
     >>> from stereodel.drawing import Sketch
     >>> page = Sketch().add_circle((0, 0), 1, name="circle").page((-2, 2, -1, 1))
     >>> slide = styled(page, "slide", "dark")
-    >>> [round(2.54 * side / 72, 2) for side in (slide.width, slide.height)], slide.background[0]
+    >>> [round(2.54 * side / 72, 2) for side in (slide.width, slide.height)], round(slide.background[0], 2)
     ([33.87, 19.05], 0.07)
     """
     for name in as_styles(styles):

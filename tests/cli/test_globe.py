@@ -90,7 +90,7 @@ def test_layers_of_points_lines_and_polygons(folder, run):
     layers = [part for kind in ("Polygon", "LineString", "Point") for part in ("--layer", f"{kind}.geojson")]
     run("globe", "-o", "globe.svg", "--focus", "10,50", "--magnify", 5, *layers)
     assert (folder / "globe.svg").read_text(encoding="utf-8").count(
-        'id="layer'
+        '<path id="layer'
     ) == 5  # the polygon's outline and the dot's rim, too
 
 
