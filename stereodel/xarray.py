@@ -152,7 +152,7 @@ class StereodelAccessor:
         return names[0]
 
 
-xarray.register_dataarray_accessor("stereodel")(StereodelAccessor)  # type: ignore[no-untyped-call]
+xarray.register_dataarray_accessor("stereodel")(StereodelAccessor)
 
 
 def _as_axis(values: Any, name: str) -> xarray.DataArray:
