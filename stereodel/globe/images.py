@@ -1,4 +1,4 @@
-"""Picture files as pixels: any kind that Pillow reads, with limits that hold before anything is decoded."""
+"""Picture files as pixels: the usual kinds, by Pillow, with limits that hold before anything is decoded."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from stereodel.constants import MOST_TEXELS
 
 SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
 """Modes of Pillow for gray of 16 bits."""
+
+FORMATS: Final = ("PNG", "JPEG", "TIFF", "WEBP", "GIF", "BMP", "PPM", "TGA", "JPEG2000")
+"""Kinds of pictures that are opened: those that Pillow decodes by itself. For others it starts Ghostscript and such."""
 
 DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, IndexError, TypeError)
 """What the decoders of Pillow raise on a file that is cut off or garbled."""
@@ -38,11 +41,11 @@ def read_image(path: str | os.PathLike[str]) -> Pixels:
     with open(name, "rb") as file, warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         try:
-            with Image.open(file) as image:
+            with Image.open(file, formats=FORMATS) as image:
                 _check_size(name, image.size)
                 return _converted(name, image)
         except UnidentifiedImageError as error:
-            raise ValueError(f"{name} is not an image that Pillow can read") from error
+            raise ValueError(f"{name} is not a picture of a kind that is read: {', '.join(FORMATS)}") from error
         except Image.DecompressionBombError as error:
             raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller") from error
 

@@ -95,10 +95,20 @@ def test_damaged_files_are_named(tmp_path):
 
 def test_what_is_no_picture(tmp_path):
     (tmp_path / "note.txt").write_text("lon,lat\n")
-    with pytest.raises(ValueError, match=r"note\.txt is not an image that Pillow can read"):
+    with pytest.raises(ValueError, match=r"note\.txt is not a picture of a kind that is read: PNG, JPEG"):
         Raster.open(tmp_path / "note.txt")
     with pytest.raises(FileNotFoundError, match=r"missing\.png"):
         Raster.open(tmp_path / "missing.png")
     Image.fromarray(np.zeros((4, 8), np.float32)).save(tmp_path / "heights.tif")
     with pytest.raises(ValueError, match=r"heights\.tif holds floating-point numbers"):
         Raster.open(tmp_path / "heights.tif")
+
+
+def test_what_pillow_gives_to_other_programs_is_not_opened(tmp_path, monkeypatch):
+    """Pillow starts Ghostscript for what begins as PostScript, whatever the file is called."""
+    from PIL import EpsImagePlugin
+
+    monkeypatch.setattr(EpsImagePlugin, "Ghostscript", lambda *given, **more: pytest.fail("started"))
+    (tmp_path / "map.png").write_bytes(b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 20 10\n%%EndComments\nshowpage\n")
+    with pytest.raises(ValueError, match=r"map\.png is not a picture of a kind that is read"):
+        Raster.open(tmp_path / "map.png")
