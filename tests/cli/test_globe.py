@@ -207,7 +207,7 @@ def test_pdf_to_stdout(folder):
         (["--graticule", "7"], "must be a whole multiple"),
         (["--graticule", "-5"], "spacing is -5"),
         (["--texture", "missing.png"], "missing.png: No such file or directory"),
-        (["--texture", "broken.gpkg"], "broken.gpkg is not an image"),
+        (["--texture", "broken.gpkg"], "broken.gpkg is not a picture"),
         (["--texture", "cut.png"], "cut.png is damaged or cut off"),
         (["--texture", "huge.png"], "huge.png has too many pixels: at most 134217728 are read"),
         (["--texture", "square.png"], "square.png: pixels is 9 wide and 9 high"),
