@@ -19,11 +19,12 @@ from fig11_fisheye4 import PANELS as FIGURE_11
 from fig12_fisheye20 import PANELS as FIGURE_12
 
 from stereodel import fisheye
-from stereodel.drawing import LineStyle, Page, Scene, Sketch, View
+from stereodel.drawing import Grid, LineStyle, Page, Scene, Sketch, View
+from stereodel.drawing.grids import WIDTHS_APART
 from stereodel.drawing.style import line
 from stereodel.film import Film
 from stereodel.film.shots import eased
-from stereodel.sphere import SphereArc, graticule, graticule_patch
+from stereodel.sphere import SphereArc, graticule_patch
 
 STAGES = (FIGURE_10, FIGURE_11, FIGURE_12)
 NUMBERS = (10, 11, 12)
@@ -36,18 +37,17 @@ RADIUS, HEIGHT = 86.0, 214.0  # points
 SIZE, STEP = 440, 0.1  # pixels and seconds: all lines move, which makes large files
 NEAR = 0.35  # words are seen within this ratio of magnifications, as a logarithm
 
-Grids = dict[str, list[SphereArc]]
+Grids = dict[str, Grid | list[SphereArc]]
 Shot = tuple[float, tuple[float, float]]
 """A magnification, and those of the pauses before and after, which have words."""
 
 
 def grids() -> Grids:
-    """The lines of each stage that those before it do not have."""
-    coarse = [graticule(stage.coarse) for stage in STAGES[:2]]
+    """The graticules of two stages, and the fine lines of each that those before it do not have."""
     fine = [patch(stage) for stage in STAGES]
     return {
-        "graticule": coarse[0],
-        "finer graticule": added(coarse[1], coarse[0]),
+        "graticule": Grid.graticule(STAGES[0].coarse),
+        "finer graticule": Grid.graticule(STAGES[1].coarse),
         "fine": fine[0],
         "finer": added(fine[1], fine[0]),
         "finest": fine[2],
@@ -95,7 +95,9 @@ def frame(shot: Shot, lines: Grids) -> Page:
     looks = styles(magnification)
     for name, arcs in lines.items():
         if looks[name].color[3] > 0:
-            scene.add_arcs((bend.image_of(arc) for arc in arcs), name=name, style=looks[name])
+            least = WIDTHS_APART * looks[name].width / RADIUS
+            drawn = arcs.drawn(bend, VIEW, least) if isinstance(arcs, Grid) else [bend.image_of(arc) for arc in arcs]
+            scene.add_arcs(drawn, name=name, style=looks[name])
     sketch = Sketch().add_items(scene.layout(VIEW, at=(WIDTH / 2, HEIGHT - RADIUS - 4), scale=RADIUS))
     end, strength = nearest(np.log(ends), np.log(magnification), NEAR)
     stage = SIZES.tolist().index(ends[end])
