@@ -5,7 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from stereodel import PlanarDelaunay, SphericalDelaunay
-from stereodel.drawing import LineStyle
+from stereodel.drawing import LineStyle, Sketch
 from stereodel.drawing.style import BLACK, with_opacity
 from stereodel.interpolation import LinearInterpolator
 
@@ -120,3 +120,14 @@ def tint(height: float, light: float) -> tuple[float, float, float, float]:
     stops = TINTS[:2] if height < 0 else TINTS[2:]
     red, green, blue = (min(1.0, light * float(np.interp(height, stops[:, 0], stops[:, k]))) for k in (1, 2, 3))
     return (red, green, blue, 1.0)
+
+
+def add_facets(sketch: Sketch, g: dict, places: np.ndarray, light: np.ndarray) -> None:
+    """The facets that face the viewer, from back to front, each with its edges."""
+    for facet in g["order"]:
+        corners = places[g["triangles"][facet]]
+        if turned_away(corners):
+            continue
+        for polygon, height in cut_at_sea(corners, g["heights"][g["triangles"][facet]]):
+            sketch.add_polygon(polygon, name="facet", color=tint(height, light[facet]))
+        sketch.add_polyline(corners, closed=True, name="delaunay", style=EDGE)

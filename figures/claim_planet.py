@@ -15,7 +15,7 @@ Chosen by us: the relief, which is a formula and no planet, the number of points
 """
 
 import numpy as np
-from _terrain import COAST, CONTOUR, EDGE, brightness, cut_at_sea, keep_points, relief, tint, turned_away
+from _terrain import COAST, CONTOUR, EDGE, add_facets, brightness, cut_at_sea, keep_points, relief, tint
 
 from stereodel import SphericalDelaunay
 from stereodel.drawing import CircleArc, Page, Scene, Sketch, View
@@ -71,13 +71,7 @@ def draw(g: dict) -> Page:
     sketch = Sketch().add_items(globe(g).layout(VIEW))
     places = SIDEWAYS.project(raised(g)) + [PITCH, 0.0]
     light = brightness(raised(g)[g["triangles"]], SIDEWAYS.matrix.T @ LIGHT)
-    for facet in g["order"]:
-        corners = places[g["triangles"][facet]]
-        if turned_away(corners):
-            continue
-        for polygon, height in cut_at_sea(corners, g["heights"][g["triangles"][facet]]):
-            sketch.add_polygon(polygon, name="facet", color=tint(height, light[facet]))
-        sketch.add_polyline(corners, closed=True, name="delaunay", style=EDGE)
+    add_facets(sketch, g, places, light)
     return sketch.page(EXTENT, width=PRINT_WIDTH)
 
 

@@ -15,7 +15,7 @@ Chosen by us: the relief, which is a formula and no place, the number of points,
 """
 
 import numpy as np
-from _terrain import COAST, CONTOUR, EDGE, brightness, cut_at_sea, keep_points, relief, tint, turned_away
+from _terrain import COAST, CONTOUR, add_facets, brightness, keep_points, relief
 
 from stereodel import PlanarDelaunay
 from stereodel.drawing import LineStyle, Page, Sketch
@@ -95,17 +95,6 @@ def draw(g: dict) -> Page:
     add_facets(sketch, g, on_block, light)
     add_walls(sketch, g)
     return sketch.page(EXTENT, width=PRINT_WIDTH)
-
-
-def add_facets(sketch: Sketch, g: dict, places: np.ndarray, light: np.ndarray) -> None:
-    """The facets that face the viewer, from back to front, each with its edges."""
-    for facet in g["order"]:
-        corners = places[g["triangles"][facet]]
-        if turned_away(corners):
-            continue
-        for polygon, height in cut_at_sea(corners, g["heights"][g["triangles"][facet]]):
-            sketch.add_polygon(polygon, name="facet", color=tint(height, light[facet]))
-        sketch.add_polyline(corners, closed=True, name="delaunay", style=EDGE)
 
 
 def add_walls(sketch: Sketch, g: dict) -> None:

@@ -200,7 +200,7 @@ def within_a_line(g, first):
 
 
 def test_facets_are_cut_where_the_sea_begins():
-    cut = script("claim_terrain")["cut_at_sea"]
+    cut = script("claim_planet")["cut_at_sea"]
     corners = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
     (land, above), (sea, below) = cut(corners, np.array([3.0, -1.0, -1.0]))
     assert land.tolist() == corners.tolist()  # the sea is painted over it
