@@ -13,7 +13,6 @@ from stereodel.conformal import MoebiusMap
 from stereodel.curves import clip, trace
 from stereodel.curves.borders import Pieces
 from stereodel.curves.ragged import Ragged
-from stereodel.sphere import SphereArc
 from stereodel.sphere.latitudes import Latitude
 
 
@@ -51,11 +50,6 @@ class SphereLines:
     def great(cls, starts: FloatArray, ends: FloatArray, normals: FloatArray | None = None) -> SphereLines:
         """A great-circle arc between each pair of unit vectors (n, 3): the shorter one, or the one about a normal."""
         return cls.alone(trace.great(starts, ends, normals))
-
-    @classmethod
-    def of_arcs(cls, arcs: Iterable[SphereArc]) -> SphereLines:
-        """Arcs of circles, each a line."""
-        return cls.alone(trace.exact(list(arcs)))
 
     @classmethod
     def alone(cls, arcs: trace.Arcs) -> SphereLines:

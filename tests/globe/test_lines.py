@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel.curves import trace
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.curves.trace import Edges
 from stereodel.drawing.view import StereographicView, View
@@ -115,7 +116,7 @@ def test_edges_that_are_left_out_are_out_of_sight(size, view, monkeypatch):
 def test_arcs_of_circles_are_followed_whole():
     circle = SphereCircle.around((20.0, 30.0), 25.0)
     lens = fisheye((10.0, 20.0), magnification=5.0)
-    points, offsets = SphereLines.of_arcs([SphereArc.whole(circle)]).through(lens, tolerance=1e-4)
+    points, offsets = SphereLines.alone(trace.exact([SphereArc.whole(circle)])).through(lens, tolerance=1e-4)
     image = lens.image_of(circle)
     np.testing.assert_allclose(points @ image.normal, image.offset, atol=1e-12)
     assert offsets.tolist() == [0, len(points)]
