@@ -57,15 +57,12 @@ def command(
     values, table = table.values([value], skip_missing=skip_missing)
     wanted = _values_of(levels) if levels is not None else _multiples(values[:, 0], interval or 0.0)
     with stage(f"lines between {len(table)} points"):
-        if table.planar:
-            found = contours(PlanarDelaunay(table.places), values[:, 0], wanted)
-        else:
-            triangulation = SphericalDelaunay.from_lonlat(table.places, latitude=latitude.value)
-            found = contours(triangulation, values[:, 0], wanted)
+        kind = PlanarDelaunay if table.planar else SphericalDelaunay
+        found = contours(kind(table.points(latitude)), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
     with stage(f"writing {out}"):
-        destination.write(lambda path: write(path, found, max_segment=max_segment))
+        destination.write(lambda path: write(path, found, max_segment=max_segment, latitude=latitude.value))
     say(f"{out}: {len(found)} lines of {len(wanted)} levels")
 
 

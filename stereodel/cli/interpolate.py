@@ -110,18 +110,12 @@ def _interpolator(
     """A function from points to values, (n, number of columns), that shows how far it is."""
     import numpy as np
 
-    from stereodel import interpolation
     from stereodel.cli.progress import in_pieces, stage
+    from stereodel.interpolation.methods import METHODS
 
     values, table = table.values(names, skip_missing=skip_missing)
-    kinds = {
-        Method.nearest: interpolation.NearestInterpolator,
-        Method.linear: interpolation.LinearInterpolator,
-        Method.smooth: interpolation.SmoothInterpolator,
-        Method.natural: interpolation.NaturalNeighborInterpolator,
-    }
     with stage("triangulating"):
-        interpolator = kinds[method](table.points(latitude), values)
+        interpolator = METHODS[method.value](table.points(latitude), values)
 
     def interpolated(queries: FloatArray) -> FloatArray:
         pieces = in_pieces(len(queries), "interpolating")
