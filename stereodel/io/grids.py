@@ -14,14 +14,15 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_steps, as_vectors, read_only
 from stereodel._extras import optional
 from stereodel.constants import GRID_ROUNDING
+from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
 from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
 
 WGS84: Final = {
     "grid_mapping_name": "latitude_longitude",
     "longitude_of_prime_meridian": 0.0,
-    "semi_major_axis": 6378137.0,
-    "inverse_flattening": 298.257223563,
+    "semi_major_axis": 1000 * EQUATORIAL_RADIUS_KM,
+    "inverse_flattening": INVERSE_FLATTENING,
     "crs_wkt": (
         'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563,AUTHORITY["EPSG","7030"]],'
         'AUTHORITY["EPSG","6326"]],PRIMEM["Greenwich",0,AUTHORITY["EPSG","8901"]],'

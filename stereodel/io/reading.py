@@ -10,6 +10,7 @@ import os
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO, Final, Literal, TextIO
@@ -21,7 +22,7 @@ from stereodel._extras import optional
 from stereodel.io.columns import find_lonlat, listed
 from stereodel.io.csv_text import split_columns
 from stereodel.io.shapes import MULTIPOINT, POINT
-from stereodel.io.tables import PointTable, numbers, table_of
+from stereodel.io.tables import PointTable, located, table_of
 from stereodel.io.text import column, texts
 from stereodel.io.vector_files import read_frame
 
@@ -135,11 +136,8 @@ def read_points(
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
     asked = Asked(lon, lat, layer, crs, skip_missing)
-    content, path = _content(source), _path(source)
-    kind = as_choice(format or _kind(path, content), (*READERS, "vector"), "format")
-    if kind == "vector":
-        return _of_frame(_vector_frame(content, path, layer), asked)
-    return READERS[kind](content, asked)
+    file = _File(source, format)
+    return _of_frame(file.frame(layer), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
 
 
 def read_plane_points(
@@ -160,17 +158,16 @@ def read_plane_points(
     >>> points.tolist(), others["site"].tolist()
     ([[3500.0, 5400.0], [3600.0, 5410.0]], ['A', 'B'])
     """
-    content, path = _content(source), _path(source)
-    kind = _kind(path, content)
-    if kind == "csv":
-        text = split_columns(_text(content), (x, y))
+    file = _File(source)
+    if file.kind == "csv":
+        text = split_columns(_text(file.content), (x, y))
         table, rows, others = text.columns, text.rows, text.typed(without=(x, y))
-    elif kind == "parquet":
-        read = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(content))
+    elif file.kind == "parquet":
+        read = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(file.content))
         table = {name: _of_arrow(read[name]) for name in read.column_names if name != "geometry"}
         rows, others = np.arange(1, read.num_rows + 1), table
-    elif kind == "vector":
-        frame = _vector_frame(content, path, layer)
+    elif file.kind == "vector":
+        frame = file.frame(layer)
         table = _columns_of(frame)
         rows, others = np.arange(1, len(frame) + 1), table
     else:
@@ -178,33 +175,40 @@ def read_plane_points(
     missing = [name for name in (x, y) if name not in table]
     if missing:
         raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(list(table))}")
-    places = np.column_stack([numbers(table[name], name, rows, gaps=skip_missing) for name in (x, y)])
-    there = ~np.isnan(places).any(axis=1)
-    kept = {name: values[there] for name, values in others.items() if name not in (x, y)}
-    return places[there], kept, rows[there]
+    kept = {name: values for name, values in others.items() if name not in (x, y)}
+    return located([(name, table[name]) for name in (x, y)], kept, rows, skip_missing=skip_missing)
 
 
-def _path(source: Source) -> Path | None:
-    return Path(source) if isinstance(source, str | os.PathLike) else None
+class _File:
+    """What a table is read from: its kind, and its bytes, which are read when they are asked for."""
 
+    def __init__(self, source: Source, format: Format | None = None) -> None:
+        self._source = source
+        self._path = Path(source) if isinstance(source, str | os.PathLike) else None
+        self.kind: Format = as_choice(format or self._found(), (*READERS, "vector"), "format")
 
-def _vector_frame(content: bytes, path: Path | None, layer: str | None) -> Any:
-    """The frame in a file of GDAL's formats, which it knows by their ending and beside others of their name."""
-    if path is not None:
-        return read_frame(path, layer=layer)
-    with TemporaryDirectory() as folder:
-        named = Path(folder, f"points{_ending(content)}")
-        named.write_bytes(content)
-        return read_frame(named, layer=layer)
+    def _found(self) -> Format:
+        """The kind by the ending of a path, also before that of its compression, else by the first bytes."""
+        endings = [ending.lower() for ending in self._path.suffixes[-2:]] if self._path is not None else []
+        for ending in (endings[-1:], endings[:1] if endings[-1:] in ([".gz"], [".bz2"]) else []):
+            if ending and ending[0] in ENDINGS:
+                return ENDINGS[ending[0]]
+        return ENDINGS[_ending(self.content)]
 
+    @cached_property
+    def content(self) -> bytes:
+        """The bytes, unpacked."""
+        return _content(self._source)
 
-def _kind(path: Path | None, content: bytes) -> Format:
-    """By the ending of a path, also before that of its compression, else by the first bytes."""
-    endings = [ending.lower() for ending in path.suffixes[-2:]] if path is not None else []
-    for ending in (endings[-1:], endings[:1] if endings[-1:] in ([".gz"], [".bz2"]) else []):
-        if ending and ending[0] in ENDINGS:
-            return ENDINGS[ending[0]]
-    return ENDINGS[_ending(content)]
+    def frame(self, layer: str | None) -> Any:
+        """The frame in a file of GDAL's formats, which it knows by their ending and beside others of their name."""
+        if self._path is not None:
+            with self._path.open("rb"):  # the system says best what cannot be read
+                return read_frame(self._path, layer=layer)
+        with TemporaryDirectory() as folder:
+            named = Path(folder, f"points{_ending(self.content)}")
+            named.write_bytes(self.content)
+            return read_frame(named, layer=layer)
 
 
 def _ending(content: bytes) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -91,12 +91,8 @@ def table_of(
         Naming the first row whose longitude or latitude is missing, not a number, or out of range.
     """
     names = ("longitude", "latitude") if crs is None else ("easting", "northing")
-    places = np.column_stack(
-        [numbers(v, name, rows, gaps=skip_missing) for v, name in zip((lon, lat), names, strict=True)]
-    )
-    there = ~np.isnan(places).any(axis=1)
-    lonlat, rows = places[there], rows[there]
-    columns = {name: np.asarray(values)[there] for name, values in columns.items()}
+    pair = list(zip(names, (lon, lat), strict=True))
+    lonlat, columns, rows = located(pair, columns, rows, skip_missing=skip_missing)
     if crs is not None:
         lonlat = transformed(lonlat, crs, rows)
     outside = np.flatnonzero(np.abs(lonlat[:, 1]) > 90.0)
@@ -106,6 +102,18 @@ def table_of(
             "is it the longitude, or not in degrees?"
         )
     return PointTable(lonlat, columns, rows)
+
+
+def located(
+    pair: Sequence[tuple[str, Column]], columns: Mapping[str, Column], rows: Indices, *, skip_missing: bool
+) -> tuple[FloatArray, dict[str, Column], Indices]:
+    """Two columns of coordinates, each behind its name in messages, as places (n, 2), with the other columns.
+
+    Rows without a place are left out if they may be.
+    """
+    places = np.column_stack([numbers(values, name, rows, gaps=skip_missing) for name, values in pair])
+    there = ~np.isnan(places).any(axis=1)
+    return places[there], {name: np.asarray(values)[there] for name, values in columns.items()}, rows[there]
 
 
 def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
