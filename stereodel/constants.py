@@ -264,6 +264,12 @@ MOST_PIXELS_ACROSS: Final = 2**20
 LONGEST_EDGE: Final = 30.0
 """Longest piece of a map's edge that one great-circle arc follows, degrees: far from 180, where none does."""
 
+MOST_PIECES: Final = 64
+"""Equal pieces into which an edge is cut for a lens; one that needs more is halved first, and each half asked again.
+
+Where a lens magnifies a billion times, a long edge through its focus is then a few hundred pieces, not ten million.
+"""
+
 GRID_ROUNDING: Final = 1e-9
 """Part of a step by which the last line of a grid may miss the border of its box, for rounding: it is reached then."""
 

@@ -49,8 +49,8 @@ def command(
     shrinks again.
     """
     from stereodel.cli.destinations import Destination
-    from stereodel.cli.globe_aim import SPACINGS, Aim, place
-    from stereodel.cli.globe_films import motion_of, save_film
+    from stereodel.cli.globe_aim import Aim, place
+    from stereodel.cli.globe_films import FILM_SPACING, motion_of, save_film
     from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe, texture_of
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
@@ -65,9 +65,8 @@ def command(
     if points is not None:
         table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage("reading maps"):
-        spacing = aim.spacing if graticule is None and not filming else graticule
-        lines = SPACINGS[0] if spacing is None else spacing
-        features = Features(land, coastlines, borders, rivers, lakes, lines, "50m" if filming else aim.resolution)
+        spacing = FILM_SPACING if graticule is None and filming else graticule
+        features = Features(land, coastlines, borders, rivers, lakes, spacing, "50m" if filming else aim.resolution)
         drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude))
         add_files(drawing, layer or ())
         if table is not None:

@@ -18,8 +18,6 @@ from stereodel.globe import hemispheres
 Place = tuple[float, float]
 
 CLOSE = 5.0  # magnification from which on the coast at 1 : 50 million shows its corners
-LINES = 12
-SPACINGS = (15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1)
 
 
 def place(text: str | None, option: str) -> Place | None:
@@ -54,17 +52,6 @@ class Aim:
     def resolution(self) -> str:
         """Of the maps of the Earth: the finest for close looks."""
         return "10m" if self.magnification >= CLOSE else "50m"
-
-    @property
-    def spacing(self) -> float:
-        """Of a graticule, degrees: of those that divide well the one that gives about `LINES` lines across a ball.
-
-        Anything but a ball seen from above its focus has parts that are not magnified.
-        """
-        if self.projection != Projection.globe or self.middle not in (None, self.focus):
-            return SPACINGS[0]
-        across = np.degrees(4 * np.arctan(1 / max(1.0, self.magnification)))
-        return min(SPACINGS, key=lambda spacing: abs(np.log(across / LINES / spacing)))
 
     @property
     def lens(self) -> MoebiusMap:

@@ -14,6 +14,7 @@ from stereodel.film import Film, Flight, FrameError, Morph, Spin, Stop
 from stereodel.film.shots import Motion
 from stereodel.globe import Globe
 
+FILM_SPACING = 15.0  # of the graticule, degrees: one that suited each frame would come and go
 KEPT = "interrupted; the same command goes on with the frames that are missing"
 
 

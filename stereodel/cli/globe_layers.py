@@ -30,8 +30,8 @@ class Features:
     borders: bool
     rivers: bool
     lakes: bool
-    graticule: float
-    """Degrees; 0 for none."""
+    graticule: float | None
+    """Degrees; 0 for none, None for what suits the picture."""
     resolution: str
 
 
@@ -56,7 +56,7 @@ def new_globe(features: Features, latitude: Latitude, texture: Raster | None) ->
         globe.add_land(resolution=features.resolution)
     if features.lakes:
         globe.add_lakes(resolution=features.resolution)
-    if features.graticule:
+    if features.graticule != 0:
         globe.add_graticule(features.graticule)
     if features.rivers:
         globe.add_rivers(resolution=features.resolution)

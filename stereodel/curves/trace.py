@@ -16,7 +16,7 @@ import numpy as np
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
 from stereodel.conformal.scales import largest_scale
-from stereodel.constants import LONGEST_EDGE, WHOLE_TURNS
+from stereodel.constants import LONGEST_EDGE, MOST_PIECES, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
@@ -213,8 +213,7 @@ class Edges:
 
     def take(self, chosen: Indices | BoolArray) -> Edges:
         """Some of the edges, numbered anew."""
-        arcs = self.arcs.take(chosen)
-        arcs = replace(arcs, edge=np.arange(len(arcs)))
+        arcs = numbered(self.arcs.take(chosen))
         length, exact = self.length[chosen], self.exact[chosen]
         return Edges(arcs, length, exact, self.bend[chosen], self.lonlat[chosen], self.latitude)
 
@@ -226,33 +225,97 @@ class Edges:
     def arcs_under(self, lens: MoebiusMap, tolerance: float) -> Arcs:
         """Arcs whose images under a lens are within a tolerance of those of the edges, radii."""
         start = self.arcs.start
-        # As many great circles as keep their images within the tolerance, by the largest scale along them.
-        # Long ones are cut for their length alone: a great circle through opposite points is none.
-        wanted = np.sqrt(self.bend * largest_scale(lens, start, self.length) / tolerance)
-        wanted = np.maximum(wanted, self.length / np.radians(LONGEST_EDGE))
-        pieces = np.where(self.exact, 1, np.maximum(1, np.ceil(wanted))).astype(np.intp)
-        long = np.flatnonzero(pieces > 1)
+        wanted = _wanted(lens, tolerance, start, self.length, self.bend)
+        long = np.flatnonzero(~self.exact & (wanted > 1))
         if not len(long):
             return self.arcs
         # Those that are cut, from corner to corner.
-        pieces = pieces[long]
-        number, row = spans(np.zeros_like(pieces), pieces), np.repeat(np.arange(len(long)), pieces)
-        cut = np.flatnonzero(number)
-        p, q = start[long][row], self.arcs.end[long][row]
-        a, b = self.lonlat[long, 0][row[cut]], self.lonlat[long, 1][row[cut]]
-        share = (number[cut] / pieces[row[cut]])[:, None]
-        # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
-        p[cut] = q[cut - 1] = lonlat_to_xyz(a + share * (b - a), latitude=self.latitude)
-        parts = replace(great(p, q), edge=long[row])
+        cut = _Stretches.whole(self.take(long), long, wanted[long]).halved(lens, tolerance, self.latitude)
+        parts = cut.arcs(self.latitude)
         whole = np.ones(len(self), dtype=bool)
         whole[long] = False
         both = joined(self.arcs.take(whole), parts)
         return both.take(np.argsort(both.edge, kind="stable"))
 
 
+@dataclass(frozen=True, eq=False)
+class _Stretches:
+    """Stretches of edges straight in degrees, from a (k, 2) to b, on the sphere from p (k, 3) to q."""
+
+    edge: Indices
+    before: FloatArray
+    """The share of its edge that is before each, and `share`, that which it is."""
+    share: FloatArray
+    pieces: FloatArray
+    """In how many great circles each is wanted."""
+    a: FloatArray
+    b: FloatArray
+    p: FloatArray
+    q: FloatArray
+
+    @classmethod
+    def whole(cls, edges: Edges, number: Indices, pieces: FloatArray) -> _Stretches:
+        """Edges from end to end."""
+        count, (a, b) = len(edges), edges.lonlat.swapaxes(0, 1)
+        return cls(number, np.zeros(count), np.ones(count), pieces, a, b, edges.arcs.start, edges.arcs.end)
+
+    def take(self, chosen: Indices | BoolArray) -> _Stretches:
+        """Some of them."""
+        return _Stretches(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
+
+    def halved(self, lens: MoebiusMap, tolerance: float, latitude: Latitude) -> _Stretches:
+        """In halves, until none is wanted in more than `MOST_PIECES`, in order: few where nothing is magnified."""
+        done, rest = [], self
+        while len(rest.edge):
+            middle = (rest.a + rest.b) / 2
+            # What rounding keeps from being halved is as short as can be.
+            between = (middle != rest.a).any(axis=1) & (middle != rest.b).any(axis=1)
+            long = between & (rest.pieces > MOST_PIECES)
+            done.append(rest.take(~long))
+            rest, middle = rest.take(long), middle[long]
+            center, share = lonlat_to_xyz(middle, latitude=latitude), rest.share / 2
+            first = replace(rest, share=share, b=middle, q=center)
+            second = replace(rest, share=share, before=rest.before + share, a=middle, p=center)
+            halves = _together([first, second])
+            length, bend = measures_in_lonlat(halves.a, halves.b, halves.p, halves.q)
+            rest = replace(halves, pieces=_wanted(lens, tolerance, halves.p, length, bend))
+        found = _together(done)
+        return found.take(np.lexsort([found.before, found.edge]))
+
+    def arcs(self, latitude: Latitude) -> Arcs:
+        """Great circles, as many of equal steps in degrees as are wanted."""
+        pieces = np.ceil(np.clip(self.pieces, 1, MOST_PIECES)).astype(np.intp)
+        number, row = spans(np.zeros_like(pieces), pieces), np.repeat(np.arange(len(pieces)), pieces)
+        cut = np.flatnonzero(number)
+        p, q, a, b = self.p[row], self.q[row], self.a[row[cut]], self.b[row[cut]]
+        share = (number[cut] / pieces[row[cut]])[:, None]
+        # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
+        p[cut] = q[cut - 1] = lonlat_to_xyz(a + share * (b - a), latitude=latitude)
+        return replace(great(p, q), edge=self.edge[row])
+
+
+def _together(parts: Sequence[_Stretches]) -> _Stretches:
+    names = _Stretches.__dataclass_fields__
+    return _Stretches(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))
+
+
+def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: FloatArray, bend: FloatArray) -> FloatArray:
+    """Of how many great circles the images of edges keep within a tolerance, by the largest scale along them.
+
+    Long ones are cut for their length alone: a great circle through opposite points is none.
+    """
+    wanted = np.sqrt(bend * largest_scale(lens, start, length) / tolerance)
+    return np.asarray(np.maximum(wanted, length / np.radians(LONGEST_EDGE)))
+
+
 def joined(a: Arcs, b: Arcs) -> Arcs:
     """The arcs of both."""
     return Arcs(*(np.concatenate([getattr(a, name), getattr(b, name)]) for name in Arcs.__dataclass_fields__))
+
+
+def numbered(arcs: Arcs) -> Arcs:
+    """The same arcs, each an edge of its own."""
+    return replace(arcs, edge=np.arange(len(arcs)))
 
 
 def straight(

@@ -9,6 +9,7 @@ goes on, or each sixth and so on, in steps that divide the grid, so that those t
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Final
 
 import numpy as np
@@ -16,16 +17,30 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import GRID_SAMPLES
-from stereodel.curves.trace import Arcs, exact
+from stereodel.constants import GRID_SAMPLES, REACH_MARGIN, UNIT_ROUNDOFF
+from stereodel.curves.trace import Arcs, exact, joined, numbered
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.view import MapView
-from stereodel.sphere import SphereCircle, graticule, graticule_patch
+from stereodel.sphere import SphereCircle, graticule_patch, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import crossed, turned
 
+_Box = tuple[float, float, float, float]
+
 WIDTHS_APART: Final = 3.0
 """Least distance between neighbouring lines of a grid, in widths of its lines: closer ones are seen as a tint."""
+
+LEAST_APART: Final = 0.3
+"""The same distance for lines however thin, points: it bounds how many lines a picture has."""
+
+LINES_ACROSS: Final = 12
+"""About how many lines of a family a picture has whose grid suits it."""
+
+SPACINGS: Final = (15.0, 10.0, 5.0, *(float(f"{digit}e-{power}") for power in range(12) for digit in (2, 1, 0.5)))
+"""Spacings that suit pictures, degrees. Where double precision ends, 1e-13 degrees, nothing finer is shown."""
+
+NARROWINGS: Final = 8
+"""How often the part of the sphere is made smaller in which lines have room, where meridians meet."""
 
 HALVINGS: Final = 40
 """Of an interval in which a line ends: then a millionth of a millionth of it is left."""
@@ -67,10 +82,43 @@ class Grid:
         """All meridians and parallels, as `stereodel.sphere.graticule`; those of the quarters of the globe stay."""
         steps = as_steps(180.0, spacing, "spacing")
         half = (steps - 1) // 2
-        quarter = steps // 2 if steps % 2 == 0 else steps
-        numbers = np.concatenate([np.arange(-steps, steps), np.arange(-half, half + 1)])
-        arcs = exact(graticule(spacing, latitude=latitude))
-        return cls(arcs, 2 * steps, np.pi / steps, _strides(numbers, quarter))
+        return cls._numbered(np.arange(-steps, steps), np.arange(-half, half + 1), steps, latitude)
+
+    @classmethod
+    def shown(
+        cls, spacing: float, lens: MoebiusMap, view: MapView, least: float, *, latitude: Latitude = "spherical"
+    ) -> Grid:
+        """Of `graticule` the lines of which a picture, thinned to `least`, may show a part: some thousands at most.
+
+        However fine the grid is, what it costs is what is seen of it. Parameters are those of `graticule` and
+        `thinned`; of a ball of glass, this is the near side.
+
+        Examples
+        --------
+        >>> from stereodel import fisheye
+        >>> lens = fisheye((2.35, 48.86), magnification=1e9)
+        >>> grid = Grid.shown(2e-8, lens, View(2.35, 48.86), 0.003)  # of a graticule of 27 milliards of lines
+        >>> 20 < len(grid.arcs) < 60
+        True
+        """
+        steps = as_steps(180.0, spacing, "spacing")
+        half, quarter = (steps - 1) // 2, _quarter(steps)
+        window = _Window(lens, view, latitude)
+        need = as_scalar(least, "least", low=0.0, open_low=True)
+        meridians, parallels = [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
+        for stride in _chain(quarter):
+            apart = 0.0 if stride == quarter else need / (stride * np.pi / steps)
+            meridians.append(window.meridians(stride, steps, apart))
+            parallels.append(window.parallels(stride, steps, apart))
+        east, north = (np.unique(np.concatenate(found)) for found in (meridians, parallels))
+        return cls._numbered(east, north[np.abs(north) <= half], steps, latitude)
+
+    @classmethod
+    def _numbered(cls, east: Indices, north: Indices, steps: int, latitude: Latitude) -> Grid:
+        """Meridians and parallels of a graticule by their numbers, from those through (0, 0) on."""
+        arcs = joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
+        numbers = np.concatenate([east, north])
+        return cls(numbered(arcs), len(east), np.pi / steps, _strides(numbers, _quarter(steps)))
 
     @classmethod
     def patch(cls, center: npt.ArrayLike, half_width: float, spacing: float) -> Grid:
@@ -84,7 +132,7 @@ class Grid:
         arcs = exact(graticule_patch(center, half_width, spacing))
         count = len(arcs) // 2
         steps = count - 1
-        strides = _strides(np.arange(count), steps // 2 if steps % 2 == 0 else steps)
+        strides = _strides(np.arange(count), _quarter(steps))
         return cls(arcs, count, float(np.radians(2 * half_width)) / steps, np.tile(strides, 2))
 
     def drawn(self, lens: MoebiusMap, view: MapView, least: float) -> list[CircleArc]:
@@ -234,11 +282,145 @@ class _Lines:
         return turned(turn, left)
 
 
+@dataclass(frozen=True, eq=False)
+class _Window:
+    """What of the sphere a picture shows, and of that where the lines of a grid have room."""
+
+    lens: MoebiusMap
+    view: MapView
+    latitude: Latitude
+
+    def meridians(self, stride: int, steps: int, apart: float) -> Indices:
+        """Numbers of the meridians, multiples of a stride, of which a part may be where the picture gives them room.
+
+        `apart` is the least scale on the page at which neighbours on the equator have room.
+        """
+        box = self._room(apart, meeting=True)
+        if box is None:
+            return np.zeros(0, dtype=np.intp)
+        step, (west, east) = stride * 180.0 / steps, box[2:]
+        if east - west + 2 * step >= 360.0:
+            return np.arange(-(steps // stride), -(-steps // stride)) * stride
+        numbers = np.arange(np.floor(west / step), np.ceil(east / step) + 1).astype(np.intp) * stride
+        return np.mod(numbers + steps, 2 * steps) - steps
+
+    def parallels(self, stride: int, steps: int, apart: float) -> Indices:
+        """The same of parallels; numbers may be those of poles, and beyond."""
+        box = self._room(apart, meeting=False)
+        if box is None:
+            return np.zeros(0, dtype=np.intp)
+        step = stride * 180.0 / steps
+        south, north = xyz_to_lonlat(lonlat_to_xyz([(0.0, lat) for lat in box[:2]]), latitude=self.latitude)[:, 1]
+        return np.arange(np.floor(south / step), np.ceil(north / step) + 1).astype(np.intp) * stride
+
+    def _room(self, apart: float, *, meeting: bool) -> _Box | None:
+        """South, north, west, east of what is in sight at such a scale or a larger one; of meridians, which meet."""
+        box = self._seen
+        for _ in range(NARROWINGS if meeting else 1):
+            nearest = 0.0 if box[0] <= 0 <= box[1] else min(abs(box[0]), abs(box[1]))
+            breadth = float(np.cos(np.radians(nearest))) if meeting else 1.0
+            radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / self._widest)
+            if radius is None:
+                return None
+            around = _box_around(self._peak, radius)
+            south, north = max(box[0], around[0]), min(box[1], around[1])
+            if south > north:
+                return None
+            narrower = around if around[3] - around[2] < box[3] - box[2] else box
+            box = (south, north, *narrower[2:])
+        return box
+
+    def _reach(self, scale: float) -> float | None:
+        """How far from its peak the scale of the lens is as large, radians: L / (cos² + L² sin²) of half of it."""
+        size = self.lens.magnification
+        larger = max(size, 1 / size)
+        if scale > larger * (1 + REACH_MARGIN):
+            return None
+        if larger == 1 or scale == 0:
+            return float(np.pi)
+        return float(2 * np.arcsin(np.sqrt(np.clip((larger / scale - 1) / (larger**2 - 1), 0.0, 1.0))))
+
+    @cached_property
+    def _seen(self) -> _Box:
+        cap = self.lens.inverse().image_of(SphereCircle(self.view.matrix[2], self.view.edge))
+        return _box_around(cap.normal, float(np.radians(cap.angular_radius)))
+
+    @property
+    def _widest(self) -> float:
+        """The largest scale of the view, which is that of its edge across it."""
+        edge = self.view.edge
+        return float(self.view.breadth(np.array([np.sqrt(1 - edge**2), 0.0, edge]), np.array([0.0, 1.0, 0.0])))
+
+    @property
+    def _peak(self) -> FloatArray:
+        """Where the scale is largest."""
+        focus: FloatArray = self.lens.right.matrix[2]
+        return focus if self.lens.magnification >= 1 else -focus
+
+
+def _meridians(lons: FloatArray) -> Arcs:
+    """Half great circles from the south pole to the north pole, as `stereodel.sphere.graticules.meridian`."""
+    south = np.tile([0.0, 0.0, -1.0], (len(lons), 1))
+    # Counterclockwise about lon − 90 is northwards at lon.
+    axis = lonlat_to_xyz(np.stack([lons - 90.0, np.zeros(len(lons))], axis=1))
+    zero = np.zeros(len(lons))
+    return Arcs(south, -south, axis, zero, south, zero, np.full(len(lons), np.pi), np.arange(len(lons)))
+
+
+def _parallels(lats: FloatArray, latitude: Latitude) -> Arcs:
+    """Whole circles eastwards from longitude 0, as `stereodel.sphere.graticules.parallel`."""
+    zero = np.zeros(len(lats))
+    start = lonlat_to_xyz(np.stack([zero, lats], axis=1), latitude=latitude)
+    axis = np.tile([0.0, 0.0, 1.0], (len(lats), 1))
+    radius = start * [1.0, 1.0, 0.0]
+    return Arcs(start, start, axis, start[:, 2], radius, zero, np.full(len(lats), 2 * np.pi), np.arange(len(lats)))
+
+
+def _box_around(center: FloatArray, radius: float) -> _Box:
+    """South, north, west and east of a cap of the sphere, degrees; `radius` in radians."""
+    reach = float(np.degrees(radius * (1 + REACH_MARGIN) + 8 * UNIT_ROUNDOFF))
+    lon, lat = xyz_to_lonlat(center).tolist()
+    south, north = max(-90.0, lat - reach), min(90.0, lat + reach)
+    if abs(lat) + reach >= 90.0:
+        return (south, north, -180.0, 180.0)
+    side = float(np.degrees(np.arcsin(min(1.0, np.sin(np.radians(reach)) / np.cos(np.radians(lat))))))
+    return (south, north, lon - side, lon + side)
+
+
+def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
+    """The spacing of `SPACINGS`, degrees, that gives about `LINES_ACROSS` lines across what a view behind a lens shows.
+
+    Examples
+    --------
+    >>> from stereodel import fisheye
+    >>> [usual_spacing(fisheye((2, 48), magnification=size), View(2, 48)) for size in (1, 20, 1e6)]
+    [15.0, 1.0, 2e-05]
+    """
+    cap = lens.inverse().image_of(SphereCircle(view.matrix[2], view.edge))
+    across = max(2 * cap.angular_radius, SPACINGS[-1])
+    return min(SPACINGS, key=lambda spacing: abs(np.log(across / LINES_ACROSS / spacing)))
+
+
+def _quarter(steps: int) -> int:
+    """The stride of the lines that always stay: in the middle of a family of so many steps, if there is one."""
+    return steps // 2 if steps % 2 == 0 else steps
+
+
+def _chain(whole: int) -> list[int]:
+    """Strides 1, p, p·q … `whole`, by prime factors from the smallest on."""
+    chain, rest, factor = [1], whole, 2
+    while rest > 1:
+        while factor * factor <= rest and rest % factor:
+            factor += 1
+        prime = factor if rest % factor == 0 else rest
+        chain.append(chain[-1] * prime)
+        rest //= prime
+    return chain
+
+
 def _strides(numbers: Indices, whole: int) -> Indices:
-    """Of lines by number the largest stride of a chain 1, p, p·q … `whole` that they are in; 0 for multiples of all."""
-    strides, stride = np.ones(len(numbers), dtype=np.intp), 1
-    while stride < whole:
-        rest = whole // stride
-        stride *= next(p for p in range(2, rest + 1) if rest % p == 0)
+    """Of lines by number the largest stride of the chain that they are in; 0 for multiples of all of it."""
+    strides = np.ones(len(numbers), dtype=np.intp)
+    for stride in _chain(whole):
         strides[numbers % stride == 0] = stride
     return np.where(numbers % whole == 0, 0, strides)

@@ -14,7 +14,6 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.colors import ColorLike, as_color, as_colors
-from stereodel.drawing.grids import Grid
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.scales import ColorScale, usual_scale
@@ -151,12 +150,15 @@ class Globe:
         """Draw the borders between the countries of the Earth (Natural Earth)."""
         self.add(Lines(features.borders(resolution, self.latitude), style, "borders"))
 
-    def add_graticule(self, spacing: float = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
+    def add_graticule(self, spacing: float | None = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
         """Draw meridians and parallels, `spacing` degrees apart, of which 180 must be a multiple.
 
-        Where a picture would have less than three line widths between neighbours, as at the poles, some of them end.
+        With None each picture has a spacing that suits it: some twelve lines across what its lens shows. Where it would
+        have less than three line widths between neighbours, as at the poles, some of them end.
         """
-        self.add(GridLines(Grid.graticule(spacing, latitude=self.latitude), style, "graticule"))
+        if spacing is not None:
+            as_steps(180.0, spacing, "spacing")
+        self.add(GridLines(spacing, self.latitude, style, "graticule"))
 
     def add_lines(
         self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = MAP_LINES["line"], name: str = "lines"

@@ -10,7 +10,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.drawing.colors import Color
-from stereodel.drawing.grids import WIDTHS_APART, Grid
+from stereodel.drawing.grids import LEAST_APART, WIDTHS_APART, Grid, usual_spacing
 from stereodel.drawing.label import within_disc
 from stereodel.drawing.page import Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.style import DotStyle, LineStyle
@@ -18,6 +18,7 @@ from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.raster import Raster, RasterOnDisc
 from stereodel.globe.regions import SphereRegions
+from stereodel.sphere.latitudes import Latitude
 
 
 class MapLayer(Protocol):
@@ -68,16 +69,23 @@ class Lines:
 
 @dataclass(frozen=True, eq=False)
 class GridLines:
-    """Meridians and parallels, thinned where they would run together."""
+    """Meridians and parallels, thinned where they would run together.
 
-    grid: Grid
+    They are `spacing` degrees apart, or, with None, as suits what a chart shows.
+    """
+
+    spacing: float | None
+    latitude: Latitude
     style: LineStyle
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """As `Lines`, of which some end where they come nearer to each other than `WIDTHS_APART` widths."""
-        least = WIDTHS_APART * self.style.width / (chart.unit * chart.scale)
-        shown = SphereLines.alone(self.grid.thinned(chart.lens, chart.view, least))
+        lens, view = chart.lens, chart.view
+        spacing = usual_spacing(lens, view) if self.spacing is None else self.spacing
+        least = max(WIDTHS_APART * self.style.width, LEAST_APART) / (chart.unit * chart.scale)
+        grid = Grid.shown(spacing, lens, view, least, latitude=self.latitude)
+        shown = SphereLines.alone(grid.thinned(lens, view, least))
         yield from Lines(shown, self.style, self.name).lay(chart)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -54,8 +54,7 @@ class SphereLines:
     @classmethod
     def alone(cls, arcs: trace.Arcs) -> SphereLines:
         """Arcs made ready, each a line."""
-        arcs = replace(arcs, edge=np.arange(len(arcs)))
-        return cls(trace.Edges.of(arcs), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
+        return cls(trace.Edges.of(trace.numbered(arcs)), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
 
     def through(self, lens: MoebiusMap, *, tolerance: float) -> tuple[FloatArray, Indices]:
         """Polylines (unit vectors, offsets) whose chords are within `tolerance` radii of the images."""

@@ -5,7 +5,9 @@ import pytest
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.drawing import StereographicView, View
-from stereodel.drawing.grids import Grid
+from stereodel.drawing.grids import Grid, usual_spacing
+from stereodel.globe.chart import Chart
+from stereodel.globe.lines import SphereLines
 from stereodel.sphere import graticule, graticule_patch
 
 NONE = MoebiusMap.identity()
@@ -91,6 +93,46 @@ def test_what_is_drawn_is_all_that_has_room(lens, view):
             wanted = grid.strides[line] == 0 or gap * grid.strides[line] > least
             inside = [shown.begin[k] <= angle + turn <= shown.stop[k] for k in parts for turn in (0, 2 * np.pi)]
             assert any(inside) == wanted
+
+
+@pytest.mark.parametrize("latitude", ["spherical", "authalic"])
+@pytest.mark.parametrize("degrees", [2, 5, 36])
+def test_the_lines_of_a_picture_are_all_of_the_graticule_that_it_shows(degrees, latitude):
+    """Bit for bit, for lenses and views of every kind."""
+    rng = np.random.default_rng(int(10 * degrees))
+    whole = Grid.graticule(degrees, latitude=latitude)
+    for number in range(10):
+        focus, size = rng.uniform([-180, -90], [180, 90]) if number % 4 else (30.0, 90.0), 10 ** rng.uniform(-2, 4)
+        lens = fisheye(focus, magnification=size)
+        other = StereographicView(*rng.uniform([-180, -90], [180, 90]), angular_radius=rng.uniform(30, 150))
+        view = View(*focus) if number % 2 else other
+        chart = Chart(lens, view)
+        some = Grid.shown(degrees, lens, view, 0.02, latitude=latitude)
+        seen, expected = (chart.lines(SphereLines.alone(grid.thinned(lens, view, 0.02))) for grid in (some, whole))
+        assert np.array_equal(seen.values, expected.values)
+        assert np.array_equal(seen.offsets, expected.offsets)
+
+
+@pytest.mark.parametrize("degrees", [15, 0.01, 1e-9, 180 / 1_000_003])
+@pytest.mark.parametrize("focus", [(2.35, 48.86), (0, 90), (30, 89.9), (179.9999, 0)])
+def test_however_fine_a_grid_is_a_picture_has_some_thousand_lines(degrees, focus):
+    """Neighbours that a picture shows are so far apart, 0.0032 radii, that no more have room."""
+    for size in (1, 1e3, 1e6, 1e9, 1e12, 1e-6):
+        lens = fisheye(focus, magnification=size)
+        for view in (View(*focus), View(focus[0] + 100, -focus[1]), StereographicView(*focus, angular_radius=150)):
+            assert len(Grid.shown(degrees, lens, view, 0.0032).arcs) < 10_000
+
+
+@pytest.mark.parametrize("size", [1, 3, 20, 1e3, 1e6, 1e9, 1e11])
+@pytest.mark.parametrize("focus", [(2.35, 48.86), (-70, -12)])
+def test_usual_spacings_suit_the_picture(size, focus):
+    lens, view = fisheye(focus, magnification=size), View(*focus)
+    degrees = usual_spacing(lens, view)
+    across = 4 * np.degrees(np.arctan(1 / size))
+    assert across / degrees == pytest.approx(12, rel=0.6)
+    crossed = Chart(lens, view).lines(SphereLines.alone(Grid.shown(degrees, lens, view, 0.0032).arcs))
+    assert 12 <= len(crossed) <= 60
+    assert usual_spacing(lens, View(focus[0] + 180, -focus[1])) == 15.0
 
 
 def spacing(end, lens, view, step, *, meridian):

@@ -132,3 +132,26 @@ def test_thinning_moves_no_line_by_more_than_the_spacing(seed, spacing):
         assert (thin[0] == line[0]).all()
         assert (thin[-1] == line[-1]).all()
         assert np.linalg.norm(line[:, None] - thin, axis=-1).min(axis=1).max() <= spacing
+
+
+@pytest.mark.parametrize("size", [1e4, 1e8, 1e12])
+@pytest.mark.parametrize("latitude", ["spherical", "authalic"])
+def test_long_edges_through_a_strong_lens_are_exact_and_few_pieces(size, latitude):
+    """Through the focus, beside it and far from it; equal pieces would be ten million."""
+    ends = np.array([[(-8.0, 45.0), (12.0, 52.0)], [(-8.0, 45.1), (12.0, 52.0)], [(100.0, 0.0), (120.0, 30.0)]])
+    focus, tolerance = ends[0].mean(axis=0), 1e-4
+    lens = fisheye(lonlat_to_xyz(focus, latitude=latitude), magnification=size)
+    edges = SphereLines.straight_in_lonlat(ends, latitude).edges
+    arcs = edges.arcs_under(lens, tolerance)
+    assert len(arcs) < 3000
+    assert (np.diff(arcs.edge) >= 0).all()
+    for edge, (start, end) in enumerate(ends):
+        own = arcs.take(arcs.edge == edge)
+        assert np.array_equal(own.start[0], lonlat_to_xyz(start, latitude=latitude))
+        assert np.array_equal(own.end[-1], lonlat_to_xyz(end, latitude=latitude))
+        assert np.array_equal(own.start[1:], own.end[:-1])
+        # Closer and closer to the focus, as the lens shows it.
+        near = 0.5 + np.array([-1, 1])[:, None] * np.geomspace(0.5, 1e-3 / size, 40)
+        truth = lens(lonlat_to_xyz(start + np.sort(near.ravel())[:, None] * (end - start), latitude=latitude))
+        drawn = own.through(lens).sampled(tolerance / 2).values
+        assert distance_to_polyline(truth, drawn).max() <= tolerance + 4e-16 * size  # the rounding of the places
