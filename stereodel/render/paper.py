@@ -16,6 +16,9 @@ from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Outline
 PLACES = round(1 / FINEST_PLACE)
 """Steps of coordinates in a point."""
 
+LETTERS = {MOVE: "M", LINE: "l", CURVE: "c"}
+"""Of commands in SVG."""
+
 
 @dataclass(frozen=True, eq=False)
 class Paper:
@@ -112,6 +115,45 @@ def commands(outline: Outline, pattern: Mapping[int, str]) -> str:
         count = {CLOSE: 0, CURVE: 6}.get(kind, 2)
         parts.append(pattern[kind] % tuple(text[place : place + count]))
     return "".join(parts)
+
+
+def runs(outline: Outline) -> list[str]:
+    """The runs of an outline in points as SVG writes them, in relative commands and no more characters than it takes.
+
+    Places are rounded before they are subtracted, so that errors do not add up.
+
+    Examples
+    --------
+    >>> square = np.array([(10, 5), (11, 5), (11, 5.25), (10.5, 5.25), (10, 5)], dtype=float)
+    >>> runs(Outline(square, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)))
+    ['M10 5l1 0l0 .25l-.5 0Z']
+    """
+    steps, kinds = _seen(np.rint(outline.points * PLACES).astype(np.int64), outline.kinds)
+    third = np.flatnonzero(kinds == CURVE)[2::3]
+    before = np.arange(len(kinds)) - 1
+    before[third - 1], before[third] = third - 3, third - 3
+    away = steps - np.where((kinds == MOVE)[:, None], 0, steps[before])
+    text = list(map(_written, away.ravel().tolist()))
+    parts: list[list[str]] = []
+    # The controls of a curve stand behind its letter, as its end does.
+    inner = np.zeros(len(kinds), dtype=bool)
+    inner[third], inner[third - 1] = True, True
+    for place, (kind, follows) in enumerate(zip(kinds.tolist(), inner.tolist(), strict=True)):
+        if kind == MOVE:
+            parts.append([])
+        if kind == CLOSE:
+            parts[-1].append("Z")
+            continue
+        x, y = text[2 * place : 2 * place + 2]
+        parts[-1].append(_beside(parts[-1][-1], x) if follows else f"{LETTERS[kind]}{x}")
+        parts[-1].append(_beside(x, y))
+    return ["".join(run) for run in parts]
+
+
+def _beside(before: str, number: str) -> str:
+    """A number behind another, with a space where it takes one to see that it begins."""
+    apart = number[0] == "-" or (number[0] == "." and "." in before)
+    return number if apart else f" {number}"
 
 
 def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:

@@ -23,15 +23,15 @@ from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Ball, Label, Page
 from stereodel.drawing.style import PRINT_DPI
 from stereodel.render.light import ball_gradient
-from stereodel.render.paper import Paper, commands, exact, number, numbers
-from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Drawn, Filled, Outline, Shape, Shown, shapes
+from stereodel.render.paper import Paper, exact, number, numbers, runs
+from stereodel.render.shapes import CLOSE, LINE, MOVE, Discs, Drawn, Filled, Outline, Shape, Shown, shapes
 from stereodel.render.type import Glyph, Line, Subset, lines_of, subsets
 
 with of_extra("draw"):
     from PIL import Image
 
-PATH: Final = {MOVE: "M%s %s", LINE: "L%s %s", CURVE: "C%s %s %s %s %s %s", CLOSE: "Z"}
-"""Commands of paths."""
+LONGEST_PATH: Final = 200_000
+"""Characters beyond which lines and dots become several paths of a group: editors redraw a path as a whole."""
 
 SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
 """Type that stands in where a program takes none from the file."""
@@ -96,11 +96,34 @@ class _Sheet:
         self.names.add(name)
         return name
 
+    def runs(self, outline: Outline) -> list[str]:
+        return runs(self.paper.placed(outline))
+
     def path(self, outline: Outline) -> str:
-        return commands(self.paper.placed(outline), PATH)
+        return "".join(self.runs(outline))
+
+    def discs(self, discs: Discs) -> list[str]:
+        """Each as two halves of a circle."""
+        radius, across = number(discs.radius), number(2 * discs.radius)
+        halves = f"a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0 -{across} 0Z"
+        corners = self.paper.points(discs.centers) - [discs.radius, 0.0]
+        return [f"M{numbers(corner)}{halves}" for corner in corners.tolist()]
+
+    def split(self, name: str, paint: str, found: list[str], *, whole: bool) -> Iterator[str]:
+        """Runs of one style: a path, or several in a group unless they must stay together."""
+        paths = ["".join(found)] if whole else _parted(found)
+        if len(paths) == 1:
+            yield f'<path id={quoteattr(name)} {paint} d="{paths[0]}"/>'
+            return
+        yield f"<g id={quoteattr(name)} {paint}>"
+        yield from (f'<path d="{path}"/>' for path in paths)
+        yield "</g>"
 
     def shape(self, shape: Shape) -> Iterator[str]:
         match shape:
+            case Discs():
+                found, opaque = self.discs(shape), shape.color[3] == 1
+                yield from self.split(self.name(shape.name), _paint("fill", shape.color), found, whole=not opaque)
             case Filled():
                 name = self.name(shape.name)
                 paint = _paint("fill", shape.color)
@@ -112,11 +135,13 @@ class _Sheet:
                 yield f'<path id={quoteattr(name)} {paint}{rule} d="{self.path(shape.outline)}"/>'
             case Drawn():
                 dash = f' stroke-dasharray="{numbers(shape.dash)}"' if shape.dash else ""
-                yield (
-                    f'<path id={quoteattr(self.name(shape.name))} fill="none" {_paint("stroke", shape.color)} '
-                    f'stroke-width="{exact(shape.width)}"{dash} stroke-linecap="{shape.cap}" stroke-linejoin="round" '
-                    f'd="{self.path(shape.outline)}"/>'
+                paint = (
+                    f'fill="none" {_paint("stroke", shape.color)} stroke-width="{exact(shape.width)}"{dash} '
+                    f'stroke-linecap="{shape.cap}" stroke-linejoin="round"'
                 )
+                # Lines that are seen through would be darker where those of two paths cross.
+                whole = shape.color[3] < 1
+                yield from self.split(self.name(shape.name), paint, self.runs(shape.outline), whole=whole)
             case Shown():
                 name = self.name(shape.name)
                 clip = self.name(f"{name}-outline")
@@ -166,7 +191,7 @@ class _Sheet:
 
     def typed(self, outline: Outline) -> str:
         """A path of what is in points from the lower left corner."""
-        return commands(Outline(outline.points * [1, -1] + [0, self.page.height], outline.kinds), PATH)
+        return "".join(runs(Outline(outline.points * [1, -1] + [0, self.page.height], outline.kinds)))
 
     def line(self, line: Line, fonts: dict[str, Subset]) -> str:
         """A line of type: each character in its place, those of one font and size together."""
@@ -185,6 +210,15 @@ class _Sheet:
             )
         # Left to themselves, browsers move letters to whole pixels.
         return f'<text xml:space="preserve" text-rendering="geometricPrecision"{turn}>{"".join(spans)}</text>'
+
+
+def _parted(found: list[str]) -> list[str]:
+    """Runs one after another, in as many texts as keep each below `LONGEST_PATH`, but for runs that are longer."""
+    if not found:
+        return [""]
+    ends = np.cumsum([len(run) for run in found])
+    parts = np.split(np.array(found, dtype=object), 1 + np.flatnonzero(np.diff(ends // LONGEST_PATH)))
+    return ["".join(part) for part in parts]
 
 
 def _together(glyph: Glyph, fonts: dict[str, Subset]) -> tuple[str, float, int]:

@@ -3,12 +3,13 @@
 import base64
 import re
 import xml.etree.ElementTree as ET
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from io import BytesIO
 from unicodedata import normalize
 
 import imageio.v3 as iio
 import numpy as np
+import pytest
 from fontTools.ttLib import TTFont
 
 from tests.images.fonts import glyph_path
@@ -119,8 +120,12 @@ class _Reader:
         kind = element.tag.removeprefix(SVG)
         if not isinstance(element.tag, str) or kind in SILENT:
             return
-        state = self.state_in(element, state)
+        outside, state = state, self.state_in(element, state)
         match kind:
+            case "g" if all(child.tag == f"{SVG}path" and child.keys() == ["d"] for child in element):
+                # Long lines of one style are several paths.
+                whole = ET.Element(f"{SVG}path", {"d": "".join(child.get("d") for child in element)})
+                yield from self.path_marks(whole, replace(state, group=outside.group))
             case "g":
                 yield from self.children(element, state)
             case "text":
@@ -234,12 +239,38 @@ class _Reader:
 
 
 def _path(text):
-    """A path of absolute commands, each with its letter and its own numbers."""
-    commands = re.findall(r"[A-Za-z]", text)
-    assert set(commands) <= set("MLCZ"), f"commands {set(commands)} of a path"
+    """A path of commands with a letter each: M absolute, l and c relative, two halves of a circle by a."""
+    assert re.fullmatch(r"(M[^MlcaZ]+|[lca][^MlcaZ]+|Z)*", text), f"a path begins with {text[:80]!r}"
     assert short_numbers(text), "a number has more than three decimals"
-    numbers = np.fromstring(re.sub(r"[A-Za-z]", " ", text), sep=" ")
-    return path_of("".join(commands).encode(), numbers)
+    commands, numbers, here = [], [], np.zeros(2)
+    for letter, rest in re.findall(r"([MlcaZ])([^MlcaZ]*)", text):
+        values = np.array([float(n) for n in re.findall(r"-?(?:\d+\.?\d*|\.\d+)", rest)])
+        if letter == "Z":
+            commands.append("Z")
+            continue
+        if letter == "a":
+            found = _half_circle(here, values)
+        else:
+            found = values.reshape(-1, 2) + (0 if letter == "M" else here)
+            assert len(found) == {"M": 1, "l": 1, "c": 3}[letter], "a command has other numbers than it takes"
+        commands += ["C"] * (len(found) // 3) if letter in "ac" else [{"M": "M", "l": "L"}[letter]]
+        numbers.append(found)
+        here = found[-1]
+    return path_of("".join(commands).encode(), np.concatenate([np.zeros((0, 2)), *numbers]).ravel())
+
+
+def _half_circle(start, values):
+    """Half a circle, clockwise downwards, as four cubics (12, 2)."""
+    radius, other, *flags, across, up = values
+    assert (radius, flags, up) == (other, [0, 1, 0], 0)
+    assert abs(across) == pytest.approx(2 * radius, abs=2e-3)
+    center, way = start + [across / 2, 0], np.array([np.sign(across), 1.0]) * radius
+    reach = 4 / 3 * np.tan(np.pi / 16)
+    points = []
+    for t in np.arange(4) * (np.pi / 4):
+        (a, b), u = ([(-np.cos(s), np.sin(s)) for s in (t, t + np.pi / 4)]), t + np.pi / 4
+        points += [a + reach * np.array([np.sin(t), np.cos(t)]), b - reach * np.array([np.sin(u), np.cos(u)]), b]
+    return center + np.array(points) * way * [1, np.sign(across)]
 
 
 def _color(code, opacity):

@@ -284,7 +284,7 @@ def test_paths_are_read_by_their_commands():
     [
         ('stroke-width="1.5"', 'stroke-miterlimit="3"'),
         ("<path ", "<circle "),
-        ("C15", "c15"),
+        ("c0 ", "C0 "),
         ('id="coast"', 'id="border"'),
         ('id="fan"', 'id="a fan"'),
         ('d="M15 ', 'd="M15.0001 '),
