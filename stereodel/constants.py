@@ -252,6 +252,18 @@ A dot of a printer at 3600 dots an inch; as far as `Globe.page` lets what it dra
 FINEST_PLACE: Final = 1e-3
 """Step of the coordinates in vector files, points: 0.35 micrometres. What is shorter on paper is no line."""
 
+FINEST_OUTLINE: Final = 5e-4
+"""How far a letter's quadratic outline may stray from the cubic one that a font brings, in terms of the type's size.
+
+Half a unit of such fonts, which have a thousand: their points are rounded by as much.
+"""
+
+MOST_FRAMES: Final = 100_000
+"""Of a film: more than an hour at 25 frames a second. Each has a hundred bytes while the film is made."""
+
+MOST_FRAME_PIXELS: Final = 2**26
+"""Of a frame of a film: 8K twice over. It takes 0.2 GB in each of the processes that draw, and again to be encoded."""
+
 MOST_TEXELS: Final = 2**27
 """Pixels of the largest picture that is read or warped, 16384 × 8192: with its smaller copies it takes 1.4 GB.
 

@@ -19,3 +19,16 @@ settings.load_profile("stereodel")
 def patience():
     """By what limits on seconds are multiplied: the kernel with sanitizers is several times as slow."""
     return float(os.environ.get("STEREODEL_TEST_PATIENCE", "1"))
+
+
+@pytest.fixture
+def no_other_fonts(monkeypatch):
+    """As if the machine had no fonts but those that matplotlib ships."""
+    from stereodel.drawing import fonts
+
+    monkeypatch.setattr(fonts, "_others", list)
+    for kept in (fonts._families, fonts._supplements):
+        kept.cache_clear()
+    yield
+    for kept in (fonts._families, fonts._supplements):
+        kept.cache_clear()

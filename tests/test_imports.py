@@ -48,14 +48,14 @@ MAY_IMPORT = {
     "drawing": MATHEMATICS | {"curves"},
     "render": MATHEMATICS | {"_files", "_kernel", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
-    "globe": MATHEMATICS | {"_kernel", "curves", "data", "drawing", "io", "render"},
+    "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
     "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}
-MATPLOTLIB_IN_DRAWING = {"stereodel.drawing.colors", "stereodel.drawing.label", "stereodel.drawing.scales"}
+MATPLOTLIB_IN_DRAWING = {f"stereodel.drawing.{name}" for name in ("colors", "fonts", "label", "scales")}
 GRAPHICS = {"matplotlib", "OpenGL", "pyrender", "trimesh", "PIL", "imageio", "pyglet"}
 NEIGHBOURS = {
     "antimeridian",

@@ -98,6 +98,7 @@ def warp_raster(
     first: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
     size: float,
     last: Annotated[NDArray[numpy.float64], dict(shape=(3, 3), order="C", device="cpu", writable=False)],
+    projection: str,
     reach: float,
     place: Sequence[float],
     pixels: Sequence[int],
@@ -105,7 +106,7 @@ def warp_raster(
     workers: int = 1,
 ) -> Annotated[NDArray[numpy.uint8], dict(shape=(None, None, 4), order="C")]:
     """
-    Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; place (left, top, pixel's sides) in radii, pixels (width, height).
+    Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from page axes to the raster's; projection orthographic, stereographic (discs, of reach tan(angular radius/2)), gnomonic (tangents) or equirectangular (radians); place (left, top, pixel's sides) in its units, pixels (width, height).
     """
 
 def voronoi_ridges(

@@ -10,6 +10,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
+from stereodel.drawing.fonts import font_properties, quiet_fonts, set_text
 from stereodel.drawing.page import Item, Label
 from stereodel.drawing.style import TYPE
 
@@ -66,12 +67,11 @@ def label_box(label: Label, points_per_unit: float) -> FloatArray:
     """Lower left and upper right corner of a label that is not turned, in points, (2, 2)."""
     with of_extra("draw"):
         from matplotlib import rc_context
-        from matplotlib.font_manager import FontProperties
         from matplotlib.textpath import text_to_path
 
-    with rc_context({"mathtext.fontset": TYPE["mathtext.fontset"]}):
-        font = FontProperties(family=TYPE["font.family"], size=label.size)
-        width, height, _ = text_to_path.get_text_width_height_descent(label.text, font, ismath="$" in label.text)
+    text, math = set_text(label)
+    with rc_context({"mathtext.fontset": TYPE["mathtext.fontset"]}), quiet_fonts():
+        width, height, _ = text_to_path.get_text_width_height_descent(text, font_properties(label), ismath=math)
     left = {"left": 0.0, "center": -width / 2, "right": -width}[label.align]
     low = {"bottom": 0.0, "baseline": 0.0, "center": -height / 2, "top": -height}[label.valign]
     corner = points_per_unit * np.array(label.anchor) + np.array(label.offset) + np.array([left, low])

@@ -171,7 +171,7 @@ class Polygons:
 
 @dataclass(frozen=True, eq=False)
 class Label:
-    """Text in matplotlib's mathtext, anchored at a page point and moved by `offset` points."""
+    """Text, anchored at a page point and moved by `offset` points."""
 
     text: str
     anchor: tuple[float, float]
@@ -185,6 +185,10 @@ class Label:
     halo: float = 0.0
     """Width of a line round the letters, points."""
     halo_color: Color = (1.0, 1.0, 1.0, 1.0)
+    font: tuple[str, ...] = ()
+    """Families or files of fonts, see `stereodel.drawing.fonts.as_font`; STIX for what they lack."""
+    formulas: bool = True
+    """Whether what stands between two dollar signs is a formula of matplotlib's mathtext; else they are dollars."""
 
 
 Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
@@ -401,4 +405,5 @@ def _arrays_of(item: Item) -> dict[str, npt.NDArray[np.generic]]:
             if item.halo and item.halo_color != Label.halo_color:
                 halo += item.halo_color
             numbers = [*item.anchor, *item.offset, item.size, *item.color, item.rotation, *halo]
-            return {"place": np.array(numbers), "text": np.array([item.text, item.align, item.valign])}
+            told = [item.text, item.align, item.valign, *item.font, *([] if item.formulas else ["plain"])]
+            return {"place": np.array(numbers), "text": np.array(told)}

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Final
 
 from stereodel.drawing.dark import dark_page
+from stereodel.drawing.fonts import FontLike, as_font, in_font
 from stereodel.drawing.media import COLUMN, SLIDE, page_for
 from stereodel.drawing.page import Page
 
@@ -21,7 +22,7 @@ MEDIA: Final = ("column", "slide")
 """Of which a page can be for one."""
 
 
-def styled(page: Page, *styles: str) -> Page:
+def styled(page: Page, *styles: str, font: FontLike | None = None) -> Page:
     """The same picture in another style, or in several.
 
     Parameters
@@ -32,6 +33,9 @@ def styled(page: Page, *styles: str) -> Page:
         16 to 9, with heavier lines and larger type, the picture in the middle. "dark": on a dark ground, where each
         colour keeps its hue and its contrast; a page whose ground is dark already stays as it is, and so do pictures of
         pixels, such as rasters on a globe. The order does not matter.
+    font : str, path-like, or sequence of them, optional
+        Families of the type, or files of fonts, see `stereodel.drawing.fonts.as_font`, for labels that have none of
+        their own: what is 17 cm wide in a serif for a book may be in a sans serif on a slide.
 
     Returns
     -------
@@ -39,8 +43,10 @@ def styled(page: Page, *styles: str) -> Page:
 
     Raises
     ------
+    FileNotFoundError
+        For the file of a font that is not there.
     ValueError
-        For another style, and for a column and a slide at once.
+        For another style, for a column and a slide at once, and for fonts that the machine does not have.
 
     Notes
     -----
@@ -56,6 +62,7 @@ def styled(page: Page, *styles: str) -> Page:
     >>> [round(2.54 * side / 72, 2) for side in (slide.width, slide.height)], round(slide.background[0], 2)
     ([33.87, 19.05], 0.07)
     """
+    page = in_font(page, as_font(font))
     for name in as_styles(styles):
         page = STYLES[name](page)
     return page

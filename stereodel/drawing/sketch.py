@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_vectors
 from stereodel.drawing.colors import ColorLike, as_color
+from stereodel.drawing.fonts import FontLike, as_font, in_font
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.space_curves import CircleArc, Segment, page_path
@@ -45,6 +46,17 @@ class Sketch:
     it has the style of that name in `stereodel.drawing.style`, unless another `style` or `color` is given, and is the
     id of its group in vector files.
 
+    Parameters
+    ----------
+    font : str, path-like, or sequence of them, optional
+        Families of the type, or files of fonts, see `stereodel.drawing.fonts.as_font`; by default STIX. Formulas, which
+        stand between dollar signs, are set in STIX always.
+
+    Raises
+    ------
+    FileNotFoundError, ValueError
+        For fonts that are not there.
+
     Examples
     --------
     >>> sketch = Sketch().add_circle((0, 0), 1, name="circle").add_segment((-1, 0), (1, 0), name="axis")
@@ -52,7 +64,8 @@ class Sketch:
     ['circle', 'axis']
     """
 
-    def __init__(self) -> None:
+    def __init__(self, *, font: FontLike | None = None) -> None:
+        self._font = as_font(font)
         self._parts: list[Item | InPoints] = []
         self._views: list[FloatArray] = []
 
@@ -134,7 +147,10 @@ class Sketch:
         return self.add_items([Dots(centers, drawn.radius, drawn.color, drawn.rim, drawn.rim_width, name)])
 
     def add_label(self, at: Point, text: str, offset: tuple[float, float] = (0.0, 0.0), **options: Any) -> Sketch:
-        """Text at a point, moved by `offset` points; `options` go to `Label`."""
+        """Text at a point, moved by `offset` points; `options` go to `Label`.
+
+        What stands between two dollar signs is a formula, unless `formulas` is false.
+        """
         if "color" in options:
             options["color"] = as_color(options["color"])
         return self.add_items([Label(text, (float(at[0]), float(at[1])), offset, **options)])
@@ -291,7 +307,7 @@ class Sketch:
         blank = Page(extent, (), width, as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
         items = [item for part in self._parts for item in (part(scale) if callable(part) else (part,))]
-        return replace(blank, items=tuple(items))
+        return in_font(replace(blank, items=tuple(items)), self._font)
 
     def _add_tick(
         self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False

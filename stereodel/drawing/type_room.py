@@ -52,7 +52,8 @@ OPPOSITE: Final[Mapping[str, Any]] = {
 }
 """Alignments on the other side of an anchor."""
 
-WORD: Final = re.compile(r"(?:\$[^$]*\$|\S)+")
+WORD: Final = re.compile(r"\S+")
+WORD_OR_FORMULA: Final = re.compile(r"(?:\$[^$]*\$|\S)+")
 """What is not broken: formulas hold spaces."""
 
 
@@ -113,7 +114,9 @@ class _Setter:
     def box(self, label: Label) -> FloatArray:
         """Lower left and upper right corner of a label, turned as it is, in points."""
         pivot = self.unit * np.array(label.anchor) + np.array(label.offset)
-        return pivot + _box_about_anchor(label.text, label.size, label.align, label.valign, label.rotation)
+        return pivot + _box_about_anchor(
+            label.text, label.size, label.align, label.valign, label.rotation, label.font, label.formulas
+        )
 
     def boxes(self, labels: Sequence[Label]) -> FloatArray:
         """Those of several labels, (n, 2, 2)."""
@@ -172,7 +175,7 @@ class _Setter:
         if np.diff(self.box(label)[:, 0]) <= room:
             return [label]
         lines = [""]
-        for word in WORD.findall(label.text):
+        for word in (WORD_OR_FORMULA if label.formulas else WORD).findall(label.text):
             longer = f"{lines[-1]} {word}".lstrip()
             (start, _), (end, _) = self.box(replace(label, text=longer))
             lines = [*lines[:-1], longer] if not lines[-1] or end - start <= room else [*lines, word]
@@ -182,9 +185,12 @@ class _Setter:
 
 
 @lru_cache(maxsize=4096)
-def _box_about_anchor(text: str, size: float, align: Any, valign: Any, rotation: float) -> FloatArray:
+def _box_about_anchor(
+    text: str, size: float, align: Any, valign: Any, rotation: float, font: tuple[str, ...], formulas: bool
+) -> FloatArray:
     """Lower left and upper right corner of a label about its anchor, in points; type is slow to measure."""
-    box = label_box(Label(text, (0.0, 0.0), (0.0, 0.0), align, valign, size), 1.0)
+    label = Label(text, (0.0, 0.0), (0.0, 0.0), align, valign, size, font=font, formulas=formulas)
+    box = label_box(label, 1.0)
     corners = np.array([(x, y) for x in box[:, 0] for y in box[:, 1]])
     cos, sin = np.cos(np.radians(rotation)), np.sin(np.radians(rotation))
     turned = np.stack([cos * corners[:, 0] - sin * corners[:, 1], sin * corners[:, 0] + cos * corners[:, 1]], axis=1)

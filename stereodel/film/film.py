@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import os
 import time
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import partial
@@ -16,18 +17,21 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._files import replacing
 from stereodel._threads import thread_count
+from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
+from stereodel.drawing.fonts import MissingCharactersWarning, missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
 from stereodel.drawing.page_styles import StyledDraw
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.pool import Done, attempt, in_processes, main_script_here, refuse_in_import
 from stereodel.film.progress import counting
-from stereodel.film.shots import GlobePages, Motion, Shot, sampled
+from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
+from stereodel.render.caption import caption_of, script_of
 from stereodel.render.figure import run_script
-from stereodel.render.sizes import LARGEST_SIZE
+from stereodel.render.sizes import LARGEST_SIZE, pixel_height
 
 T = TypeVar("T")
 
@@ -36,6 +40,12 @@ FPS: Final = 25.0
 
 LIFETIME: Final = 32
 """Frames that a process draws before another takes its place, so that what graphics libraries keep does not add up."""
+
+
+def as_frame_size(width: int, height: int) -> None:
+    """A ValueError for frames of too many pixels."""
+    if width * height > MOST_FRAME_PIXELS:
+        raise ValueError(f"size makes frames of {width} × {height} pixels; give at most {MOST_FRAME_PIXELS} of them")
 
 
 class FrameError(RuntimeError):
@@ -64,12 +74,14 @@ class Film(Generic[T]):
         Whether labels are drawn.
     platform : {"osmesa", "egl"}, optional
         See `stereodel.render.gl`.
+    title : str
+        What it shows, in a line; the file says it to players and to those who search.
 
     Raises
     ------
     ValueError
-        For no shots, for `fps` and `seconds` at once, for times that are not positive or not as many as the shots, or
-        for a `size` outside 1 to 65535.
+        For no shots or more than `MOST_FRAMES`, for `fps` and `seconds` at once, for times that are not positive or not
+        as many as the shots, or for a `size` outside 1 to 65535.
 
     Examples
     --------
@@ -90,10 +102,13 @@ class Film(Generic[T]):
     size: int = 1280
     text: bool = True
     platform: str | None = None
+    title: str = ""
 
     def __post_init__(self) -> None:
         if len(self.shots) == 0:
             raise ValueError("shots is empty; give what at least one frame shows")
+        if len(self.shots) > MOST_FRAMES:
+            raise ValueError(f"shots has {len(self.shots)} entries, and at most {MOST_FRAMES} frames are drawn")
         if self.fps is not None and self.seconds is not None:
             raise ValueError("fps and seconds both say how long a frame is shown; give one of them")
         as_count(self.size, "size", high=LARGEST_SIZE)
@@ -109,6 +124,7 @@ class Film(Generic[T]):
         fps: float = FPS,
         text: bool = True,
         background: ColorLike = WHITE,
+        title: str = "",
     ) -> Film[Shot]:
         """A film of a globe along a motion; ``Film.of_globe(...).save("flight.mp4")`` draws it.
 
@@ -117,13 +133,17 @@ class Film(Generic[T]):
         globe : Globe
         motion : Flight, Spin, Morph, or any object with `seconds` that maps a time to (lens, view)
         size : (int, int)
-            Width and height in pixels; the globe is as large as they allow, in the middle.
+            Width and height in pixels, at most `MOST_FRAME_PIXELS` of them; the globe is as large as they allow, in the
+            middle. Lines and type have the same size in pixels on all globes 720 pixels across or larger; below, it
+            goes with the root of the size.
         fps : float
             Frames a second.
         text : bool
             Whether labels are drawn.
         background : color
             Behind the globe.
+        title : str
+            As for `Film`.
 
         Returns
         -------
@@ -133,7 +153,8 @@ class Film(Generic[T]):
         Raises
         ------
         ValueError
-            For a size that is not positive, or a motion or `fps` that gives no frame.
+            For a size that is not positive or too large, or a motion or `fps` that gives no frame or more than
+            `MOST_FRAMES`.
 
         Examples
         --------
@@ -145,14 +166,20 @@ class Film(Generic[T]):
         >>> len(film), film.picture(0).shape
         (41, (180, 320, 3))
         """
-        width, height = (as_count(side, "size") for side in size)
+        width, height = (as_count(side, "size", high=LARGEST_SIZE) for side in size)
+        as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
         pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, sampled(motion, rate), fps=rate, size=width, text=text)
+        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text, title=title)
 
     @classmethod
     def of_pictures(
-        cls, pictures: Reel, *, fps: float | None = None, seconds: float | Sequence[float] | None = None
+        cls,
+        pictures: Reel,
+        *,
+        fps: float | None = None,
+        seconds: float | Sequence[float] | None = None,
+        title: str = "",
     ) -> Film[Pixels]:
         """A film of pictures that there are already.
 
@@ -161,7 +188,7 @@ class Film(Generic[T]):
         pictures : sequence of (h, w, 3) uint8 arrays
             sRGB, rows from the top, all of one size. Anything with a length and items by number will do: one picture
             after the other is asked for (for a GIF some of them twice), and none is kept.
-        fps, seconds
+        fps, seconds, title
             As for `Film`.
 
         Examples
@@ -174,7 +201,7 @@ class Film(Generic[T]):
         grays.gif b'GIF89a'
         """
         width = as_frame(pictures[0], "pictures[0]").shape[1] if len(pictures) else 1
-        return Film(_as_it_is, cast(Sequence[Pixels], pictures), fps=fps, seconds=seconds, size=width)
+        return Film(_as_it_is, cast(Sequence[Pixels], pictures), fps=fps, seconds=seconds, size=width, title=title)
 
     def __len__(self) -> int:
         """The number of frames."""
@@ -263,22 +290,25 @@ class Film(Generic[T]):
         if self.draw is _as_it_is:  # there already: neither drawn nor kept
             kind.check(target.name, self.picture(0).shape[:2], times)
             with replacing(target) as temporary, counting("writing", len(self), shown=progress) as count:
-                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times)
+                kind.write(_Counted(cast(Reel, self.shots), count), temporary, times, self.title)
             return target
-        kind.check(target.name, (self.size,), times)
+        sides = (self.draw.width, self.draw.height) if isinstance(self.draw, GlobePages) else (self.size,)
+        kind.check(target.name, sides, times)
         processes = thread_count(-1, 0) if jobs is None else as_count(jobs, "jobs")
         kept = KeptFrames.beside(target, frame_names(self._camera, self.shots))
-        missing = kept.missing()
+        missing, unwritten = kept.missing(), set()
         with counting("drawing", len(missing), shown=progress) as count:
-            for number, done in self._drawn([(self.shots[n], kept.path(n)) for n in missing], processes):
+            for number, done in self._drawn(_Tasks(self.shots, kept, missing), processes):
                 if done.error:
                     error = FrameError(f"frame {missing[number]}: {done.error}; what was finished is kept")
                     error.add_note(done.trace)
                     raise error
+                unwritten |= done.result
                 count()
+        warn_of_missing(unwritten)
         whole = kept.folder / target.name
         with counting("writing", len(self), shown=progress) as count:
-            kind.write(_Counted(kept, count), whole, times)
+            kind.write(_Counted(kept, count), whole, times, self.title)
         os.replace(whole, target)
         kept.remove()
         return target
@@ -310,14 +340,38 @@ class _Camera(Generic[T]):
     platform: str | None
 
     def picture(self, shot: T) -> Pixels:
+        return self._pixels(self.draw(shot))
+
+    def __call__(self, task: tuple[T, Path]) -> frozenset[str]:
+        """Store the frame of a shot; gives the characters on it that no font has, of which a film tells once."""
+        shot, path = task
         drawn = self.draw(shot)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", MissingCharactersWarning)
+            store_frame(self._pixels(drawn), path)
+        return missing_characters(drawn.labels) if isinstance(drawn, Page) and self.text else frozenset()
+
+    def _pixels(self, drawn: Page | Pixels) -> Pixels:
         if not isinstance(drawn, Page):
             return as_frame(drawn, "a picture")
+        as_frame_size(self.size, pixel_height(drawn, self.size))
         return drawn.pixels(size=self.size, text=self.text, platform=self.platform)
 
-    def __call__(self, task: tuple[T, Path]) -> None:
-        shot, path = task
-        store_frame(self.picture(shot), path)
+
+@dataclass(frozen=True, eq=False)
+class _Tasks(Sequence[Any]):
+    """What is drawn, and where it is kept: made when it is asked for, as shots may be."""
+
+    shots: Sequence[Any]
+    kept: KeptFrames
+    numbers: Sequence[int]
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, task: Any) -> Any:
+        number = self.numbers[task]
+        return self.shots[number], self.kept.path(number)
 
 
 @dataclass(frozen=True)
@@ -336,7 +390,9 @@ class _Script(Generic[T]):
         begun = time.perf_counter()
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
-        film = replace(self.film, size=self.film.size if size is None else size, text=text)
+        script = script_of(self.film.draw, self.name)
+        title = self.film.title or (caption_of(script)[0] if script else "")
+        film = replace(self.film, size=self.film.size if size is None else size, text=text, title=title)
         jobs = None if main_script_here() else 1  # the documentation runs scripts as text
         file = film.save(folder / f"{self.name}.gif", jobs=jobs, progress=False)
         return {"files": [file.name], "seconds": time.perf_counter() - begun}

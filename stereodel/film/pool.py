@@ -20,10 +20,11 @@ import sys
 import threading
 import traceback
 import types
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
+from itertools import chain
 from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, Literal
@@ -73,6 +74,7 @@ def in_processes(
     work : callable
         task → result; pickled once for each process.
     tasks : sequence
+        Gone through twice, and none is kept: they may be made when they are asked for.
     jobs : int
         Processes at once.
     lifetime : int, optional
@@ -83,9 +85,8 @@ def in_processes(
     TypeError
         If `work` or a task is defined in an interactive session.
     """
-    pickled = [pickle.dumps(task) for task in tasks]
-    orders = _orders(work, pickled)
-    waiting = enumerate(pickled)
+    orders = _orders(work, map(pickle.dumps, tasks))
+    waiting = enumerate(map(pickle.dumps, tasks))
     places = [_Place(orders, lifetime) for _ in range(min(jobs, len(tasks)))]
     running: dict[Future[Done], tuple[int, _Place]] = {}
     try:
@@ -177,12 +178,12 @@ class _Context(SpawnContext):
 # What happens in the process that asks
 
 
-def _orders(work: Work, tasks: Sequence[bytes]) -> bytes:
+def _orders(work: Work, tasks: Iterable[bytes]) -> bytes:
     """What a process must know before its first task."""
     pickled = pickle.dumps(work)
     # A function or class of the main script is pickled under this name.
     main_script = None
-    if any(b"__main__" in data for data in (pickled, *tasks)):
+    if any(b"__main__" in data for data in chain([pickled], tasks)):
         main_script = main_script_here()
         if main_script is None:
             raise TypeError(

@@ -13,13 +13,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass, replace
 from functools import cached_property
-from typing import Final, Protocol
+from typing import Final, Protocol, overload
 
 import numpy as np
 
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar
 from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
-from stereodel.constants import OPPOSITE
+from stereodel.constants import MOST_FRAMES, OPPOSITE
 from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Page
 from stereodel.drawing.view import MapView, View
@@ -45,7 +45,10 @@ STEPS: Final = 256
 """Parts of a leg in which its speed is measured."""
 
 POINTS_PER_PIXEL: Final = 0.375
-"""Of a page of a film: lines keep their width in pixels whatever the size, 1 pt being 2⅔ of them."""
+"""Of a page of a film whose globe is `FULL` pixels across or more: a line of 1 pt is 2⅔ of them wide."""
+
+FULL: Final = 720
+"""Pixels across from which on lines and type keep their size in pixels; below, it goes with the root of the size."""
 
 FINE: Final = 0.2
 """How far what is drawn may be from what it stands for, pixels."""
@@ -62,14 +65,42 @@ class Motion(Protocol):
         """Lens and view at a time."""
 
 
-def sampled(motion: Motion, rate: float) -> list[Shot]:
-    """What a motion shows at the times k / `rate`; a ValueError where it is too short for one frame."""
-    count = round(motion.seconds * rate)
-    if count < 1:
-        raise ValueError(
-            f"a motion of {motion.seconds:g} s has no frame at {rate:g} frames a second; give a larger fps"
-        )
-    return [motion(number / rate) for number in range(count)]
+@dataclass(frozen=True, eq=False)
+class Samples(Sequence[Shot]):
+    """What a motion shows at the times k / `rate`, each looked up when it is asked for.
+
+    Raises
+    ------
+    ValueError
+        Where the motion is too short for one frame, or has more than `MOST_FRAMES`.
+    """
+
+    motion: Motion
+    rate: float
+
+    def __post_init__(self) -> None:
+        seconds = as_scalar(self.motion.seconds, "seconds of the motion", low=0.0)
+        count, rate = seconds * self.rate, f"{self.rate:g} frames a second"
+        if count > MOST_FRAMES:
+            raise ValueError(
+                f"a motion of {seconds:g} s has {count:.7g} frames at {rate}, and at most {MOST_FRAMES} are drawn; "
+                "give fewer seconds or a smaller fps"
+            )
+        if round(count) < 1:
+            raise ValueError(f"a motion of {seconds:g} s has no frame at {rate}; give a larger fps")
+
+    def __len__(self) -> int:
+        return round(self.motion.seconds * self.rate)
+
+    @overload
+    def __getitem__(self, number: int) -> Shot: ...
+    @overload
+    def __getitem__(self, number: slice) -> list[Shot]: ...
+    def __getitem__(self, number: int | slice) -> Shot | list[Shot]:
+        """One of them, or those of a slice."""
+        if isinstance(number, slice):
+            return [self[k] for k in range(len(self))[number]]
+        return self.motion(range(len(self))[number] / self.rate)
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,11 +115,12 @@ class GlobePages:
     def __call__(self, shot: Shot) -> Page:
         """The page of a shot."""
         square = min(self.width, self.height)
-        page = self.globe.page(*shot, width=square * POINTS_PER_PIXEL, tolerance=FINE * POINTS_PER_PIXEL)
+        point = POINTS_PER_PIXEL * max(1.0, FULL / square) ** 0.5
+        page = self.globe.page(*shot, width=square * point, tolerance=FINE * point)
         left, right, bottom, top = page.extent
         x, y, half = (left + right) / 2, (bottom + top) / 2, (right - left) / 2 / square
         extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
-        return replace(page, extent=extent, width=self.width * POINTS_PER_PIXEL, background=self.background)
+        return replace(page, extent=extent, width=self.width * point, background=self.background)
 
 
 @dataclass(frozen=True)

@@ -15,18 +15,22 @@ softly lit globe (50.5 dB against 54.0, 62.4 against 65.9) in files 1 to 4 % lar
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final, Protocol
+from xml.sax.saxutils import escape
 
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_floats, as_frame
 from stereodel._extras import of_extra, optional
+from stereodel._files import replacing
 from stereodel.constants import FRAME_ROUNDING
+from stereodel.render.png import text_chunk
 
 
 class Reel(Protocol):
@@ -39,7 +43,7 @@ class Reel(Protocol):
         """One of them."""
 
 
-Writer = Callable[[Reel, Path, FloatArray], None]
+Writer = Callable[[Reel, Path, FloatArray, str], None]
 
 
 @dataclass(frozen=True)
@@ -49,7 +53,7 @@ class Format:
     Parameters
     ----------
     write : callable
-        (reel, path, seconds) writes the file.
+        (reel, path, seconds, title) writes the file.
     largest : int
         Pixels that a side may have.
     shortest : float
@@ -132,6 +136,9 @@ def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
 
 # By FFmpeg's libraries
 
+PNG_HEAD: Final = 33
+"""Bytes of the head of a PNG: signature and IHDR."""
+
 SAMPLED: Final = 24
 """Moments of which the palette of a GIF is made."""
 
@@ -169,11 +176,14 @@ class _Encoder:
         *,
         muxing: dict[str, str] | None = None,
         palette: Any = None,
+        title: str = "",
     ) -> None:
-        """Write pictures that are shown so many ticks each, of so many seconds."""
+        """Write pictures that are shown so many ticks each, of so many seconds; MP4 alone has a place for the title."""
         av = optional("av", "film")
         try:
             with av.open(str(path), "w", self.container, container_options=self.muxing | (muxing or {})) as file:
+                if title:
+                    file.metadata["title"] = title
                 # The mean rate: what the encoder of MP4 spends on a frame depends on how long it is shown.
                 stream = file.add_stream(self.codec, len(ticks) / (sum(ticks) * tick), self.options)
                 # Threads for frames: those for slices, which PyAV has by default, cost up to 7 % of the size.
@@ -276,13 +286,36 @@ _MP4_ENCODER = _Encoder(
 )
 
 
-def write_gif(reel: Reel, path: Path, seconds: FloatArray) -> None:
+def write_gif(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
     """Write frames as a GIF of 255 colours that loops for ever; times are kept in hundredths of a second."""
     ticks = whole_ticks(seconds, 100)
     last = {"final_delay": str(ticks[-1])}
     _GIF_ENCODER.write(
         frames_of(reel), path, ticks, Fraction(1, 100), muxing=last, palette=_shared_palette(reel, seconds)
     )
+    if title:
+        _insert(path, _gif_head(path), _gif_comment(title))
+
+
+def _gif_comment(text: str) -> bytes:
+    """A text as a block of a GIF, in pieces of at most 255 bytes."""
+    data = text.encode()
+    pieces = (data[first : first + 255] for first in range(0, len(data), 255))
+    return b"\x21\xfe" + b"".join(bytes([len(piece)]) + piece for piece in pieces) + b"\0"
+
+
+def _gif_head(path: Path) -> int:
+    """Bytes of the head of a GIF: size, and the colours of all frames."""
+    with path.open("rb") as file:
+        flags = file.read(11)[10]
+    return 13 + (3 * 2 ** ((flags & 7) + 1) if flags & 128 else 0)
+
+
+def _insert(path: Path, place: int, data: bytes) -> None:
+    """Put bytes into a file."""
+    with path.open("rb") as file, replacing(path) as temporary, temporary.open("wb") as longer:
+        longer.write(file.read(place) + data)
+        shutil.copyfileobj(file, longer)
 
 
 def _shared_palette(reel: Reel, seconds: FloatArray) -> Any:
@@ -312,23 +345,25 @@ def _sampled_frames(seconds: FloatArray) -> list[int]:
     return [int(number) for number in np.unique(np.searchsorted(ends, middles))]
 
 
-def write_apng(reel: Reel, path: Path, seconds: FloatArray) -> None:
+def write_apng(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
     """Write frames without loss as an APNG that loops for ever; times are kept in milliseconds."""
     ticks = whole_ticks(seconds, 1000)
     last = {"final_delay": f"{ticks[-1]}/1000"}
     _APNG_ENCODER.write(frames_of(reel), path, ticks, Fraction(1, 1000), muxing=last)
+    if title:
+        _insert(path, PNG_HEAD, text_chunk("Title", title))
 
 
-def write_mp4(reel: Reel, path: Path, seconds: FloatArray) -> None:
+def write_mp4(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
     """Write frames as H.264 in an MP4, which plays in every browser; rows and columns are made even in number."""
     even = (_even(picture) for picture in frames_of(reel))
     if np.ptp(seconds):
         # With frames that refer to later ones the film would end before the last one has had its time.
         encoder = replace(_MP4_ENCODER, options=_MP4_ENCODER.options | {"bf": "0"})
-        encoder.write(even, path, whole_ticks(seconds, 1000), Fraction(1, 1000))
+        encoder.write(even, path, whole_ticks(seconds, 1000), Fraction(1, 1000), title=title)
     else:
         rate = Fraction(1 / float(seconds[0])).limit_denominator(1001)
-        _MP4_ENCODER.write(even, path, [1] * len(reel), 1 / rate)
+        _MP4_ENCODER.write(even, path, [1] * len(reel), 1 / rate, title=title)
 
 
 def _even(picture: Pixels) -> Pixels:
@@ -342,19 +377,29 @@ def _even(picture: Pixels) -> Pixels:
 WEBP_QUALITY: Final = 90
 """Of 100: thin coloured lines keep their colour."""
 
+XMP_TITLE: Final = (
+    '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?><x:xmpmeta xmlns:x="adobe:ns:meta/">'
+    '<rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">'
+    '<rdf:Description rdf:about="" xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:title><rdf:Alt>'
+    '<rdf:li xml:lang="x-default">{}</rdf:li></rdf:Alt></dc:title></rdf:Description></rdf:RDF></x:xmpmeta>'
+    '<?xpacket end="w"?>'
+)
+"""How a WebP says its title."""
 
-def write_webp(reel: Reel, path: Path, seconds: FloatArray) -> None:
+
+def write_webp(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
     """Write frames as an animated WebP that loops for ever; times are kept in milliseconds."""
     with of_extra("film"):
         from PIL import Image
 
+    told = {"xmp": XMP_TITLE.format(escape(title)).encode()} if title else {}
     with path.open("wb") as file:
         if len(reel) == 1:
-            Image.fromarray(reel[0]).save(file, format="webp", quality=WEBP_QUALITY)
+            Image.fromarray(reel[0]).save(file, format="webp", quality=WEBP_QUALITY, **told)
             return
         ticks = whole_ticks(seconds, 1000)
         _one_at_a_time(reel).save(
-            file, format="webp", save_all=True, duration=ticks, loop=0, quality=WEBP_QUALITY, method=4
+            file, format="webp", save_all=True, duration=ticks, loop=0, quality=WEBP_QUALITY, method=4, **told
         )
 
 

@@ -14,6 +14,7 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.colors import ColorLike, as_color, as_colors
+from stereodel.drawing.fonts import FontLike, as_font
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.scales import ColorScale, usual_scale
@@ -60,6 +61,16 @@ class Globe:
         as map projections of a sphere do.
     limb : LineStyle, optional
         Another style of the edge.
+    font : str, path-like, or sequence of them, optional
+        Families of the type, or files of fonts; by default STIX, a serif. For characters that these lack the machine's
+        fonts stand in; see `stereodel.drawing.fonts.as_font`.
+
+    Raises
+    ------
+    FileNotFoundError
+        For the file of a font that is not there.
+    ValueError
+        For what is no colour and no kind of latitude, and for fonts that the machine does not have.
 
     Examples
     --------
@@ -78,10 +89,12 @@ class Globe:
         ocean: ColorLike = MAP_FILLS["ocean"],
         latitude: Latitude = "spherical",
         limb: LineStyle = MAP_LINES["limb"],
+        font: FontLike | None = None,
     ) -> None:
         self.latitude: Latitude = as_choice(latitude, KINDS, "latitude")
         self.layers: list[MapLayer] = [Ground(as_color(ocean, "ocean"))]
         self.limb = Rim(limb)
+        self.font = as_font(font)
 
     def add(self, layer: MapLayer) -> None:
         """Put any layer on top: an object with ``lay(chart)``, which gives page items."""
@@ -214,16 +227,22 @@ class Globe:
         color: ColorLike = BLACK,
         halo: float = HALO,
         halo_color: ColorLike | None = None,
+        font: FontLike | None = None,
+        formulas: bool = False,
     ) -> None:
         """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
 
         A label that would cover one that matters more is left out, and so is one whose place is out of sight; one that
         would leave the disc stands on the other side of its place, if it has room there. Without a `halo_color` halos
         have the colour of the ground below them, at four fifths of full opacity.
+
+        Names may be in any script, see `Globe` on fonts; `font` is another one than the globe's. With `formulas` what
+        stands between two dollar signs is a formula of matplotlib's mathtext.
         """
         xyz = self._xyz(places, "places")
         paper, ink = WHITE if halo_color is None else as_color(halo_color, "halo_color"), as_color(color)
-        bare = Label("", (0.0, 0.0), size=size, color=ink, halo=halo, halo_color=paper)
+        bare = Label("", (0.0, 0.0), size=size, color=ink, halo=halo, halo_color=paper, formulas=formulas)
+        bare = replace(bare, font=self.font if font is None else as_font(font))
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")

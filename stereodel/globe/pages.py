@@ -8,6 +8,7 @@ from typing import Protocol
 
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
+from stereodel.drawing.fonts import FontLike, as_font, in_font
 from stereodel.drawing.label import with_room
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.style import BLACK, PRINT_WIDTH
@@ -40,7 +41,7 @@ class Panel:
     view : View or StereographicView, optional
         By default from above the focus.
     title : str
-        Written above the disc, in matplotlib's mathtext.
+        Written above the disc; what stands between two dollar signs is a formula of matplotlib's mathtext.
     """
 
     globe: Drawable
@@ -76,7 +77,12 @@ def default_view(lens: MoebiusMap) -> View:
 
 
 def panels(
-    contents: Sequence[Panel], *, columns: int | None = None, width: float = PRINT_WIDTH, tolerance: float = 0.02
+    contents: Sequence[Panel],
+    *,
+    columns: int | None = None,
+    width: float = PRINT_WIDTH,
+    tolerance: float = 0.02,
+    font: FontLike | None = None,
 ) -> Page:
     """Globes side by side, row by row.
 
@@ -89,11 +95,15 @@ def panels(
         Of the page in points.
     tolerance : float
         How far what is drawn may be from what it stands for, in points.
+    font : str, path-like, or sequence of them, optional
+        Of titles, and of labels of globes that have none of their own; see `stereodel.drawing.fonts.as_font`.
 
     Raises
     ------
+    FileNotFoundError
+        For the file of a font that is not there.
     ValueError
-        For no panels, or a width or tolerance that is not positive.
+        For no panels, a width or tolerance that is not positive, or fonts that the machine does not have.
     """
     if not contents:
         raise ValueError("contents must have a panel or more")
@@ -117,4 +127,4 @@ def panels(
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))
     extent = (0.0, across * pitch, 0.0, rows * (pitch + head))
-    return Page(extent, tuple(items), width=size, views=tuple(views))
+    return in_font(Page(extent, tuple(items), width=size, views=tuple(views)), as_font(font))

@@ -4,24 +4,79 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from functools import cache, cached_property
+from typing import Final, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel import _kernel
-from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_edges, as_pixels, as_window, locked
+from stereodel._arrays import (
+    FloatArray,
+    Pixels,
+    as_choice,
+    as_count,
+    as_edges,
+    as_pixels,
+    as_scalar,
+    as_window,
+    locked,
+)
 from stereodel._threads import thread_count
 from stereodel.conformal import MoebiusMap
 from stereodel.constants import MOST_PIXELS_ACROSS, MOST_TEXELS
-from stereodel.drawing.view import MapView
+from stereodel.drawing.view import MapView, View
 from stereodel.globe.images import read_image
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import turned
 
 WHOLE = (-180.0, -90.0, 180.0, 90.0)
+
+PanoramaForm = Literal["equirectangular", "cubemap", "planet"]
+
+PANORAMA_FORMS: Final = ("equirectangular", "cubemap", "planet")
+
+SHARES: Final[Mapping[str, int]] = {"equirectangular": 1, "cubemap": 4, "planet": 2}
+"""Of a panorama's width, what the usual width of a picture of each form is one of."""
+
+PLANET_RADIUS: Final = 140.0
+"""Of a little planet, degrees: the horizon is a circle about a third as wide as the picture."""
+
+MOST_PLANET_RADIUS: Final = 160.0
+"""Degrees: the corners are then 166° from the middle, and the scale in them 67 times as large."""
+
+FACES: Final[Mapping[str, FloatArray]] = {
+    "right": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
+    "left": np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]),
+    "up": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]),
+    "down": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
+    "front": np.eye(3),
+    "back": np.array([[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]),
+}
+"""Faces of a cubemap in their order: right, up and ahead of each in terms of the front's (rows)."""
+
+
+def panorama_size(size: int, form: PanoramaForm, name: str = "size") -> int:
+    """A size as `Raster.panorama` takes it; its ValueError for another one."""
+    width = as_count(size, name)
+    if form == "equirectangular" and width % 2:
+        raise ValueError(
+            f"{name} is {width}, but an equirectangular panorama is twice as wide as high; give an even one"
+        )
+    count = {"equirectangular": width * width // 2, "cubemap": 6 * width * width, "planet": width * width}[form]
+    if count > MOST_TEXELS:
+        raise ValueError(
+            f"{name} is {width}, which makes {count} pixels of its {form}; at most {MOST_TEXELS} are drawn"
+        )
+    return width
+
+
+def planet_radius(angular_radius: float, name: str = "angular_radius") -> float:
+    """An angular radius as `Raster.panorama` takes it; its ValueError for another one."""
+    return as_scalar(angular_radius, name, low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,23 +232,123 @@ class Raster:
             Whether the opacity of pixels on the limb says how much of them the disc covers. Without, they are as opaque
             as the raster: for a picture that is then cut along the disc.
         """
-        back = lens.inverse()
-        # tan(α/2) from the cosine of the radius α of what a flat view shows; 0 stands for a ball seen from afar.
+        # tan(α/2) from the cosine of the radius α of what a flat view shows.
         reach = 0.0 if view.round else float(np.sqrt((1 - view.edge) / (1 + view.edge)))
+        projection = "orthographic" if view.round else "stereographic"
+        return self._warped(lens, view.matrix, projection, reach, place, pixels, covered=covered, workers=workers)
+
+    def panorama(
+        self,
+        lens: MoebiusMap | None = None,
+        form: PanoramaForm = "equirectangular",
+        *,
+        view: View | None = None,
+        size: int | None = None,
+        angular_radius: float = PLANET_RADIUS,
+        workers: int | None = None,
+    ) -> Pixels:
+        """All directions as they look through a lens: a picture for viewers of panoramas, or a little planet.
+
+        Parameters
+        ----------
+        lens : MoebiusMap, optional
+            Where each direction is shown; by default as it is. A fisheye enlarges what surrounds its focus, and a
+            circle in the panorama stays a circle.
+        form : {"equirectangular", "cubemap", "planet"}
+            Longitude and latitude evenly, twice as wide as high. The six faces of a cube, in the order of OpenGL: right
+            (+X), left (−X), up (+Y), down (−Y), front (+Z), back (−Z), each as it is seen from within; the lower edge
+            of the upper face and the upper edge of the lower one meet the front. A little planet: a stereographic
+            picture that fills its square.
+        view : View, optional
+            What is in the middle of the picture, or of the front face, and which way is up; by default longitude and
+            latitude 0, and for a planet the nadir.
+        size : int, optional
+            Width in pixels, for a cubemap that of a face; even for "equirectangular". By default so many that nothing
+            is lost in the middle: the width of the raster, were it of the whole sphere, or a quarter of it for a face,
+            and a half for a planet.
+        angular_radius : float
+            Of a planet, from its middle to the middles of its sides, degrees, at most 160.
+        workers : int, optional
+            Threads; −1 for all processors. By default all for more than a few pixels. Never changes the result.
+
+        Returns
+        -------
+        uint8 array
+            sRGB and opacity, not premultiplied, rows from the top: (size/2, size, 4), (6, size, size, 4) for a cubemap,
+            (size, size, 4) for a planet. Where the raster shows nothing, it is transparent.
+
+        Raises
+        ------
+        ValueError
+            For another form, for a size that is odd or of more than `MOST_TEXELS` pixels, for a radius out of range.
+
+        Examples
+        --------
+        >>> from stereodel import fisheye
+        >>> stripes = Raster(np.arange(0, 240, 20, dtype=np.uint8)[None, :].repeat(6, axis=0))
+        >>> stripes.panorama(fisheye((10, 0), magnification=3.0)).shape, stripes.panorama(form="cubemap").shape
+        ((6, 12, 4), (6, 3, 3, 4))
+        """
+        form = as_choice(form, PANORAMA_FORMS, "form")
+        width = self._whole_width // SHARES[form] if size is None else size
+        if form == "equirectangular" and size is None:
+            width += width % 2
+        width = panorama_size(width, form)
+        seen = View(0.0, -90.0 if form == "planet" else 0.0) if view is None else view
+        bend = MoebiusMap.identity() if lens is None else lens
+        if form == "cubemap":
+            place = (-1.0, 1.0, 2.0 / width, 2.0 / width)
+            faces = (face @ seen.matrix for face in FACES.values())
+            sides = [
+                self._warped(bend, face, "gnomonic", 0.0, place, (width, width), workers=workers) for face in faces
+            ]
+            return np.stack(sides)
+        if form == "planet":
+            radius = planet_radius(angular_radius)
+            # The square lies in the middle of a disc that is twice as wide: its corners are inside.
+            reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / width, 1.0 / width)
+            return self._warped(
+                bend, seen.matrix, "stereographic", reach, place, (width, width), covered=False, workers=workers
+            )
+        step = 2 * np.pi / width
+        place = (-np.pi, np.pi / 2, step, step)
+        return self._warped(bend, seen.matrix, "equirectangular", 0.0, place, (width, width // 2), workers=workers)
+
+    def _warped(
+        self,
+        lens: MoebiusMap,
+        axes: FloatArray,
+        projection: str,
+        reach: float,
+        place: tuple[float, float, float, float],
+        pixels: tuple[int, int],
+        *,
+        covered: bool = True,
+        workers: int | None = None,
+    ) -> Pixels:
+        """Pixels of a page whose axes (right, up, toward) are the rows of a matrix; see `stereodel._kernel`."""
+        back = lens.inverse()
         return _kernel.warp_raster(
             self._texels,
             self._levels,
             self._edges,
             _shifts(self.latitude),
-            turned(back.right.matrix, view.matrix),
+            turned(back.right.matrix, axes),
             back.magnification,
             back.left.matrix,
+            projection,
             reach,
             place,
             pixels,
             covered,
             thread_count(workers, pixels[0] * pixels[1]),
         )
+
+    @property
+    def _whole_width(self) -> int:
+        """Columns of a raster of the whole sphere with as many in a degree."""
+        west, _, east, _ = WHOLE if self.bounds is None else self.bounds
+        return max(4, round(self.pixels.shape[1] * 360.0 / (east - west)))
 
     @cached_property
     def digest(self) -> str:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import AbstractContextManager
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
 from stereodel.constants import PIXEL_ROUNDING
+from stereodel.drawing.fonts import font_properties, quiet_fonts
 from stereodel.drawing.page import Beziers, Fill, Label, Page
 from stereodel.drawing.style import TYPE
 from stereodel.render.shapes import Drawn, Filled, Outline, Shape, Shown, shapes
@@ -27,12 +29,14 @@ with of_extra("draw"):
     from matplotlib.transforms import ScaledTranslation
 
 
-def matplotlib_settings() -> AbstractContextManager[None]:
+@contextmanager
+def matplotlib_settings() -> Iterator[None]:
     """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
     # rc_context does not give the backend back, so it stays out.
     settings: dict[Any, Any] = {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"}
     settings.update(TYPE)
-    return mpl.rc_context(settings)
+    with mpl.rc_context(settings), quiet_fonts():
+        yield
 
 
 def pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
@@ -121,7 +125,8 @@ def _draw_label(axes: Axes, label: Label) -> None:
         *label.anchor,
         label.text,
         transform=axes.transData + shift,
-        fontsize=label.size,
+        fontproperties=font_properties(label),
+        parse_math=label.formulas,
         color=label.color,
         ha=label.align,
         va=label.valign,

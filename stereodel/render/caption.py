@@ -94,8 +94,8 @@ def captioned(page: Page) -> Page:
         for line in _broken(text, size, room):
             depth += LEADING * size
             anchor = (left + MARGIN / unit, bottom - depth / unit)
-            escaped = line.replace("$", r"\$")
-            labels.append(Label(escaped, anchor, align="left", valign="baseline", size=size, color=ink, name="caption"))
+            label = Label(line, anchor, align="left", valign="baseline", size=size, color=ink, name="caption")
+            labels.append(replace(label, formulas=False))
         depth += (LEADING - 1) * size
     low = bottom - (depth + MARGIN) / unit
     corners = np.array([(left, low), (right, low), (right, bottom), (left, bottom), (left, low)])
@@ -117,6 +117,6 @@ def _broken(text: str, size: float, room: float) -> Iterator[str]:
 
 
 def _width(text: str, size: float) -> float:
-    """Width of a line in points; a dollar, with which formulas begin, is as wide as a digit."""
-    low, high = label_box(Label(text.replace("$", "0"), (0.0, 0.0), size=size), 1.0)
+    """Width of a line in points."""
+    low, high = label_box(Label(text, (0.0, 0.0), size=size, formulas=False), 1.0)
     return float(high[0] - low[0])

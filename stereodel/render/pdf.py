@@ -22,7 +22,7 @@ from stereodel.drawing.style import PRINT_DPI
 from stereodel.render.light import ball_gradient
 from stereodel.render.paper import Paper, commands, exact, number, numbers
 from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Drawn, Filled, Outline, Shape, Shown, shapes
-from stereodel.render.type import Line, Subset, lines_of, subsets
+from stereodel.render.type import Face, Line, Subset, lines_of, subsets
 
 PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c\n", CLOSE: "h\n"}
 """Operators of paths."""
@@ -183,7 +183,7 @@ class _Sheet:
             f"/Function {function} >> >>"
         )
 
-    def label(self, label: Label, lines: Iterable[Line], fonts: dict[str, Subset], named: dict[str, str]) -> str:
+    def label(self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], named: dict[Face, str]) -> str:
         """A label: its halo, its lines of type, its bars."""
         parts, lines = ["q\n"], list(lines)
         if label.halo:
@@ -194,13 +194,17 @@ class _Sheet:
             )
         parts.append(f"{self.opacity(label.color)}{_rgb(label.color)} rg\n")
         for line in lines:
-            parts += ["BT\n", *_shows(line, fonts, named), "ET\n"]
+            shown = "".join(["BT\n", *_shows(line, fonts, named), "ET\n"])
+            # Marks do not stand in the order of glyphs. Letters from right to left do so for programs, from behind.
+            if line.words and not line.leftward:
+                shown = f"/Span << /ActualText <{_utf16(line.words, mark=True)}> >> BDC\n{shown}EMC\n"
+            parts.append(shown)
             if line.bars:
                 parts.append(f"{commands(line.placed(line.bar_outline), PATH)}f\n")
         return "".join([*parts, "Q\n"])
 
 
-def _shows(line: Line, fonts: dict[str, Subset], named: dict[str, str]) -> Iterator[str]:
+def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Iterator[str]:
     """The operators of a line of type: glyphs of one font, size and height together, with the steps between them."""
     matrix = line.matrix
     turned = exact(*matrix[:, :2].T.ravel())

@@ -74,7 +74,7 @@ def png_chunks(
     yield SIGNATURE
     yield _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
     yield _chunk(b"pHYs", struct.pack(">IIB", density, density, 1))
-    yield from (_text(keyword, text) for keyword, text in (texts or {}).items() if text)
+    yield from (text_chunk(keyword, text) for keyword, text in (texts or {}).items() if text)
     packer, above, missing = zlib.compressobj(LEVEL, memLevel=9), np.zeros((1, width, CHANNELS), dtype=np.uint8), height
     for part in rows:
         if part.shape[1:] != (width, CHANNELS) or part.dtype != np.uint8 or len(part) > missing:
@@ -99,8 +99,8 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
 
-def _text(keyword: str, text: str) -> bytes:
-    """A text as Latin-1, which every program reads, or as UTF-8."""
+def text_chunk(keyword: str, text: str) -> bytes:
+    """What a file says of itself under a keyword: a text as Latin-1, which every program reads, or as UTF-8."""
     key = keyword.encode("latin-1")
     try:
         return _chunk(b"tEXt", key + b"\0" + text.encode("latin-1"))

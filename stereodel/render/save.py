@@ -21,6 +21,7 @@ import numpy as np
 
 from stereodel._arrays import Pixels
 from stereodel._files import replacing
+from stereodel.drawing.fonts import missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
 from stereodel.render.gl import OpenGLError
 from stereodel.render.png import png_chunks
@@ -38,6 +39,7 @@ FINEST_DPI: Final = 600
 def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer, platform: str | None) -> Pixels:
     """What `Page.pixels` promises."""
     shown, width = page if text else page.without_labels(), as_width(page, size)
+    warn_of_missing(missing_characters(shown.labels))
     picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
     top = 0
     for rows in labelled(bare_rows(shown, width, renderer, platform), shown, width):
@@ -66,6 +68,7 @@ def save_page(
         if kind not in ENDINGS:
             raise ValueError(f"path must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}, got {target.name!r}")
     shown, width, digest = page if text else page.without_labels(), as_width(page, size), ""
+    warn_of_missing(missing_characters(shown.labels))
     try:
         pictures = region_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
         for target, kind in files:

@@ -25,7 +25,7 @@ from stereodel.drawing.style import PRINT_DPI
 from stereodel.render.light import ball_gradient
 from stereodel.render.paper import Paper, exact, number, numbers, runs
 from stereodel.render.shapes import CLOSE, LINE, MOVE, Discs, Drawn, Filled, Outline, Shape, Shown, shapes
-from stereodel.render.type import Glyph, Line, Subset, lines_of, subsets
+from stereodel.render.type import Face, Glyph, Line, ShapedSubset, Subset, lines_of, subsets
 
 with of_extra("draw"):
     from PIL import Image
@@ -69,7 +69,8 @@ class _Sheet:
         self.names.update(("title", "desc"))
         labels = f' role="img" aria-labelledby="{" ".join(name for name, _ in told)}"' if told else ""
         lettering = list(lines_of(page))
-        fonts = subsets(line for _, lines in lettering for line in lines)
+        fonts = subsets(line for _, lines in lettering for line in lines if not line.words)
+        shaped = subsets((line for _, lines in lettering for line in lines if line.words), ShapedSubset)
         left, right, bottom, top = page.extent
         corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
         ground = Outline(corners, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8))
@@ -78,10 +79,10 @@ class _Sheet:
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{sides[0]}pt" height="{sides[1]}pt" '
             f'viewBox="0 0 {sides[0]} {sides[1]}"{labels}>',
             *(f'<{name} id="{name}">{escape(text)}</{name}>' for name, text in told),
-            *([_sheet(fonts.values())] if fonts else []),
+            *([_sheet(fonts.values(), shaped.values())] if fonts or shaped else []),
             *self.shape(Filled(ground, page.background, "ground")),
             *(line for shape in shapes(page, PRINT_DPI, pictures) for line in self.shape(shape)),
-            *(line for label, its in lettering for line in self.label(label, its, fonts)),
+            *(line for label, its in lettering for line in self.label(label, its, fonts, shaped)),
             "</svg>",
         ]
         return "\n".join(lines) + "\n"
@@ -172,7 +173,9 @@ class _Sheet:
             f'r="{number(radius)}" fx="{number(fx)}" fy="{number(fy)}">{stops}</radialGradient>'
         )
 
-    def label(self, label: Label, lines: Iterable[Line], fonts: dict[str, Subset]) -> Iterator[str]:
+    def label(
+        self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], shaped: dict[Face, Subset]
+    ) -> Iterator[str]:
         """A label: its halo, its lines of type, its bars."""
         name, lines = self.name(label.name), list(lines)
         yield f"<g id={quoteattr(name)} {_paint('fill', label.color)}>"
@@ -184,7 +187,7 @@ class _Sheet:
                 f'd="{halo}"/>'
             )
         for line in lines:
-            yield self.line(line, fonts)
+            yield self.words(line, shaped) if line.words else self.line(line, fonts)
             if line.bars:
                 yield f'<path d="{self.typed(line.placed(line.bar_outline))}"/>'
         yield "</g>"
@@ -193,10 +196,30 @@ class _Sheet:
         """A path of what is in points from the lower left corner."""
         return "".join(runs(Outline(outline.points * [1, -1] + [0, self.page.height], outline.kinds)))
 
-    def line(self, line: Line, fonts: dict[str, Subset]) -> str:
+    def words(self, line: Line, fonts: dict[Face, Subset]) -> str:
+        """A line of type that programs set again by the rules of its script, from its left end."""
+        x, y = line.x, self.page.height - line.y
+        used = dict.fromkeys(glyph.font for glyph in line.glyphs)
+        families = ",".join(f"'{fonts[font].name}'" for font in fonts if font in used)
+        own = ",".join(_quoted(fonts[font].family) for font in used)
+        # The end of words that begin on the right is on the left.
+        way = ' direction="rtl" text-anchor="end"' if line.begins_leftward else ""
+        return (
+            f'<text xml:space="preserve" text-rendering="geometricPrecision" x="{number(x)}" y="{number(y)}" '
+            f'font-family={quoteattr(f"{families},{own},{SERIF}")} font-size="{exact(line.glyphs[0].size)}"{way}'
+            f"{self.turn(line)}>{escape(line.words)}</text>"
+        )
+
+    def turn(self, line: Line) -> str:
+        """The attribute that turns a line of type about where it begins."""
+        if not line.rotation:
+            return ""
+        place = numbers((line.x, self.page.height - line.y))
+        return f' transform="rotate({exact(-line.rotation)} {place})"'
+
+    def line(self, line: Line, fonts: dict[Face, Subset]) -> str:
         """A line of type: each character in its place, those of one font and size together."""
         x, y = line.x, self.page.height - line.y
-        turn = f' transform="rotate({exact(-line.rotation)} {number(x)} {number(y)})"' if line.rotation else ""
         spans = []
         order = list(fonts)
         for (font, size, _), group in groupby(line.glyphs, key=lambda glyph: _together(glyph, fonts)):
@@ -209,7 +232,9 @@ class _Sheet:
                 f'y="{heights[0] if len(set(heights)) == 1 else " ".join(heights)}">{escape(text)}</tspan>'
             )
         # Left to themselves, browsers move letters to whole pixels.
-        return f'<text xml:space="preserve" text-rendering="geometricPrecision"{turn}>{"".join(spans)}</text>'
+        return (
+            f'<text xml:space="preserve" text-rendering="geometricPrecision"{self.turn(line)}>{"".join(spans)}</text>'
+        )
 
 
 def _parted(found: list[str]) -> list[str]:
@@ -221,23 +246,31 @@ def _parted(found: list[str]) -> list[str]:
     return ["".join(part) for part in parts]
 
 
-def _together(glyph: Glyph, fonts: dict[str, Subset]) -> tuple[str, float, int]:
+def _together(glyph: Glyph, fonts: dict[Face, Subset]) -> tuple[Face, float, int]:
     """What characters have in common that stand in one element; those beyond 16 bits would count as two places."""
     code = ord(fonts[glyph.font].codes[glyph.index])
     return glyph.font, glyph.size, id(glyph) if code > 0xFFFF else 0
 
 
-def _sheet(fonts: Iterable[Subset]) -> str:
-    """The fonts of a file, and a class for each of them."""
+def _sheet(fonts: Iterable[Subset], shaped: Iterable[Subset]) -> str:
+    """The fonts of a file, and a class for each of those whose glyphs have their places."""
     rules = []
     for number_, font in enumerate(fonts, start=1):
-        data = base64.b64encode(font.file("woff")).decode()
         kind = f"font-style:{'italic' if font.italic else 'normal'};font-weight:{'bold' if font.bold else 'normal'}"
-        rules += [
-            f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}",
-            f".type-{number_}{{font-family:'{font.name}','{font.family}',{SERIF};{kind}}}",
-        ]
+        family = escape(_quoted(font.family))
+        rules += [_brought(font, kind), f".type-{number_}{{font-family:'{font.name}',{family},{SERIF};{kind}}}"]
+    rules += [_brought(font, "font-style:normal;font-weight:normal") for font in shaped]
     return "<style>" + "\n".join(rules) + "</style>"
+
+
+def _brought(font: Subset, kind: str) -> str:
+    data = base64.b64encode(font.file("woff")).decode()
+    return f"@font-face{{font-family:'{font.name}';{kind};src:url(data:font/woff;base64,{data})}}"
+
+
+def _quoted(family: str) -> str:
+    """The name of a family as style sheets have it."""
+    return "'" + family.replace("\\", "").replace("'", "\\'") + "'"
 
 
 def _png(pixels: Pixels) -> str:

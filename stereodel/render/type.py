@@ -8,16 +8,18 @@ from __future__ import annotations
 
 import hashlib
 import io
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
-from typing import Any, Final, Literal
-from unicodedata import normalize
+from typing import Any, Final, Literal, NamedTuple
+from unicodedata import bidirectional, category, normalize
 
 import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
+from stereodel.constants import FINEST_OUTLINE
 from stereodel.drawing.page import Label, Page
 from stereodel.render.canvas import drawn, matplotlib_settings
 from stereodel.render.mends import characters, font_of
@@ -25,6 +27,8 @@ from stereodel.render.shapes import CLOSE, CURVE, LINE, MOVE, Outline
 
 with of_extra("draw"):
     from fontTools.pens.basePen import BasePen
+    from fontTools.pens.cu2quPen import Cu2QuPen
+    from fontTools.pens.ttGlyphPen import TTGlyphPen
     from fontTools.subset import Options, Subsetter
     from fontTools.ttLib import TTFont, newTable
     from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
@@ -36,16 +40,28 @@ FINER: Final = 64
 PRIVATE: Final = range(0xE000, 0xF900)
 """The characters that Unicode leaves to everybody: for glyphs that no character of their own leads to."""
 
+LEFTWARD: Final = ("R", "AL")
+"""Directions of letters, in the words of Unicode, that are read from right to left."""
+
+VARIATIONS: Final = ("fvar", "gvar", "avar", "cvar", "HVAR", "VVAR", "MVAR", "STAT", "COLR", "CPAL", "SVG ")
+"""Tables of fonts of many weights, of which the usual one is taken, and of many colours, of which labels have one."""
+
 TABLES: Final = ("GSUB", "GPOS", "GDEF", "kern", "DSIG", "FFTM", "MATH", "prop")
 """What subsets of fonts do without: glyphs have their places, and no others take theirs."""
+
+
+class Face(NamedTuple):
+    """A font: a file, and which of its fonts, where it holds several."""
+
+    path: str
+    number: int = 0
 
 
 @dataclass(frozen=True)
 class Glyph:
     """A glyph in its place on a line of type, in points."""
 
-    font: str
-    """Path of the font's file."""
+    font: Face
     index: int
     text: str
     """The characters that it stands for: two for a ligature."""
@@ -66,6 +82,9 @@ class Line:
         Where it begins on the page, in points from the lower left corner.
     rotation : float
         About that place, degrees, counterclockwise.
+    words : str
+        What is written, where letters join, stand on each other or run from right to left: its glyphs are not in the
+        order of its characters, nor one for each.
     """
 
     glyphs: tuple[Glyph, ...]
@@ -73,6 +92,18 @@ class Line:
     x: float
     y: float
     rotation: float
+    words: str = ""
+
+    @property
+    def leftward(self) -> bool:
+        """Whether some words are read from right to left."""
+        return any(bidirectional(sign) in LEFTWARD for sign in self.words)
+
+    @property
+    def begins_leftward(self) -> bool:
+        """Whether the first letter that has a direction is read from right to left: the first word is on the right."""
+        strong = (bidirectional(sign) for sign in self.words)
+        return next((kind != "L" for kind in strong if kind in {"L", *LEFTWARD}), False)
 
     @property
     def matrix(self) -> FloatArray:
@@ -141,13 +172,14 @@ class _Recorder(RendererBase):
         glyphs, bars = _formula(self, s, prop) if ismath else (_words(s, prop), ())
         glyphs = tuple(glyphs)
         if any(not glyph.text.isspace() for glyph in glyphs) or bars:
-            self.lines.append(Line(glyphs, bars, x / FINER, y / FINER, angle))
+            words = "" if ismath or not _shaped(s) else s
+            self.lines.append(Line(glyphs, bars, x / FINER, y / FINER, angle, words))
 
 
 def _words(text: str, properties: Any) -> Iterator[Glyph]:
     size = properties.get_size_in_points()
     for font, index, written, x, y in characters(text, font_of(properties)):
-        yield Glyph(font.fname, index, written, size, x * size, y * size)
+        yield Glyph(_face(font), index, written, size, x * size, y * size)
 
 
 def _formula(renderer: Any, text: str, properties: Any) -> tuple[Iterable[Glyph], tuple[Any, ...]]:
@@ -155,22 +187,35 @@ def _formula(renderer: Any, text: str, properties: Any) -> tuple[Iterable[Glyph]
     glyphs = []
     for font, size, code, *index, x, y in parsed.glyphs:  # before matplotlib 3.11 the code alone
         number = index[0] if index else font.get_char_index(code)
-        glyphs.append(Glyph(font.fname, number, chr(code), size, x / FINER, y / FINER))
+        glyphs.append(Glyph(_face(font), number, chr(code), size, x / FINER, y / FINER))
     return glyphs, tuple(tuple(float(side) / FINER for side in bar) for bar in parsed.rects)
+
+
+def _face(font: Any) -> Face:
+    return Face(font.fname, getattr(font, "face_index", 0))  # before matplotlib 3.11 the first of a file's fonts alone
+
+
+def _shaped(text: str) -> bool:
+    """Whether glyphs of a text depend on what is around their characters: right-to-left scripts, and marks."""
+    return any(bidirectional(sign) in LEFTWARD or category(sign) in {"Mn", "Mc"} for sign in text)
 
 
 # Fonts
 
 
-@cache
-def _font(path: str) -> Any:
-    return TTFont(path, recalcTimestamp=False)
+def _opened(face: Face) -> Any:
+    return TTFont(face.path, fontNumber=face.number, recalcTimestamp=False)
 
 
 @cache
-def glyph_outline(path: str, index: int) -> Outline:
+def _font(face: Face) -> Any:
+    return _opened(face)
+
+
+@cache
+def glyph_outline(face: Face, index: int) -> Outline:
     """The outline of a glyph of a font, at size 1."""
-    font = _font(path)
+    font = _font(face)
     glyphs = font.getGlyphSet()
     pen = _Pen(glyphs)
     glyphs[font.getGlyphName(index)].draw(pen)
@@ -209,19 +254,18 @@ class Subset:
 
     Parameters
     ----------
-    path : str
-        Of the font.
+    font : Face
     glyphs : mapping
         Number of each glyph in the font → the characters that it stands for.
     """
 
-    path: str
+    font: Face
     glyphs: dict[int, str] = field(default_factory=dict)
 
     @property
     def face(self) -> Any:
         """The whole font."""
-        return _font(self.path)
+        return _font(self.font)
 
     @property
     def family(self) -> str:
@@ -243,14 +287,15 @@ class Subset:
         """Its name for programs, behind six letters that tell subsets apart, as PDF wants it."""
         digest = hashlib.sha256(repr(sorted(self.glyphs.items())).encode()).digest()
         letters = "".join(chr(ord("A") + byte % 26) for byte in digest[:6])
-        return f"{letters}+{self.face['name'].getDebugName(6)}"
+        own = self.face["name"].getDebugName(6) or self.family
+        return f"{letters}+{re.sub('[^A-Za-z0-9-]', '', own)}"
 
     @cached_property
     def codes(self) -> dict[int, str]:
         """The one character that leads to each glyph: its own, unless it has two or another glyph has it already."""
         codes: dict[int, str] = {}
         for index, text in sorted(self.glyphs.items()):
-            own = text if len(text) == 1 else _ligature(self.path, index, text)
+            own = text if len(text) == 1 else _ligature(self.font, index, text)
             taken = codes.values()
             free = (chr(code) for code in PRIVATE if chr(code) not in {*taken, *self.glyphs.values()})
             codes[index] = own if own and own not in taken else next(free)
@@ -264,31 +309,77 @@ class Subset:
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
         """The font, as TrueType or packed for the web; its glyphs keep their numbers."""
-        font = TTFont(self.path, recalcTimestamp=False)
+        font = _opened(self.font)
         options = Options(layout_features=[], hinting=False, notdef_outline=True, retain_gids=True)
-        options.drop_tables += TABLES
+        options.drop_tables += (*TABLES, *VARIATIONS)
         subsetter = Subsetter(options)
         subsetter.populate(gids=sorted(self.glyphs))
         subsetter.subset(font)
         font["cmap"] = _character_map({ord(code): font.getGlyphName(index) for index, code in self.codes.items()})
-        font.flavor = flavor
-        buffer = io.BytesIO()
-        font.save(buffer)
-        return buffer.getvalue()
+        return _bytes(font, flavor)
 
 
-def subsets(lines: Iterable[Line]) -> dict[str, Subset]:
-    """What lines of type use of each font, by the paths of the fonts."""
-    used: dict[str, Subset] = {}
+@dataclass(frozen=True, eq=False)
+class ShapedSubset(Subset):
+    """What a file uses of a font for words that programs set again: with the rules by which letters join and stack."""
+
+    def file(self, flavor: Literal["woff"] | None = None) -> bytes:
+        """The font, as TrueType or packed for the web."""
+        font = _opened(self.font)
+        options = Options(hinting=False, notdef_outline=True)
+        options.drop_tables += (*VARIATIONS, "FFTM")
+        subsetter = Subsetter(options)
+        subsetter.populate(text="".join(self.glyphs.values()))
+        subsetter.subset(font)
+        return _bytes(font, flavor)
+
+
+def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Subset]:
+    """What lines of type use of each font."""
+    used: dict[Face, Subset] = {}
     for line in lines:
         for glyph in line.glyphs:
-            used.setdefault(glyph.font, Subset(glyph.font)).glyphs.setdefault(glyph.index, glyph.text)
+            used.setdefault(glyph.font, kind(glyph.font)).glyphs.setdefault(glyph.index, glyph.text)
     return used
 
 
-def _ligature(path: str, index: int, text: str) -> str:
+def _bytes(font: Any, flavor: Literal["woff"] | None) -> bytes:
+    """A font as a file, its outlines in the way of TrueType."""
+    if "glyf" not in font:
+        _to_truetype(font)
+    font.flavor = flavor
+    buffer = io.BytesIO()
+    font.save(buffer)
+    return buffer.getvalue()
+
+
+def _to_truetype(font: Any) -> None:
+    """Replace the cubic outlines of a font by quadratic ones, at most `FINEST_OUTLINE` of its size away from them."""
+    drawn, order = font.getGlyphSet(), font.getGlyphOrder()
+    glyphs = {}
+    for name in order:
+        pen = TTGlyphPen(None)
+        # Outlines of TrueType run the other way round.
+        drawn[name].draw(Cu2QuPen(pen, FINEST_OUTLINE * font["head"].unitsPerEm, reverse_direction=True))
+        glyphs[name] = pen.glyph()
+    font["loca"], table = newTable("loca"), newTable("glyf")
+    table.glyphOrder, table.glyphs, font["glyf"] = order, glyphs, table
+    for name in order:
+        glyphs[name].recalcBounds(table)
+        font["hmtx"][name] = (font["hmtx"][name][0], getattr(glyphs[name], "xMin", 0))
+    maxp = font["maxp"]
+    maxp.tableVersion, maxp.maxZones, maxp.maxTwilightPoints, maxp.maxStorage = 0x00010000, 1, 0, 0
+    maxp.maxFunctionDefs = maxp.maxInstructionDefs = maxp.maxStackElements = maxp.maxSizeOfInstructions = 0
+    maxp.maxComponentElements = 0
+    font["post"].formatType, font["post"].glyphOrder, font["post"].extraNames = 3.0, None, []
+    for tag in {"CFF ", "CFF2", "VORG"} & set(font.keys()):
+        del font[tag]
+    font.sfntVersion = "\0\1\0\0"
+
+
+def _ligature(face: Face, index: int, text: str) -> str:
     """The character of a glyph for several ones, U+FB01 for f and i; nothing where there is none."""
-    font = _font(path)
+    font = _font(face)
     name = font.getGlyphName(index)
     codes = (chr(code) for code, glyph in font.getBestCmap().items() if glyph == name)
     return next((code for code in codes if normalize("NFKC", code) == text), "")

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+import xml.etree.ElementTree as ET
 
 import av
 import numpy as np
@@ -240,3 +241,36 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
         command = [sys.executable, "-c", code, str(tmp_path / f"noise.{ending}"), str(count)]
         peaks.append(float(subprocess.run(command, capture_output=True, text=True, check=True).stdout))
     assert peaks[1] - peaks[0] < 30  # megabytes; 900 frames have 108
+
+
+@pytest.mark.parametrize("title", ["A globe that turns", "Çà & là <東京> " + "long " * 70])
+@pytest.mark.parametrize("ending", FORMATS)
+def test_files_say_their_title(tmp_path, ending, title):
+    """As other programs find it, and with the same frames as without."""
+    told = Film.of_pictures(REEL, seconds=0.2, title=title).save(tmp_path / f"told{ending}", progress=False)
+    plain = save(REEL, tmp_path / f"plain{ending}", seconds=0.2)
+    assert len(told.read_bytes()) > len(plain.read_bytes()) + len(title.encode())
+    frames = [read(file)[0] if ending == ".webp" else decoded(file)[0] for file in (told, plain)]
+    assert np.abs(np.subtract(*frames, dtype=float)).mean() < (1 if ending in {".mp4", ".webp"} else 0.001)
+    if ending == ".mp4":
+        with av.open(str(told)) as file:
+            assert file.metadata["title"] == title
+        return
+    with Image.open(told) as image:
+        said = image.info
+        found = {
+            ".gif": lambda: said["comment"].decode(),
+            ".webp": lambda: "".join(ET.fromstring(said["xmp"].decode()).itertext()),
+        }.get(ending, lambda: image.text["Title"])()
+    assert found == title
+
+
+def test_a_film_of_one_frame_says_its_title(tmp_path):
+    for ending in (".webp", ".gif"):
+        told = Film.of_pictures(REEL[:1], seconds=1.0, title="One").save(tmp_path / f"one{ending}", progress=False)
+        assert b"One" in told.read_bytes()
+
+
+def test_too_many_frames_are_refused():
+    with pytest.raises(ValueError, match="shots has 100001 entries, and at most 100000"):
+        Film(disc, range(100_001))

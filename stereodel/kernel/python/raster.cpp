@@ -53,16 +53,16 @@ ValuesOut<std::uint8_t> levels(const Texels& raster, const Edges& edges, int wor
     }));
 }
 
-PageMap map_of(const Matrix& first, double size, const Matrix& last, double reach) {
-    PageMap map{{}, size, {}, reach};
+PageMap map_of(const Matrix& first, double size, const Matrix& last, const char* projection, double reach) {
+    PageMap map{{}, size, {}, raster::page_projection(projection), reach};
     std::copy(first.data(), first.data() + 9, map.first);
     std::copy(last.data(), last.data() + 9, map.last);
     return map;
 }
 
 Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Edges& edges,
-            const ValuesIn<double>& shifts, const Matrix& first, double size, const Matrix& last, double reach,
-            std::array<double, 4> place, std::array<int, 2> pixels, bool covered, int workers) {
+            const ValuesIn<double>& shifts, const Matrix& first, double size, const Matrix& last,
+            const char* projection, double reach, std::array<double, 4> place, std::array<int, 2> pixels, bool covered, int workers) {
     const RasterShape shape = shape_of(raster);
     if (levels.shape(0) != shape.size()) {
         throw std::invalid_argument("levels must be those of the raster");
@@ -72,7 +72,7 @@ Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Ed
     }
     const RasterSampler sampler(shape, raster.data(), levels.data(), edges_of(edges),
                                 {shifts.data(), shifts.data() + shifts.shape(0)});
-    const PageMap map = map_of(first, size, last, reach);
+    const PageMap map = map_of(first, size, last, projection, reach);
     const PageWindow window{place[0], place[1], {place[2], place[3]}, pixels[0], pixels[1]};
     const std::size_t width = static_cast<std::size_t>(pixels[0]), height = static_cast<std::size_t>(pixels[1]);
     const bool is_long = width * height > long_work;
@@ -90,9 +90,10 @@ void bind_raster(Modules& modules) {
     module.def("raster_levels", levels, "raster"_a, "edges"_a, "workers"_a = 1,
                "Means of a raster (h, w, 4), colour premultiplied, with edges (west, south, east, north) in radians.");
     module.def("warp_raster", warp, "raster"_a, "levels"_a, "edges"_a, "shifts"_a, "first"_a, "size"_a, "last"_a,
-               "reach"_a, "place"_a, "pixels"_a, "covered"_a = true, "workers"_a = 1,
-               "Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from view axes to the raster's; "
-               "place (left, top, pixel's sides) in radii, pixels (width, height).");
+               "projection"_a, "reach"_a, "place"_a, "pixels"_a, "covered"_a = true, "workers"_a = 1,
+               "Pixels (height, width, 4) of a globe: rotation, fisheye, rotation from page axes to the raster's; "
+               "projection orthographic, stereographic (discs, of reach tan(angular radius/2)), gnomonic (tangents) or "
+               "equirectangular (radians); place (left, top, pixel's sides) in its units, pixels (width, height).");
 }
 
 }  // namespace stereodel::python

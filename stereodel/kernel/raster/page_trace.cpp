@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 
 #include "raster/rough_angle.hpp"
 
@@ -55,6 +56,34 @@ Moving stereographic(double x, double y, double reach, Step step) {
             bend};
 }
 
+Moving gnomonic(double x, double y, Step step) {
+    const double scale = 1.0 / std::sqrt(1.0 + x * x + y * y), right = scale * step.right, up = scale * step.up;
+    const Vector at{x * scale, y * scale, scale};
+    return {at,
+            {right * (1.0 - at.x * at.x), -right * at.x * at.y, -right * at.x * at.z},
+            {-up * at.x * at.y, up * (1.0 - at.y * at.y), -up * at.y * at.z},
+            step.longer()};
+}
+
+// Rows shrink toward a pole: over a step up by tan(lat) steps, and at the pole to nothing.
+Moving equirectangular(double lon, double lat, Step step) {
+    const double east = std::sin(lon), ahead = std::cos(lon), north = std::sin(lat), level = std::cos(lat);
+    const double steepness = std::abs(north) > std::abs(level) ? std::abs(north / level) : 1.0;
+    return {{level * east, north, level * ahead},
+            {level * ahead * step.right, 0.0, -level * east * step.right},
+            {-north * east * step.up, level * step.up, -north * ahead * step.up},
+            steepness * step.longer()};
+}
+
+Moving on_page(const PageMap& map, double x, double y, Step step) {
+    switch (map.projection) {
+        case PageProjection::stereographic: return stereographic(x, y, map.reach, step);
+        case PageProjection::gnomonic: return gnomonic(x, y, step);
+        case PageProjection::equirectangular: return equirectangular(x, y, step);
+        default: return orthographic(x, y, step);
+    }
+}
+
 Moving through_fisheye(const Moving& from, double size) {
     const double shrink = 1.0 / size, across = from.at.x * from.at.x + from.at.y * from.at.y;
     const bool above = from.at.z > 0.0;
@@ -92,13 +121,20 @@ Traced on_globe(const Moving& seen, const double* last) {
 
 }  // namespace
 
+PageProjection page_projection(std::string_view name) {
+    if (name == "orthographic") return PageProjection::orthographic;
+    if (name == "stereographic") return PageProjection::stereographic;
+    if (name == "gnomonic") return PageProjection::gnomonic;
+    if (name == "equirectangular") return PageProjection::equirectangular;
+    throw std::invalid_argument("projection must be orthographic, stereographic, gnomonic or equirectangular");
+}
+
 void trace_row(const PageMap& map, double x, double y, Step step, std::size_t count, Traced* out) {
     for (std::size_t k = 0; k < count; ++k) {
         const double along = x + static_cast<double>(k) * step.right;
-        const Moving on_page =
-            map.reach == 0.0 ? orthographic(along, y, step) : stereographic(along, y, map.reach, step);
-        const Moving in_lens{turned(map.first, on_page.at), turned(map.first, on_page.right),
-                             turned(map.first, on_page.up), on_page.bend};
+        const Moving seen = on_page(map, along, y, step);
+        const Moving in_lens{turned(map.first, seen.at), turned(map.first, seen.right), turned(map.first, seen.up),
+                             seen.bend};
         out[k] = on_globe(through_fisheye(in_lens, map.size), map.last);
     }
 }

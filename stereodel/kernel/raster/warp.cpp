@@ -31,16 +31,19 @@ double half_plane_share(double distance, double a, double b) {
 class Painter {
   public:
     Painter(const RasterSampler& raster, const PageMap& map, const PageWindow& window, bool covered)
-        : raster_(raster), map_(map), window_(window), covered_(covered) {}
+        : raster_(raster), map_(map), window_(window), covered_(covered && map.is_disc()) {}
 
     void row(int number, std::uint8_t* pixels) const {
         const double y = window_.top - (number + 0.5) * window_.step.up;
-        // Pixels whose centre is farther out than their half diagonal do not touch the disc; half a pixel to spare.
-        const double reach = 1.0 + 1.3 * window_.step.longer(), rest = reach * reach - y * y;
+        int begin = 0, end = window_.width;
         std::fill(pixels, pixels + 4 * std::size_t(window_.width), std::uint8_t{0});
-        if (rest <= 0.0) return;
-        const double half = std::sqrt(rest);
-        const int begin = column_at(-half), end = std::min(window_.width, column_at(half) + 1);
+        if (map_.is_disc()) {
+            // Pixels whose centre is farther out than their half diagonal do not touch the disc; half a pixel to spare.
+            const double reach = 1.0 + 1.3 * window_.step.longer(), rest = reach * reach - y * y;
+            if (rest <= 0.0) return;
+            const double half = std::sqrt(rest);
+            begin = column_at(-half), end = std::min(window_.width, column_at(half) + 1);
+        }
         for (int first = begin; first < end; first += static_cast<int>(BLOCK)) {
             block(first, std::min(end - first, static_cast<int>(BLOCK)), y, pixels);
         }

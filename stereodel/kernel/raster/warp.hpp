@@ -13,7 +13,7 @@
 
 namespace stereodel::raster {
 
-// Pixels of the page: the upper left corner of the first and the sides of one, in radii of the disc.
+// Pixels of the page: the upper left corner of the first and the sides of one, in the units of its projection.
 struct PageWindow {
     double left, top;
     Step step;
@@ -22,7 +22,7 @@ struct PageWindow {
 
 // Fills width x height pixels, four bytes each, opacity not premultiplied, rows from the top. With `covered` the
 // opacity is multiplied by the part of the pixel in the disc; without, pixels that the disc touches have its colours
-// there.
+// there. A page that is no disc has colours everywhere.
 void warp_raster(const RasterSampler& raster, const PageMap& map, const PageWindow& window, bool covered,
                  std::uint8_t* pixels, Crew& crew, Stop stop);
 

@@ -1,0 +1,97 @@
+"""`stereodel panorama`: 360° pictures through a conformal lens."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from stereodel.cli import globe_options as globe
+from stereodel.cli import options
+
+EXAMPLE = "stereodel panorama room.jpg --focus=90,-10 --magnify 3 -o desk.jpg"
+
+PICTURES = ("jpg", "jpeg", "png", "webp")
+
+
+class Form(StrEnum):
+    """What is written."""
+
+    equirectangular = "equirectangular"
+    cubemap = "cubemap"
+    planet = "planet"
+
+
+def command(
+    picture: Annotated[
+        str, typer.Argument(metavar="PICTURE", help="Panorama, twice as wide as high: .jpg, .png, .webp, .tif …")
+    ],
+    out: options.Out,
+    focus: Annotated[
+        str | None, typer.Option(metavar="LON,LAT", help="What is magnified; by default the middle of the picture.")
+    ] = None,
+    magnify: globe.Magnify = 1.0,
+    to: Annotated[
+        Form, typer.Option("--to", help="A panorama again, the six faces of a cube, or a little planet.")
+    ] = Form.equirectangular,
+    view: Annotated[
+        str | None,
+        typer.Option(metavar="LON,LAT", help="What comes into the middle; by default 0,0; of planets 0,-90."),
+    ] = None,
+    width: Annotated[
+        int | None,
+        typer.Option(min=1, metavar="PIXELS", help="Of the picture, or of a face; by default as fine as PICTURE is."),
+    ] = None,
+    angular_radius: Annotated[
+        float, typer.Option(metavar="DEGREES", help="What a planet shows: up to so far from its middle.")
+    ] = 140.0,
+    faces: Annotated[bool, typer.Option("--faces", help="Of a cube: a file for each face, NAME_right.jpg …")] = False,
+    format: Annotated[
+        str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; jpg by default.")
+    ] = None,
+    overwrite: options.Overwrite = False,
+) -> None:
+    """Write a 360° picture as it looks through a conformal fisheye: what is near the focus grows, circles stay round.
+
+    Longitude and latitude are those of the picture: 0,0 is its middle, 0,90 straight up.
+    """
+    from pathlib import Path
+
+    from stereodel import fisheye
+    from stereodel.cli.destinations import Destination
+    from stereodel.cli.globe_aim import place
+    from stereodel.cli.progress import stage
+    from stereodel.drawing import View
+    from stereodel.globe.panoramas import face_paths, save_panorama
+    from stereodel.globe.raster import panorama_size, planet_radius
+
+    if faces and to != Form.cubemap:
+        raise ValueError(f"--faces are those of a cube, and --to is {to.value}; add --to cubemap")
+    if faces and out == "-":
+        raise ValueError("--faces are six files, and stdout is one; name a file with --out")
+    destination = Destination.of(out, format, PICTURES, picture, overwrite=overwrite and not faces)
+    for name in face_paths(Path(out)) if faces else ():
+        Destination.of(str(name), None, PICTURES, picture, overwrite=overwrite)
+    if not 0 < magnify < float("inf"):
+        raise ValueError(f"--magnify is {magnify:g}, but a magnification is positive and finite")
+    if width is not None:
+        panorama_size(width, to.value, "--width")
+    planet_radius(angular_radius, "--angular-radius")
+    seen, at = place(view, "--view"), place(focus, "--focus")
+    if at is None and magnify != 1:
+        at = seen or (0.0, -90.0 if to == Form.planet else 0.0)
+    lens = fisheye(at, magnification=magnify) if at else None
+    with stage("drawing"):
+        destination.write(
+            lambda path: save_panorama(
+                picture,
+                path,
+                lens,
+                to.value,
+                view=View(*seen) if seen else None,
+                size=width,
+                angular_radius=angular_radius,
+                faces=faces,
+            )
+        )

@@ -1,0 +1,91 @@
+"""`stereodel panorama`: 360° pictures through a lens."""
+
+import io
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from stereodel import fisheye
+from stereodel.drawing import View
+from stereodel.globe import Raster
+from tests.globe.supersampling import zone_plate
+
+
+@pytest.fixture
+def room(folder):
+    Image.fromarray(zone_plate(32)).save(folder / "room.png")
+    return folder
+
+
+def pixels(file):
+    with Image.open(file) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+RASTER = Raster(zone_plate(32))
+ASKED = {
+    "as it is": ([], {}),
+    "desk": (["--focus=90,-10", "--magnify", 3], {"lens": fisheye((90, -10), magnification=3.0)}),
+    "wide": (["--width", 100], {"size": 100}),
+    "middle": (["--magnify", 3], {"lens": fisheye((0, 0), magnification=3.0)}),
+    "view": (["--magnify", 3, "--view=30,20"], {"lens": fisheye((30, 20), magnification=3.0), "view": View(30, 20)}),
+    "cube": (["--to", "cubemap", "--width", 12], {"form": "cubemap", "size": 12}),
+    "planet": (["--to", "planet", "--angular-radius", 100], {"form": "planet", "angular_radius": 100.0}),
+    "nadir": (["--to", "planet", "--magnify", 2], {"form": "planet", "lens": fisheye((0, -90), magnification=2.0)}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("asked", ASKED)
+def test_the_picture_that_was_asked_for(room, run, asked):
+    options, wanted = ASKED[asked]
+    run("panorama", "room.png", "-o", "out.png", *options)
+    expected = RASTER.panorama(**wanted)[..., :3]
+    if wanted.get("form") == "cubemap":
+        expected = np.concatenate(list(expected), axis=1)
+    assert np.array_equal(pixels(room / "out.png"), expected)
+
+
+def test_faces_are_six_files_that_are_not_replaced_unasked(room, run):
+    options = ("panorama", "room.png", "--to", "cubemap", "--faces", "--width", 8, "-o", "c.png")
+    run(*options)
+    assert len(list(room.glob("c_*.png"))) == 6
+    assert not (room / "c.png").exists()
+    (room / "c_up.png").unlink()
+    assert "c_right.png: is there already" in run(*options, code=2)
+    assert not (room / "c_up.png").exists()
+    run(*options, "--overwrite")
+    assert (room / "c_up.png").exists()
+
+
+def test_stdout_is_a_jpeg_unless_said_otherwise(room, run, capfdbinary):
+    from typer.testing import CliRunner
+
+    from stereodel.cli import app
+
+    for options, kind in (([], "JPEG"), (["--format", "webp"], "WEBP")):
+        ran = CliRunner().invoke(app, ["panorama", "room.png", "-o", "-", *options])
+        assert Image.open(io.BytesIO(ran.stdout_bytes)).format == kind
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["room.png", "-o", "room.png", "--overwrite"], "room.png: is read, so it cannot be written"),
+        (["room.png", "-o", "out.gif"], "out.gif: cannot write gif"),
+        (["room.png", "-o", "out.png", "--width", 33], "--width is 33, but"),
+        (["room.png", "-o", "out.png", "--width", 40000], "--width is 40000, which makes"),
+        (["room.png", "-o", "out.png", "--magnify", 0], "--magnify is 0"),
+        (["room.png", "-o", "out.png", "--focus=1"], "--focus is '1', but must be LON,LAT"),
+        (["room.png", "-o", "out.png", "--to", "planet", "--angular-radius", 170], "--angular-radius"),
+        (["room.png", "-o", "out.png", "--faces"], "--faces are those of a cube"),
+        (["room.png", "-o", "-", "--to", "cubemap", "--faces"], "six files"),
+        (["cities.csv", "-o", "out.png"], "cities.csv is not a picture"),
+        (["nowhere.png", "-o", "out.png"], "nowhere.png"),
+    ],
+)
+def test_what_is_refused_in_words(room, run, options, message):
+    told = run("panorama", *options, code=2)
+    assert message in told
+    assert len(told.splitlines()) == 1
+    assert not (room / "out.png").exists()

@@ -1,0 +1,225 @@
+"""Panoramas through lenses: where each pixel looks, against many samples a pixel, and seams of cubes."""
+
+import numpy as np
+import pytest
+
+from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
+from stereodel import _kernel_probe as probe
+from stereodel.drawing.view import View
+from stereodel.globe import Raster
+from stereodel.globe.raster import FACES
+from tests.globe.supersampling import checkerboard, grid, interpolated, noise, psnr, zone_plate
+from tests.globe.test_raster import lens_parts
+
+PLAIN = MoebiusMap.identity()
+LENS = fisheye((20.0, 40.0), magnification=3.0)
+VIEW = View(35.0, -20.0, 15.0)
+RASTERS = {"squares": (checkerboard(256, 32), 38.0), "rings": (zone_plate(256), 41.0), "noise": (noise(256), 36.0)}
+SAMPLES = 16
+ORDER = ["right", "left", "up", "down", "front", "back"]
+
+
+def equirectangular(x, y):
+    """Directions (..., 3) right, up, ahead of places in [0, 1] of a picture, x right and y down."""
+    lon, lat = (x - 0.5) * 2 * np.pi, (0.5 - y) * np.pi
+    return np.stack([np.cos(lat) * np.sin(lon), np.sin(lat), np.cos(lat) * np.cos(lon)], axis=-1)
+
+
+def cubemap(face):
+    """As `equirectangular`, of a face as OpenGL's specification has it: by s, t and the major axis, z away from us."""
+
+    def directions(x, y):
+        s, t, one = 2 * x - 1, 2 * y - 1, np.ones_like(x)
+        axes = {
+            "right": (one, -t, -s),
+            "left": (-one, -t, s),
+            "up": (s, one, t),
+            "down": (s, -one, -t),
+            "front": (s, -t, one),
+            "back": (-s, -t, -one),
+        }[face]
+        return np.stack(axes, axis=-1) / np.sqrt(1 + s**2 + t**2)[..., None]
+
+    return directions
+
+
+def planet(radius):
+    def directions(x, y):
+        a, b = (np.tan(np.radians(radius) / 2) * side for side in (2 * x - 1, 1 - 2 * y))
+        return np.stack([2 * a, 2 * b, 1 - a**2 - b**2], axis=-1) / (1 + a**2 + b**2)[..., None]
+
+    return directions
+
+
+def looked_at(directions, width, height, window, lens, view):
+    """Of 16 × 16 samples of each pixel of a window: longitude and latitude in the raster, degrees."""
+    left, top, columns, rows = window
+    within = (np.arange(SAMPLES) + 0.5) / SAMPLES
+    x, y = np.meshgrid(
+        ((left + np.arange(columns))[:, None] + within).ravel() / width,
+        ((top + np.arange(rows))[:, None] + within).ravel() / height,
+    )
+    return xyz_to_lonlat(lens.inverse()(directions(x, y) @ view.matrix))
+
+
+def expected(raster, *where):
+    lonlat = looked_at(*where)
+    values = interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2])
+    rows, columns = (side // SAMPLES for side in values.shape)
+    return values.reshape(rows, SAMPLES, columns, SAMPLES).mean(axis=(1, 3))
+
+
+@pytest.mark.parametrize("kind", RASTERS)
+@pytest.mark.parametrize(
+    ("size", "window"),
+    [
+        (512, (300, 90, 14, 14)),
+        (1024, (500, 250, 12, 12)),
+        (128, (0, 30, 14, 14)),
+        (128, (60, 0, 14, 4)),
+        (128, (5, 60, 14, 4)),
+    ],
+)
+def test_equirectangular_without_aliasing(kind, size, window):
+    raster, least = RASTERS[kind]
+    left, top, columns, rows = window
+    found = Raster(raster).panorama(LENS, view=VIEW, size=size)
+    assert found.shape == (size // 2, size, 4)
+    assert (found[..., 3] == 255).all()
+    part = found[top : top + rows, left : left + columns, 0].astype(float)
+    assert psnr(expected(raster, equirectangular, size, size // 2, window, LENS, VIEW), part) > least
+
+
+@pytest.mark.parametrize("number", range(6))
+def test_faces_of_a_cube_are_those_of_opengl(number):
+    raster, least = RASTERS["rings"]
+    found = Raster(raster).panorama(LENS, "cubemap", view=VIEW, size=96)
+    assert found.shape == (6, 96, 96, 4)
+    window = (82, 3, 12, 12)
+    part = found[number, 3:15, 82:94, 0].astype(float)
+    assert psnr(expected(raster, cubemap(ORDER[number]), 96, 96, window, LENS, VIEW), part) > least
+
+
+@pytest.mark.parametrize("corner", [(0, 0), (116, 0), (56, 56), (0, 116), (116, 116)])
+def test_little_planets_fill_their_square(corner):
+    raster, least = RASTERS["rings"]
+    found = Raster(raster).panorama(LENS, "planet", size=128, angular_radius=120.0)
+    assert (found[..., 3] == 255).all()
+    left, top = corner
+    part = found[top : top + 12, left : left + 12, 0].astype(float)
+    where = (*corner, 12, 12)
+    assert psnr(expected(raster, planet(120.0), 128, 128, where, LENS, View(0, -90)), part) > least
+
+
+def test_nothing_asked_for_is_the_panorama_itself():
+    """As the surface through the texels has it, whose means over texels differ from them in what is as fine."""
+    lon, lat = grid(128)
+    smooth = np.round(127.5 + 60 * np.cos(lat) * np.sin(3 * lon) + 40 * np.sin(2 * lat)).astype(np.uint8)
+    found = Raster(smooth).panorama()
+    assert found.shape == (128, 256, 4)
+    assert np.abs(found[..., 0].astype(int) - smooth).max() <= 1
+    assert psnr(found[..., 0].astype(float), smooth.astype(float)) > 52
+    fine = Raster(noise(128)).panorama()[..., 0].astype(float)
+    assert psnr(fine, noise(128).astype(float)) > 18
+
+
+def test_a_lens_and_its_inverse_give_the_panorama_back():
+    lon, lat = grid(256)
+    smooth = np.round(127.5 + 50 * np.cos(lat) * np.sin(2 * lon) + 40 * np.sin(lat)).astype(np.uint8)
+    there = Raster(smooth).panorama(LENS, size=2048)
+    back = Raster(there).panorama(LENS.inverse(), size=512)[..., 0].astype(int)
+    assert np.abs(back - smooth).max() <= 2
+    assert np.abs(there[::4, ::4, 0].astype(int) - smooth).max() > 40  # which is far from doing nothing
+
+
+def test_small_spots_stay_round():
+    """Conformal: a soft spot is as wide as high on the sphere where it is shown, and larger as the lens scales it."""
+    spot, spread = lonlat_to_xyz((50.0, 10.0)), np.radians(1.2)
+    directions = lonlat_to_xyz(np.degrees(np.stack(grid(512), axis=-1)))
+    raster = Raster(np.round(255 * np.exp((directions @ spot - 1) / spread**2)).astype(np.uint8))
+    lens = fisheye((30.0, 20.0), magnification=4.0)
+    found = raster.panorama(lens, size=2048)[..., 0] / 255.0
+    there = View(*xyz_to_lonlat(lens(spot))).matrix
+    lon, lat = grid(1024)
+    right, up, _ = np.moveaxis(lonlat_to_xyz(np.degrees(np.stack([lon, lat], axis=-1))) @ there.T, -1, 0)
+    spreads = np.cov(right.ravel(), up.ravel(), aweights=(found * np.cos(lat)).ravel())
+    wanted = (spread * float(lens.scale_factor(spot))) ** 2
+    assert wanted > 2 * spread**2
+    assert np.diag(spreads) == pytest.approx([wanted, wanted], rel=0.04)
+    assert spreads[0, 0] == pytest.approx(spreads[1, 1], rel=0.02)
+    assert abs(spreads[0, 1]) < 0.02 * wanted
+
+
+EDGES = [
+    # Faces, and how the edge of the one is found in the other: the last row, the first column …
+    ("front", np.s_[:, -1], "right", np.s_[:, 0]),
+    ("front", np.s_[:, 0], "left", np.s_[:, -1]),
+    ("right", np.s_[:, -1], "back", np.s_[:, 0]),
+    ("left", np.s_[:, 0], "back", np.s_[:, -1]),
+    ("front", np.s_[0, :], "up", np.s_[-1, :]),
+    ("front", np.s_[-1, :], "down", np.s_[0, :]),
+    ("right", np.s_[0, ::-1], "up", np.s_[:, -1]),
+    ("left", np.s_[0, :], "up", np.s_[:, 0]),
+    ("back", np.s_[0, ::-1], "up", np.s_[0, :]),
+    ("right", np.s_[-1, :], "down", np.s_[:, -1]),
+    ("left", np.s_[-1, ::-1], "down", np.s_[:, 0]),
+    ("back", np.s_[-1, ::-1], "down", np.s_[-1, :]),
+]
+
+
+def test_cubes_have_no_seams():
+    """Across an edge pixels differ by no more than neighbours do on a face; twelve edges, none forgotten."""
+    lon, lat = grid(256)
+    values = [np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)]
+    raster = Raster(np.round(127.5 + 120 * np.stack(values, axis=-1)).astype(np.uint8))
+    faces = dict(zip(ORDER, raster.panorama(LENS, "cubemap", view=VIEW, size=64)[..., :3].astype(int), strict=True))
+    steps = max(np.abs(np.diff(face, axis=axis)).max() for face in faces.values() for axis in (0, 1))
+    for one, edge, other, there in EDGES:
+        assert np.abs(faces[one][edge] - faces[other][there]).max() <= steps + 1
+    assert len({frozenset((one, other)) for one, _, other, _ in EDGES}) == 12
+    assert list(FACES) == ORDER
+
+
+@pytest.mark.parametrize("name", ["gnomonic", "equirectangular"])
+def test_traced_changes_are_derivatives(name):
+    step = 1e-6
+    for x, y in np.random.default_rng(3).uniform(-0.9, 0.9, (20, 2)):
+        row = probe.trace_page(*lens_parts(LENS, VIEW), name, 0.0, (x, y, step, step / 2), 1)[0]
+        ends = np.array([[x + step, y], [x - step, y], [x, y + step], [x, y - step], [x, y]])
+        if name == "gnomonic":
+            there = np.column_stack([ends, np.ones(5)]) / np.sqrt(1 + (ends**2).sum(axis=1))[:, None]
+        else:
+            there = equirectangular(ends[:, 0] / (2 * np.pi) + 0.5, 0.5 - ends[:, 1] / np.pi)
+        east, west, north, south, at = np.radians(xyz_to_lonlat(LENS.inverse()(there @ VIEW.matrix)))
+        assert row[:2] == pytest.approx(at, abs=1e-8)
+        assert row[[2, 4, 3, 5]] == pytest.approx([*(east - west) / 2, *(north - south) / 4], rel=1e-4, abs=1e-12)
+        assert 0 < row[6] < 1e-5
+
+
+def test_threads_change_nothing_and_parts_are_transparent():
+    raster = Raster(noise(64))
+    for form in ("equirectangular", "cubemap", "planet"):
+        one, two = (raster.panorama(LENS, form, size=64, workers=workers) for workers in (1, 2))
+        assert np.array_equal(one, two)
+    part = Raster(np.full((10, 20), 100, dtype=np.uint8), (0.0, 0.0, 90.0, 45.0))
+    assert part.panorama().shape == (40, 80, 4)
+    opaque = part.panorama()[..., 3] == 255
+    assert opaque[11:19, 41:59].all()
+    assert not opaque[:, :39].any()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"form": "disc"}, "form is 'disc', but must be one of"),
+        ({"size": 33}, "size is 33, but an equirectangular panorama is twice as wide"),
+        ({"size": 0}, "size"),
+        ({"size": 20_000}, "makes 200000000 pixels of its equirectangular"),
+        ({"form": "cubemap", "size": 5000}, "makes 150000000 pixels"),
+        ({"form": "planet", "angular_radius": 161.0}, "angular_radius"),
+        ({"form": "planet", "angular_radius": 0.0}, "angular_radius"),
+    ],
+)
+def test_what_is_refused(options, message):
+    with pytest.raises(ValueError, match=message):
+        Raster(noise(8)).panorama(**options)
