@@ -18,6 +18,7 @@ from stereodel.render import Figure
 
 VIEW = View(-40, 36)
 IN_SIGHT, NAMED = 0.3, 5  # depth on the unit ball, and how many of the largest cells are named
+PLACES = {"TXKF": "Bermuda"}  # by code of the airport: its place where its name tells nobody where it is
 SCALE = ColorScale("magma", 10.0, 1e7, log=True)  # km²
 TICKS = {1e1: "10", 1e2: "100", 1e3: "1000", 1e4: "10 000", 1e5: "100 000", 1e6: "1 million", 1e7: "10 million"}
 
@@ -29,9 +30,11 @@ def geometry() -> dict:
     return {"lonlat": lonlat, "areas": voronoi.areas(radius=earth.AUTHALIC_RADIUS_KM)}
 
 
-def short(name: str) -> str:
-    """The name of an airport without the words that all have."""
-    return name.replace(" International", "").removesuffix(" Airport")
+def short(airport: int) -> str:
+    """The name of an airport without the words that all have, or its place."""
+    table = data.airports()
+    name = str(table.name[airport]).replace(" International", "").removesuffix(" Airport")
+    return PLACES.get(str(table.icao[airport]), name)
 
 
 def draw(g: dict) -> Page:
@@ -41,12 +44,12 @@ def draw(g: dict) -> Page:
     globe.add_coastlines(style=LineStyle(with_opacity(WHITE, 0.6), 0.4))
     seen = np.flatnonzero(VIEW.depth(lonlat_to_xyz(g["lonlat"], latitude=LATITUDE)) > IN_SIGHT)
     named = seen[np.argsort(-g["areas"][seen])[:NAMED]]
-    largest, names = named[0], data.airports().name
+    largest = named[0]
     globe.add_points(g["lonlat"][named], style=DotStyle(BLACK, 1.3, rim=WHITE, rim_width=0.3))
-    globe.add_labels(g["lonlat"][named], map(short, names[named].tolist()), size=7.0, offset=(3.5, 0.0), halo=1.2)
+    globe.add_labels(g["lonlat"][named], map(short, named.tolist()), size=7.0, offset=(3.5, 0.0), halo=1.2)
     subtitle = (
         f"{spaced(len(g['areas']))} airports and the part of the Earth that is nearest to each; the largest "
-        f"in sight, {g['areas'][largest] / 1e6:.1f} million km², is that of {short(names[largest])}"
+        f"in sight, {g['areas'][largest] / 1e6:.1f} million km², is that of {short(largest)}"
     )
     credit = "Airports: airportsdata. Coast: Natural Earth. Areas on WGS84."
     page = captioned(globe.page(view=VIEW), "The airport next to you", subtitle, credit, ink=BLACK)

@@ -46,12 +46,19 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(target))
     streamed = target.exists() and not target.is_file()
     kept = Path(os.path.realpath(target))
+    with said_of(target), _streamed(target) if streamed else _beside(kept) as temporary:
+        yield temporary
+
+
+@contextmanager
+def said_of(target: str | os.PathLike[str], folder: str | None = None) -> Iterator[None]:
+    """What the system says of temporary files, those in a folder too, or of none by name, it says of the target."""
     try:
-        with _streamed(target) if streamed else _beside(kept) as temporary:
-            yield temporary
+        yield
     except OSError as error:
         named = "" if error.filename is None else os.fsdecode(error.filename)
-        if error.errno is not None and (not named or named.endswith(ENDING)):
+        ours = named.endswith(ENDING) or (folder is not None and Path(named).is_relative_to(folder))
+        if error.errno is not None and (not named or ours):
             error.filename, error.filename2 = str(target), None
         raise
 

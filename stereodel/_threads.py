@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Future, ThreadPoolExecutor
+from typing import Any, TypeVar
 
 from stereodel._arrays import as_workers
 from stereodel.constants import POINTS_WORTH_THREADS
+
+Task = TypeVar("Task")
+Result = TypeVar("Result")
 
 
 def thread_count(workers: Any, size: int) -> int:
@@ -17,3 +23,29 @@ def thread_count(workers: Any, size: int) -> int:
     if chosen is None or chosen == -1:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return chosen
+
+
+def in_order(job: Callable[[Task], Result], tasks: Iterable[Task], threads: int) -> Iterator[Result]:
+    """Results of a job for each task, in order, made by so many threads; no more than these are waiting.
+
+    For jobs whose time goes to libraries that release the interpreter's lock, as NumPy and GEOS do.
+
+    Examples
+    --------
+    >>> list(in_order(abs, range(-3, 2), threads=2))
+    [3, 2, 1, 0, 1]
+    """
+    if threads == 1:
+        yield from map(job, tasks)
+        return
+    waiting: deque[Future[Result]] = deque()
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for task in tasks:
+                if len(waiting) == threads:
+                    yield waiting.popleft().result()
+                waiting.append(pool.submit(job, task))
+            while waiting:
+                yield waiting.popleft().result()
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)

@@ -42,7 +42,7 @@ MAY_IMPORT = {
     "spatial": BASE | {"triangulation"},
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
-    "io": BASE | {"_files", "conformal", "curves", "interpolation", "sphere", "triangulation"},
+    "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "__main__": {"_extras", "cli"},
     "drawing": MATHEMATICS | {"curves"},
@@ -51,7 +51,7 @@ MAY_IMPORT = {
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
     "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
-    | {"__init__", "_files", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},
+    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

@@ -45,7 +45,7 @@ def command(
     from stereodel import PlanarDelaunay, SphericalDelaunay
     from stereodel.cli.destinations import Destination
     from stereodel.cli.failures import NothingToDoError
-    from stereodel.cli.progress import say, stage
+    from stereodel.cli.progress import bar, say, stage
     from stereodel.cli.sources import read
     from stereodel.interpolation import contours
     from stereodel.io import write
@@ -61,8 +61,10 @@ def command(
         found = contours(kind(table.points(latitude)), values[:, 0], wanted)
     if not found:
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
-    with stage(f"writing {out}"):
-        destination.write(lambda path: write(path, found, max_segment=max_segment, latitude=latitude.value))
+    with bar(f"writing {out}") as shown:
+        destination.write(
+            lambda path: write(path, found, max_segment=max_segment, latitude=latitude.value, progress=shown)
+        )
     say(f"{out}: {len(found)} lines of {len(wanted)} levels")
 
 

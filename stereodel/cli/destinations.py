@@ -8,14 +8,19 @@ import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel._extras import optional
-from stereodel._files import replacing
+from stereodel._files import replacing, said_of
 from stereodel.cli.options import Latitude
+from stereodel.cli.progress import bar, stage
 from stereodel.cli.sources import LONLAT, Columns
 from stereodel.io import write
 from stereodel.io.csv_text import write_csv
+
+if TYPE_CHECKING:
+    from stereodel.io.layers import Layer
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 PICTURES = ("svg", "pdf")
@@ -65,7 +70,8 @@ class Destination:
             return
         with tempfile.TemporaryDirectory() as folder:
             whole = Path(folder, f"stdout.{self.kind}")
-            save(whole)
+            with said_of("stdout", folder):
+                save(whole)
             if sys.stdout is None:
                 raise ValueError("stdout is closed; name a file with --out")
             try:
@@ -82,10 +88,17 @@ def save_table(path: Path, axes: tuple[str, str], columns: Columns) -> None:
     if path.suffix.lower() == ".csv":
         save_csv(path, columns)
         return
-    geopandas = optional("geopandas", "geo")
+    from stereodel.io.layers import Layer, packed
+
     others = {name: values for name, values in columns.items() if name not in axes}
-    geometry = geopandas.points_from_xy(*(columns[axis] for axis in axes))
-    write(path, geopandas.GeoDataFrame(others, geometry=geometry, crs="EPSG:4326" if axes == LONLAT else None))
+    places = optional("shapely", "geo").points(*(columns[axis] for axis in axes))
+    save_layer(path, Layer(others, packed(places), "EPSG:4326" if axes == LONLAT else None))
+
+
+def save_layer(path: Path, layer: Layer) -> None:
+    """Write rows of a map, as the extension says."""
+    with bar(f"writing {len(layer)} rows") as shown:
+        write(path, layer, progress=shown)
 
 
 def save_csv(path: Path, columns: Columns) -> None:
@@ -100,7 +113,11 @@ def save_mesh(
     """Write cells or triangles as a mesh or a picture."""
     kind = path.suffix.lower().removeprefix(".")
     if kind not in PICTURES:
-        write(path, mesh, **({"latitude": latitude.value} if kind == "nc" else {}))
+        with stage(f"writing {path.name}"):
+            if kind == "nc":
+                write(path, mesh, latitude=latitude.value)
+            else:
+                write(path, mesh)
         return
     from stereodel.drawing import diagram_page
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import os
 import re
+import signal
 import sys
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Final
+from typing import Final, NoReturn
 
 import typer
 
@@ -33,6 +34,18 @@ OPTIONS: Final = {
     "angular_radius": "--angular-radius",
 }
 """Arguments of the library that messages name, and the options that stand for them here."""
+
+
+_signals: list[int] = []
+
+
+def interrupt(number: int, frame: object) -> NoReturn:
+    """What SIGINT does while a command runs: as Python has it, and it is remembered.
+
+    An interrupted import of a library may end in another exception, which then means the same.
+    """
+    _signals.append(number)
+    raise KeyboardInterrupt
 
 
 class NothingToDoError(Exception):
@@ -60,8 +73,7 @@ def told_plainly() -> Iterator[None]:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise typer.Exit(BROKEN_PIPE) from None
     except KeyboardInterrupt as reason:
-        typer.echo(str(reason) or "interrupted; nothing was written", err=True)
-        raise typer.Exit(INTERRUPTED) from None
+        raise _interrupted(str(reason)) from None
     except NothingToDoError as reason:
         typer.echo(str(reason), err=True)
         raise typer.Exit(NOTHING_TO_DO) from None
@@ -69,8 +81,18 @@ def told_plainly() -> Iterator[None]:
         typer.echo("error: not enough memory for so many points", err=True)
         raise typer.Exit(WRONG_INPUT) from None
     except (OSError, ValueError, ImportError) as error:
+        if _signals:
+            raise _interrupted() from None
         typer.echo(f"error: {in_options(_in_one_line(error))}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
+
+
+def _interrupted(reason: str = "") -> typer.Exit:
+    """The end of an interrupted command, which is said here; another interruption of its last steps changes nothing."""
+    if _signals:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    typer.echo(reason or "interrupted; nothing was written", err=True)
+    return typer.Exit(INTERRUPTED)
 
 
 def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude, box_of
-from stereodel.cli.sources import Table
+from stereodel.cli.sources import Table, naming
 from stereodel.data import blue_marble
 from stereodel.drawing.style import DOTS, LINES
 from stereodel.globe import Globe, Raster
@@ -68,12 +68,10 @@ def new_globe(features: Features, latitude: Latitude, texture: Raster | None) ->
 
 
 def add_files(globe: Globe, files: Iterable[Path]) -> None:
-    """Draw what is in files; whatever a library says of a damaged one is said with its name."""
+    """Draw what is in files; what is wrong in one is said with its name."""
     for path in files:
-        try:
+        with naming(str(path)):
             globe.add_layer(path)
-        except RuntimeError as error:  # of the libraries that read what is no GeoJSON
-            raise ValueError(f"{path}: {error}") from error
 
 
 def add_points(globe: Globe, table: Table, shown: frozenset[str]) -> None:

@@ -10,8 +10,9 @@ import typer
 from stereodel.cli import options
 
 if TYPE_CHECKING:
-    from stereodel._arrays import FloatArray, Indices, IntArray
+    from stereodel._arrays import FloatArray, Indices
     from stereodel.cli.sources import Columns, Table
+    from stereodel.curves.ragged import Ragged
 
 EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 
@@ -76,7 +77,7 @@ class Pairs:
     """Points that ask, by number, each with one of its sites, its rank from 1 and its distance; (m,) each."""
 
     query: Indices
-    site: IntArray
+    site: Indices
     rank: Indices
     distance: FloatArray
 
@@ -86,26 +87,47 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: flo
     import numpy as np
 
     from stereodel import PlanarDelaunay, SphericalDelaunay, angular_distance
+    from stereodel.curves.ragged import Ragged, spans
     from stereodel.earth import MEAN_RADIUS_KM
 
     planar = sites.shape[1] == 2
-    triangulation = PlanarDelaunay(sites) if planar else SphericalDelaunay(sites)
-    # Sites at the place of a query come before all others: so many more are asked for.
-    here = int(np.unique(sites, axis=0, return_counts=True)[1].max()) if exclude_self else 0
-    asked = min(count + here, len(sites))
+    # Of many sites at one place, none or all are at that of a query: places are asked for, and one more than wanted.
+    groups = _by_place(sites) if exclude_self else Ragged(np.arange(len(sites)), np.arange(len(sites) + 1))
+    places = sites[groups.values[groups.offsets[:-1]]]
+    triangulation = PlanarDelaunay(places) if planar else SphericalDelaunay(places)
+    asked = min(count + exclude_self, len(places))
     found = np.reshape(triangulation.nearest(queries, k=asked), (len(queries), asked))
     if planar:
-        distance = np.hypot(*np.moveaxis(sites[found] - queries[:, None], -1, 0))
+        distance = np.hypot(*np.moveaxis(places[found] - queries[:, None], -1, 0))
     else:
-        distance = np.radians(angular_distance(queries[:, None], sites[found])) * MEAN_RADIUS_KM
+        distance = np.radians(angular_distance(queries[:, None], places[found])) * MEAN_RADIUS_KM
     kept = np.ones(found.shape, dtype=np.bool_)
     if exclude_self:
-        kept &= (sites[found] != queries[:, None]).any(axis=-1)
-    rank = np.cumsum(kept, axis=1)
-    kept &= rank <= count
+        kept &= (places[found] != queries[:, None]).any(axis=-1)
     if max_distance is not None:
         kept &= distance <= max_distance
-    return Pairs(np.nonzero(kept)[0], found[kept], rank[kept].astype(np.intp), distance[kept])
+    sizes = np.where(kept, groups.sizes[found], 0)
+    before = np.cumsum(sizes, axis=1) - sizes
+    taken = np.clip(count - before, 0, sizes)
+    some = np.nonzero(taken)
+    times = taken[some]
+    return Pairs(
+        np.repeat(some[0], times),
+        groups.values[spans(groups.offsets[found[some]], times)],
+        spans(before[some] + 1, times),
+        np.repeat(distance[some], times),
+    )
+
+
+def _by_place(sites: FloatArray) -> Ragged:
+    """The sites at each place, in order; places in the order of their first sites."""
+    import numpy as np
+
+    from stereodel.curves.ragged import Ragged
+
+    _, first, place = np.unique(sites + 0.0, axis=0, return_index=True, return_inverse=True)
+    number = np.argsort(np.argsort(first))[place.ravel()]
+    return Ragged.grouped(np.argsort(number, kind="stable"), number, len(first))
 
 
 def _kept(sites: Table, keep: list[str] | None) -> Columns:

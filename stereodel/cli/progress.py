@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import typer
@@ -27,16 +27,27 @@ def stage(what: str) -> Iterator[None]:
         yield
 
 
-def in_pieces(size: int, what: str) -> Iterator[slice]:
-    """Slices that make up `size` rows, with a bar that says how many are done."""
-    slices = [slice(start, start + PIECE) for start in range(0, size, PIECE)]
-    if not sys.stderr.isatty() or len(slices) < 2:
-        yield from slices
+@contextmanager
+def bar(what: str) -> Iterator[Callable[[float], None]]:
+    """Show how much of the work is done, which is told to what is given, as a share from 0 to 1."""
+    if not sys.stderr.isatty():
+        yield lambda share: None
         return
     from rich.console import Console
-    from rich.progress import track
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
-    yield from track(slices, what, console=Console(stderr=True), transient=True)
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task(what, total=1.0)
+        yield lambda share: progress.update(task, completed=share)
+
+
+def in_pieces(size: int, what: str) -> Iterator[slice]:
+    """Slices that make up `size` rows, with a bar that says how many are done."""
+    with bar(what) as shown:
+        for start in range(0, size, PIECE):
+            yield slice(start, start + PIECE)
+            shown(min(1.0, (start + PIECE) / size))
 
 
 def say(what: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
@@ -52,8 +53,7 @@ def command(
     if count == 0:
         raise NothingToDoError(f"{table.name}: no triangles: too few points, or all on one line or great circle")
     what: Literal["triangles", "edges"] = "edges" if edges else "triangles"
-    with stage(f"writing {out}"):
-        destination.write(lambda path: _save(path, triangulation, what, table, max_segment, latitude))
+    destination.write(lambda path: _save(path, triangulation, what, table, max_segment, latitude))
     say(f"{out}: {count} triangles of {len(table)} points")
 
 
@@ -66,8 +66,9 @@ def _save(
     latitude: options.Latitude,
 ) -> None:
     """Write the rows in the table of each triangle's corners, or of each edge's ends."""
-    from stereodel.cli.destinations import MESHES, TABLES, save_csv, save_mesh
-    from stereodel.io import to_geodataframe, write
+    from stereodel.cli.destinations import MESHES, TABLES, save_csv, save_layer, save_mesh
+    from stereodel.cli.progress import bar
+    from stereodel.io.frames import layer_of
 
     kind = path.suffix.lower().removeprefix(".")
     if kind == "csv":
@@ -77,9 +78,10 @@ def _save(
     elif kind in MESHES:
         save_mesh(path, triangulation, latitude)
     else:
-        frame = to_geodataframe(triangulation, what=what, latitude=latitude.value, max_segment=max_segment)
-        corners = [name for name in "abc" if name in frame]
-        write(path, frame[[*corners, "geometry"]].assign(**{name: table.rows[frame[name]] for name in corners}))
+        with bar(f"drawing {what}") as shown:
+            layer = layer_of(triangulation, what=what, latitude=latitude.value, max_segment=max_segment, progress=shown)
+        rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
+        save_layer(path, replace(layer, columns=rows))
 
 
 def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: Table) -> Columns:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+from dataclasses import replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,8 +15,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from stereodel import PlanarVoronoi, SphericalVoronoi
-    from stereodel._arrays import FloatArray
-    from stereodel.cli.sources import Columns, Table
+    from stereodel.cli.sources import Table
 
 EXAMPLE = "stereodel voronoi cities.csv -o cells.gpkg"
 
@@ -31,6 +32,12 @@ def command(
     out: options.Out,
     area_unit: Annotated[AreaUnit, typer.Option(help="Unit of the areas.")] = AreaUnit.km2,
     max_segment: options.MaxSegment = 1.0,
+    clip: Annotated[
+        str | None,
+        typer.Option(
+            metavar="land|FILE", help="Cut the cells with land, or with the polygons of a file; areas are of the parts."
+        ),
+    ] = None,
     lon: options.Lon = None,
     lat: options.Lat = None,
     plane: options.Plane = None,
@@ -44,56 +51,62 @@ def command(
     """Write the Voronoi cell of each point: what is nearer to it than to any other, with its area.
 
     A table has the columns of the points and the area; map formats have the cell's shape and the point's row too. Of
-    points at one place the first has the cell, the others none and the area 0.
+    points at one place the first has the cell, the others none and the area 0. With --clip a cell is what lies on land,
+    or in the polygons of a file.
     """
     from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel.cli.destinations import MESHES, TABLES, Destination
     from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, TABLES + MESHES, points, overwrite=overwrite)
+    destination = Destination.of(out, format, TABLES + MESHES, points, clip, overwrite=overwrite)
+    if clip is not None and destination.kind in MESHES:
+        raise ValueError(f"{out}: holds whole cells; leave out --clip or choose {', '.join(TABLES)}")
+    if clip is not None and plane is not None:
+        raise ValueError("--clip is for cells of the sphere, not of a plane")
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage(f"cells of {len(table)} points"):
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
-        name, area = _areas(diagram, area_unit)
-    with stage(f"writing {out}"):
-        destination.write(lambda path: _save(path, diagram, table, {name: area}, max_segment, latitude))
+    destination.write(lambda path: _save(path, diagram, table, area_unit, clip, max_segment, latitude))
     say(f"{out}: cells of {len(table)} points")
-
-
-def _areas(diagram: PlanarVoronoi | SphericalVoronoi, unit: AreaUnit) -> tuple[str, FloatArray]:
-    """The name of the column and the areas."""
-    from stereodel import PlanarVoronoi
-    from stereodel.earth import AUTHALIC_RADIUS_KM
-
-    if isinstance(diagram, PlanarVoronoi):
-        return "area", diagram.areas()
-    radius = AUTHALIC_RADIUS_KM if unit is AreaUnit.km2 else 1.0
-    return f"area_{unit.value}", diagram.areas(radius=radius)
 
 
 def _save(
     path: Path,
     diagram: PlanarVoronoi | SphericalVoronoi,
     table: Table,
-    areas: Columns,
+    unit: AreaUnit,
+    clip: str | None,
     max_segment: float,
     latitude: options.Latitude,
 ) -> None:
-    """Write the cells of a table's points with the table's columns and their areas, (n,)."""
-    from stereodel._extras import optional
-    from stereodel.cli.destinations import MESHES, save_csv, save_mesh
-    from stereodel.io import to_geodataframe, write
+    """Write the cells of a table's points with the table's columns and their areas."""
+    import numpy as np
+
+    from stereodel.cli.destinations import MESHES, save_csv, save_layer, save_mesh
+    from stereodel.cli.progress import bar
+    from stereodel.cli.sources import naming
+    from stereodel.earth import AUTHALIC_RADIUS_KM
+    from stereodel.io.frames import layer_of
 
     kind = path.suffix.lower().removeprefix(".")
-    if kind == "csv":
-        save_csv(path, table.beside(areas))
-    elif kind in MESHES:
+    name = "area" if table.planar else f"area_{unit.value}"
+    radius = 1.0 if table.planar or unit is AreaUnit.sr else AUTHALIC_RADIUS_KM
+    if kind in MESHES:
         save_mesh(path, diagram, latitude)
-    else:
-        cells = to_geodataframe(diagram, latitude=latitude.value, max_segment=max_segment)
-        point = cells["point"].to_numpy()
-        rows = table.beside(areas, first={"row": table.rows}, taken=["geometry"])
-        columns = {name: values[point] for name, values in rows.items()}
-        write(path, optional("geopandas", "geo").GeoDataFrame(columns, geometry=cells.geometry, crs=cells.crs))
+        return
+    if kind == "csv" and clip is None:
+        save_csv(path, table.beside({name: diagram.areas(radius=radius)}))
+        return
+    with bar(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
+        cells = layer_of(
+            diagram, latitude=latitude.value, radius=radius, max_segment=max_segment, clip=clip, progress=shown
+        )
+    point, area = cells.columns["point"], np.zeros(len(table))
+    area[point] = cells.columns["area"]
+    if kind == "csv":
+        save_csv(path, table.beside({name: area}))
+        return
+    rows = table.beside({name: area}, first={"row": table.rows}, taken=["geometry"])
+    save_layer(path, replace(cells, columns={name: values[point] for name, values in rows.items()}))

@@ -12,6 +12,7 @@ arcs of a ring always leave as often as they enter.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -44,6 +45,12 @@ class Pieces:
         """Arcs as they are, all in sight or none."""
         none = np.zeros(len(arcs), dtype=bool)
         return cls(arcs, none, none, np.full(len(arcs), seen), none)
+
+    @cached_property
+    def of_edge(self) -> Indices:
+        """Where the pieces of each edge begin, up to the last that has one, and where these end."""
+        edge = self.arcs.edge
+        return np.searchsorted(edge, np.arange(edge[-1] + 2 if len(edge) else 1))
 
 
 class Outline(Protocol):
@@ -277,12 +284,12 @@ class Antimeridian(Box):
         return arcs
 
     def flat(self, chains: Ragged) -> FloatArray:
-        """Longitude and latitude (n, 2).
+        """Longitude and latitude (n, 2); of points (n, 5) that bring theirs, these.
 
         An end on the meridian is on the side from which its chain comes; a pole has its neighbour's longitude.
         """
         points = chains.values
-        lonlat = xyz_to_lonlat(points, latitude=self.latitude)
+        lonlat = points[:, 3:].copy() if points.shape[1] == 5 else xyz_to_lonlat(points, latitude=self.latitude)
         if not len(points):
             return lonlat
         # The next point of the chain, of the last one the point before.

@@ -43,9 +43,8 @@ def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
     arcs = pieces.arcs
     # Pieces are in the order of their edges: those of an edge are a stretch, run from its end where it is backwards.
     edge, back = np.maximum(sides.values, ~sides.values), sides.values < 0
-    lowest = edge.min(initial=len(arcs))
-    pieces_of = np.searchsorted(arcs.edge, np.arange(lowest, max(lowest, edge.max(initial=-1)) + 2))
-    first, last = pieces_of[edge - lowest], pieces_of[edge - lowest + 1]
+    none = len(pieces.of_edge) - 1  # edges behind the last that has pieces
+    first, last = (pieces.of_edge[np.minimum(edge + k, none)] for k in (0, 1))
     piece = spans(np.where(back, last - 1, first), last - first, np.where(back, -1, 1))
     run = Ragged(np.where(np.repeat(back, last - first), ~piece, piece), offsets_of(last - first)[sides.offsets])
     # A closed line has no beginning of its own: it is begun at its first cut.

@@ -13,6 +13,7 @@ from stereodel.curves.borders import frame_of
 from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.diagrams import Mesh, is_spherical, point_columns, usual_kind
+from stereodel.io.layers import Layer, Progress, is_there, packed
 from stereodel.sphere.latitudes import KINDS, Latitude
 
 What = Literal["cells", "triangles", "edges", "ridges", "sites"]
@@ -30,6 +31,7 @@ def to_geodataframe(
     max_segment: float = 1.0,
     bounds: npt.ArrayLike | None = None,
     crs: Any = None,
+    clip: Any = None,
 ) -> Any:
     """Cells, triangles, edges, ridges, sites or contours as a GeoDataFrame.
 
@@ -55,6 +57,9 @@ def to_geodataframe(
         with a tenth of its longer side around it.
     crs : optional
         Coordinate system of the plane's coordinates, as GeoPandas takes it. The sphere's is EPSG:4326.
+    clip : "land", path-like, GeoDataFrame, geometry or GeoJSON, optional
+        Polygons with which cells or triangles of the sphere are cut, in degrees or with a coordinate system of their
+        own; "land" is that of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is that of the part.
 
     Returns
     -------
@@ -80,6 +85,10 @@ def to_geodataframe(
     are the exception: they are valid or empty, and may overlap others as far as chords stray from arcs. Triangles that
     are `closing` are no part of the sphere's surface and have no row; nor have edges that only they have.
 
+    Polygons are clipped on the map, where the lines of `clip` are straight, as GIS take them, and arcs are the chords
+    of `max_segment`. Crossings are rounded to doubles, for each of two neighbours on its own. The area of a part is its
+    share of the polygon on the map, measured on the sphere, times the area of the polygon, which is exact.
+
     Examples
     --------
     >>> from stereodel import SphericalVoronoi
@@ -95,34 +104,69 @@ def to_geodataframe(
     4      4    N  2.094       Polygon
     5      5    S  2.094       Polygon
     """
-    geopandas = optional("geopandas", "geo")
+    optional("geopandas", "geo")
+    return layer_of(
+        mesh,
+        what=what,
+        columns=columns,
+        latitude=latitude,
+        radius=radius,
+        max_segment=max_segment,
+        bounds=bounds,
+        crs=crs,
+        clip=clip,
+    ).frame()
+
+
+def layer_of(
+    mesh: Mesh | list[Contour],
+    *,
+    what: What | None = None,
+    columns: Mapping[str, npt.ArrayLike] | None = None,
+    latitude: Latitude | None = None,
+    radius: float = 1.0,
+    max_segment: float = 1.0,
+    bounds: npt.ArrayLike | None = None,
+    crs: Any = None,
+    clip: Any = None,
+    progress: Progress | None = None,
+) -> Layer:
+    """The rows of `to_geodataframe`, for files: without a geometry of Shapely for each of them."""
+    as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
-        if what is not None or columns or bounds is not None:
-            raise ValueError("what, columns and bounds are options of triangulations and diagrams, not of contours")
-        as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
+        if what is not None or columns or bounds is not None or clip is not None:
+            raise ValueError(
+                "what, columns, bounds and clip are options of triangulations and diagrams, not of contours"
+            )
         return _of_contours(mesh, max_segment, latitude, crs)
     wanted = as_choice(what or usual_kind(mesh), WHAT, "what")
-    as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
     chosen: Latitude = as_choice(latitude or mesh.latitude or "spherical", KINDS, "latitude")
     as_scalar(radius, "radius", low=0.0, open_low=True)
+    if clip is not None and (not is_spherical(mesh) or wanted not in ("cells", "triangles")):
+        raise ValueError("clip is for cells and triangles of the sphere; what is in the plane is cut to bounds")
     from stereodel.io import geometries
 
     if is_spherical(mesh):
-        found, shapes = geometries.on_sphere(mesh, wanted, max_segment, chosen, radius)
+        found, binary = geometries.on_sphere(mesh, wanted, max_segment, chosen, radius, progress)
     else:
-        found, shapes = geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
+        found, binary = geometries.in_plane(mesh, wanted, frame_of(mesh.points, bounds), radius)
+    if clip is not None:
+        from stereodel.io.clipping import clipped
+
+        binary, share = clipped(binary, clip, chosen)
+        found["area"] = found["area"] * share
     given = point_columns(columns, len(mesh.points))
     if "point" in found:
         named = beside([*found, "geometry"], given)
         found |= {name: values[found["point"]] for name, values in named.items()}
     elif given:
         raise ValueError(f"columns belong to points, which {wanted} have none of; use what='cells' or what='sites'")
-    kept = ~optional("shapely", "geo").is_empty(shapes)
-    table = {name: values[kept] for name, values in found.items()}
-    return geopandas.GeoDataFrame(table, geometry=shapes[kept], crs="EPSG:4326" if is_spherical(mesh) else crs)
+    layer = Layer(found, binary, "EPSG:4326" if is_spherical(mesh) else crs)
+    kept = is_there(binary)
+    return layer if kept.all() else layer.take(kept)
 
 
-def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Latitude | None, crs: Any) -> Any:
+def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Latitude | None, crs: Any) -> Layer:
     """A row for each contour."""
     from stereodel.io.isolines import isolines
 
@@ -132,5 +176,4 @@ def _of_contours(contours: Sequence[Contour], max_segment: float, latitude: Lati
     chosen = None if latitude is None else as_choice(latitude, KINDS, "latitude")
     found, lines = isolines(contours, max_segment, chosen)
     spherical = not contours or contours[0].points.shape[1] == 3
-    system = "EPSG:4326" if spherical else crs
-    return optional("geopandas", "geo").GeoDataFrame(found, geometry=lines, crs=system)
+    return Layer(found, packed(lines), "EPSG:4326" if spherical else crs)

@@ -3,13 +3,19 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import as_count
 from stereodel._extras import optional
+from stereodel.io.layers import Layer, Progress
+
+HEAD: Final = '{"type":"FeatureCollection","features":['
+TAIL: Final = "]}"
 
 
 def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = False) -> str:
@@ -47,6 +53,25 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     {"type":"Feature","properties":{"point":0},"geometry":{"type":"Point","coordinates":[10.0,48.4]}}
     ]}
     """
+    found = list(features(frame, decimals))
+    return "\n".join(found) if sequence else "\n".join([HEAD, ",\n".join(found), TAIL])
+
+
+def write_geojson(
+    layer: Layer, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
+) -> None:
+    """Rows of a map as a file of `to_geojson`, piece by piece."""
+    between = "\n" if sequence else ",\n"
+    with path.open("w", encoding="utf-8", newline="") as file:
+        file.write("" if sequence else HEAD)
+        for number, block in enumerate(layer.blocks(progress)):
+            file.write(between if number else "" if sequence else "\n")
+            file.write(between.join(features(block.frame(), decimals)))
+        file.write("\n" if sequence else f"\n{TAIL}\n")
+
+
+def features(frame: Any, decimals: int | None) -> Iterator[str]:
+    """The rows of a frame as GeoJSON, a line each."""
     shapely = optional("shapely", "geo")
     if frame.crs is not None:
         frame = frame.to_crs("EPSG:4326")
@@ -57,13 +82,9 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     names = [name for name in frame.columns if name != frame.geometry.name]
     rows = zip(*(_values(frame[name].to_numpy()) for name in names), strict=True) if names else iter([()] * len(frame))
     compact = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), default=str).encode
-    features = [
-        f'{{"type":"Feature","properties":{compact(dict(zip(names, row, strict=True)))},"geometry":{text or "null"}}}'
-        for row, text in zip(rows, shapely.to_geojson(geometry), strict=True)
-    ]
-    if sequence:
-        return "\n".join(features)
-    return '{"type":"FeatureCollection","features":[\n' + ",\n".join(features) + "\n]}"
+    for row, text in zip(rows, shapely.to_geojson(geometry), strict=True):
+        properties = compact(dict(zip(names, row, strict=True)))
+        yield f'{{"type":"Feature","properties":{properties},"geometry":{text or "null"}}}'
 
 
 def _values(column: npt.NDArray[Any]) -> list[Any]:

@@ -1,4 +1,4 @@
-"""Cells, triangles, edges, ridges and sites as Shapely geometries, each with its columns.
+"""Cells, triangles, edges, ridges and sites as geometries, each with its columns.
 
 Imported where something needs Shapely, and not before.
 """
@@ -10,51 +10,52 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Geometries
+from stereodel._arrays import FloatArray
 from stereodel.curves.borders import Box
-from stereodel.curves.trace import Arcs, great
-from stereodel.io.diagrams import Columns, Mesh, diagram_of, ridge_arcs, triangulation_of
+from stereodel.io.diagrams import Columns, Mesh, diagram_of, triangulation_of
 from stereodel.io.faces import triangle_sides, voronoi_sides
+from stereodel.io.layers import Packed, Progress, packed
 from stereodel.io.on_map import shapely
 from stereodel.io.plane import plane_cells
-from stereodel.io.tiles import sphere_lines, sphere_polygons
+from stereodel.io.tiles import Net, sphere_lines, sphere_polygons
 from stereodel.sphere import angular_distance, solid_angle, xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import units
 
 
 def on_sphere(
-    mesh: Mesh, what: str, max_segment: float, latitude: Latitude, radius: float
-) -> tuple[Columns, Geometries]:
-    """Columns and geometries of a mesh on the sphere, in degrees; empty geometries where there is none."""
+    mesh: Mesh, what: str, max_segment: float, latitude: Latitude, radius: float, progress: Progress | None = None
+) -> tuple[Columns, Packed]:
+    """Columns and geometries of a mesh on the sphere, in degrees; None where there is no geometry."""
     if what == "cells":
-        return _sphere_cells(diagram_of(mesh), max_segment, latitude, radius)
+        return _sphere_cells(diagram_of(mesh), max_segment, latitude, radius, progress)
     if what == "triangles":
-        return _sphere_triangles(triangulation_of(mesh), max_segment, latitude, radius)
+        return _sphere_triangles(triangulation_of(mesh), max_segment, latitude, radius, progress)
     if what == "sites":
         return _sites(xyz_to_lonlat(mesh.points, latitude=latitude))
     if what == "edges":
         triangulation = triangulation_of(mesh)
         _, pairs = triangle_sides(triangulation.simplices[~triangulation.closing])
-        arcs = _edge_arcs(mesh.points, pairs)
+        net = Net(units(mesh.points), pairs)
     else:
-        pairs, arcs = diagram_of(mesh).ridge_points, ridge_arcs(diagram_of(mesh))
+        pairs, net = diagram_of(mesh).ridge_points, ridge_net(diagram_of(mesh))
+    arcs = net.arcs()
     length = np.radians(angular_distance(arcs.start, arcs.end)) * radius
-    return _pair_columns(pairs) | {"length": length}, sphere_lines(arcs, max_segment, latitude)
+    return _pair_columns(pairs) | {"length": length}, packed(sphere_lines(arcs, max_segment, latitude))
 
 
-def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, Geometries]:
+def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, Packed]:
     """The same for a mesh of the plane; cells and ridges as far as they lie in a rectangle."""
     if what == "cells":
         diagram = diagram_of(mesh)
         columns = {"point": np.arange(len(diagram.points)), "area": diagram.areas(radius=radius)}
-        return columns, plane_cells(diagram, box)
+        return columns, packed(plane_cells(diagram, box))
     if what == "triangles":
         simplices = triangulation_of(mesh).simplices
         corners = mesh.points[simplices]
         (ux, uy), (vx, vy) = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
         columns = _triangle_columns(np.arange(len(simplices)), simplices)
-        return columns | {"area": (ux * vy - uy * vx) / 2 * radius**2}, np.asarray(shapely.polygons(corners))
+        return columns | {"area": (ux * vy - uy * vx) / 2 * radius**2}, packed(shapely.polygons(corners))
     if what == "sites":
         return _sites(mesh.points)
     if what == "edges":
@@ -65,38 +66,39 @@ def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, G
         ends, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
         pairs = diagram.ridge_points[ridge]
     length = np.hypot(*(ends[:, 1] - ends[:, 0]).T) * radius
-    return _pair_columns(pairs) | {"length": length}, np.asarray(shapely.linestrings(ends))
+    return _pair_columns(pairs) | {"length": length}, packed(shapely.linestrings(ends))
 
 
-def _sphere_cells(diagram: Any, max_segment: float, latitude: Latitude, radius: float) -> tuple[Columns, Geometries]:
-    sites = units(diagram.points)[diagram.ridge_points[:, 0]]
-    cells = sphere_polygons(ridge_arcs(diagram), voronoi_sides(diagram), max_segment, latitude, sites)
+def ridge_net(diagram: Any) -> Net:
+    """The ridges of a diagram on the sphere, each clear of the first of its two sites."""
+    sites, site = units(diagram.points), diagram.ridge_points[:, 0]
+    return Net(diagram.vertices, diagram.ridge_vertices, diagram.ridge_normals, sites, site)
+
+
+def _sphere_cells(
+    diagram: Any, max_segment: float, latitude: Latitude, radius: float, progress: Progress | None
+) -> tuple[Columns, Packed]:
+    cells = sphere_polygons(ridge_net(diagram), voronoi_sides(diagram), max_segment, latitude, progress)
     kept = np.flatnonzero(diagram.is_kept)
     if len(kept) == 1:
-        cells[kept] = shapely.box(-180.0, -90.0, 180.0, 90.0)
+        cells[kept] = packed(np.array([shapely.box(-180.0, -90.0, 180.0, 90.0)]))
     return {"point": np.arange(len(cells)), "area": diagram.areas(radius=radius)}, cells
 
 
 def _sphere_triangles(
-    triangulation: Any, max_segment: float, latitude: Latitude, radius: float
-) -> tuple[Columns, Geometries]:
+    triangulation: Any, max_segment: float, latitude: Latitude, radius: float, progress: Progress | None
+) -> tuple[Columns, Packed]:
     chosen = np.flatnonzero(~triangulation.closing)
     simplices = triangulation.simplices[chosen]
     faces, pairs = triangle_sides(simplices)
-    geometry = sphere_polygons(_edge_arcs(triangulation.points, pairs), faces, max_segment, latitude)
+    geometry = sphere_polygons(Net(units(triangulation.points), pairs), faces, max_segment, latitude, progress)
     corners = triangulation.points[simplices]
     area = solid_angle(corners[:, 0], corners[:, 1], corners[:, 2]) * radius**2
     return _triangle_columns(chosen, simplices) | {"area": area}, geometry
 
 
-def _edge_arcs(points: FloatArray, pairs: npt.NDArray[Any]) -> Arcs:
-    """The shorter arcs between pairs of points, given as directions."""
-    unit = units(points)
-    return great(unit[pairs[:, 0]], unit[pairs[:, 1]])
-
-
-def _sites(points: FloatArray) -> tuple[Columns, Geometries]:
-    return {"point": np.arange(len(points))}, np.asarray(shapely.points(points))
+def _sites(points: FloatArray) -> tuple[Columns, Packed]:
+    return {"point": np.arange(len(points))}, packed(shapely.points(points))
 
 
 def _triangle_columns(numbers: npt.NDArray[Any], simplices: npt.NDArray[Any]) -> Columns:

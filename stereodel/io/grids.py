@@ -200,13 +200,16 @@ def write_geotiff(grid: Grid, path: Path) -> None:
     transform = rasterio.Affine(dx, 0.0, grid.lon[0] - dx / 2, 0.0, -dy, grid.lat[-1] + dy / 2)
     profile = {"driver": "GTiff", "dtype": "float64", "nodata": np.nan, "crs": "EPSG:4326", "transform": transform}
     shape = {"count": len(bands), "height": len(grid.lat), "width": len(grid.lon)}
-    with rasterio.open(path, "w", **profile, **shape, compress="deflate", predictor=3) as file:
-        file.update_tags(AREA_OR_POINT="Area" if grid.centers else "Point")
-        for number, (name, values) in enumerate(bands, 1):
-            file.write(values[::-1], number)
-            file.set_band_description(number, name)
-            if name in grid.units:
-                file.set_band_unit(number, grid.units[name])
+    # In memory first: of a full disk GDAL tells nobody.
+    with rasterio.MemoryFile() as memory:
+        with memory.open(**profile, **shape, compress="deflate", predictor=3) as file:
+            file.update_tags(AREA_OR_POINT="Area" if grid.centers else "Point")
+            for number, (name, values) in enumerate(bands, 1):
+                file.write(values[::-1], number)
+                file.set_band_description(number, name)
+                if name in grid.units:
+                    file.set_band_unit(number, grid.units[name])
+        path.write_bytes(memory.getbuffer())
 
 
 def write_grid_table(grid: Grid, path: Path) -> None:

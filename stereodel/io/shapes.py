@@ -18,9 +18,11 @@ import numpy as np
 from stereodel._arrays import FloatArray, Geometries, Indices, as_lonlat
 from stereodel._extras import optional
 from stereodel.curves.ragged import Ragged
+from stereodel.io.vector_files import read_frame
 
 GEOGRAPHIC = "EPSG:4326"
 GEOJSON = (".geojson", ".json")
+PARQUET = (".parquet", ".geoparquet")
 KINDS = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineString", "Polygon", "MultiPolygon")
 """Of geometries with coordinates; LinearRing is what Shapely calls a closed line."""
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
@@ -134,8 +136,14 @@ def shapes_of(source: Any) -> Shapes:
 
 
 def _of_file(path: Path) -> Shapes:
+    path.stat()  # the system says best that there is none
+    if path.suffix.lower() in PARQUET:
+        return shapes_of(optional("geopandas", "geo").read_parquet(path))
     if path.suffix.lower() not in GEOJSON:
-        return shapes_of(optional("geopandas", "geo").read_file(path))
+        frame = read_frame(path)
+        if not hasattr(frame, "to_crs"):
+            raise ValueError(f"{path.name} is a table without geometries")
+        return shapes_of(frame)
     try:
         content = json.loads(path.read_bytes())
     except ValueError as error:

@@ -34,7 +34,9 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
         ``mesh`` with the topology; ``node_lon`` and ``node_lat`` in degrees and ``node_x``, ``node_y``, ``node_z``, the
         unit vectors (in the plane ``node_x`` and ``node_y`` alone); ``face_node_connectivity``, counterclockwise from
         0, short rows filled with -1; ``edge_node_connectivity``. On faces ``face_point`` or ``face_triangle``, the
-        number of the point or triangle, and on the sphere ``face_area`` in steradians.
+        number of the point or triangle, and on the sphere ``face_area`` in steradians. ``face_lon`` and ``face_lat``
+        are the sites of cells and the directions of the mean of triangles' corners, ``edge_lon`` and ``edge_lat`` the
+        middles of edges (in the plane ``face_x``, ``face_y``, ``edge_x``, ``edge_y``).
 
     Raises
     ------
@@ -52,12 +54,17 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
     >>> from stereodel import SphericalDelaunay
     >>> dataset = to_ugrid(SphericalDelaunay([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]]))
     >>> dict(dataset.sizes)
-    {'node': 6, 'face': 8, 'three': 3, 'edge': 12, 'two': 2}
+    {'node': 6, 'face': 8, 'edge': 12, 'three': 3, 'two': 2}
     """
     surface, spherical = surface_of(mesh, what), is_spherical(mesh)
     table, edges = surface.table, surface.edges
     width = "three" if table.shape[1] == 3 else "max_corners"
-    variables = _nodes(surface.nodes, spherical, latitude or mesh.latitude or "spherical") | {
+    kind = latitude or mesh.latitude or "spherical"
+    middles = {"node": surface.nodes, "face": _centers(mesh, surface), "edge": surface.nodes[edges].sum(axis=1) / 2}
+    variables: dict[str, Any] = {}
+    for location, points in middles.items():
+        variables |= _places(location, points, spherical, kind)
+    variables |= {
         "face_node_connectivity": (("face", width), table, _links("face")),
         "edge_node_connectivity": (("edge", "two"), edges, _links("edge")),
     }
@@ -69,19 +76,28 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
     )
     if spherical:
         variables["face_area"] = ("face", _areas(mesh, surface), {"mesh": "mesh", "location": "face", "units": "sr"})
-    variables["mesh"] = ((), np.int32(0), _topology([n for n in variables if n in ("node_lon", "node_lat")]))
+    variables["mesh"] = ((), np.int32(0), _topology(("lon", "lat") if spherical else ("x", "y")))
     return optional("xarray", "grid").Dataset(variables, attrs={"Conventions": "CF-1.11 UGRID-1.0"})
 
 
-def _nodes(nodes: FloatArray, spherical: bool, latitude: Latitude) -> dict[str, Any]:
+def _centers(mesh: Mesh, surface: Surface) -> FloatArray:
+    """The sites of cells, the means of the corners of triangles."""
+    if surface.cells:
+        points: FloatArray = mesh.points[surface.number]
+        return points
+    return surface.nodes[surface.polygons.values.reshape(-1, 3)].mean(axis=1)
+
+
+def _places(location: str, points: FloatArray, spherical: bool, latitude: Latitude) -> dict[str, Any]:
+    """Coordinates of nodes, faces or edges; directions of any length are places of the sphere."""
     variables: dict[str, Any] = {}
     if spherical:
-        for (name, (standard, units)), column in zip(
-            _NAMES.items(), xyz_to_lonlat(nodes, latitude=latitude).T, strict=True
-        ):
-            variables[f"node_{name}"] = ("node", column, {"standard_name": standard, "units": units})
-    for name, column in zip("xyz", nodes.T, strict=False):
-        variables[f"node_{name}"] = ("node", column, {"long_name": f"Cartesian {name}", "units": "1"})
+        lonlat = xyz_to_lonlat(points, latitude=latitude).T
+        for (name, (standard, units)), column in zip(_NAMES.items(), lonlat, strict=True):
+            variables[f"{location}_{name}"] = (location, column, {"standard_name": standard, "units": units})
+    if location == "node" or not spherical:
+        for name, column in zip("xyz", points.T, strict=False):
+            variables[f"{location}_{name}"] = (location, column, {"long_name": f"Cartesian {name}", "units": "1"})
     return variables
 
 
@@ -89,11 +105,12 @@ def _links(kind: str) -> dict[str, Any]:
     return {"cf_role": f"{kind}_node_connectivity", "start_index": np.int32(0), "_FillValue": np.int32(FILL)}
 
 
-def _topology(coordinates: list[str]) -> dict[str, Any]:
+def _topology(axes: tuple[str, str]) -> dict[str, Any]:
+    coordinates = {f"{at}_coordinates": " ".join(f"{at}_{axis}" for axis in axes) for at in ("node", "face", "edge")}
     return {
         "cf_role": "mesh_topology",
         "topology_dimension": np.int32(2),
-        "node_coordinates": " ".join(coordinates or ["node_x", "node_y"]),
+        **coordinates,
         "face_node_connectivity": "face_node_connectivity",
         "edge_node_connectivity": "edge_node_connectivity",
         "face_dimension": "face",

@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import re
+import sqlite3
 import warnings
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
+from dataclasses import replace
+from io import BytesIO
 from pathlib import Path
+from textwrap import shorten
 from typing import Any, Final
 
 from stereodel._extras import optional
 from stereodel.io.columns import RenamedColumnWarning, beside, listed
+from stereodel.io.layers import Layer, Progress, arrow_column
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Names that a format has for its own columns."""
 
 DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML"}
+
+LETTERS: Final = 200
+"""Of what GDAL says, that a message has room for."""
 
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """What GDAL warns of a column whose name it cuts."""
@@ -32,8 +41,12 @@ def read_frame(source: str | os.PathLike[str] | bytes, *, layer: str | None = No
     """
     pyogrio = optional("pyogrio", "geo")
     optional("geopandas", "geo")
-    with told():
-        names = [name for name, kind in pyogrio.list_layers(source) if kind is not None]
+    with told(), warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)  # guesses of GDAL, in its own words
+        layers = pyogrio.list_layers(source)
+        if not len(layers):
+            raise ValueError("the file is damaged: there is no layer in it")
+        names = [name for name, kind in layers if kind is not None]
         if layer is not None and layer not in names:
             raise ValueError(f"layer is {layer!r}, which is not one of {listed(names)}")
         if layer is None and len(names) > 1:
@@ -43,16 +56,30 @@ def read_frame(source: str | os.PathLike[str] | bytes, *, layer: str | None = No
         return pyogrio.read_dataframe(source, layer=layer, use_arrow=True, arrow_to_pandas_kwargs=objects)
 
 
-def write_frame(frame: Any, path: Path, *, layer: str) -> None:
-    """A GeoDataFrame as a file of one layer, in the format that the ending of `path` names."""
+def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | None = None) -> None:
+    """Rows of a map as a file of one layer with a name, in the format that the ending of `path` names."""
+    pyogrio, arrow = optional("pyogrio", "geo"), optional("pyarrow", "geo")
     kind = path.suffix[1:].lower()
-    geometry = frame.geometry.name
-    others = {name: frame[name] for name in frame.columns if name != geometry}
-    named = beside([geometry, *RESERVED[kind]], others, any_case=True)
-    renamed = frame.rename(columns={old: new for old, new in zip(others, named, strict=True) if old != new})
-    with told(), warnings.catch_warnings(record=True) as said:
+    named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
+    whole = replace(layer, columns={name: plain_column(values) for name, values in named.items()}).several()
+    schema, batches = whole.batches(progress)
+    memory = BytesIO()
+    with told(writing=True), warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always")
-        renamed.to_file(path, driver=DRIVERS[kind], layer=layer, engine="pyogrio")
+        pyogrio.write_arrow(
+            arrow.RecordBatchReader.from_batches(schema, batches),
+            memory if kind == "kml" else path,
+            layer=name,
+            driver=DRIVERS[kind],
+            geometry_name=layer.name,
+            geometry_type=whole.kinds[0] if len(whole.kinds) == 1 else "Unknown",
+            crs=None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_wkt("WKT1_GDAL"),
+        )
+    # Of a full disk GDAL does not always tell.
+    if kind == "kml":
+        path.write_bytes(memory.getbuffer())
+    if (kind == "shp" and not _is_whole(path)) or (kind == "gpkg" and len(layer) and not _is_indexed(path)):
+        raise OSError(errno.EIO, "the file could not be written to its end")
     for warning in said:  # names of shapefiles have ten letters; that a plane has no coordinate system is no news
         found = LAUNDERED.search(str(warning.message))
         if found:
@@ -60,11 +87,48 @@ def write_frame(frame: Any, path: Path, *, layer: str) -> None:
             warnings.warn(text, RenamedColumnWarning, stacklevel=2)
 
 
+def _is_whole(path: Path) -> bool:
+    """Whether the files of a shapefile are as long as their headers say; the length of two of them is in words of 2."""
+    heads = {}
+    for part in (path, path.with_suffix(".shx"), path.with_suffix(".dbf")):
+        with part.open("rb") as file:
+            heads[part] = file.read(28)
+    *shapes, table = heads
+    rows, begin, width = (int.from_bytes(heads[table][a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
+    return len(heads[table]) == 28 <= begin + rows * width <= table.stat().st_size and all(
+        part.stat().st_size == 2 * int.from_bytes(heads[part][24:28], "big") for part in shapes
+    )
+
+
+def _is_indexed(path: Path) -> bool:
+    """Whether a GeoPackage has its index of places, which is written last."""
+    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as base:
+        found = base.execute("SELECT COUNT(*) FROM gpkg_extensions WHERE extension_name = 'gpkg_rtree_index'")
+        return bool(found.fetchone()[0])
+
+
+def plain_column(values: Any) -> Any:
+    """A column of Arrow of a type that GDAL has."""
+    arrow = optional("pyarrow", "geo")
+    column = arrow_column(values)
+    if arrow.types.is_dictionary(column.type):
+        column = column.dictionary_decode()
+    if arrow.types.is_uint64(column.type):
+        largest = arrow.compute.max(column).as_py()
+        return column.cast(arrow.int64() if largest is None or largest < 2**63 else arrow.string())
+    if arrow.types.is_duration(column.type):
+        return arrow.array([None if cell is None else str(cell) for cell in column.to_pylist()], arrow.string())
+    return column.cast(arrow.float32()) if arrow.types.is_float16(column.type) else column
+
+
 @contextmanager
-def told() -> Iterator[None]:
+def told(*, writing: bool = False) -> Iterator[None]:
     """What GDAL says of a file, as an error in its words, without the names that it was given."""
     try:
         yield
     except RuntimeError as error:  # all of pyogrio's are, and have no class in common but that
         said = re.sub(r"; It might help to specify.*", "", str(error), flags=re.DOTALL)
-        raise ValueError(f"the file cannot be read or written: {' '.join(said.split())}") from error
+        said = shorten(said, LETTERS, placeholder=" …")
+        if writing:
+            raise OSError(errno.EIO, f"the file cannot be written: {said}") from error
+        raise ValueError(f"the file cannot be read: {said}") from error

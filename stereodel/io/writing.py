@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import shutil
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, BinaryIO
@@ -13,19 +15,21 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_choice
 from stereodel._extras import optional
-from stereodel._files import replacing
+from stereodel._files import replacing, said_of
 from stereodel.interpolation import Contour
 from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point_columns, triangulation_of, usual_kind
-from stereodel.io.frames import to_geodataframe
-from stereodel.io.geojson import to_geojson
+from stereodel.io.frames import layer_of
+from stereodel.io.geojson import write_geojson
+from stereodel.io.geoparquet import write_parquet
 from stereodel.io.grids import Grid, write_geotiff, write_grid_table, write_netcdf
+from stereodel.io.layers import Layer, Progress, packed
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
 from stereodel.io.ugrid import to_ugrid
-from stereodel.io.vector_files import DRIVERS, write_frame
+from stereodel.io.vector_files import DRIVERS, write_layer
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -55,6 +59,7 @@ def write(
     thing: Mesh | PointTable | Grid | list[Contour] | Any,
     *,
     format: str | None = None,
+    progress: Progress | None = None,
     **options: Any,
 ) -> None:
     """Write a triangulation, a diagram, a table of points, a grid of values or a GeoDataFrame as data.
@@ -68,6 +73,8 @@ def write(
         nc or tif; contours where the format holds lines.
     format : str, optional
         By default what the ending of the path says. For a stream it is needed.
+    progress : callable, optional
+        Called with the share of the rows of a map that are written, from 0 to 1, again and again.
     **options
         Of the function that makes what is in the file: `to_geodataframe` for csv, geojson and geojsonl (and
         ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
@@ -108,7 +115,8 @@ def write(
     stem = Path(path).stem if isinstance(path, str | os.PathLike) else "layer"
     with TemporaryDirectory() as folder:
         made = Path(folder, f"{stem}.{kind}")  # libraries look at the ending, and name the layer after the rest
-        writer(thing, made, options)
+        with said_of(path, folder) if isinstance(path, str | os.PathLike) else nullcontext():
+            writer(thing, made, options, progress)
         if not isinstance(path, str | os.PathLike):
             with made.open("rb") as stream:
                 shutil.copyfileobj(stream, path)
@@ -119,18 +127,19 @@ def write(
                 shutil.copyfile(part, temporary)
 
 
-def _frame(thing: Any, options: dict[str, Any]) -> Any:
-    """A GeoDataFrame of whatever was given."""
+def _layer(thing: Any, options: dict[str, Any]) -> Layer:
+    """Rows of a map of whatever was given."""
     if isinstance(thing, Mesh | list):
-        return to_geodataframe(thing, **options)
+        return layer_of(thing, **options)
     _no_options(options)
+    if isinstance(thing, Layer):
+        return thing
     if isinstance(thing, PointTable):
-        geometry = optional("shapely", "geo").points(thing.lonlat)
-        columns = beside(["geometry"], thing.columns)
-        return optional("geopandas", "geo").GeoDataFrame(columns, geometry=geometry, crs="EPSG:4326")
+        places = packed(optional("shapely", "geo").points(thing.lonlat))
+        return Layer(beside(["geometry"], thing.columns), places, "EPSG:4326")
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
-    return thing
+    return Layer.of_frame(thing)
 
 
 def _no_options(options: dict[str, Any]) -> None:
@@ -138,7 +147,7 @@ def _no_options(options: dict[str, Any]) -> None:
         raise TypeError(f"{', '.join(options)} is not an option where tables are written")
 
 
-def _write_csv(thing: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_csv(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, Grid):
         _no_options(options)
         write_grid_table(thing, path)
@@ -147,7 +156,7 @@ def _write_csv(thing: Any, path: Path, options: dict[str, Any]) -> None:
         columns = _mesh_columns(thing, **options)
     else:
         _no_options(options)
-        table = thing if isinstance(thing, PointTable) else from_geodataframe(_frame(thing, {}))
+        table = thing if isinstance(thing, PointTable) else from_geodataframe(_layer(thing, {}).frame())
         places: Columns = dict(zip(("lon", "lat"), table.lonlat.T, strict=True))
         columns = places | beside(places, table.columns)
     with path.open("w", encoding="utf-8", newline="") as stream:
@@ -178,46 +187,61 @@ def _mesh_columns(
     return found | beside(found, point_columns(columns, len(places)))
 
 
-def _write_geojson(thing: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_geojson(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     decimals = options.pop("decimals", None)
     sequence = path.suffix == ".geojsonl"
-    path.write_text(to_geojson(_frame(thing, options), decimals=decimals, sequence=sequence) + "\n", encoding="utf-8")
+    write_geojson(_layer(thing, options), path, decimals=decimals, sequence=sequence, progress=progress)
 
 
-def _write_parquet(thing: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_parquet(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     optional("pyarrow", "geo")
-    _frame(thing, options).to_parquet(path)
+    if hasattr(thing, "to_parquet"):
+        _no_options(options)
+        thing.to_parquet(path)  # with its index, and all its columns of geometries
+        return
+    write_parquet(_layer(thing, options), path, progress)
 
 
-def _write_vector(thing: Any, path: Path, options: dict[str, Any]) -> None:
-    write_frame(_frame(thing, options), path, layer=path.stem)
+def _write_vector(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    write_layer(_layer(thing, options), path, name=path.stem, progress=progress)
 
 
-def _write_tif(thing: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if not isinstance(thing, Grid):
         raise TypeError(f"thing must be a Grid for a GeoTIFF, not {type(thing).__name__}")
     _no_options(options)
     write_geotiff(thing, path)
 
 
-def _write_nc(thing: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     if isinstance(thing, Grid):
         _no_options(options)
         write_netcdf(thing, path)
         return
     optional("netCDF4", "grid")
-    to_ugrid(thing, **options).to_netcdf(path, engine="netcdf4")
+    dataset = to_ugrid(thing, **options)
+    try:
+        dataset.to_netcdf(path, engine="netcdf4")
+    except RuntimeError as error:  # what HDF5 says of files
+        raise OSError(errno.EIO, f"the file cannot be written: {error}") from error
 
 
-def _write_trimesh(thing: Any, path: Path, options: dict[str, Any]) -> None:
+def _write_trimesh(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     path.write_bytes(to_trimesh(thing, **options).export(file_type=path.suffix[1:]))
 
 
-def _write_polydata(thing: Any, path: Path, options: dict[str, Any]) -> None:
-    to_polydata(thing, **options).save(path)
+def _write_polydata(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    data = to_polydata(thing, **options)
+    # In memory first: on a full disk VTK does not stop, or worse.
+    writer = optional("vtkmodules.vtkIOXML", "mesh").vtkXMLPolyDataWriter()
+    writer.SetInputData(data)
+    writer.SetDataModeToBinary()
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    path.write_text(writer.GetOutputString(), encoding="utf-8")
 
 
-WRITERS: dict[str, Callable[[Any, Path, dict[str, Any]], None]] = {
+WRITERS: dict[str, Callable[[Any, Path, dict[str, Any], Progress | None], None]] = {
     "csv": _write_csv,
     "geojson": _write_geojson,
     "parquet": _write_parquet,

@@ -1,9 +1,12 @@
 """`stereodel nearest` beside brute force."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
 from stereodel import angular_distance, lonlat_to_xyz
+from stereodel.cli.nearest import _pairs
 from stereodel.earth import MEAN_RADIUS_KM
 
 QUERIES = "lon,lat,who\n11.6,48.1,Ada\n179.99,-30,Max\n-179.99,-30,Eva\n0,90,Ole\n"
@@ -66,3 +69,57 @@ def test_geodetic_latitudes_can_change_the_answer(folder, run, rows):
 
 def test_stdin_for_both_is_refused(folder, run):
     assert "cannot both be stdin" in run("nearest", "-", "--of", "-", "-o", "-", code=2)
+
+
+def clusters(planar):
+    """Sites of which several are at one place, and queries at some of these places and beside them."""
+    rng = np.random.default_rng(5)
+    places = rng.uniform(-80, 80, (12, 2))
+    sites = places[rng.integers(0, 12, 60)]
+    queries = np.concatenate([places[:8], rng.uniform(-80, 80, (6, 2))])
+    return (sites, queries) if planar else (lonlat_to_xyz(sites), lonlat_to_xyz(queries))
+
+
+@pytest.mark.parametrize("planar", [True, False])
+@pytest.mark.parametrize("exclude_self", [True, False])
+@pytest.mark.parametrize("max_distance", [None, 30.0])
+@pytest.mark.parametrize("count", [1, 3, 40, 100])
+def test_pairs_are_those_of_brute_force(planar, exclude_self, max_distance, count):
+    sites, queries = clusters(planar)
+    limit = max_distance and max_distance * (1 if planar else np.radians(1) * MEAN_RADIUS_KM)
+    pairs = _pairs(sites, queries, count, limit, exclude_self)
+    if planar:
+        distance = np.hypot(*(sites - queries[:, None]).transpose(2, 0, 1))
+    else:
+        distance = np.radians(angular_distance(queries[:, None], sites)) * MEAN_RADIUS_KM
+    for number, row in enumerate(distance):
+        order = np.lexsort((np.arange(len(row)), row))
+        order = order[(sites[order] != queries[number]).any(axis=1) | (not exclude_self)]
+        order = [site for site in order[:count] if limit is None or row[site] <= limit]
+        mine = pairs.query == number
+        assert pairs.site[mine].tolist() == order
+        assert pairs.rank[mine].tolist() == list(range(1, len(order) + 1))
+        assert pairs.distance[mine] == pytest.approx(row[order], abs=1e-9)
+
+
+def test_many_sites_at_one_place_cost_no_more(folder):
+    """A row for each of them and each query that is there would be a thousand times as much."""
+    sites = np.concatenate([np.zeros((20_000, 2)), [[1.0, 0.0], [0.0, 2.0]]])
+    tracemalloc.start()
+    pairs = _pairs(sites, np.zeros((20_000, 2)), 2, None, exclude_self=True)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert pairs.site[:4].tolist() == [20_000, 20_001] * 2
+    assert peak < 30e6
+
+
+def test_exclude_self_and_max_distance_in_the_command(folder, run, rows):
+    table = rows(
+        run("nearest", "cities.csv", "--of", "cities.csv", "--exclude-self", "--max-distance", 9000, "-o", "-")
+    )
+    assert [(row["name"], row["site_name"]) for row in table] == [
+        ("Lagos", "Ulm"),
+        ("Ulm", "Lagos"),
+        ("Kyoto", "Perth"),
+        ("Perth", "Kyoto"),
+    ]

@@ -6,6 +6,7 @@ import geopandas
 import numpy as np
 import pytest
 
+from stereodel import lonlat_to_xyz
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.io import read_points
 
@@ -57,3 +58,34 @@ def test_geojson_keeps_to_its_rfc(folder, run):
     assert "crs" not in data
     for shape in geopandas.read_file(folder / "cells.geojson").explode().geometry:
         assert shape.exterior.is_ccw
+
+
+def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
+    whole = rows(run("voronoi", "cities.csv", "-o", "-"))
+    parts = rows(run("voronoi", "cities.csv", "--clip", "land", "-o", "-"))
+    run("voronoi", "cities.csv", "--clip", "land", "-o", "land.gpkg")
+    cells = geopandas.read_file(folder / "land.gpkg")
+    assert [float(row["area_km2"]) for row in parts] == cells["area_km2"].tolist()
+    assert all(0 < float(part["area_km2"]) < float(row["area_km2"]) for part, row in zip(parts, whole, strict=True))
+    assert cells["area_km2"].sum() == pytest.approx(1.47e8, rel=0.01)
+    square = {"type": "Polygon", "coordinates": [[[9, 47], [11, 47], [11, 49], [9, 49], [9, 47]]]}
+    (folder / "square.geojson").write_text(json.dumps(square), encoding="utf-8")
+    found = rows(run("voronoi", "cities.csv", "--clip", "square.geojson", "-o", "-"))
+    assert [row["name"] for row in found if float(row["area_km2"]) > 0] == ["Ulm"]
+    radius, height = AUTHALIC_RADIUS_KM, np.diff(lonlat_to_xyz([[0, 47], [0, 49]], latitude="authalic")[:, 2])[0]
+    assert float(found[2]["area_km2"]) == pytest.approx(np.radians(2) * height * radius**2, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--clip", "none.geojson", "-o", "a.csv"], "none.geojson: No such file or directory"),
+        (["--clip", "cities.csv", "-o", "a.csv"], "cities.csv: "),
+        (["--clip", "land", "-o", "a.svg"], "a.svg: holds whole cells; leave out --clip"),
+        (["--clip", "land", "--plane", "lon", "lat", "-o", "a.csv"], "--clip is for cells of the sphere"),
+        (["--clip", "land", "-o", "land.gpkg", "--max-segment", "0"], "--max-segment is 0"),
+    ],
+)
+def test_what_cannot_be_clipped(folder, run, options, message):
+    assert message in run("voronoi", "cities.csv", *options, code=2)
+    assert [path.name for path in folder.iterdir()] == ["cities.csv"]

@@ -223,12 +223,13 @@ def test_cuts_are_those_of_antimeridian():
     from stereodel.curves.ragged import Ragged
     from stereodel.io.diagrams import ridge_arcs
     from stereodel.io.faces import voronoi_sides
+    from stereodel.io.layers import unpacked
     from stereodel.io.on_map import close_in_longitude
-    from stereodel.io.tiles import sphere_polygons
+    from stereodel.io.tiles import Net, sphere_polygons
 
     diagram = SphericalVoronoi(RANDOM)
     arcs, sides, step = ridge_arcs(diagram), voronoi_sides(diagram), np.radians(1)
-    cells = sphere_polygons(arcs, sides, 1.0, "spherical")
+    cells = unpacked(sphere_polygons(Net(diagram.vertices, diagram.ridge_vertices), sides, 1.0, "spherical"))
     pieces = Antimeridian().cut(arcs).arcs
     samples = close_in_longitude(pieces.spread(np.ceil((pieces.stop - pieces.begin) / step).astype(int)), step)
     for cell, row in zip(cells, sides, strict=True):

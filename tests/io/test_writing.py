@@ -177,9 +177,51 @@ def test_uxarray_opens_the_grid(tmp_path, points, what):
     assert grid.n_face == ours.sizes["face"]
     assert grid.n_node == ours.sizes["node"]
     assert grid.n_edge == ours.sizes["edge"]
+    for name in ("face_lon", "face_lat", "edge_lon", "edge_lat"):
+        assert (getattr(grid, name).values == ours[name].values).all()
     if len(points) == 60:
         assert (grid.face_node_connectivity.values[:, :3] == ours["face_node_connectivity"].values[:, :3]).all()
         assert grid.n_node - grid.n_edge + grid.n_face == 2
+
+
+@pytest.mark.parametrize("mesh", [SphericalVoronoi(SPHERE), SphericalDelaunay(SPHERE), PlanarVoronoi(PLANE)])
+def test_ugrid_keeps_to_its_conventions(mesh):
+    """UGRID 1.0: attributes of the topology name variables of the right shape; places have standard names and units."""
+    dataset = to_ugrid(mesh)
+    topology, spherical = dataset["mesh"].attrs, mesh.points.shape[1] == 3
+    for location in ("node", "face", "edge"):
+        names = topology[f"{location}_coordinates"].split()
+        assert names == [f"{location}_{axis}" for axis in (("lon", "lat") if spherical else ("x", "y"))]
+        for name, standard, unit in zip(
+            names, ("longitude", "latitude"), ("degrees_east", "degrees_north"), strict=True
+        ):
+            assert dataset[name].dims == (location,)
+            assert np.isfinite(dataset[name]).all()
+            if spherical:
+                assert dataset[name].attrs == {"standard_name": standard, "units": unit}
+    for kind in ("face", "edge"):
+        links = dataset[topology[f"{kind}_node_connectivity"]]
+        assert links.dims[0] == topology[f"{kind}_dimension"] == kind
+        assert links.attrs["start_index"] == 0
+    assert dataset["mesh"].attrs["topology_dimension"] == 2
+
+
+def test_centres_of_ugrid():
+    """Sites of cells; triangles hold theirs; middles of edges are as far from one end as from the other."""
+    cells, triangles = to_ugrid(SphericalVoronoi(SPHERE)), to_ugrid(SphericalDelaunay(SPHERE))
+
+    def places(dataset, location):
+        return lonlat_to_xyz(np.column_stack([dataset[f"{location}_lon"], dataset[f"{location}_lat"]]))
+
+    assert angular_distance(places(cells, "face"), SPHERE[cells["face_point"].values]).max() < 1e-13
+    found = SphericalDelaunay(SPHERE).find_simplex(places(triangles, "face"))
+    assert (found == triangles["face_triangle"].values).all()
+    for dataset in (cells, triangles):
+        ends = places(dataset, "node")[dataset["edge_node_connectivity"].values]
+        middle = places(dataset, "edge")
+        to_both = angular_distance(ends[:, 0], middle), angular_distance(ends[:, 1], middle)
+        assert np.abs(to_both[0] - to_both[1]).max() < 1e-12
+        assert np.abs(to_both[0] + to_both[1] - angular_distance(*ends.transpose(1, 0, 2))).max() < 1e-12
 
 
 def test_datasets_that_are_no_mesh():

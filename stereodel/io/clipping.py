@@ -1,0 +1,138 @@
+"""Polygons on the map cut with others, such as land."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel import data
+from stereodel._arrays import FloatArray, Geometries
+from stereodel.io.layers import ROWS, Packed, is_there, packed, unpacked
+from stereodel.io.on_map import repaired, shapely
+from stereodel.io.shapes import shapes_of
+from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere.latitudes import Latitude
+
+LAND: Final = "land"
+"""What stands for the land of the Earth."""
+
+TILES: Final = (1.40625, 5.625, 22.5, 90.0)
+"""Sides of the squares, degrees, into which what cuts is divided: each a fourth of the next."""
+
+FOURTHS: Final = 4
+
+CORNER: Final = np.array([-180.0, -90.0])
+"""Of the map, from which squares are counted."""
+
+MARGIN: Final = 1 / 64
+"""What a square takes of its neighbours, in terms of its side: what is cut ends before the square does."""
+
+
+def clipped(binary: Packed, clip: Any, latitude: Latitude) -> tuple[Packed, FloatArray]:
+    """Polygons as far as they lie in others, None where they do not, and what share of each one's area that is.
+
+    Lines are straight on the map: those of the polygons follow great circles as closely as they did before, those of
+    what cuts are taken as GIS take them. Crossings are rounded to doubles, by each of two neighbours.
+    """
+    mask, result, share = Mask(clip), binary.copy(), np.zeros(len(binary))
+    for begin in range(0, len(binary), ROWS):
+        rows = begin + np.flatnonzero(is_there(binary[begin : begin + ROWS]))
+        whole = unpacked(binary[rows])
+        cut = mask.cut(whole)
+        result[rows] = packed(cut)
+        changed = ~shapely.equals_identical(cut, whole)
+        share[rows] = 1.0
+        part, of = areas_on_sphere(cut[changed], latitude), areas_on_sphere(whole[changed], latitude)
+        share[rows[changed]] = np.divide(part, of, out=np.zeros_like(part), where=of > 0)
+    return result, share
+
+
+class Mask:
+    """What polygons are cut with.
+
+    Parameters
+    ----------
+    clip
+        "land", or what `shapes_of` takes; in degrees, cut at ±180° or going on beyond.
+    """
+
+    def __init__(self, clip: Any) -> None:
+        shapes = shapes_of(data.land() if isinstance(clip, str) and clip == LAND else clip)
+        if not len(shapes.rings):
+            raise ValueError("clip has no polygons; give land, or polygons to cut with")
+        rings = shapely.linearrings(shapes.rings.values, indices=shapes.rings.row)
+        polygons = shapely.polygons(rings, indices=shapes.ring_polygon)
+        whole = shapely.union_all(repaired(polygons, ~shapely.is_valid(polygons)))
+        world = shapely.box(-180.0, -90.0, 180.0, 90.0)
+        if not shapely.covers(world, whole):
+            west, _, east, _ = np.floor((shapely.bounds(whole) + 180.0) / 360.0).astype(int).tolist()
+            turned = [_moved(whole, -360.0 * turns) for turns in range(west, east + 1)]
+            whole = shapely.intersection(shapely.union_all(turned), world)
+        self._tile = cache(self._made)
+        self._whole = whole
+
+    def _made(self, level: int, x: int, y: int) -> Any:
+        """The part of the whole in a square, cut out of that in the next larger one."""
+        if level == len(TILES):
+            return self._whole
+        side = TILES[level]
+        west, south = np.array([x, y]) * side + CORNER
+        outer = self._tile(level + 1, x // FOURTHS, y // FOURTHS)
+        reach = MARGIN * side
+        return shapely.intersection(
+            outer, shapely.box(west - reach, south - reach, west + side + reach, south + side + reach)
+        )
+
+    def cut(self, polygons: Geometries) -> Geometries:
+        """Polygons as far as they lie in the mask, empty where they do not."""
+        shapely.prepare(self._whole)
+        result = polygons.copy()
+        touched = shapely.intersects(self._whole, polygons)
+        result[~touched] = shapely.Polygon()
+        waiting = np.flatnonzero(touched)
+        waiting = waiting[~shapely.contains_properly(self._whole, polygons[waiting])]
+        for level, side in enumerate(TILES):
+            bounds = shapely.bounds(polygons[waiting])
+            low, high = (np.floor((corner - CORNER) / side) for corner in (bounds[:, :2], bounds[:, 2:]))
+            fits = (low == high).all(axis=1)
+            tiles, number = np.unique(low[fits].astype(int), axis=0, return_inverse=True)
+            for k, (x, y) in enumerate(tiles.tolist()):
+                rows = waiting[fits][number.ravel() == k]
+                result[rows] = _areal(shapely.intersection(polygons[rows], self._tile(level, x, y)))
+            waiting = waiting[~fits]
+        result[waiting] = _areal(shapely.intersection(polygons[waiting], self._whole))
+        return result
+
+
+def _moved(geometry: Any, degrees: float) -> Any:
+    """A geometry farther east."""
+    return shapely.transform(geometry, lambda lonlat: lonlat + np.array([degrees, 0.0]))
+
+
+def _areal(geometries: Geometries) -> Geometries:
+    """Polygons alone, counterclockwise, of what overlays give: where borders touch there are lines and points, too."""
+    mixed = shapely.get_type_id(geometries) == 7
+    for place in np.flatnonzero(mixed | (shapely.get_dimensions(geometries) < 2)).tolist():
+        parts = shapely.get_parts(geometries[place])
+        geometries[place] = shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
+    return np.asarray(shapely.orient_polygons(geometries), dtype=object)
+
+
+def areas_on_sphere(polygons: Geometries, latitude: Latitude) -> FloatArray:
+    """Areas on the unit sphere of polygons whose sides are straight in longitude and its latitude, steradians.
+
+    Along such a side the sine of the latitude is sin(m) sin(d)/d on average, where m is the latitude in the middle and
+    d half of what it grows by; the area between it and the equator is that times its longitudes.
+    """
+    parts, polygon = shapely.get_parts(polygons, return_index=True)
+    rings, part = shapely.get_rings(parts, return_index=True)
+    lonlat, ring = shapely.get_coordinates(rings, return_index=True)
+    if not len(lonlat):
+        return np.zeros(len(polygons))
+    x, y, z = lonlat_to_xyz(lonlat, latitude=latitude).T
+    height, inner = np.arctan2(z, np.hypot(x, y)), ring[1:] == ring[:-1]
+    middle, half = (height[1:] + height[:-1]) / 2, (height[1:] - height[:-1]) / 2
+    below = np.sin(middle) * np.sinc(half / np.pi) * np.radians(np.diff(lonlat[:, 0]))
+    return np.bincount(polygon[part[ring[1:][inner]]], -below[inner], minlength=len(polygons)).astype(np.float64)

@@ -1,0 +1,145 @@
+"""Layers of maps: rows with columns and a geometry each, which stays well-known binary until somebody needs more.
+
+That takes a third of the memory of geometries; the files of GDAL and GeoParquet want it, and Arrow passes it on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import BoolArray, Geometries, Indices
+from stereodel._extras import optional
+
+Packed = npt.NDArray[np.object_]
+"""Geometries as well-known binary, None where there is none."""
+
+Progress = Callable[[float], object]
+"""Told the share of the work that is done, from 0 to 1."""
+
+ROWS: Final = 65_536
+"""Rows that are passed on at once."""
+
+KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "MultiLineString", 6: "MultiPolygon"}
+"""Of geometries, by their numbers in well-known binary; a thousand more has heights."""
+
+ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2, 3)}
+"""What makes a geometry of several parts of one, by its kind, put before it."""
+
+
+def packed(geometries: Geometries) -> Packed:
+    """Shapely's geometries as well-known binary; None for empty ones."""
+    shapely = optional("shapely", "geo")
+    binary: Packed = np.asarray(shapely.to_wkb(geometries, byte_order=1, flavor="iso"), dtype=object)
+    binary[shapely.is_empty(geometries)] = None
+    return binary
+
+
+def unpacked(binary: Packed) -> Geometries:
+    """Well-known binary as Shapely's geometries."""
+    return np.asarray(optional("shapely", "geo").from_wkb(binary), dtype=object)
+
+
+def is_there(binary: Packed) -> BoolArray:
+    """Which rows have a geometry."""
+    return np.array([cell is not None for cell in binary.tolist()], dtype=np.bool_)
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """Rows of a map.
+
+    Attributes
+    ----------
+    columns : mapping of str to (n,) array
+        Of NumPy, pandas or Arrow.
+    binary : (n,) array of bytes
+        Geometries, None where there is none.
+    crs
+        Coordinate system, as pyproj takes it; None where it is not known.
+    name : str
+        Of the column of geometries.
+    """
+
+    columns: Mapping[str, Any]
+    binary: Packed
+    crs: Any = None
+    name: str = "geometry"
+
+    @classmethod
+    def of_frame(cls, frame: Any) -> Layer:
+        """The rows of a GeoDataFrame; of several columns of geometries the others as well-known text."""
+        shapely, active = optional("shapely", "geo"), frame.geometry.name
+        columns = {
+            str(name): shapely.to_wkt(np.asarray(frame[name])) if frame[name].dtype == "geometry" else frame[name]
+            for name in frame.columns
+            if name != active
+        }
+        return cls(columns, packed(np.asarray(frame.geometry, dtype=object)), frame.crs, str(active))
+
+    def __len__(self) -> int:
+        return len(self.binary)
+
+    def take(self, rows: Indices | BoolArray | slice) -> Layer:
+        """Some of the rows."""
+        columns = {name: getattr(values, "iloc", values)[rows] for name, values in self.columns.items()}
+        return Layer(columns, self.binary[rows], self.crs, self.name)
+
+    def blocks(self, progress: Progress | None = None) -> Iterator[Layer]:
+        """The rows piece by piece."""
+        for begin in range(0, len(self), ROWS):
+            yield self.take(slice(begin, begin + ROWS))
+            if progress is not None:
+                progress(min(1.0, (begin + ROWS) / len(self)))
+
+    def frame(self) -> Any:
+        """The rows as a GeoDataFrame."""
+        geopandas = optional("geopandas", "geo")
+        return geopandas.GeoDataFrame(
+            {**self.columns, self.name: unpacked(self.binary)}, geometry=self.name, crs=self.crs
+        )
+
+    @cached_property
+    def kinds(self) -> list[str]:
+        """The kinds of its geometries."""
+        found = {int.from_bytes(cell[1:5], "little") for cell in self.binary.tolist() if cell is not None}
+        return [KINDS.get(kind % 1000, "GeometryCollection") + (" Z" if kind > 1000 else "") for kind in sorted(found)]
+
+    def several(self) -> Layer:
+        """The same with geometries of several parts throughout, where some are, as formats with one kind want it."""
+        if not any(kind.startswith("Multi") for kind in self.kinds):
+            return self
+        cells = [cell and ONE.get(int.from_bytes(cell[1:5], "little"), b"") + cell for cell in self.binary.tolist()]
+        binary = np.empty(len(cells), dtype=object)
+        binary[:] = cells
+        return replace(self, binary=binary)
+
+    def batches(self, progress: Progress | None = None) -> tuple[Any, Iterator[Any]]:
+        """The rows as record batches of Arrow, and their schema, with geometries as binary in the last column."""
+        arrow = optional("pyarrow", "geo")
+        whole = replace(self, columns={name: arrow_column(values) for name, values in self.columns.items()})
+        fields = [arrow.field(name, values.type) for name, values in whole.columns.items()]
+        known = {"ARROW:extension:name": "geoarrow.wkb", "ARROW:extension:metadata": "{}"}
+        schema = arrow.schema([*fields, arrow.field(self.name, arrow.binary(), metadata=known)])
+        return schema, (
+            arrow.record_batch([*block.columns.values(), arrow.array(block.binary, arrow.binary())], schema=schema)
+            for block in whole.blocks(progress)
+        )
+
+
+def arrow_column(values: Any) -> Any:
+    """A column of Arrow; what has no type there, such as whole numbers of any size, as text."""
+    arrow = optional("pyarrow", "geo")
+    try:
+        column = arrow.array(values, from_pandas=True)
+    except (arrow.ArrowInvalid, arrow.ArrowTypeError, arrow.ArrowNotImplementedError, OverflowError):
+        cells = np.asarray(values, dtype=object).tolist()
+        column = arrow.array([None if cell is None or cell != cell else str(cell) for cell in cells], arrow.string())
+    if isinstance(column, arrow.ChunkedArray):
+        column = column.combine_chunks()
+    return column.cast(arrow.string()) if arrow.types.is_null(column.type) else column
