@@ -94,6 +94,7 @@ docs: $(VENV)/installed-docs system ## build the documentation into docs/_build/
 	@rm -rf docs/_build docs/gallery docs/api/generated
 	$(BIN)/python -m sphinx -W --keep-going -q -d docs/_build/doctrees -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html
+	$(BIN)/python tools/searches.py docs/_build/html
 	@echo "Open docs/_build/html/index.html"
 
 test-pythons: system ## run the tests on the other Python versions found here

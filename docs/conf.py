@@ -48,30 +48,16 @@ html_theme_options = {
     "navigation_with_keys": False,
     "show_prev_next": False,
     "navbar_align": "left",
-    "header_links_before_dropdown": 8,
+    "header_links_before_dropdown": 5,
+    "navigation_depth": 2,
     "footer_start": ["copyright"],
     "footer_end": [],
-    "secondary_sidebar_items": {"**": ["page-toc"], "paper": [], "index": []},
+    "secondary_sidebar_items": {"**": ["page-toc"], "index": [], "paper": []},
 }
 html_sidebars = {
-    page: []
-    for page in (
-        "index",
-        "names",
-        "conventions",
-        "earth",
-        "exactness",
-        "files",
-        "map_libraries",
-        "spatial",
-        "degenerate",
-        "paper",
-        "theorem",
-        "references",
-        "flat_regions",
-        "benchmarks",
-        "changelog",
-    )
+    "**": ["sidebar-nav-bs"],
+    # The first page has no section; the widest tables want its room.
+    **{page: [] for page in ("index", "paper", "names", "benchmarks")},
 }
 
 sphinx_gallery_conf = {

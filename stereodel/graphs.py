@@ -1,7 +1,7 @@
-"""Proximity graphs and hulls, as parts of a Delaunay triangulation, decided exactly.
+"""Proximity graphs and hulls, as subgraphs of a Delaunay triangulation, decided exactly.
 
-Each is part of the next: minimum spanning tree, relative neighbourhood graph, Urquhart graph, Gabriel graph, Delaunay
-triangulation.
+Each is a subgraph of the next: minimum spanning tree, relative neighbourhood graph, Urquhart graph, Gabriel graph,
+Delaunay triangulation.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def gabriel_graph(
     latitude: Latitude | None = None,
     workers: int | None = None,
 ) -> IntArray:
-    """Edges whose diametral circle holds no other point, neither inside nor on it.
+    """Edges whose diametral circle contains no other point, neither inside nor on it.
 
     Parameters
     ----------
@@ -87,11 +87,11 @@ def gabriel_graph(
     Notes
     -----
     The diametral circle of an edge ab has it as diameter; on the sphere it is the smallest circle through a and b, and
-    holds p exactly if (â − p̂)·(b̂ − p̂) ≤ 0. Opposite directions have none and are joined only if they are the only
-    ones. The disk is closed: a point on the circle forbids the edge, so a square has its sides and no diagonal. Hence
-    the graph is a part of every Delaunay triangulation of the points, however ties are decided, and no order of the
-    points changes it. Dropped duplicates have no edges. All decisions are those of exact arithmetic on the given
-    doubles.
+    holds p exactly if (â − p̂)·(b̂ − p̂) ≤ 0. Antipodal directions have none and are joined only if they are the only
+    ones. The disc is closed: a point on the circle excludes the edge, so a square has its sides and no diagonal. Hence
+    the graph is a subgraph of every Delaunay triangulation of the points, however ties are decided, and does not depend
+    on the order of the points. Dropped duplicates have no edges. All decisions are those of exact arithmetic on the
+    given doubles.
 
     Source: K. Gabriel, R. Sokal, "A new statistical approach to geographic variation analysis" (1969); D. Matula,
     R. Sokal, "Properties of Gabriel graphs relevant to geographic variation research and the clustering of points in
@@ -134,7 +134,7 @@ def urquhart_graph(
 
     Notes
     -----
-    A triangle with two or three equally longest edges loses none of them: so the relative neighbourhood graph is always
+    A triangle with two or three equally long longest edges loses none: so the relative neighbourhood graph is always
     a part. All facets count on the sphere, those that are closing too. The graph depends on the triangulation where
     more than three points lie on one empty circle; their triangulation depends on the points alone, so no order of the
     points changes it. Without triangles it is the Gabriel graph. Dropped duplicates have no edges. All decisions are
@@ -178,13 +178,13 @@ def relative_neighborhood_graph(
 
     Notes
     -----
-    Points that are equally near forbid nothing: an equilateral triangle has its three sides. Distances on the sphere
+    Equally near points exclude nothing: an equilateral triangle has its three sides. Distances on the sphere
     are angles. The graph depends on the points alone. Dropped duplicates have no edges. All decisions are those of
     exact arithmetic on the given doubles.
 
-    Source: G. Toussaint, "The relative neighbourhood graph of a finite planar set" (1980). It is looked for among the
+    Source: G. Toussaint, "The relative neighbourhood graph of a finite planar set" (1980). It is sought among the
     edges of the Urquhart graph. A third point in the lune of ab is reached from a along Delaunay edges between points
-    that are nearer to a than b is, and from b alike; both searches go on in turn until one of them is through.
+    that are nearer to a than b is, and likewise from b; both searches alternate until one of them is exhausted.
 
     Examples
     --------
@@ -203,7 +203,7 @@ def minimum_spanning_tree(
     latitude: Latitude | None = None,
     workers: int | None = None,
 ) -> IntArray:
-    """The tree of least total length that joins all points.
+    """The spanning tree of least total length.
 
     Parameters
     ----------
@@ -214,7 +214,7 @@ def minimum_spanning_tree(
     Returns
     -------
     (k - 1, 2) array of int32
-        Edges i < j between k different points, in lexicographic order; read-only. None for fewer than two.
+        Edges i < j between k distinct points, in lexicographic order; read-only. None for fewer than two.
 
     Raises
     ------
@@ -222,10 +222,10 @@ def minimum_spanning_tree(
 
     Notes
     -----
-    Lengths are distances in the plane, angles on the sphere; any function of them that grows, as the chord, has the
+    Lengths are distances in the plane, angles on the sphere; any increasing function of them, as the chord, has the
     same tree. Edges are compared exactly, equally long ones by their ends: the one with the lexicographically lower
     first end comes first (on the sphere in the order of the unit vectors), then the one with the lower second end. So
-    of several trees of the same length one is chosen by the points alone, and no order of the points changes it.
+    of several trees of the same length the points alone determine which is chosen; their order does not matter.
     Dropped duplicates have no edges.
 
     Source: J. Kruskal, "On the shortest spanning subtree of a graph and the traveling salesman problem" (1956), on the
@@ -271,7 +271,7 @@ def hull(
     Notes
     -----
     The hull on the sphere is bounded by arcs of great circles; there is one if and only if the points lie in an open
-    hemisphere. Points within a side are no corners, unlike the ends of the edges of `convex_hull`, which points split.
+    hemisphere. Points within a side are not corners, unlike the ends of the edges of `convex_hull`.
     A dropped duplicate is never a corner. All decisions are those of exact arithmetic on the given doubles.
 
     Examples
@@ -306,7 +306,7 @@ def hull_area(
     Returns
     -------
     float
-        In squares of the plane's unit, on the sphere in steradians: times the square of a radius it is the area there.
+        In squares of the plane's unit, on the sphere in steradians; multiply by the square of the radius.
         0 without triangles.
 
     Raises
@@ -315,7 +315,7 @@ def hull_area(
 
     Notes
     -----
-    The sum of the triangles of the first corner and each side that does not meet it. SciPy's `ConvexHull` calls it
+    The sum of the triangles of the first corner and each side not at it. SciPy's `ConvexHull` calls it
     volume.
 
     Examples
@@ -351,7 +351,7 @@ def hull_perimeter(
     Returns
     -------
     float
-        In the plane's unit, on the sphere in degrees. For points of a line or an arc twice its length, there and back.
+        In the plane's unit, on the sphere in degrees. For points of a line or an arc, twice its length.
 
     Raises
     ------

@@ -1,6 +1,6 @@
-"""Arrays of xarray: values at scattered points or on a grid of their own, interpolated at other places.
+"""Arrays of xarray: values at scattered points or on a grid, interpolated at other points.
 
-``import stereodel.xarray`` gives every DataArray the accessor ``stereodel``. Arrays of dask stay lazy.
+``import stereodel.xarray`` gives every DataArray the accessor ``stereodel``. Dask arrays stay lazy.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _WORDS = {
 
 
 class StereodelAccessor:
-    """What ``array.stereodel`` offers.
+    """The accessor ``array.stereodel``.
 
     Parameters
     ----------
@@ -54,40 +54,40 @@ class StereodelAccessor:
         extrapolate: str | None = None,
         workers: int | None = None,
     ) -> xarray.DataArray:
-        """Values at other places of the sphere.
+        """Values at other points of the sphere.
 
         Parameters
         ----------
         lon, lat : DataArray, number or (k,) array_like
-            Where values are wanted, in degrees. DataArrays of one and the same dimension are points, or a curvilinear
+            Query points, in degrees. DataArrays of the same dimension are points, or a curvilinear
             grid if they have two; of different dimensions, and lists of numbers, they are the axes of a grid.
         method : {"linear", "nearest", "natural", "smooth"}, optional
             As for `stereodel.interpolation.griddata`.
         latitude : {"spherical", "geodetic", "authalic"}, optional
-            What kind of latitude all these are, as for `stereodel.lonlat_to_xyz`.
+            The kind of all latitudes, as in `stereodel.lonlat_to_xyz`.
         source : tuple of two names, optional
-            The coordinates that tell longitude and latitude of the values. By default they are found by their names
-            ("lon", "longitude", …), standard names or units.
+            The coordinates that hold longitude and latitude of the values. By default they are recognised by their
+            names ("lon", "longitude", …), standard names or units.
         extrapolate : "nearest", optional
             As for `stereodel.interpolation.LinearInterpolator`; not with "nearest".
         workers : int, optional
-            Threads of the search for places.
+            Threads of the point location.
 
         Returns
         -------
         xarray.DataArray
-            The dimensions of the values without those of the source, then those of the places, with the coordinates of
+            The dimensions of the values without those of the source, then those of the queries, with the coordinates of
             both; doubles; name and attributes of the values. Lazy, if the values are.
 
         Raises
         ------
         ValueError
-            For values without such coordinates, or with several; for places with a dimension that the values have too,
+            For values without such coordinates, or with several; for queries with a dimension that the values have too,
             beside those of the source.
 
         Notes
         -----
-        The dimensions of the source's longitude and latitude are those of the points, wherever they stand: one for
+        The dimensions of the source's longitude and latitude, at any position, are those of the points: one for
         stations, two for a grid. The triangulation is made once, and so are the weights: each further field, hour or
         level costs a product with a sparse matrix. For "smooth" gradients are estimated for each.
 
@@ -107,7 +107,7 @@ class StereodelAccessor:
         points, wanted = sites.labels.dims, places.labels.dims
         common = set(wanted) & (set(self._values.dims) - set(points))
         if common:
-            raise ValueError(f"lon and lat have the dimension {common.pop()!r}, which the values have too; rename it")
+            raise ValueError(f"lon and lat have the dimension {common.pop()!r}, which the values also have; rename it")
         triangulation = SphericalDelaunay.from_lonlat(sites.pairs.reshape(-1, 2), latitude=latitude, workers=workers)
         options = {} if extrapolate is None else {"extrapolate": extrapolate}
         function = _fields(as_method(method), triangulation, places.pairs, options, workers)
@@ -147,8 +147,8 @@ class StereodelAccessor:
             or str(name).lower() in (kind, standard)
         ]
         if len(names) != 1:
-            which = f"several: {', '.join(map(str, names))}" if names else "none"
-            raise ValueError(f"the values need one coordinate of {standard}, there is {which}; name two by source=")
+            found = f"are several: {', '.join(map(str, names))}" if names else "is none"
+            raise ValueError(f"the values need one coordinate of {standard}, but there {found}; name two by source=")
         return names[0]
 
 

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from stereodel._extras import EXTRAS
+
 ROOT = Path(__file__).resolve().parent.parent
 LEDGER = (ROOT / "docs" / "paper.md").read_text(encoding="utf-8")
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -75,6 +77,54 @@ def test_the_examples_of_a_page_run(page):
     code = "\n".join(re.findall(r"```python\n(.*?)```", text, re.DOTALL))
     assert code
     exec(compile(code, f"docs/{page}.md", "exec"), {})
+
+
+@pytest.mark.parametrize("page", ["start", "tour"])
+def test_a_page_runs_cell_by_cell(page, tmp_path, monkeypatch, capsys):
+    """As a notebook does: one namespace, one folder, and after each cell what the page says that it prints."""
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    cells = re.findall(r"```python\n(.*?)```(?:\s+```text\n(.*?)```)?", text, re.DOTALL)
+    assert len(cells) >= 4
+    names = {}
+    for code, printed in cells:
+        exec(compile(code, f"docs/{page}.md", "exec"), names)
+        assert capsys.readouterr().out == printed
+
+
+def toctree(page):
+    """The pages below a page, and what the navigation calls them."""
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    (entries,) = re.findall(r"```\{toctree\}\n:hidden:\n\n(.*?)```", text, re.DOTALL)
+    return dict(reversed(re.fullmatch(r"(.*) <(.*)>", line).groups()) for line in entries.splitlines())
+
+
+GROUPS = ["start", "guides", "reference", "background"]
+
+
+def test_every_page_is_in_one_group():
+    pages = sorted(path.stem for path in (ROOT / "docs").glob("*.md") if path.stem not in ("index", *GROUPS))
+    below = [page for group in GROUPS for page in toctree(group) if "/" not in page]
+    assert sorted(below) == pages
+    assert list(toctree("index")) == [*GROUPS[:2], "gallery/index", *GROUPS[2:]]
+
+
+@pytest.mark.parametrize("page", ["index", *GROUPS])
+def test_a_page_says_what_is_below_it(page):
+    text = (ROOT / "docs" / f"{page}.md").read_text(encoding="utf-8")
+    assert [name for name in toctree(page) if f"{{doc}}`{name}`" not in text] == []
+
+
+def test_the_header_holds_every_group_in_one_line():
+    """Five links and the search fit 1280 pixels; with more the theme folds the rest away or takes a second line."""
+    conf = (ROOT / "docs" / "conf.py").read_text(encoding="utf-8")
+    assert len(toctree("index")) <= int(re.search(r'"header_links_before_dropdown": (\d+)', conf)[1]) <= 5
+
+
+def test_the_start_page_lists_every_extra():
+    text = (ROOT / "docs" / "start.md").read_text(encoding="utf-8")
+    table = re.search(r"\| extra \|.*?\n\n", text, re.DOTALL)[0]
+    assert re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) == list(EXTRAS)
 
 
 @pytest.mark.parametrize("page", ["theorem"])

@@ -31,7 +31,13 @@ OPTIONS: Final = {
     "skip_missing": "--skip-missing",
     "max_segment": "--max-segment",
     "latitude": "--latitude",
+    "levels": "--levels",
+    "magnification": "--magnify",
     "angular_radius": "--angular-radius",
+    "spacing": "--graticule",
+    "seconds": "--seconds",
+    "fps": "--fps",
+    "size": "--size",
 }
 """Arguments of the library that messages name, and the options that stand for them here."""
 
@@ -96,7 +102,7 @@ def _interrupted(reason: str = "") -> typer.Exit:
 
 
 def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
-    """A message in the words of the command line.
+    """A message in the words of the command line. Names of columns, which follow the number of a row, stay.
 
     Examples
     --------
@@ -104,19 +110,31 @@ def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
     "no column looks like the latitude; say which with --lat, the columns are 'a', 'b'"
     >>> in_options("max_segment is 0.0, but must be above 0")
     '--max-segment is 0.0, but must be above 0'
+    >>> in_options("lon and lat are both the column 'x'")
+    "--lon and --lat are both the column 'x'"
+    >>> in_options("levels[1] is nan; every value must be a finite number")
+    '--levels is nan; every value must be a finite number'
+    >>> in_options("a.csv: row 2: size is missing; leave such rows out with skip_missing=True")
+    'a.csv: row 2: size is missing; leave such rows out with --skip-missing'
     """
+    names = "|".join(options)
+    advised = rf"(?<=with )(?P<advised>{names})\b(?:=True|=)?"
+    wrong = rf"(?:^|(?<=: )|(?<=and ))(?P<wrong>{names})(?:\[[\d, ]*\])?(?= (?:is|are|must|and)\b)"
 
     def option(found: re.Match[str]) -> str:
-        if found["alone"]:
-            return f"with {options[found['alone']]}"
-        return f"{found['before']}{options[found['name']]}{found['after'].rstrip('=')}"
+        of_a_row = re.search(r"row \d+: $", message[: found.start()])
+        return found[0] if of_a_row else options[found["advised"] or found["wrong"]]
 
-    names = "|".join(options)
-    return re.sub(
-        rf"(?P<before>^|: |with )(?P<name>{names})(?P<after>=| (?=is |are |must ))|with (?P<alone>{names})\b",
-        option,
-        message,
-    )
+    return re.sub(f"{advised}|{wrong}", option, message)
+
+
+@contextmanager
+def naming_options(**options: str) -> Iterator[None]:
+    """Let errors in here name other options than those of `OPTIONS`, such as ``lon="--of-lon"``."""
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(in_options(str(error), options)) from error
 
 
 def _in_one_line(error: Exception) -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stereodel.cli import options
-from stereodel.cli.failures import in_options
+from stereodel.cli.failures import naming_options
 
 if TYPE_CHECKING:
     from stereodel._arrays import FloatArray
@@ -96,9 +96,10 @@ def command(
         filled = replace(wanted, values=values, units=dict(zip(value, unit or (), strict=False)))
         destination.write(lambda path: write(path, filled))
         return
-    asking = read(
-        str(at), lon=at_lon, lat=at_lat, plane=plane, layer=at_layer_name, crs=at_crs, skip_missing=skip_missing
-    )
+    with naming_options(lon="--at-lon", lat="--at-lat", layer="--at-layer-name", crs="--at-crs"):
+        asking = read(
+            str(at), lon=at_lon, lat=at_lat, plane=plane, layer=at_layer_name, crs=at_crs, skip_missing=skip_missing
+        )
     results = dict(zip(value, interpolated(asking.points(latitude)).T, strict=True))
     columns = asking.beside(results, taken=["geometry"])
     destination.write(lambda path: save_table(path, asking.axes, columns))
@@ -129,7 +130,5 @@ def _grid(spacing: float, box: str | None, centers: bool) -> Grid:
     from stereodel.io import Grid
 
     bounds = None if box is None else options.box_of(box, "--box")
-    try:
+    with naming_options(spacing="--grid", lon="--grid", lat="--grid", bounds="--box"):
         return Grid.regular(spacing, bounds, centers=centers)
-    except ValueError as error:
-        raise ValueError(in_options(str(error), {"spacing": "--grid", "bounds": "--box"})) from error

@@ -56,6 +56,7 @@ def command(
     distance. With several sites a point has several rows, ranked from 1; one without any has none.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
+    from stereodel.cli.failures import naming_options
     from stereodel.cli.progress import say
     from stereodel.cli.sources import read
 
@@ -63,9 +64,10 @@ def command(
     if sites == queries == "-":
         raise ValueError("SITES and --of cannot both be stdin")
     chosen = read(sites, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
-    asking = read(
-        queries, lon=of_lon, lat=of_lat, plane=plane, layer=of_layer_name, crs=of_crs, skip_missing=skip_missing
-    )
+    with naming_options(lon="--of-lon", lat="--of-lat", layer="--of-layer-name", crs="--of-crs"):
+        asking = read(
+            queries, lon=of_lon, lat=of_lat, plane=plane, layer=of_layer_name, crs=of_crs, skip_missing=skip_missing
+        )
     pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
     columns = _columns(chosen, asking, pairs, _kept(chosen, keep), ranked=count > 1)
     destination.write(lambda path: save_table(path, asking.axes, columns))

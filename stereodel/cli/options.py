@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from math import isfinite
 from typing import Annotated
 
 import typer
-
-from stereodel._arrays import as_lonlat
 
 
 class Latitude(StrEnum):
@@ -64,12 +63,16 @@ Plane = Annotated[
 
 
 def pair(text: str, option: str, meaning: str) -> tuple[float, float]:
-    """Two numbers with a comma between them, such as ``10.5,48``."""
+    """Longitude and latitude with a comma between them, such as ``10.5,48``."""
     try:
-        first, second = (float(part) for part in text.split(","))
+        lon, lat = (float(part) for part in text.split(","))
     except ValueError:
         raise ValueError(f"{option} is {text!r}, but must be {meaning}, e.g. {option}=10.5,48") from None
-    return first, second
+    if not isfinite(lon):
+        raise ValueError(f"{option} is {text!r}, but its longitude must be finite")
+    if not -90 <= lat <= 90:
+        raise ValueError(f"{option} is {text!r}, but its latitude is outside [-90, 90]; the longitude comes first")
+    return lon, lat
 
 
 def box_of(text: str, option: str) -> tuple[float, float, float, float]:
@@ -78,7 +81,8 @@ def box_of(text: str, option: str) -> tuple[float, float, float, float]:
         west, south, east, north = (float(part) for part in text.split(","))
     except ValueError:
         raise ValueError(f"{option} is {text!r}, but must be W,S,E,N in degrees, e.g. {option}=-25,34,45,72") from None
-    as_lonlat([(west, south), (east, north)], option)
-    if not south < north:
-        raise ValueError(f"{option} is {text!r}, but its south border must be below its north border")
+    if not (isfinite(west) and isfinite(east)):
+        raise ValueError(f"{option} is {text!r}, but its west and east borders must be finite")
+    if not -90 <= south < north <= 90:
+        raise ValueError(f"{option} is {text!r}, but its south border must be below its north border in [-90, 90]")
     return west, south, east if east > west else east + 360.0, north

@@ -24,17 +24,17 @@ def bubble_to_bubble(
     *,
     turn: float = 0.0,
 ) -> MoebiusMap:
-    """The conformal map that takes one bubble onto another and one point inside to another.
+    """The conformal map that takes one bubble to another and a point inside to a point inside.
 
     Parameters
     ----------
     source, target : SphereCircle
-        The bubbles are the interiors n·x > offset; use `small_bubble` or `large_bubble` for the side that you mean.
+        The bubbles are the interiors n·x > offset; use `small_bubble` or `large_bubble` to choose the side.
     source_point, target_point : array_like, shape (2,) or (3,), optional
         Points strictly inside the bubbles, (lon, lat) in degrees or directions; by default the centres.
     turn : float
-        Degrees by which the image is turned counterclockwise about `target_point`, seen from outside the sphere. At 0 a
-        bubble that is mapped onto itself with its point fixed stays as it is, and centres are carried along the great
+        Degrees by which the image is rotated counterclockwise about `target_point`, seen from outside the sphere. At 0,
+        a bubble that is mapped onto itself with its point fixed is unchanged, and centres are carried along the great
         circle between them (`Rotation.between`).
 
     Returns
@@ -45,12 +45,12 @@ def bubble_to_bubble(
     Raises
     ------
     ValueError
-        When a point does not lie strictly inside its bubble, by more than what stored points and circles are off
+        When a point does not lie strictly inside its bubble, by more than the rounding of stored points and circles
         (2 · `STORED_ERROR`), and when a bubble or its complement is so small that no point does.
 
     Notes
     -----
-    Both bubbles are taken onto the northern hemisphere with their points at the pole: by the fisheye at the centre of
+    Both bubbles are mapped onto the northern hemisphere with their points at the pole: by the fisheye at the centre of
     magnification cot(α/2), α the angular radius, and by a fisheye at a point of the equator, which keeps the equator.
 
     Examples

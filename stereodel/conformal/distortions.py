@@ -1,4 +1,4 @@
-"""How a conformal map changes sizes over a region: closed formulas for bubbles, counts for points.
+"""How a conformal map changes sizes over a region: closed formulas for bubbles, sums for points.
 
 The scale at the distance χ from the focus is 1/(a − b cos χ) with a = (S + 1/S)/2 and b = (S − 1/S)/2. It falls from
 the focus to its antipode, so that on a bubble it is largest nearest to the focus and smallest farthest from it, and its
@@ -24,7 +24,7 @@ LonLat = tuple[float, float]
 
 @dataclass(frozen=True)
 class Distortion:
-    """What a map does to sizes over a region; angles stay as they are.
+    """How a map changes sizes over a region; angles are preserved.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ class Distortion:
 
 
 def distortion(conformal: MoebiusMap, region: SphereCircle | npt.ArrayLike) -> Distortion:
-    """How much a conformal map magnifies a region: least, most, on average, in area, and where.
+    """How much a conformal map magnifies a region: least, most, on average and in area, and where.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def distortion(conformal: MoebiusMap, region: SphereCircle | npt.ArrayLike) -> D
     Returns
     -------
     Distortion
-        Of a bubble from closed formulas, of points from the scale at each.
+        For a bubble by closed formulas, for points from the scale at each.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def distortion(conformal: MoebiusMap, region: SphereCircle | npt.ArrayLike) -> D
         return _over_bubble(conformal, region)
     points = as_sphere_points(region, "region")
     if len(points) == 0:
-        raise ValueError("region has no points")
+        raise ValueError("region is empty; give a circle, or at least one point")
     scale = conformal.scale_factor(points)
     low, high = int(np.argmin(scale)), int(np.argmax(scale))
     places = _place(points[low]), _place(points[high])

@@ -11,14 +11,14 @@ from stereodel.sphere import Rotation, as_direction
 
 @by_name("magnification= is a keyword")
 def fisheye(focus: npt.ArrayLike, *, magnification: float) -> MoebiusMap:
-    """The conformal map that enlarges the surroundings of a focus S times and lets the rest shrink.
+    """The conformal map that enlarges the surroundings of a focus S times and shrinks the rest.
 
     Parameters
     ----------
     focus : array_like, shape (2,) or (3,)
         (lon, lat) in degrees or a direction.
     magnification : float
-        S > 0; below 1 the surroundings shrink. From 1e-9 to 1e9 the accuracy of `MoebiusMap` is tested.
+        S > 0; below 1 the surroundings shrink. The accuracy of `MoebiusMap` is tested from 1e-9 to 1e9.
 
     Returns
     -------

@@ -43,7 +43,7 @@ def fixed_points_of(element: Biquaternion) -> FloatArray:
     """Unit vectors (2, 3), (1, 3) when parabolic: first where the map magnifies or turns counterclockwise."""
     kind = kind_of(element)
     if kind == "identity":
-        raise ValueError("the identity has no fixed points of its own: it moves nothing")
+        raise ValueError("every point is a fixed point of the identity")
     element = principal(element)
     if kind == "parabolic":
         real, imag = element.vector.re, element.vector.im

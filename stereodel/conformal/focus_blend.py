@@ -1,4 +1,4 @@
-"""Several foci at once: a map that is not conformal, and says by how much.
+"""Several foci at once: a map that is not conformal, and reports by how much.
 
 No conformal map has two foci. The conformal maps of the whole sphere onto itself are the Möbius maps (Liouville's
 theorem says the same of space, H. A. Schwarz's of the sphere), and the scale of one is 1/(a − b·x): it has one maximum.
@@ -48,7 +48,7 @@ class FocusBlend:
         Angular radius of the discs in degrees, in (0, 180). By default (0) half the smallest distance between two foci,
         so that discs touch; 90 for a single focus.
     limit : float, optional
-        Largest angular distortion, degrees in (0, 180): by how much an angle may be off in the rings. The smaller it is
+        Largest angular distortion, degrees in (0, 180): by how much an angle may differ in the rings. The smaller it is
         and the larger S, the smaller are the cores: their radius goes like S to the power −1/(¾(1 − E)).
 
     Raises
@@ -71,7 +71,7 @@ class FocusBlend:
     def __post_init__(self) -> None:
         foci = units(as_sphere_points(self.foci, "foci"))
         if len(foci) == 0:
-            raise ValueError("foci has no points: one is needed at least")
+            raise ValueError("foci is empty; give at least one point")
         sizes = as_floats(self.magnification, "magnification")
         if sizes.shape not in {(), (len(foci),)}:
             raise ValueError(f"magnification must be one number or {len(foci)}, one for each focus, got {sizes.shape}")
@@ -98,7 +98,7 @@ class FocusBlend:
         return both.max(axis=-1), both.min(axis=-1)
 
     def angular_distortion(self, xyz: npt.ArrayLike) -> FloatArray:
-        """By how many degrees an angle at directions (..., 3) is off at most: 2 arcsin((a − b)/(a + b)).
+        """The largest change of an angle at directions (..., 3), degrees: 2 arcsin((a − b)/(a + b)).
 
         The scales a ≥ b are those of `stretches` (A. Tissot, "Mémoire sur la représentation des surfaces", 1881).
         """

@@ -67,7 +67,7 @@ def from_lorentz(matrix: FloatArray) -> Parts:
     _check_magnification(magnification)
     polar = matrix[:3, :3] - np.outer(column, row) / (1 + gamma)
     if determinant(polar) < 0:
-        raise ValueError("matrix mirrors the sphere: its determinant must be +1")
+        raise ValueError("matrix is a reflection of the sphere: its determinant must be +1")
     turn = Rotation.nearest(polar)
     if sinh == 0:
         return Rotation.identity(), 1.0, turn
@@ -97,6 +97,6 @@ def _check_magnification(magnification: float) -> None:
     # 2 cosh η = S + 1/S stands for S too; the margin keeps S = 1e6 itself on the good side of rounding.
     if magnification > MATRIX_MAGNIFICATION * (1 + MATRIX_ERROR):
         raise ValueError(
-            f"matrix has magnification {magnification:g}, above {MATRIX_MAGNIFICATION:g}: its doubles do not hold "
-            "the map; build it from fisheye and rotation with @"
+            f"matrix has magnification {magnification:g}, above {MATRIX_MAGNIFICATION:g}: its doubles do not "
+            "determine the map; build it from fisheye and rotation with @"
         )

@@ -1,4 +1,4 @@
-"""The conformal maps of the sphere that keep orientation: Möbius transformations (claims P15 to P19 of the paper)."""
+"""The orientation-preserving conformal maps of the sphere: Möbius transformations (claims P15 to P19 of the paper)."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class MoebiusMap:
     """A conformal map of the sphere: rotation `right`, then the fisheye along +z, then rotation `left`.
 
     The map is the one that these parameters define exactly. Use `identity`, `rotation`, `from_matrix`, `fisheye` or
-    `bubble_to_bubble` to make one, `@` and `inverse` to go on.
+    `bubble_to_bubble` to make one, `@` and `inverse` to combine them.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class MoebiusMap:
 
     Notes
     -----
-    Images are exact up to 4·2⁻⁵² for a point within 4·2⁻⁵² rad of the given one, also next to the focus and its
+    Images are exact up to 4·2⁻⁵² for a point within 4·2⁻⁵² rad of the given one, also near the focus and its
     antipode. That leaves room for parameters that were rounded once, as by `fisheye` and `@`: for the stored ones an
     image is off by less than 13·2⁻⁵³ + scale·2⁻⁷³ and by less than (1 + scale)·6·2⁻⁵³ (derived in
     ``stereodel/kernel/conformal/moebius.cpp``). Circles and arcs are mapped in double-double and rounded once.
@@ -75,7 +75,7 @@ class MoebiusMap:
 
     @classmethod
     def identity(cls) -> MoebiusMap:
-        """The map that moves nothing."""
+        """The identity map."""
         return cls(Rotation.identity(), 1.0, Rotation.identity())
 
     @classmethod
@@ -98,7 +98,7 @@ class MoebiusMap:
         Raises
         ------
         ValueError
-            For another shape, a singular matrix, one outside the group by more than `MATRIX_ERROR`, one that mirrors,
+            For another shape, a singular matrix, one outside the group by more than `MATRIX_ERROR`, a reflection,
             or a magnification above `MATRIX_MAGNIFICATION`.
 
         Examples
@@ -118,13 +118,13 @@ class MoebiusMap:
 
     @property
     def peak(self) -> tuple[FloatArray, float]:
-        """Where the scale is largest, a unit vector, and that scale: the focus and S, or its antipode and 1/S."""
+        """The point of largest scale, a unit vector, and that scale: the focus and S, or its antipode and 1/S."""
         focus, size = self.focus, self.magnification
         return (focus, size) if size >= 1 else (-focus + 0.0, 1 / size)
 
     @property
     def matrix(self) -> FloatArray:
-        """The 4×4 Lorentz matrix, rounded once; for large S the doubles of it no longer hold the map."""
+        """The 4×4 Lorentz matrix, rounded once; for large S its doubles no longer determine the map."""
         return lorentz_matrix(self.left, self.magnification, self.right)
 
     def __call__(self, xyz: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
@@ -148,7 +148,7 @@ class MoebiusMap:
         return images.reshape(array.shape)
 
     def lonlat(self, lonlat: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
-        """Images of places given by longitude and latitude, in one go.
+        """Images of points given by longitude and latitude, in one step.
 
         Parameters
         ----------
@@ -223,16 +223,16 @@ class MoebiusMap:
         return self.left.apply(normal), cosine, sine
 
     def __matmul__(self, other: MoebiusMap) -> MoebiusMap:
-        """First `other`, then this one: the exact composition with its parameters rounded once.
+        """The map `other`, then this one: the exact composition with its parameters rounded once.
 
-        However large the magnifications are; a ValueError if that of the composition is out of range.
+        For magnifications of any size; a ValueError if that of the composition is out of range.
         """
         if not isinstance(other, MoebiusMap):
             return NotImplemented
         return MoebiusMap(*(self._integers @ other._integers).rounded().decomposed())
 
     def inverse(self) -> MoebiusMap:
-        """The exact inverse; its focus is where this map is smallest."""
+        """The exact inverse; its focus is the image of this map's point of smallest scale."""
         return MoebiusMap(self.right.inverse() @ _FLIP, self.magnification, _FLIP @ self.left.inverse())
 
     @property
@@ -250,7 +250,7 @@ class MoebiusMap:
         Parameters
         ----------
         exponent : float
-            t, at most `LARGEST_EXPONENT` in size; −1 gives the inverse, ½ the map that done twice is this one.
+            t, at most `LARGEST_EXPONENT` in size; −1 gives the inverse, ½ the map whose square is this one.
 
         Returns
         -------
@@ -279,7 +279,7 @@ class MoebiusMap:
     def kind(self) -> Kind:
         """One of "identity", "rotation", "boost", "parabolic" and "loxodromic", up to `KIND_TOLERANCE`.
 
-        A rotation (elliptic) turns about two fixed points, which need not be opposite; a boost (hyperbolic) moves
+        A rotation (elliptic) turns about two fixed points, which need not be antipodal; a boost (hyperbolic) moves
         everything from one to the other; a loxodromic map does both; a parabolic one has a single fixed point. The
         fisheye is a boost.
         """
@@ -287,7 +287,7 @@ class MoebiusMap:
 
     @property
     def fixed_points(self) -> FloatArray:
-        """The points that stay, unit vectors (2, 3), or (1, 3) of a parabolic map; a ValueError for the identity.
+        """The fixed points, unit vectors (2, 3), or (1, 3) for a parabolic map; a ValueError for the identity.
 
         The map magnifies at the first and shrinks at the second; a rotation turns counterclockwise at the first, by at
         most 180°, seen from outside.
@@ -315,7 +315,7 @@ class MoebiusMap:
         return [self.image_of(SphereCircle.around(point, radius)) for point in as_sphere_points(points)]
 
     def is_close(self, other: MoebiusMap, *, tolerance: float = 4 * STORED_ERROR) -> bool:
-        """Whether two maps agree: up to `tolerance` rad in the points, in the images, and relatively in S."""
+        """Whether two maps agree up to `tolerance`: in rad for points and images, relative for S."""
         a, b = self.biquaternion, other.biquaternion
         gaps = [
             Biquaternion(a.real - b.real, a.imag - b.imag).norm(),
@@ -324,7 +324,7 @@ class MoebiusMap:
         return min(float(gap.hi) for gap in gaps) <= tolerance**2 * float(a.norm().hi)
 
     def to_proj(self) -> str:
-        """The map as a pipeline for PROJ, GDAL, QGIS and pyproj: (lon, lat) in degrees in and out, on a sphere.
+        """The map as a PROJ pipeline, for GDAL, QGIS and pyproj: (lon, lat) in degrees in and out, on a sphere.
 
         `stere` with k_0 = S at the focus, then inverse `stere` at the image of the focus (claim P18); between the two a
         turn of the plane, `affine`, where the map does not carry north at the focus to north at its image. PROJ has no

@@ -6,7 +6,7 @@ identity, and two of them have the distance d with
 
     cosh d = cosh η₁ cosh η₂ − sinh η₁ sinh η₂ cos δ,
 
-δ the angle between the foci. The shortest way from one to the other is the geodesic, and it is what an eye expects of a
+δ the angle between the foci. The shortest path from one to the other is the geodesic, and it is what one expects of a
 flight: the magnification goes down, the focus moves on, the magnification comes back, all at once and no more than is
 needed. J. J. van Wijk, W. A. A. Nuij, "Smooth and efficient zooming and panning", IEEE InfoVis (2003), found the
 geodesics of the hyperbolic half-plane for views of a plane map; on the sphere the group has them built in.
@@ -28,7 +28,7 @@ from stereodel.sphere import Rotation
 
 @dataclass(frozen=True)
 class GroupPath:
-    """A path of conformal maps: the fisheye along a geodesic of hyperbolic space, the rotation after it evenly turned.
+    """A path of conformal maps: fisheyes along a geodesic of hyperbolic space, then rotations at constant speed.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class GroupPath:
     def length(self) -> float:
         """d, the hyperbolic distance of the two fisheyes: a magnification on the spot from S₁ to S₂ has |ln S₂/S₁|.
 
-        Flights whose durations are as their lengths look equally fast.
+        Flights whose durations are proportional to their lengths look equally fast.
         """
         (f, s), (g, r) = self.start.peak, self.end.peak
         a, b = np.log(s), np.log(r)
@@ -106,10 +106,10 @@ def path_between(start: MoebiusMap, end: MoebiusMap) -> GroupPath:
 
     Notes
     -----
-    Each map is taken apart into a fisheye and the rotation after it. The fisheyes follow the geodesic of hyperbolic
+    Each map is decomposed into a fisheye and a rotation after it. The fisheyes follow the geodesic of hyperbolic
     space (`flight`), the rotations the shortest turn: between fisheyes all maps are fisheyes, between rotations
     rotations. The coset of a one-parameter group, ``start @ (start.inverse() @ end).power(t)``, also joins the two, but
-    twists the picture on the way from one fisheye to another.
+    rotates the picture on the way from one fisheye to another.
 
     Examples
     --------
@@ -124,7 +124,7 @@ def path_between(start: MoebiusMap, end: MoebiusMap) -> GroupPath:
 def flight(
     start: npt.ArrayLike, end: npt.ArrayLike, *, magnification: float, arrival: float | None = None
 ) -> GroupPath:
-    """The fisheye that flies from one focus to another: it shrinks, moves on and grows again.
+    """A path of fisheyes from one focus to another, along which the magnification first decreases, then increases.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ def flight(
     Returns
     -------
     GroupPath
-        Its maps are all fisheyes. `length` says how long the flight is.
+        Its maps are all fisheyes. `length` is the length of the flight.
 
     Raises
     ------
@@ -149,7 +149,7 @@ def flight(
     -----
     The geodesic of hyperbolic space between the two fisheyes, at constant speed: see `GroupPath`. For foci at a right
     angle it comes down to S = exp(arsinh 1) = 1 + √2 at most, however large S is at the ends; between opposite foci it
-    goes through the globe as it is.
+    passes through the undistorted globe.
 
     Examples
     --------

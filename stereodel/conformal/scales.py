@@ -1,4 +1,4 @@
-"""How much a lens enlarges what is near a place."""
+"""How much a lens enlarges the surroundings of a point."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Three points to three points: the only conformal map that does it."""
+"""Three points to three points: the unique conformal map."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ def three_points(sources: npt.ArrayLike, targets: npt.ArrayLike) -> MoebiusMap:
     Parameters
     ----------
     sources, targets : array_like, shape (3, 2) or (3, 3)
-        Rows (lon, lat) in degrees, or directions; the three of each must be different.
+        Rows (lon, lat) in degrees, or directions; the three of each must be distinct.
 
     Returns
     -------
     MoebiusMap
-        The only one that does this. It takes the circle through the sources to the one through the targets.
+        It is unique, and maps the circle through the sources to the circle through the targets.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def _three(points: npt.ArrayLike, name: str) -> list[Spinor]:
     for i, j in ((0, 1), (0, 2), (1, 2)):
         # |⟨p, q⟩|² is the squared chord but for a factor between 1 and 4.
         if float(_bracket(spinors[i], spinors[j]).square_size().hi) <= UNDECIDED**2:
-            raise ValueError(f"{name}[{i}] and {name}[{j}] are the same point; three different ones are needed")
+            raise ValueError(f"{name}[{i}] and {name}[{j}] are the same point; give three distinct ones")
     return spinors
 
 

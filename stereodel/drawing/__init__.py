@@ -1,4 +1,4 @@
-"""What lies where on a picture, before anything draws it: pages and their items, scenes, sketches, views, styles."""
+"""The geometry of pictures, before anything is drawn: pages and their items, scenes, sketches, views, styles."""
 
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page

@@ -1,4 +1,4 @@
-"""Colours: what is taken for one, and what every page holds, sRGB and opacity."""
+"""Colours: what is accepted as one, and what every page holds, sRGB and opacity."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ ColorLike = str | Sequence[float] | FloatArray | tuple[str | Sequence[float], fl
 
 
 def as_color(value: ColorLike, name: str = "color") -> Color:
-    """The colour that is meant.
+    """A colour as red, green, blue and opacity.
 
     Parameters
     ----------
     value : color-like
-        Red, green, blue and, where it is not 1, opacity, each in [0, 1]; or anything else that matplotlib takes for a
+        Red, green, blue and, if it is not 1, opacity, each in [0, 1]; or anything else that matplotlib accepts as a
         colour: a name, "#rrggbb", a gray as "0.5", a colour and an opacity. Numbers do not load matplotlib.
     name : str
-        What to call it in messages.
+        Name of the argument, for messages.
 
     Returns
     -------
@@ -38,7 +38,7 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
     Raises
     ------
     ValueError
-        For what is no colour, and for numbers outside [0, 1].
+        For invalid colours, and for numbers outside [0, 1].
 
     Examples
     --------
@@ -68,12 +68,12 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
 
 
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
-    """Colours (n, 4) of `count` things, from one for all or from red, green, blue and perhaps opacity of each.
+    """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each.
 
     Raises
     ------
     ValueError
-        For what is not a colour, numbers outside [0, 1], and colours that are not as many as the things.
+        For invalid colours, numbers outside [0, 1], and another number of colours than of items.
     """
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
         return np.tile(as_color(cast(ColorLike, values), name), (count, 1))

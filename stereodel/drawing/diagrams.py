@@ -30,10 +30,10 @@ def diagram_page(
     ----------
     mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi or PlanarDelaunay
     view : array_like, shape (2,)
-        (lon, lat) in degrees of the place above which the globe is seen. Sphere only.
+        (lon, lat) in degrees of the point above which the globe is seen. Sphere only.
     bounds : (4,) array_like, optional
-        (xmin, ymin, xmax, ymax) of what is shown of the plane; by default the rectangle of the points with a tenth of
-        its longer side around it.
+        (xmin, ymin, xmax, ymax) of the part of the plane to show; by default the rectangle of the points with a tenth
+        of its longer side around it.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Grids of meridians and parallels, thinned where they would run together into gray.
+"""Grids of meridians and parallels, thinned where they would merge into gray.
 
 Lines of a family crowd where a view sees them at a slant, where a lens makes things small, and meridians at the poles.
 How far apart two neighbours are on the page is known exactly: their distance on the sphere, times the scale of the
@@ -48,18 +48,18 @@ HALVINGS: Final = 40
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Meridians and parallels, and which of them stay when they are thinned.
+    """Meridians and parallels, and which of them remain when they are thinned.
 
     Parameters
     ----------
     arcs : Arcs
         Meridians, then parallels.
     meridians : int
-        How many of them are meridians.
+        Number of meridians among them.
     step : float
-        Between neighbours, radians.
+        Distance between neighbours, radians.
     strides : (n,) array of int
-        The line stays where each so many-th is drawn; 0 where it always stays.
+        The line remains where each so many-th is drawn; 0 if it always remains.
 
     Examples
     --------
@@ -79,7 +79,7 @@ class Grid:
 
     @classmethod
     def graticule(cls, spacing: float = 15.0, *, latitude: Latitude = "spherical") -> Grid:
-        """All meridians and parallels, as `stereodel.sphere.graticule`; those of the quarters of the globe stay."""
+        """All meridians and parallels, as in `stereodel.sphere.graticule`; those at multiples of 90° always remain."""
         steps = as_steps(180.0, spacing, "spacing")
         half = (steps - 1) // 2
         return cls._numbered(np.arange(-steps, steps), np.arange(-half, half + 1), steps, latitude)
@@ -122,7 +122,7 @@ class Grid:
 
     @classmethod
     def patch(cls, center: npt.ArrayLike, half_width: float, spacing: float) -> Grid:
-        """The grid of a box, as `stereodel.sphere.graticule_patch`; its borders stay, and its middle where it has one.
+        """The grid of a box, as in `stereodel.sphere.graticule_patch`; its borders and its central lines always remain.
 
         Examples
         --------
@@ -136,7 +136,7 @@ class Grid:
         return cls(arcs, count, float(np.radians(2 * half_width)) / steps, np.tile(strides, 2))
 
     def drawn(self, lens: MoebiusMap, view: MapView, least: float) -> list[CircleArc]:
-        """What a picture shows: the images of `thinned` lines behind the lens."""
+        """The visible lines: the images of `thinned` lines under the lens."""
         thin = self.thinned(lens, view, least)
         parts = replace(thin, edge=np.arange(len(thin))).through(lens)
         # An image is cut at the apsides, between which it stays on its circle.
@@ -155,7 +155,7 @@ class Grid:
         ----------
         lens : MoebiusMap
         view : MapView
-            From the near and the far side alike, for balls of glass.
+            Near and far side are treated alike, for glass balls.
         least : float
             Distance between neighbours on the page below which lines are left out, radii of the disc.
 

@@ -1,4 +1,4 @@
-"""Legends: what lines, dots and tints stand for, in rows below a picture."""
+"""Legends: the meaning of lines, dots and tints, in rows below a picture."""
 
 from __future__ import annotations
 
@@ -38,14 +38,14 @@ def with_legend(
     Parameters
     ----------
     page : Page
-        Stays as wide as it is and grows downwards.
+        Keeps its width and grows downwards.
     entries : mapping of str to LineStyle, DotStyle or color-like
-        What is written, and what it is written beside: a short line, a dot or a box of a tint. They are read row by
+        Texts, and the symbol beside each: a short line, a dot or a tinted box. They are read row by
         row.
     columns : int
-        In which the entries stand, at least 1; all are equally wide.
+        Number of columns, at least 1; all are equally wide.
     indent : float
-        White space left of the first column, and right of the last, points.
+        Space to the left of the first column and to the right of the last, points.
     ink : color-like
         Of the type.
     size : float
@@ -54,7 +54,7 @@ def with_legend(
     Raises
     ------
     ValueError
-        For less than one column, and what is no colour.
+        For less than one column, and for invalid colours.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What a picture shows, before any renderer sees it: paths, dots, balls and labels in painter's order.
+"""The content of a picture, before rendering: paths, dots, balls and labels in painter's order.
 
 A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to cubic
 Béziers, and every item carries its colour and its width in points. The vector backend writes it as SVG and PDF, the
@@ -31,7 +31,7 @@ FEW_COLORS: Final = 64
 
 @dataclass(frozen=True, eq=False)
 class Stroke:
-    """A line of constant width on the page; round joins, and round or flat ends. One of no length is not drawn."""
+    """A line of constant width on the page; round joins, and round or flat ends. A line of length zero is not drawn."""
 
     path: Beziers
     color: Color
@@ -47,15 +47,15 @@ class Stroke:
 
 @dataclass(frozen=True)
 class Ball:
-    """The light of a ball as a function of the place on the page: what lies on it is darker where it turns away.
+    """The light of a ball as a function of the position on the page: its surface is darker where it turns away.
 
-    The brightness at a place is that of the near side of the ball, whose normal the place tells; it is between 0.64 and
-    1, brightest in the upper left. Pixels are lit so, and SVG and PDF by the nearest radial gradient.
+    The brightness at a position is that of the near side of the ball, whose normal it determines; it is between 0.64
+    and 1, brightest in the upper left. Pixels are lit in this way, SVG and PDF by the closest radial gradient.
 
     Parameters
     ----------
     center : tuple of float
-        Page coordinates of its middle.
+        Page coordinates of its centre.
     radius : float
         In page units, positive.
     """
@@ -102,9 +102,9 @@ class Painter(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A region that is painted pixel by pixel: a raster on a globe.
+    """A region painted pixel by pixel: a raster on a globe.
 
-    Where it is transparent, what lies below shows through. The raster backend gives each pixel that it draws one of the
+    Where it is transparent, lower items show through. The raster backend gives each pixel that it draws one of the
     painter's; the vector backend embeds a picture, cut along `outline`.
     """
 
@@ -203,15 +203,15 @@ class Page:
     extent : tuple of float
         (left, right, bottom, top) in page coordinates.
     items : tuple of Item
-        In painter's order: later ones cover earlier ones. Labels come last whatever their place.
+        In painter's order: later ones cover earlier ones. Labels come last, wherever they are in the tuple.
     width : float
         Width of the extent in points (1/72 inch); the height follows, page units being square. 17 cm are 481.89 points.
     background : Color
     views : tuple of (3, 3) arrays
         The view matrices that made it (rows right, up, toward), kept for the golden tests.
     title, description : str
-        What it shows, in a line and in plain paragraphs. Nothing of it is drawn: files say it to those who search them
-        and to those who cannot see them.
+        What it shows, in a line and in plain paragraphs. They are not drawn: files contain them for search
+        and for readers who cannot see the picture.
 
     Raises
     ------
@@ -266,12 +266,12 @@ class Page:
         renderer: Literal["gl", "agg"] = "gl",
         platform: str | None = None,
     ) -> Path:
-        """Write the page as PNG, SVG or PDF, as the ending of `path` says.
+        """Write the page as PNG, SVG or PDF, according to the extension of `path`.
 
-        SVG and PDF hold true curves, within a thousandth of a point, text as text, in fonts that they bring along, and
-        the light of balls as gradients; the same page always gives the same bytes. All three say title and description.
-        Lines, dots and type are measured in points: more pixels show the same page finer. A poster with thinner lines
-        is a page with more points, ``dataclasses.replace(page, width=...)``.
+        SVG and PDF hold true curves, within a thousandth of a point, text as text, in embedded fonts, and
+        the light of balls as gradients; the same page always gives the same bytes. All three contain title and
+        description. Lines, dots and text are measured in points: more pixels show the same page more finely. A poster
+        with thinner lines is a page with more points, ``dataclasses.replace(page, width=...)``.
 
         Parameters
         ----------
@@ -282,7 +282,7 @@ class Page:
         text : bool
             Whether labels are drawn.
         renderer : {"gl", "agg"}
-            What draws a PNG: OpenGL, or matplotlib, which needs no OpenGL, but does not light what is round and refuses
+            Renderer of a PNG: OpenGL, or matplotlib, which needs no OpenGL, but does not shade balls and refuses
             regions in more colours than vector files hold as paths.
         platform : {"osmesa", "egl"}, optional
             See `stereodel.render.gl`.
@@ -295,19 +295,19 @@ class Page:
         Raises
         ------
         ValueError
-            For another ending or renderer, and for a size that is out of range.
+            For another extension or renderer, and for a size that is out of range.
         OSError
-            Where the file cannot be written; where there is no OpenGL, which a PNG needs, and cells in vector files.
+            If the file cannot be written, or there is no OpenGL, which PNG needs, and cells in vector files.
 
         Notes
         -----
-        Browsers take the fonts of an SVG. librsvg and Inkscape do not: they show the type of that name where it is
-        installed (STIX), or else another with serifs. For print, and to place a picture in a document, take the PDF.
+        Browsers use the fonts embedded in an SVG. librsvg and Inkscape do not: they show the font of that name where it
+        is installed (STIX), or else another serif font. For print, and to place a picture in a document, use the PDF.
 
         The light in SVG and PDF is off by 0.8 levels of 255 in the mean and by 4 at most, at the edge of a white ball.
 
-        A PNG 16 384 pixels wide and high is drawn in less than a gigabyte; at once, its pixels alone would take that
-        much.
+        A PNG 16 384 pixels wide and high is drawn in less than a gigabyte; in one piece, its pixels alone would take
+        that much.
 
         Examples
         --------
@@ -333,7 +333,7 @@ class Page:
         renderer: Literal["gl", "agg"] = "gl",
         platform: str | None = None,
     ) -> Pixels:
-        """Draw the page: what `save` writes as PNG, at once.
+        """Draw the page: the pixels that `save` writes as PNG.
 
         Parameters
         ----------

@@ -1,4 +1,4 @@
-"""The styles in which a page may be had: for a column or a slide, on a dark ground. A style makes a page of a page."""
+"""Styles of pages: for a column, for a slide, on a dark background. A style makes a page from a page."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ def styled(page: Page, *styles: str, font: FontLike | None = None) -> Page:
     ----------
     page : Page
     *styles : {"column", "slide", "dark"}
-        "column": 8.4 cm wide, for a column of a journal; type is not smaller than 7 points. "slide": 33.87 × 19.05 cm,
-        16 to 9, with heavier lines and larger type, the picture in the middle. "dark": on a dark ground, where each
-        colour keeps its hue and its contrast; a page whose ground is dark already stays as it is, and so do pictures of
+        "column": 8.4 cm wide, for a journal column; text is not smaller than 7 points. "slide": 33.87 × 19.05 cm,
+        16 : 9, with heavier lines and larger text, the picture in the middle. "dark": on a dark background, where each
+        colour keeps its hue and its contrast; a page that is dark already is unchanged, and so are images made of
         pixels, such as rasters on a globe. The order does not matter.
     font : str, path-like, or sequence of them, optional
         Families of the type, or files of fonts, see `stereodel.drawing.fonts.as_font`, for labels that have none of
@@ -50,8 +50,8 @@ def styled(page: Page, *styles: str, font: FontLike | None = None) -> Page:
 
     Notes
     -----
-    On a column and a slide type finds its place anew: above and below the picture it is broken into lines, and the page
-    grows; in the picture it moves aside where it would cover other type, and what has no room then is left out, as on
+    In a column and on a slide, text is placed again: above and below the picture it is broken into lines, and the page
+    grows; in the picture it moves aside where it would cover other text, and what does not fit is omitted, as on
     maps.
 
     Examples
@@ -75,7 +75,7 @@ def as_styles(styles: tuple[str, ...]) -> tuple[str, ...]:
             raise ValueError(f"style is {name!r}; give {', '.join(list(STYLES)[:-1])} or {list(STYLES)[-1]}")
     chosen = tuple(name for name in STYLES if name in styles)
     if len(set(chosen) & set(MEDIA)) > 1:
-        raise ValueError(f"styles {' and '.join(MEDIA)} are both the size of a page; give one of them")
+        raise ValueError(f"styles {' and '.join(MEDIA)} both set the size of the page; give one of them")
     return chosen
 
 
@@ -93,5 +93,5 @@ class StyledDraw:
         """The page that `draw` gives, in the styles; a TypeError where it gives pixels."""
         page = self.draw(*arguments)
         if not isinstance(page, Page):
-            raise TypeError(f"draw gives {type(page).__name__}, which has no style; let it give a Page")
+            raise TypeError(f"draw gives {type(page).__name__}, which cannot be styled; let it return a Page")
         return styled(page, *self.styles)

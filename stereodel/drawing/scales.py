@@ -24,9 +24,9 @@ class ColorScale:
     Parameters
     ----------
     name : str
-        A colour map of matplotlib, such as "viridis", "magma" or "cividis", whose lightness rises evenly.
+        A colour map of matplotlib, such as "viridis", "magma" or "cividis", whose lightness increases evenly.
     low, high : float
-        Numbers that get its first and its last colour; what is beyond gets them too.
+        Numbers that get its first and its last colour; numbers beyond them do too.
     log : bool
         Whether equal ratios, instead of equal differences, are equally far apart.
 
@@ -55,7 +55,7 @@ class ColorScale:
         as_scalar(self.high, "high", low=self.low, open_low=True)
 
     def place(self, values: npt.ArrayLike) -> FloatArray:
-        """Where numbers lie between `low` (0) and `high` (1), clipped."""
+        """Positions of numbers between `low` (0) and `high` (1), clipped."""
         numbers = np.clip(as_floats(values, "values"), self.low, self.high)
         if self.log:
             return np.asarray(np.log(numbers / self.low) / np.log(self.high / self.low))
@@ -82,13 +82,13 @@ class ColorScale:
         corner, size : (float, float)
             Lower left corner, width and height of the bar in page units.
         ticks : mapping of float to str
-            Numbers and what is written below them.
+            Numbers and the texts below them.
         title : str
-            Written above.
+            Text above the bar.
         ink : color-like
-            Of lines and type.
+            Colour of lines and text.
         type_size : float
-            In points.
+            Size of the text, points.
         """
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
         bars = [
@@ -113,7 +113,7 @@ class ColorScale:
 
 
 def usual_scale(values: FloatArray) -> ColorScale:
-    """Viridis from the least to the largest of one or more numbers."""
+    """Viridis from the smallest to the largest of one or more numbers."""
     low, high = float(values.min()), float(values.max())
     return ColorScale("viridis", low, high if high > low else low + 1.0)
 

@@ -1,4 +1,4 @@
-"""Scenes: a ball and what is drawn on and about it, laid out as page items for a view.
+"""Scenes: a ball and what is drawn on and around it, laid out as page items for a view.
 
 A `Scene` knows nothing of pixels or paper. It is filled once and may be laid out many times, for several views, several
 globes on a page, or the frames of an animation.
@@ -41,7 +41,7 @@ MARGIN = 0.02
 
 
 class Scene:
-    """A ball with things on it, in it and about it.
+    """A ball with items on it, inside it and around it.
 
     Coordinates are those of space, in one unit. Methods that take points or arcs *of the ball* take them on the unit
     sphere about the origin, as the rest of the library gives them, and put them on the ball.
@@ -110,7 +110,7 @@ class Scene:
         style : LineStyle, optional
             Another style than that of the name.
         layer : Layer, optional
-            Another place in painter's order for all parts but those behind the ball.
+            Another position in painter's order, for all parts except those behind the ball.
         """
         self.add_curves(
             (_circle_arc(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
@@ -151,7 +151,7 @@ class Scene:
         style: LineStyle | None = None,
         layer: Layer | None = None,
     ) -> None:
-        """Draw straight segments of space from starts (n, 3) to ends (n, 3); one row is paired with all others."""
+        """Draw straight segments in space from starts (n, 3) to ends (n, 3); a single row is paired with all others."""
         first, last = np.broadcast_arrays(np.atleast_2d(as_vectors(starts, 3, "starts")), as_vectors(ends, 3, "ends"))
         segments = [Segment.between(a, b) for a, b in zip(first, last, strict=True)]
         self.add_curves(segments, name=name, style=style, layer=layer)
@@ -159,7 +159,7 @@ class Scene:
     def add_curves(
         self, curves: Iterable[Curve], *, name: str, style: LineStyle | None = None, layer: Layer | None = None
     ) -> None:
-        """Draw curves of space, not necessarily on the ball."""
+        """Draw curves in space, not necessarily on the ball."""
         drawn = styles.line(name, style).scaled(self.weight)
         self._items.append(SceneLines(tuple(curves), drawn, name, layer))
 
@@ -169,14 +169,14 @@ class Scene:
         self.add_space_points(self.center + self.radius * unit, name=name, style=style)
 
     def add_space_points(self, points: npt.ArrayLike, *, name: str = "points", style: DotStyle | None = None) -> None:
-        """Draw dots at points (n, 3) of space."""
+        """Draw dots at points (n, 3) in space."""
         drawn = styles.dot(name, style).scaled(self.weight)
         self._items.append(SceneDots(as_points(points, 3), drawn, name))
 
     def add_region(
         self, boundary: Iterable[SphereArc | CircleArc], *, name: str, color: ColorLike | None = None
     ) -> None:
-        """Tint what lies on the left of a loop of arcs, as seen from outside: a region of any size and shape."""
+        """Tint the region to the left of a loop of arcs, as seen from outside, of any size and shape."""
         region = SphereRegion(tuple(_circle_arc(arc).scaled(self.radius, np.zeros(3)) for arc in boundary), self.radius)
         self._items.append(SceneRegion(region, styles.fill(name, color), name))
 
@@ -206,14 +206,14 @@ class Scene:
         self.add_region([CircleArc.great(*pair) for pair in ((a, b), (b, c), (c, a))], name=name, color=color)
 
     def add_flat_polygon(self, corners: npt.ArrayLike, *, name: str = "plane", color: ColorLike | None = None) -> None:
-        """Tint a flat polygon of space, corners (n, 3) in order: a plane that touches the ball, a chordal triangle.
+        """Tint a flat polygon in space, corners (n, 3) in order: a plane that touches the ball, a chordal triangle.
 
-        It must not cut the ball (`layout` raises a ValueError); its outline is drawn apart, by `add_outline`.
+        It must not cut the ball (`layout` raises a ValueError); its outline is drawn separately, by `add_outline`.
         """
         self._items.append(SceneSheet(as_points(corners, 3, "corners"), styles.fill(name, color), name))
 
     def add_outline(self, corners: npt.ArrayLike, *, name: str = "plane", style: LineStyle | None = None) -> None:
-        """Draw the sides of a polygon of space, corners (n, 3) in order."""
+        """Draw the sides of a polygon in space, corners (n, 3) in order."""
         starts = as_points(corners, 3, "corners")
         self.add_segments(starts, np.roll(starts, -1, axis=0), name=name, style=style)
 
@@ -229,7 +229,7 @@ class Scene:
         size: float = styles.LABEL_SIZE,
         color: ColorLike = styles.BLACK,
     ) -> None:
-        """Write at a point (3,) of space, moved by `offset` points; not where the ball hides it unless `always`."""
+        """Write at a point (3,) in space, moved by `offset` points; unless `always`, not where the ball hides it."""
         label = Label(text, (0.0, 0.0), offset, align, valign, size, as_color(color))
         self._items.append(SceneLabel(label, as_vectors(point, 3, "point"), always))
 
@@ -241,7 +241,7 @@ class Scene:
         width: float = Page.width,
         background: ColorLike = styles.WHITE,
     ) -> Page:
-        """The picture of the scene from one side.
+        """A page with the scene seen from one side.
 
         Parameters
         ----------
@@ -257,7 +257,7 @@ class Scene:
         Raises
         ------
         ValueError
-            For an extent without area, a width that is not positive and what is no colour.
+            For an extent without area, a width that is not positive, and invalid colours.
         """
         if extent is None:
             (x, y), reach = view.project(self.center), (1 + MARGIN) * self.radius
@@ -265,7 +265,7 @@ class Scene:
         return Page(extent, self.layout(view), width, as_color(background, "background"), (view.matrix,))
 
     def layout(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> tuple[Item, ...]:
-        """Page items in painter's order, without what is hidden, for pages that show more than one scene.
+        """Page items in painter's order, with hidden parts removed, for pages with more than one scene.
 
         Parameters
         ----------
@@ -278,7 +278,7 @@ class Scene:
         return self.placed(view, at=at, scale=scale).page_items()
 
     def placed(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> PlacedScene:
-        """The scene in its place on a page, for a `Solid` of more than one; all as for `layout`."""
+        """The scene at its position on a page, for a `Solid` of more than one; parameters as in `layout`."""
         size = as_scalar(scale, "scale", low=0.0, open_low=True)
         return PlacedScene(Layout(view.matrix, self.center, self.radius, self.style, at, size), tuple(self._items))
 
@@ -290,7 +290,7 @@ class Scene:
         width: float = Page.width,
         background: ColorLike = styles.WHITE,
     ) -> Solid:
-        """The scene in space as seen from one side; all as for `page`, which raises the same errors.
+        """The scene in space as seen from one side; parameters and errors as in `page`.
 
         Examples
         --------

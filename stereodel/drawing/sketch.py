@@ -1,7 +1,7 @@
-"""Drawings of the plane and cross-sections: what `Scene` is for the globe, without depth.
+"""Drawings of the plane and cross-sections: the counterpart of `Scene` without depth.
 
 A `Sketch` collects segments, circles, arcs, regions, dots, graphs and labels in the order in which they are painted and
-hands them out as the items of a `Page`. Coordinates are the page's own (x right, y up). Ticks and heads of arrows are
+gives them as the items of a `Page`. Coordinates are the page's own (x right, y up). Ticks and heads of arrows are
 measured in points, as type is: they are made when the page is, which knows how many points a unit has.
 """
 
@@ -42,8 +42,8 @@ HEAD: Final = (6.0, 2.0)
 class Sketch:
     """A drawing under construction.
 
-    Every `add_…` method appends to the picture and returns the sketch, so that calls chain. `name` says what is added:
-    it has the style of that name in `stereodel.drawing.style`, unless another `style` or `color` is given, and is the
+    Every `add_…` method appends to the picture and returns the sketch, so that calls chain. `name` selects the style:
+    that of this name in `stereodel.drawing.style`, unless another `style` or `color` is given. It is also the
     id of its group in vector files.
 
     Parameters
@@ -170,7 +170,7 @@ class Sketch:
     ) -> Sketch:
         """The angle at a vertex, from the direction of a counterclockwise to that of b, with its name beside the arc.
 
-        The name, if there is one, stands on the bisector, `gap` points outside the arc.
+        The name, if given, is placed on the bisector, `gap` points outside the arc.
         """
         arms = np.array([a, b], dtype=np.float64) - np.asarray(vertex, dtype=np.float64)
         start, stop = np.degrees(np.arctan2(arms[:, 1], arms[:, 0]))
@@ -194,9 +194,9 @@ class Sketch:
         gap: float = GAP,
         **options: Any,
     ) -> Sketch:
-        """The measure from a to b: a line with a tick across each end, and its name along it, `gap` points off.
+        """A dimension line from a to b, with a tick across each end and its name along it, `gap` points away.
 
-        The name, if there is one, stands on the left of the way from a to b, and never upside down; `options` go to
+        The name, if given, is on the left of the direction from a to b, and never upside down; `options` go to
         `Label`.
 
         Raises
@@ -260,8 +260,8 @@ class Sketch:
         width, height : float
             Of the rectangle, page units.
         across, up : mapping of float to str
-            Numbers and what is written beside them, below the rectangle and on its left. The least and the largest
-            stand at its corners.
+            Numbers and the texts beside them, below the rectangle and on its left. The smallest and the largest
+            are at its corners.
         name, style
             Of the lines.
         options
@@ -281,7 +281,7 @@ class Sketch:
     def add_scene(
         self, scene: Scene, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0
     ) -> Sketch:
-        """A globe: a scene as a view shows it, the origin of its space at a point, a unit of it `scale` page units."""
+        """A scene as seen in a view, with the origin of its space at a point and `scale` page units per unit."""
         self._views.append(view.matrix)
         return self.add_items(scene.layout(view, at=at, scale=scale))
 
@@ -302,7 +302,7 @@ class Sketch:
         Raises
         ------
         ValueError
-            For an extent without area, a width that is not positive and what is no colour.
+            For an extent without area, a width that is not positive, and invalid colours.
         """
         blank = Page(extent, (), width, as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit

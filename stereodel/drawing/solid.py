@@ -1,8 +1,8 @@
-"""Pictures in space: scenes as bodies, where a page shows what is seen of them.
+"""Pictures in space: the bodies of which a page shows the visible parts.
 
 A page is flat, and what is hidden is not on it. A `Solid` has the page and the scenes that it was laid out from, placed
-as on the page: x right, y up, z toward the viewer, in page units. It is written as glTF, or drawn with light and shade,
-what is in front hiding what is behind.
+as on the page: x right, y up, z toward the viewer, in page units. It is written as glTF, or drawn with shading,
+nearer bodies hiding farther ones.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from stereodel.drawing.scene_items import Layout, SceneItem, laid_out
 
 @dataclass(frozen=True, eq=False)
 class PlacedScene:
-    """A scene in its place on a page.
+    """A scene at its position on a page.
 
     Parameters
     ----------
     layout : Layout
-        Its view and its place.
+        Its view and its position.
     items : tuple of SceneItem
         What it holds.
     """
@@ -45,23 +45,23 @@ class PlacedScene:
         return pose
 
     def page_items(self) -> tuple[Item, ...]:
-        """What a page shows of it, in painter's order, as of `Scene.layout`."""
+        """Its visible parts on the page, in painter's order, as from `Scene.layout`."""
         return laid_out(self.items, self.layout)
 
 
 @dataclass(frozen=True, eq=False)
 class Solid:
-    """What a page shows, in space: balls, lines as tubes, dots as small balls, regions and planes as surfaces.
+    """The content of a page in space: balls, lines as tubes, dots as small balls, regions and planes as surfaces.
 
-    Widths are those on the page. What is bound to a side from which one looks, the limb of a ball, is not in space;
-    labels are places with a name.
+    Widths are those on the page. What depends on the direction of view, the limb of a ball, does not exist in space;
+    labels are points with a name.
 
     Parameters
     ----------
     page : Page
-        The same flat: its frame, width, ground and labels are those of the picture.
+        The flat page: its frame, width, background and labels are those of the picture.
     scenes : sequence of PlacedScene
-        What stands in space.
+        The scenes in space.
 
     Examples
     --------
@@ -82,8 +82,8 @@ class Solid:
         Returns
         -------
         trimesh.Scene
-            A node for each item of a scene, under the name that it was added with, numbered where a name comes again;
-            for dots one node each below it, all of one mesh; for a label a node without a mesh whose metadata hold
+            A node for each item of a scene, with the name under which it was added, numbered if a name repeats;
+            for dots, a node each below it, all sharing one mesh; for a label, a node without a mesh whose metadata hold
             the text, its size and its offset in points. Several scenes are nodes "panel 1", "panel 2", …
 
         Raises
@@ -99,7 +99,7 @@ class Solid:
     def save(
         self, path: str | os.PathLike[str], *, size: int | None = None, text: bool = True, platform: str | None = None
     ) -> Path:
-        """Write a GLB, or a PNG with light and shade, as the ending of `path` says.
+        """Write a GLB, or a PNG with shading, according to the extension of `path`.
 
         Parameters
         ----------
@@ -116,9 +116,9 @@ class Solid:
         Raises
         ------
         ValueError
-            For another ending, a size that is out of range, and a GLB of nothing.
+            For another extension, a size that is out of range, and an empty GLB.
         OSError
-            Where the file cannot be written; where there is no OpenGL, which a PNG needs.
+            If the file cannot be written, or there is no OpenGL, which PNG needs.
 
         Notes
         -----
@@ -133,7 +133,7 @@ class Solid:
         return Path(path)
 
     def pixels(self, *, size: int | None = None, text: bool = True, platform: str | None = None) -> Pixels:
-        """Draw the bodies with light and shade: what `save` writes as PNG.
+        """Draw the bodies with shading: the pixels that `save` writes as PNG.
 
         Parameters
         ----------

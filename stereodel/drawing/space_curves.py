@@ -154,14 +154,14 @@ class CircleArc:
         Raises
         ------
         ValueError
-            When the directions are equal or opposite.
+            When the directions are equal or antipodal.
         """
         start, end = units(as_directions(a, "a")), units(as_directions(b, "b"))
         # a × b from difference and sum, which keeps its digits when the points are close or nearly opposite.
         axis = np.cross(start - end, start + end) / 2
         sine = float(np.sqrt(np.sum(axis**2)))
         if sine == 0:
-            raise ValueError(f"a and b are equal or opposite, so that no single arc joins them: {start} and {end}")
+            raise ValueError(f"a and b are equal or antipodal, so that no single arc joins them: {start} and {end}")
         sweep_rad = float(np.arctan2(sine, np.sum(start * end)))
         return cls(np.zeros(3), start, np.cross(axis / sine, start), 0.0, sweep_rad)
 

@@ -1,4 +1,4 @@
-"""The one look: colours, line widths, dots, tints and type of every picture.
+"""The house style: colours, line widths, dots, tints and fonts of every picture.
 
 Widths and radii are in points (1/72 inch) for a picture that is printed 17 cm wide. The accents have the hues of Okabe
 and Ito's palette, which readers with any colour vision tell apart, and lightnesses that printing in gray leaves apart.
@@ -61,7 +61,7 @@ def with_opacity(color: Color, opacity: float) -> Color:
 
 @dataclass(frozen=True, init=False)
 class LineStyle:
-    """How a line looks.
+    """The style of a line.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ class LineStyle:
     Raises
     ------
     ValueError
-        For what is no colour, and for a negative width.
+        For invalid colours, and for a negative width.
 
     Examples
     --------
@@ -104,23 +104,23 @@ class LineStyle:
 
 @dataclass(frozen=True, init=False)
 class DotStyle:
-    """How a dot looks.
+    """The style of a dot.
 
     Parameters
     ----------
     color : color-like
         As matplotlib understands it, see `as_color`.
     radius : float
-        In points, with the rim.
+        In points, including the rim.
     rim : color-like
-        Of a rim, which lies inside the radius.
+        Colour of the rim, which lies inside the radius.
     rim_width : float
         In points; 0 for none.
 
     Raises
     ------
     ValueError
-        For what is no colour, and for a negative radius or width.
+        For invalid colours, and for a negative radius or width.
     """
 
     color: Color

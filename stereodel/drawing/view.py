@@ -1,4 +1,4 @@
-"""Views: which way a picture looks at the sphere, and how what is seen becomes flat.
+"""Views: the direction from which the sphere is seen, and how the visible part becomes flat.
 
 Every view shows a cap of the sphere, {x : toward·x ≥ edge}, and maps it onto the unit disc of the page.
 """
@@ -18,7 +18,7 @@ from stereodel.sphere.vectors import turned
 
 
 class MapView(Protocol):
-    """What maps a cap of the sphere onto the unit disc of the page."""
+    """A map of a cap of the sphere onto the unit disc of the page."""
 
     @property
     def matrix(self) -> FloatArray:
@@ -51,7 +51,7 @@ class MapView(Protocol):
 
 @dataclass(frozen=True)
 class View:
-    """An orthographic view from above a point of the sphere, north up: the near hemisphere, as a ball is seen.
+    """An orthographic view from above a point of the sphere, north up: the near hemisphere as a ball.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class View:
         The point in the middle of the picture, degrees. At a pole `up` is the limit along `lon`, so that the meridian
         `lon` is a vertical line in every view of the same longitude.
     roll : float, optional
-        Degrees by which the picture is then turned counterclockwise on the page.
+        Degrees by which the picture is then rotated counterclockwise on the page.
 
     Raises
     ------
@@ -154,7 +154,7 @@ class StereographicView:
     lon, lat : float
         The point in the middle, degrees; at a pole `up` is the limit along `lon`.
     roll : float, optional
-        Degrees by which the picture is then turned counterclockwise on the page.
+        Degrees by which the picture is then rotated counterclockwise on the page.
     angular_radius : float
         Of the cap that is shown, degrees, above 0 and at most `LARGEST_CAP`: 90 is a hemisphere.
 

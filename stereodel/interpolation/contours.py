@@ -27,7 +27,7 @@ class Contour:
         Corners of the polyline, at least two: points of the plane, to be joined by segments, or unit vectors, to be
         joined by great circles. Higher values lie on the left, on the sphere as seen from outside. Read-only.
     closed : bool
-        Whether it is a ring; then the last of the points is the first again. Otherwise it ends at the hull, or beside a
+        Whether it is a ring; then the last point repeats the first. Otherwise it ends at the hull, or beside a
         value that is NaN.
     latitude : str, optional
         The kind of latitude by which the points of the triangulation were given.
@@ -74,27 +74,27 @@ def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, level
     ----------
     {sites}
     values : (n,) array_like
-        A number for each point; triangles with a NaN are left out.
+        A number for each point; triangles with a NaN are skipped.
     levels : float or (l,) array_like
         Values along the contours.
 
     Returns
     -------
     list of Contour
-        Level after level in the order given; with `lonlat`, if the triangulation was made from longitude and latitude.
+        Level by level in the order given; with `lonlat`, if the triangulation was made from longitude and latitude.
 
     Raises
     ------
     ValueError, TypeError
-        For points as the triangulation does; for values that are infinite, no real numbers, or not one number for each
+        For points, as in the triangulation; for values that are infinite, not real numbers, or not one number for each
         point; for levels that are not finite numbers.
 
     Notes
     -----
     A value equal to the level counts as above it. So a triangle has one piece of a contour or none, and each piece
     joins the next across an edge: contours neither break nor branch, and meet at most in points that have the level's
-    value. What shrinks to such a point is left out. The topology follows from comparisons alone; only the places where
-    contours cross edges are rounded.
+    value. Contours that shrink to such a point are omitted. The topology follows from comparisons alone; only the
+    points where contours cross edges are rounded.
 
     Contours of smooth functions: take the values of a `SmoothInterpolator` at more points.
 

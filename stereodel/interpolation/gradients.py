@@ -18,7 +18,7 @@ _UNKNOWNS = 5
 
 @shared(**FAMILY)
 def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> FloatArray:
-    """Gradients at the points of a function known at these points alone.
+    """Gradients at the points of a function known only at these points.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
     -------
     (n, ..., 2) or (n, ..., 3) array
         Per unit of length, or tangent vectors per radian. NaN where the value is NaN and where there is no triangle.
-        Right at every scale of the points; what no double can hold, as a rise of 1e10 over 1e-300, is not finite.
+        Correct at every scale of the points; on overflow, as for a rise of 1e10 over 1e-300, not finite.
 
     Raises
     ------
@@ -37,13 +37,13 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
 
     Notes
     -----
-    At each point the quadratic polynomial of the tangent plane that has the point's value and comes nearest to those of
+    At each point the quadratic polynomial of the tangent plane that has the point's value and best fits those of
     its neighbours and their neighbours: least squares of the differences times (1/r − 1/R)², where r is the distance
     and R a little more than the largest one. The three nearest count like the third: else a very close one would
-    decide alone, and by its rounding. On the sphere the polynomial is in the tangential components ξ, η of the
+    decide alone, by its rounding. On the sphere the polynomial is in the tangential components ξ, η of the
     difference d of the unit vectors, with |d|² in place of ξ² + η². So quadratic polynomials of the plane and linear
     functions of (x, y, z) have their exact gradients; for smooth functions the error is of order h². What the
-    neighbours do not determine is left out, second derivatives first. Neighbours without a value are passed over; equal
+    neighbours do not determine is left out, second derivatives first. Neighbours without a value are skipped; equal
     points take the mean of their values and have the same gradient.
 
     References

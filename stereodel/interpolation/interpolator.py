@@ -1,4 +1,4 @@
-"""What all interpolators have in common: the triangulation, the values, and what happens outside."""
+"""The common part of all interpolators: the triangulation, the values, and what happens outside."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Interpolator(ABC):
     Attributes
     ----------
     triangulation : PlanarDelaunay or SphericalDelaunay
-        Of the points; a copy, which later changes of the given one do not reach.
+        Of the points; a copy, independent of later changes to the one given.
     values : (n, ...) array
         As used, read-only: equal points have the mean of their values.
     latitude : str or None
@@ -56,7 +56,7 @@ class Interpolator(ABC):
     def from_lonlat(
         cls, lonlat: npt.ArrayLike, values: npt.ArrayLike, *, latitude: Latitude = "spherical", **options: Any
     ) -> Self:
-        """From values at points given by longitude and latitude; queries then speak them too.
+        """From values at points given by longitude and latitude; queries may then use them too.
 
         Parameters
         ----------
@@ -100,7 +100,7 @@ class Interpolator(ABC):
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions. A tuple of two xarray.DataArrays, x and y, means all places of both:
+            Points of the plane, or directions. A tuple of two xarray.DataArrays, x and y, means all points of both:
             points if they have the same dimensions, a grid if each has its own.
         {asked}
             Two DataArrays in a tuple, longitude and latitude, as for `queries`.
@@ -110,7 +110,7 @@ class Interpolator(ABC):
         Returns
         -------
         array of the leading shape, then the shape of one value
-            NaN outside, unless `extrapolate` says otherwise, and where a NaN of `values` takes part. For DataArrays a
+            NaN outside, unless `extrapolate` is given, and where a NaN of `values` takes part. For DataArrays a
             DataArray with their dimensions and coordinates, and those, name and attributes of `values`, if they are
             one.
 

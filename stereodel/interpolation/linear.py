@@ -15,7 +15,7 @@ from stereodel.interpolation.weights import Shares, WeightedInterpolator
 
 @shared(**FAMILY)
 class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
-    """Linear in each triangle, continuous over all of them.
+    """Linear in each triangle, continuous across them.
 
     Parameters
     ----------
@@ -37,15 +37,15 @@ class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
     sphere they are those of the point where the ray through the query meets the plane triangle of the unit vectors,
     λ_a = det[q b c] / (det[q b c] + det[a q c] + det[a b q]), and so on.
 
-    At the points the values are met exactly, everywhere they stay between those of the corners. Linear functions of
+    Values at the points are reproduced exactly, and lie between those of the corners everywhere. Linear functions of
     the plane are reproduced; on the sphere constants are, and linear functions of (x, y, z), the harmonics of degree
     1, are those of the point on the plane triangle: too small in amount by its depth below the sphere. The error for
     smooth functions is of order h² for edges of length h, that of the gradient, which jumps at edges, of order h. On
-    an edge or at a point the gradient is that of the triangle of lowest index. A NaN value makes NaN of all triangles
-    at its point. Outside is what no triangle holds: beyond the convex hull, on the sphere in triangles that are
+    an edge or at a point the gradient is that of the triangle of lowest index. A NaN value propagates to all triangles
+    at its point. Outside means in no triangle: beyond the convex hull, on the sphere in triangles that are
     `closing`.
 
-    Which triangle holds a query is decided exactly; weights are accurate in the thinnest triangle.
+    The triangle that contains a query is decided exactly; weights are accurate even in the thinnest triangles.
 
     References
     ----------

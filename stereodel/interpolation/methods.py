@@ -1,4 +1,4 @@
-"""Interpolators by the words for them, and interpolation in one call."""
+"""Interpolators by name, and interpolation in one call."""
 
 from __future__ import annotations
 
@@ -54,30 +54,30 @@ def griddata(
         Points of the plane, or directions; with `latitude` (longitude, latitude) in degrees. A tuple holds their
         coordinates one by one: x and y, or longitude and latitude.
     values : (n, ...) array_like
-        A number or an array of numbers for each point; NaN, or masked, where it is not known.
+        A number or an array of numbers for each point; NaN or masked where missing.
     xi : (..., 2) or (..., 3) array_like, or tuple of arrays
-        Where values are wanted, given as the points are; the arrays of a tuple are broadcast against each other, so
+        Query points, given as the points are; the arrays of a tuple are broadcast against each other, so
         that ``np.ix_``, ``np.mgrid`` and ``np.meshgrid`` give grids.
     method : {"linear", "nearest", "natural", "smooth"}, optional
         `LinearInterpolator`, `NearestInterpolator`, `NaturalNeighborInterpolator` or `SmoothInterpolator`.
     fill_value : float, optional
-        What stands outside of all triangles; for "nearest" there is no outside.
+        Value outside all triangles; for "nearest" there is no outside.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        Says that points and `xi` are longitude and latitude, and of which kind, as for `lonlat_to_xyz`.
+        Declares that points and `xi` are longitude and latitude, and of which kind, as in `lonlat_to_xyz`.
 
     Returns
     -------
     array of the leading shape of `xi`, then the shape of one value
-        NaN where a value takes part that is not known.
+        NaN where a missing value takes part.
 
     Raises
     ------
     ValueError, TypeError
-        For points and values as the interpolators do; for another method.
+        For points and values, as in the interpolators; for another method.
 
     Notes
     -----
-    For several fields, or several sets of places, make the interpolator once; its `weights` serve time series.
+    For several fields, or several sets of queries, make the interpolator once; its `weights` serve time series.
 
     Examples
     --------

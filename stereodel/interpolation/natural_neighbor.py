@@ -1,4 +1,4 @@
-"""Natural neighbour interpolation, R. Sibson's, on plane and sphere."""
+"""Natural neighbour interpolation (R. Sibson) in the plane and on the sphere."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stereodel.triangulation.dispatch import threads_of
 
 @shared(**FAMILY)
 class NaturalNeighborInterpolator(WeightedInterpolator):
-    """Each point counts with the area that a Voronoi cell around the query would take from its own (Sibson).
+    """Each point is weighted by the area that a Voronoi cell around the query would take from its own (Sibson).
 
     Parameters
     ----------
@@ -35,15 +35,15 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
     -----
     If the query were a point, its cell would take the area A_i from the cell of point i; the value is
     Σ A_i f_i / Σ A_i. On the sphere cells and areas are spherical. How cocircular points are triangulated does not
-    matter. The function is continuous, and differentiable but at the points, where the gradient is NaN; with the edge
-    between the new cell and that of point i, ∇A_i = ∫ (y − q) dy / |p_i − q|.
+    matter. The function is continuous, and differentiable except at the points, where the gradient is NaN; with the
+    edge between the new cell and that of point i, ∇A_i = ∫ (y − q) dy / |p_i − q|.
 
-    Values at the points are met exactly, everywhere they stay between those of the neighbours. Linear functions of the
-    plane are reproduced, on the sphere constants; the error for smooth functions is of order h². On the hull of the
-    plane the values are linear along its edges, and the gradient is NaN. A NaN value makes NaN wherever its point takes
-    part. Outside is what no triangle holds, as for `LinearInterpolator`.
+    Values at the points are reproduced exactly, and lie between those of the neighbours everywhere. Linear functions of
+    the plane are reproduced, on the sphere constants; the error for smooth functions is of order h². On the hull of the
+    plane the values are linear along its edges, and the gradient is NaN. A NaN value propagates to where its point
+    takes part. Outside means in no triangle, as in `LinearInterpolator`.
 
-    Whose area is taken is decided exactly; areas are rounded.
+    The cells that lose area are decided exactly; areas are rounded.
 
     References
     ----------

@@ -20,7 +20,7 @@ class NearestInterpolator(WeightedInterpolator):
     ----------
     {points}
     values : (n, ...) array_like
-        A number or an array of numbers for each point; NaN is a value like others.
+        A number or an array of numbers for each point; NaN is a value like any other.
 
     Attributes
     ----------
@@ -32,8 +32,8 @@ class NearestInterpolator(WeightedInterpolator):
 
     Notes
     -----
-    Defined everywhere; NaN if there is no point. Of several points equally near the lowest index counts. The gradient
-    is zero.
+    Defined everywhere; NaN if there are no points. Of several equally near points, the lowest index counts. The
+    gradient is zero.
 
     Examples
     --------

@@ -37,21 +37,21 @@ class SmoothInterpolator(TriangleInterpolator):
     Raises
     ------
     ValueError, TypeError
-        For points as the triangulation does; for values or gradients that are infinite, no real numbers, or not one for
+        For points, as in the triangulation; for values or gradients that are infinite, not real numbers, or not one for
         each point.
 
     Notes
     -----
-    In each triangle three functions are mixed. Each joins one corner to the points of the opposite side by cubics,
+    In each triangle three functions are blended. Each joins one corner to the points of the opposite side by cubics,
     along the side and along the line from the corner, which have the given values and slopes at their ends; the slope
     across a side is linear. Lines are straight in the plane and great circles on the sphere, without tension.
 
-    Values and gradients at the points are met. With exact gradients, quadratic polynomials of the plane are reproduced
-    and so are constants on the sphere; the error for smooth functions is of order h³ for edges of length h, that of the
+    Values and gradients at the points are reproduced. With exact gradients, so are quadratic polynomials of the plane
+    and constants on the sphere; the error for smooth functions is of order h³ for edges of length h, that of the
     gradient of order h², with estimated gradients too. The function may leave the range of the values, and in
     thin triangles, as between two points that nearly meet and a far one, its gradient may be large. NaN values and
-    gradients that are not finite make NaN of the triangles at their point, nothing else. Coordinates may be as small
-    and as large as doubles are. Outside is what no triangle holds, as for
+    gradients that are not finite propagate only to the triangles at their point. Coordinates may be as small
+    and as large as doubles are. Outside means in no triangle, as in
     `LinearInterpolator`.
 
     References

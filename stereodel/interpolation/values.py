@@ -24,7 +24,7 @@ FAMILY: Final = {
         """,
     "values": """
         values : (n, ...) array_like
-            A number or an array of numbers for each point; NaN, or masked, where it is not known.
+            A number or an array of numbers for each point; NaN or masked where missing.
         """,
     "extrapolate": """
         extrapolate : "nearest", optional
@@ -39,7 +39,7 @@ FAMILY: Final = {
         """,
     "raises": """
         ValueError, TypeError
-            For points as the triangulation does; for values that are infinite, no real numbers, or not one for each
+            For points, as in the triangulation; for values that are infinite, not real numbers, or not one for each
             point.
         """,
 }

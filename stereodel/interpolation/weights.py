@@ -1,4 +1,4 @@
-"""Weights of points at places, a sparse matrix: interpolation that is done once for many fields."""
+"""Weights of points at query points, a sparse matrix: interpolation done once for many fields."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Shares(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Weights:
-    """How much each point counts at each of some places: a sparse matrix with a row for each place.
+    """The weight of each point at each query: a sparse matrix with a row for each query.
 
     Made by `weights` of `LinearInterpolator`, `NearestInterpolator` and `NaturalNeighborInterpolator`.
 
@@ -41,9 +41,9 @@ class Weights:
     columns : (s,) array of int
         The point of each entry.
     data : (s,) array
-        Its weight: not negative; those of a row have the sum one, up to rounding.
+        Its weight: not negative; those of a row add up to one, up to rounding.
     shape : tuple of int
-        Shape of the places, m of them.
+        Shape of the queries, m of them.
     size : int
         Number of points n.
 
@@ -56,8 +56,8 @@ class Weights:
     -----
     ``weights @ values`` takes values (n,) or (n, ...), `apply` those with the points along another axis. The result is
     that of the interpolator for these values, to the last bit; where equal points share their values, up to rounding,
-    as the weight of the place is divided among them. A row is summed as differences from the value of its heaviest
-    point, in the order of its entries. A NaN among the values of a row makes NaN, also where its weight is zero, and so
+    as the weight is divided among them. A row is summed as differences from the value of its heaviest
+    point, in the order of its entries. A NaN among the values of a row gives NaN, even if its weight is zero, and so
     does a row without entries.
 
     Examples
@@ -102,7 +102,7 @@ class Weights:
         return self.apply(values)
 
     def apply(self, values: npt.ArrayLike, *, axis: int = 0) -> FloatArray:
-        """Values at the places.
+        """Values at the queries.
 
         Parameters
         ----------
@@ -114,12 +114,12 @@ class Weights:
         Returns
         -------
         array
-            The shape of the values, with that of the places instead of the axis of the points.
+            The shape of the values, with that of the queries instead of the axis of the points.
 
         Raises
         ------
         ValueError, TypeError
-            For values that are infinite, no real numbers, or not one for each point along the axis.
+            For values that are infinite, not real numbers, or not one for each point along the axis.
         """
         array = as_values(values, self.size, axis=axis)
         fields = np.moveaxis(array, axis, -1)
@@ -143,13 +143,13 @@ class Weights:
             found[held] = (base + above)[held]
 
     def to_scipy(self) -> Any:
-        """As a sparse array of SciPy, (m, n), in rows (CSR).
+        """As a sparse array of SciPy, (m, n), in CSR format.
 
         Returns
         -------
         scipy.sparse.csr_array
-            With an entry for each of these, zeros too. Its product with values is the same up to rounding, but has
-            zero where this one has NaN for want of entries.
+            With the same entries, including zeros. Its product with values is the same up to rounding, but has
+            zeros where this one has NaN because a row has no entries.
 
         Raises
         ------
@@ -188,12 +188,12 @@ class Weights:
         Raises
         ------
         ValueError
-            For a file with something else in it.
+            For a file with other content.
         """
         with np.load(path, allow_pickle=False) as archive:
             missing = {"indptr", "columns", "data", "shape", "size"} - set(getattr(archive, "files", ()))
             if missing:
-                raise ValueError(f"{os.fspath(path)} holds no weights: {', '.join(sorted(missing))} is missing")
+                raise ValueError(f"{os.fspath(path)} is not a file of weights: {', '.join(sorted(missing))} is missing")
             indptr, columns, data = (archive[name] for name in ("indptr", "columns", "data"))
             shape, size = tuple(archive["shape"].tolist()), int(archive["size"])
         agree = (
@@ -204,7 +204,7 @@ class Weights:
             and not ((columns < 0) | (columns >= size)).any()
         )
         if not agree:
-            raise ValueError(f"{os.fspath(path)} holds no weights: its arrays do not fit one another")
+            raise ValueError(f"{os.fspath(path)} is not a file of weights: its arrays do not fit together")
         return cls(indptr, columns, data, shape, size)
 
     def __repr__(self) -> str:
@@ -222,7 +222,7 @@ class WeightedInterpolator(Interpolator):
         lonlat: npt.ArrayLike | None = None,
         workers: int | None = None,
     ) -> Weights:
-        """Weights of the points at places, for values still to come: time series, several fields, other files.
+        """Weights of the points at queries, for further values: time series, several fields, other files.
 
         Parameters
         ----------
@@ -235,7 +235,7 @@ class WeightedInterpolator(Interpolator):
         Returns
         -------
         Weights
-            ``weights @ values`` is what an interpolator of these values gives at the queries.
+            ``weights @ values`` is the result of an interpolator of these values at the queries.
 
         Raises
         ------

@@ -144,8 +144,10 @@ def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False) -> 
             raise ValueError(f"row {rows[places[0]]}: the {name} {said!r} is not a number{_more(places)}")
     bad = np.flatnonzero(np.isinf(result) if gaps else ~np.isfinite(result))
     if len(bad):
-        what = "is missing" if np.isnan(result[bad[0]]) else f"is {result[bad[0]]}, but must be finite"
-        raise ValueError(f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; drop or fill such rows first")
+        missing = bool(np.isnan(result[bad[0]]))
+        what = "is missing" if missing else f"is {result[bad[0]]}, but must be finite"
+        advice = "leave such rows out with skip_missing=True" if missing else "correct or drop such rows first"
+        raise ValueError(f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; {advice}")
     return result
 
 

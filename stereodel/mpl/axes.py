@@ -1,8 +1,8 @@
 """Globes as axes of matplotlib.
 
-Data is longitude and latitude in degrees. What joins two vertices of a line or polygon is the shorter great-circle arc,
-so that nothing has to be cut at ±180° or at a pole; with ``edges="straight"`` it is what is straight on the map of
-longitude and latitude, which is how GeoJSON and cartopy's PlateCarree mean it. ``transform=ax.transGreatCircle`` and
+Data are longitude and latitude in degrees. Vertices of a line or polygon are joined by the shorter great-circle arc,
+so that nothing has to be cut at ±180° or at a pole; with ``edges="straight"`` edges are straight on the map of
+longitude and latitude, as in GeoJSON and cartopy's PlateCarree. ``transform=ax.transGreatCircle`` and
 ``transform=ax.transStraight`` choose for one artist.
 """
 
@@ -49,26 +49,26 @@ class FisheyeAxes(GlobePlots):
 
     Made by ``plt.subplot(projection=FisheyeAxes, focus=…, magnification=…)``, and likewise by `add_subplot` and
     `add_axes` of figures and the ``subplot_kw`` of ``plt.subplots``. The limits of the axes are in units of the radius
-    of the disc that the whole view fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `zoom_to` and the toolbar. What lies
-    behind is not drawn: lines are cut where the view ends, and filled regions follow its edge.
+    of the disc that the whole view fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `zoom_to` and the toolbar. Hidden
+    parts are not drawn: lines end at the edge of the view, and filled regions follow it.
 
     Parameters
     ----------
     focus : array_like, shape (2,) or (3,), optional
-        What is magnified: (lon, lat) in degrees or a direction; by default (0, 0).
+        The point that is magnified: (lon, lat) in degrees or a direction; by default (0, 0).
     magnification : float, optional
         S > 0, by default 1: nothing is magnified.
     lens : MoebiusMap, optional
         Any conformal map, instead of `focus` and `magnification`.
     view : (lon, lat), View or StereographicView, optional
-        Seen from above which point, after the lens; by default above the image of the focus.
+        The point above which the globe is seen, after the lens; by default the image of the focus.
     edges : {"great circle", "straight"}
-        What joins vertices: the shorter great-circle arc, or what is straight on the map of longitude and latitude.
+        How vertices are joined: by the shorter great-circle arc, or straight on the map of longitude and latitude.
 
     Raises
     ------
     ValueError
-        For a wrong focus, magnification, view or kind of edges, and for both a lens and a magnification.
+        For an invalid focus, magnification, view or kind of edges, and for both a lens and a magnification.
 
     Examples
     --------
@@ -101,7 +101,7 @@ class FisheyeAxes(GlobePlots):
         **kwargs: Any,
     ) -> None:
         if lens is not None and not (focus is None and magnification is None):
-            raise ValueError("lens was given beside focus or magnification; give one or the other")
+            raise ValueError("lens was given together with focus or magnification; give one or the other")
         place = (0.0, 0.0) if focus is None else focus
         self._lens = lens or fisheye(place, magnification=1.0 if magnification is None else magnification)
         self._view = _view_of(view, self._lens)
@@ -155,13 +155,13 @@ class FisheyeAxes(GlobePlots):
         self.grid(mpl.rcParams["axes.grid"])
 
     def autoscale_view(self, *args: Any, **kwargs: Any) -> None:
-        """Nothing: a globe shows all of itself until a part is asked for."""
+        """Does nothing: the limits show the whole globe until you change them."""
 
     def set_aspect(self, *args: Any, **kwargs: Any) -> None:
-        """Nothing: a globe is round. GeoPandas asks here for what suits a flat map of longitude and latitude."""
+        """Does nothing: a globe is round. GeoPandas calls this for flat maps of longitude and latitude."""
 
     def draw(self, renderer: Any) -> None:
-        """Draw, with lines as fine as the zoom wants them."""
+        """Draw, with lines resampled as finely as the zoom requires."""
         width = abs(self.viewLim.width)
         # In powers of two, so that small changes of the limits do not make all paths anew.
         finer = min(1.0, 2.0 ** float(np.floor(np.log2(width / 2))))
@@ -170,7 +170,7 @@ class FisheyeAxes(GlobePlots):
         super().draw(renderer)
 
     def format_coord(self, x: float, y: float) -> str:
-        """The place under the pointer, such as "48.8600° N, 2.3500° E"; empty beside the globe."""
+        """The position under the pointer, such as "48.8600° N, 2.3500° E"; empty beside the globe."""
         if not np.isfinite([x, y]).all():
             return ""
         return f"{abs(y):.4f}° {'N' if y >= 0 else 'S'}, {abs(x):.4f}° {'E' if x >= 0 else 'W'}"
@@ -189,7 +189,7 @@ class FisheyeAxes(GlobePlots):
             super()._set_view_from_bbox(*args, **kwargs)  # type: ignore[misc]
 
     def start_pan(self, x: float, y: float, button: Any) -> None:
-        """Begin to move the picture with the pointer."""
+        """Start to pan with the pointer."""
         with self._limits_as_data():
             super().start_pan(x, y, button)
 
@@ -201,7 +201,7 @@ class FisheyeAxes(GlobePlots):
         self.set_ylim(-1.0, 1.0)
 
     def zoom_to(self, bounds: npt.ArrayLike) -> None:
-        """Zoom to what is seen of a box of longitude and latitude.
+        """Zoom to the visible part of a box of longitude and latitude.
 
         Parameters
         ----------
@@ -212,7 +212,7 @@ class FisheyeAxes(GlobePlots):
         Raises
         ------
         ValueError
-            When the borders are not a box, or nothing of it is in sight.
+            If the bounds are not a box, or no part of it is visible.
 
         Examples
         --------
@@ -230,14 +230,14 @@ class FisheyeAxes(GlobePlots):
         border = self._globes[1].transform_path_non_affine(Path(corners, closed=True))
         if not np.size(border.vertices):
             raise ValueError(
-                f"bounds {(west, south, east, north)} are out of sight; turn the view there: view=(lon, lat)"
+                f"bounds {(west, south, east, north)} are not visible; choose a view above them: view=(lon, lat)"
             )
         box = border.get_extents()
         self.set_xlim(box.x0, box.x1)
         self.set_ylim(box.y0, box.y1)
 
     def grid(self, visible: bool | None = None, which: str = "major", axis: str = "both", **kwargs: Any) -> None:
-        """Show or hide the graticule; `kwargs` are those of `graticule`. `which` and `axis` mean nothing here."""
+        """Show or hide the graticule; `kwargs` are those of `graticule`. `which` and `axis` are ignored."""
         if getattr(self, "patch", None) is None:
             return  # matplotlib asks while it makes the axes; `clear` asks again
         shown = self._graticule is not None
@@ -270,7 +270,7 @@ class FisheyeAxes(GlobePlots):
         return self._lines(_path(lines.lonlat, lines.offsets), self.transStraight, LINES["frame"], kwargs)
 
     def land(self, resolution: str = "50m", **kwargs: Any) -> PathPatch:
-        """Fill the land of Natural Earth; the arguments are those of `coastlines`, whose lines go well over it."""
+        """Fill the land of Natural Earth; the arguments are those of `coastlines`, to be drawn over it."""
         areas = data.land(resolution)
         path = _path(areas.lonlat, areas.ring_offsets, closed=True)
         style = {"color": LAND, "edgecolor": "none", "zorder": 0.5} | normalize_kwargs(kwargs, PathPatch)
@@ -295,9 +295,9 @@ class FisheyeAxes(GlobePlots):
         ----------
         geometries : geometry, sequence of geometries, GeoSeries, GeoDataFrame, GeoJSON, or the path of a file
             Longitude and latitude in degrees; frames in another coordinate system are transformed. Anything with
-            ``__geo_interface__`` will do.
+            ``__geo_interface__`` is accepted.
         edges : {"straight", "great circle"}
-            What joins vertices; by default as GeoJSON, shapefiles and cartopy's PlateCarree mean it.
+            How vertices are joined; by default straight, as in GeoJSON, shapefiles and cartopy's PlateCarree.
         **kwargs
             Those of `matplotlib.collections.PathCollection`, for polygons and lines; an `array` with a value for each
             colours them.
@@ -342,7 +342,7 @@ def _in_degrees(arc: SphereArc) -> FloatArray:
 
 
 def register() -> None:
-    """Make ``projection="stereodel.fisheye"`` known to matplotlib: for settings and programs that go by names.
+    """Make ``projection="stereodel.fisheye"`` known to matplotlib, for code that selects projections by name.
 
     Examples
     --------

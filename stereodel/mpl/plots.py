@@ -27,7 +27,7 @@ class GlobePlots(Axes):
     """The unit disc to pixels."""
 
     def contour(self, *args: Any, **kwargs: Any) -> Any:
-        """Contour lines, as in matplotlib; those that are closed are no regions, so they end where the view ends."""
+        """Contour lines, as in matplotlib; closed ones are not regions, so they end where the view ends."""
         return _with_open_lines(super().contour(*args, **kwargs))
 
     def tricontour(self, *args: Any, **kwargs: Any) -> Any:
@@ -69,17 +69,17 @@ class GlobePlots(Axes):
         return collection
 
     def quiver(self, *args: Any, **kwargs: Any) -> Quiver:
-        """Arrows at places in degrees, ``quiver(lon, lat, east, north)``, turned to where east and north are."""
+        """Arrows at points in degrees, ``quiver(lon, lat, east, north)``, with components to the east and north."""
         return super().quiver(*self._turned(args), **kwargs)
 
     def barbs(self, *args: Any, **kwargs: Any) -> Barbs:
-        """Wind barbs at places in degrees, ``barbs(lon, lat, east, north)``, turned to where east and north are."""
+        """Wind barbs at points in degrees, ``barbs(lon, lat, east, north)``, with components to the east and north."""
         return super().barbs(*self._turned(args), **kwargs)
 
     def _turned(self, args: tuple[Any, ...]) -> tuple[Any, ...]:
         """The places and components of vectors, these along the axes of the page; their lengths stay."""
         if len(args) < 4:
-            raise TypeError("give the places of vectors, in degrees, before their components: lon, lat, east, north")
+            raise TypeError("give the positions of the vectors, in degrees, first: lon, lat, east, north")
         lon, lat, east, north = np.broadcast_arrays(*(np.ma.filled(np.ma.asarray(a, float), np.nan) for a in args[:4]))
         # What steps of one length on the sphere are on the page, along the meridian and along the parallel, on which a
         # degree is shorter. The orthographic view shortens them toward the limb, unlike in the two directions.
@@ -94,17 +94,17 @@ class GlobePlots(Axes):
         return (lon, lat, scale * vector[..., 0], scale * vector[..., 1], *args[4:])
 
     def imshow(self, *args: Any, **kwargs: Any) -> AxesImage:
-        """Pictures of the page, with ``transform=axes.transPage``; a picture of degrees would have to be bent.
+        """Images in page coordinates, with ``transform=axes.transPage``; an image in degrees would have to be warped.
 
         Raises
         ------
         ValueError
-            Without that transform: use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` makes a picture of the
+            Without that transform: use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` makes an image of the
             page.
         """
         if kwargs.get("transform") is not self.transPage:
             raise ValueError(
-                "imshow cannot bend a picture: use pcolormesh, or show stereodel.globe.Raster(picture).warp(…) "
+                "imshow cannot warp an image: use pcolormesh, or show stereodel.globe.Raster(picture).warp(…) "
                 "with extent=(-1, 1, -1, 1), transform=axes.transPage"
             )
         return super().imshow(*args, **kwargs)

@@ -83,7 +83,7 @@ def orient3d(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike, d: npt.ArrayL
     Parameters
     ----------
     a, b, c, d : array_like, (..., 3)
-        Points of space, taken as they stand (for directions see `in_bubble`); leading shapes are broadcast together.
+        Points of space (for directions see `in_bubble`); leading shapes are broadcast together.
 
     Returns
     -------

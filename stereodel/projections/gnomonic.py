@@ -40,7 +40,7 @@ class Gnomonic(TangentPlane):
     """
 
     def forward(self, xyz: npt.ArrayLike) -> FloatArray:
-        """Plane points (..., 2) of directions (..., 3); NaN from 90° from the centre on, or where no double reaches."""
+        """Plane points (..., 2) of directions (..., 3); NaN at 90° from the centre and beyond, and on overflow."""
         return by_blocks(self._forward, as_directions(xyz, "xyz"))
 
     def _forward(self, rows: FloatArray) -> FloatArray:
@@ -59,7 +59,7 @@ class Gnomonic(TangentPlane):
         return self.world(unit(np.concatenate([rows, heights], axis=-1)))
 
     def scale_factors(self, xyz: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
-        """(radial, tangential) scale of `forward`, each (...): R / cos² χ and R / cos χ; NaN from 90° on."""
+        """(radial, tangential) scale of `forward`, each (...): R / cos² χ and R / cos χ; NaN at 90° and beyond."""
         scales = by_blocks(self._scales, as_directions(xyz, "xyz"))
         return scales[..., 0], scales[..., 1]
 
@@ -72,7 +72,7 @@ class Gnomonic(TangentPlane):
         """The image of the part of a circle that lies less than 90° from the centre.
 
         A line for a great circle; otherwise an ellipse, parabola or hyperbola as the circle stays away from, touches
-        (within `STORED_ERROR`) or crosses the great circle at 90°; empty when nothing of it lies nearer.
+        (within `STORED_ERROR`) or crosses the great circle at 90°; empty when no part of it lies within.
         """
         normal, cosine, _ = circle.exact_parts()
         local = transform(self.frame, normal)

@@ -1,4 +1,4 @@
-"""Orthographic projection: the globe seen from far away (the views of Figures 10 to 12)."""
+"""Orthographic projection: the globe seen from infinitely far away (the views of Figures 10 to 12)."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Orthographic(TangentPlane):
         return radial, nan_where(heights < 0, np.full_like(heights, self.radius))
 
     def image_of(self, circle: SphereCircle) -> Conic:
-        """The image of a whole circle, its far part included: an ellipse, or a segment when it is seen edge-on.
+        """The image of a whole circle, its part on the far side included: an ellipse, or a segment when seen edge-on.
 
         `sample(t)` runs as the circle does, counterclockwise about its normal: clockwise on the plane where that points
         away.

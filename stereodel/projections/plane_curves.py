@@ -1,4 +1,4 @@
-"""Circles, lines and conics of the plane: what circles of the sphere become under a projection."""
+"""Circles, lines and conics of the plane: the images of circles of the sphere under a projection."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class PlaneCircle:
     center : array, shape (2,)
     radius : float
     outside : bool
-        Whether the interior of the bubble that it came from lies outside (the bubble contains the projection pole).
+        Whether the interior of the bubble lies outside the circle, as for a bubble that contains the projection pole.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class PlaneCircle:
 
 @dataclass(frozen=True, eq=False)
 class PlaneLine:
-    """The line normal·(x, y) = offset; the interior of the bubble that it came from is the side where it is larger.
+    """The line normal·(x, y) = offset; the interior of its bubble is the side where normal·(x, y) is larger.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ class PlaneLine:
 
     @property
     def point(self) -> FloatArray:
-        """The point of the line next to the origin."""
+        """The point of the line nearest to the origin."""
         return self.normal * self.offset
 
     @property

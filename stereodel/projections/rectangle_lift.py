@@ -55,13 +55,13 @@ class RectangleLift:
         for name in ("width", "height"):
             object.__setattr__(self, name, as_scalar(getattr(self, name), name, low=0.0))
         if self.width == self.height == 0:
-            raise ValueError("width and height are both 0: the rectangle is a point and has no sphere")
+            raise ValueError("width and height are both 0: a rectangle that is a point has no lift")
         center = as_points([self.center], 2, "center")[0]
         object.__setattr__(self, "center", tuple(center.tolist()))
 
     @classmethod
     def fit(cls, points: npt.ArrayLike) -> RectangleLift:
-        """The lift of the smallest rectangle along the axes around plane points (n, 2), not all of them equal."""
+        """The lift of the bounding rectangle, along the axes, of plane points (n, 2) that are not all equal."""
         xy = as_points(points, 2)
         if len(xy) == 0:
             raise ValueError("points is empty: there is no rectangle to lift")
@@ -86,7 +86,7 @@ class RectangleLift:
         return float(self.sphere.angular_radius(self.diagonal / 2))
 
     def forward(self, xy: npt.ArrayLike) -> FloatArray:
-        """Unit vectors (..., 3) of plane points (..., 2); points outside the rectangle land north of its image."""
+        """Unit vectors (..., 3) of plane points (..., 2); points outside the rectangle go north of its image."""
         return by_blocks(lambda rows: self.sphere.lift(self._centered(rows)), as_vectors(xy, 2, "xy"))
 
     def _centered(self, rows: FloatArray) -> DoubleDouble:

@@ -28,7 +28,7 @@ class Stereographic(TangentPlane):
     ----------
     center : (float, float)
         (lon, lat) in degrees of the point of tangency. The plane's axes are (east, north) there; at a pole the limit
-        along `lon`. The orientation is that seen from outside the sphere. A direction (x, y, z) is taken too.
+        along `lon`. The orientation is that seen from outside the sphere. A direction (x, y, z) is accepted too.
     radius : float
         Radius R of the sphere in the unit of the plane.
     plane : {"tangent", "equatorial"}
@@ -38,7 +38,7 @@ class Stereographic(TangentPlane):
     Notes
     -----
     Evaluated in double-double and rounded once: forward results are exact up to 4·2⁻⁵² of their length for a point
-    within 4·2⁻⁵² rad of the given one, next to the centre and next to its antipode alike; unit vectors from `inverse`
+    within 4·2⁻⁵² rad of the given one, near the centre and near its antipode alike; unit vectors from `inverse`
     are exact up to rounding. J. P. Snyder, "Map Projections: A Working Manual", USGS PP 1395 (1987), section 21.
 
     Examples
@@ -61,7 +61,7 @@ class Stereographic(TangentPlane):
 
     @property
     def unit_distance(self) -> float:
-        """Plane distance of the great circle at 90° from the centre: 2R, or R for the equatorial plane."""
+        """Distance in the plane of the great circle at 90° from the centre: 2R, or R for the equatorial plane."""
         return 2 * self.radius if self.plane == "tangent" else self.radius
 
     def forward(self, xyz: npt.ArrayLike) -> FloatArray:
@@ -81,9 +81,9 @@ class Stereographic(TangentPlane):
         return by_blocks(lambda rows: self.lift(DoubleDouble(rows)), as_vectors(xy, 2, "xy"))
 
     def in_space(self, xy: npt.ArrayLike) -> FloatArray:
-        """Where plane points (..., 2) lie in space, (..., 3), the sphere being that of `radius` about the origin.
+        """Positions in space, (..., 3), of plane points (..., 2), with the sphere of `radius` about the origin.
 
-        The sphere's point, its image and the antipode of the centre are on one line: that is the projection.
+        A point of the sphere, its image and the antipode of the centre are collinear: that defines the projection.
 
         Examples
         --------

@@ -21,7 +21,7 @@ class TangentPlane:
     ----------
     center : (float, float)
         (lon, lat) in degrees of the point of tangency. At a pole the axes are the limit along `lon`: at the north pole
-        north points towards lon + 180°, at the south pole towards lon. A direction (x, y, z) is taken too, with lon 0
+        north points toward lon + 180°, at the south pole toward lon. A direction (x, y, z) is accepted too, with lon 0
         at the poles.
     radius : float
         Radius R of the sphere, in the unit of the plane. Points of the sphere are directions whatever R is.

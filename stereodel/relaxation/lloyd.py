@@ -26,14 +26,14 @@ Density = Callable[[FloatArray], npt.ArrayLike]
 
 
 class Progress(NamedTuple):
-    """What `lloyd` tells after a step.
+    """The argument of the callback of `lloyd`, after each step.
 
     Attributes
     ----------
     step : int
-        Which one, from 1 on.
+        Number of the step, from 1.
     energy : float
-        After it.
+        Energy after it.
     move : float
         The longest way of a point: in units of the plane, on the sphere in degrees.
     """
@@ -50,13 +50,13 @@ class Quality:
     Attributes
     ----------
     neighbors : dict
-        How many points have how many neighbours in the triangulation. In the plane those on the hull do not count.
+        Number of points by number of neighbours in the triangulation. In the plane those on the hull do not count.
     defects : int
-        Points that have not six.
+        Points that do not have six.
     area_ratio : float
         Area of the largest cell, within the bounds, over that of the smallest.
     energy : float
-        In the end.
+        Energy at the end.
     converged : bool
         As for `Relaxation`.
     """
@@ -77,12 +77,12 @@ class Step(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Relaxation:
-    """What `lloyd` returns; arrays are read-only.
+    """The result of `lloyd`; arrays are read-only.
 
     Attributes
     ----------
     points : (n, 2) or (n, 3) array
-        The relaxed points, on the sphere unit vectors, in the order given.
+        The relaxed points, unit vectors on the sphere, in the order given.
     energies : (steps + 1,) array
         Energy before the first step and after each.
     moves : (steps,) array
@@ -92,7 +92,7 @@ class Relaxation:
     latitude : str or None
         The kind of latitude by which the points were given.
     bounds : (k, 2) array or None
-        Corners of the part of the plane that the cells divide; None on the sphere.
+        Corners of the polygon that the cells divide; None on the sphere.
     lonlat : (n, 2) array
         `points` in degrees, of that latitude.
 
@@ -168,7 +168,7 @@ def lloyd(
     callback: Callable[[Progress], object] | None = None,
     workers: int | None = None,
 ) -> Relaxation:
-    """Move points to the centroids of their Voronoi cells, again and again.
+    """Move points to the centroids of their Voronoi cells, repeatedly.
 
     Parameters
     ----------
@@ -176,20 +176,20 @@ def lloyd(
         Points of the plane, directions, or a triangulation of them.
     {instead}
     steps : int, optional
-        How many times at most, 0 or more.
+        Largest number of steps, 0 or more.
     density : callable, optional
-        The weight of places: takes points (m, 2), or unit vectors (m, 3), and returns m finite numbers, 0 or more. By
-        default all places weigh the same.
+        Density as a function of position: takes points (m, 2), or unit vectors (m, 3), and returns m finite numbers ≥
+        0. By default it is constant.
     bounds : array_like, (4,) or (k, 2)
-        In the plane the part that the cells divide: (xmin, ymin, xmax, ymax), or the corners of a convex polygon,
-        counterclockwise. On the sphere none: the cells divide it all.
+        In the plane, the region that the cells divide: (xmin, ymin, xmax, ymax), or the corners of a convex polygon,
+        counterclockwise. Not on the sphere, which the cells divide as a whole.
     tolerance : float, optional
-        Stop after a step that moves no point farther: in units of the plane, on the sphere in degrees.
+        Stop after a step that moves no point farther than this: in units of the plane, on the sphere in degrees.
     factor : float, optional
-        How much of the way to the centroid a step takes, above 0 and below 2. Above 1 it goes beyond (over-relaxation):
-        with 1.9 little more than half as many steps do.
+        Length of a step relative to the way to the centroid, above 0 and below 2. Above 1 it goes beyond
+        (over-relaxation): with 1.9, little more than half as many steps are needed.
     callback : callable, optional
-        Is called after each step with a `Progress`: step, energy, move. What it returns does not count; what it raises
+        Called after each step with a `Progress`: step, energy, move. Its result is ignored; an exception
         ends the relaxation.
     workers : int, optional
         Threads; -1 for all processors. Never changes the result.
@@ -211,7 +211,7 @@ def lloyd(
     -----
     The energy is the sum over the cells of ∫ ρ(x) |x − p|² dx, on the sphere with the chord |x − p|. A step takes p
     to the mass centroid of its cell, on the sphere projected to it from the centre: where this integral is least. The
-    new cells are at least as good, so the energy never grows, up to rounding and, with a density, quadrature.
+    new cells are at least as good, so the energy never increases, up to rounding and, with a density, quadrature.
 
     That holds for each `factor` too: with the old cells the energy depends on the distance from the centroid alone (on
     the sphere on the angle), and none is longer afterwards than before. A point that would leave the bounds stops at
@@ -222,7 +222,7 @@ def lloyd(
     than 11.5°. A density that varies within a cell is seen at seven places in each of its triangles.
 
     A dropped duplicate has no cell and stays for a step, in which the kept one mostly moves away; so does a point whose
-    cell weighs nothing, or is the whole sphere. Points that are symmetric stay so, on a great circle for example: such
+    cell has zero mass, or is the whole sphere. Symmetric points stay symmetric, on a great circle for example: such
     a state may be a saddle of the energy.
 
     Source: S. Lloyd, "Least squares quantization in PCM" (1957, 1982); Q. Du, V. Faber, M. Gunzburger, "Centroidal
@@ -377,5 +377,7 @@ def _values(density: Density | None, nodes: FloatArray) -> FloatArray:
     flat = nodes.reshape(-1, nodes.shape[-1])
     values = as_weights(density(flat), "density(points)")
     if values.shape != (len(flat),):
-        raise ValueError(f"density(points) must return one number a point, shape {(len(flat),)}, got {values.shape}")
+        raise ValueError(
+            f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
+        )
     return values.reshape(nodes.shape[:2])

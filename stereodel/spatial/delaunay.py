@@ -29,8 +29,8 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         Whether `add_points` may be called.
     qhull_options : str, optional
         "Qbb" (scaled paraboloid), "Qc" (`coplanar` is listed) and "Qz" (point at infinity, above the paraboloid) mean
-        what they mean to Qhull; "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and not needed.
-        Default: "Qbb Qc Qz Q12", in incremental mode "Qc".
+        have the same meaning as in Qhull; "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
+        ignored. Default: "Qbb Qc Qz Q12", in incremental mode "Qc".
 
     Attributes
     ----------
@@ -45,13 +45,13 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         Heights are ``paraboloid_scale * (x**2 + y**2) + paraboloid_shift``.
     transform : (nsimplex, 3, 2) array
         ``transform[i, :2] @ (x - transform[i, 2])`` are the barycentric coordinates of x for the first two corners;
-        NaN for triangles so thin that less than three digits would be right.
+        NaN for triangles so thin that fewer than three digits would be right.
     vertex_to_simplex : (npoints,) array of int32
         A triangle of each point, for a duplicate one of the point that was kept; -1 for none.
     convex_hull : (nfaces, 2) array of int32
         Edges of the hull, counterclockwise.
     coplanar : (ncoplanar, 3) array of int32
-        [point, triangle, vertex] for points that are no vertices: those exactly equal to the vertex, and no others.
+        [point, triangle, vertex] for points that are not vertices: those exactly equal to the vertex, and no others.
     vertex_neighbor_vertices : tuple of two int32 arrays
         The neighbors of vertex k are ``indices[indptr[k]:indptr[k + 1]]``, in ascending order.
     good : (nsimplex,) array of int32
@@ -67,7 +67,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
 
     Notes
     -----
-    Arrays can be written to, as SciPy's; the triangulation behind them does not change. Source:
+    Arrays can be written to, as in SciPy; the triangulation behind them does not change. Source:
     `stereodel.PlanarDelaunay`, whose rows have the same order.
 
     Examples
@@ -190,7 +190,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         return self._paraboloid.lift(as_vectors(xi, 2, "xi")) @ self.equations[:, :3].T + self.equations[:, 3]
 
     def find_simplex(self, xi: npt.ArrayLike, bruteforce: bool = False, tol: float | None = None) -> IntArray:
-        """Triangle that holds each point.
+        """Triangle that contains each point.
 
         Parameters
         ----------
@@ -198,7 +198,7 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         bruteforce : bool, optional
             Whether points just outside are compared with every triangle at the hull, not just the nearest few.
         tol : float, optional
-            How far below 0 barycentric coordinates may be for points outside the hull. Default: 100 times the
+            How far below 0 barycentric coordinates may be, for points outside the hull. Default: 100 times the
             spacing of doubles at 1; 0 for exact answers.
 
         Returns
@@ -209,11 +209,11 @@ class Delaunay(GrowingPoints, scipy.spatial.Delaunay):
         Raises
         ------
         ValueError, TypeError
-            For other shapes, values that are no real numbers, and a negative `tol`.
+            For other shapes, values that are not real numbers, and a negative `tol`.
 
         Notes
         -----
-        As in SciPy, a point in a triangle without `transform` is given to a neighbor that has one, if the coordinate
+        As in SciPy, a point in a triangle without `transform` is assigned to a neighbor that has one, if the coordinate
         there is not below -√tol.
         """
         slack = as_scalar(INSIDE_TOLERANCE if tol is None else tol, "tol", low=0.0)

@@ -1,4 +1,4 @@
-"""Points of the plane that more can be added to: what SciPy's `Delaunay` and `Voronoi` have in common."""
+"""Points of the plane to which more can be added: the common part of SciPy's `Delaunay` and `Voronoi`."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class GrowingPoints:
         ----------
         points : (k, 2) array_like
         restart : bool, optional
-            Whether to begin from scratch, which changes nothing but the order of rows.
+            Whether to start from scratch, which changes only the order of rows.
 
         Raises
         ------
@@ -80,7 +80,7 @@ class GrowingPoints:
         self._forget()
 
     def close(self) -> None:
-        """End the incremental mode: no points can be added any more."""
+        """End the incremental mode: no more points can be added."""
         self._incremental = False
 
     def _forget(self) -> None:

@@ -23,8 +23,8 @@ class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
     center : (3,) array_like, optional
         Center of the sphere; default the origin.
     threshold : float, optional
-        How far points may be from the sphere, relative to the radius. Points may be as close to one another as they
-        like.
+        How far points may be from the sphere, relative to the radius. There is no limit to how close points may be to
+        one another.
 
     Attributes
     ----------
@@ -47,8 +47,8 @@ class SphericalVoronoi(scipy.spatial.SphericalVoronoi):
     Notes
     -----
     Directions are those of ``points - center``, as rounded: with the center at the origin, exactly those of the points.
-    Answers to points that SciPy refuses, those on one circle, close together, equal, one or none, are those of
-    `stereodel.SphericalVoronoi`, on which this is built. Arrays can be written to, as SciPy's.
+    Results for points that SciPy refuses, those on one circle, close together, equal, one or none, are those of
+    `stereodel.SphericalVoronoi`, on which this is built. Arrays can be written to, as in SciPy.
 
     Examples
     --------

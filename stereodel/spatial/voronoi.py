@@ -25,8 +25,8 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
         Whether `add_points` may be called.
     qhull_options : str, optional
         "Qc" (duplicates get the region of their point, else -1) and "Qz" (an empty region for a point at infinity) mean
-        what they mean to Qhull; "Qbb", "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and not
-        needed. Default: "Qbb Qc Qz", in incremental mode "Qc".
+        have the same meaning as in Qhull; "Qbb", "QJ", "Qs", "Qt", "Qx", "Q11", "Q12", "Q14" and "Pp" are accepted and
+        ignored. Default: "Qbb Qc Qz", in incremental mode "Qc".
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class Voronoi(GrowingPoints, scipy.spatial.Voronoi):
 
     Notes
     -----
-    Source: `stereodel.PlanarVoronoi`. Arrays and lists can be written to, as SciPy's.
+    Source: `stereodel.PlanarVoronoi`. Arrays and lists can be written to, as in SciPy.
 
     Examples
     --------

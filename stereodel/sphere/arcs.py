@@ -24,10 +24,10 @@ class SphereArc:
     ----------
     circle : SphereCircle
     start, end : array_like, shape (2,) or (3,)
-        (lon, lat) in degrees or directions, on the circle (they are drawn onto it); stored as unit vectors.
+        (lon, lat) in degrees or directions, on the circle (they are moved onto it); stored as unit vectors.
     angle_rad : float, optional
-        Angle swept about the axis of the circle, in (0, 2π], where the caller knows it better than the rounded ends do.
-        By default computed from them; equal ends make the whole circle.
+        Angle swept about the axis of the circle, in (0, 2π], if it is known more accurately than from the rounded ends.
+        By default computed from the ends; equal ends give the whole circle.
 
     Examples
     --------
@@ -57,13 +57,13 @@ class SphereArc:
         Raises
         ------
         ValueError
-            For equal or opposite points, which no single great circle joins.
+            For equal or antipodal points, which have no unique great circle.
         """
         a, b = unit(as_direction(start, "start")), unit(as_direction(end, "end"))
         axis = cross(a, b)
         sine = dot(axis, axis).sqrt()
         if float(sine.hi) <= UNDECIDED:
-            raise ValueError("start and end are equal or opposite: no single great circle joins them")
+            raise ValueError("start and end are equal or antipodal: no single great circle joins them")
         circle = SphereCircle((axis / sine).round(), 0.0)
         return cls(circle, a.round(), b.round(), float(np.arctan2(sine.hi, dot(a, b).hi)))
 
@@ -84,7 +84,7 @@ class SphereArc:
         return self.circle.radius * self.angle_rad
 
     def frame(self) -> tuple[FloatArray, FloatArray, FloatArray, float]:
-        """What is needed to draw the arc: `center + cos t · u + sin t · v` for t from 0 to `sweep_rad`.
+        """Parametrisation of the arc: `center + cos t · u + sin t · v` for t from 0 to `sweep_rad`.
 
         Returns
         -------

@@ -22,7 +22,7 @@ def solid_angle(a: npt.ArrayLike, b: npt.ArrayLike, c: npt.ArrayLike) -> FloatAr
     -------
     ndarray, shape (...)
         Steradians in (−2π, 2π]: positive when a, b, c are counterclockwise seen from outside; 2π when the vertices go
-        once round a great circle. Opposite vertices have no triangle of their own; 0 where they leave it open.
+        once around a great circle. With antipodal vertices the triangle is not unique; 0 where they leave it open.
 
     Notes
     -----

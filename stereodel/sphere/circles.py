@@ -75,7 +75,7 @@ class SphereCircle:
         Parameters
         ----------
         a, b, c : array_like, shape (2,) or (3,)
-            Different points, each (lon, lat) in degrees or a direction.
+            Distinct points, each (lon, lat) in degrees or a direction.
         """
         p, q, r = (unit(as_direction(point, name)) for point, name in ((a, "a"), (b, "b"), (c, "c")))
         sides = [q - p, r - q, p - r]
@@ -113,7 +113,7 @@ class SphereCircle:
 
     @property
     def complement(self) -> SphereCircle:
-        """The same circle with the other side as its interior."""
+        """The same circle with its two sides exchanged."""
         return SphereCircle(-self.normal + 0.0, -self.offset + 0.0, self.radius)
 
     @property
@@ -175,13 +175,13 @@ def _complete(offset: float) -> float:
 
 
 def stored_unit(direction: FloatArray) -> FloatArray:
-    """A vector (3,) of unit length as it stands, any other normalised and rounded: storing twice changes nothing."""
+    """A vector (3,) of unit length unchanged, any other normalised and rounded: storing twice changes nothing."""
     nearest = unit(direction).round()
     return direction if np.abs(direction - nearest).max() <= STORED_ERROR else nearest
 
 
 def on_circle(circle: SphereCircle, point: DoubleDouble) -> DoubleDouble:
-    """The point of a circle next to a unit vector (3,), with |x| = 1 to double-double."""
+    """The point of a circle nearest to a unit vector (3,), with |x| = 1 to double-double."""
     normal, offset, radius = circle.exact_parts()
     across = point - normal * dot(point, normal)
     return normal * offset + across / dot(across, across).sqrt() * radius

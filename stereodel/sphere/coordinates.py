@@ -37,8 +37,8 @@ def lonlat_to_xyz(lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", wo
     lonlat : array_like, shape (..., 2)
         (lon, lat) in degrees, any finite longitude, latitude in [−90, 90].
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        "spherical" takes latitudes as they stand. The others take them as geodetic latitudes on WGS84, which is what
-        maps and receivers give, and return the direction from the Earth's centre ("geodetic") or the point on the
+        "spherical" takes latitudes unchanged. The others take them as geodetic latitudes on WGS84, which is what
+        maps and GPS give, and return the direction from the Earth's centre ("geodetic") or the point on the
         sphere of equal area ("authalic").
     workers : int, optional
         Threads for spherical latitudes, -1 for all processors; by default all from 20 000 points on. The result is
@@ -84,9 +84,9 @@ def xyz_to_lonlat(xyz: npt.ArrayLike, *, latitude: Latitude = "spherical", worke
     xyz : array_like, shape (..., 3)
         Non-zero vectors; only their directions count.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        As for `lonlat_to_xyz`: what the vectors were made with. For the last two geodetic latitudes on WGS84 result.
+        As in `lonlat_to_xyz`: how the vectors were made. With the last two the result is geodetic latitude on WGS84.
     workers : int, optional
-        As there.
+        As in `lonlat_to_xyz`.
 
     Returns
     -------

@@ -18,7 +18,7 @@ def tangent_frame(point: npt.ArrayLike, name: str = "point") -> DoubleDouble:
     ----------
     point : array_like, shape (2,) or (3,)
         (lon, lat) in degrees, or a direction. At a pole the axes are the limit along the given longitude, and along
-        longitude 0 for a direction: at the north pole north points to lon + 180°, at the south pole to lon.
+        longitude 0 for a direction: at the north pole north points toward lon + 180°, at the south pole toward lon.
     name : str
         What error messages call it.
     """

@@ -36,7 +36,7 @@ def graticule(spacing: float = 15.0, *, latitude: Latitude = "spherical") -> lis
     spacing : float
         Degrees between neighbouring lines; 180 must be a whole multiple of it.
     latitude : {"spherical", "geodetic", "authalic"}
-        Of which the parallels are multiples; see `stereodel.lonlat_to_xyz`.
+        The kind of latitude of which the parallels are multiples; see `stereodel.lonlat_to_xyz`.
 
     Returns
     -------
@@ -55,7 +55,7 @@ def graticule(spacing: float = 15.0, *, latitude: Latitude = "spherical") -> lis
 
 
 def graticule_patch(center: npt.ArrayLike, half_width: float, spacing: float) -> list[SphereArc]:
-    """The grid of a box in longitude and latitude, its borders included: meridian pieces, then parallel pieces.
+    """The grid of a box in longitude and latitude, borders included: pieces of meridians, then of parallels.
 
     Parameters
     ----------

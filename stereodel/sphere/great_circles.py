@@ -11,7 +11,7 @@ from stereodel.constants import UNDECIDED
 
 
 def angular_distance(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
-    """Angle between directions, accurate at 0° and at 180° alike.
+    """Angle between directions, accurate near 0° and 180° alike.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def great_circle_points(a: npt.ArrayLike, b: npt.ArrayLike, n: int) -> FloatArra
     Parameters
     ----------
     a, b : array_like, shape (..., 3)
-        Directions, broadcast against each other; not opposite.
+        Directions, broadcast against each other; not antipodal.
     n : int
         At least 2.
 
@@ -60,7 +60,7 @@ def great_circle_points(a: npt.ArrayLike, b: npt.ArrayLike, n: int) -> FloatArra
     Raises
     ------
     ValueError
-        For opposite directions, between which there is no single arc.
+        For antipodal directions, which have no unique shortest arc.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def great_circle_points(a: npt.ArrayLike, b: npt.ArrayLike, n: int) -> FloatArra
     p, q = unit(as_directions(a, "a")), unit(as_directions(b, "b"))
     difference, total = _difference_and_sum(p, q)
     if (total.hi <= UNDECIDED).any():
-        raise ValueError("a and b hold opposite directions: no single great circle joins them")
+        raise ValueError("a and b hold antipodal directions: no single great circle joins them")
     angle = 2 * np.arctan2(difference.hi, total.hi)[..., None, None]
     across = (q - p) - p * dot(p, q - p)[..., None]
     size = dot(across, across).sqrt().hi

@@ -18,22 +18,22 @@ def healpix_centers(nside: int, *, nested: bool = False) -> FloatArray:
     nside : int
         Pixels along the side of each of the twelve base pixels, 1 or more; with `nested` a power of two.
     nested : bool, optional
-        Whether pixels are numbered in the order NESTED, otherwise in the order RING.
+        Whether pixels are numbered in the NESTED scheme; otherwise in the RING scheme.
 
     Returns
     -------
     ndarray, shape (12 nside², 2)
-        (lon, lat) in degrees, longitudes in [0, 360), in the order of the pixels' numbers.
+        (lon, lat) in degrees, longitudes in [0, 360), in the order of the pixel numbers.
 
     Raises
     ------
     ValueError, TypeError
-        For an `nside` that is no whole number of this kind.
+        For an `nside` that is not such a whole number.
 
     Notes
     -----
     Section 5 of the paper: ring i from the north pole has 4i pixels up to nside, then 4 nside. Latitudes near the poles
-    come from 1 − sin φ, so that they keep their digits. Pixels all have the area π/(3 nside²).
+    come from 1 − sin φ, so that they keep their digits. All pixels have the area π/(3 nside²).
 
     K. M. Górski et al., "HEALPix: a framework for high-resolution discretization and fast analysis of data distributed
     on the sphere", Astrophys. J. 622 (2005), 759–771.
@@ -52,7 +52,7 @@ def healpix_centers(nside: int, *, nested: bool = False) -> FloatArray:
     if not nested:
         return _in_rings(size)
     if size & (size - 1):
-        raise ValueError(f"nside is {size}, but pixels are nested for powers of two alone; give one, or nested=False")
+        raise ValueError(f"nside is {size}, but nested pixels need a power of two; give one, or nested=False")
     return _in_rings(size)[_ring_numbers(size)]
 
 

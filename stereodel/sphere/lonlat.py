@@ -1,8 +1,8 @@
-"""Longitude and latitude at the doors of objects: what is made from them remembers which latitude it was.
+"""Longitude and latitude as arguments and results: an object made from them remembers the kind of latitude.
 
 An array (n, 2) means the plane. Points of the sphere are directions, (n, 3), or come under the name `lonlat` with the
 kind of their latitude. An object made of such points keeps it as its attribute `latitude`, takes queries by ``lonlat=``
-and tells results in degrees. All of them do it by these functions.
+and gives results in degrees. All of them use these functions.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ LONLAT: Final = {
         """,
     "latitude": """
         latitude : {"spherical", "geodetic", "authalic"}, optional
-            As for `lonlat_to_xyz`: "spherical" takes latitudes as they stand; the others take them as geodetic
+            As in `lonlat_to_xyz`: "spherical" takes latitudes unchanged; the others take them as geodetic
             latitudes on WGS84 and use the direction from the Earth's centre, or the point on the sphere of equal area.
             It is remembered.
         """,
@@ -34,11 +34,11 @@ LONLAT: Final = {
         lonlat : (n, 2) array_like, optional
             In place of `points`: (longitude, latitude) in degrees on the sphere.
         latitude : {"spherical", "geodetic", "authalic"}, optional
-            What kind of latitude `lonlat` has, as for `lonlat_to_xyz`; "spherical" by default.
+            The kind of latitude of `lonlat`, as in `lonlat_to_xyz`; "spherical" by default.
         """,
     "asked": """
         lonlat : (..., 2) array_like, optional
-            In place of `queries`: (longitude, latitude) in degrees, of the latitude that the points were given by.
+            In place of `queries`: (longitude, latitude) in degrees, with the points' kind of latitude.
         """,
 }
 """What docstrings say of it."""
@@ -75,7 +75,7 @@ def refuse_lonlat(lonlat: npt.ArrayLike | None, latitude: Latitude | None) -> No
         raise TypeError("points and lonlat= were both given; give one of them")
     if latitude is not None:
         raise TypeError(
-            f"latitude={latitude!r} says which latitude lonlat= has, but points were given; "
+            f"latitude={latitude!r} is the kind of latitude of lonlat=, but points were given; "
             f"for longitude and latitude write lonlat=…, latitude={latitude!r}"
         )
 
@@ -92,7 +92,7 @@ def as_asked(
         raise TypeError(f"{name} and lonlat= were both given; give one of them")
     if latitude is None:
         raise ValueError(
-            "lonlat= is for points that were given by longitude and latitude, these were not; make the object by "
+            "lonlat= is for points that were given by longitude and latitude, but these were not; make the object by "
             f"from_lonlat, or give {name} as its points were given"
         )
     return lonlat_to_xyz(lonlat, latitude=latitude)
@@ -102,7 +102,7 @@ def as_told(xyz: FloatArray, latitude: Latitude | None) -> FloatArray:
     """Longitude and latitude of directions (n, 3), (n, 2) in degrees, of the latitude that was remembered."""
     if latitude is None:
         raise AttributeError(
-            "longitude and latitude are told where points were given by them (from_lonlat, lonlat=); "
-            "of directions make them by xyz_to_lonlat(…, latitude=…)"
+            "longitude and latitude are available if points were given by them (from_lonlat, lonlat=); "
+            "for directions, compute them by xyz_to_lonlat(…, latitude=…)"
         )
     return xyz_to_lonlat(xyz, latitude=latitude)

@@ -1,6 +1,6 @@
-"""Quaternions (w, x, y, z) in double-double: products, the rotation that one stands for, the shortest between two.
+"""Quaternions (w, x, y, z) in double-double: products, the rotation that one represents, the shortest between two.
 
-A quaternion of any length stands for the rotation v ↦ q v q* / |q|², counterclockwise about (x, y, z).
+A quaternion of any length represents the rotation v ↦ q v q* / |q|², counterclockwise about (x, y, z).
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def between(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
     """The shortest rotation from unit vector a to b, as a quaternion (4,) of any length.
 
     (1 + a·b, a × b), with 1 + a·b = |a + b|²/2 and a × b = a × (b ∓ a), so that nothing cancels when the two are
-    nearly equal or nearly opposite. Opposite vectors: half a turn about a × eₖ, k the smallest component of a.
+    nearly equal or nearly antipodal. Antipodal vectors: half a turn about a × eₖ, k the smallest component of a.
     """
     total = a + b
     square = dot(total, total)

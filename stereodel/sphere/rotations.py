@@ -52,7 +52,7 @@ class Rotation:
 
     @classmethod
     def identity(cls) -> Rotation:
-        """The rotation that moves nothing."""
+        """The identity rotation."""
         return cls(np.array([1.0, 0.0, 0.0, 0.0]))
 
     @classmethod
@@ -79,7 +79,7 @@ class Rotation:
     def between(cls, start: npt.ArrayLike, end: npt.ArrayLike) -> Rotation:
         """The shortest rotation that takes one point to another, both (lon, lat) in degrees or directions.
 
-        For opposite points: half a turn about the normal to `start` and the coordinate axis farthest from it.
+        For antipodal points: half a turn about the normal to `start` and the coordinate axis farthest from it.
         """
         a, b = unit(as_direction(start, "start")), unit(as_direction(end, "end"))
         return cls.rounded(quaternions.between(a, b))
@@ -94,7 +94,7 @@ class Rotation:
 
     @classmethod
     def nearest(cls, m: FloatArray) -> Rotation:
-        """The rotation next to a (3, 3) matrix that is one up to rounding.
+        """The rotation nearest to a (3, 3) matrix that is a rotation up to rounding.
 
         Method of S. W. Shepperd, "Quaternion from rotation matrix", J. Guidance and Control 1 (1978): divide by the
         largest of the four components.
@@ -129,7 +129,7 @@ class Rotation:
         return self.exact_matrix.round() + 0.0
 
     def __matmul__(self, other: Rotation) -> Rotation:
-        """First `other`, then this one; the exact product rounded once."""
+        """The rotation by `other`, then by this one; the exact product rounded once."""
         if not isinstance(other, Rotation):
             return NotImplemented
         return Rotation.rounded(quaternions.multiply(DoubleDouble(self.quaternion), DoubleDouble(other.quaternion)))
@@ -139,7 +139,7 @@ class Rotation:
         return Rotation(quaternions.conjugate(DoubleDouble(self.quaternion)).hi)
 
     def __eq__(self, other: object) -> bool:
-        """Exactly the same rotation: quaternions of one direction, up to sign."""
+        """Whether two rotations are exactly the same: quaternions of the same direction, up to sign."""
         return self._ratios == other._ratios if isinstance(other, Rotation) else NotImplemented
 
     def __hash__(self) -> int:

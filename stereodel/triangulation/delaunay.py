@@ -1,4 +1,4 @@
-"""What the Delaunay triangulations of plane and sphere have in common."""
+"""The common part of the Delaunay triangulations of plane and sphere."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ FAMILY: Final = {
         workers : int, optional
             Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
         neighbors : bool, optional
-            Whether to compute `neighbors` at once, which costs little; otherwise when first asked for.
+            Whether to compute `neighbors` at once, which costs little; otherwise on first use.
         """,
     "edges": """
         edges : (e, 2) array of int32
@@ -47,16 +47,16 @@ FAMILY: Final = {
             duplicate to none.
         """,
     "changes": """
-        Arrays are read-only; `insert` and `remove` replace them. Several threads may ask at the same time. While one of
-        them changes the triangulation, whatever the others ask of it or change in it is a RuntimeError; copies
-        (`copy.copy`) share the arrays and go their own ways.
+        Arrays are read-only; `insert` and `remove` replace them. Several threads may query at the same time. While one
+        of them changes the triangulation, queries and changes by the others raise a RuntimeError; copies (`copy.copy`)
+        share the arrays and are independent.
         """,
 }
 """What the docstrings of both triangulations have in common."""
 
 
 class Delaunay(Versioned, ABC):
-    """A triangulation that depends on the set of points alone; see the two subclasses.
+    """A triangulation that depends only on the set of points; see the two subclasses.
 
     After `insert` and `remove` the kernel's mesh is what is up to date, and arrays are made from it when asked for. It
     goes from version to version; one that has lost it starts from its points.
@@ -143,7 +143,7 @@ class Delaunay(Versioned, ABC):
 
     @kept
     def dimension(self) -> int:
-        """Of the points: -1 without any, 0, 1, or 2 when there are triangles."""
+        """Dimension of the point set: -1 without points, 0, 1, or 2 when there are triangles."""
         return self._built[3]
 
     @kept
@@ -170,7 +170,7 @@ class Delaunay(Versioned, ABC):
 
     @property
     def inconclusive(self) -> dict[str, int]:
-        """Tests that each stage left open, in construction and changes."""
+        """Number of tests that each stage left open, in construction and changes."""
         return dict(self._present()._tests)
 
     @kept
@@ -224,7 +224,7 @@ class Delaunay(Versioned, ABC):
         points : array_like of shape (k, 2) or (k, 3)
             As for the constructor.
         lonlat : array_like of shape (k, 2), optional
-            In place of `points`: (longitude, latitude) in degrees, of the latitude that the points were given by.
+            In place of `points`: (longitude, latitude) in degrees, with the same kind of latitude as the other points.
 
         Returns
         -------
@@ -234,12 +234,12 @@ class Delaunay(Versioned, ABC):
         Raises
         ------
         ValueError, TypeError
-            As the constructor does; nothing is added then.
+            As in the constructor; then nothing is added.
 
         Notes
         -----
-        The triangles equal those of all points from scratch; the order of their rows may not. Arrays handed out
-        earlier do not change.
+        The triangles equal those of a triangulation of all points; the order of their rows may differ. Arrays handed
+        out earlier do not change.
         """
         pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
         given = as_asked(points, pairs, self._latitude, "points")
@@ -254,12 +254,12 @@ class Delaunay(Versioned, ABC):
         return np.arange(before._size, before._size + len(added), dtype=np.int32)
 
     def remove(self, indices: npt.ArrayLike) -> IntArray:
-        """Take out points; the others keep their order and are numbered anew.
+        """Remove points; the others keep their order and are renumbered.
 
         Parameters
         ----------
         indices : array_like of int
-            Points to take out; repetitions count once.
+            Points to remove; repetitions count once.
 
         Returns
         -------
@@ -269,12 +269,13 @@ class Delaunay(Versioned, ABC):
         Raises
         ------
         ValueError, TypeError
-            For indices out of range or not integer; nothing is removed then.
+            For indices out of range or not integer; then nothing is removed.
 
         Notes
         -----
-        The triangles equal those of the rest from scratch; the order of their rows may not. If the kept one of several
-        duplicates goes, the lowest remaining one takes its place. Arrays handed out earlier do not change.
+        The triangles equal those of a triangulation of the rest; the order of their rows may differ. If the kept one of
+        several duplicates is removed, the lowest remaining one takes its place. Arrays handed out earlier do not
+        change.
         """
         with self._change():
             before = self._latest()
@@ -302,7 +303,7 @@ class Delaunay(Versioned, ABC):
         lonlat: npt.ArrayLike | None = None,
         workers: int | None = None,
     ) -> IntArray | int:
-        """Triangle that holds each query, exactly.
+        """Triangle that contains each query, exactly.
 
         Parameters
         ----------
@@ -345,7 +346,7 @@ class Delaunay(Versioned, ABC):
             Points of the plane, or directions.
         {asked}
         k : int, optional
-            How many points are wanted, 1 to the number of points; by default the nearest alone, without an axis of its
+            Number of points, 1 to the number of all points; by default only the nearest, without an axis of its
             own.
         workers : int, optional
             Threads; -1 for all processors. By default those of the constructor, for many queries.
@@ -355,7 +356,7 @@ class Delaunay(Versioned, ABC):
         int32 array of the leading shape, or int for a single query; (..., k) with `k`
             Index of the nearest point, the lowest one if several are equally near. With `k` the nearest points in the
             order of their distances (angles on the sphere), equally near ones in the order of their indices; duplicates
-            are points like all others.
+            count like all other points.
 
         Raises
         ------
@@ -369,8 +370,8 @@ class Delaunay(Versioned, ABC):
         A walk through the triangulation, then outward along its edges: after the nearest ones, the next nearest point
         is always a neighbour of one that was found before. Source: M. Dickerson, R. Drysdale, J.-R. Sack, "Simple
         algorithms for enumerating interpoint distances and finding k nearest neighbors" (1992). Points without
-        triangles (`dimension` below 2) are sorted along their line or great circle when first asked about. Distances
-        are those of the points of the answer: `np.linalg.norm(points[found] - queries[..., None, :], axis=-1)`,
+        triangles (`dimension` below 2) are sorted along their line or great circle on the first query. Distances
+        follow from the points found: `np.linalg.norm(points[found] - queries[..., None, :], axis=-1)`,
         `angular_distance` on the sphere.
 
         Examples
@@ -413,7 +414,7 @@ class Delaunay(Versioned, ABC):
         return thread_count(chosen, self._present()._size if size is None else size)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Arrays alone; a copy makes its own mesh when it is changed."""
+        """Only arrays; a copy makes its own mesh when it is changed."""
         now = self._present()
         own = {name: value for name, value in self.__dict__.items() if name not in {"_turn", "_version"}}
         return own | {"_arrays": (now.points, (*now._rows, now.duplicates, now.dimension, now._tests))}

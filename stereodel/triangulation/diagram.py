@@ -1,4 +1,4 @@
-"""Voronoi diagrams as combinatorics: what the diagrams of plane and sphere share. Integers only."""
+"""The combinatorics of Voronoi diagrams, common to plane and sphere. Integers only."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ FAMILY: Final = {
         """,
     "numbers": """
         point_region : (n,) array of int32
-            Region of each point; a duplicate's is the kept point's.
+            Region of each point; for a duplicate, that of the kept point.
         simplex_vertex : (m,) array of int32
             Voronoi vertex of each Delaunay triangle.
         is_kept : (n,) array of bool
-            Whether a point has a cell of its own and is no dropped duplicate.
+            Whether a point has a cell of its own and is not a dropped duplicate.
         """,
 }
 """What the docstrings of both diagrams have in common."""
 
 
 class Diagram:
-    """What planar and spherical Voronoi diagrams share: cells, ridges and vertices as arrays that cannot be changed.
+    """The common part of planar and spherical Voronoi diagrams: cells, ridges and vertices as read-only arrays.
 
     The cell of a site is a range of entries: its vertices counterclockwise from the lowest, and beside each the site
     beyond the ridge that leaves it. Ridges and polygons are read off these in O(n).
@@ -130,7 +130,7 @@ class Diagram:
 
     @property
     def is_kept(self) -> BoolArray:
-        """Whether a point has a cell of its own and is no dropped duplicate, (n,) bool."""
+        """Whether a point has a cell of its own and is not a dropped duplicate, (n,) bool."""
         return self.point_region == np.arange(len(self.points))
 
     def _duplicates(self) -> IntArray:

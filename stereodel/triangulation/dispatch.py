@@ -39,7 +39,7 @@ def threads_of(triangulation: Triangulation, workers: int | None, size: int | No
 
 
 def flat_order(triangulation: Triangulation) -> IntArray:
-    """Without triangles: the different points in the order along their line or great circle."""
+    """Without triangles: the distinct points in the order along their line or great circle."""
     return triangulation._flat_order
 
 

@@ -28,15 +28,15 @@ class InsertionStep:
     inserted : int
         Index of the point.
     visible : (k, 3) array of int32
-        Facets that the point sees from outside, counterclockwise; they are gone now.
+        Facets that the point sees from outside, counterclockwise; they have been removed.
     horizon : (h, 2) array of int32
-        Border of what it sees, as one counterclockwise cycle of directed edges; h = k + 2.
+        Boundary of the facets that it sees, one counterclockwise cycle of directed edges; h = k + 2.
     new : (h, 3) array of int32
         Facets that join the horizon to the point.
 
     Notes
     -----
-    In the plane -1 stands for the ghost vertex at infinity.
+    In the plane -1 is the ghost vertex at infinity.
     """
 
     inserted: int
@@ -56,13 +56,13 @@ class HullInsertion:
     points : (n, 2) or (n, 3) array_like
         Points of the plane, where the projection pole is a ghost vertex, index -1; or directions of any length.
     spatial : bool, optional
-        Insert in an order of short ways instead of the order given. The facets in the end are the same.
+        Insert along a space-filling order instead of the order given. The final facets are the same.
 
     Attributes
     ----------
     points : (n, 2) or (n, 3) array
     facets : (m, 3) array of int32
-        The present surface: counterclockwise seen from outside, smallest index first, rows in lexicographic order. In
+        The current surface: counterclockwise seen from outside, smallest index first, rows in lexicographic order. In
         the plane facets with -1 lie beyond the edges of the convex hull.
     latitude : str or None
         The kind of latitude by which the points were given (`from_lonlat`).
@@ -87,7 +87,7 @@ class HullInsertion:
     The paper (row P14) takes the sphere's centre for a point inside and compares signs with it; the first hulls hardly
     ever hold the centre. Facets are oriented counterclockwise seen from outside the hull instead: p sees a b c if and
     only if det(b−a, c−a, p−a) > 0 on the exact unit vectors. Ties are displaced (`stereodel.predicates.ties`): no point
-    is ever hidden, what a point sees is a tree of facets, and the result depends on the set of points alone.
+    is ever hidden, the facets that a point sees form a tree, and the result depends only on the set of points.
 
     The first visible facet is found by a visibility walk in the triangulation as the pole sees it, which ends
     because the triangulation is a regular one (H. Edelsbrunner, "An acyclicity theorem for cell complexes in d
@@ -151,7 +151,7 @@ class HullInsertion:
         return as_told(self.points, self.latitude)
 
     def extend(self, points: npt.ArrayLike | None = None, *, lonlat: npt.ArrayLike | None = None) -> None:
-        """Append points, or `lonlat` of the latitude of those before; iterate (or `run`) to insert them."""
+        """Append points, or `lonlat` with the same kind of latitude; iterate (or `run`) to insert them."""
         pairs = None if lonlat is None else as_points(lonlat, 2, "lonlat")
         given = as_asked(points, pairs, self.latitude, "points")
         if self.points.shape[1] == 2:
@@ -161,7 +161,7 @@ class HullInsertion:
             self._append(as_directions(given, "points", points=True, instead=door))
 
     def run(self) -> None:
-        """Insert all that waits, without a record of the steps."""
+        """Insert all pending points, without a record of the steps."""
         for point in self._take():
             self._insert(point)
 
@@ -173,7 +173,7 @@ class HullInsertion:
 
     @property
     def facets(self) -> IntArray:
-        """The present surface, (m, 3)."""
+        """The current surface, (m, 3)."""
         return self._surface.facets()
 
     @property

@@ -1,4 +1,4 @@
-"""Before triangulating: duplicates, the first three points, a good order of insertion."""
+"""Before triangulation: duplicates, the first three points, a good order of insertion."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from stereodel.triangulation.sites import InsertionSites
 def spanning_points(sites: InsertionSites, distinct: Sequence[int]) -> list[int]:
     """The first points in the given order that span: none, one, two on one line (great circle), or three.
 
-    One less than their number is the dimension of the set. Two opposite directions count as two although they lie on
+    One less than their number is the dimension of the set. Two antipodal directions count as two although they lie on
     many great circles.
     """
     if len(distinct) < 3:

@@ -15,7 +15,7 @@ from stereodel.triangulation.delaunay import FAMILY, Delaunay
 
 @shared(**FAMILY)
 class PlanarDelaunay(Delaunay):
-    """Delaunay triangulation of points of the plane: no point lies inside a triangle's circle.
+    """Delaunay triangulation of points in the plane: no point lies inside the circumcircle of a triangle.
 
     Parameters
     ----------
@@ -27,15 +27,15 @@ class PlanarDelaunay(Delaunay):
     ----------
     points : (n, 2) array
     simplices : (m, 3) array of int32
-        Triangles, counterclockwise, smallest index first; rows along a space-filling curve, so that triangles that
-        follow one another are mostly near one another.
+        Triangles, counterclockwise, smallest index first; rows along a space-filling curve, so that consecutive
+        triangles are mostly close to one another.
     neighbors : (m, 3) array of int32
         `neighbors[i, k]` is the triangle opposite corner k of triangle i; -1 where there is none.
     convex_hull : (h, 2) array of int32
         Directed edges of the hull, counterclockwise, in lexicographic order; points on the hull's sides split them.
     {edges}
     circumcenters : (m, 2) array
-        Centres of the triangles' circles, rounded from the exact ones.
+        Centres of the circumcircles, rounded from the exact ones.
     duplicates : (k, 2) array of int32
         Pairs [dropped, kept] of exactly equal points (-0 equals 0); the lowest index is kept, and is the one in
         `simplices`.
@@ -48,18 +48,18 @@ class PlanarDelaunay(Delaunay):
     Raises
     ------
     ValueError, TypeError
-        For values that are not finite real numbers, or other shapes; naming the entry.
+        For values that are not finite real numbers, or other shapes; the message names the entry.
 
     Notes
     -----
-    The answer is that of exact arithmetic on the given doubles. Cocircular points are triangulated as if the first of
+    The result is that of exact arithmetic on the given doubles. Cocircular points are triangulated as if the first of
     them in lexicographic order were lifted a little above the paraboloid z = x² + y²: a rule on points, so that no
     order of input changes the triangles.
 
     {changes}
 
     Source: divide and conquer by L. Guibas and J. Stolfi (1985) along a space-filling curve; insertion as in the
-    paper's pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is the readable
+    paper's pseudo-code, with the projection pole as a ghost vertex (rows P1, P7, P14). `HullInsertion` is a readable
     form.
 
     Examples

@@ -16,7 +16,7 @@ from stereodel.triangulation.planar_delaunay import PlanarDelaunay
 
 @shared(**FAMILY)
 class PlanarVoronoi(Diagram):
-    """Voronoi diagram of points of the plane.
+    """Voronoi diagram of points in the plane.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class PlanarVoronoi(Diagram):
 
     Notes
     -----
-    Which triangles share a vertex is decided by the exact incircle predicate, so no ridge has length zero and the
+    The exact incircle predicate decides which triangles share a vertex, so no ridge has length zero and the
     diagram does not depend on the tie rule. Points on one line have no vertices: parallel ridges [-1, -1] between
     strips. Source: the paper's duality (row P3); F. Aurenhammer, "Voronoi diagrams", ACM Computing Surveys 23 (1991).
 
@@ -108,7 +108,7 @@ class PlanarVoronoi(Diagram):
 
         Notes
         -----
-        From the sites' differences, as `areas`; within 2e-12 of the cell's size, besides their rounding.
+        Computed from differences of sites, like `areas`; within 2e-12 of the cell's size, besides rounding.
 
         Examples
         --------
@@ -120,7 +120,7 @@ class PlanarVoronoi(Diagram):
         return self._cell_centroids()
 
     def segments(self, bounds: npt.ArrayLike) -> tuple[FloatArray, Indices]:
-        """The ridges as far as they lie in a rectangle, for drawing.
+        """The parts of the ridges that lie in a rectangle, for drawing.
 
         Parameters
         ----------
@@ -141,8 +141,8 @@ class PlanarVoronoi(Diagram):
 
         Notes
         -----
-        Each ridge is a stretch t₀ ≤ t ≤ t₁ of the line m + t·d through the midpoint m of its sites, d their difference
-        turned by 90°; the rectangle cuts another stretch out of it. A vertex that is very far away costs no accuracy.
+        Each ridge is a segment t₀ ≤ t ≤ t₁ of the line m + t·d through the midpoint m of its sites, d their difference
+        rotated by 90°; the rectangle cuts another segment out of it. A vertex that is very far away costs no accuracy.
 
         Examples
         --------

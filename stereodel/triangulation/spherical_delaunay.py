@@ -19,7 +19,7 @@ from stereodel.triangulation.versions import kept
 
 @shared(**FAMILY)
 class SphericalDelaunay(Delaunay):
-    """Delaunay triangulation of directions: each triangle's bubble on the outer side of its plane is empty.
+    """Delaunay triangulation of points on the sphere: the outer bubble of each triangle is empty.
 
     Parameters
     ----------
@@ -32,12 +32,12 @@ class SphericalDelaunay(Delaunay):
     points : (n, 3) array
         As given, not normalised.
     simplices : (m, 3) array of int32
-        Facets of the hull, m = 2n − 4 for n different points; counterclockwise seen from outside the hull, smallest
-        index first; rows along a space-filling curve, so that facets that follow one another are mostly near one
+        Facets of the hull, m = 2n − 4 for n distinct points; counterclockwise seen from outside the hull, smallest
+        index first; rows along a space-filling curve, so that consecutive facets are mostly close to one
         another.
     closing : (m,) array of bool
-        Facets with det[a, b, c] ≤ 0: their empty bubble is a hemisphere or more, and they are no spherical triangles.
-        There are some exactly if all points lie in a closed hemisphere.
+        Facets with det[a, b, c] ≤ 0: their empty bubble is a hemisphere or more, and they are not spherical triangles.
+        They exist if and only if all points lie in a closed hemisphere.
     neighbors : (m, 3) array of int32
         `neighbors[i, k]` is the facet opposite corner k of facet i.
     convex_hull : (h, 2) array of int32
@@ -61,11 +61,11 @@ class SphericalDelaunay(Delaunay):
     Raises
     ------
     ValueError, TypeError
-        For values that are not finite real numbers, zero vectors, or other shapes; naming the entry.
+        For values that are not finite real numbers, zero vectors, or other shapes; the message names the entry.
 
     Notes
     -----
-    The answer is that of exact arithmetic on the rays through the given doubles, the square roots included. The paper's
+    The result is that of exact arithmetic on the rays through the given doubles, square roots included. The paper's
     "smaller bubble is empty" holds unless all points lie in a hemisphere: then the closing facets have empty bubbles
     larger than a hemisphere. Points of one circle are triangulated as if the first of them in the order of their
     directions (x̂, then ŷ, then ẑ) were moved a little outward: a rule on points, so that no order of input changes the
@@ -102,7 +102,7 @@ class SphericalDelaunay(Delaunay):
         workers: int | None = None,
         neighbors: bool = True,
     ) -> SphericalDelaunay:
-        """Triangulate points given by longitude and latitude; queries and results then speak them too.
+        """Triangulate points given by longitude and latitude; queries and results may then use them too.
 
         Parameters
         ----------

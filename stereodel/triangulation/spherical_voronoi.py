@@ -20,7 +20,7 @@ from stereodel.triangulation.spherical_delaunay import SphericalDelaunay
 
 @shared(**FAMILY)
 class SphericalVoronoi(Diagram):
-    """Voronoi diagram of directions, on the unit sphere.
+    """Voronoi diagram of points on the sphere.
 
     Parameters
     ----------
@@ -63,7 +63,7 @@ class SphericalVoronoi(Diagram):
     sites are counterclockwise. Two points: vertex 0 is the direction of p₀ × p₁. Two antipodal points: of p₀ × e, e the
     coordinate axis (the first one, if several) along which p₀ is shortest.
 
-    Which facets share a vertex is decided by the exact predicate `in_bubble`, so no ridge has length zero and the
+    The exact predicate `in_bubble` decides which facets share a vertex, so no ridge has length zero and the
     diagram does not depend on the tie rule. Source: the paper's duality (row P3); R. Renka, "Algorithm 772: STRIPACK",
     ACM TOMS 23 (1997).
 
@@ -98,7 +98,7 @@ class SphericalVoronoi(Diagram):
     def from_lonlat(
         cls, lonlat: npt.ArrayLike, *, latitude: Latitude = "spherical", workers: int | None = None
     ) -> SphericalVoronoi:
-        """The diagram of points given by longitude and latitude, which results then speak too.
+        """The diagram of points given by longitude and latitude; results are then available in them too.
 
         Parameters
         ----------
@@ -181,7 +181,7 @@ class SphericalVoronoi(Diagram):
         Notes
         -----
         The integral of x over a polygon of the sphere is half the sum, over its sides, of the side's angle times the
-        normal of its plane towards the inside (theorem of Stokes; J. Arvo, "Applications of irradiance tensors to the
+        normal of its plane toward the inside (Stokes' theorem; J. Arvo, "Applications of irradiance tensors to the
         simulation of non-Lambertian phenomena", SIGGRAPH 1995). It is summed over the triangles of `areas`, relative to
         the site, so that nothing cancels in small cells. The cell of a single point is the whole sphere, whose mean has
         no direction: the point itself. Centroids are within 2e-12 of the cell's size, besides their rounding.

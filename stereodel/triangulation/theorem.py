@@ -50,7 +50,7 @@ def exact_lift(points: npt.ArrayLike) -> FloatArray:
     Raises
     ------
     ValueError
-        If 1 − x² − y² is not formed without rounding.
+        If 1 − x² − y² cannot be computed without rounding.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def planar_part(triangulation: SphericalDelaunay, pole: npt.ArrayLike) -> IntArr
 def merged_polygons(
     triangulation: PlanarDelaunay | SphericalDelaunay, simplices: npt.ArrayLike | None = None
 ) -> Polygons:
-    """The subdivision without the diagonals of cocircular polygons, which the tie rule and not the points decide.
+    """The subdivision without the diagonals of cocircular polygons, which only the tie rule determines.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def merged_polygons(
 
 
 def theorem_1_holds(points: npt.ArrayLike) -> bool:
-    """Whether the triangulation of points of the plane is the planar part of the hull of their lift.
+    """Whether the triangulation of points in the plane is the planar part of the hull of their lift.
 
     Parameters
     ----------
@@ -141,8 +141,8 @@ def theorem_1_holds(points: npt.ArrayLike) -> bool:
     Returns
     -------
     bool
-        True, says the theorem. The merged polygons of the plane are compared with those of the planar part of two
-        hulls: of the lift and the pole, and of the lift alone unless it lies on one great circle.
+        True, according to the theorem. The merged polygons of the plane are compared with those of the planar part of
+        two hulls: of the lift and the pole, and of the lift alone unless it lies on one great circle.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Triangulated surfaces as integers alone: nothing here knows a coordinate."""
+"""Triangulated surfaces as integers: nothing here depends on coordinates."""
 
 from __future__ import annotations
 

@@ -40,13 +40,13 @@ __all__ = ["DelaunayCertificate", "InvalidTriangulation", "check_delaunay"]
 
 @dataclass(frozen=True)
 class DelaunayCertificate:
-    """What `check_delaunay` counted.
+    """The counts of `check_delaunay`.
 
     Attributes
     ----------
     surface : {"plane", "sphere"}
     points, duplicates, simplices, edges : int
-        Different points, points that repeat an earlier one, triangles, edges.
+        Distinct points, points that repeat an earlier one, triangles, edges.
     ties : int
         Edges whose two triangles lie on one circle: either diagonal is Delaunay there.
     exact_tests : int
@@ -69,20 +69,20 @@ def check_delaunay(
     duplicates: npt.ArrayLike | None = None,
     neighbors: npt.ArrayLike | None = None,
 ) -> DelaunayCertificate:
-    """Prove that a triangulation of the plane or the sphere is Delaunay, or say where it is not.
+    """Prove that a triangulation of the plane or the sphere is Delaunay, or report where it is not.
 
     Parameters
     ----------
     points : (n, 2) or (n, 3) array_like, or a triangulation
         Points of the plane, or directions of space (lengths do not matter). An object with `points`, `simplices` and,
-        where it has them, `duplicates` and `neighbors`, such as `PlanarDelaunay`, stands for all four arguments.
+        optionally, `duplicates` and `neighbors`, such as `PlanarDelaunay`, provides all four arguments.
     simplices : (m, 3) array_like of int
         Corners of each triangle, counterclockwise (sphere: seen from outside).
     duplicates : (k, 2) array_like of int, optional
-        Pairs [dropped, kept] to be checked. Whether given or not, of equal points (sphere: of equal directions) the
-        one with the lowest index must be the one that is used.
+        Pairs [dropped, kept] to check. Whether given or not, of equal points (sphere: of equal directions) the
+        one with the lowest index must be used.
     neighbors : (m, 3) array_like of int, optional
-        `neighbors[t, k]`, the triangle opposite corner k or -1, to be checked.
+        `neighbors[t, k]`, the triangle opposite corner k or -1, to check.
 
     Returns
     -------
@@ -244,7 +244,7 @@ def _check_convex_boundary(mesh: Mesh, signs: PlaneSigns) -> None:
         raise InvalidTriangulation(f"the boundary is not convex at point {target[np.argmax(right)]}")
     rises, falls = _rises(signs.points, origin, target), ~_rises(signs.points, target, after)
     if (rises & falls).sum() != 1:
-        raise InvalidTriangulation("the boundary is not one cycle that turns once")
+        raise InvalidTriangulation("the boundary is not a single cycle that turns once")
 
 
 def _rises(points: FloatArray, a: LongArray, b: LongArray) -> BoolArray:

@@ -12,7 +12,7 @@ from stereodel._arrays import BoolArray, LongArray
 
 
 class InvalidTriangulation(ValueError):  # noqa: N818 - the name says what is wrong, like SciPy's LinAlgError family
-    """What `check_delaunay` found wrong; the message names the simplex, edge or point."""
+    """The error of `check_delaunay`; the message names the simplex, edge or point."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +100,7 @@ def check_manifold(mesh: Mesh, kept: LongArray, euler: int) -> None:
     inner = mesh.inner
     # All hang together where the first triangle is the smallest of every one's component.
     if _labels(len(mesh.simplices), triangles[inner], triangles[mesh.twin[inner]]).any():
-        raise InvalidTriangulation("the simplices do not hang together: they form several surfaces")
+        raise InvalidTriangulation("the simplices are not connected: they form several surfaces")
     edges = len(inner) + len(mesh.boundary)
     found = len(kept) - edges + len(mesh.simplices)
     if found != euler:

@@ -102,7 +102,7 @@ def test_of_points():
 
 @pytest.mark.parametrize(
     ("region", "message"),
-    [([], "region has no points"), ([(0, 91)], "latitude 91"), (np.zeros((2, 4)), "region must have shape")],
+    [([], "region is empty"), ([(0, 91)], "latitude 91"), (np.zeros((2, 4)), "region must have shape")],
 )
 def test_bad_input(region, message):
     with pytest.raises(ValueError, match=message):

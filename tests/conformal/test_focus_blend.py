@@ -123,7 +123,7 @@ def test_a_blend_is_a_value():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda: FocusBlend([], magnification=2.0), "foci has no points"),
+        (lambda: FocusBlend([], magnification=2.0), "foci is empty"),
         (lambda: FocusBlend(CITIES, magnification=0.5), r"magnification is 0.5, outside \[1, 1e\+100\]"),
         (lambda: FocusBlend(CITIES, magnification=[2.0, 3.0]), "one number or 3, one for each focus"),
         (lambda: FocusBlend(CITIES, magnification=np.inf), "inf"),

@@ -78,7 +78,7 @@ def test_half_a_turn_goes_round_the_last_positive_coordinate(axis):
         (lambda: fisheye((0, 0), magnification=1e9).power(20), "magnification above 1e"),
         (lambda: IDENTITY.power(np.nan), "exponent is nan"),
         (lambda: IDENTITY.power(2e6), "exponent is 2000000.0, outside"),
-        (lambda: IDENTITY.fixed_points, "identity has no fixed points"),
+        (lambda: IDENTITY.fixed_points, "fixed point of the identity"),
         (lambda: three_points(POINTS[:2], POINTS[:3]), "sources must be three points, got 2"),
         (lambda: three_points(POINTS[:3], POINTS[[0, 1, 1]]), r"targets\[1\] and targets\[2\] are the same"),
         (lambda: three_points([[0, 91], [1, 2], [3, 4]], POINTS[:3]), "latitude 91"),

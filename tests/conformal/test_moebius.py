@@ -162,7 +162,7 @@ def bad_lorentz(change):
         ([[np.nan, 0], [0, 1]], "nan"),
         ([[1j, 0], [0, complex(0, np.inf)]], "inf"),
         (np.diag([1.0, 1, 1, -1]), "orthochronous"),
-        (np.diag([1.0, 1, -1, 1]), "mirrors"),
+        (np.diag([1.0, 1, -1, 1]), "is a reflection"),
         (np.eye(4) + 1e-3, "Lorentz"),
         (bad_lorentz(lambda m: m * 1.001), "Lorentz"),
         (fisheye((10, 20), magnification=1e7).matrix, "magnification"),

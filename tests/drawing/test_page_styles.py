@@ -186,7 +186,7 @@ def test_the_order_of_styles_does_not_matter():
 def test_wrong_styles_are_named():
     with pytest.raises(ValueError, match="style is 'bright'; give column, slide or dark"):
         styled(page(), "bright")
-    with pytest.raises(ValueError, match="column and slide are both the size of a page"):
+    with pytest.raises(ValueError, match="column and slide both set the size of the page"):
         as_styles(("slide", "dark", "column"))
 
 
@@ -199,7 +199,7 @@ def test_what_draws_in_a_style_can_be_sent_to_other_processes():
     assert isinstance(sent(1).items[0], Stroke)
     assert isinstance(sent(1).items[1], Dots)
     assert sent(1).width == pytest.approx(33.87 * CM)
-    with pytest.raises(TypeError, match="draw gives ndarray, which has no style; let it give a Page"):
+    with pytest.raises(TypeError, match="draw gives ndarray, which cannot be styled; let it return a Page"):
         sent(0)
     with pytest.raises(ValueError, match="style is 'bright'"):
         StyledDraw(draw, ("bright",))

@@ -131,7 +131,7 @@ def test_great_arcs_are_the_short_way_at_any_distance():
 
 @pytest.mark.parametrize("end", [(2, 0, 0), (-3, 0, 0)])
 def test_great_arcs_refuse_equal_and_opposite_ends(end):
-    with pytest.raises(ValueError, match="equal or opposite"):
+    with pytest.raises(ValueError, match="equal or antipodal"):
         CircleArc.great((1, 0, 0), end)
 
 

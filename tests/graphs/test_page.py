@@ -16,4 +16,4 @@ def test_example(code, printed, capsys):
 
 
 def test_all_examples_are_seen():
-    assert len(EXAMPLES) == PAGE.count("```python") == 4
+    assert len(EXAMPLES) == PAGE.count("```python") == 5

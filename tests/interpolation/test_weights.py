@@ -125,12 +125,12 @@ def test_a_file_gives_back_what_was_saved(tmp_path, rng):
     assert np.array_equal(again @ values, weights @ values, equal_nan=True)
     assert repr(again) == repr(weights)
     np.savez(tmp_path / "other.npz", a=1)
-    with pytest.raises(ValueError, match=r"other\.npz holds no weights: columns, data, indptr"):
+    with pytest.raises(ValueError, match=r"other\.npz is not a file of weights: columns, data, indptr"):
         Weights.load(tmp_path / "other.npz")
     parts = {name: getattr(weights, name) for name in ("indptr", "columns", "data", "shape", "size")}
     for wrong in ({"size": 3}, {"columns": weights.columns[1:]}, {"shape": (7,)}, {"indptr": weights.indptr[::-1]}):
         np.savez(tmp_path / "wrong.npz", **parts | wrong)
-        with pytest.raises(ValueError, match="do not fit one another"):
+        with pytest.raises(ValueError, match="do not fit together"):
             Weights.load(tmp_path / "wrong.npz")
 
 

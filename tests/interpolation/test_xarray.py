@@ -131,16 +131,16 @@ def test_extrapolation_is_that_of_the_interpolators(stations, lonlat):
 
 
 def test_what_cannot_be_found_is_said(stations):
-    with pytest.raises(ValueError, match="one coordinate of longitude, there is none; name two by source="):
+    with pytest.raises(ValueError, match="one coordinate of longitude, but there is none; name two by source="):
         stations.drop_vars("lon").stereodel.interpolate(lon=LON, lat=LAT)
     twice = stations.assign_coords(longitude=("station", np.zeros(50)))
-    with pytest.raises(ValueError, match="there is several: lon, longitude"):
+    with pytest.raises(ValueError, match="there are several: lon, longitude"):
         twice.stereodel.interpolate(lon=LON, lat=LAT)
     named = twice.stereodel.interpolate(lon=LON, lat=LAT, source=("lon", "lat"))
     assert np.array_equal(named, stations.stereodel.interpolate(lon=LON, lat=LAT), equal_nan=True)
     with pytest.raises(ValueError, match=r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"):
         stations.stereodel.interpolate(lon=LON, lat=LAT, source=("l", "lat"))
-    with pytest.raises(ValueError, match="lon and lat have the dimension 'time', which the values have too"):
+    with pytest.raises(ValueError, match="lon and lat have the dimension 'time', which the values also have"):
         stations.stereodel.interpolate(lon=xr.DataArray(LON, dims="time"), lat=1.0)
     with pytest.raises(ValueError, match=r"lon has shape \(3, 5\); give a DataArray"):
         stations.stereodel.interpolate(lon=GRID[..., 0], lat=LAT)

@@ -86,7 +86,7 @@ def test_the_view_is_above_the_focus_or_where_it_is_wanted():
         ({"focus": (0, 95)}, "latitude 95"),
         ({"view": (0, 95)}, "latitude 95"),
         ({"edges": "curved"}, "edges is 'curved'"),
-        ({"lens": MoebiusMap.identity(), "focus": PARIS}, "lens was given beside"),
+        ({"lens": MoebiusMap.identity(), "focus": PARIS}, "lens was given together with"),
     ],
 )
 def test_wrong_options(options, message):
@@ -198,7 +198,7 @@ def test_pictures_of_the_page_alone():
     axes = axes_of()
     axes.imshow(np.zeros((4, 4)), extent=(-1, 1, -1, 1), transform=axes.transPage)
     assert axes.get_xlim() == (-1, 1)
-    with pytest.raises(ValueError, match="imshow cannot bend a picture"):
+    with pytest.raises(ValueError, match="imshow cannot warp an image"):
         axes.imshow(np.zeros((4, 4)))
 
 
@@ -385,7 +385,7 @@ def test_zoom_to_a_box_of_degrees():
     axes.zoom_to(shapely.box(-100, 20, 100, 40).bounds)
     assert axes.get_xlim()[0] < -0.9
     assert axes.get_ylim()[0] == pytest.approx(np.sin(np.radians(20)), abs=1e-4)
-    with pytest.raises(ValueError, match="out of sight"):
+    with pytest.raises(ValueError, match="are not visible"):
         axes.zoom_to((170, -5, 190, 5))
     with pytest.raises(ValueError, match="bounds runs from longitude 30 to -30"):
         axes.zoom_to((30, -30, -30, 30))

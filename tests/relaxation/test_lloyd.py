@@ -217,7 +217,7 @@ def test_takes_triangulations_and_changes_nothing():
         ([[0, 0]], {"bounds": SQUARE, "steps": -1}, ValueError, "steps is -1"),
         ([[0, 0]], {"bounds": SQUARE, "tolerance": -1}, ValueError, "tolerance"),
         ([[0, 0]], {"bounds": SQUARE, "density": lambda x: -x[:, 0]}, ValueError, "weight cannot be negative"),
-        ([[0, 0]], {"bounds": SQUARE, "density": lambda x: x}, ValueError, "one number a point"),
+        ([[0, 0]], {"bounds": SQUARE, "density": lambda x: x}, ValueError, "a number for each point"),
         ([[0, 0, 1]], {"density": lambda x: x[:, 0] * np.nan}, ValueError, "must be a finite number"),
     ],
 )

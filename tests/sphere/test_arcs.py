@@ -61,7 +61,7 @@ def test_whole_circle_is_closed():
 
 @pytest.mark.parametrize("end", [(3, 0, 0), (-2, 0, 0)])
 def test_no_single_great_circle(end):
-    with pytest.raises(ValueError, match="equal or opposite"):
+    with pytest.raises(ValueError, match="equal or antipodal"):
         SphereArc.great((1, 0, 0), end)
 
 
@@ -116,7 +116,7 @@ def test_graticule_patch(half_width, spacing, lines):
         (lambda: graticule(0), "spacing is 0.0"),
         (lambda: graticule_patch((0, 85), 5, 1), "half_width is 5.0, outside"),
         (lambda: graticule_patch((0, 40), 8, 3), "spacing is 3, but 16"),
-        (lambda: great_circle_points([1, 0, 0], [-1, 0, 0], 3), "opposite"),
+        (lambda: great_circle_points([1, 0, 0], [-1, 0, 0], 3), "antipodal"),
         (lambda: great_circle_points([1, 0, 0], [0, 1, 0], 1), "n is 1"),
     ],
 )

@@ -71,7 +71,7 @@ def test_rings_lie_where_areas_are_equal(nside):
 
 
 def test_other_sizes_are_refused():
-    with pytest.raises(ValueError, match="nside is 3, but pixels are nested for powers of two"):
+    with pytest.raises(ValueError, match="nside is 3, but nested pixels need a power of two"):
         healpix_centers(3, nested=True)
     with pytest.raises(ValueError, match="nside is 0"):
         healpix_centers(0)
