@@ -5,6 +5,8 @@ python tools/readme_images.py
 
 from __future__ import annotations
 
+import contextlib
+import re
 from pathlib import Path
 
 from tools.build import load_drawing
@@ -26,10 +28,19 @@ STYLE_WIDTHS = {"column": 496, "slide": 800, "dark": 800}
 """Pixels across by style, of one figure."""
 
 
+def globe_of_the_readme() -> str:
+    """The code of the README that writes the picture beside it, new_york.png."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    (code,) = (code for code in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "Globe()" in code)
+    return code
+
+
 def main() -> None:
     """Draw them all."""
     folder = ROOT / "docs" / "images"
     folder.mkdir(exist_ok=True)
+    with contextlib.chdir(folder):
+        exec(compile(globe_of_the_readme(), "README.md", "exec"), {})
     for name, width in WIDTHS.items():
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
         path = figure.page().save(folder / f"{name}.png", size=width, renderer=figure.renderer)

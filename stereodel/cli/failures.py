@@ -38,6 +38,9 @@ OPTIONS: Final = {
     "seconds": "--seconds",
     "fps": "--fps",
     "size": "--size",
+    "style": "--style",
+    "width": "--width",
+    "dpi": "--dpi",
 }
 """Arguments of the library that messages name, and the options that stand for them here."""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from stereodel.cli import globe_options as globe
 from stereodel.cli import options
 
@@ -9,6 +11,7 @@ EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 
 PICTURES = ("png", "svg", "pdf")
 FILMS = ("gif", "webp", "apng", "mp4")
+USUAL_WIDTH = "17cm"
 
 
 def command(
@@ -20,6 +23,10 @@ def command(
     view: globe.View = None,
     projection: globe.Flattened = globe.Projection.globe,
     angular_radius: globe.AngularRadius = 90.0,
+    labels: globe.Labels = None,
+    rank: globe.Rank = None,
+    color: globe.PointColor = None,
+    point_size: globe.PointSize = None,
     layer: globe.Layers = None,
     texture: globe.Texture = None,
     texture_box: globe.TextureBox = None,
@@ -33,7 +40,13 @@ def command(
     fly: globe.Fly = None,
     seconds: globe.Seconds = 10.0,
     fps: globe.Fps = 25.0,
+    title: globe.Title = "",
+    legend: globe.Legend = False,
+    style: globe.Styles = None,
+    width: globe.Width = USUAL_WIDTH,
     size: globe.Size = None,
+    dpi: globe.Dpi = None,
+    transparent: globe.Transparent = False,
     lon: options.Lon = None,
     lat: options.Lat = None,
     layer_name: options.LayerName = None,
@@ -51,13 +64,27 @@ def command(
     from stereodel.cli.destinations import Destination
     from stereodel.cli.globe_aim import Aim, place
     from stereodel.cli.globe_films import FILM_SPACING, motion_of, save_film
-    from stereodel.cli.globe_layers import Features, add_files, add_points, new_globe, texture_of
+    from stereodel.cli.globe_layers import (
+        Features,
+        LayerChoice,
+        PointLooks,
+        add_files,
+        add_points,
+        new_globe,
+        texture_of,
+    )
     from stereodel.cli.progress import stage
     from stereodel.cli.sources import read
 
-    read_from = (points, texture, *map(str, layer or ()))
+    layers = [LayerChoice.of(text) for text in layer or ()]
+    read_from = (points, texture, *(str(each.path) for each in layers), *(style or ()))
     destination = Destination.of(out, format, PICTURES + FILMS, *read_from, overwrite=overwrite)
     filming = destination.kind in FILMS
+    looks = PointLooks(frozenset(show or ("points", "cells")), labels, rank, color, point_size)
+    if points is None and (labels or color or point_size):
+        raise ValueError("--labels, --color and --point-size are for POINTS; give a table, or --layer FILE,color=…")
+    if filming and (title or legend or style or transparent or dpi or width != USUAL_WIDTH):
+        raise ValueError("--title, --legend, --style, --width, --dpi and --transparent are for pictures, not for films")
     if (spin or fly) and not filming:
         raise ValueError(f"--spin and --fly are for films, but {out} is none; the endings are .{', .'.join(FILMS)}")
     aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, angular_radius)
@@ -67,16 +94,20 @@ def command(
     with stage("reading maps"):
         spacing = FILM_SPACING if graticule is None and filming else graticule
         features = Features(land, coastlines, borders, rivers, lakes, spacing, "50m" if filming else aim.resolution)
-        drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude))
-        add_files(drawing, layer or ())
+        drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude), title)
+        add_files(drawing, layers)
         if table is not None:
             aim = aim.with_middle_of(table.points(latitude))
-            add_points(drawing, table, frozenset(show or ("points", "cells")))
+            add_points(drawing, table, looks)
     if filming:
         motion = motion_of(
             aim, spin=spin, stops=[options.pair(text, "--fly", "LON,LAT") for text in fly or ()], seconds=seconds
         )
         destination.write(lambda path: save_film(drawing, motion, path, size=size or 720, fps=fps, kept=out != "-"))
         return
+    pixels = size or (1600 if dpi is None else None)
+    paper: dict[str, Any] = {"width": width, "size": pixels, "dpi": dpi, "transparent": transparent}
     with stage("drawing"):
-        destination.write(lambda path: drawing.save(path, aim.lens, aim.views, size=size or 1600))
+        destination.write(
+            lambda path: drawing.save(path, aim.lens, aim.views, style=style or (), legend=legend, **paper)
+        )

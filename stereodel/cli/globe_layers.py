@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -12,12 +14,15 @@ from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude, box_of
 from stereodel.cli.sources import Table, naming
 from stereodel.data import blue_marble
-from stereodel.drawing.style import DOTS, LINES
+from stereodel.drawing.colors import as_color
+from stereodel.drawing.lengths import as_length
+from stereodel.drawing.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
 from stereodel.globe import Globe, Raster
 
 CROWDED = 500  # points from which on lines and dots are drawn finer, so that what they bound can still be seen
 FINEST = 0.2  # of the usual widths
 OWN_TEXTURE = "blue-marble"
+LAYER_KEYS = ("color", "width", "outline", "size", "column")  # of --layer FILE,key=…
 
 
 @dataclass(frozen=True)
@@ -47,9 +52,9 @@ def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster 
     return Raster.open(name, bounds=bounds, latitude=latitude.value)
 
 
-def new_globe(features: Features, latitude: Latitude, texture: Raster | None) -> Globe:
+def new_globe(features: Features, latitude: Latitude, texture: Raster | None, title: str = "") -> Globe:
     """A globe with maps of the Earth, from the ground up."""
-    globe = Globe(latitude=latitude.value)
+    globe = Globe(latitude=latitude.value, title=title)
     if texture is not None:
         globe.add_raster(texture)
     if features.land or (features.land is None and texture is None):
@@ -67,21 +72,91 @@ def new_globe(features: Features, latitude: Latitude, texture: Raster | None) ->
     return globe
 
 
-def add_files(globe: Globe, files: Iterable[Path]) -> None:
+@dataclass(frozen=True)
+class LayerChoice:
+    """A file to draw, and how: what `--layer` says, ``FILE,color=…,width=…``."""
+
+    path: Path
+    looks: Mapping[str, str]
+
+    @classmethod
+    def of(cls, text: str) -> LayerChoice:
+        """What an option means; a file that has commas and equals signs in its name is taken as it is."""
+        if Path(text).exists():
+            return cls(Path(text), {})
+        path, *given = re.split(r",(?=\w+=)", text)
+        looks = dict(part.split("=", 1) for part in given)
+        for key in looks:
+            if key not in LAYER_KEYS:
+                raise ValueError(f"--layer {text}: {key} is not known; give {', '.join(LAYER_KEYS)}")
+        return cls(Path(path), looks)
+
+    def arguments(self) -> dict[str, Any]:
+        """Those of `Globe.add_layer`."""
+        looks, line, rim = self.looks, MAP_LINES["line"], MAP_LINES["outline"]
+        color = as_color(looks["color"], "--layer: color") if "color" in looks else None
+        width = as_length(looks["width"], "--layer: width") if "width" in looks else None
+        edge = as_color(looks["outline"], "--layer: outline") if looks.get("outline", "none") != "none" else rim.color
+        outline = None if looks.get("outline") == "none" else LineStyle(edge, rim.width if width is None else width)
+        radius = as_length(looks["size"], "--layer: size") / 2 if "size" in looks else MAP_DOT.radius
+        found = {
+            "outline": outline,
+            "style": LineStyle(color or line.color, line.width if width is None else width),
+            "dot_style": DotStyle(color or MAP_DOT.color, radius, MAP_DOT.rim, min(MAP_DOT.rim_width, radius / 3)),
+            "column": looks.get("column"),
+            "legend": self.path.stem,
+        }
+        return found if color is None else found | {"color": color}
+
+
+def add_files(globe: Globe, layers: Iterable[LayerChoice]) -> None:
     """Draw what is in files; what is wrong in one is said with its name."""
-    for path in files:
-        with naming(str(path)):
-            globe.add_layer(path)
+    for layer in layers:
+        with naming(str(layer.path)):
+            globe.add_layer(layer.path, **layer.arguments())
 
 
-def add_points(globe: Globe, table: Table, shown: frozenset[str]) -> None:
-    """Draw points, with the ridges of their cells and the edges of their triangles."""
+@dataclass(frozen=True)
+class PointLooks:
+    """What is drawn of points, and how."""
+
+    shown: frozenset[str]
+    labels: str | None = None
+    rank: str | None = None
+    color: str | None = None
+    size: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.rank is not None and self.labels is None:
+            raise ValueError("--rank is for --labels")
+
+    def dots(self, weight: float) -> DotStyle:
+        """The style of dots, finer where they are many."""
+        usual = DOTS["sites"].scaled(weight)
+        radius = usual.radius if self.size is None else as_length(self.size, "--point-size") / 2
+        color = usual.color if self.color is None else as_color(self.color, "--color")
+        return DotStyle(color, radius, usual.rim, radius * usual.rim_width / usual.radius)
+
+
+def add_points(globe: Globe, table: Table, looks: PointLooks) -> None:
+    """Draw points, with the ridges of their cells, the edges of their triangles, and names."""
     places = table.points(Latitude(globe.latitude))
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
     triangulation = SphericalDelaunay(places)
-    if "triangles" in shown:
+    if "triangles" in looks.shown:
         globe.add_triangulation(triangulation, style=LINES["delaunay"].scaled(weight), name="delaunay")
-    if "cells" in shown:
+        globe.legend["triangles"] = LINES["delaunay"].scaled(weight)
+    if "cells" in looks.shown:
         globe.add_cells(SphericalVoronoi(triangulation), style=LINES["voronoi"].scaled(weight), name="voronoi")
-    if "points" in shown:
-        globe.add_points(table.places, style=DOTS["sites"].scaled(weight), name="sites")
+        globe.legend["cells"] = LINES["voronoi"].scaled(weight)
+    if "points" in looks.shown:
+        style = looks.dots(weight)
+        globe.add_points(table.places, style=style, name="sites")
+        globe.legend[Path(table.name).stem] = style
+    if looks.labels is not None:
+        column = table.column(looks.labels)
+        texts = ["" if value is None else str(value).strip() for value in column.tolist()]
+        named = np.array([text not in ("", "nan") for text in texts], dtype=np.bool_)
+        rank = None if looks.rank is None else table.numbers(looks.rank)[named]
+        names = [text for text in texts if text not in ("", "nan")]
+        globe.add_labels(table.places[named], names, rank=rank, movable=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -48,9 +47,34 @@ AngularRadius = Annotated[
     float, typer.Option(metavar="DEGREES", help="What a stereographic map shows: up to so far from its middle.")
 ]
 Layers = Annotated[
-    list[Path] | None,
-    typer.Option("--layer", metavar="FILE", help="Points, lines, polygons to draw: .geojson, .gpkg …; repeatable."),
+    list[str] | None,
+    typer.Option(
+        "--layer",
+        metavar="FILE[,color=…,width=…]",
+        help="Points, lines, polygons to draw: .geojson, .gpkg …, with color, width, outline, size or column; "
+        "repeatable.",
+    ),
 ]
+Labels = Annotated[
+    str | None,
+    typer.Option(metavar="COLUMN", help="Names to write at the points, as many as have room, the first rows first."),
+]
+Rank = Annotated[str | None, typer.Option(metavar="COLUMN", help="Numbers by which names matter, the largest first.")]
+PointColor = Annotated[
+    str | None, typer.Option("--color", metavar="COLOR", help="Of the points: a name such as firebrick, or #rrggbb.")
+]
+PointSize = Annotated[
+    str | None, typer.Option(metavar="LENGTH", help="Of the points, across: 3pt, 1mm; by default as fits.")
+]
+Title = Annotated[str, typer.Option(metavar="TEXT", help="Written above the picture.")]
+Legend = Annotated[bool, typer.Option("--legend", help="Say below the picture what points and layers are.")]
+Styles = Annotated[
+    list[str] | None,
+    typer.Option("--style", metavar="STYLE", help="column, slide, dark, or a file .toml of colours; repeatable."),
+]
+Width = Annotated[str, typer.Option(metavar="LENGTH", help="Of the page: 17cm, 120mm, 6.5in, 480pt.")]
+Dpi = Annotated[float | None, typer.Option(metavar="NUMBER", help="Pixels per inch of a PNG, instead of --size.")]
+Transparent = Annotated[bool, typer.Option("--transparent", help="Leave out the paper beside the globe.")]
 Texture = Annotated[
     str | None,
     typer.Option(metavar="IMAGE", help="Picture in longitude and latitude, a file, or blue-marble, which is here."),

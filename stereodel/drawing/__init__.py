@@ -13,6 +13,7 @@ from stereodel.drawing.sketch import Sketch
 from stereodel.drawing.solid import PlacedScene, Solid
 from stereodel.drawing.space_curves import CircleArc, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
+from stereodel.drawing.title import with_title
 from stereodel.drawing.view import StereographicView, View
 
 __all__ = [
@@ -41,4 +42,5 @@ __all__ = [
     "diagram_page",
     "styled",
     "with_legend",
+    "with_title",
 ]

@@ -32,13 +32,14 @@ def within_disc(label: Label, center: tuple[float, float], radius: float, points
 
     A halo that left the disc would cut the line round it.
     """
-    if _in_disc(label, center, radius, points_per_unit):
+    if in_disc(label, center, radius, points_per_unit):
         return label
     other = placed_label(label, (-label.offset[0], -label.offset[1]))
-    return other if _in_disc(other, center, radius, points_per_unit) else replace(label, halo=0.0)
+    return other if in_disc(other, center, radius, points_per_unit) else replace(label, halo=0.0)
 
 
-def _in_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> bool:
+def in_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> bool:
+    """Whether a label lies within a disc of the page, with its halo."""
     low, high = label_box(label, points_per_unit) + np.array([[-label.halo], [label.halo]])
     reach = np.maximum(
         np.abs(low - points_per_unit * np.array(center)), np.abs(high - points_per_unit * np.array(center))
@@ -54,13 +55,17 @@ def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], 
     for item in items:
         if isinstance(item, Label):
             box = label_box(item, points_per_unit)
-            # Boxes meet where they do in both directions.
-            meets = (box[0] < boxes[:, 1] + GAP).all(axis=1) & (boxes[:, 0] < box[1] + GAP).all(axis=1)
-            if meets.any() or (box[0] < low).any() or (box[1] > high).any():
+            if meets(box, boxes) or (box[0] < low).any() or (box[1] > high).any():
                 continue
             boxes = np.concatenate([boxes, box[None]])
         kept.append(item)
     return kept
+
+
+def meets(box: FloatArray, boxes: FloatArray) -> bool:
+    """Whether a box (2, 2) comes nearer than `GAP` to one of others (n, 2, 2), in points."""
+    # Boxes meet where they do in both directions.
+    return bool(((box[0] < boxes[:, 1] + GAP).all(axis=1) & (boxes[:, 0] < box[1] + GAP).all(axis=1)).any())
 
 
 def label_box(label: Label, points_per_unit: float) -> FloatArray:

@@ -11,6 +11,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, as_count
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.page import Page
+from stereodel.drawing.scales import ColorScale
 from stereodel.drawing.sketch import Sketch
 from stereodel.drawing.style import BLACK, LABEL_SIZE, DotStyle, LineStyle
 
@@ -23,10 +24,19 @@ GAP: Final = 5.0
 ROW: Final = 1.5
 """Height of a row in terms of that of type."""
 
+BAR: Final = (0.4, 0.8)
+"""Width of the bar of a scale in that of the page, and its height in terms of that of type."""
+
+BAR_ROWS: Final = 3.2
+"""Height of a scale with its name and its numbers, in rows."""
+
+LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale
+"""What words of a legend are written beside."""
+
 
 def with_legend(
     page: Page,
-    entries: Mapping[str, LineStyle | DotStyle | ColorLike],
+    entries: Mapping[str, LegendEntry],
     *,
     columns: int = 1,
     indent: float = 0.0,
@@ -39,9 +49,9 @@ def with_legend(
     ----------
     page : Page
         Keeps its width and grows downwards.
-    entries : mapping of str to LineStyle, DotStyle or color-like
-        Texts, and the symbol beside each: a short line, a dot or a tinted box. They are read row by
-        row.
+    entries : mapping of str to LineStyle, DotStyle, color-like or ColorScale
+        Texts, and the symbol beside each: a short line, a dot or a tinted box. They are read row by row. Scales come
+        last, each a bar below its name.
     columns : int
         Number of columns, at least 1; all are equally wide.
     indent : float
@@ -68,13 +78,20 @@ def with_legend(
     point = 1 / page.points_per_unit
     row, step = ROW * size * point, (page.width - 2 * indent) * point / count
     sketch = Sketch()
-    for number, (text, style) in enumerate(entries.items()):
+    scales = {text: style for text, style in entries.items() if isinstance(style, ColorScale)}
+    samples = {text: style for text, style in entries.items() if not isinstance(style, ColorScale)}
+    for number, (text, style) in enumerate(samples.items()):
         down, across = divmod(number, count)
         place = np.array([left + indent * point + step * across, bottom - row * (down + 1)])
         _add_sample(sketch, style, place, point)
         sketch.add_label(place, text, (SAMPLE[0] + GAP, 0.0), align="left", size=size, color=color, name="legend")
-    rows = -(-len(entries) // count)
-    extent = (left, right, bottom - row * (rows + 0.5), top)
+    foot = bottom - row * -(-len(samples) // count)
+    for text, scale in scales.items():
+        wide, high = BAR[0] * (right - left), BAR[1] * size * point
+        corner = ((left + right - wide) / 2, foot - 1.9 * row - high / 2)
+        sketch.add_items(scale.legend(corner, (wide, high), scale.ticks, title=text, ink=color, type_size=size))
+        foot -= BAR_ROWS * row
+    extent = (left, right, foot - 0.5 * row, top)
     return replace(page, extent=extent, items=(*page.items, *sketch.page(extent, width=page.width).items))
 
 

@@ -265,6 +265,7 @@ class Page:
         text: bool = True,
         renderer: Literal["gl", "agg"] = "gl",
         platform: str | None = None,
+        transparent: bool = False,
     ) -> Path:
         """Write the page as PNG, SVG or PDF, according to the extension of `path`.
 
@@ -286,6 +287,9 @@ class Page:
             regions in more colours than vector files hold as paths.
         platform : {"osmesa", "egl"}, optional
             See `stereodel.render.gl`.
+        transparent : bool
+            Whether the ground of the page is left out, so that what lies under the picture shows through. A PNG is then
+            drawn twice, and held in memory.
 
         Returns
         -------
@@ -322,7 +326,7 @@ class Page:
         with of_extra("render" if renderer == "gl" and Path(path).suffix.lower() == ".png" else "draw"):
             from stereodel.render.save import save_page
 
-            save_page(self, path, size=size, text=text, renderer=renderer, platform=platform)
+            save_page(self, path, size=size, text=text, renderer=renderer, platform=platform, transparent=transparent)
         return Path(path)
 
     def pixels(

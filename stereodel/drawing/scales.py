@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,21 @@ from stereodel.drawing.style import BLACK, LABEL_SIZE
 
 STEPS = 256
 """Of a legend."""
+
+CATEGORIES: Final[Sequence[Color]] = (
+    (0.902, 0.624, 0.000, 1.0),
+    (0.000, 0.620, 0.451, 1.0),
+    (0.800, 0.475, 0.655, 1.0),
+    (0.000, 0.353, 0.580, 1.0),
+    (0.941, 0.894, 0.259, 1.0),
+    (0.776, 0.306, 0.000, 1.0),
+    (0.337, 0.706, 0.914, 1.0),
+    (0.480, 0.480, 0.480, 1.0),
+)
+"""Of words, in their order: the hues of Okabe and Ito's palette, the first farthest from those of sea and land."""
+
+TICKS: Final = 5
+"""Of a legend, where none are given."""
 
 
 @dataclass(frozen=True)
@@ -65,6 +81,17 @@ class ColorScale:
         """Colours (..., 3), sRGB in [0, 1]."""
         return np.asarray(color_map(self.name)(self.place(values)), dtype=np.float64)[..., :3]
 
+    @property
+    def ticks(self) -> dict[float, str]:
+        """Numbers of two or more digits, evenly spaced from about `low` to about `high`, and how they are written."""
+        share = np.linspace(0.0, 1.0, TICKS)
+        numbers = self.low * (self.high / self.low) ** share if self.log else self.low + (self.high - self.low) * share
+        digits = 2
+        while len({f"{number:.{digits}g}" for number in numbers}) < TICKS and digits < 15:
+            digits += 1
+        written = [np.format_float_positional(float(f"{number:.{digits}g}"), trim="-") for number in numbers]
+        return {float(text): text for text in written}
+
     def legend(
         self,
         corner: tuple[float, float],
@@ -110,6 +137,21 @@ class ColorScale:
         place = (np.arange(STEPS) + 0.5) / STEPS
         numbers = self.low * (self.high / self.low) ** place if self.log else self.low + (self.high - self.low) * place
         return np.asarray(numbers)
+
+
+def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
+    """A colour for each of some words, which readers with any colour vision tell apart.
+
+    Raises
+    ------
+    ValueError
+        For more words than there are such colours.
+    """
+    if len(words) > len(CATEGORIES):
+        raise ValueError(
+            f"{name} has {len(words)} different words, but {len(CATEGORIES)} colours are told apart at most"
+        )
+    return dict(zip(words, CATEGORIES, strict=False))
 
 
 def usual_scale(values: FloatArray) -> ColorScale:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from stereodel._arrays import as_directions, as_indices, as_points, as_scalar, as_vectors
 from stereodel.drawing import style as styles
 from stereodel.drawing.colors import ColorLike, as_color
+from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.regions import SphereRegion
 from stereodel.drawing.scene_items import (
@@ -32,6 +33,7 @@ from stereodel.drawing.scene_items import (
 from stereodel.drawing.solid import PlacedScene, Solid
 from stereodel.drawing.space_curves import CircleArc, Curve, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
+from stereodel.drawing.title import with_title
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import units
@@ -238,8 +240,9 @@ class Scene:
         view: View,
         *,
         extent: tuple[float, float, float, float] | None = None,
-        width: float = Page.width,
+        width: LengthLike = Page.width,
         background: ColorLike = styles.WHITE,
+        title: str = "",
     ) -> Page:
         """A page with the scene seen from one side.
 
@@ -249,10 +252,12 @@ class Scene:
         extent : (float, float, float, float), optional
             Left, right, bottom and top of the page, in the unit of space, about the origin of space. By default that
             of the ball with a margin of `MARGIN` radii.
-        width : float
-            Of the page in points; the height follows.
+        width : float or str
+            Of the page in points, or with a unit, "17cm"; the height follows.
         background : color-like
             Of the paper.
+        title : str
+            Written above the picture.
 
         Raises
         ------
@@ -262,7 +267,10 @@ class Scene:
         if extent is None:
             (x, y), reach = view.project(self.center), (1 + MARGIN) * self.radius
             extent = (float(x) - reach, float(x) + reach, float(y) - reach, float(y) + reach)
-        return Page(extent, self.layout(view), width, as_color(background, "background"), (view.matrix,))
+        page = Page(
+            extent, self.layout(view), as_length(width, "width"), as_color(background, "background"), (view.matrix,)
+        )
+        return with_title(page, title)
 
     def layout(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> tuple[Item, ...]:
         """Page items in painter's order, with hidden parts removed, for pages with more than one scene.

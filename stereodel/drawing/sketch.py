@@ -18,10 +18,12 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_vectors
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.fonts import FontLike, as_font, in_font
+from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.space_curves import CircleArc, Segment, page_path
 from stereodel.drawing.style import PRINT_WIDTH, WHITE, DotStyle, LineStyle, dot, fill, line
+from stereodel.drawing.title import with_title
 from stereodel.drawing.view import View
 
 Point = Sequence[float] | FloatArray
@@ -294,20 +296,21 @@ class Sketch:
         self,
         extent: tuple[float, float, float, float],
         *,
-        width: float = PRINT_WIDTH,
+        width: LengthLike = PRINT_WIDTH,
         background: ColorLike = WHITE,
+        title: str = "",
     ) -> Page:
-        """The picture of (left, right, bottom, top), `width` points wide.
+        """The picture of (left, right, bottom, top), `width` points or another length wide, with a title above it.
 
         Raises
         ------
         ValueError
             For an extent without area, a width that is not positive, and invalid colours.
         """
-        blank = Page(extent, (), width, as_color(background, "background"), tuple(self._views))
+        blank = Page(extent, (), as_length(width, "width"), as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
         items = [item for part in self._parts for item in (part(scale) if callable(part) else (part,))]
-        return in_font(replace(blank, items=tuple(items)), self._font)
+        return in_font(with_title(replace(blank, items=tuple(items)), title), self._font)
 
     def _add_tick(
         self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False

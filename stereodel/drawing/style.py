@@ -216,7 +216,7 @@ MAP_DOT: Final = DotStyle(VERMILION, 1.8, rim=WHITE, rim_width=0.4)
 MAP_FILLS: Final[Mapping[str, Color]] = {
     "ocean": (0.780, 0.860, 0.915, 1.0),
     "land": (0.957, 0.937, 0.890, 1.0),
-    "area": (0.400, 0.640, 0.780, 1.0),
+    "area": with_opacity(ORANGE, 0.5),  # of another hue than sea and land, both of which show through
     "circle": with_opacity(VERMILION, 0.30),
 }
 """Regions of globes."""

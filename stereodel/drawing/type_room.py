@@ -59,7 +59,7 @@ WORD_OR_FORMULA: Final = re.compile(r"(?:\$[^$]*\$|\S)+")
 
 def clear_labels(page: Page) -> list[bool]:
     """For each label of a page, whether no line crosses it."""
-    setter = _Setter(page.points_per_unit, page.extent[:2], _chords(page.items))
+    setter = _Setter(page.points_per_unit, page.extent[:2], _chords(page.items, page.points_per_unit))
     return [not setter.crossed(label) for label in page.labels]
 
 
@@ -87,7 +87,7 @@ def set_anew(
     unit = points_per_unit
     picture = [item for item in items if not isinstance(item, Label)]
     labels = [item for item in items if isinstance(item, Label)]
-    ink, setter = _ink(picture, extent), _Setter(unit, room, _chords(picture))
+    ink, setter = _ink(picture, extent), _Setter(unit, room, _chords(picture, unit))
     kept = setter.within(
         [(label, free) for label, free in zip(labels, clear, strict=True) if ink[2] <= label.anchor[1] <= ink[3]]
     )
@@ -229,8 +229,8 @@ def _meet(boxes: FloatArray, others: FloatArray) -> bool:
     return bool(((a[..., 0, :] < b[..., 1, :] + GAP) & (b[..., 0, :] < a[..., 1, :] + GAP)).all(axis=-1).any())
 
 
-def _chords(items: Iterable[Item]) -> FloatArray:
-    """Chords (n, 2, 2) of all lines."""
+def _chords(items: Iterable[Item], unit: float) -> FloatArray:
+    """Chords (n, 2, 2) of all lines, and two diameters of each dot."""
     runs = []
     for item in items:
         if isinstance(item, Stroke):
@@ -239,6 +239,8 @@ def _chords(items: Iterable[Item]) -> FloatArray:
         elif isinstance(item, Polylines):
             chords = np.stack([item.points[:-1], item.points[1:]], axis=1)
             runs.append(np.delete(chords, item.offsets[1:-1] - 1, axis=0))
+        elif isinstance(item, Dots):
+            runs += [item.centers[:, None] + item.radius / unit * np.array([[-x, -y], [x, y]]) for x, y in np.eye(2)]
     return np.concatenate([np.zeros((0, 2, 2)), *runs])
 
 

@@ -6,18 +6,31 @@ import os
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray, Pixels, as_choice, as_count, as_directions, as_lonlat, as_scalar, as_steps
+from stereodel._arrays import (
+    FloatArray,
+    Pixels,
+    as_choice,
+    as_count,
+    as_directions,
+    as_lonlat,
+    as_scalar,
+    as_steps,
+    as_values,
+)
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.fonts import FontLike, as_font
 from stereodel.drawing.label import placed_label
+from stereodel.drawing.legend import LegendEntry, with_legend
+from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.scales import ColorScale, usual_scale
+from stereodel.drawing.page_styles import Style, styled
+from stereodel.drawing.scales import ColorScale, category_colors, usual_scale
 from stereodel.drawing.style import (
     BLACK,
     HALO,
@@ -30,6 +43,7 @@ from stereodel.drawing.style import (
     DotStyle,
     LineStyle,
 )
+from stereodel.drawing.title import with_title
 from stereodel.drawing.view import MapView
 from stereodel.globe import features
 from stereodel.globe.chart import Chart
@@ -39,12 +53,19 @@ from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
 from stereodel.globe.regions import Rings, SphereRegions
-from stereodel.io.shapes import shapes_of
+from stereodel.io.shapes import Shapes, shapes_of
 from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
+
+SIZE: Final = 2000
+"""Width of a picture in pixels where nothing else is said."""
+
+LEGEND_COLUMNS: Final = 3
+LEGEND_INDENT: Final = 24.0
+"""White space beside a legend, points."""
 
 
 class Globe:
@@ -64,6 +85,14 @@ class Globe:
     font : str, path-like, or sequence of them, optional
         Families of the type, or files of fonts; by default STIX, a serif. For characters that these lack the machine's
         fonts stand in; see `stereodel.drawing.fonts.as_font`.
+    title : str
+        Written above pictures, in matplotlib's mathtext.
+
+    Attributes
+    ----------
+    legend : dict of str to LineStyle, DotStyle, color-like or ColorScale
+        What pictures with a legend have below them: words, and what they are written beside. Layers coloured by a
+        column enter it; anything else may be put there.
 
     Raises
     ------
@@ -90,11 +119,14 @@ class Globe:
         latitude: Latitude = "spherical",
         limb: LineStyle = MAP_LINES["limb"],
         font: FontLike | None = None,
+        title: str = "",
     ) -> None:
         self.latitude: Latitude = as_choice(latitude, KINDS, "latitude")
         self.layers: list[MapLayer] = [Ground(as_color(ocean, "ocean"))]
         self.limb = Rim(limb)
         self.font = as_font(font)
+        self.title = title
+        self.legend: dict[str, LegendEntry] = {}
 
     def add(self, layer: MapLayer) -> None:
         """Put any layer on top: an object with ``lay(chart)``, which gives page items."""
@@ -229,11 +261,15 @@ class Globe:
         halo_color: ColorLike | None = None,
         font: FontLike | None = None,
         formulas: bool = False,
+        rank: npt.ArrayLike | None = None,
+        movable: bool = False,
     ) -> None:
         """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
 
-        A label that would cover one that matters more is left out, and so is one whose place is out of sight; one that
-        would leave the disc stands on the other side of its place, if it has room there. Without a `halo_color` halos
+        Of labels with a `rank`, numbers (n,), those with the largest matter most. A label that would cover one that
+        matters more is left out, and so is one whose place is out of sight; one that would leave the disc stands on the
+        other side of its place, if it has room there. One that is `movable` stands on any side of its place that has
+        room, as far away as the offset says; see `stereodel.drawing.label_placement`. Without a `halo_color` halos
         have the colour of the ground below them, at four fifths of full opacity.
 
         Names may be in any script, see `Globe` on fonts; `font` is another one than the globe's. With `formulas` what
@@ -246,7 +282,13 @@ class Globe:
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
-        self.add(Names(xyz, labels, on_ground=halo_color is None))
+        if rank is not None:
+            numbers = as_values(rank, len(xyz), "rank")
+            # What has no number matters least.
+            order = np.argsort(-np.where(np.isnan(numbers), -np.inf, numbers), kind="stable")
+            xyz, labels = xyz[order], tuple(labels[k] for k in order.tolist())
+        distance = float(np.hypot(*offset)) if movable else None
+        self.add(Names(xyz, labels, on_ground=halo_color is None, distance=distance))
 
     def add_cells(
         self,
@@ -324,6 +366,7 @@ class Globe:
         style: LineStyle = MAP_LINES["line"],
         dot_style: DotStyle = MAP_DOT,
         name: str = "layer",
+        legend: str = "",
     ) -> None:
         """Draw what a file or a table of shapes holds: polygons, lines on them, points on top.
 
@@ -334,30 +377,29 @@ class Globe:
         color : color-like
             Of polygons.
         column : str, optional
-            A property of numbers that colours the polygons instead; those without it keep `color`.
+            A property that colours the polygons instead, and enters the legend; those without it keep `color`. Numbers
+            have a scale, words a colour each, eight different ones at most.
         scale : ColorScale, optional
-            From these numbers to colours; by default viridis from the least to the largest.
+            From numbers to colours; by default viridis from the least to the largest.
         outline, style, dot_style : LineStyle, LineStyle, DotStyle
             Of the polygons' outlines (None: none), the lines and the points.
         name : str
             Names the groups in vector files.
+        legend : str
+            What the legend calls it where no column does.
 
         Raises
         ------
         OSError
             When a file cannot be read.
         ValueError
-            For what is not GeoJSON, a latitude outside [−90, 90], a column that is not there or holds no numbers.
+            For what is not GeoJSON, a latitude outside [−90, 90], a column that is not there or holds more words.
         """
         shapes = shapes_of(source)
         if len(shapes.polygon_feature):
             colors = as_colors(color, len(shapes.properties), "color")
             if column is not None:
-                values = shapes.column(column)
-                known = np.isfinite(values)
-                if known.any():
-                    chosen = usual_scale(values[known]) if scale is None else scale
-                    colors[known, :3], colors[known, 3] = chosen(values[known]), 1.0
+                self._color_by(column, shapes, scale, colors)
             owners = shapes.polygon_feature
             polygons = SphereRegions.of_lonlat(shapes.polygons, owners=owners, latitude=self.latitude)
             self._add_polygons(polygons, colors[: polygons.count], outline, name)
@@ -365,13 +407,19 @@ class Globe:
             self.add_lines(list(shapes.lines), style=style, name=name)
         if len(shapes.points):
             self.add_points(shapes.points, style=dot_style, name=name)
+        if legend and not (column and len(shapes.polygon_feature)):
+            self.legend[legend] = (
+                as_color(color) if len(shapes.polygon_feature) else style if len(shapes.lines) else dot_style
+            )
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
         """What a chart shows, in painter's order; `panels` leaves out labels that would cover others."""
         items: list[Item] = []
         for layer in (*self.layers, self.limb):
-            if isinstance(layer, Names) and layer.on_ground:
-                items += [haloed(label, items, chart.unit) if label.halo else label for label in layer.seen(chart)]
+            if isinstance(layer, Names):
+                labels = layer.beside(chart, items)
+                on_ground = layer.on_ground
+                items += [haloed(label, items, chart.unit) if on_ground and label.halo else label for label in labels]
             else:
                 items += layer.lay(chart)
         return tuple(items)
@@ -381,8 +429,10 @@ class Globe:
         lens: MoebiusMap | None = None,
         view: MapView | Sequence[MapView] | None = None,
         *,
-        width: float = PRINT_WIDTH,
+        width: LengthLike = PRINT_WIDTH,
         tolerance: float = 0.02,
+        style: Style | Sequence[Style] = (),
+        legend: bool = False,
     ) -> Page:
         """A picture of the globe, ready to be written as pixels or paths.
 
@@ -392,14 +442,27 @@ class Globe:
             By default none.
         view : View, StereographicView or a sequence of them, optional
             By default orthographic from above the focus of the lens; several are set side by side, as `hemispheres`.
-        width : float
-            Of the page in points; lines and type keep their size in points.
+        width : float or str
+            Of the page in points, or with a unit, "17cm"; lines and type keep their size in points.
         tolerance : float
             How far what is drawn may be from what it stands for, in points.
+        style : str, path-like, or sequence of them
+            Styles of `stereodel.drawing.styled`: "column", "slide", "dark", or files of TOML.
+        legend : bool
+            Whether `Globe.legend` is below the picture.
+
+        Raises
+        ------
+        ValueError
+            For a width or tolerance that is not positive, and what is no style.
         """
         bend = MoebiusMap.identity() if lens is None else lens
         views = view if isinstance(view, Sequence) else [default_view(bend) if view is None else view]
-        return panels([Panel(self, bend, each) for each in views], width=width, tolerance=tolerance)
+        contents = [Panel(self, bend, each) for each in views]
+        page = with_title(panels(contents, width=as_length(width, "width"), tolerance=tolerance), self.title)
+        if legend and self.legend:
+            page = with_legend(page, self.legend, columns=LEGEND_COLUMNS, indent=LEGEND_INDENT)
+        return styled(page, *([style] if isinstance(style, str | os.PathLike) else style), font=self.font)
 
     def save(
         self,
@@ -407,8 +470,12 @@ class Globe:
         lens: MoebiusMap | None = None,
         view: MapView | Sequence[MapView] | None = None,
         *,
-        size: int = 2000,
-        width: float = PRINT_WIDTH,
+        size: int | None = None,
+        width: LengthLike = PRINT_WIDTH,
+        dpi: float | None = None,
+        style: Style | Sequence[Style] = (),
+        legend: bool = False,
+        transparent: bool = False,
     ) -> Path:
         """Write a picture as PNG, SVG or PDF, as the ending says; see `page`.
 
@@ -416,21 +483,30 @@ class Globe:
         ----------
         path : path-like
             Written under a temporary name first; an existing file is replaced.
-        lens, view, width
+        lens, view, width, style, legend
             As for `page`.
-        size : int
-            Width of a PNG in pixels, at most 65 535; curves are as fine as a fifth of a pixel.
+        size : int, optional
+            Width of a PNG in pixels, at most 65 535; curves are as fine as a fifth of a pixel. By default `SIZE`.
+        dpi : float, optional
+            Pixels per inch of the page instead.
+        transparent : bool
+            Whether the paper is left out, so that what lies under the picture shows beside the globe.
 
         Raises
         ------
         OSError
             When the file cannot be written, or there is no OpenGL for a PNG.
         ValueError
-            For another ending.
+            For another ending, for a size and dpi at once, and as `page`.
         """
-        pixels = as_count(size, "size", high=LARGEST_SIZE)
-        page = self.page(lens, view, width=width, tolerance=min(0.02, 0.2 * width / pixels))
-        return page.save(path, size=pixels)
+        if size is not None and dpi is not None:
+            raise ValueError("size and dpi both say how many pixels a picture has; give one of them")
+        pixels, wide = as_count(SIZE if size is None else size, "size", high=LARGEST_SIZE), as_length(width, "width")
+        pixel = wide / pixels if dpi is None else 72 / as_scalar(dpi, "dpi", low=0.0, open_low=True)
+        page = self.page(lens, view, width=wide, tolerance=min(0.02, 0.2 * pixel), style=style, legend=legend)
+        if dpi is not None:
+            pixels = max(1, round(page.width / 72 * dpi))
+        return page.save(path, size=pixels, transparent=transparent)
 
     def _xyz(self, places: npt.ArrayLike, name: str) -> FloatArray:
         """Unit vectors of places in degrees, (n, 2), or of directions, (n, 3); one place may come alone."""
@@ -438,6 +514,23 @@ class Globe:
         if rows.shape[-1] == 3:
             return units(as_directions(rows, name, points=True))
         return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
+
+    def _color_by(self, column: str, shapes: Shapes, scale: ColorScale | None, colors: FloatArray) -> None:
+        """Colour features (n, 4) by a property, and say so in the legend."""
+        words = shapes.words(column)
+        if words is not None and scale is None:
+            shades = category_colors(sorted({word for word in words if word is not None}), f"column {column!r}")
+            for row, word in enumerate(words):
+                if word is not None:
+                    colors[row] = shades[word]
+            self.legend |= shades
+            return
+        values = shapes.column(column)
+        known = np.isfinite(values)
+        if known.any():
+            chosen = usual_scale(values[known]) if scale is None else scale
+            colors[known, :3], colors[known, 3] = chosen(values[known]), 1.0
+            self.legend[column] = chosen
 
     def _add_polygons(
         self, regions: SphereRegions, color: ColorLike | npt.ArrayLike, outline: LineStyle | None, name: str

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -12,6 +12,7 @@ from stereodel._arrays import FloatArray
 from stereodel.drawing.colors import Color
 from stereodel.drawing.grids import LEAST_APART, WIDTHS_APART, Grid, usual_spacing
 from stereodel.drawing.label import within_disc
+from stereodel.drawing.label_placement import placed_apart
 from stereodel.drawing.page import Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.globe.chart import Chart
@@ -172,14 +173,30 @@ class Names:
     labels: tuple[Label, ...]
     on_ground: bool = False
     """Whether halos have the colour of the ground below, which `Globe.items` knows."""
+    distance: float | None = None
+    """From its place to a label that may stand on any side of it, points; None where it stands where it is."""
 
     def lay(self, chart: Chart) -> Iterator[Item]:
         """Those whose place is seen, inside the disc where there is room."""
-        yield from self.seen(chart)
+        yield from self.beside(chart, ())
 
-    def seen(self, chart: Chart) -> Iterator[Label]:
-        """As `lay`."""
+    def beside(self, chart: Chart, items: Sequence[Item]) -> Iterator[Label]:
+        """As `lay`, beside what is on the chart already."""
+        if self.distance is None:
+            for label in self._seen(chart):
+                yield within_disc(label, chart.at, chart.scale, chart.unit)
+            return
+        yield from placed_apart(
+            self._seen(chart),
+            self.distance,
+            center=chart.at,
+            radius=chart.scale,
+            points_per_unit=chart.unit,
+            before=[item for item in items if isinstance(item, Label)],
+            dots=np.concatenate([np.zeros((0, 2)), *(item.centers for item in items if isinstance(item, Dots))]),
+        )
+
+    def _seen(self, chart: Chart) -> Iterator[Label]:
         places, seen = chart.points(self.xyz)
         for label, (x, y) in ((self.labels[k], places[k]) for k in np.flatnonzero(seen)):
-            placed = replace(label, anchor=(float(x), float(y)))
-            yield within_disc(placed, chart.at, chart.scale, chart.unit)
+            yield replace(label, anchor=(float(x), float(y)))

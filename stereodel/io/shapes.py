@@ -85,6 +85,14 @@ class Shapes:
                 f"column {name!r} holds something that is not a number; name a column of numbers"
             ) from None
 
+    def words(self, name: str) -> list[str | None] | None:
+        """A property of each feature where it is text, None for those without it; None where it is no text."""
+        values = [entry.get(name) for entry in self.properties]
+        given = [value for value in values if value is not None]
+        if not given or not all(isinstance(value, str) for value in given):
+            return None
+        return values
+
 
 def shapes_of(source: Any) -> Shapes:
     """The shapes of a file, of GeoJSON, of a frame, or of geometries.

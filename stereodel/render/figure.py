@@ -241,7 +241,7 @@ def style_names(text: str) -> tuple[str, ...]:
 
 def styled_folder(out: Path, styles: tuple[str, ...]) -> Path:
     """Where pictures in other styles go: a folder of their own in that of the pictures."""
-    return out / "-".join(styles)
+    return out / "-".join(Path(style).stem for style in styles)
 
 
 def default_folder(source: Callable[..., Any]) -> Path:

@@ -101,7 +101,7 @@ class _Sheet:
         corners = np.array([(left, top), (right, top), (right, bottom), (left, bottom), (left, top)])
         ground = Outline(corners, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8))
         parts = [
-            self.shape(Filled(ground, page.background)),
+            *([self.shape(Filled(ground, page.background))] if page.background[3] else []),
             *(self.shape(shape) for shape in shapes(page, PRINT_DPI, pictures)),
             *(self.label(label, lines, fonts, named) for label, lines in lettering),
         ]

@@ -2,7 +2,7 @@
 
 Pillow and the libraries over it, imageio among them, hold the whole picture, and pypng, which does not, filters no row
 and was last released in 2022. The format is that of the third edition of the PNG specification (W3C, 2025): 8 bits,
-red, green and blue, no interlace.
+red, green, blue and perhaps opacity, no interlace.
 """
 
 from __future__ import annotations
@@ -18,7 +18,8 @@ from stereodel._arrays import Pixels
 
 SIGNATURE: Final = b"\x89PNG\r\n\x1a\n"
 
-CHANNELS: Final = 3
+KINDS: Final = {3: 2, 4: 6}
+"""Channels → the number that the format has for such pixels."""
 
 LEVEL: Final = 6
 """Of zlib: 9 takes eight times as long for files 3 % smaller."""
@@ -41,13 +42,19 @@ METERS_PER_POINT: Final = 0.0254 / 72
 
 
 def png_chunks(
-    rows: Iterable[Pixels], width: int, height: int, *, page_width: float, texts: Mapping[str, str] | None = None
+    rows: Iterable[Pixels],
+    width: int,
+    height: int,
+    *,
+    page_width: float,
+    texts: Mapping[str, str] | None = None,
+    channels: int = 3,
 ) -> Iterator[bytes]:
     """A PNG file piece by piece.
 
     Parameters
     ----------
-    rows : iterable of (k, width, 3) uint8 arrays
+    rows : iterable of (k, width, channels) uint8 arrays
         The picture from the top, any number of rows at a time.
     width, height : int
         In pixels.
@@ -55,6 +62,8 @@ def png_chunks(
         Width in print, points; the file says how large it is meant to be.
     texts : mapping, optional
         What the file says of itself, by the format's keywords: Title, Description. Empty texts are left out.
+    channels : {3, 4}
+        Red, green and blue, or those, not premultiplied, and opacity.
 
     Raises
     ------
@@ -72,13 +81,13 @@ def png_chunks(
     """
     density = round(width / (page_width * METERS_PER_POINT))
     yield SIGNATURE
-    yield _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+    yield _chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, KINDS[channels], 0, 0, 0))
     yield _chunk(b"pHYs", struct.pack(">IIB", density, density, 1))
     yield from (text_chunk(keyword, text) for keyword, text in (texts or {}).items() if text)
-    packer, above, missing = zlib.compressobj(LEVEL, memLevel=9), np.zeros((1, width, CHANNELS), dtype=np.uint8), height
+    packer, above, missing = zlib.compressobj(LEVEL, memLevel=9), np.zeros((1, width, channels), dtype=np.uint8), height
     for part in rows:
-        if part.shape[1:] != (width, CHANNELS) or part.dtype != np.uint8 or len(part) > missing:
-            left = (missing, width, CHANNELS)
+        if part.shape[1:] != (width, channels) or part.dtype != np.uint8 or len(part) > missing:
+            left = (missing, width, channels)
             raise ValueError(f"rows has shape {part.shape} and type {part.dtype}; at most {left} of uint8 are left")
         missing -= len(part)
         for first in range(0, len(part), ROWS):

@@ -32,6 +32,9 @@ from stereodel.render.vector import save_vector
 
 ENDINGS: Final = (".png", ".svg", ".pdf")
 
+BAND: Final = 256
+"""Rows of a picture without ground that are made at once."""
+
 FINEST_DPI: Final = 600
 """Pixels per inch, at most, of what vector files hold as pictures: no press shows more."""
 
@@ -55,13 +58,14 @@ def save_page(
     text: bool,
     renderer: Renderer,
     platform: str | None = None,
+    transparent: bool = False,
 ) -> tuple[int, str]:
     """What `Page.save` promises, for several files of one picture; what all of them hold as pixels is drawn once.
 
     Returns
     -------
     tuple of int and str
-        Width of the picture in pixels; hash of its pixels without text, empty where there is no PNG.
+        Width of the picture in pixels; hash of its pixels without text, empty where there is no opaque PNG.
     """
     files = [(Path(path), Path(path).suffix.lower()) for path in paths]
     for target, kind in files:
@@ -72,10 +76,12 @@ def save_page(
     try:
         pictures = region_pictures(page, width, platform) if any(kind != ".png" for _, kind in files) else []
         for target, kind in files:
-            if kind == ".png":
+            if kind == ".png" and transparent:
+                _write_see_through(shown, target, width, renderer, platform)
+            elif kind == ".png":
                 digest = _write_png(shown, target, width, renderer, platform)
             else:
-                save_vector(shown, target, pictures=pictures)
+                save_vector(_without_ground(shown) if transparent else shown, target, pictures=pictures)
     except OpenGLError as error:
         raise OpenGLError(f"{error}; .svg and .pdf of lines and plain fills need no OpenGL") from error
     return width, digest
@@ -93,6 +99,39 @@ def _write_png(page: Page, target: Path, width: int, renderer: Renderer, platfor
     digest = PixelDigest((pixel_height(page, width), width, 3))
     write_png(digest.passed(bare_rows(page, width, renderer, platform)), page, target, width)
     return str(digest)
+
+
+def _without_ground(page: Page) -> Page:
+    return replace(page, background=(*page.background[:3], 0.0))
+
+
+def _write_see_through(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> None:
+    """Write a page as PNG without its ground: what two grounds show tells colour and opacity of what is on them."""
+    white, black = (
+        draw_page(replace(page, background=(*ground, 1.0)), size=width, text=True, renderer=renderer, platform=platform)
+        for ground in ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
+    )
+    texts = {"Title": page.title, "Description": page.description}
+    rows = (unmixed(white[top : top + BAND], black[top : top + BAND]) for top in range(0, len(white), BAND))
+    with replacing(target) as temporary, temporary.open("wb") as file:
+        file.writelines(png_chunks(rows, width, len(white), page_width=page.width, texts=texts, channels=4))
+
+
+def unmixed(white: Pixels, black: Pixels) -> Pixels:
+    """Pixels (..., 4), not premultiplied, from what they look like on white and on black, (..., 3).
+
+    Examples
+    --------
+    >>> half = unmixed(np.array([[255, 127, 127]], dtype=np.uint8), np.array([[128, 0, 0]], dtype=np.uint8))
+    >>> half.tolist()
+    [[255, 0, 0, 128]]
+    """
+    through = np.sum(white.astype(np.int32) - black, axis=-1, keepdims=True)
+    opacity = np.clip(255 - (through + 1) // 3, 0, 255)
+    # A colour that rounding would make brighter than white is white.
+    color = np.minimum((255 * black.astype(np.int32) + opacity // 2) // np.maximum(opacity, 1), 255)
+    found: Pixels = np.concatenate([np.where(opacity > 0, color, 0), opacity], axis=-1).astype(np.uint8)
+    return found
 
 
 def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> None:

@@ -80,7 +80,7 @@ class _Sheet:
             f'viewBox="0 0 {sides[0]} {sides[1]}"{labels}>',
             *(f'<{name} id="{name}">{escape(text)}</{name}>' for name, text in told),
             *([_sheet(fonts.values(), shaped.values())] if fonts or shaped else []),
-            *self.shape(Filled(ground, page.background, "ground")),
+            *(self.shape(Filled(ground, page.background, "ground")) if page.background[3] else ()),
             *(line for shape in shapes(page, PRINT_DPI, pictures) for line in self.shape(shape)),
             *(line for label, its in lettering for line in self.label(label, its, fonts, shaped)),
             "</svg>",

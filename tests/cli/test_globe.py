@@ -6,6 +6,7 @@ import struct
 import zlib
 from dataclasses import replace
 from itertools import pairwise
+from xml.etree import ElementTree as ET
 
 import imageio.v3 as iio
 import numpy as np
@@ -15,12 +16,16 @@ from PIL import Image, ImageSequence
 from stereodel import fisheye, lonlat_to_xyz
 from stereodel.cli.globe_aim import Aim, middle_of
 from stereodel.cli.globe_films import motion_of
+from stereodel.cli.globe_layers import LayerChoice
 from stereodel.cli.globe_options import Projection
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots
+from stereodel.drawing.style import MAP_LINES
 from stereodel.film import Film, FrameError
 from stereodel.globe import Globe
 from tools.image import read_picture
+
+SVG = "{http://www.w3.org/2000/svg}"
 
 
 def test_png_has_the_size_asked_for(folder, run):
@@ -262,3 +267,79 @@ def test_the_graticule_suits_what_the_lens_shows(folder, run, options, lines):
     run("globe", "-o", "globe.svg", "--focus=2,48", "--no-land", "--no-coastlines", *options)
     (path,) = re.findall('<path id="graticule"[^>]* d="([^"]*)"', (folder / "globe.svg").read_text(encoding="utf-8"))
     assert lines <= path.count("M") <= 3 * lines
+
+
+def test_names_titles_legends_and_looks(folder, run):
+    """What the options say is in the file: names that matter most, colours, sizes, words."""
+    (folder / "towns.csv").write_text(
+        "name,lon,lat,people\nNear,10,50,5\nLarge,10,50,900\n,20,40,7\nFar,-170,-50,8\n", encoding="utf-8"
+    )
+    looks = ["--color=firebrick", "--point-size=2mm", "--title=Towns & more", "--legend", "--width=10cm"]
+    run("globe", "towns.csv", "-o", "a.svg", "--view=10,50", "--labels=name", "--rank=people", *looks)
+    root = ET.parse(folder / "a.svg").getroot()
+    texts = ["".join(text.itertext()) for text in root.iter(f"{SVG}text")]
+    assert texts == ["Large", "Near", "Towns & more", "cells", "towns"]
+    assert root.find(f"{SVG}title").text == "Towns & more"
+    assert float(root.get("width").removesuffix("pt")) == pytest.approx(100 / 25.4 * 72, abs=1e-3)
+    (dots,) = (path for path in root.iter(f"{SVG}path") if path.get("id") == "sites-2")
+    assert dots.get("fill") == "#b22222"
+
+
+def test_layers_of_a_colour(folder, run):
+    line = {"type": "LineString", "coordinates": [[0, 40], [20, 60]]}
+    area = {"type": "Polygon", "coordinates": [[[0, 40], [20, 40], [10, 60], [0, 40]]]}
+    for name, geometry in (("line", line), ("area", area)):
+        (folder / f"{name}.geojson").write_text(json.dumps(geometry), encoding="utf-8")
+    layers = ["--layer=area.geojson,color=#00ff00,outline=none", "--layer=line.geojson,color=red,width=1mm"]
+    run("globe", "-o", "a.svg", "--focus=10,50", "--magnify=5", *layers)
+    paths = list(ET.parse(folder / "a.svg").getroot().iter(f"{SVG}path"))
+    area, line = (path for path in paths if (path.get("id") or "").startswith("layer"))
+    assert line.get("stroke") == "#ff0000"
+    assert float(line.get("stroke-width")) == pytest.approx(72 / 25.4, abs=1e-4)
+    assert area.get("fill").startswith("url(")  # lit as the ball is
+    usual = LayerChoice.of("some.gpkg").arguments()
+    assert usual["outline"] == MAP_LINES["outline"]
+    assert "color" not in usual
+    (folder / "a,color=b.geojson").touch()
+    assert LayerChoice.of("a,color=b.geojson").looks == {}
+
+
+def test_styles_pixels_and_paper(folder, run):
+    (folder / "mine.toml").write_text('background = "black"\n[fills]\nball = "red"\n', encoding="utf-8")
+    run("globe", "-o", "a.png", "--style=mine.toml", "--no-land", "--no-coastlines", "--width=1in", "--dpi=50")
+    picture = iio.imread(folder / "a.png")
+    assert picture.shape == (50, 50, 3)
+    assert picture[0, 0].tolist() == [0, 0, 0]
+    assert picture[25, 20, 0] > 150 > 30 > picture[25, 20, 1]
+    run("globe", "-o", "b.png", "--transparent", "--size=40", "--no-land", "--no-coastlines")
+    assert iio.imread(folder / "b.png")[0, 0].tolist() == [0, 0, 0, 0]
+    run("globe", "-o", "c.png", "--style=slide", "--style=dark", "--dpi=10", "--no-land", "--no-coastlines")
+    assert iio.imread(folder / "c.png").shape == (75, 133, 3)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--labels=name"], "--labels, --color and --point-size are for POINTS"),
+        (["cities.csv", "--labels=town"], "there is no column 'town'"),
+        (["cities.csv", "--rank=name"], "--rank is for --labels"),
+        (["cities.csv", "--color=reddish"], "--color is 'reddish', which is not a colour"),
+        (["cities.csv", "--point-size=2ell"], "--point-size is '2ell'; give a length with a unit"),
+        (["--width=wide"], "--width is 'wide'; give a length with a unit, pt, mm, cm, in, such as 17cm"),
+        (["--dpi=0"], "--dpi is 0"),
+        (["--dpi=10", "--size=10"], "size and dpi both say how many pixels"),
+        (["--style=bright"], "--style is 'bright'; give column, slide, dark or a file .toml"),
+        (["--style=slide", "--style=column"], "are both the size of a page"),
+        (["--style=none.toml"], "none.toml: No such file or directory"),
+        (["--layer=a.geojson,colour=red"], "--layer a.geojson,colour=red: colour is not known; give color, width"),
+    ],
+)
+def test_wrong_looks(folder, options, message, run):
+    said = run("globe", *options, "-o", "globe.svg", "--no-land", "--no-coastlines", code=2)
+    assert message in said
+    assert said.count("\n") == 1
+    assert not (folder / "globe.svg").exists()
+
+
+def test_films_have_no_paper(folder, run):
+    assert "are for pictures, not for films" in run("globe", "-o", "a.gif", "--spin", "--title=Earth", code=2)

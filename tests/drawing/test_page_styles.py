@@ -184,7 +184,7 @@ def test_the_order_of_styles_does_not_matter():
 
 
 def test_wrong_styles_are_named():
-    with pytest.raises(ValueError, match="style is 'bright'; give column, slide or dark"):
+    with pytest.raises(ValueError, match=r"style is 'bright'; give column, slide, dark or a file \.toml"):
         styled(page(), "bright")
     with pytest.raises(ValueError, match="column and slide both set the size of the page"):
         as_styles(("slide", "dark", "column"))

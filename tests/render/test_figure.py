@@ -86,7 +86,10 @@ def test_a_style_has_a_folder_of_its_own(figure, tmp_path, monkeypatch):
 
 
 def test_a_style_that_there_is_not_is_explained(figure, capsys):
-    for given, answer in (("bright", "style is 'bright'; give column, slide or dark"), ("slide,column", "give one")):
+    for given, answer in (
+        ("bright", "style is 'bright'; give column, slide, dark or a file .toml"),
+        ("slide,column", "give one"),
+    ):
         with pytest.raises(SystemExit) as stopped:
             figure.main(["--style", given])
         assert stopped.value.code == 2

@@ -1,0 +1,148 @@
+"""Styles of one's own: a file that says in what colours, widths and sizes the parts of a page are drawn.
+
+The file is TOML. Parts go by their names, which are the ids of SVG: "ball", "land", "coast", "graticule", "voronoi" ….
+"""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from stereodel._arrays import as_scalar
+from stereodel.drawing.colors import Color, as_color
+from stereodel.drawing.lengths import as_length
+from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Polygons, Polylines, Stroke
+
+Changes = Mapping[str, Any]
+"""Fields of an item → what they become."""
+
+
+def _width(value: Any, name: str) -> float:
+    """A length that may be 0."""
+    return as_length(value, name) if isinstance(value, str) else as_scalar(value, name, low=0.0)
+
+
+READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
+    "lines": {"color": as_color, "width": _width},
+    "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
+    "labels": {"color": as_color, "size": as_length, "halo": _width, "halo_color": as_color},
+}
+"""Tables of a file → their keys, and what reads the value of each."""
+
+
+@dataclass(frozen=True)
+class PageStyle:
+    """Colours, widths and sizes of the parts of a page, by name; what is not named stays as it is.
+
+    Parameters
+    ----------
+    base : tuple of {"column", "slide", "dark"}
+        Styles in which the page is before.
+    background : Color, optional
+        Of the paper.
+    fills : mapping of str to Color
+        Names of regions → their colours; regions that have several, as cells, keep them.
+    lines, dots : mapping of str to mapping
+        Names of lines and of dots → "color" and "width"; "color", "radius", "rim" and "rim_width".
+    labels : mapping
+        "color", "size", "halo" and "halo_color" of all type.
+    """
+
+    base: tuple[str, ...] = ()
+    background: Color | None = None
+    fills: Mapping[str, Color] = field(default_factory=dict)
+    lines: Mapping[str, Changes] = field(default_factory=dict)
+    dots: Mapping[str, Changes] = field(default_factory=dict)
+    labels: Changes = field(default_factory=dict)
+
+    @classmethod
+    def of_file(cls, path: str | os.PathLike[str]) -> PageStyle:
+        """The style that a TOML file holds.
+
+        Raises
+        ------
+        OSError
+            When the file cannot be read.
+        ValueError
+            For what is no TOML, for keys that styles do not have, and for values that are none of theirs; the message
+            names file and key.
+        """
+        source = Path(path)
+        try:
+            table = tomllib.loads(source.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise ValueError(f"{source}: is not TOML: {error}") from error
+        try:
+            return cls._of_table(table)
+        except ValueError as error:
+            raise ValueError(f"{source}: {error}") from error
+
+    @classmethod
+    def _of_table(cls, table: Mapping[str, Any]) -> PageStyle:
+        _known(table, [entry.name for entry in fields(cls)], "")
+        base = table.get("base", ())
+        return cls(
+            (base,) if isinstance(base, str) else tuple(base),
+            as_color(table["background"], "background") if "background" in table else None,
+            {name: as_color(value, f"fills.{name}") for name, value in _table(table, "fills").items()},
+            _parts(table, "lines"),
+            _parts(table, "dots"),
+            _read("labels", _table(table, "labels"), "labels."),
+        )
+
+    def __call__(self, page: Page) -> Page:
+        """A page in this style."""
+        background = page.background if self.background is None else self.background
+        return replace(page, background=background, items=tuple(map(self._item, page.items)))
+
+    def _item(self, item: Item) -> Item:
+        match item:
+            case Stroke() | Polylines():
+                return replace(item, **self.lines.get(item.name, {}))
+            case Dots():
+                return replace(item, **self.dots.get(item.name, {}))
+            case Label():
+                return replace(item, **self.labels)
+            case Fill() if item.name in self.fills:
+                return replace(item, color=self.fills[item.name])
+            case Polygons() if item.name in self.fills and len(item.by_color[0]) == 1:
+                return replace(item, colors=np.tile(self.fills[item.name], (len(item.colors), 1)))
+            case _:
+                return item
+
+
+def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str, Any]:
+    found = parts.get(name, {})
+    if not isinstance(found, Mapping):
+        raise ValueError(f"{within}{name} is {found!r}, but must be a table, such as [{within}{name}]")
+    return found
+
+
+def _parts(table: Mapping[str, Any], kind: str) -> Mapping[str, Changes]:
+    """Tables by the names of what they change."""
+    named = _table(table, kind)
+    return {name: _read(kind, _table(named, name, f"{kind}."), f"{kind}.{name}.") for name in named}
+
+
+def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
+    for key in given:
+        if key not in keys:
+            raise ValueError(f"{within}{key} is no key of styles; give {', '.join(keys)}")
+
+
+def _read(kind: str, given: Mapping[str, Any], within: str) -> Changes:
+    readers = READERS[kind]
+    _known(given, list(readers), within)
+    found = {}
+    for key, value in given.items():
+        try:
+            found[key] = readers[key](value, f"{within}{key}")
+        except TypeError as error:
+            raise ValueError(str(error)) from error
+    return found

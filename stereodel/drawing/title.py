@@ -1,0 +1,45 @@
+"""The title of a page: written above the picture, and told to those who search files or cannot see them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Final
+
+from stereodel.drawing.colors import ColorLike, as_color
+from stereodel.drawing.label import label_box
+from stereodel.drawing.page import Label, Page
+from stereodel.drawing.style import BLACK
+
+TITLE_SIZE: Final = 12.0
+"""Height of the type of a title, points."""
+
+GAP: Final = 5.0
+"""Above and below it, points."""
+
+
+def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = TITLE_SIZE) -> Page:
+    """The page with a title above the picture, which files say, too; as it is for an empty one.
+
+    Parameters
+    ----------
+    page : Page
+        Stays as wide as it is and grows upwards.
+    title : str
+        A line; what stands between two dollar signs is a formula.
+    ink : color-like
+    size : float
+        Of the type, points.
+
+    Examples
+    --------
+    >>> page = with_title(Page((0.0, 2.0, 0.0, 1.0), width=200.0), "Nothing")
+    >>> page.title, page.height > 100.0, page.items[0].text
+    ('Nothing', True, 'Nothing')
+    """
+    if not title:
+        return page
+    left, right, bottom, top = page.extent
+    label = Label(title, ((left + right) / 2, top), (0.0, GAP), "center", "bottom", size, as_color(ink, "ink"))
+    (_, low), (_, high) = label_box(label, page.points_per_unit)
+    extent = (left, right, bottom, top + (high - low + 2 * GAP) / page.points_per_unit)
+    return replace(page, extent=extent, items=(*page.items, replace(label, name="title")), title=title)

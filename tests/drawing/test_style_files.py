@@ -1,0 +1,111 @@
+"""Styles in files: what they change, what they leave, and what is wrong in them, by file and key."""
+
+import re
+
+import numpy as np
+import pytest
+
+from stereodel.drawing import styled
+from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
+from stereodel.drawing.style_files import PageStyle
+
+SQUARE = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0)])
+LINE = np.linspace((0.0, 0.0), (1.0, 1.0), 4)[None]
+
+
+def page():
+    red = (1.0, 0.0, 0.0, 1.0)
+    rows = np.array([0, 4, 8])
+    twice = np.concatenate([SQUARE, SQUARE + 2])
+    several = Polygons(twice, rows, np.array([0, 1]), np.array([red, (0, 0, 1, 1)]), name="cells")
+    items = (
+        Fill((LINE,), red, "ball"),
+        Polygons(SQUARE, rows[:2], np.array([0]), np.array([red]), name="land"),
+        several,
+        Stroke(LINE, red, 1.0, name="limb"),
+        Polylines(SQUARE, rows[:2], red, 1.0, "coast"),
+        Dots(SQUARE, 2.0, red, name="sites"),
+        Label("name", (0.0, 0.0), color=red),
+    )
+    return Page((0.0, 4.0, 0.0, 4.0), items)
+
+
+def write(folder, text):
+    file = folder / "mine.toml"
+    file.write_text(text, encoding="utf-8")
+    return file
+
+
+def test_a_file_changes_what_it_names(tmp_path):
+    file = write(
+        tmp_path,
+        """
+        background = "black"
+        [fills]
+        ball = "#00ff00"
+        land = [0, 1, 0, 0.5]
+        cells = "white"
+        nothing = "white"
+        [lines]
+        limb = {color = "lime", width = "1mm"}
+        coast = {width = 3}
+        [dots.sites]
+        radius = 4.5
+        rim = "white"
+        rim_width = 1
+        [labels]
+        size = 12
+        color = "lime"
+        halo = 0
+        """,
+    )
+    drawn = styled(page(), file)
+    ball, land, cells, limb, coast, dots, label = drawn.items
+    green, red = (0.0, 1.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0)
+    assert drawn.background == (0.0, 0.0, 0.0, 1.0)
+    assert ball.color == green
+    assert land.colors.tolist() == [[0.0, 1.0, 0.0, 0.5]]
+    assert cells.colors.tolist() == page().items[2].colors.tolist()  # several colours say something
+    assert (limb.color, limb.width) == (green, pytest.approx(72 / 25.4))
+    assert (coast.color, coast.width) == (red, 3.0)
+    assert (dots.radius, dots.color, dots.rim, dots.rim_width) == (4.5, red, (1.0, 1.0, 1.0, 1.0), 1.0)
+    assert (label.size, label.color, label.halo) == (12.0, green, 0.0)
+    assert page().background == (1.0, 1.0, 1.0, 1.0)
+
+
+def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
+    assert PageStyle.of_file(write(tmp_path, ""))(page()).arrays().keys() == page().arrays().keys()
+    dark = styled(page(), write(tmp_path, 'base = "dark"\n[fills]\nball = "lime"'))
+    assert dark.background == styled(page(), "dark").background
+    assert dark.items[0].color == (0.0, 1.0, 0.0, 1.0)
+    assert dark.items[3].color == styled(page(), "dark").items[3].color
+    both = styled(page(), "dark", str(write(tmp_path, 'background = "navy"')))
+    assert both.background == (0.0, 0.0, 128 / 255, 1.0)
+    assert both.items[3].color == dark.items[3].color
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("a = ", "mine.toml: is not TOML"),
+        ("colour = 1", "mine.toml: colour is no key of styles; give base, background, fills, lines, dots, labels"),
+        ("lines.coast.widht = 1", "mine.toml: lines.coast.widht is no key of styles; give color, width"),
+        ("lines.coast.width = -1", "mine.toml: lines.coast.width is -1"),
+        ("lines.coast.width = '1 ell'", "mine.toml: lines.coast.width is '1 ell'; give a length with a unit"),
+        ("lines.coast.width = true", "mine.toml: lines.coast.width"),
+        ("lines.coast = 1", "mine.toml: lines.coast is 1, but must be a table, such as [lines.coast]"),
+        ("fills.land = 'grass'", "mine.toml: fills.land is 'grass', which is not a colour"),
+        ("labels.size = 0", "mine.toml: labels.size is 0"),
+        ("dots = []", "mine.toml: dots is [], but must be a table"),
+        ("base = 'bright'", "style is 'bright'"),
+        ("background = [1, 2]", "mine.toml: background is [1, 2], which is not a colour"),
+    ],
+)
+def test_what_is_wrong_is_said_with_file_and_key(text, message, tmp_path):
+    with pytest.raises(ValueError, match=re.escape(message)):
+        styled(page(), write(tmp_path, text))
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(FileNotFoundError):
+        styled(page(), tmp_path / "none.toml")

@@ -1,0 +1,123 @@
+"""How globes look: titles, legends, names, colours of layers, sizes, paper."""
+
+import imageio.v3 as iio
+import numpy as np
+import pytest
+
+from stereodel.drawing import View
+from stereodel.drawing.colorimetry import to_oklab
+from stereodel.drawing.page import Label
+from stereodel.globe import Globe
+from stereodel.globe.layers import Areas
+
+SQUARE = [[0, 0], [5, 0], [5, 5], [0, 0]]
+
+
+def named(page, name):
+    return [item for item in page.items if item.name == name]
+
+
+def test_a_title_and_a_legend_are_around_the_picture():
+    globe = Globe(title="Four cells")
+    globe.legend["land"] = "tan"
+    plain, told = globe.page(), globe.page(legend=True)
+    (title,) = named(plain, "title")
+    assert (title.text, plain.title) == ("Four cells", "Four cells")
+    assert title.anchor[1] == Globe().page().extent[3] < plain.extent[3]
+    assert {item.text for item in named(told, "legend") if isinstance(item, Label)} == {"land"}
+    assert told.extent[2] < plain.extent[2] == 0
+    assert Globe().page(legend=True).extent == Globe().page().extent
+
+
+@pytest.mark.parametrize(
+    ("values", "entries"),
+    [(["b", "a", "b", None], {"a", "b"}), ([1.0, 5.0, None, 2.0], {"kind"})],
+    ids=["words", "numbers"],
+)
+def test_a_column_colours_polygons_and_enters_the_legend(values, entries):
+    squares = [[[[10 * k, 0], [10 * k + 5, 0], [10 * k + 5, 5], [10 * k, 0]]] for k in range(4)]
+    features = [
+        {"type": "Feature", "properties": {"kind": value}, "geometry": {"type": "Polygon", "coordinates": rings}}
+        for value, rings in zip(values, squares, strict=True)
+    ]
+    globe = Globe()
+    globe.add_layer({"type": "FeatureCollection", "features": features}, column="kind", color="red")
+    assert globe.legend.keys() == entries
+    (areas,) = (layer for layer in globe.layers if isinstance(layer, Areas))
+    by_value = dict(zip(values, map(tuple, areas.colors.tolist()), strict=True))
+    assert by_value[None] == (1.0, 0.0, 0.0, 1.0)
+    assert len(set(by_value.values())) == len(by_value)
+    for value in set(values) - {None}:
+        entry = globe.legend[value] if isinstance(value, str) else (*globe.legend["kind"](value).tolist(), 1.0)
+        assert by_value[value] == pytest.approx(entry)
+    assert len(named(globe.page(legend=True), "legend")) == (4 if entries == {"a", "b"} else 0)
+
+
+def test_too_many_words_are_refused():
+    features = [
+        {"type": "Feature", "properties": {"kind": f"k{k}"}, "geometry": {"type": "Polygon", "coordinates": [SQUARE]}}
+        for k in range(9)
+    ]
+    with pytest.raises(ValueError, match="column 'kind' has 9 different words, but 8 colours are told apart at most"):
+        Globe().add_layer({"type": "FeatureCollection", "features": features}, column="kind")
+
+
+@pytest.mark.parametrize("style", [(), "dark"])
+def test_layers_hide_neither_in_the_sea_nor_on_land(style):
+    """Sea and land under a layer of the usual colour are neither sea nor land, stay two, and have an outline."""
+    globe = Globe()
+    globe.add_land(resolution="110m")
+    globe.add_layer({"type": "Polygon", "coordinates": [SQUARE]})
+    page = globe.page(style=style)
+    ball, land, layer = (named(page, name)[0] for name in ("ball", "land", "layer"))
+    assert named(page, "layer-outline")
+    sea, ground = np.array(ball.color[:3]), land.colors[0, :3]
+    color, opacity = layer.colors[0, :3], layer.colors[0, 3]
+    assert 0.3 <= opacity <= 0.7
+    bare = to_oklab([sea, ground])
+    covered = to_oklab([opacity * color + (1 - opacity) * below for below in (sea, ground)])
+    assert np.linalg.norm(covered[:, None] - bare, axis=-1).min() > 0.07
+    assert np.linalg.norm(covered[0] - covered[1]) > 0.02
+
+
+def test_names_with_a_rank_and_sides():
+    """Two names for one place: the one of the larger number stands to the right, the other finds another side."""
+    places, texts = [(10.0, 50.0), (10.0, 50.0)], ["small", "large"]
+    globe = Globe()
+    globe.add_labels(places, texts, rank=[1, 9], movable=True)
+    first, second = globe.page(view=View(10, 50)).labels
+    assert (first.text, first.offset) == ("large", (4.0, 0.0))
+    assert (second.text, second.offset) == ("small", (-4.0, 0.0))
+    fixed = Globe()
+    fixed.add_labels(places, texts, rank=[1, np.nan])
+    assert [label.text for label in fixed.page(view=View(10, 50)).labels] == ["small"]
+    with pytest.raises(ValueError, match=r"rank"):
+        fixed.add_labels(places, texts, rank=[1])
+
+
+def test_widths_with_units_and_dots_per_inch(tmp_path):
+    globe = Globe()
+    assert globe.page(width="84mm").width == pytest.approx(84 / 25.4 * 72)
+    assert globe.page(style="column").width == pytest.approx(8.4 / 2.54 * 72)
+    assert iio.imread(globe.save(tmp_path / "a.png", width="2in", dpi=40)).shape == (80, 80, 3)
+    assert iio.imread(globe.save(tmp_path / "b.png", style="slide", dpi=10)).shape == (75, 133, 3)
+    with pytest.raises(ValueError, match="size and dpi both say how many pixels"):
+        globe.save(tmp_path / "c.png", size=100, dpi=10)
+
+
+def test_transparent_paper(tmp_path):
+    """Beside the globe there is nothing, and over white it is the picture that has paper."""
+    globe = Globe(title="Nothing")
+    globe.add_graticule(30)
+    paper, bare = globe.save(tmp_path / "a.png", size=120), globe.save(tmp_path / "b.png", size=120, transparent=True)
+    shown, found = iio.imread(paper).astype(float), iio.imread(bare).astype(float)
+    opacity = found[..., 3:] / 255
+    assert found.shape == (*shown.shape[:2], 4)
+    assert found[-1, 0].tolist() == [0, 0, 0, 0]
+    assert opacity[80, 60] == 1
+    assert 0 < (found[:8, :, 3] > 0).mean() < 1  # type
+    assert np.abs(found[..., :3] * opacity + 255 * (1 - opacity) - shown).max() <= 2
+    for kind in ("svg", "pdf"):
+        whole, without = (globe.save(tmp_path / f"{k}.{kind}", transparent=bool(k)) for k in range(2))
+        assert without.stat().st_size < whole.stat().st_size
+    assert 'id="ground"' not in (tmp_path / "1.svg").read_text(encoding="utf-8")
