@@ -14,7 +14,7 @@ import numpy as np
 
 from stereodel import Stereographic
 from stereodel.drawing import Page, Sketch
-from stereodel.drawing.style import BLACK, BLUE, VERMILION, line
+from stereodel.drawing.style import BLACK, BLUE, VERMILION, LineStyle, line
 from stereodel.render import Figure
 from stereodel.sphere import angular_distance
 
@@ -31,6 +31,7 @@ EQUATIONS = (
     (r"$\tan((90°\!+\!\Phi)/2) = d/2r$", VERMILION),
     (r"$S\,\tan((90°\!+\!\varphi)/2) = \tan((90°\!+\!\Phi)/2)$", BLACK),
 )
+ROOM, LEAD, LEFT = 1.0, 0.16, {"align": "right"}  # beside the axis for a name; of a line outside the circle; page units
 CORNER, ROW = (2.05, 4.1), 16.0  # of the equations: upper left corner; height of a row, points
 
 
@@ -69,12 +70,24 @@ def add_sphere(sketch: Sketch, radius: float, point: np.ndarray, arc: float, nam
     sketch.add_segment(top, (DISTANCE, 0.0), name=name)
     sketch.add_arc(center, radius, -90, -90 + arc, name=f"covered{name[-1]}")
     sketch.add_angle(top, (0, 0), (DISTANCE, 0), 0.5 * radius, "", name=name)
-    sketch.add_label((0, 1.5 * radius), inscribed, (-4, 0), align="right", color=color, halo=2.0)
+    add_name(sketch, radius, inscribed, color)
     first, second = (point, equator) if arc < 90 else (equator, point)
     sketch.add_angle(center, first, second, 0.62 * radius, latitude, name="frame", gap=7.0, color=color)
     sketch.add_label((0.4 * radius, radius), size, beside)
     sketch.add_label(top, "$N$", (-5, 4), align="right", valign="bottom")
     sketch.add_points([top, center], name="pole").add_points([point], name=name)
+
+
+def add_name(sketch: Sketch, radius: float, text: str, color: tuple) -> None:
+    """The name of an inscribed angle beside it, or left of a circle that has no room for it, at a line to it."""
+    foot, chord = (0.0, 1.5 * radius), np.sqrt(0.75) * radius  # half the circle's, at the height of the angle's arc
+    if chord < ROOM:
+        tip, leader = (-chord - LEAD, foot[1]), LineStyle(color, 0.5)
+        sketch.add_segment(tip, foot, name="construction", style=leader).add_label(
+            tip, text, (-2, 0), **LEFT, color=color
+        )
+    else:
+        sketch.add_label(foot, text, (-4, 0), **LEFT, color=color)
 
 
 FIGURE = Figure("fig13_latitudes", geometry, draw, renderer="agg")

@@ -55,6 +55,7 @@ def command(
     latitude: options.LatitudeKind = options.Latitude.authalic,
     format: globe.Format = None,
     overwrite: options.Overwrite = False,
+    font: globe.Font = None,
 ) -> None:
     """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye.
 
@@ -94,7 +95,7 @@ def command(
     with stage("reading maps"):
         spacing = FILM_SPACING if graticule is None and filming else graticule
         features = Features(land, coastlines, borders, rivers, lakes, spacing, "50m" if filming else aim.resolution)
-        drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude), title)
+        drawing = new_globe(features, latitude, texture_of(texture, texture_box, latitude), title, font)
         add_files(drawing, layers)
         if table is not None:
             aim = aim.with_middle_of(table.points(latitude))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from stereodel.cli.options import Latitude, box_of
 from stereodel.cli.sources import Table, naming
 from stereodel.data import blue_marble
 from stereodel.drawing.colors import as_color
+from stereodel.drawing.fonts import as_font
 from stereodel.drawing.lengths import as_length
 from stereodel.drawing.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
 from stereodel.globe import Globe, Raster
@@ -52,9 +53,15 @@ def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster 
     return Raster.open(name, bounds=bounds, latitude=latitude.value)
 
 
-def new_globe(features: Features, latitude: Latitude, texture: Raster | None, title: str = "") -> Globe:
+def new_globe(
+    features: Features,
+    latitude: Latitude,
+    texture: Raster | None,
+    title: str = "",
+    font: Sequence[str] | None = None,
+) -> Globe:
     """A globe with maps of the Earth, from the ground up."""
-    globe = Globe(latitude=latitude.value, title=title)
+    globe = Globe(latitude=latitude.value, font=as_font(font, "--font"), title=title)
     if texture is not None:
         globe.add_raster(texture)
     if features.land or (features.land is None and texture is None):

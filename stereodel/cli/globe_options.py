@@ -93,6 +93,10 @@ Graticule = Annotated[
     float | None,
     typer.Option(metavar="DEGREES", help="Spacing of meridians and parallels; 0 for none; by default as fits."),
 ]
+Font = Annotated[
+    list[str] | None,
+    typer.Option("--font", metavar="NAME", help="Family of the names, or the file of a font; repeatable."),
+]
 Spin = Annotated[bool, typer.Option("--spin", help="Of a film: the globe turns once.")]
 Fly = Annotated[
     list[str] | None,

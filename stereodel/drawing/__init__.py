@@ -2,6 +2,7 @@
 
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
+from stereodel.drawing.fonts import MissingCharactersWarning
 from stereodel.drawing.grids import Grid
 from stereodel.drawing.legend import with_legend
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
@@ -27,6 +28,7 @@ __all__ = [
     "Label",
     "Layer",
     "LineStyle",
+    "MissingCharactersWarning",
     "Page",
     "PlacedScene",
     "Polygons",

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
@@ -16,7 +17,6 @@ from difflib import get_close_matches
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, Final
-from unicodedata import category, name
 from warnings import catch_warnings, filterwarnings, warn
 
 from stereodel._extras import of_extra
@@ -49,7 +49,7 @@ class MissingCharactersWarning(UserWarning):
     """No font has some characters of a picture, and boxes stand in their place."""
 
 
-def as_font(font: FontLike | None) -> tuple[str, ...]:
+def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
     """Families and files of fonts, as a label holds them.
 
     Parameters
@@ -57,6 +57,9 @@ def as_font(font: FontLike | None) -> tuple[str, ...]:
     font : str, path-like, or sequence of them, optional
         Names of families, or paths of files ending in .ttf, .otf, .ttc or .otc. Families that the machine does not have
         are passed over, as browsers do, if there is one that it has.
+
+    name : str
+        By which messages call it.
 
     Raises
     ------
@@ -78,8 +81,8 @@ def as_font(font: FontLike | None) -> tuple[str, ...]:
         close = [match for family in families for match in get_close_matches(family, known)]
         similar = f" (similar: {', '.join(dict.fromkeys(close))})" if close else ""
         raise ValueError(
-            f"font is {', '.join(map(repr, families))}, which this machine does not have{similar}; give a family that "
-            "matplotlib.font_manager.get_font_names() lists, or the path of a .ttf or .otf file"
+            f"{name} is {', '.join(map(repr, families))}, which this machine does not have{similar}; give a family "
+            "that matplotlib.font_manager.get_font_names() lists, or the path of a .ttf or .otf file"
         )
     return families
 
@@ -139,7 +142,9 @@ def warn_of_missing(characters: Iterable[str]) -> None:
     """One `MissingCharactersWarning` that names characters which no font has, if there are any."""
     missing = sorted(characters)
     if missing:
-        told = ", ".join(f"{sign} (U+{ord(sign):04X} {name(sign, 'without a name')})" for sign in missing[:NAMED])
+        told = ", ".join(
+            f"{sign} (U+{ord(sign):04X} {unicodedata.name(sign, 'without a name')})" for sign in missing[:NAMED]
+        )
         more = f" and {len(missing) - NAMED} more" if len(missing) > NAMED else ""
         warn(
             f"no font here has {told}{more}; boxes stand in their place: install a font that has them (those called "
@@ -164,7 +169,9 @@ def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, 
 
 def _lacking(text: frozenset[str], families: Iterable[str]) -> frozenset[str]:
     """The characters of a text that are to be seen and that no family has."""
-    lacking = {sign for sign in text if category(sign) not in {"Cc", "Cf"} and not "\ufe00" <= sign <= "\ufe0f"}
+    lacking = {
+        sign for sign in text if unicodedata.category(sign) not in {"Cc", "Cf"} and not "\ufe00" <= sign <= "\ufe0f"
+    }
     for family in families:
         if lacking:
             lacking -= _had(family, lacking)

@@ -22,7 +22,6 @@ from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, Final, Protocol
-from xml.sax.saxutils import escape
 
 import numpy as np
 
@@ -31,6 +30,7 @@ from stereodel._extras import of_extra, optional
 from stereodel._files import replacing
 from stereodel.constants import FRAME_ROUNDING
 from stereodel.render.png import text_chunk
+from stereodel.render.xmp import xmp_title
 
 
 class Reel(Protocol):
@@ -377,22 +377,13 @@ def _even(picture: Pixels) -> Pixels:
 WEBP_QUALITY: Final = 90
 """Of 100: thin coloured lines keep their colour."""
 
-XMP_TITLE: Final = (
-    '<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?><x:xmpmeta xmlns:x="adobe:ns:meta/">'
-    '<rdf:RDF xmlns:rdf="http://www.w3.org/1999/02/22-rdf-syntax-ns#">'
-    '<rdf:Description rdf:about="" xmlns:dc="http://purl.org/dc/elements/1.1/"><dc:title><rdf:Alt>'
-    '<rdf:li xml:lang="x-default">{}</rdf:li></rdf:Alt></dc:title></rdf:Description></rdf:RDF></x:xmpmeta>'
-    '<?xpacket end="w"?>'
-)
-"""How a WebP says its title."""
-
 
 def write_webp(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
     """Write frames as an animated WebP that loops for ever; times are kept in milliseconds."""
     with of_extra("film"):
         from PIL import Image
 
-    told = {"xmp": XMP_TITLE.format(escape(title)).encode()} if title else {}
+    told = {"xmp": xmp_title(title)} if title else {}
     with path.open("wb") as file:
         if len(reel) == 1:
             Image.fromarray(reel[0]).save(file, format="webp", quality=WEBP_QUALITY, **told)

@@ -21,6 +21,7 @@ from stereodel.conformal import MoebiusMap
 from stereodel.drawing.view import View
 from stereodel.globe.images import Photo, check_photo, read_photo, write_photo
 from stereodel.globe.raster import FACES, PANORAMA_FORMS, PLANET_RADIUS, SHARES, PanoramaForm, Raster, panorama_size
+from stereodel.render.xmp import META, RDF, xmp_packet
 from stereodel.sphere import xyz_to_lonlat
 
 VIEWERS: Final = "http://ns.google.com/photos/1.0/"
@@ -29,11 +30,6 @@ VIEWERS: Final = "http://ns.google.com/photos/1.0/"
 SPHERE: Final = "equirectangular"
 
 GPANO: Final = f"{VIEWERS}panorama/"
-RDF: Final = "http://www.w3.org/1999/02/22-rdf-syntax-ns#"
-META: Final = "adobe:ns:meta/"
-
-PACKET: Final = ('<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>', '<?xpacket end="w"?>')
-"""What XMP data stand between."""
 
 
 def save_panorama(
@@ -182,7 +178,7 @@ def _xmp(xmp: bytes, said: Mapping[str, str]) -> bytes:
         names: dict[str, str] = {f"{{{RDF}}}about": ""}
         names.update({f"{{{GPANO}}}{name}": text for name, text in said.items()})
         ET.SubElement(whole, f"{{{RDF}}}Description", names)
-    return "\n".join((PACKET[0], ET.tostring(root, encoding="unicode"), PACKET[1])).encode()
+    return xmp_packet(ET.tostring(root, encoding="unicode"))
 
 
 def _parsed(xmp: bytes) -> ET.Element | None:

@@ -329,7 +329,7 @@ def test_styles_pixels_and_paper(folder, run):
         (["--dpi=0"], "--dpi is 0"),
         (["--dpi=10", "--size=10"], "size and dpi both say how many pixels"),
         (["--style=bright"], "--style is 'bright'; give column, slide, dark or a file .toml"),
-        (["--style=slide", "--style=column"], "are both the size of a page"),
+        (["--style=slide", "--style=column"], "both set the size of the page"),
         (["--style=none.toml"], "none.toml: No such file or directory"),
         (["--layer=a.geojson,colour=red"], "--layer a.geojson,colour=red: colour is not known; give color, width"),
     ],
@@ -343,3 +343,10 @@ def test_wrong_looks(folder, options, message, run):
 
 def test_films_have_no_paper(folder, run):
     assert "are for pictures, not for films" in run("globe", "-o", "a.gif", "--spin", "--title=Earth", code=2)
+
+
+def test_fonts_are_known_before_anything_is_drawn(folder, run):
+    assert "--font is 'Nowhere', which this machine does not have" in run(
+        "globe", "cities.csv", "-o", "globe.svg", "--font", "Nowhere", code=2
+    )
+    run("globe", "cities.csv", "-o", "globe.svg", "--font", "Nowhere", "--font", "DejaVu Sans")

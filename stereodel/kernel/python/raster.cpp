@@ -62,7 +62,8 @@ PageMap map_of(const Matrix& first, double size, const Matrix& last, const char*
 
 Pixels warp(const Texels& raster, const ValuesIn<std::uint8_t>& levels, const Edges& edges,
             const ValuesIn<double>& shifts, const Matrix& first, double size, const Matrix& last,
-            const char* projection, double reach, std::array<double, 4> place, std::array<int, 2> pixels, bool covered, int workers) {
+            const char* projection, double reach, std::array<double, 4> place, std::array<int, 2> pixels, bool covered,
+            int workers) {
     const RasterShape shape = shape_of(raster);
     if (levels.shape(0) != shape.size()) {
         throw std::invalid_argument("levels must be those of the raster");
