@@ -36,6 +36,8 @@ Column = npt.NDArray[np.generic]
 """One value a row, of any type."""
 Geometries = npt.NDArray[np.object_]
 """Those of Shapely."""
+Packed = npt.NDArray[np.object_]
+"""Geometries as well-known binary, None where there is none."""
 _Scalar = TypeVar("_Scalar", bound=np.generic)
 _Word = TypeVar("_Word", bound=str)
 

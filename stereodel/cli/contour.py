@@ -63,7 +63,9 @@ def command(
         raise NothingToDoError(f"{table.name}: no lines: no level lies between the values")
     with bar(f"writing {out}") as shown:
         destination.write(
-            lambda path: write(path, found, max_segment=max_segment, latitude=latitude.value, progress=shown)
+            lambda path: write(
+                path, found, max_segment=max_segment, latitude=latitude.value, crs=table.crs, progress=shown
+            )
         )
     say(f"{out}: {len(found)} lines of {len(wanted)} levels")
 

@@ -15,14 +15,17 @@ from stereodel._extras import optional
 from stereodel._files import replacing, said_of
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import bar, stage
-from stereodel.cli.sources import LONLAT, Columns
+from stereodel.cli.sources import Columns
 from stereodel.io import write
 from stereodel.io.csv_text import write_csv
 
 if TYPE_CHECKING:
+    from stereodel.cli.sources import Table
     from stereodel.io.layers import Layer
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
+SAME = {"json": "geojson", "geoparquet": "parquet"}
+"""Other endings of formats."""
 PICTURES = ("svg", "pdf")
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
@@ -46,6 +49,7 @@ class Destination:
             raise ValueError(f"--format is for stdout (--out -); the format of {name} is told by its extension")
         chosen = (kind or allowed[0]) if name == "-" else Path(name).suffix
         chosen = chosen.lower().removeprefix(".")
+        chosen = SAME.get(chosen, chosen)
         if name == "-" and chosen == "shp":
             raise ValueError("a shapefile is several files, and stdout is one; name a file with --out")
         if chosen not in allowed:
@@ -83,16 +87,15 @@ class Destination:
                 raise
 
 
-def save_table(path: Path, axes: tuple[str, str], columns: Columns) -> None:
-    """Write a table of points, as the extension says; `axes` are the columns that hold the places."""
+def save_table(path: Path, table: Table, columns: Columns) -> None:
+    """Write columns that begin with the places of a table's points, as the extension says."""
     if path.suffix.lower() == ".csv":
         save_csv(path, columns)
         return
     from stereodel.io.layers import Layer, packed
 
-    others = {name: values for name, values in columns.items() if name not in axes}
-    places = optional("shapely", "geo").points(*(columns[axis] for axis in axes))
-    save_layer(path, Layer(others, packed(places), "EPSG:4326" if axes == LONLAT else None))
+    others = {name: values for name, values in columns.items() if name not in table.axes}
+    save_layer(path, Layer(others, packed(optional("shapely", "geo").points(table.places)), table.crs))
 
 
 def save_layer(path: Path, layer: Layer) -> None:

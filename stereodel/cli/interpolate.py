@@ -98,11 +98,17 @@ def command(
         return
     with naming_options(lon="--at-lon", lat="--at-lat", layer="--at-layer-name", crs="--at-crs"):
         asking = read(
-            str(at), lon=at_lon, lat=at_lat, plane=plane, layer=at_layer_name, crs=at_crs, skip_missing=skip_missing
+            str(at),
+            lon=at_lon,
+            lat=at_lat,
+            plane=plane,
+            layer=at_layer_name,
+            crs=at_crs or (crs if plane else None),
+            skip_missing=skip_missing,
         )
     results = dict(zip(value, interpolated(asking.points(latitude)).T, strict=True))
     columns = asking.beside(results, taken=["geometry"])
-    destination.write(lambda path: save_table(path, asking.axes, columns))
+    destination.write(lambda path: save_table(path, asking, columns))
 
 
 def _interpolator(

@@ -66,11 +66,18 @@ def command(
     chosen = read(sites, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with naming_options(lon="--of-lon", lat="--of-lat", layer="--of-layer-name", crs="--of-crs"):
         asking = read(
-            queries, lon=of_lon, lat=of_lat, plane=plane, layer=of_layer_name, crs=of_crs, skip_missing=skip_missing
+            queries,
+            lon=of_lon,
+            lat=of_lat,
+            plane=plane,
+            layer=of_layer_name,
+            crs=of_crs or (crs if plane else None),
+            skip_missing=skip_missing,
         )
     pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
-    columns = _columns(chosen, asking, pairs, _kept(chosen, keep), ranked=count > 1)
-    destination.write(lambda path: save_table(path, asking.axes, columns))
+    found = asking.taken(pairs.query)
+    columns = _columns(chosen, found, pairs, _kept(chosen, keep), ranked=count > 1)
+    destination.write(lambda path: save_table(path, found, columns))
     say(f"{out}: nearest of {len(chosen)} sites for {len(asking)} points")
 
 
@@ -138,8 +145,8 @@ def _kept(sites: Table, keep: list[str] | None) -> Columns:
     return {name: sites.column(name) for name in names}
 
 
-def _columns(sites: Table, asking: Table, pairs: Pairs, kept: Columns, *, ranked: bool) -> Columns:
-    """One row for each point and each of its sites."""
+def _columns(sites: Table, found: Table, pairs: Pairs, kept: Columns, *, ranked: bool) -> Columns:
+    """One row for each point and each of its sites, as they were found."""
     from stereodel.io.columns import beside
 
     results: Columns = {"rank": pairs.rank} if ranked else {}
@@ -147,4 +154,4 @@ def _columns(sites: Table, asking: Table, pairs: Pairs, kept: Columns, *, ranked
     distance: Columns = {"distance" if sites.planar else "distance_km": pairs.distance}
     of_sites = {f"site_{name}": values[pairs.site] for name, values in kept.items()}
     results |= beside([*results, *distance], of_sites) | distance
-    return asking.taken(pairs.query).beside(results, taken=["geometry"])
+    return found.beside(results, taken=["geometry"])

@@ -37,7 +37,9 @@ LayerName = Annotated[
 Crs = Annotated[
     str | None,
     typer.Option(
-        "--crs", metavar="NAME", help="Coordinate system of the columns, e.g. EPSG:25832; degrees by default."
+        "--crs",
+        metavar="NAME",
+        help="Coordinate system of the columns, e.g. EPSG:25832; by default degrees, or with --plane none.",
     ),
 ]
 SkipMissing = Annotated[

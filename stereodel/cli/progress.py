@@ -38,8 +38,8 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=1.0)
-        yield lambda share: progress.update(task, completed=share)
+        task = progress.add_task(what, total=None)  # until a share is told
+        yield lambda share: progress.update(task, total=1.0, completed=share)
 
 
 def in_pieces(size: int, what: str) -> Iterator[slice]:

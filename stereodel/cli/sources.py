@@ -13,10 +13,11 @@ from stereodel import lonlat_to_xyz
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices
 from stereodel.cli.failures import NothingToDoError
 from stereodel.cli.options import Latitude
-from stereodel.cli.progress import stage
+from stereodel.cli.progress import bar
 from stereodel.io import read_points
 from stereodel.io.columns import beside
 from stereodel.io.reading import read_plane_points
+from stereodel.io.tables import known_crs
 from stereodel.io.text import doubles
 
 Columns = dict[str, Column]
@@ -40,6 +41,8 @@ class Table:
         The other columns by name, (n,) each.
     rows : (n,) array of int
         Number of each point's row in the table, from 1.
+    crs : str, optional
+        Coordinate system of a plane, where it is known; degrees are EPSG:4326.
     """
 
     name: str
@@ -47,6 +50,7 @@ class Table:
     axes: tuple[str, str]
     columns: Columns
     rows: Indices
+    crs: str | None = "EPSG:4326"
 
     def __len__(self) -> int:
         return len(self.places)
@@ -104,7 +108,7 @@ class Table:
     def taken(self, which: BoolArray | Indices) -> Table:
         """Some of the points, by number or by whether they are kept."""
         columns = {name: values[which] for name, values in self.columns.items()}
-        return Table(self.name, self.places[which], self.axes, columns, self.rows[which])
+        return Table(self.name, self.places[which], self.axes, columns, self.rows[which], self.crs)
 
 
 def read(
@@ -120,12 +124,16 @@ def read(
     """The table in a file, or on stdin when `name` is "-"; a table without points is nothing to do."""
     shown = "stdin" if name == "-" else name
     source = sys.stdin.buffer if name == "-" else name
-    with stage(f"reading {shown}"), naming(shown):
+    with bar(f"reading {shown}") as told, naming(shown):
         if plane is not None:
-            places, columns, rows = read_plane_points(source, *plane, layer=layer, skip_missing=skip_missing)
-            table = Table(shown, places, plane, columns, rows)
+            places, columns, rows = read_plane_points(
+                source, *plane, layer=layer, skip_missing=skip_missing, progress=told
+            )
+            table = Table(shown, places, plane, columns, rows, crs and known_crs(crs).to_string())
         else:
-            found = read_points(source, lon=lon, lat=lat, layer=layer, crs=crs, skip_missing=skip_missing)
+            found = read_points(
+                source, lon=lon, lat=lat, layer=layer, crs=crs, skip_missing=skip_missing, progress=told
+            )
             table = Table(shown, found.lonlat, LONLAT, dict(found.columns), found.rows)
     if len(table) == 0:
         raise NothingToDoError(f"{shown}: there are no points")

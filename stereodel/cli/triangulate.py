@@ -79,7 +79,14 @@ def _save(
         save_mesh(path, triangulation, latitude)
     else:
         with bar(f"drawing {what}") as shown:
-            layer = layer_of(triangulation, what=what, latitude=latitude.value, max_segment=max_segment, progress=shown)
+            layer = layer_of(
+                triangulation,
+                what=what,
+                latitude=latitude.value,
+                max_segment=max_segment,
+                crs=table.crs,
+                progress=shown,
+            )
         rows = {name: table.rows[layer.columns[name]] for name in "abc" if name in layer.columns}
         save_layer(path, replace(layer, columns=rows))
 

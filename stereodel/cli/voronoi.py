@@ -101,7 +101,13 @@ def _save(
         return
     with bar(f"drawing {len(table)} cells") as shown, naming(clip) if clip else nullcontext():
         cells = layer_of(
-            diagram, latitude=latitude.value, radius=radius, max_segment=max_segment, clip=clip, progress=shown
+            diagram,
+            latitude=latitude.value,
+            radius=radius,
+            max_segment=max_segment,
+            clip=clip,
+            crs=table.crs,
+            progress=shown,
         )
     point, area = cells.columns["point"], np.zeros(len(table))
     area[point] = cells.columns["area"]

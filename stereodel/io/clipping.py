@@ -8,8 +8,8 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel import data
-from stereodel._arrays import FloatArray, Geometries
-from stereodel.io.layers import ROWS, Packed, is_there, packed, unpacked
+from stereodel._arrays import FloatArray, Geometries, Packed
+from stereodel.io.layers import ROWS, is_there, packed, unpacked
 from stereodel.io.on_map import repaired, shapely
 from stereodel.io.shapes import shapes_of
 from stereodel.sphere import lonlat_to_xyz

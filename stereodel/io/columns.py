@@ -6,7 +6,7 @@ import re
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import count
-from typing import TypeVar
+from typing import Any, TypeVar
 
 T = TypeVar("T")
 
@@ -102,6 +102,16 @@ def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = F
         whose = "their names are" if len(renamed) > 1 else "its name is"
         warnings.warn(f"column {said}, because {whose} taken", RenamedColumnWarning, stacklevel=2)
     return result
+
+
+def index_columns(frame: Any) -> dict[str, Any]:
+    """The levels of a frame's index by name, as GeoPandas writes them: not whole numbers without a name."""
+    index = frame.index
+    if index.nlevels == 1 and index.name is None and index.dtype.kind in "iu":
+        return {}
+    levels = index.to_frame(index=False)
+    names = [name or ("index" if index.nlevels == 1 else f"level_{k}") for k, name in enumerate(index.names)]
+    return {str(name): levels.iloc[:, k] for k, name in enumerate(names)}
 
 
 def _find(names: Sequence[str], kind: str, given: str | None) -> str:

@@ -14,6 +14,7 @@ import numpy as np
 
 from stereodel._arrays import Column, Indices
 from stereodel.io.columns import has_lonlat
+from stereodel.io.layers import Progress
 from stereodel.io.text import EXACT_INTEGERS, NUMBER, objects, texts, typed
 
 SEPARATORS = ",;\t|"
@@ -40,14 +41,14 @@ class TextTable:
         return {name: typed(values, comma=self.comma) for name, values in self.columns.items() if name not in without}
 
 
-def split_columns(text: str, wanted: Collection[str] = ()) -> TextTable:
+def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | None = None) -> TextTable:
     """Columns of a table as text; a first line that has one of the names `wanted` is known for a header."""
     comments = COMMENTS.match(text)
     above = text[: comments.end()] if comments else ""
     text = text[len(above) :]
     mark = _separator(text)
-    lines = len(above.splitlines())
-    rows = (row for row in _rows(text, mark, lines) if any(row) and (len(row) > 1 or row[0].strip()))
+    stream, lines = io.StringIO(text, newline=""), len(above.splitlines())
+    rows = (row for row in _rows(stream, mark, lines) if any(row) and (len(row) > 1 or row[0].strip()))
     first = next(rows, None)
     if first is None:
         raise ValueError("the table is empty: there is not even a line with the names of the columns")
@@ -57,6 +58,8 @@ def split_columns(text: str, wanted: Collection[str] = ()) -> TextTable:
     while block := list(islice(rows, BLOCK)):
         blocks.append(_columns(block, len(names), before))
         before += len(block)
+        if progress is not None:
+            progress(stream.tell() / len(text))
     columns = [np.concatenate(parts) for parts in zip(*blocks, strict=True)]
     # Spreadsheets write columns without a name or a value.
     named = {
@@ -95,9 +98,8 @@ def _lengths(lines: list[str], mark: str) -> set[int]:
     return set(lengths[:-1] or lengths)
 
 
-def _rows(text: str, mark: str | None, above: int) -> Iterator[list[str]]:
+def _rows(lines: TextIO, mark: str | None, above: int) -> Iterator[list[str]]:
     """Fields of each row; a quotation mark that nothing closes is an error, not the rest of the table."""
-    lines = io.StringIO(text, newline="")
     if mark is None:
         yield from (line.split() for line in lines)
         return

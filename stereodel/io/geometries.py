@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from stereodel._arrays import FloatArray
+from stereodel._arrays import FloatArray, Packed
 from stereodel.curves.borders import Box
 from stereodel.io.diagrams import Columns, Mesh, diagram_of, triangulation_of
 from stereodel.io.faces import triangle_sides, voronoi_sides
-from stereodel.io.layers import Packed, Progress, packed
+from stereodel.io.layers import Progress, packed
 from stereodel.io.on_map import shapely
 from stereodel.io.plane import plane_cells
 from stereodel.io.tiles import Net, sphere_lines, sphere_polygons

@@ -11,13 +11,10 @@ from functools import cached_property
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import BoolArray, Geometries, Indices
+from stereodel._arrays import BoolArray, Geometries, Indices, Packed
 from stereodel._extras import optional
-
-Packed = npt.NDArray[np.object_]
-"""Geometries as well-known binary, None where there is none."""
+from stereodel.io.columns import beside, index_columns
 
 Progress = Callable[[float], object]
 """Told the share of the work that is done, from 0 to 1."""
@@ -73,13 +70,14 @@ class Layer:
 
     @classmethod
     def of_frame(cls, frame: Any) -> Layer:
-        """The rows of a GeoDataFrame; of several columns of geometries the others as well-known text."""
-        shapely, active = optional("shapely", "geo"), frame.geometry.name
+        """The rows of a GeoDataFrame or GeoSeries; of several columns of geometries the others as well-known text."""
+        shapely, active = optional("shapely", "geo"), frame.geometry.name or "geometry"
+        own = {name: frame[name].reset_index(drop=True) for name in getattr(frame, "columns", ()) if name != active}
         columns = {
-            str(name): shapely.to_wkt(np.asarray(frame[name])) if frame[name].dtype == "geometry" else frame[name]
-            for name in frame.columns
-            if name != active
+            str(name): shapely.to_wkt(np.asarray(values)) if values.dtype == "geometry" else values
+            for name, values in own.items()
         }
+        columns = beside([*columns, str(active)], index_columns(frame)) | columns
         return cls(columns, packed(np.asarray(frame.geometry, dtype=object)), frame.crs, str(active))
 
     def __len__(self) -> int:

@@ -19,8 +19,9 @@ import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices, as_choice
 from stereodel._extras import optional
-from stereodel.io.columns import find_lonlat, listed
+from stereodel.io.columns import beside, find_lonlat, index_columns, listed
 from stereodel.io.csv_text import split_columns
+from stereodel.io.layers import Progress
 from stereodel.io.shapes import MULTIPOINT, POINT
 from stereodel.io.tables import PointTable, located, table_of
 from stereodel.io.text import column, texts
@@ -58,6 +59,7 @@ class Asked:
     layer: str | None = None
     crs: str | None = None
     skip_missing: bool = False
+    progress: Progress | None = None
 
     def table(self, columns: dict[str, Column], rows: Indices, others: dict[str, Column] | None = None) -> PointTable:
         """A table with coordinates in two of its columns; `others` are the columns as they are kept, if differently."""
@@ -76,6 +78,7 @@ def read_points(
     layer: str | None = None,
     crs: str | None = None,
     skip_missing: bool = False,
+    progress: Progress | None = None,
 ) -> PointTable:
     r"""Read a table of points with longitude and latitude.
 
@@ -96,6 +99,8 @@ def read_points(
         degrees. Files with geometries say it themselves.
     skip_missing : bool
         Whether rows without a place are left out, which are an error by default.
+    progress : callable, optional
+        Called with the share of a table of text that is read, from 0 to 1, again and again.
 
     Returns
     -------
@@ -135,13 +140,19 @@ def read_points(
         ...
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
-    asked = Asked(lon, lat, layer, crs, skip_missing)
+    asked = Asked(lon, lat, layer, crs, skip_missing, progress)
     file = _File(source, format)
     return _of_frame(file.frame(layer), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
 
 
 def read_plane_points(
-    source: Source, x: str, y: str, *, layer: str | None = None, skip_missing: bool = False
+    source: Source,
+    x: str,
+    y: str,
+    *,
+    layer: str | None = None,
+    skip_missing: bool = False,
+    progress: Progress | None = None,
 ) -> tuple[FloatArray, dict[str, Column], Indices]:
     r"""Points of a plane by the names of two columns of a table: (n, 2), other columns, row numbers.
 
@@ -160,7 +171,7 @@ def read_plane_points(
     """
     file = _File(source)
     if file.kind == "csv":
-        text = split_columns(_text(file.content), (x, y))
+        text = split_columns(_text(file.content), (x, y), progress)
         table, rows, others = text.columns, text.rows, text.typed(without=(x, y))
     elif file.kind == "parquet":
         read = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(file.content))
@@ -243,7 +254,7 @@ def _text(content: bytes) -> str:
 
 
 def _read_csv(content: bytes, asked: Asked) -> PointTable:
-    table = split_columns(_text(content), [name for name in (asked.lon, asked.lat) if name is not None])
+    table = split_columns(_text(content), [name for name in (asked.lon, asked.lat) if name is not None], asked.progress)
     where = find_lonlat(list(table.columns), asked.lon, asked.lat)
     return asked.table(table.columns, table.rows, table.typed(without=where))
 
@@ -338,7 +349,8 @@ def from_geodataframe(frame: Any) -> PointTable:
     Returns
     -------
     PointTable
-        With the columns that are no geometries.
+        With the columns that are no geometries, and before them the index, as GeoPandas writes it to files: where it
+        has a name, several levels, or is not of whole numbers.
 
     Raises
     ------
@@ -379,9 +391,12 @@ def _of_frame(frame: Any, asked: Asked) -> PointTable:
 
 
 def _columns_of(frame: Any) -> dict[str, Column]:
-    """The columns of a frame that are no geometries; a series has none."""
+    """The columns of a frame that are no geometries, and its index if that says more than a number."""
     names = [name for name in getattr(frame, "columns", ()) if frame[name].dtype != "geometry"]
-    return {str(name): _plain(frame[name].to_numpy()) for name in names}
+    columns = {str(name): frame[name] for name in names}
+    return {
+        name: _plain(values.to_numpy()) for name, values in (beside(columns, index_columns(frame)) | columns).items()
+    }
 
 
 def _plain(values: Any) -> Column:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
@@ -116,13 +117,18 @@ def located(
     return places[there], {name: np.asarray(values)[there] for name, values in columns.items()}, rows[there]
 
 
-def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
-    """Coordinates of another system, eastern first, as longitude and latitude."""
+def known_crs(crs: str) -> Any:
+    """A coordinate system by its name, or a ValueError."""
     pyproj = optional("pyproj", "geo")
     try:
-        transformer = pyproj.Transformer.from_crs(crs, "EPSG:4326", always_xy=True)
+        return pyproj.CRS(crs)
     except pyproj.exceptions.CRSError as error:
         raise ValueError(f"crs is {crs!r}, which PROJ does not know; give one such as EPSG:25832") from error
+
+
+def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
+    """Coordinates of another system, eastern first, as longitude and latitude."""
+    transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
     lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
     lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
     if len(lost):

@@ -13,7 +13,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices
+from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices, Packed
 from stereodel._extras import optional
 from stereodel._threads import in_order, thread_count
 from stereodel.constants import BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
@@ -21,7 +21,7 @@ from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged, spans
 from stereodel.curves.trace import Arcs, great
-from stereodel.io.layers import Packed, Progress, is_there, packed, unpacked
+from stereodel.io.layers import Progress, is_there, packed, unpacked
 from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, refined, repaired, steps_of, unit
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude

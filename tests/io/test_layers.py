@@ -1,0 +1,138 @@
+"""Layers of maps: what frames hold comes through Arrow into every file, and progress is told truly."""
+
+import datetime as dt
+import io
+
+import geopandas
+import numpy as np
+import pandas as pd
+import pytest
+import shapely
+
+from stereodel import SphericalVoronoi
+from stereodel.io import from_geodataframe, read_points, to_geodataframe, write
+from stereodel.io import layers as module
+from stereodel.io.layers import Layer, arrow_column
+
+POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
+COLUMNS = {
+    "small": np.array([1, 2, 3], dtype=np.uint8),
+    "large": np.array([2**63, 1, 2], dtype=np.uint64),
+    "huge": [2**70, None, 5],
+    "half": np.array([0.5, np.nan, 2.0], dtype=np.float16),
+    "truth": [True, False, True],
+    "day": pd.to_datetime(["2026-01-01", "2026-01-02", None]),
+    "span": pd.to_timedelta([1, 2, 3], unit="h"),
+    "kind": pd.Categorical(["a", "b", "a"]),
+    "mixed": ["a", 1, None],
+    "none": [None, None, None],
+}
+
+
+@pytest.mark.parametrize("kind", ["gpkg", "fgb"])
+@pytest.mark.parametrize("name", COLUMNS)
+def test_columns_of_every_type(tmp_path, kind, name):
+    frame = geopandas.GeoDataFrame({name: COLUMNS[name]}, geometry=POINTS, crs=4326)
+    write(tmp_path / f"a.{kind}", frame)
+    found, expected = (
+        table.iloc[np.argsort(table.geometry.x)] for table in (geopandas.read_file(tmp_path / f"a.{kind}"), frame)
+    )
+    for theirs, ours in zip(found[name].tolist(), expected[name].tolist(), strict=True):
+        if pd.isna(ours):
+            assert pd.isna(theirs)
+        elif isinstance(ours, dt.datetime):
+            assert pd.Timestamp(theirs).tz_localize(None) == ours
+        elif isinstance(ours, pd.Timedelta):
+            assert pd.Timedelta(theirs) == ours
+        else:
+            assert str(theirs) == str(ours) or float(theirs) == float(ours)
+
+
+@pytest.mark.parametrize("kind", ["gpkg", "fgb", "geojson", "parquet"])
+def test_an_index_that_says_something_is_kept(tmp_path, kind):
+    frame = geopandas.GeoDataFrame({"v": [1, 2, 3]}, geometry=POINTS, crs=4326)
+    named = frame.set_index(pd.Index(["u", "q", "k"], name="code"))
+    write(tmp_path / f"a.{kind}", named)
+    table = read_points(tmp_path / f"a.{kind}")
+    assert sorted(table.columns["code"].tolist()) == ["k", "q", "u"]
+    assert from_geodataframe(named).columns["code"].tolist() == ["u", "q", "k"]
+    assert from_geodataframe(named.geometry).columns["code"].tolist() == ["u", "q", "k"]
+    back = to_geodataframe(
+        SphericalVoronoi.from_lonlat(from_geodataframe(named).lonlat), columns=from_geodataframe(named).columns
+    )
+    assert back["code"].tolist() == ["u", "q", "k"]
+    assert list(from_geodataframe(frame[frame["v"] > 1]).columns) == ["v"]
+
+
+def test_levels_of_an_index_and_names_that_are_taken():
+    levels = pd.MultiIndex.from_tuples([("a", 1), ("b", 2), ("c", 3)], names=["v", None])
+    frame = geopandas.GeoDataFrame({"v": [7, 8, 9]}, geometry=POINTS, crs=4326).set_index(levels)
+    with pytest.warns(UserWarning, match="'v' is written as 'v_1'"):
+        columns = from_geodataframe(frame).columns
+    assert {name: values.tolist() for name, values in columns.items()} == {
+        "v_1": ["a", "b", "c"],
+        "level_1": [1, 2, 3],
+        "v": [7, 8, 9],
+    }
+
+
+def test_geometries_beside_others_are_text(tmp_path):
+    frame = geopandas.GeoDataFrame({"other": geopandas.GeoSeries(POINTS)}, geometry=POINTS.buffer(1), crs=4326)
+    write(tmp_path / "a.gpkg", frame)
+    assert geopandas.read_file(tmp_path / "a.gpkg")["other"].tolist() == [point.wkt for point in POINTS]
+
+
+def test_one_kind_of_geometry_in_a_layer():
+    lines = np.array([shapely.LineString([(0, 0), (1, 1)]), shapely.MultiLineString([[(0, 0), (1, 0)]]), None])
+    layer = Layer({}, module.packed(np.array([*lines[:2], shapely.LineString()])))
+    assert layer.kinds == ["LineString", "MultiLineString"]
+    several = layer.several()
+    assert several.kinds == ["MultiLineString"]
+    assert module.unpacked(several.binary)[0].equals(shapely.MultiLineString([lines[0]]))
+    assert several.binary[2] is None
+    assert layer.take(slice(0, 1)).several().kinds == ["LineString"]
+
+
+def test_what_arrow_has_no_type_for_is_text():
+    assert arrow_column(np.array([2**70, 1, None], dtype=object)).to_pylist() == [str(2**70), "1", None]
+
+
+@pytest.mark.parametrize("kind", ["parquet", "fgb", "gpkg", "geojson"])
+def test_progress_is_the_share_of_rows(tmp_path, monkeypatch, kind):
+    monkeypatch.setattr(module, "ROWS", 7)
+    told = []
+    lonlat = np.random.default_rng(2).uniform(-80, 80, (30, 2))
+    write(tmp_path / f"a.{kind}", SphericalVoronoi.from_lonlat(lonlat), progress=told.append)
+    assert told == pytest.approx([7 / 30, 14 / 30, 21 / 30, 28 / 30, 1.0])
+
+
+def test_progress_of_reading(monkeypatch):
+    monkeypatch.setattr("stereodel.io.csv_text.BLOCK", 100)
+    told = []
+    read_points(io.StringIO("lon,lat\n" + "1.5,2.5\n" * 1000), progress=told.append)
+    assert len(told) == 10
+    assert told == sorted(told)
+    assert 0 < told[0] < 0.2
+    assert told[-1] == 1.0
+
+
+def test_cells_are_the_same_in_blocks_of_any_size(monkeypatch):
+    """And by any number of threads; also where chords are halved, since cells are narrow."""
+    rng = np.random.default_rng(9)
+    lonlat = np.concatenate([rng.uniform(-85, 85, (60, 2)), [[10, 89.9999], [170, 89.9998], [20, 0], [20, 1e-7]]])
+    diagram = SphericalVoronoi.from_lonlat(lonlat)
+    told = []
+    expected = to_geodataframe(diagram)
+    monkeypatch.setattr("stereodel.io.tiles.BLOCK", 5)
+    monkeypatch.setattr("stereodel.io.tiles.thread_count", lambda workers, size: 3)
+    write(io.BytesIO(), diagram, format="geojson")
+    found = module.unpacked(tiles_of(diagram, told.append))
+    assert shapely.equals_identical(found, np.asarray(expected.geometry)).all()
+    assert told[-1] == 1.0
+    assert told == sorted(told)
+
+
+def tiles_of(diagram, progress):
+    from stereodel.io.frames import layer_of
+
+    return layer_of(diagram, progress=progress).binary
