@@ -37,7 +37,7 @@ def _print_version(wanted: bool) -> None:
 
 
 @app.callback(
-    epilog="Exit codes: 0 done, 1 nothing to do or something is missing here, 2 wrong usage or input, 130 interrupted."
+    epilog="Exit codes: 0 done, 1 nothing to do or something is missing, 2 wrong usage or input, 130 interrupted."
 )
 def _options(
     version: Annotated[

@@ -1,4 +1,4 @@
-"""`stereodel contour`: lines of equal values between points."""
+"""`stereodel contour`: isolines of values known at points."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ def command(
     value: Annotated[str, typer.Option(metavar="COLUMN", help="Column of the values.")],
     out: options.Out,
     levels: Annotated[
-        str | None, typer.Option(metavar="VALUE,…", help="Values of the lines, with commas between them.")
+        str | None, typer.Option(metavar="VALUE,…", help="Values of the lines, separated by commas.")
     ] = None,
     interval: Annotated[
-        float | None, typer.Option(metavar="STEP", help="Lines at all multiples of this instead.")
+        float | None, typer.Option(metavar="STEP", help="Lines at all multiples of this step, instead of --levels.")
     ] = None,
     max_segment: options.MaxSegment = 1.0,
     skip_missing: options.SkipMissing = False,
@@ -38,9 +38,9 @@ def command(
     format: options.Format = None,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """Write lines of equal values, of the function that is linear in each Delaunay triangle of the points.
+    """Write isolines of the function that is linear in each Delaunay triangle of the points.
 
-    Give either --levels or --interval. Higher values are on the left of a line; lines are cut at ±180°.
+    Give either --levels or --interval. Higher values lie to the left of a line; lines are cut at ±180°.
     """
     from stereodel import PlanarDelaunay, SphericalDelaunay
     from stereodel.cli.destinations import Destination

@@ -1,4 +1,4 @@
-"""`stereodel doctor`: what works here, what would draw, and how to get what is missing."""
+"""`stereodel doctor`: what works here, which renderer would be used, and how to install what is missing."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ SECONDS: Final = 120
 
 
 def command() -> None:
-    """Draw a small picture on each platform, and say what draws, which extras work here, and how to get the rest.
+    """Draw a small picture on each platform; report the renderer, which extras work, and how to install the rest.
 
-    Exit code 1 where no globe can be drawn.
+    Exit code 1 if no globe can be drawn.
     """
     found = tried()
     chosen, reason, problem = _choice(found)

@@ -28,12 +28,8 @@ OPTIONS: Final = {
     "lat": "--lat",
     "layer": "--layer-name",
     "crs": "--crs",
-    "skip_missing": "--skip-missing",
-    "max_segment": "--max-segment",
-    "latitude": "--latitude",
     "levels": "--levels",
     "magnification": "--magnify",
-    "angular_radius": "--angular-radius",
     "spacing": "--graticule",
     "seconds": "--seconds",
     "fps": "--fps",
@@ -41,6 +37,10 @@ OPTIONS: Final = {
     "style": "--style",
     "width": "--width",
     "dpi": "--dpi",
+    "skip_missing": "--skip-missing",
+    "max_segment": "--max-segment",
+    "latitude": "--latitude",
+    "angular_radius": "--angular-radius",
 }
 """Arguments of the library that messages name, and the options that stand for them here."""
 

@@ -22,7 +22,7 @@ EXAMPLE = "stereodel interpolate stations.csv --value temperature --grid 5 -o te
 
 
 class Method(StrEnum):
-    """How values are found between the points."""
+    """Methods of interpolation."""
 
     nearest = "nearest"
     linear = "linear"
@@ -37,28 +37,30 @@ def command(
     ],
     out: options.Out,
     at: Annotated[
-        str | None, typer.Option(metavar="FILE", help="Table of the points where values are wanted; - for stdin.")
+        str | None, typer.Option(metavar="FILE", help="Table of the points where values are wanted; - is stdin.")
     ] = None,
-    grid: Annotated[float | None, typer.Option(metavar="DEGREES", help="Spacing of a grid of values instead.")] = None,
+    grid: Annotated[
+        float | None, typer.Option(metavar="DEGREES", help="Spacing of a grid of values, instead of --at.")
+    ] = None,
     box: Annotated[
-        str | None, typer.Option(metavar="W,S,E,N", help="Borders of the grid in degrees; the whole Earth by default.")
+        str | None, typer.Option(metavar="W,S,E,N", help="Bounds of the grid in degrees; the whole Earth by default.")
     ] = None,
     centers: Annotated[
-        bool, typer.Option("--centers", help="Values of the cells of the grid, in their middles, instead of its nodes.")
+        bool, typer.Option("--centers", help="Values at the centres of the cells of the grid, instead of at its nodes.")
     ] = False,
     unit: Annotated[
         list[str] | None, typer.Option(metavar="NAME", help="Unit of the values, for grids; one for each --value.")
     ] = None,
-    method: Annotated[Method, typer.Option(help="How values are found between the points.")] = Method.linear,
+    method: Annotated[Method, typer.Option(help="Method of interpolation.")] = Method.linear,
     skip_missing: options.SkipMissing = False,
     lon: options.Lon = None,
     lat: options.Lat = None,
     plane: options.Plane = None,
-    at_lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Longitudes of the points of --at.")] = None,
-    at_lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Latitudes of the points of --at.")] = None,
+    at_lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of --at.")] = None,
+    at_lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of --at.")] = None,
     layer_name: options.LayerName = None,
     at_layer_name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Layer of the points of --at, where a file has several.")
+        str | None, typer.Option(metavar="NAME", help="Layer of --at, if the file has several.")
     ] = None,
     crs: options.Crs = None,
     at_crs: Annotated[
@@ -70,7 +72,7 @@ def command(
 ) -> None:
     """Interpolate values at other points, or on a grid of longitude and latitude.
 
-    Give either --at or --grid. Where the points do not reach, linear, smooth and natural leave the value empty.
+    Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.sources import read

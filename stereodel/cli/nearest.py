@@ -18,42 +18,48 @@ EXAMPLE = "stereodel nearest airports.csv --of cities.csv -o nearest.csv"
 
 
 def command(
-    sites: Annotated[str, typer.Argument(metavar="SITES", help="Table of the points to choose from; - for stdin.")],
-    queries: Annotated[str, typer.Option("--of", metavar="FILE", help="Table of the points that ask; - for stdin.")],
+    sites: Annotated[str, typer.Argument(metavar="SITES", help="Table of the sites; - is stdin.")],
+    queries: Annotated[str, typer.Option("--of", metavar="FILE", help="Table of the query points; - is stdin.")],
     out: options.Out,
-    count: Annotated[int, typer.Option("--count", "-k", min=1, help="How many sites of each point.")] = 1,
+    count: Annotated[int, typer.Option("--count", "-k", min=1, help="Number of sites for each query point.")] = 1,
     keep: Annotated[
         list[str] | None,
-        typer.Option(metavar="COLUMN", help="Column of the sites to write, repeatable; by default 'name' if there."),
+        typer.Option(
+            metavar="COLUMN", help="Column of the sites to write, repeatable; by default 'name', if it exists."
+        ),
     ] = None,
     lon: options.Lon = None,
     lat: options.Lat = None,
-    of_lon: Annotated[str | None, typer.Option(metavar="COLUMN", help="Longitudes of the points that ask.")] = None,
-    of_lat: Annotated[str | None, typer.Option(metavar="COLUMN", help="Latitudes of the points that ask.")] = None,
+    of_lon: Annotated[
+        str | None, typer.Option(metavar="COLUMN", help="Column of longitudes of the query points.")
+    ] = None,
+    of_lat: Annotated[
+        str | None, typer.Option(metavar="COLUMN", help="Column of latitudes of the query points.")
+    ] = None,
     plane: options.Plane = None,
     layer_name: options.LayerName = None,
     of_layer_name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Layer of the points that ask, where a file has several.")
+        str | None, typer.Option(metavar="NAME", help="Layer of the query points, if the file has several.")
     ] = None,
     crs: options.Crs = None,
     of_crs: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of the points that ask.")
+        str | None, typer.Option(metavar="NAME", help="Coordinate system of the columns of the query points.")
     ] = None,
     skip_missing: options.SkipMissing = False,
     max_distance: Annotated[
-        float | None, typer.Option(metavar="KM", min=0, help="Leave out sites farther away; in a plane in its unit.")
+        float | None, typer.Option(metavar="KM", min=0, help="Leave out sites farther away; in a plane, in its unit.")
     ] = None,
     exclude_self: Annotated[
-        bool, typer.Option("--exclude-self", help="Leave out sites at the very place of the point that asks.")
+        bool, typer.Option("--exclude-self", help="Leave out sites at exactly the position of the query point.")
     ] = False,
     latitude: options.LatitudeKind = options.Latitude.authalic,
     format: options.Format = None,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """Find the sites that are nearest to each point, and their distances in kilometres.
+    """Find the sites nearest to each query point, and their distances in kilometres.
 
-    Writes the columns of the points that ask, then the row of each site in its table, the columns kept of it, and the
-    distance. With several sites a point has several rows, ranked from 1; one without any has none.
+    Writes the columns of the query points, then the row of each site in its table, the columns kept of it, and the
+    distance. A query point with several sites has several rows, ranked from 1; one without any has none.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.failures import naming_options

@@ -10,7 +10,7 @@ import typer
 
 
 class Latitude(StrEnum):
-    """Which latitude a table holds."""
+    """The kind of latitude in a table."""
 
     spherical = "spherical"
     geodetic = "geodetic"
@@ -18,21 +18,23 @@ class Latitude(StrEnum):
 
 
 Points = Annotated[
-    str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - for stdin.")
+    str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
-Out = Annotated[str, typer.Option("--out", "-o", metavar="FILE", help="File to write, by its extension; - for stdout.")]
-Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file to write, if it is there.")]
+Out = Annotated[
+    str, typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension is the format; - is stdout.")
+]
+Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 Format = Annotated[
     str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; csv by default.")
 ]
 Lon = Annotated[
-    str | None, typer.Option("--lon", metavar="COLUMN", help="Column of the longitudes; guessed by default.")
+    str | None, typer.Option("--lon", metavar="COLUMN", help="Column of longitudes; recognised by its name by default.")
 ]
 Lat = Annotated[
-    str | None, typer.Option("--lat", metavar="COLUMN", help="Column of the latitudes; guessed by default.")
+    str | None, typer.Option("--lat", metavar="COLUMN", help="Column of latitudes; recognised by its name by default.")
 ]
 LayerName = Annotated[
-    str | None, typer.Option("--layer-name", metavar="NAME", help="Layer of the points, where a file has several.")
+    str | None, typer.Option("--layer-name", metavar="NAME", help="Layer of the points, if the file has several.")
 ]
 Crs = Annotated[
     str | None,
@@ -43,16 +45,16 @@ Crs = Annotated[
     ),
 ]
 SkipMissing = Annotated[
-    bool, typer.Option("--skip-missing", help="Leave out rows without a place or a value instead of refusing them.")
+    bool, typer.Option("--skip-missing", help="Leave out rows without a position or a value, instead of stopping.")
 ]
 MaxSegment = Annotated[
-    float, typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc in map formats.")
+    float, typer.Option("--max-segment", metavar="DEGREES", help="Longest straight piece of an arc, in map formats.")
 ]
 LatitudeKind = Annotated[
     Latitude,
     typer.Option(
         "--latitude",
-        help="What the Earth is taken for: an ellipsoid, by directions from its centre (geodetic) or with true areas "
+        help="Model of the Earth: an ellipsoid, by directions from its centre (geodetic) or with true areas "
         "(authalic), or a sphere.",
     ),
 ]

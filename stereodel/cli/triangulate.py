@@ -35,8 +35,8 @@ def command(
 ) -> None:
     """Write the Delaunay triangles of points, or their edges.
 
-    Each triangle has the rows of its corners a, b, c in the table, counterclockwise; map formats have its shape too. Of
-    points in one hemisphere, the triangles that close the far side are left out.
+    For each triangle the rows a, b, c of its corners in the table, counterclockwise; map formats have its shape too. If
+    all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel import PlanarDelaunay, SphericalDelaunay
     from stereodel.cli.destinations import MESHES, TABLES, Destination

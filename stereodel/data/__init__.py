@@ -1,7 +1,7 @@
-"""Small real sets that come with the library: airports, cities, stars, and the map of the Earth.
+"""Small real data sets that come with the library: airports, cities, stars, and a map of the Earth.
 
-Each is read when first asked for, checked against its SHA-256, and never changes afterwards. Where they are from and
-under which licences: `sources`, and README.md in this folder.
+Each is read on first use, checked against its SHA-256, and never changes afterwards. For their origins and
+licences, see `sources`, and README.md in this folder.
 """
 
 from stereodel.data.marble import blue_marble

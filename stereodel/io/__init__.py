@@ -1,4 +1,4 @@
-"""Files and neighbours: tables of points in; GeoPandas, GeoJSON, UGRID, meshes and pictures out.
+"""Files: tables of points in; GeoPandas, GeoJSON, UGRID, grids and meshes out.
 
 Every other library is imported when a function needs it; the extras ``draw``, ``geo``, ``grid`` and ``mesh`` bring
 them.

@@ -34,16 +34,16 @@ def to_trimesh(
         By default triangles of a triangulation and cells of a diagram.
     colors : (n, 3) or (n, 4) array_like, optional
         Of each triangle, or of the cell of each point: integers from 0 to 255, or floats from 0 to 1. By default cells
-        have pale colours that differ from number to number, and triangles none.
+        have pale colours that vary with their numbers, and triangles none.
     max_segment : float, optional
         Longest side of the pieces of a cell in degrees, in (0, 90]. Sphere only.
 
     Returns
     -------
     trimesh.Trimesh
-        Made with ``process=False``: vertices are as they stand. Triangles are flat, those of the sphere all facets of
+        Made with ``process=False``: vertices are unchanged. Triangles are flat, those of the sphere all facets of
         the hull, and share the points as vertices unless they have colours. Cells do not share vertices, so that
-        colours end at their borders; ``vertex_attributes["point"]`` holds the number of each vertex's point. Unbounded
+        colours end at their boundaries; ``vertex_attributes["point"]`` is the number of each vertex's point. Unbounded
         cells are left out. The plane is z = 0.
 
     Raises

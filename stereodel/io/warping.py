@@ -12,24 +12,26 @@ from stereodel.conformal import MoebiusMap
 
 
 def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
-    """The images of geometries under a conformal map, as geometries of longitude and latitude again.
+    """The images of geometries under a conformal map, as geometries of longitude and latitude.
 
     Parameters
     ----------
     shapes : geometry, array_like of geometries, GeoSeries or GeoDataFrame
-        In degrees, polygons as GeoJSON and shapefiles have them: valid, cut at ±180°, straight in longitude and
-        latitude between their vertices; they cover what they cover on the map. Lines that jump by more than 180° go on
-        across ±180°. Frames in another coordinate system are transformed to EPSG:4326 first. Heights are dropped.
+        In degrees, polygons as in GeoJSON and shapefiles: valid, cut at ±180°, straight in longitude and
+        latitude between their vertices; they cover what they cover on the map. Lines that jump by more than 180°
+        continue across ±180°. Frames in another coordinate system are transformed to EPSG:4326 first. Heights are
+        dropped.
     lens : MoebiusMap
     tolerance : float
-        How far what is straight on the resulting map may stray from the image, degrees on the sphere.
+        How far straight pieces of the resulting map may deviate from the image, degrees on the sphere.
 
     Returns
     -------
     geometry, ndarray of geometries, GeoSeries or GeoDataFrame
-        What was given, in the same order, None and empty geometries as they were. In [−180, 180] × [−90, 90], with new
-        vertices where edges bend. Polygons are valid, cut at ±180° and led around poles that they hold; parts that met
-        at ±180° are one where they no longer do. So a polygon may become a MultiPolygon, and a line a MultiLineString.
+        The same type as given, in the same order, None and empty geometries unchanged. In [−180, 180] × [−90, 90], with
+        new vertices where edges bend. Polygons are valid, cut at ±180° and led around poles that they contain; parts
+        that met at ±180° are joined where they no longer lie there. A polygon may become a MultiPolygon, a line a
+        MultiLineString.
 
     Raises
     ------
@@ -40,9 +42,9 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
 
     Notes
     -----
-    The image of a great-circle arc is an arc of a circle, which is followed as such; no image is searched for by
-    halving, so that an edge that passes the focus closely is as exact as any other. The inside of a polygon is on the
-    left of its border, where a conformal map keeps it, however large it becomes.
+    The image of a great-circle arc is an arc of a circle, which is followed as such; there is no search by
+    bisection, so that an edge close to the focus is as exact as any other. The inside of a polygon is on the
+    left of its boundary, and a conformal map keeps it there, however large it becomes.
 
     Examples
     --------

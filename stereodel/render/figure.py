@@ -37,7 +37,7 @@ class Figure:
     draw : callable
         (geometry) → `Page`.
     renderer : {"gl", "agg"}
-        What makes the PNG: OpenGL for globes, matplotlib for the plane.
+        Renderer of the PNG: OpenGL for globes, matplotlib for the plane.
     in_space : callable, optional
         (geometry) → `Solid`: what the picture shows, in space.
 
@@ -58,7 +58,7 @@ class Figure:
         as_choice(self.renderer, ("gl", "agg"), "renderer")
 
     def page(self) -> Page:
-        """The picture before any renderer sees it, with the script's title and description where it has none."""
+        """The picture before rendering, with the script's title and description if it has none."""
         return self._page(self.geometry())
 
     def _page(self, geometry: Geometry) -> Page:
@@ -73,7 +73,7 @@ class Figure:
         Raises
         ------
         ValueError
-            For styles that there are not, and for a column and a slide at once.
+            For unknown styles, and for a column and a slide at once.
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
@@ -105,18 +105,18 @@ class Figure:
         caption: bool = False,
         solid: bool = False,
     ) -> dict[str, Any]:
-        """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of what it shows in space.
+        """Write NAME.png, NAME.svg and NAME.pdf into a folder, and NAME.glb of the picture in space.
 
         Parameters
         ----------
         out : path-like
-            The folder; made when it is missing.
+            The folder; created if it does not exist.
         size, text
             As for `Page.save`.
         caption : bool
-            Whether title and description stand below the picture, if it has text.
+            Whether title and description are written below the picture, if it has text.
         solid : bool
-            Whether to write NAME_solid.png too: what stands in space with light and shade.
+            Whether to write NAME_solid.png too: the picture in space, with shading.
 
         Returns
         -------
@@ -126,9 +126,9 @@ class Figure:
         Raises
         ------
         OSError
-            When the folder cannot be made or written to.
+            If the folder cannot be created or written to.
         ValueError
-            Where `solid` is asked for and there is no `in_space`.
+            If `solid` is given without `in_space`.
         """
         from stereodel.render.save import save_page
 

@@ -82,7 +82,7 @@ SAID = [
 ]
 
 
-@pytest.mark.parametrize(("arguments", "ending", "said"), SAID, ids=lambda value: " ".join(map(str, value))[:60])
+@pytest.mark.parametrize(("arguments", "ending", "said"), SAID, ids=[" ".join(map(str, row[0])) for row in SAID])
 def test_a_wrong_argument_is_named_as_it_was_typed(run, folder, arguments, ending, said):
     for name, content in TABLES.items():
         (folder / name).write_text(content, encoding="utf-8")
