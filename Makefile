@@ -14,8 +14,8 @@ FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system figures poster animations test test-large test-pythons sanitize fuzz check lint stub bench dist baselines \
-	names readme-images docs clean
+.PHONY: help install system opengl browser figures poster animations test test-large test-pythons sanitize fuzz check \
+	lint web built stub bench dist baselines names readme-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -26,23 +26,29 @@ help: ## list the targets
 .NOTPARALLEL:
 KERNEL := $(shell find stereodel/kernel tests/kernel/probe)
 $(VENV)/installed-%: pyproject.toml constraints.txt CMakeLists.txt $(KERNEL) \
-		tools/install.sh tools/build_kernel.sh tools/find_python.sh tools/compiler.sh
+		tools/install.sh tools/build_kernel.sh tools/find_python.sh tools/system_packages.sh tools/node_modules.sh \
+		stereodel/web/script/package-lock.json
 	@tools/install.sh $(VENV) $*
 
 install: $(VENV)/installed-library ## create .venv with the compiled kernel and all that the library can use
 	@:
 
-system: ## get the offscreen OpenGL libraries, or say how
-	@tools/system_libraries.sh
+system: opengl browser ## get what the system has packages of, one by one, or say how
 
-figures: $(VENV)/installed-figures system ## draw every figure that is out of date into out/; STYLE=dark, slide or column: into a folder of it
+opengl: # what draws without a display
+	@tools/system_packages.sh opengl
+
+browser: # what shows the interactive page to its tests
+	@tools/system_packages.sh browser
+
+figures: $(VENV)/installed-figures opengl ## draw every figure that is out of date into out/; STYLE=dark, slide or column: into a folder of it
 	@$(BUILD) fig claim globe earth sky
 
-poster: $(VENV)/installed-figures system ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory
+poster: $(VENV)/installed-figures opengl ## draw figures/globe_poster.py 16384 pixels across into out/poster: a minute, and 0.8 GB of memory
 	@mkdir -p $(OUT)/poster
 	@$(BIN)/python figures/globe_poster.py --out $(OUT)/poster --size 16384
 
-animations: $(VENV)/installed-animations system ## draw every animation that is out of date into out/
+animations: $(VENV)/installed-animations opengl ## draw every animation that is out of date into out/
 	@$(BUILD) anim
 
 test: $(VENV)/installed-test system ## all tests, then the image tests once more on EGL
@@ -52,14 +58,14 @@ test: $(VENV)/installed-test system ## all tests, then the image tests once more
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
 
-sanitize: $(VENV)/installed-test system ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
+sanitize: $(VENV)/installed-test opengl ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
 	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
 fuzz: $(VENV)/installed-kernel ## feed random bytes to the kernel for FUZZ_SECONDS
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
-check: lint docs ## format, lint, types, tracked text, the kernel's one-definition rule, then the documentation
+check: lint built docs ## format, lint, types, tracked text, the kernel's one-definition rule, the page's built files, documentation
 
 lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/ruff format --check .
@@ -68,6 +74,13 @@ lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/python tools/kernel_stub.py --check
 	$(BIN)/python tools/tracked_text.py
 	tools/one_definition.sh $(VENV)
+	PATH=$(CURDIR)/$(BIN):$$PATH npm --prefix stereodel/web/script --silent run check
+
+web: $(VENV)/installed-web ## build the interactive page's kernel and scripts into stereodel/web/built
+	@tools/build_web.sh $(VENV)
+
+built: $(VENV)/installed-web ## build them anew, and compare with the tracked ones byte by byte
+	@tools/build_web.sh $(VENV) compare
 
 stub: $(VENV)/installed-lint ## write the kernel's type stub anew
 	$(BIN)/python tools/kernel_stub.py
@@ -77,20 +90,20 @@ bench: $(VENV)/installed-library ## measure against other libraries, which are i
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.rasters
 
-dist: $(VENV)/installed-kernel ## source archive and wheel into dist/, the wheel tried in a new environment
+dist: $(VENV)/installed-web ## source archive, wheel and npm archive into dist/, each tried as users get it
 	tools/dist.sh $(VENV)
 
-baselines: $(VENV)/installed-animations system ## draw the stored pictures of the image tests anew: look at what git shows before you commit
+baselines: $(VENV)/installed-animations opengl ## draw the stored pictures of the image tests anew: look at what git shows before you commit
 	$(BIN)/python -m tools.baselines --scripts figures --store tests/images/baselines
 
 names: $(VENV)/installed-animations ## write the tables of docs/names.md from the library anew
 	$(BIN)/python -m tools.names
 
-readme-images: $(VENV)/installed-figures system ## draw the small pictures of the README anew
+readme-images: $(VENV)/installed-figures opengl ## draw the small pictures of the README anew
 	$(BIN)/python tools/readme_images.py
 
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
-docs: $(VENV)/installed-docs system ## build the documentation into docs/_build/html; warnings are errors
+docs: $(VENV)/installed-docs opengl ## build the documentation into docs/_build/html; warnings are errors
 	@rm -rf docs/_build docs/gallery docs/api/generated
 	$(BIN)/python -m sphinx -W --keep-going -q -d docs/_build/doctrees -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html

@@ -4,6 +4,7 @@ import sys
 from pathlib import Path
 
 import stereodel
+from stereodel.web import web
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))  # for figure_gallery
 
@@ -87,6 +88,13 @@ def escape_bars(_app, _what, _name, _obj, _options, lines):
             lines[number] = line.replace("|", r"\|")
 
 
+def write_interactive_page(app, problem):
+    """Put the page itself beside the one that describes it."""
+    if problem is None:
+        web(Path(app.outdir) / "interactive.html")
+
+
 def setup(app):
     """After numpydoc, which listens at the default priority."""
     app.connect("autodoc-process-docstring", escape_bars, priority=900)
+    app.connect("build-finished", write_interactive_page)

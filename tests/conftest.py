@@ -32,3 +32,14 @@ def no_other_fonts(monkeypatch):
     yield
     for kept in (fonts._families, fonts._supplements):
         kept.cache_clear()
+
+
+WEB_SWITCH = "STEREODEL_TEST_WEB"
+"""Where this variable of the environment is "off", tests that need a browser or Node are left out."""
+
+
+def pytest_terminal_summary(terminalreporter):
+    """Say what was switched off, so that nobody takes a run without it for a whole one."""
+    if os.environ.get(WEB_SWITCH) == "off":
+        terminalreporter.section("switched off")
+        terminalreporter.line(f"The tests of the interactive page were left out, because {WEB_SWITCH}=off.")

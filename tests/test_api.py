@@ -25,6 +25,7 @@ import stereodel.render
 import stereodel.spatial
 import stereodel.sphere
 import stereodel.triangulation
+import stereodel.web
 import stereodel.xarray
 from stereodel._docs import shared
 
@@ -46,6 +47,7 @@ PACKAGES = [
     stereodel.spatial,
     stereodel.sphere,
     stereodel.triangulation,
+    stereodel.web,
     stereodel.xarray,
 ]
 CLASSES = {name: value for name, value in PUBLIC.items() if inspect.isclass(value)}
@@ -116,6 +118,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.render") == set(stereodel.render.__all__)
     assert reference("stereodel.film") == set(stereodel.film.__all__)
     assert reference("stereodel.mpl") == set(stereodel.mpl.__all__)
+    assert reference("stereodel.web") == set(stereodel.web.__all__)
     assert set(stereodel.sphere.__all__) <= reference("stereodel.sphere") | set(PUBLIC) | {"as_direction"}
 
 

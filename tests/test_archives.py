@@ -11,11 +11,14 @@ TRACKED = {
     "stereodel/_kernel/__init__.pyi",
     "stereodel/py.typed",
     "stereodel/kernel/python/module.cpp",
+    "stereodel/web/built/page.js",
+    "stereodel/web/script/main.ts",
 }
 WHEEL = {
     "stereodel/__init__.py",
     "stereodel/_kernel/__init__.pyi",
     "stereodel/py.typed",
+    "stereodel/web/built/page.js",
     "stereodel-1.dist-info/METADATA",
 }
 KERNEL = "stereodel/_kernel.cpython-311-x86_64-linux-gnu.so"
@@ -41,3 +44,7 @@ def test_wheel():
     assert archives.wheel_problems(whole | {PROBE}, TRACKED) == [f"not in the package: {PROBE}"]
     source = "stereodel/kernel/python/module.cpp"
     assert archives.wheel_problems(whole | {source}, TRACKED) == [f"not in the package: {source}"]
+    script = "stereodel/web/script/main.ts"
+    assert archives.wheel_problems(whole | {script}, TRACKED) == [f"not in the package: {script}"]
+    page = "stereodel/web/built/page.js"
+    assert archives.wheel_problems(whole - {page}, TRACKED) == [f"not in the wheel: {page}"]

@@ -82,6 +82,7 @@ DOORS = {
     "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
     "from stereodel.io import *; write('a.nc', Grid([0], [0], {'z': [[1]]}))": ["scipy"],
     "from stereodel.io import *; write('a.tif', Grid([0], [0], {'z': [[1]]}))": ["raster"],
+    "from stereodel.web import GlobeWidget; GlobeWidget(lonlat=[(10, 48)])": ["jupyter"],
     "from stereodel.io import Grid; Grid([0], [0]).to_xarray()": ["grid"],
     "from stereodel.interpolation import contours; from stereodel.io import to_geodataframe; "
     "to_geodataframe(contours(MESH, POINTS[:, 0], 0.1))": ["geo"],
@@ -92,6 +93,7 @@ ROOMS = {
     "stereodel.cli": "cli",
     "stereodel.mpl": "draw",
     "stereodel.spatial": "scipy",
+    "stereodel.web.widget": "jupyter",
     "stereodel.xarray": "grid",
 }
 """Packages that cannot be imported without an extra; all others can."""
@@ -298,7 +300,7 @@ def test_pyproject_brings_what_the_code_asks_for():
         assert {e for r in own[name] for e in r.extras} == set(extra.includes)
     (everything,) = optional["all"]
     assert everything.extras | {"draw", "render"} == set(EXTRAS)  # both come with films
-    assert set(optional) - set(EXTRAS) == {"all", "test", "docs", "dev"}
+    assert set(optional) - set(EXTRAS) == {"all", "test", "docs", "web", "dev"}
 
 
 def called(call):

@@ -49,9 +49,11 @@ MAY_IMPORT = {
     "render": MATHEMATICS | {"_files", "_kernel", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
+    "web": BASE | {"_files", "curves", "data", "triangulation"},
     "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
-    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"},
+    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"}
+    | {"web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}
@@ -89,6 +91,7 @@ KERNEL_FLOORS = [
     "conformal",
     "raster",
     "python",
+    "web",
 ]
 
 
@@ -256,8 +259,13 @@ def test_only_pictures_and_cli_use_more_than_numpy_and_scipy():
         for target in imported(path)
         if target.split(".")[0] not in {"stereodel", "numpy", "scipy", *sys.stdlib_module_names}
     }
-    # In the function that decodes the picture; where arrays of xarray get their accessor.
-    assert foreign == {"stereodel.data.marble imports PIL", "stereodel.xarray imports xarray"}
+    # In the function that decodes the picture; where arrays of xarray get their accessor; where a class is a widget.
+    assert foreign == {
+        "stereodel.data.marble imports PIL",
+        "stereodel.xarray imports xarray",
+        "stereodel.web.widget imports anywidget",
+        "stereodel.web.widget imports traitlets",
+    }
 
 
 def test_opengl_has_one_door():
@@ -354,6 +362,13 @@ def test_the_kernel_includes_go_down():
     assert [f"{file} includes {header}" for file, header in pairs if floor(header) > floor(file)] == []
 
 
+def test_the_doors_of_the_kernel_are_apart():
+    """The module of Python has no code of the web's, nor the other way round."""
+    doors = {"python", "web"}
+    pairs = {(file.partition("/")[0], header.partition("/")[0]) for file, header in kernel_includes()}
+    assert {(file, header) for file, header in pairs if header in doors and file != header} == set()
+
+
 def test_a_folder_of_the_kernel_is_a_namespace():
     for path in (PACKAGE / "kernel").rglob("*.hpp"):
         folder = path.parent.name if path.parent.name != "kernel" else ""
@@ -369,6 +384,6 @@ def test_the_main_header_of_a_folder_names_its_files(folder):
     files = list((PACKAGE / "kernel" / folder).iterdir())
     heads = [re.match(rf"// The folder `{folder}`: (?:.*\n)+?//\n", path.read_text(encoding="utf-8")) for path in files]
     (head,) = filter(None, heads)
-    if folder != "python":  # whose files are named after the other folders
+    if folder not in ("python", "web"):  # whose files are named after the other folders
         missing = {path.stem for path in files} - set(re.findall(r"\w+", head[0]))
         assert missing - {"moebius"} == set()  # alone there

@@ -1,7 +1,7 @@
 """Check what the source archive and the wheel hold.
 
-The archive: every tracked file but those that only the repository needs. The wheel: the package with its stub and its
-compiled kernel, and no source of the kernel.
+The archive: every tracked file but those that only the repository needs. The wheel: the package with its stub, its
+compiled kernel and what was built for the interactive page, and no source of either.
 
     python tools/archives.py ARCHIVE WHEEL
 """
@@ -16,6 +16,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 NOT_IN_ARCHIVE = (".ci/",)
+NOT_IN_WHEEL = ("stereodel/kernel/", "stereodel/web/script/")
+"""Sources, of what is in the wheel as it was built."""
 
 
 def archive_problems(names: set[str], tracked: set[str]) -> list[str]:
@@ -27,7 +29,7 @@ def archive_problems(names: set[str], tracked: set[str]) -> list[str]:
 
 def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     """What the wheel lacks, and what does not belong there."""
-    wanted = {name for name in tracked if name.startswith("stereodel/") and not name.startswith("stereodel/kernel/")}
+    wanted = {name for name in tracked if name.startswith("stereodel/") and not name.startswith(NOT_IN_WHEEL)}
     kernels = {name for name in names if name.startswith("stereodel/_kernel.") and name not in wanted}
     package = {name for name in names if name.startswith("stereodel/")}
     found = [f"not in the wheel: {name}" for name in sorted(wanted - names)]

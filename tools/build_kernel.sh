@@ -15,7 +15,7 @@ if [[ -f $build/installed && $(<"$build/installed") == "$wanted" ]] &&
     compgen -G "stereodel/_kernel.$tag*" >/dev/null && compgen -G "stereodel/_kernel_probe.$tag*" >/dev/null; then
     exit 0
 fi
-tools/compiler.sh python
+tools/system_packages.sh compiler
 echo "Building the kernel for $tag" >&2
 mkdir -p "$build"
 # Configured anew each time: paths of an environment that was made anew must not survive in the cache.

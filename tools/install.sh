@@ -12,12 +12,12 @@ case $what in # extras of pyproject.toml
     figures) extras=cli,render ;;  # pictures; the command with its doctor
     animations) extras=cli,film ;;
     library) extras=all ;;         # whatever the library can use
-    test | docs) extras=$what ;;
+    test | docs | web) extras=$what ;;
     lint) extras=dev ;;
     *) echo "tools/install.sh: there is no $what" >&2; exit 2 ;;
 esac
 stamp=$venv/installed-$what
-wanted=$(cat pyproject.toml constraints.txt tools/install.sh | sha256sum)
+wanted=$(cat pyproject.toml constraints.txt tools/install.sh stereodel/web/script/package-lock.json | sha256sum)
 if [[ ! -x $venv/bin/python || ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
     python=${3:-$(tools/find_python.sh)}
     # Also one that was cut off before pip was in it, or whose Python is gone.
@@ -40,6 +40,7 @@ if [[ ! -x $venv/bin/python || ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
     "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
         --config-settings wheel.cmake=false --config-settings wheel.packages='[]' ".${extras:+[$extras]}"
     if [[ $what == test ]]; then tools/gltf_validator.sh "$venv"; fi
+    if [[ $what == @(test|lint|web) ]]; then tools/node_modules.sh "$venv"; fi
     pwd >"$site/stereodel.pth"
     printf '%s\n' "$wanted" >"$stamp"
 fi

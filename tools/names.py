@@ -45,6 +45,7 @@ PACKAGES: Final = (
     "stereodel.film",
     "stereodel.globe",
     "stereodel.mpl",
+    "stereodel.web",
 )
 """All that users import from; each has its place on the page."""
 

@@ -28,7 +28,7 @@ compiler=${CXX:-c++}
 export LD_PRELOAD="$("$compiler" -print-file-name=libasan.so) $("$compiler" -print-file-name=libstdc++.so)"
 export ASAN_OPTIONS=detect_leaks=0:allocator_may_return_null=1 UBSAN_OPTIONS=print_stacktrace=1
 export PYTHONPATH=$tree # before the installed package, in every process that the tests start
-export STEREODEL_TEST_PATIENCE=10
+export STEREODEL_TEST_PATIENCE=10 STEREODEL_TEST_WEB=off # a browser does not start with the libraries above
 cd "$tree"
 python -P -c 'import os, stereodel._kernel as k; assert os.path.samefile(os.path.dirname(k.__file__), "stereodel"), k.__file__'
 exec python -m pytest -p no:cacheprovider -o faulthandler_timeout=3000 "$@"

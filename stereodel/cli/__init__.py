@@ -7,10 +7,10 @@ that the help answers at once.
 from stereodel._extras import of_extra
 
 with of_extra("cli"):
-    from stereodel.cli import contour, doctor, globe, interpolate, nearest, panorama, triangulate, voronoi
+    from stereodel.cli import contour, doctor, globe, interpolate, nearest, panorama, triangulate, voronoi, web
     from stereodel.cli.application import app
 
 __all__ = ["app"]
 
-for module in (triangulate, voronoi, interpolate, contour, nearest, globe, panorama, doctor):
+for module in (triangulate, voronoi, interpolate, contour, nearest, globe, panorama, web, doctor):
     app.command(module.__name__.rpartition(".")[2], epilog=f"Example: {module.EXAMPLE}")(module.command)

@@ -52,6 +52,11 @@ std::string place_in(const char* name, std::size_t k, std::size_t width) {
     return std::string(name) + "[" + row + column + "]";
 }
 
+// Of a number that is not finite. Not std::to_string, which would bring all printing of numbers with it.
+const char* word_for(double value) {
+    return std::isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+}
+
 [[noreturn]] void refuse(const std::string& message) {
     throw std::invalid_argument(message);
 }
@@ -90,7 +95,7 @@ void check_finite(const char* name, const double* values, std::size_t count, std
     }
     for (std::size_t k = 0; (joined & TOP) != 0 && k < count * width; ++k) {
         if (!std::isfinite(values[k])) {
-            refuse(place_in(name, k, width) + " is " + std::to_string(values[k]) + ", not a finite number");
+            refuse(place_in(name, k, width) + " is " + word_for(values[k]) + ", not a finite number");
         }
     }
 }

@@ -82,9 +82,14 @@ class Buffer {
     const T& operator[](std::size_t k) const { return data_[k]; }
 
   private:
+    static constexpr std::size_t line_ = 64;  // of the cache
+#if defined(__linux__)
     static constexpr std::size_t huge_ = std::size_t{1} << 21;
 
-    std::size_t alignment() const { return capacity_ >= huge_ ? huge_ : std::size_t{64}; }
+    std::size_t alignment() const { return capacity_ >= huge_ ? huge_ : line_; }
+#else
+    static std::size_t alignment() { return line_; }
+#endif
 
     template <class Other>
     friend class Buffer;

@@ -302,7 +302,7 @@ class CellBuilder {
                 count[site + 1] += std::int64_t{!dual_.is_tied({t, (place + 1) % 3})} + std::int64_t{at_border};
                 diagram_.order[order_size_] = static_cast<Index>(site);
                 order_size_ += Size{is_first};
-                start_[site] = at_border | is_first ? static_cast<Index>(3 * k + place) : start_[site];
+                start_[site] = (at_border | is_first) ? static_cast<Index>(3 * k + place) : start_[site];
             }
         });
         for (Size site = 0; site < sites_; ++site) {

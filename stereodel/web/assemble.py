@@ -1,0 +1,125 @@
+"""One file that is the whole page: its script, style, kernel and data stand in it, and it asks nobody for anything.
+
+The template is `built/page.html`, which names its style and its script as files beside it; both, and what `contents`
+has, are put in where it names them. A content security policy allows these by their hashes and nothing else: whatever
+comes into the page, from a link or a file that is dropped on it, no other script runs and nothing is sent anywhere.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import os
+import re
+from pathlib import Path
+from typing import Final
+
+import numpy.typing as npt
+
+from stereodel._arrays import as_choice, as_lonlat
+from stereodel._files import replacing
+from stereodel.web.contents import RESOLUTIONS, Given, built, contents
+
+STYLE: Final = '<link rel="stylesheet" href="page.css">'
+SCRIPT: Final = '<script src="page.js"></script>'
+ENCODING: Final = '<meta charset="utf-8">'
+"""What the template has once each; the policy comes after the last."""
+
+POLICY: Final = (
+    "default-src 'none'; script-src 'wasm-unsafe-eval' {script}; style-src {style}; img-src data: blob:; "
+    "base-uri 'none'; form-action 'none'"
+)
+"""Pictures come from the reader's own files alone; `wasm-unsafe-eval` allows WebAssembly and no `eval`."""
+
+
+def web(
+    path: str | os.PathLike[str],
+    *,
+    lonlat: npt.ArrayLike | None = None,
+    name: str = "points",
+    resolution: str = "50m",
+) -> Path:
+    """Write the interactive page: the sphere, the lift and the globe, to take in the hand in any browser.
+
+    It is one file, which needs no server, no network and no library, and sends nothing anywhere.
+
+    Parameters
+    ----------
+    path : path-like
+        File to write, .html; one that is there is replaced.
+    lonlat : (n, 2) array_like, optional
+        Longitude and latitude in degrees of points that the page opens with, at most a million. They are in the page
+        to the bit.
+    name : str
+        What the page calls these points, such as the name of their file.
+    resolution : {"50m", "110m"}
+        Land for maps of 1 : 50 or 1 : 110 million. The latter makes the page 0.1 MB smaller.
+
+    Returns
+    -------
+    Path
+        The file.
+
+    Raises
+    ------
+    ValueError
+        For a latitude outside [−90, 90], more than a million points, or another resolution.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     page = web(f"{folder}/cities.html", lonlat=[(10.0, 48.4), (-78.5, -0.2)], name="cities", resolution="110m")
+    ...     print(page.name, page.stat().st_size < 500_000)
+    cities.html True
+    """
+    as_choice(resolution, tuple(RESOLUTIONS), "resolution")
+    given = None if lonlat is None else Given(as_lonlat(lonlat).reshape(-1, 2), name)
+    text = html(resolution, given)
+    with replacing(path) as temporary:
+        temporary.write_text(text, encoding="utf-8", newline="\n")
+    return Path(path)
+
+
+def html(resolution: str, given: Given | None = None) -> str:
+    """The page, for land of a resolution, with points that it opens with."""
+    script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
+    policy = POLICY.format(script=_source(script), style=_source(style))
+    blocks = (
+        f'<script type="text/plain" id="block-{name}">{text}</script>'
+        for name, text in contents(resolution, given).items()
+    )
+    parts = {
+        ENCODING: f'{ENCODING}\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        STYLE: f"<style>{style}</style>",
+        SCRIPT: "\n".join([*blocks, f"<script>{script}</script>"]),
+    }
+    page = built("page.html").decode("utf-8")
+    for place, part in parts.items():
+        before, found, after = page.partition(place)
+        if not found or place in after:
+            raise ValueError(f"the template of the page must have {place} once")
+        page = before + part + after
+    return page
+
+
+def module(resolution: str) -> str:
+    """The script of the widget, with what it carries as a constant of its own."""
+    return f"const CONTENTS = {json.dumps(contents(resolution, sets=False))};\n{built('widget.js').decode('utf-8')}"
+
+
+def _inline(code: str) -> str:
+    r"""Code that may stand within an element: nothing in it ends a script or a style, or begins a comment of HTML.
+
+    Examples
+    --------
+    >>> _inline('write("</script>")')
+    'write("<\\/script>")'
+    """
+    return re.sub(r"<(?=/(?:script|style)|!--)", r"<\\", code, flags=re.IGNORECASE)
+
+
+def _source(code: str) -> str:
+    """How a content security policy allows code."""
+    return f"'sha256-{base64.b64encode(hashlib.sha256(code.encode('utf-8')).digest()).decode('ascii')}'"

@@ -1,0 +1,116 @@
+"""What a page carries with it: the kernel, land, sets of the package, and the reader's own points, as texts by name."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from importlib import resources
+from typing import Final
+
+import numpy as np
+
+from stereodel._arrays import FloatArray, Indices
+from stereodel.curves.ragged import Ragged
+from stereodel.curves.seams import stitched
+from stereodel.data import airports, cities, land, stars
+from stereodel.triangulation import SphericalDelaunay
+from stereodel.web.packing import packed, packed_doubles, packed_places
+
+RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
+"""The land that a page has for each resolution of it: the coarse one is drawn while the globe moves."""
+
+LAND_DIGITS: Final = 2
+"""Digits behind the point of the degrees of land: 1.1 km, a third of a pixel on a globe 4000 pixels across."""
+
+SITE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5}
+"""Digits of the degrees of the sets, all that they have."""
+
+MOST_POINTS: Final = 1_000_000
+"""That a page takes."""
+
+LARGE_CITY: Final = 2_000_000
+"""People in the cities of the page; its airports are the nearest ones to them."""
+
+BRIGHT_STAR: Final = 3.0
+"""The largest magnitude of the page's stars."""
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """Points that a reader brings.
+
+    Parameters
+    ----------
+    lonlat : (n, 2) array
+        Degrees.
+    name : str
+        What the page calls them, such as the name of their file.
+    """
+
+    lonlat: FloatArray
+    name: str
+
+    def __post_init__(self) -> None:
+        if len(self.lonlat) > MOST_POINTS:
+            raise ValueError(
+                f"{self.name} has {len(self.lonlat)} points, but a page takes up to {MOST_POINTS}; "
+                "for more there is the Python library"
+            )
+
+
+def built(name: str) -> bytes:
+    """A file that was built for the page and comes with the library."""
+    return resources.files("stereodel.web").joinpath("built", name).read_bytes()
+
+
+@cache
+def kernel() -> str:
+    """The kernel as WebAssembly."""
+    return packed(built("stereodel.wasm"))
+
+
+@cache
+def land_rings(resolution: str) -> str:
+    """Land as rings that have it on their left, joined where the map is cut, at ±180° and along the South Pole.
+
+    The first point of a ring is not repeated at its end. Neighbours that are one place when they are rounded are one
+    point, and rings that are then no rings are left out.
+    """
+    table = land(resolution)
+    rings = Ragged(table.lonlat, table.ring_offsets.astype(np.intp))
+    start, _, edges, _ = stitched(rings, np.zeros(len(rings), dtype=np.intp))
+    rounded = Ragged(np.round(start[edges.values], LAND_DIGITS), edges.offsets)
+    moved = (rounded.values != rounded.values[rounded.following]).any(axis=1)
+    distinct = rounded.kept(moved)
+    return packed_places(distinct.take(distinct.sizes > 2), LAND_DIGITS)
+
+
+@cache
+def sites(name: str) -> str:
+    """One of the small sets: the largest cities, the airports nearest to them, or the brightest stars."""
+    large = cities().lonlat[cities().population >= LARGE_CITY]
+    if name == "cities":
+        lonlat = large
+    elif name == "airports":
+        lonlat = airports().lonlat[_nearest(airports().lonlat, large)]
+    else:
+        lonlat = stars().lonlat[stars().magnitude <= BRIGHT_STAR]
+    return packed_places(Ragged(lonlat, np.array([0, len(lonlat)])), SITE_DIGITS[name])
+
+
+def _nearest(places: FloatArray, to: FloatArray) -> Indices:
+    """The numbers of the places that are nearest to others, in order and each once."""
+    return np.unique(SphericalDelaunay.from_lonlat(places).nearest(lonlat=to))
+
+
+def contents(resolution: str, given: Given | None = None, *, sets: bool = True) -> dict[str, str]:
+    """Everything by name, as `script/contents.ts` asks for it."""
+    blocks = {"kernel": kernel()}
+    blocks |= {f"land-{each}": land_rings(each) for each in RESOLUTIONS[resolution]}
+    if sets:
+        blocks |= {name: sites(name) for name in SITE_DIGITS}
+    if given is not None:
+        blocks["given-name"] = packed(json.dumps(given.name).encode())
+        blocks["given"] = packed_doubles(given.lonlat)
+    return blocks

@@ -1,0 +1,118 @@
+/**
+ * What the page carries with it: the kernel, land, sets of points, and points that its maker gave.
+ *
+ * Each is a text by name that `stereodel/web/packing.py` wrote: base64 of deflated bytes.
+ */
+
+/** The text of a name, or null where the page does not have it. */
+export type Blocks = (name: string) => string | null;
+
+/** Regions by rings that have them on their left; joined where maps are cut, at ±180° and along the poles. */
+export interface Rings {
+  /** Longitude and latitude in turn, degrees. */
+  readonly lonlat: Float64Array;
+  /** Ring i has the points from `offsets[i]` up to `offsets[i + 1]`; the first one is not repeated at its end. */
+  readonly offsets: Uint32Array;
+}
+
+/** Points that the page's maker gave. */
+export interface Given {
+  /** What they are called, such as "cities.csv". */
+  readonly name: string;
+  /** Longitude and latitude in turn, degrees, to the bit. */
+  readonly lonlat: Float64Array;
+}
+
+/** Sets of points that the page may have, as they are called in `stereodel.data`. */
+export type SetName = "airports" | "cities" | "stars";
+
+/** What a page, or a widget, carries with it. */
+export class Contents {
+  readonly #blocks: Blocks;
+
+  constructor(blocks: Blocks) {
+    this.#blocks = blocks;
+  }
+
+  /** What stands in the document's own elements `<script type="text/plain" id="block-NAME">`. */
+  static ofDocument(): Contents {
+    return new Contents((name) => document.getElementById(`block-${name}`)?.textContent ?? null);
+  }
+
+  /** The kernel, as bytes of WebAssembly. */
+  async kernel(): Promise<Uint8Array<ArrayBuffer>> {
+    const bytes = await this.#bytes("kernel");
+    if (bytes === null) throw new Error("the page has no kernel");
+    return bytes;
+  }
+
+  /** Land for maps of 1 : 50 or 1 : 110 million; null where the page does not have it, which may be so of the former. */
+  async land(resolution: "50m" | "110m"): Promise<Rings | null> {
+    const bytes = await this.#bytes(`land-${resolution}`);
+    return bytes === null ? null : places(bytes);
+  }
+
+  /** Longitude and latitude in turn of the points of a set, degrees. */
+  async set(name: SetName): Promise<Float64Array> {
+    const bytes = await this.#bytes(name);
+    return bytes === null ? new Float64Array(0) : places(bytes).lonlat;
+  }
+
+  /** The points that the page was made for, or null. */
+  async given(): Promise<Given | null> {
+    const name = await this.#bytes("given-name");
+    const bytes = await this.#bytes("given");
+    if (name === null || bytes === null) return null;
+    return { name: String(JSON.parse(new TextDecoder().decode(name))), lonlat: doubles(bytes) };
+  }
+
+  async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {
+    const text = this.#blocks(name);
+    return text === null ? null : inflated(text);
+  }
+}
+
+async function inflated(text: string): Promise<Uint8Array<ArrayBuffer>> {
+  const letters = atob(text);
+  const bytes = new Uint8Array(letters.length);
+  for (let k = 0; k < letters.length; ++k) bytes[k] = letters.charCodeAt(k);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+/** Rows of places: digits, number of rows, their sizes, steps of all longitudes, steps of all latitudes. */
+function places(bytes: Uint8Array): Rings {
+  let at = 0;
+  const next = (): number => {
+    // Products and not shifts, which end at 32 bits.
+    let number = 0;
+    for (let weight = 1; ; weight *= 128) {
+      const byte = bytes[at++];
+      number += (byte & 127) * weight;
+      if (byte < 128) return number;
+    }
+  };
+  const unit = 10 ** next();
+  const offsets = new Uint32Array(next() + 1);
+  for (let row = 1; row < offsets.length; ++row) offsets[row] = offsets[row - 1] + next();
+  const count = offsets[offsets.length - 1];
+  const lonlat = new Float64Array(2 * count);
+  for (let axis = 0; axis < 2; ++axis) {
+    let place = 0;
+    for (let k = 0; k < count; ++k) {
+      const zigzag = next();
+      place += zigzag % 2 ? -(zigzag + 1) / 2 : zigzag / 2;
+      lonlat[2 * k + axis] = place / unit;
+    }
+  }
+  return { lonlat, offsets };
+}
+
+/** Doubles, whose bytes are sorted by their places in the number. */
+function doubles(bytes: Uint8Array): Float64Array {
+  const count = bytes.length / 8;
+  const sorted = new Uint8Array(bytes.length);
+  for (let k = 0; k < count; ++k)
+    for (let place = 0; place < 8; ++place) sorted[8 * k + place] = bytes[place * count + k];
+  return new Float64Array(sorted.buffer);
+}

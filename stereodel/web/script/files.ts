@@ -1,0 +1,150 @@
+/**
+ * Files of points that the reader picks or drops: read here, sent nowhere.
+ *
+ * Tables of longitude and latitude follow `stereodel.io.read_points` in what they take and, word for word, in what they
+ * refuse; tables of a plane follow `read_plane_points`.
+ */
+
+import { findLonLat } from "./tables/columns.ts";
+import { splitColumns } from "./tables/csv.ts";
+import { ColumnsError, TableError } from "./tables/error.ts";
+import { geojsonPoints } from "./tables/geojson.ts";
+import { lonLatPlaces, places } from "./tables/numbers.ts";
+import { counted } from "./words.ts";
+
+/** Points that the page takes. */
+export const MOST_POINTS = 1_000_000;
+
+const TEXT = /\.(csv|tsv|txt)(\.gz)?$/i;
+const JSON_TEXT = /\.(geojson|json|geojsonl|geojsons)(\.gz)?$/i;
+const PICTURE = /\.(png|jpe?g|webp)$/i;
+
+/** Points of a file: (n, 2), longitude and latitude in degrees or x and y, with names if it has such a column. */
+export interface Points {
+  readonly file: string;
+  readonly places: Float64Array;
+  readonly names: readonly string[] | null;
+}
+
+/** Which coordinates are wanted: of the Earth or of a plane. */
+export type Kind = "lonlat" | "plane";
+
+/** Whether a file is a picture by its name. */
+export function isPicture(name: string): boolean {
+  return PICTURE.test(name);
+}
+
+/**
+ * Reads points from the bytes of a file.
+ *
+ * @param chosen names of the two columns, where the reader was asked.
+ * @throws TableError in the words for the reader; ColumnsError where the columns must be chosen.
+ */
+export async function readPoints(
+  file: string,
+  content: Uint8Array,
+  kind: Kind,
+  chosen?: [string, string],
+): Promise<Points> {
+  const bytes = await unpacked(content);
+  const isJson = JSON_TEXT.test(file) || (!TEXT.test(file) && beginsAs(bytes, "{"));
+  if (!isJson && !TEXT.test(file) && isBinary(bytes)) throw new NoTableError(file);
+  const text = decoded(bytes);
+  const found = isJson ? ofGeojson(text, kind) : ofText(text, kind, chosen);
+  const count = found.places.length / 2;
+  if (count > MOST_POINTS) throw new TooManyError(count);
+  return { file, ...found };
+}
+
+/** A file of another kind. */
+export class NoTableError extends TableError {
+  constructor(file: string) {
+    super(`${file} is not a table, GeoJSON or a 2 : 1 picture.`);
+  }
+}
+
+/** A file with more points than the page takes. */
+export class TooManyError extends TableError {
+  constructor(count: number) {
+    super(
+      `has ${counted(count)} points. The page takes up to ${counted(MOST_POINTS)}; for more there is the Python library.`,
+    );
+  }
+}
+
+function ofGeojson(text: string, kind: Kind): Omit<Points, "file"> {
+  if (kind === "plane") throw new TableError("columns of a plane are those of tables, not of GeoJSON");
+  const { lonlat, names } = geojsonPoints(text);
+  return { places: lonlat, names };
+}
+
+function ofText(text: string, kind: Kind, chosen?: [string, string]): Omit<Points, "file"> {
+  const { columns } = splitColumns(text, chosen);
+  const all = [...columns.keys()];
+  const [first, second] = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
+  const values = (name: string): string[] => columns.get(name) ?? [];
+  const found =
+    kind === "lonlat"
+      ? lonLatPlaces(values(first), values(second))
+      : places({ name: first, values: values(first) }, { name: second, values: values(second) });
+  const named = all.find((name) => name.trim().toLowerCase() === "name");
+  return { places: found, names: named === undefined ? null : values(named) };
+}
+
+/** Columns of a plane: x and y in any case, or the only two. */
+function findXY(names: readonly string[]): [string, string] {
+  const found = ["x", "y"].map((letter) => names.filter((name) => name.trim().toLowerCase() === letter));
+  if (found[0].length === 1 && found[1].length === 1) return [found[0][0], found[1][0]];
+  if (names.length === 2) return [names[0], names[1]];
+  throw new ColumnsError("no two columns are x and y", names);
+}
+
+function beginsAs(bytes: Uint8Array, mark: string): boolean {
+  const start = new TextDecoder("latin1").decode(bytes.subarray(0, 64)).replace(/^(\u00ef\u00bb\u00bf|\s|\x1e)+/, "");
+  return start.startsWith(mark);
+}
+
+/** Whether the first bytes are no text: a zero that no mark of UTF-16 explains. */
+function isBinary(bytes: Uint8Array): boolean {
+  return !isUtf16(bytes) && bytes.subarray(0, 1024).includes(0);
+}
+
+function isUtf16(bytes: Uint8Array): boolean {
+  return (bytes[0] === 0xff && bytes[1] === 0xfe) || (bytes[0] === 0xfe && bytes[1] === 0xff);
+}
+
+async function unpacked(bytes: Uint8Array): Promise<Uint8Array> {
+  if (!(bytes[0] === 0x1f && bytes[1] === 0x8b)) return bytes;
+  try {
+    const stream = new Blob([bytes.slice()]).stream().pipeThrough(new DecompressionStream("gzip"));
+    return new Uint8Array(await new Response(stream).arrayBuffer());
+  } catch (error) {
+    throw new TableError(`the compressed file is damaged: ${error instanceof Error ? error.message : String(error)}`);
+  }
+}
+
+function decoded(bytes: Uint8Array): string {
+  if (isUtf16(bytes)) return new TextDecoder(bytes[0] === 0xff ? "utf-16le" : "utf-16be").decode(bytes);
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
+  } catch {
+    throw new TableError(`line ${wrongLine(bytes)} is not text in UTF-8; save the file in that encoding`);
+  }
+}
+
+/** Number of the first line that is not UTF-8. */
+function wrongLine(bytes: Uint8Array): number {
+  const decoder = new TextDecoder("utf-8", { fatal: true });
+  let line = 1;
+  for (let begin = 0; begin < bytes.length; ++line) {
+    const end = bytes.indexOf(10, begin);
+    const stop = end < 0 ? bytes.length : end + 1;
+    try {
+      decoder.decode(bytes.subarray(begin, stop));
+    } catch {
+      break;
+    }
+    begin = stop;
+  }
+  return line;
+}

@@ -1,0 +1,141 @@
+/**
+ * Cells and triangles of the sphere as GeoJSON (RFC 7946): outer rings counterclockwise, cut at ±180° and led along ±90°
+ * around the poles. Sides are great circles, sampled so that no chord is longer than a degree.
+ */
+
+import { cross, dot, lonLatOf, unit } from "./rooms/space.ts";
+import type { Vector } from "./rooms/space.ts";
+
+/** Longest chord, degrees. */
+const LONGEST = 1;
+
+/** Digits behind the point of a degree: a centimetre of the Earth. */
+const DECIMALS = 7;
+
+type Position = [number, number];
+type Polygon = Position[][];
+
+/** A geometry of GeoJSON. */
+export type Geometry =
+  | { type: "Polygon"; coordinates: Polygon }
+  | { type: "MultiPolygon"; coordinates: Polygon[] }
+  | { type: "LineString"; coordinates: Position[] }
+  | { type: "Point"; coordinates: Position };
+
+export interface Feature {
+  type: "Feature";
+  properties: Record<string, unknown>;
+  geometry: Geometry;
+}
+
+/** A feature of given properties. */
+export function feature(properties: Record<string, unknown>, geometry: Geometry): Feature {
+  return { type: "Feature", properties, geometry };
+}
+
+/** A collection as text, a feature a line. */
+export function collection(features: readonly Feature[]): string {
+  const rows = features.map((each) => JSON.stringify(each));
+  return `{"type":"FeatureCollection","features":[\n${rows.join(",\n")}\n]}\n`;
+}
+
+/** All of the sphere, which has no side. */
+export const WHOLE_SPHERE: Geometry = {
+  type: "Polygon",
+  coordinates: [
+    [
+      [-180, -90],
+      [180, -90],
+      [180, 90],
+      [-180, 90],
+      [-180, -90],
+    ],
+  ],
+};
+
+/**
+ * The region on the left of a ring of great-circle sides, at most a hemisphere.
+ *
+ * @param corners three or more, counterclockwise seen from outside.
+ */
+export function sphericalPolygon(corners: readonly Vector[]): Geometry {
+  const ring = unwrapped(corners.flatMap((corner, k) => side(corner, corners[(k + 1) % corners.length])));
+  const turn = Math.round((ring[ring.length - 1][0] - ring[0][0]) / 360);
+  const closed = turn === 0 ? ring : aroundPole(ring, turn);
+  const pieces = windows(closed).map((polygon): Polygon => [polygon.map(([lon, lat]) => [digits(lon), digits(lat)])]);
+  return pieces.length === 1
+    ? { type: "Polygon", coordinates: pieces[0] }
+    : { type: "MultiPolygon", coordinates: pieces };
+}
+
+function digits(degrees: number): number {
+  return Number(degrees.toFixed(DECIMALS));
+}
+
+/** Points of a side from its first corner on, without its last. */
+function side(a: Vector, b: Vector): Vector[] {
+  const n = cross(a, b);
+  const sine = Math.hypot(n[0], n[1], n[2]);
+  const angle = Math.atan2(sine, dot(a, b));
+  const count = Math.max(1, Math.ceil((angle * 180) / Math.PI / LONGEST));
+  return Array.from({ length: count }, (_, k) => {
+    const t = (angle * k) / count;
+    const [s, u] = sine === 0 ? [1, 0] : [Math.sin(angle - t) / sine, Math.sin(t) / sine];
+    return unit([s * a[0] + u * b[0], s * a[1] + u * b[1], s * a[2] + u * b[2]]);
+  });
+}
+
+/** Longitudes and latitudes of a ring, closed, whose longitudes go on beyond ±180 instead of jumping. */
+function unwrapped(points: readonly Vector[]): Position[] {
+  const ring: Position[] = [];
+  for (const point of [...points, points[0]]) {
+    const [lon, lat] = lonLatOf(point);
+    const before = ring[ring.length - 1]?.[0] ?? lon;
+    ring.push([lon + 360 * Math.round((before - lon) / 360), lat]);
+  }
+  return ring;
+}
+
+/** A ring that goes once round the Earth, from −180 to 180, closed along the pole that lies inside. */
+function aroundPole(ring: readonly Position[], turn: number): Position[] {
+  const pole = turn > 0 ? 90 : -90; // eastward with the region on the left: the North Pole
+  const east = turn > 0 ? [...ring] : [...ring].reverse();
+  const begin = 360 * Math.ceil((east[0][0] - 180) / 360) + 180; // the first ±180° on the way
+  const k = east.findIndex(([lon]) => lon >= begin);
+  const at = crossing(east[Math.max(0, k - 1)], east[k === -1 ? east.length - 1 : k], begin);
+  const rest = east.slice(Math.max(k, 0), -1).map(([lon, lat]): Position => [lon - begin - 180, lat]);
+  const first = east.slice(0, Math.max(k, 0)).map(([lon, lat]): Position => [lon - begin + 180, lat]);
+  const across: Position[] = [[-180, at], ...rest, ...first, [180, at]];
+  const line = turn > 0 ? across : across.reverse();
+  return [...line, [line[line.length - 1][0], pole], [line[0][0], pole], line[0]];
+}
+
+function crossing(a: Position, b: Position, lon: number): number {
+  return a[0] === b[0] ? a[1] : a[1] + ((lon - a[0]) / (b[0] - a[0])) * (b[1] - a[1]);
+}
+
+/** The parts of a closed ring in each window of 360°, each moved to [−180, 180]. */
+function windows(ring: readonly Position[]): Position[][] {
+  const longitudes = ring.map(([lon]) => lon);
+  const low = Math.floor((Math.min(...longitudes) + 180) / 360);
+  const high = Math.ceil((Math.max(...longitudes) + 180) / 360);
+  const parts: Position[][] = [];
+  for (let window = low; window < Math.max(high, low + 1); ++window) {
+    const moved = ring.slice(0, -1).map(([lon, lat]): Position => [lon - 360 * window, lat]);
+    const part = cut(cut(moved, -180, 1), 180, -1);
+    if (part.length > 2) parts.push([...part, part[0]]);
+  }
+  return parts;
+}
+
+/** The part of a ring on one side of a meridian: east of it for `sign` 1, west for −1. */
+function cut(ring: readonly Position[], meridian: number, sign: number): Position[] {
+  const part: Position[] = [];
+  ring.forEach((a, k) => {
+    const b = ring[(k + 1) % ring.length];
+    const [aIn, bIn] = [sign * (a[0] - meridian) >= 0, sign * (b[0] - meridian) >= 0];
+    if (aIn) part.push(a);
+    if (aIn !== bIn && a[0] !== meridian && b[0] !== meridian) part.push([meridian, crossing(a, b, meridian)]);
+  });
+  return part;
+}

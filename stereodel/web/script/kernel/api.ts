@@ -1,0 +1,14 @@
+/** What the package offers, but for the way its module is got. */
+
+export { KernelError } from "./instance.ts";
+export type { Numbers } from "./checks.ts";
+export { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
+export { PlanarDelaunay } from "./planar_delaunay.ts";
+export { PlanarVoronoi } from "./planar_voronoi.ts";
+export { SphericalDelaunay } from "./spherical_delaunay.ts";
+export { SphericalVoronoi } from "./spherical_voronoi.ts";
+export type { Inconclusive } from "./delaunay.ts";
+export { inBubble, incircle, orient2d, orient3d, turn } from "./predicates.ts";
+export { Directions, MoebiusMap } from "./moebius.ts";
+export { Rotation } from "./rotation.ts";
+export { Raster, type PixelPlace } from "./raster.ts";

@@ -1,0 +1,133 @@
+/**
+ * Checks of what callers hand in: every message about points and indices stands here, in the words of the Python
+ * library. What is no number is a `TypeError`, a number that will not do a `RangeError`; both name the argument and the
+ * entry. Behind these checks arrays are finite and of known shape: the kernel takes that for granted.
+ */
+
+/** Coordinates as callers may give them: numbers, row after row, in one flat array. */
+export type Numbers = ArrayLike<number>;
+
+/** Points in 4 GiB, of which a triangulation takes 236 bytes each while it is made. Diagrams take twice as much. */
+export const MOST_POINTS = 16_000_000;
+
+/** How a message names one value of an argument: `points[3, 0]`, or `k` for a single number. */
+export function entry(name: string, ...index: number[]): string {
+  return index.length === 0 ? name : `${name}[${index.join(", ")}]`;
+}
+
+/** What an entry is called: by its row and column where rows have several. */
+function place(name: string, at: number, width: number): string {
+  return width === 1 ? entry(name, at) : entry(name, Math.floor(at / width), at % width);
+}
+
+/** A number as Python writes it, for those that are refused. */
+function written(value: number): string {
+  if (Number.isNaN(value)) return "nan";
+  return value === Infinity ? "inf" : value === -Infinity ? "-inf" : String(value);
+}
+
+function kindOf(value: unknown): string {
+  if (value === null) return "null";
+  return Array.isArray(value) || ArrayBuffer.isView(value) ? "an array" : `of type ${typeof value}`;
+}
+
+/** Finite doubles in rows of `width`, at most `most`; an array of doubles is returned as it is, not copied. */
+export function asRows(values: Numbers, width: number, name: string, most = Infinity): Float64Array {
+  const array = asDoubles(values, width, name, most);
+  for (let k = 0; k < array.length; ++k) {
+    if (!Number.isFinite(array[k])) {
+      throw new RangeError(`${place(name, k, width)} is ${written(array[k])}; every value must be a finite number`);
+    }
+  }
+  return array;
+}
+
+function asDoubles(values: Numbers, width: number, name: string, most: number): Float64Array {
+  if (values === null || typeof values !== "object" || typeof values.length !== "number") {
+    throw new TypeError(`${name} must be an array of numbers, row after row, but is ${kindOf(values)}`);
+  }
+  if (values.length > most * width) {
+    const rows = Math.floor(values.length / width);
+    throw new RangeError(`${name} has ${rows} rows, more than the ${most} that the kernel has memory for; give fewer`);
+  }
+  const array = values instanceof Float64Array ? values : doublesOf(values, width, name);
+  if (array.length % width !== 0) {
+    const rows = `(n, ${width}) as one flat array, ${width} numbers a row`;
+    throw new RangeError(`${name} must have shape ${rows}, got ${array.length} numbers`);
+  }
+  return array;
+}
+
+function doublesOf(values: Numbers, width: number, name: string): Float64Array {
+  const array = new Float64Array(values.length);
+  for (let k = 0; k < array.length; ++k) {
+    const value: unknown = values[k];
+    if (typeof value !== "number") {
+      const advice = Array.isArray(value) ? "; give all rows in one flat array" : "";
+      throw new TypeError(`${place(name, k, width)} is ${kindOf(value)}, which is not a real number${advice}`);
+    }
+    array[k] = value;
+  }
+  return array;
+}
+
+/** Rows of points, at most as many as the kernel has memory for. */
+export function asPoints(values: Numbers, width: number, name = "points"): Float64Array {
+  return asRows(values, width, name, MOST_POINTS);
+}
+
+/** Vectors of three that are not zero. */
+export function asDirections(values: Numbers, name: string): Float64Array {
+  const array = asPoints(values, 3, name);
+  for (let k = 0; k < array.length; k += 3) {
+    if (array[k] === 0 && array[k + 1] === 0 && array[k + 2] === 0) {
+      throw new RangeError(`${entry(name, k / 3)} is the zero vector, which has no direction`);
+    }
+  }
+  return array;
+}
+
+/** Rows (longitude, latitude) in degrees: any finite longitude, latitude in [-90, 90]. */
+export function asLonlat(values: Numbers, name = "lonlat"): Float64Array {
+  const array = asPoints(values, 2, name);
+  for (let k = 1; k < array.length; k += 2) {
+    if (Math.abs(array[k]) > 90) {
+      throw new RangeError(
+        `${place(name, k, 2)} is latitude ${array[k]}, outside [-90, 90]; the order is (longitude, latitude)`,
+      );
+    }
+  }
+  return array;
+}
+
+/** Numbers of points below `size`. */
+export function asIndices(values: Numbers, size: number, name = "indices"): Int32Array {
+  const array = new Int32Array(values.length);
+  for (let k = 0; k < array.length; ++k) {
+    const value: unknown = values[k];
+    if (!Number.isInteger(value))
+      throw new TypeError(`${name} must be integers, but ${entry(name, k)} is ${String(value)}`);
+    if ((value as number) < 0 || (value as number) >= size) {
+      throw new RangeError(`${entry(name, k)} is ${String(value)}, but there are ${size} points (0 to ${size - 1})`);
+    }
+    array[k] = value as number;
+  }
+  return array;
+}
+
+/** One whole number, at least `low`, at most `high`. */
+export function asCount(value: number, name: string, low: number, high: number): number {
+  if (!Number.isInteger(value)) throw new TypeError(`${name} must be one integer, got ${String(value)}`);
+  if (value < low) throw new RangeError(`${name} is ${value}, but must be at least ${low}`);
+  if (value > high) throw new RangeError(`${name} is ${value}, but must be at most ${high}`);
+  return value;
+}
+
+/** One finite number above `low`. */
+export function asScalar(value: number, name: string, low = -Infinity): number {
+  if (typeof value !== "number") throw new TypeError(`${name} is ${kindOf(value)}, which is not a real number`);
+  if (!Number.isFinite(value))
+    throw new RangeError(`${name} is ${written(value)}; every value must be a finite number`);
+  if (value <= low) throw new RangeError(`${name} is ${value}, outside (${low}, inf]`);
+  return value;
+}

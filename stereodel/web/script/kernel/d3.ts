@@ -1,0 +1,448 @@
+/**
+ * `geoDelaunay` and `geoVoronoi` with the methods of d3-geo-voronoi, on the exact kernel: places are pairs [longitude,
+ * latitude] in degrees, results plain arrays and GeoJSON wound as d3-geo wants it, clockwise. Call `load` of the package
+ * before.
+ *
+ * Where d3-geo-voronoi has no answer there is one: sites within a city, on one great circle, opposite ones, and equal
+ * ones, of which the later have neither cell nor neighbours.
+ */
+
+import { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
+import { SphericalDelaunay } from "./spherical_delaunay.ts";
+import { SphericalVoronoi } from "./spherical_voronoi.ts";
+
+/** Longitude and latitude in degrees. */
+export type Place = [number, number];
+
+/** What is drawn: an object of GeoJSON. */
+interface Feature<Properties> {
+  type: "Feature";
+  geometry: { type: string; coordinates?: Place[][] | Place[] } | null;
+  properties: Properties;
+}
+
+interface Collection<Properties> {
+  type: "FeatureCollection";
+  features: Feature<Properties>[];
+}
+
+interface MultiLineString {
+  type: "MultiLineString";
+  coordinates: [Place, Place][];
+}
+
+/** Triangulation and cells as indices of places and centers. */
+export interface GeoDelaunay {
+  /** The triangulation itself. */
+  delaunay: SphericalDelaunay;
+  /** Edges of triangles that are smaller than a hemisphere: [from, to]. */
+  edges: [number, number][];
+  /** Triangles, clockwise. */
+  triangles: [number, number, number][];
+  /** Circumcentres of the triangles, then what cells of fewer than three vertices need besides. */
+  centers: Place[];
+  /** Neighbours of each site. */
+  neighbors: number[][];
+  /** Centers around each site, clockwise; undefined where a site has no cell. */
+  polygons: (number[] | undefined)[];
+  /** Sides of the polygons, each once. */
+  mesh: [number, number][];
+  /** Sites around those that lie in a hemisphere, clockwise; empty if they do not. */
+  hull: number[];
+  /** Whether each edge, by its length, is in the Urquhart graph: is not the longest one of a triangle. */
+  urquhart(distances: ArrayLike<number>): boolean[];
+  /** The nearest site. */
+  find(lon: number, lat: number, node?: number): number;
+}
+
+/** The triangulation of places [longitude, latitude]; what is not asked for is not made. */
+export function geoDelaunay(places: readonly (readonly [number, number])[]): GeoDelaunay {
+  const lonlat = new Float64Array(2 * places.length);
+  for (let k = 0; k < places.length; ++k) {
+    lonlat[2 * k] = places[k][0];
+    lonlat[2 * k + 1] = places[k][1];
+  }
+  const delaunay = SphericalDelaunay.fromLonlat(lonlat);
+  const edges = once(() => edgesOf(delaunay));
+  const cells = once(() => cellsOf(delaunay));
+  const triangles = once(() => triples(delaunay.simplices).map(([a, b, c]): [number, number, number] => [a, c, b]));
+  const neighbors = once(() => neighborsOf(delaunay));
+  const mesh = once(() => meshOf(cells().polygons));
+  const hull = once(() => hullOf(delaunay));
+  return {
+    delaunay,
+    get edges() {
+      return edges();
+    },
+    get triangles() {
+      return triangles();
+    },
+    get centers() {
+      return cells().centers;
+    },
+    get neighbors() {
+      return neighbors();
+    },
+    get polygons() {
+      return cells().polygons;
+    },
+    get mesh() {
+      return mesh();
+    },
+    get hull() {
+      return hull();
+    },
+    urquhart: (distances) => urquhart(delaunay, edges(), distances),
+    find: (lon, lat) => delaunay.nearest(lonlatToXyz([lon, lat]))[0],
+  };
+}
+
+/** A value that is made when it is first asked for. */
+function once<T>(make: () => T): () => T {
+  let made: { value: T } | null = null;
+  return () => (made ??= { value: make() }).value;
+}
+
+function triples(numbers: Int32Array): [number, number, number][] {
+  return Array.from({ length: numbers.length / 3 }, (_, k) => [numbers[3 * k], numbers[3 * k + 1], numbers[3 * k + 2]]);
+}
+
+function pairs(numbers: Int32Array): [number, number][] {
+  return Array.from({ length: numbers.length / 2 }, (_, k) => [numbers[2 * k], numbers[2 * k + 1]]);
+}
+
+function placesOf(xyz: Float64Array): Place[] {
+  const lonlat = xyzToLonlat(xyz);
+  return Array.from({ length: lonlat.length / 2 }, (_, k) => [lonlat[2 * k], lonlat[2 * k + 1]]);
+}
+
+/** Those of triangles smaller than a hemisphere; without triangles neighbours on the great circle. */
+function edgesOf(delaunay: SphericalDelaunay): [number, number][] {
+  if (delaunay.dimension < 2) {
+    const around = pairs(new SphericalVoronoi(delaunay).ridgePoints);
+    return around.filter(([i, j], k) => k === 0 || around[k - 1][0] !== i || around[k - 1][1] !== j);
+  }
+  const { closing, simplices, neighbors } = delaunay;
+  const edges = pairs(delaunay.edges);
+  if (closing.every((flag) => flag === 0)) return edges;
+  const open = new Set<number>();
+  for (let t = 0; t < closing.length; ++t) {
+    if (closing[t] !== 0) continue;
+    for (let k = 0; k < 3; ++k) {
+      const [u, v] = [simplices[3 * t + ((k + 1) % 3)], simplices[3 * t + ((k + 2) % 3)]];
+      // Both sides have it; of two open ones one is enough.
+      if (u < v || closing[neighbors[3 * t + k]] !== 0) open.add(key(u, v));
+    }
+  }
+  return edges.filter(([i, j]) => open.has(key(i, j)));
+}
+
+/** An edge as one number: points have numbers below 2^26. */
+const key = (i: number, j: number): number => Math.min(i, j) * 2 ** 26 + Math.max(i, j);
+
+function neighborsOf(delaunay: SphericalDelaunay): number[][] {
+  if (delaunay.dimension < 2) {
+    const neighbors = Array.from({ length: delaunay.size }, (): number[] => []);
+    for (const [i, j] of edgesOf(delaunay)) {
+      neighbors[i].push(j);
+      neighbors[j].push(i);
+    }
+    return neighbors;
+  }
+  const { indptr, indices } = delaunay.vertexNeighborVertices;
+  return Array.from({ length: delaunay.size }, (_, k) => Array.from(indices.subarray(indptr[k], indptr[k + 1])));
+}
+
+/** Clockwise, one center a triangle; where a cell has only two, the middles of its sides between them. */
+function cellsOf(delaunay: SphericalDelaunay): { centers: Place[]; polygons: (number[] | undefined)[] } {
+  const polygons = new Array<number[] | undefined>(delaunay.size).fill(undefined);
+  if (delaunay.dimension < 1) return { centers: [], polygons };
+  if (delaunay.simplices.length <= 6) return lunes(delaunay, polygons);
+  const { simplices, neighbors } = delaunay;
+  for (let first = 0; first < simplices.length; ++first) {
+    const site = simplices[first];
+    if (polygons[site] !== undefined) continue;
+    const cell: number[] = [];
+    for (let t = Math.floor(first / 3), at = first % 3; cell.length === 0 || t !== cell[0];) {
+      cell.push(t);
+      t = neighbors[3 * t + ((at + 2) % 3)]; // beyond the edge from the site: the next one clockwise
+      at = simplices[3 * t] === site ? 0 : simplices[3 * t + 1] === site ? 1 : 2;
+    }
+    polygons[site] = cell;
+  }
+  return { centers: placesOf(delaunay.circumcenters), polygons };
+}
+
+/** All sites on one circle: cells between its two poles. */
+function lunes(
+  delaunay: SphericalDelaunay,
+  polygons: (number[] | undefined)[],
+): { centers: Place[]; polygons: (number[] | undefined)[] } {
+  const diagram = new SphericalVoronoi(delaunay);
+  const [ridges, ends, normals] = [pairs(diagram.ridgePoints), pairs(diagram.ridgeVertices), diagram.ridgeNormals()];
+  // Triangles count their centers first: those of three sites are both poles.
+  const poles = delaunay.dimension === 2 ? Array.from(diagram.simplexVertex) : [0, 1];
+  const points = Float64Array.from({ length: 6 + normals.length }, (_, k) =>
+    k < 6 ? diagram.vertices[3 * poles[Math.floor(k / 3)] + (k % 3)] : 0,
+  );
+  ends.forEach(([start], k) => {
+    const [x, y, z] = diagram.vertices.subarray(3 * start, 3 * start + 3);
+    const [a, b, c] = normals.subarray(3 * k, 3 * k + 3);
+    points.set([b * z - c * y, c * x - a * z, a * y - b * x], 6 + 3 * k); // a quarter turn along the ridge
+  });
+  ridges.forEach(([i, j], k) => {
+    // The ridge runs counterclockwise around i and clockwise around j, backwards in a polygon that is clockwise.
+    const [start, end] = ends[k].map((vertex) => poles.indexOf(vertex));
+    polygons[i] = joined(polygons[i], [end, 2 + k, start]);
+    polygons[j] = joined(polygons[j], [start, 2 + k, end]);
+  });
+  return { centers: placesOf(points), polygons };
+}
+
+/** A polygon of two chains, each from pole to pole. */
+function joined(first: number[] | undefined, second: number[]): number[] {
+  return first === undefined ? second : [...first.slice(0, 2), ...second.slice(0, 2)];
+}
+
+function meshOf(polygons: (number[] | undefined)[]): [number, number][] {
+  const mesh: [number, number][] = [];
+  for (const polygon of polygons) {
+    polygon?.forEach((q, k) => {
+      const p = polygon[(k + polygon.length - 1) % polygon.length];
+      if (q > p) mesh.push([p, q]);
+    });
+  }
+  return mesh;
+}
+
+function hullOf(delaunay: SphericalDelaunay): number[] {
+  const before = new Map(pairs(delaunay.convexHull).map(([from, to]) => [to, from]));
+  const hull: number[] = [];
+  for (let next = before.keys().next().value; next !== undefined && !hull.includes(next); next = before.get(next)) {
+    hull.push(next);
+  }
+  return hull;
+}
+
+function urquhart(delaunay: SphericalDelaunay, edges: [number, number][], distances: ArrayLike<number>): boolean[] {
+  const lengths = new Map(edges.map(([i, j], k) => [key(i, j), distances[k]]));
+  const longest = new Set<number>();
+  triples(delaunay.simplices).forEach(([a, b, c], t) => {
+    if (delaunay.closing[t] !== 0) return;
+    const sides = [key(a, b), key(b, c), key(c, a)];
+    longest.add(sides.reduce((most, side) => (lengths.get(side)! > lengths.get(most)! ? side : most)));
+  });
+  return edges.map(([i, j]) => !longest.has(key(i, j)));
+}
+
+// GeoJSON ------------------------------------------------------------------------------------------------------------
+
+type Accessor<Datum> = (datum: Datum) => number;
+
+/** Data of one kind, or a collection of features. */
+export type GeoData<Datum> = readonly Datum[] | { type: "FeatureCollection"; features: readonly Datum[] };
+
+interface OfSite<Datum> {
+  site: Datum;
+  sitecoordinates: Place;
+  neighbours: number[];
+}
+
+/** The Voronoi diagram of data as GeoJSON; call it with data, or give data to its methods. */
+export interface GeoVoronoi<Datum> {
+  (data: GeoData<Datum>): GeoVoronoi<Datum>;
+  /** The places of the data whose coordinates are finite, those data, and their triangulation. */
+  points: Place[];
+  valid: Datum[];
+  delaunay: GeoDelaunay | null;
+  /** Where a datum lies; by default its two first numbers, or the centroid of an object of GeoJSON. */
+  x(): Accessor<Datum>;
+  x(accessor: Accessor<Datum>): GeoVoronoi<Datum>;
+  y(): Accessor<Datum>;
+  y(accessor: Accessor<Datum>): GeoVoronoi<Datum>;
+  polygons(data?: GeoData<Datum>): Collection<OfSite<Datum>> | false;
+  triangles(data?: GeoData<Datum>): Collection<{ circumcenter: Place }> | false;
+  links(data?: GeoData<Datum>): Collection<{ source: Datum; target: Datum; length: number; urquhart: boolean }> | false;
+  mesh(data?: GeoData<Datum>): MultiLineString | false;
+  cellMesh(data?: GeoData<Datum>): MultiLineString | false;
+  /** The nearest site, undefined if it is farther than `radius` degrees. */
+  find(lon: number, lat: number, radius?: number): number | undefined;
+  hull(data?: GeoData<Datum>): { type: "Polygon"; coordinates: Place[][] } | null;
+}
+
+/** The Voronoi diagram of places, of GeoJSON features, or, with accessors, of anything. */
+export function geoVoronoi<Datum = Place>(data?: GeoData<Datum>): GeoVoronoi<Datum> {
+  let longitude: Accessor<Datum> = (datum) => placeOf(datum)[0];
+  let latitude: Accessor<Datum> = (datum) => placeOf(datum)[1];
+
+  const diagram = ((given: GeoData<Datum>) => {
+    const items = "features" in given ? given.features : given;
+    const located = items.map((datum) => ({ datum, place: [longitude(datum), latitude(datum)] as Place }));
+    const valid = located.filter(({ place }) => place.every(Number.isFinite));
+    diagram.points = valid.map(({ place }) => place);
+    diagram.valid = valid.map(({ datum }) => datum);
+    diagram.delaunay = geoDelaunay(diagram.points);
+    return diagram;
+  }) as GeoVoronoi<Datum>;
+
+  /** The triangulation after a method got `given`; null without any data. */
+  const after = (given?: GeoData<Datum>): GeoDelaunay | null => {
+    if (given !== undefined) diagram(given);
+    return diagram.delaunay;
+  };
+  const segments = (ends: [Place, Place][]): MultiLineString => ({ type: "MultiLineString", coordinates: ends });
+
+  diagram.points = [];
+  diagram.valid = [];
+  diagram.delaunay = null;
+  diagram.x = ((accessor?: Accessor<Datum>) => {
+    if (accessor === undefined) return longitude;
+    longitude = accessor;
+    return diagram;
+  }) as GeoVoronoi<Datum>["x"];
+  diagram.y = ((accessor?: Accessor<Datum>) => {
+    if (accessor === undefined) return latitude;
+    latitude = accessor;
+    return diagram;
+  }) as GeoVoronoi<Datum>["y"];
+
+  diagram.polygons = (given) => {
+    const made = after(given);
+    if (made === null) return false;
+    const features = diagram.points.map((place, k): Feature<OfSite<Datum>> => {
+      const polygon = made.polygons[k];
+      const alone = made.delaunay.dimension === 0 && k === 0;
+      const ring = polygon?.map((center) => made.centers[center]);
+      return {
+        type: "Feature",
+        geometry: ring ? { type: "Polygon", coordinates: [closed(ring)] } : alone ? { type: "Sphere" } : null,
+        properties: { site: diagram.valid[k], sitecoordinates: place, neighbours: made.neighbors[k] },
+      };
+    });
+    return { type: "FeatureCollection", features };
+  };
+
+  diagram.triangles = (given) => {
+    const made = after(given);
+    if (made === null) return false;
+    const { closing } = made.delaunay;
+    const features = made.triangles.flatMap((corners, t): Feature<{ circumcenter: Place }>[] => {
+      if (closing[t] !== 0) return [];
+      const ring = corners.map((corner) => diagram.points[corner]);
+      const geometry = { type: "Polygon", coordinates: [closed(ring)] };
+      return [{ type: "Feature", properties: { circumcenter: made.centers[t] }, geometry }];
+    });
+    return { type: "FeatureCollection", features };
+  };
+
+  diagram.links = (given) => {
+    const made = after(given);
+    if (made === null) return false;
+    const lengths = made.edges.map(([i, j]) => distance(diagram.points[i], diagram.points[j]));
+    const kept = made.urquhart(lengths);
+    const features = made.edges.map(([i, j], k) => ({
+      type: "Feature" as const,
+      properties: { source: diagram.valid[i], target: diagram.valid[j], length: lengths[k], urquhart: kept[k] },
+      geometry: { type: "LineString", coordinates: [diagram.points[i], diagram.points[j]] },
+    }));
+    return { type: "FeatureCollection", features };
+  };
+
+  diagram.mesh = (given) => {
+    const made = after(given);
+    return made !== null && segments(made.edges.map(([i, j]) => [diagram.points[i], diagram.points[j]]));
+  };
+  diagram.cellMesh = (given) => {
+    const made = after(given);
+    return made !== null && segments(made.mesh.map(([p, q]) => [made.centers[p], made.centers[q]]));
+  };
+  diagram.find = (lon, lat, radius) => {
+    const found = diagram.delaunay?.find(lon, lat);
+    if (found === undefined || !radius) return found;
+    return distance([lon, lat], diagram.points[found]) * (180 / Math.PI) < radius ? found : undefined;
+  };
+  diagram.hull = (given) => {
+    const hull = after(given)?.hull ?? [];
+    const ring = hull.map((site) => diagram.points[site]);
+    return ring.length === 0 ? null : { type: "Polygon", coordinates: [closed(ring)] };
+  };
+  return data === undefined ? diagram : diagram(data);
+}
+
+const closed = (ring: Place[]): Place[] => [...ring, ring[0]];
+
+/** The angle between two places in radians. */
+function distance(a: Place, b: Place): number {
+  const [x, y, z, u, v, w] = lonlatToXyz([...a, ...b]);
+  return 2 * Math.atan2(Math.hypot(x - u, y - v, z - w), Math.hypot(x + u, y + v, z + w));
+}
+
+/** The first two numbers of an array; of an object of GeoJSON the centroid. */
+function placeOf(datum: unknown): Place {
+  if (datum === null || typeof datum !== "object") return [NaN, NaN];
+  if ("type" in datum) return centroid(datum);
+  const [lon, lat] = (datum as unknown[]).slice(0, 2).map((value) => (value === null ? NaN : Number(value)));
+  return [lon ?? NaN, lat ?? NaN];
+}
+
+/** The direction of the sum of the parts of highest dimension: areas, or else lines, or else points. */
+function centroid(object: object): Place {
+  const sums = [new Float64Array(3), new Float64Array(3), new Float64Array(3)];
+  addParts(object as GeoJson, sums);
+  const whole = sums.reverse().find((total) => Math.hypot(...total) > NO_DIRECTION);
+  return whole === undefined ? [NaN, NaN] : placesOf(whole)[0];
+}
+
+/** Length of a sum of parts of the unit sphere that is rounding alone. */
+const NO_DIRECTION = 2 ** -40;
+
+interface GeoJson {
+  type: string;
+  geometry?: GeoJson | null;
+  geometries?: GeoJson[];
+  features?: GeoJson[];
+  coordinates?: unknown;
+}
+
+function addParts({ type, geometry, geometries, features, coordinates }: GeoJson, sums: Float64Array[]): void {
+  if (geometry) addParts(geometry, sums);
+  for (const part of [...(geometries ?? []), ...(features ?? [])]) addParts(part, sums);
+  const depth = { Point: 0, MultiPoint: 1, LineString: 1, MultiLineString: 2, Polygon: 2, MultiPolygon: 3 }[type];
+  if (depth === undefined) return;
+  const lines = linesOf(coordinates, type === "Point" || type === "MultiPoint" ? depth : depth - 1);
+  for (const line of lines) {
+    const xyz = lonlatToXyz(line.flatMap(([lon, lat]) => [lon, lat]));
+    if (type.endsWith("Point")) addTo(sums[0], xyz);
+    else addSegments(xyz, type.endsWith("Polygon") ? sums[2] : sums[1], type.endsWith("Polygon"));
+  }
+}
+
+/** All lists of places in nested arrays; single places as lists of one. */
+function linesOf(coordinates: unknown, depth: number): Place[][] {
+  if (depth === 0)
+    return Array.isArray((coordinates as unknown[])[0]) ? [coordinates as Place[]] : [[coordinates as Place]];
+  return (coordinates as unknown[]).flatMap((part) => linesOf(part, depth - 1));
+}
+
+function addTo(total: Float64Array, xyz: ArrayLike<number>): void {
+  for (let k = 0; k < xyz.length; ++k) total[k % 3] += xyz[k];
+}
+
+/**
+ * The integral of x over the area on the right of a ring: half the sum of each side's angle times the normal of its
+ * plane (theorem of Stokes). Of lines the middles of the chords by their angles, as d3-geo has it.
+ */
+function addSegments(xyz: Float64Array, total: Float64Array, isRing: boolean): void {
+  for (let k = 3; k < xyz.length; k += 3) {
+    const [a, b, c, x, y, z] = xyz.subarray(k - 3, k + 3);
+    const [apart, together] = [Math.hypot(a - x, b - y, c - z), Math.hypot(a + x, b + y, c + z)];
+    const angle = 2 * Math.atan2(apart, together);
+    const sine = Math.sin(angle);
+    if (!isRing) addTo(total, [angle * (a + x), angle * (b + y), angle * (c + z)]);
+    else if (sine > 0)
+      addTo(
+        total,
+        [c * y - b * z, a * z - c * x, b * x - a * y].map((part) => (angle * part) / sine),
+      );
+  }
+}

@@ -1,0 +1,253 @@
+/**
+ * The kernel as an instance of its WebAssembly module: memory, calls, failures.
+ *
+ * A call that fails throws a `KernelError` and takes the instance with all its memory along; the next call runs in a new
+ * one, made from the same compiled module in a fraction of a millisecond. Nothing else is lost: whatever callers hold
+ * are arrays of their own.
+ */
+
+/** Arrays that the module reads and fills. */
+export type NumberArray = Float64Array | Int32Array | Int8Array | Uint8Array | Uint8ClampedArray;
+
+type ArrayMaker<A extends NumberArray> = {
+  new (buffer: ArrayBufferLike, offset: number, length: number): A;
+  readonly BYTES_PER_ELEMENT: number;
+};
+
+/** What a function of the module takes: a number, an array that is copied in, a place to fill, or nothing. */
+export type Argument = number | NumberArray | Place<NumberArray> | Kept | null;
+
+/** What the module itself says went wrong: mostly that there is no more memory. */
+export class KernelError extends Error {
+  override readonly name = "KernelError";
+}
+
+/** An address or a count from the module: what is above 2 GiB comes back negative. */
+export const unsigned = (value: number): number => value >>> 0;
+
+/**
+ * Bytes of arrays that stay in the module from call to call. More would spare copies of arrays that are hardly asked
+ * again; a copy of as much takes some 50 ms.
+ */
+export const KEPT_BYTES = 2 ** 28;
+
+/** An array that may stay in the module after the call; nobody writes to it. */
+export class Kept {
+  readonly values: NumberArray;
+
+  constructor(values: NumberArray) {
+    this.values = values;
+  }
+}
+
+/** An array of the module that a call fills. */
+export class Place<A extends NumberArray> {
+  readonly address: number;
+  private readonly read: () => A;
+
+  constructor(address: number, read: () => A) {
+    this.address = address;
+    this.read = read;
+  }
+
+  /** What was filled in, as an array of its own. */
+  copy(): A {
+    return this.read();
+  }
+}
+
+/** Arrays whose lengths the module found out, read one after the other. */
+export interface Answer {
+  next<A extends NumberArray>(Type: ArrayMaker<A>): A;
+}
+
+/** One call after another on one instance; arrays that are handed in are given back when all are done. */
+export interface Session {
+  /** Room for `length` numbers that a function will fill. */
+  place<A extends NumberArray>(Type: ArrayMaker<A>, length: number): Place<A>;
+  /** Calls a function of the module. */
+  call(name: string, ...given: Argument[]): number;
+  /** Calls one that answers with arrays, and reads them. */
+  ask<T>(name: string, given: Argument[], read: (answer: Answer) => T): T;
+}
+
+interface Exports {
+  readonly memory: WebAssembly.Memory;
+  readonly [name: string]: unknown;
+}
+
+/** A compiled module and its present instance. */
+export class Kernel {
+  private readonly module: WebAssembly.Module;
+  private instance: Instance | null = null;
+
+  constructor(module: WebAssembly.Module) {
+    this.module = module;
+  }
+
+  /** Runs `body`, which calls functions of the module. */
+  run<T>(body: (session: Session) => T): T {
+    const instance = (this.instance ??= new Instance(this.module));
+    try {
+      const result = body(instance);
+      instance.clean();
+      return result;
+    } catch (error) {
+      this.instance = null;
+      if (error instanceof WebAssembly.RuntimeError) throw new KernelError(`the kernel stopped: ${error.message}`);
+      throw error;
+    }
+  }
+
+  /** Bytes that the module's memory has now. */
+  get memoryBytes(): number {
+    return this.instance?.memory.buffer.byteLength ?? 0;
+  }
+}
+
+class Instance implements Session {
+  readonly memory: WebAssembly.Memory;
+  private readonly exports: Exports;
+  private readonly taken: number[] = []; // addresses, to be released after the call
+  private readonly kept = new Map<NumberArray, number>(); // addresses, the array used last at the end
+  private keptBytes = 0;
+
+  constructor(module: WebAssembly.Module) {
+    const fail = (kind: number, message: number): never => {
+      throw new KernelError(this.describe(this.text(unsigned(kind)), this.text(unsigned(message))));
+    };
+    const instance = new WebAssembly.Instance(module, { page: { fail } });
+    this.exports = instance.exports as unknown as Exports;
+    this.memory = this.exports.memory;
+    this.invoke("_initialize");
+  }
+
+  place<A extends NumberArray>(Type: ArrayMaker<A>, length: number): Place<A> {
+    const address = this.allocate(length * Type.BYTES_PER_ELEMENT);
+    this.taken.push(address);
+    return new Place(address, () => this.view(Type, address, length).slice() as A);
+  }
+
+  call(name: string, ...given: Argument[]): number {
+    return unsigned(this.invoke(name, ...given.map((argument) => this.addressOf(argument))));
+  }
+
+  ask<T>(name: string, given: Argument[], read: (answer: Answer) => T): T {
+    const answer = this.call(name, ...given);
+    let slot = 0;
+    const result = read({
+      next: <A extends NumberArray>(Type: ArrayMaker<A>): A => {
+        const [address, length] = this.view(Uint32Array, answer + 8 * slot++, 2);
+        return this.view(Type, address, length).slice() as A;
+      },
+    });
+    this.invoke("discard", answer);
+    return result;
+  }
+
+  /** Gives back what was handed in, and of what may stay the longest unused. */
+  clean(): void {
+    for (const address of this.taken.splice(0)) this.invoke("release", address);
+    for (const [array, address] of this.kept) {
+      if (this.keptBytes <= KEPT_BYTES) break;
+      this.invoke("release", address);
+      this.kept.delete(array);
+      this.keptBytes -= array.byteLength;
+    }
+  }
+
+  private addressOf(argument: Argument): number {
+    if (argument === null) return 0;
+    if (typeof argument === "number") return argument;
+    if (argument instanceof Place) return argument.address;
+    if (argument instanceof Kept) return this.keep(argument.values);
+    const address = this.copyIn(argument);
+    this.taken.push(address);
+    return address;
+  }
+
+  private keep(array: NumberArray): number {
+    const known = this.kept.get(array);
+    const address = known ?? this.copyIn(array);
+    if (known === undefined) this.keptBytes += array.byteLength;
+    this.kept.delete(array); // the one used last stands at the end
+    this.kept.set(array, address);
+    return address;
+  }
+
+  private copyIn(array: NumberArray): number {
+    const address = this.allocate(array.byteLength);
+    const bytes = new Uint8Array(array.buffer, array.byteOffset, array.byteLength);
+    this.view(Uint8Array, address, array.byteLength).set(bytes);
+    return address;
+  }
+
+  private allocate(bytes: number): number {
+    if (bytes >= 2 ** 32) throw new KernelError(this.describe("St9bad_alloc", ""));
+    return unsigned(this.invoke("allocate", Math.max(bytes, 1)));
+  }
+
+  /** A new view each time: memory that grows moves. */
+  private view<A>(
+    Type: new (buffer: ArrayBufferLike, offset: number, length: number) => A,
+    at: number,
+    length: number,
+  ): A {
+    return new Type(this.memory.buffer, at, length);
+  }
+
+  private invoke(name: string, ...numbers: number[]): number {
+    const found = this.exports[name] as ((...numbers: number[]) => number) | undefined;
+    if (found === undefined) throw new KernelError(`the kernel has no ${name}: it and the script are of two versions`);
+    return found(...numbers);
+  }
+
+  private text(address: number): string {
+    const bytes = new Uint8Array(this.memory.buffer, address);
+    return new TextDecoder().decode(bytes.slice(0, bytes.indexOf(0)));
+  }
+
+  private describe(kind: string, message: string): string {
+    if (kind === "St9bad_alloc") return "out of memory: the kernel has 4 GiB at most; give fewer points";
+    return message === "" ? kind : message;
+  }
+}
+
+let current: Kernel | null = null;
+let loading: Promise<void> | null = null;
+
+/** The module as it comes: its bytes, a response of `fetch`, or compiled. */
+export type KernelSource = WebAssembly.Module | BufferSource | Response | PromiseLike<Response>;
+
+/**
+ * Makes the kernel ready, once for the whole page.
+ *
+ * Further calls wait for the first one; after one that failed the next tries again.
+ */
+export function load(source: KernelSource): Promise<void> {
+  loading ??= compiled(source).then(
+    (module) => {
+      current = new Kernel(module);
+    },
+    (error: unknown) => {
+      loading = null;
+      throw error;
+    },
+  );
+  return loading;
+}
+
+async function compiled(source: KernelSource): Promise<WebAssembly.Module> {
+  if (source instanceof WebAssembly.Module) return source;
+  if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
+  const response = await source;
+  if (!response.ok) throw new KernelError(`the kernel could not be fetched: ${response.status} ${response.statusText}`);
+  // Not compileStreaming: servers that do not know the type of .wasm are many, and the module compiles in milliseconds.
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** The kernel that was loaded. */
+export function kernel(): Kernel {
+  if (current === null) throw new KernelError("the kernel is not loaded: await load() first");
+  return current;
+}

@@ -1,0 +1,72 @@
+/** The plane beside the sphere: stereographic projection from a pole to the plane that touches opposite it. */
+
+import type { Vector } from "./space.ts";
+import { dot, lonLatOf } from "./space.ts";
+
+/** The image of a circle of the sphere: a circle with its middle and radius, or a line through the pole's circle. */
+export type PlaneCircle =
+  | {
+      readonly kind: "circle";
+      readonly middle: readonly [number, number];
+      readonly radius: number;
+      readonly holdsPole: boolean;
+    }
+  | { readonly kind: "line"; readonly normal: readonly [number, number]; readonly offset: number };
+
+/** Cosines nearer to each other than this are those of a circle through the pole: its radius would be 1e12 ball radii. */
+const THROUGH_POLE = 1e-12;
+
+/**
+ * The projection from `pole`, in ball radii, with the axes of the library's `Stereographic`: u east and v north at the
+ * point of contact.
+ */
+export class Twin {
+  readonly pole: Vector;
+  readonly #south: Vector;
+  readonly #east: Vector;
+  readonly #north: Vector;
+
+  constructor(pole: Vector) {
+    this.pole = pole;
+    const south: Vector = [-pole[0], -pole[1], -pole[2]];
+    const [lon, lat] = lonLatOf(south).map((degrees) => (degrees * Math.PI) / 180) as [number, number];
+    this.#south = south;
+    this.#east = [-Math.sin(lon), Math.cos(lon), 0];
+    this.#north = [-Math.sin(lat) * Math.cos(lon), -Math.sin(lat) * Math.sin(lon), Math.cos(lat)];
+  }
+
+  /** The image of a point of the sphere; infinite at the pole. */
+  forward(point: Vector): [number, number] {
+    const stretch = 2 / (1 + dot(point, this.#south));
+    return [stretch * dot(point, this.#east), stretch * dot(point, this.#north)];
+  }
+
+  /** The point of the sphere with this image. */
+  inverse(u: number, v: number): Vector {
+    const square = u * u + v * v;
+    const along = (4 - square) / (4 + square);
+    const across = 4 / (4 + square);
+    return [0, 1, 2].map(
+      (k) => along * this.#south[k] + across * (u * this.#east[k] + v * this.#north[k]),
+    ) as unknown as Vector;
+  }
+
+  /**
+   * The image of the circle of points x with center·x = cosine.
+   *
+   * With c the centre, s the point of contact and d the cosine, 2 tan(χ/2) = |X| turns c·x = d into
+   * |X|²(d + c·s) − 4 X·c + 4(d − c·s) = 0.
+   */
+  circle(center: Vector, cosine: number): PlaneCircle {
+    const along = dot(center, this.#south);
+    const across: [number, number] = [dot(center, this.#east), dot(center, this.#north)];
+    const lead = cosine + along;
+    if (Math.abs(lead) < THROUGH_POLE) return { kind: "line", normal: across, offset: cosine - along };
+    return {
+      kind: "circle",
+      middle: [(2 * across[0]) / lead, (2 * across[1]) / lead],
+      radius: (2 * Math.sqrt(Math.max(0, 1 - cosine * cosine))) / Math.abs(lead),
+      holdsPole: lead < 0,
+    };
+  }
+}

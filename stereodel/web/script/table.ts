@@ -1,0 +1,152 @@
+/**
+ * Sites as a table beside the picture. Rows that are out of sight are not made, so that a million sites cost as much as
+ * twenty; readers of the screen hear how many there are.
+ */
+
+import { make } from "./dom.ts";
+
+/** Rows above and below the visible ones. */
+const AROUND = 12;
+
+/** What the table shows of the sites. */
+export interface Rows {
+  readonly count: number;
+  /** Heads of the columns behind the site's number. */
+  readonly heads: readonly string[];
+  /** Cells of a site, one a head. */
+  cells(site: number): readonly string[];
+  /** What stands behind the number of a site: a letter, or nothing. */
+  mark?(site: number): string;
+}
+
+/** What a row does. */
+export interface Actions {
+  /** The number of a site was pressed. */
+  chosen(site: number): void;
+  /** The pointer or the focus is on a row; null when it leaves. */
+  pointed(site: number | null): void;
+}
+
+export class SiteTable {
+  readonly #place: HTMLElement;
+  readonly #actions: Actions;
+  readonly #table = make("table");
+  readonly #head = make("thead");
+  readonly #body = make("tbody");
+  #rows: Rows = { count: 0, heads: [], cells: () => [] };
+  #held: ReadonlySet<number> = new Set();
+  #begin = 0;
+  #height = 0;
+
+  /** `place` scrolls: an element of the class `sites`. */
+  constructor(place: HTMLElement, actions: Actions) {
+    this.#place = place;
+    this.#actions = actions;
+    this.#table.append(this.#head, this.#body);
+    place.append(this.#table);
+    place.addEventListener("scroll", () => this.#fill(), { passive: true });
+    this.#body.addEventListener("click", (event) => {
+      const site = siteOf(event.target);
+      if (site !== null && (event.target as Element).closest("button")) this.#actions.chosen(site);
+    });
+    for (const type of ["pointerover", "focusin"] as const) {
+      this.#body.addEventListener(type, (event) => this.#actions.pointed(siteOf(event.target)));
+    }
+    for (const type of ["pointerleave", "focusout"] as const) {
+      this.#body.addEventListener(type, () => this.#actions.pointed(null));
+    }
+  }
+
+  /** Shows other sites. */
+  show(rows: Rows): void {
+    this.#rows = rows;
+    this.#table.setAttribute("aria-rowcount", String(rows.count + 1));
+    const heads = ["Site", ...rows.heads].map((head) => {
+      const cell = make("th");
+      cell.scope = "col";
+      cell.append(...head.split(/\*([^*]+)\*/).map((part, k) => (k % 2 === 1 ? make("i", "", part) : part)));
+      return cell;
+    });
+    this.#head.replaceChildren(make("tr", "", ...heads));
+    this.#fill(true);
+  }
+
+  /** Marks the sites that are held, by a dot and by colour. */
+  hold(sites: Iterable<number>): void {
+    const held = new Set(sites);
+    if (held.size === this.#held.size && [...held].every((site) => this.#held.has(site))) return;
+    this.#held = held;
+    for (const row of this.#body.querySelectorAll<HTMLElement>("tr[data-site]")) {
+      row.className = held.has(Number(row.dataset["site"])) ? "on" : "";
+    }
+  }
+
+  /** Brings a row into sight. */
+  reveal(site: number): void {
+    const top = site * this.#rowHeight();
+    const inside = this.#place.clientHeight - this.#head.offsetHeight;
+    if (top < this.#place.scrollTop) this.#place.scrollTop = top;
+    else if (top + this.#rowHeight() > this.#place.scrollTop + inside)
+      this.#place.scrollTop = top + this.#rowHeight() - inside;
+    this.#fill();
+  }
+
+  #rowHeight(): number {
+    if (this.#height === 0) this.#height = this.#body.querySelector<HTMLElement>("tr[data-site]")?.offsetHeight ?? 0;
+    return this.#height || 28;
+  }
+
+  /** Makes the rows that can be seen; `anew` also where they are there already. */
+  #fill(anew = false): void {
+    const height = this.#rowHeight();
+    const visible = Math.ceil((this.#place.clientHeight || 250) / height);
+    const begin = Math.max(
+      0,
+      Math.min(Math.floor(this.#place.scrollTop / height) - AROUND, this.#rows.count - visible),
+    );
+    if (!anew && Math.abs(begin - this.#begin) < AROUND / 2) return;
+    this.#begin = begin;
+    const end = Math.min(this.#rows.count, begin + visible + 2 * AROUND);
+    const focused = anew ? null : siteOf(document.activeElement);
+    const rows: HTMLElement[] = [];
+    for (let site = begin; site < end; ++site) rows.push(this.#row(site));
+    const width = 1 + this.#rows.heads.length;
+    this.#body.replaceChildren(gap(begin * height, width), ...rows, gap((this.#rows.count - end) * height, width));
+    if (focused !== null)
+      this.#body.querySelector<HTMLElement>(`tr[data-site="${focused}"] button`)?.focus({ preventScroll: true });
+  }
+
+  #row(site: number): HTMLElement {
+    const button = make("button", "", String(site + 1));
+    button.type = "button";
+    button.setAttribute("aria-label", `Site ${site + 1}`);
+    const head = make("th", "", button);
+    head.scope = "row";
+    const mark = this.#rows.mark?.(site);
+    if (mark) head.append(" ", make("i", "", mark));
+    const row = make(
+      "tr",
+      this.#held.has(site) ? "on" : "",
+      head,
+      ...this.#rows.cells(site).map((cell) => make("td", "", cell)),
+    );
+    row.dataset["site"] = String(site);
+    row.setAttribute("aria-rowindex", String(site + 2));
+    return row;
+  }
+}
+
+function gap(height: number, width: number): HTMLElement {
+  const cell = make("td");
+  cell.colSpan = width;
+  cell.style.height = `${height}px`;
+  const row = make("tr", "gap", cell);
+  row.hidden = height <= 0;
+  row.setAttribute("aria-hidden", "true");
+  return row;
+}
+
+function siteOf(target: EventTarget | null): number | null {
+  const row = target instanceof Element ? target.closest<HTMLElement>("tr[data-site]") : null;
+  return row === null ? null : Number(row.dataset["site"]);
+}

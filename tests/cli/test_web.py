@@ -1,0 +1,87 @@
+"""`stereodel web`: the interactive page as a file, from a table or without one."""
+
+import webbrowser
+
+import numpy as np
+import pytest
+
+from stereodel.web import assemble, web
+
+LONLAT = [(-78.5, -0.2), (3.4, 6.5), (10.0, 48.4), (135.8, 35.0), (115.9, -32.0)]
+
+
+@pytest.fixture
+def opened(monkeypatch):
+    """Addresses that the browser of the system was asked to show."""
+    addresses = []
+    monkeypatch.setattr(webbrowser, "open", lambda address: addresses.append(address) or True)
+    return addresses
+
+
+def test_the_command_writes_what_the_function_writes(folder, run):
+    run("web", "cities.csv", "-o", "page.html", "--resolution", "110m")
+    web("same.html", lonlat=LONLAT, name="cities.csv", resolution="110m")
+    assert (folder / "page.html").read_bytes() == (folder / "same.html").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("points", "name"), [([], "stereodel.html"), (["cities.csv"], "cities.html"), (["-"], "stereodel.html")]
+)
+def test_the_page_is_named_after_the_table(folder, run, points, name):
+    run("web", *points, "--resolution", "110m", stdin="lon,lat\n1,2\n")
+    assert (folder / name).is_file()
+    assert run.said == ""
+
+
+def test_stdout(folder, run):
+    whole = run("web", "-o", "-", "--resolution", "110m")
+    assert whole == assemble.html("110m")
+    assert [path.name for path in folder.iterdir()] == ["cities.csv"]
+
+
+def test_columns_and_missing_places(folder, run):
+    (folder / "odd.csv").write_text("east,north\n1,2\n,\n3,4\n", encoding="utf-8")
+    arguments = ("web", "odd.csv", "--lon", "east", "--lat", "north", "--resolution", "110m")
+    assert run(*arguments, code=2).startswith("error: odd.csv: row 2: ")
+    run(*arguments, "--skip-missing")
+    given = assemble.Given(np.array([(1.0, 2.0), (3.0, 4.0)]), "odd.csv")
+    assert (folder / "odd.html").read_text(encoding="utf-8") == assemble.html("110m", given)
+
+
+def test_a_page_is_not_replaced_unasked(folder, run):
+    (folder / "cities.html").write_text("mine", encoding="utf-8")
+    assert "is there already; replace it with --overwrite" in run("web", "cities.csv", code=2)
+    assert (folder / "cities.html").read_text(encoding="utf-8") == "mine"
+    run("web", "cities.csv", "--overwrite", "--resolution", "110m")
+    assert (folder / "cities.html").stat().st_size > 100_000
+
+
+def test_open_shows_the_file(folder, run, opened):
+    run("web", "--open", "--resolution", "110m")
+    assert opened == [(folder / "stereodel.html").resolve().as_uri()]
+
+
+def test_open_without_a_file_or_a_browser(folder, run, opened, monkeypatch):
+    assert run("web", "-o", "-", "--open", code=2) == "error: --open needs a file; name one with --out\n"
+    monkeypatch.setattr(webbrowser, "open", lambda address: False)
+    said = run("web", "--open", "--resolution", "110m", code=2)
+    assert said == "error: stereodel.html: is written, but there is no browser to open it\n"
+    assert opened == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (("cities.csv", "-o", "cities.pdf"), "error: cities.pdf: cannot write pdf; choose .html\n"),
+        (("nothing.csv",), "error: nothing.csv: No such file or directory\n"),
+        (("-o", "away/page.html"), "error: away/page.html: there is no folder away\n"),
+    ],
+)
+def test_wrong_usage_is_one_line(folder, run, arguments, said):
+    assert run("web", *arguments, code=2) == said
+
+
+def test_a_table_without_points_is_nothing_to_do(folder, run):
+    (folder / "empty.csv").write_text("lon,lat\n", encoding="utf-8")
+    assert run("web", "empty.csv", code=1) == "empty.csv: there are no points\n"
+    assert not (folder / "empty.html").exists()

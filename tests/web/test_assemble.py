@@ -1,0 +1,128 @@
+"""The page as one file: what stands in it, what may run in it, and what it asks for."""
+
+import re
+
+import numpy as np
+import pytest
+
+from stereodel.web import assemble, contents, web
+
+TEMPLATE = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<title>A page</title>
+<link rel="stylesheet" href="page.css">
+</head>
+<body>
+<p id="said">Nothing yet</p>
+<script src="page.js"></script>
+</body>
+</html>
+"""
+SCRIPT = """
+const end = "</script><!--<script>";
+const inflate = async (id) => {
+  const bytes = Uint8Array.from(atob(document.getElementById(id).textContent), (c) => c.charCodeAt(0));
+  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+};
+const refused = (act) => { try { act(); return "allowed"; } catch { return "refused"; } };
+(async () => {
+  const module = await WebAssembly.compile(await inflate("block-kernel"));
+  const name = document.getElementById("block-given-name");
+  window.said = {
+    end,
+    module: module instanceof WebAssembly.Module,
+    name: name && JSON.parse(new TextDecoder().decode(await inflate("block-given-name"))),
+    eval: refused(() => eval("1")),
+    function: refused(() => new Function("return 1")()),
+    fetch: await fetch("http://127.0.0.1:9/").then(() => "allowed", () => "refused"),
+    colour: getComputedStyle(document.getElementById("said")).color,
+  };
+})();
+"""
+BUILT = {
+    "page.html": TEMPLATE,
+    "page.js": SCRIPT,
+    "page.css": '#said { color: rgb(1, 2, 3); } #said::after { content: "</style>"; }',
+    "stereodel.wasm": b"\0asm\1\0\0\0",
+    "widget.js": "export default {};",
+}
+REFUSED = ("Content Security Policy", "unsafe-eval")
+
+
+@pytest.fixture
+def built(monkeypatch):
+    """What was built, which a test may change."""
+    files = dict(BUILT)
+
+    def read(name):
+        content = files[name]
+        return content if isinstance(content, bytes) else content.encode()
+
+    for module in (assemble, contents):
+        monkeypatch.setattr(module, "built", read)
+    contents.kernel.cache_clear()
+    yield files
+    contents.kernel.cache_clear()
+
+
+def test_a_page_runs_by_itself(built, visit, tmp_path):
+    file = web(tmp_path / "page.html", lonlat=[(10, 48.4)], name='</script><script>alert("x")</script>')
+    page = visit(file, complaints=REFUSED)
+    page.until("window.said")
+    assert page.page.evaluate("said") == {
+        "end": "</script><!--<script>",
+        "module": True,
+        "name": '</script><script>alert("x")</script>',
+        "eval": "refused",
+        "function": "refused",
+        "fetch": "refused",
+        "colour": "rgb(1, 2, 3)",
+    }
+    assert page.requests == [file.as_uri()]
+
+
+def test_no_other_script_or_style_comes_in(built, visit, tmp_path):
+    """Were there a way in for text from a file or a link, the policy would still stop it."""
+    built["page.html"] = TEMPLATE.replace(
+        "<body>",
+        """<body><script>window.came_in = 1;</script><img src="x" onerror="window.came_in = 2">
+        <style>#said { color: red; }</style><script src="other.js"></script>""",
+    )
+    (tmp_path / "other.js").write_text("window.came_in = 3;")
+    page = visit(web(tmp_path / "page.html"), complaints=REFUSED)
+    page.until("window.said")
+    assert page.page.evaluate("window.came_in ?? 0") == 0
+    assert page.page.evaluate("said.colour") == "rgb(1, 2, 3)"
+
+
+def test_the_same_page_every_time(built):
+    assert assemble.html("110m") == assemble.html("110m")
+    given = contents.Given(np.array([(1.0, 2.0)]), "one")
+    blocks = set(re.findall('id="block-([^"]+)"', assemble.html("50m", given)))
+    assert blocks == {"kernel", "land-110m", "land-50m", "airports", "cities", "stars", "given", "given-name"}
+    assert "land-50m" not in assemble.html("110m")
+
+
+@pytest.mark.parametrize("place", [assemble.ENCODING, assemble.STYLE, assemble.SCRIPT])
+def test_a_template_without_a_place_or_with_two_is_an_error(built, place):
+    for text in (TEMPLATE.replace(place, ""), TEMPLATE.replace(place, place + place)):
+        built["page.html"] = text
+        with pytest.raises(ValueError, match="must have <"):
+            assemble.html("110m")
+
+
+def test_the_module_of_the_widget(built):
+    text = assemble.module("110m")
+    assert text.endswith("export default {};")
+    assert set(re.findall('"([a-z0-9-]+)": "', text)) == {"kernel", "land-110m"}
+
+
+def test_wrong_arguments_and_nothing_written(built, tmp_path):
+    file = tmp_path / "page.html"
+    with pytest.raises(ValueError, match="resolution is '10m', but must be one of '50m', '110m'"):
+        web(file, resolution="10m")
+    with pytest.raises(ValueError, match=r"lonlat\[0, 1\] is latitude 91"):
+        web(file, lonlat=[(0, 91)])
+    assert not file.exists()

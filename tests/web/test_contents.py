@@ -1,0 +1,119 @@
+"""What a page carries comes out of it as it went in: land without seams, sets, and the reader's points to the bit."""
+
+import json
+
+import numpy as np
+import pytest
+
+from stereodel.curves.ragged import Ragged
+from stereodel.data import airports, cities, land, stars
+from stereodel.web.contents import MOST_POINTS, Given, land_rings, sites
+from stereodel.web.packing import packed, packed_doubles, packed_places, varints
+
+from .conftest import SCRIPT
+
+READ = f"""
+import {{ text }} from "node:stream/consumers";
+import {{ Contents }} from "{SCRIPT}/contents.ts";
+const blocks = JSON.parse(await text(process.stdin));
+const contents = new Contents((name) => blocks[name] ?? null);
+const rings = (found) => found && {{ lonlat: [...found.lonlat], offsets: [...found.offsets] }};
+"""
+
+
+def read(node, blocks, expression):
+    return node(READ + f"console.log(JSON.stringify(await {expression}));", input=json.dumps(blocks))
+
+
+def read_rings(node, text):
+    found = read(node, {"land-50m": text}, "rings(await contents.land('50m'))")
+    return np.reshape(found["lonlat"], (-1, 2)), found["offsets"]
+
+
+def test_places_come_back_to_the_bit(node, rng):
+    degrees = np.round(rng.uniform((-180, -90), (180, 90), size=(1000, 2)), 6)
+    degrees[:4] = [(-180, -90), (180, 90), (0, 0), (-0.000001, 0.000001)]
+    lonlat, offsets = read_rings(node, packed_places(Ragged(degrees, np.array([0, 3, 3, 1000])), 6))
+    np.testing.assert_array_equal(lonlat, degrees)
+    assert offsets == [0, 3, 3, 1000]
+
+
+def test_doubles_come_back_to_the_bit(node, rng):
+    degrees = np.concatenate([rng.uniform(-90, 90, size=(50, 2)), [[-0.0, 5e-324], [1 / 3, -90]]])
+    blocks = {"given": packed_doubles(degrees), "given-name": packed(json.dumps('Orte, "neu" ∂').encode())}
+    found = read(
+        node, blocks, "contents.given().then(({ name, lonlat }) => [name, [...new Uint8Array(lonlat.buffer)]])"
+    )
+    assert found[0] == 'Orte, "neu" ∂'
+    assert bytes(found[1]) == degrees.astype("<f8").tobytes()
+
+
+def test_bytes_come_back(node, rng):
+    content = rng.bytes(300)
+    assert bytes(read(node, {"kernel": packed(content)}, "contents.kernel().then((bytes) => [...bytes])")) == content
+
+
+def test_what_a_page_has_not(node):
+    nothing = "Promise.all([contents.land('50m'), contents.set('stars').then((s) => s.length), contents.given()])"
+    assert read(node, {}, nothing) == [None, 0, None]
+    assert read(node, {}, "contents.kernel().catch((error) => error.message)") == "the page has no kernel"
+
+
+@pytest.mark.parametrize(
+    ("number", "written"), [(0, [0]), (127, [127]), (128, [128, 1]), (2**40, [128, 128, 128, 128, 128, 32])]
+)
+def test_varints(number, written):
+    assert varints(np.array([number, 1])).tolist() == [*written, 1]
+
+
+@pytest.mark.parametrize("resolution", ["110m", "50m"])
+def test_land_has_no_seams(node, resolution):
+    lonlat, offsets = read_rings(node, land_rings(resolution))
+    rings = Ragged(lonlat, np.array(offsets))
+    after = lonlat[rings.following]
+    assert rings.sizes.min() > 2
+    assert (lonlat != after).any(axis=1).all()
+    assert lonlat[:, 1].min() > -86  # the coast of Antarctica, and not the pole
+    along = (np.abs(lonlat[:, 0]) == 180) & (np.abs(after[:, 0]) == 180)
+    # Both sides of Fiji's Taveuni differ by 200 m there.
+    assert np.abs(lonlat[along, 1] - after[along, 1]).max(initial=0) < 0.011
+
+
+@pytest.mark.parametrize("resolution", ["110m", "50m"])
+def test_land_is_that_of_the_package(node, resolution):
+    """The rings hold what the land of the package holds: the areas on a cylinder of equal area, to the rounding."""
+    lonlat, offsets = read_rings(node, land_rings(resolution))
+    rings = Ragged(lonlat, np.array(offsets))
+
+    def area(rings):
+        a, b = rings.values, rings.values[rings.following]
+        step = np.remainder(b[:, 0] - a[:, 0] + 180, 360) - 180
+        height = np.sin(np.radians([a[:, 1], b[:, 1]])).mean(axis=0)
+        turns = np.bincount(rings.row, step, minlength=len(rings))
+        # Round the pole, the land beyond it is the rest of the cylinder.
+        return -np.sum(height * np.radians(step)) + np.sum(np.abs(np.round(turns / 360))) * 2 * np.pi
+
+    table = land(resolution)
+    whole = Ragged(table.lonlat, table.ring_offsets.astype(np.intp))
+    sides = whole.values[whole.following]
+    stored = -np.sum(
+        np.sin(np.radians([whole.values[:, 1], sides[:, 1]])).mean(axis=0)
+        * np.radians(sides[:, 0] - whole.values[:, 0])
+    )
+    assert area(rings) == pytest.approx(stored, rel=1e-3)
+    assert 0.28 < area(rings) / (4 * np.pi) < 0.30
+
+
+def test_the_sets_are_places_of_the_package(node):
+    tables = {"cities": cities().lonlat, "airports": airports().lonlat, "stars": stars().lonlat}
+    for name, whole in tables.items():
+        found = np.reshape(read(node, {name: sites(name)}, f"contents.set('{name}').then((s) => [...s])"), (-1, 2))
+        assert 100 < len(found) < 300
+        kept = {tuple(place) for place in whole.tolist()}
+        assert all(tuple(place) in kept for place in found.tolist())
+        assert len(np.unique(found, axis=0)) == len(found)
+
+
+def test_too_many_points():
+    with pytest.raises(ValueError, match=r"stars\.csv has 1000001 points, but a page takes up to 1000000"):
+        Given(np.zeros((MOST_POINTS + 1, 2)), "stars.csv")

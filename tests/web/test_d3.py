@@ -1,0 +1,231 @@
+"""`geoDelaunay` and `geoVoronoi` beside d3-geo-voronoi itself: its documented examples by method, and random sets.
+
+Both are asked the same; orders that neither documents are taken out before they are compared.
+"""
+
+import json
+
+import numpy as np
+import pytest
+
+from tests.web.conftest import SCRIPT
+
+BOTH = f"""
+import {{ readFileSync }} from "node:fs";
+import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+import * as ours from "{SCRIPT}/kernel/d3.ts";
+import * as theirs from "{SCRIPT}/node_modules/d3-geo-voronoi/src/index.js";
+import {{ geoArea, geoCentroid }} from "{SCRIPT}/node_modules/d3-geo/src/index.js";
+await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));
+const given = JSON.parse(readFileSync(0, "utf8"));
+"""
+
+FIVE = [[10, 0], [10, 10], [3, 5], [-2, 5], [0, 0]]
+"""The sites of its own examples."""
+
+
+@pytest.fixture
+def both(node):
+    """Ask both of them: `both("d3.geoVoronoi().hull(given)", sites)`; ours first."""
+
+    def ask(expression, given):
+        line = f"{BOTH} const ask = (d3) => {expression}; console.log(JSON.stringify([ask(ours), ask(theirs)]));"
+        return node(line, input=json.dumps(given))
+
+    return ask
+
+
+def turned(ring):
+    """A ring from its least entry on; the last one of a closed ring stands for the first."""
+    rows = [tuple(row) if isinstance(row, list) else row for row in ring]
+    rows = rows[:-1] if rows[0] == rows[-1] else rows
+    least = rows.index(min(rows))
+    return rows[least:] + rows[:least]
+
+
+def rounded(value, digits=6):
+    """Numbers of nested lists without their last digits, -180 for 180 and one longitude at the poles."""
+    if isinstance(value, list) and len(value) == 2 and all(isinstance(part, int | float) for part in value):
+        lon, lat = round(value[0], digits), round(value[1], digits)
+        return (0.0 if abs(lat) == 90 else -180.0 if lon == 180 else lon + 0.0, lat + 0.0)
+    return [rounded(part, digits) for part in value] if isinstance(value, list) else value
+
+
+def places(count, seed):
+    rng = np.random.default_rng(seed)
+    z = rng.uniform(-1, 1, count)
+    return np.column_stack([rng.uniform(-180, 180, count), np.degrees(np.arcsin(z))]).round(4).tolist()
+
+
+def test_the_methods_that_it_documents(both):
+    names = "polygons triangles links mesh cellMesh find hull x y"
+    (own, other), (light, their_light) = (
+        both("given.map((name) => typeof d3.geoVoronoi()[name])", names.split()),
+        both("Object.keys(d3.geoDelaunay(given)).sort()", FIVE),
+    )
+    assert own == other == ["function"] * 9
+    assert light == their_light
+
+
+def test_hull(both):
+    own, other = both("d3.geoVoronoi().hull(given).coordinates[0]", FIVE)
+    assert turned(own) == turned(other) == [(-2, 5), (10, 10), (10, 0), (0, 0)]
+    assert both("d3.geoVoronoi(given).hull()", places(100, 1)) == [None, None]
+
+
+def test_mesh(both):
+    own, other = both("d3.geoVoronoi().mesh(given).coordinates", FIVE)
+    assert sorted(map(sorted, own)) == sorted(map(sorted, other))
+    assert len(own) == 8
+
+
+def test_cell_mesh(both):
+    own, other = both("d3.geoVoronoi().cellMesh(given).coordinates", FIVE)
+    assert sorted(map(sorted, rounded(own))) == sorted(map(sorted, rounded(other)))
+
+
+def test_find(both):
+    assert both("[d3.geoVoronoi(given).find(1, 1), d3.geoVoronoi(given).find(1, 1, 4)]", FIVE)[0] == [4, 4]
+
+
+def test_find_within_a_radius_in_degrees(both):
+    own, _ = both("[d3.geoVoronoi(given).find(50, 0, 39), d3.geoVoronoi(given).find(50, 0, 41)]", FIVE)
+    assert own == [None, 0]
+
+
+def test_links_and_the_urquhart_graph(both):
+    line = (
+        "d3.geoVoronoi().links(given).features.map(({properties: p}) => [[p.source, p.target], p.length, p.urquhart])"
+    )
+    own, other = both(line, [[0, 0], [10, 0], [0, 10]])
+    for links in (own, other):
+        assert {(tuple(map(tuple, sorted(ends))), flag) for ends, _, flag in links} == {
+            (((0, 0), (10, 0)), True),
+            (((0, 0), (0, 10)), True),
+            (((0, 10), (10, 0)), False),
+        }
+    lengths = [dict(zip(map(str, map(sorted, (e for e, _, _ in links))), links, strict=True)) for links in (own, other)]
+    for name, (_, length, _) in lengths[0].items():
+        assert abs(length - lengths[1][name][1]) < 1e-12
+
+
+def test_triangles(both):
+    line = (
+        "d3.geoVoronoi().triangles(given).features.map((f) => [f.geometry.coordinates[0], f.properties.circumcenter])"
+    )
+    own, other = both(line, [[0, 0], [10, 0], [0, 10]])
+    assert [turned(ring) for ring, _ in own] == [turned(ring) for ring, _ in other]
+    assert rounded(own[0][1]) == rounded(other[0][1]) == (5.0, 4.981069)
+
+
+def test_one_site_has_the_whole_sphere_and_none_has_nothing(both):
+    number = "((place) => place.map((value) => value ?? NaN))"  # JSON has no NaN
+    line = f"given.map((sites) => d3.geoVoronoi(sites.map({number})).polygons().features)"
+    own, other = both(line, [[[None, -1], [5, 10]], [[4, None]], []])
+    assert own == other
+    assert own[0][0]["geometry"] == {"type": "Sphere"}
+    assert own[1:] == [[], []]
+
+
+def test_without_data(both):
+    assert (
+        both("['polygons', 'triangles', 'links', 'mesh', 'cellMesh'].map((m) => d3.geoVoronoi()[m]())", [])[0]
+        == [False] * 5
+    )
+
+
+def test_accessors(both):
+    sites = [{"lon": 10, "lat": 0}, {"lon": 3, "lat": 5}, {"lon": -2, "lat": 5}]
+    own, other = both("d3.geoVoronoi().x((d) => +d.lon).y((d) => +d.lat)(given).points", sites)
+    assert own == other == [[10, 0], [3, 5], [-2, 5]]
+    assert both("d3.geoVoronoi().x((d) => d.lon).x()(given[0])", sites) == [10, 10]
+
+
+def test_features_are_at_their_centroids(both):
+    ring = [[0, 0], [0, 10], [10, 10], [10, 0], [0, 0]]
+    hole = [[2, 2], [4, 2], [4, 4], [2, 4], [2, 2]]
+    shapes = [
+        {"type": "Point", "coordinates": [1, 2]},
+        {"type": "MultiPoint", "coordinates": [[20, 0], [20, 30], [40, 50]]},
+        {"type": "LineString", "coordinates": [[20, 0], [20, 30], [40, 50]]},
+        {"type": "MultiLineString", "coordinates": [[[20, 0], [20, 30]], [[40, 50], [60, 50]]]},
+        {"type": "Polygon", "coordinates": [ring, hole]},
+        {"type": "MultiPolygon", "coordinates": [[ring], [[[100, 0], [90, 10], [100, 10], [100, 0]]]]},
+        {"type": "GeometryCollection", "geometries": [{"type": "Point", "coordinates": [9, 9]}]},
+    ]
+    features = [{"type": "Feature", "properties": {}, "geometry": shape} for shape in shapes]
+    own, other = both("d3.geoVoronoi(given).points", {"type": "FeatureCollection", "features": features})
+    assert np.allclose(own, other, rtol=0, atol=1e-9)
+    assert np.allclose(both("d3.geoVoronoi(given).points", shapes)[0], own)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("count", [4, 5, 20, 300])
+def test_random_sites(both, count, seed):
+    """Indices of everything, sets of everything, on sites that lie nowhere near a tie."""
+    own, other = both(
+        "(() => { const d = d3.geoDelaunay(given);"
+        "const shown = ({edges, triangles, neighbors, polygons, hull, mesh}) => "
+        "({edges, triangles, neighbors, polygons, hull, mesh, centers: d.centers}); return { ...shown(d),"
+        "urquhart: d.urquhart(d.edges.map((_, k) => k)), found: given.map(([lon, lat]) => d.find(-lon, lat)),"
+        "areas: d3.geoVoronoi(given).polygons().features.map(geoArea) }; })()",
+        places(count, 100 * count + seed),
+    )
+    assert {tuple(turned(t)) for t in own["triangles"]} == {tuple(turned(t)) for t in other["triangles"]}
+    assert {tuple(sorted(e)) for e in own["edges"]} == {tuple(sorted(e)) for e in other["edges"]}
+    assert [sorted(n) for n in own["neighbors"]] == [sorted(n) for n in other["neighbors"]]
+    assert own["found"] == other["found"]
+    assert np.allclose(own["areas"], other["areas"], rtol=1e-9)
+    assert sorted(own["hull"]) == sorted(other["hull"])
+    assert len(own["mesh"]) == len(other["mesh"])
+
+    def cells(made):
+        return [turned([made["centers"][center] for center in polygon]) for polygon in made["polygons"]]
+
+    for cell, their_cell in zip(cells(own), cells(other), strict=True):
+        assert len(cell) == len(their_cell)
+        assert np.allclose(sorted(cell), sorted(their_cell), atol=1e-6)
+
+
+def test_the_urquhart_graph_of_random_sites(both):
+    line = (
+        "d3.geoVoronoi().links(given).features.filter((f) => f.properties.urquhart).map((f) => f.geometry.coordinates)"
+    )
+    own, other = both(line, places(200, 9))
+    assert sorted(map(sorted, own)) == sorted(map(sorted, other))
+    assert 200 < len(own) < 500
+
+
+@pytest.mark.parametrize(
+    "sites",
+    [
+        [[0, 0], [10, 0]],
+        [[0, 0], [180, 0]],
+        [[0, 90], [0, -90]],
+        [[0, 0], [90, 0], [180, 0], [-90, 0]],
+        [[0, 0], [10, 0], [20, 0]],
+        [[0, 0], [10, 0], [0, 10]],
+        [[0, 0], [10, 0], [0, 10], [10, 0]],
+        [[0, 0], [1e-9, 0], [0, 1e-9], [1e-9, 1e-9], [90, 0]],
+    ],
+    ids=str,
+)
+def test_cells_of_sites_that_others_stumble_over(both, sites):
+    """They are wound as d3-geo wants them: areas by its own measure add up to the sphere; duplicates have none."""
+    line = "d3.geoVoronoi(given).polygons().features.map((f) => f.geometry && geoArea(f))"
+    areas, _ = both(f"d3 === ours ? {line} : null", sites)
+    cells = [area for area in areas if area is not None]
+    assert len(cells) == len({tuple(site) for site in sites})
+    assert np.isclose(sum(cells), 4 * np.pi, rtol=1e-6)
+    assert min(cells) > 0
+
+
+def test_clusters_within_a_city(both):
+    """A kilometre of the Earth with sites a millimetre apart: twice as many triangles as sites, less four."""
+    rng = np.random.default_rng(3)
+    sites = [*([13.4, 52.5] + 1e-8 * rng.normal(size=(300, 2))).tolist(), [0, 0], [120, 0], [-120, 0], [0, 90]]
+    (count, found), _ = both(
+        "(() => { const d = d3.geoDelaunay(given); return [d.triangles.length, d.find(...given[7])]; })()", sites
+    )
+    assert count == 2 * len(sites) - 4
+    assert found == 7

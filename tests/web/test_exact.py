@@ -1,0 +1,205 @@
+"""The kernel of the web against the one of Python: every integer, every coordinate, every sign, bit for bit.
+
+Both sides hash each array; the script is tests/web/exact.ts, in Node and in Chromium.
+"""
+
+import base64
+import hashlib
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stereodel
+from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, _kernel
+from stereodel.conformal import MoebiusMap, fisheye
+from stereodel.predicates import in_bubble, incircle, orient2d, orient3d
+from stereodel.sphere import Rotation
+from tests.web.hard_sets import plane_sets, queries_of, sphere_sets
+
+ROOT = Path(__file__).resolve().parents[2]
+WEB = ROOT / "stereodel" / "web"
+ESBUILD = WEB / "script" / "node_modules" / "esbuild" / "bin" / "esbuild"
+
+SETS = {**{f"plane: {name}": points for name, points in plane_sets().items()}}
+SETS |= {f"sphere: {name}": points for name, points in sphere_sets().items()}
+
+
+def test_there_are_enough_sets():
+    assert len(SETS) >= 60
+    assert {(points.shape[1], min(len(points), 3)) for points in SETS.values()} >= {
+        (w, n) for w in (2, 3) for n in range(4)
+    }
+
+
+def digest(array, kind):
+    array = np.ascontiguousarray(array, dtype=kind)
+    if array.dtype.kind == "f":
+        array = np.where(np.isnan(array), np.nan, array)
+    return hashlib.sha256(array.tobytes()).hexdigest()
+
+
+def described(points):
+    """What exact.ts says of a set, by Python."""
+    queries = queries_of(points)
+    if points.shape[1] == 2:
+        triangulation = PlanarDelaunay(points, workers=1)
+        diagram = PlanarVoronoi(triangulation)
+    else:
+        triangulation = SphericalDelaunay(points, workers=1)
+        diagram = SphericalVoronoi(triangulation)
+    indptr, indices = triangulation.vertex_neighbor_vertices
+    tally = triangulation.inconclusive
+    stages = [tally.get(stage, 0) for stage in ("filter", "curvature", "double_double", "exact")]
+    integers = {"indptr": indptr, "indices": indices, "find_simplex": triangulation.find_simplex(queries)}
+    for name in ("simplices", "neighbors", "duplicates", "edges", "convex_hull"):
+        integers[name] = getattr(triangulation, name)
+    for name in ("region_offsets", "region_indices", "region_neighbors", "point_region", "simplex_vertex"):
+        integers[name] = getattr(diagram, name)
+    integers |= {"ridge_points": diagram.ridge_points, "ridge_vertices": diagram.ridge_vertices}
+    doubles = {"counts": [triangulation.dimension, *stages], "circumcenters": triangulation.circumcenters}
+    doubles |= {"vertices": diagram.vertices, "areas": diagram.areas(), "centroids": diagram.centroids()}
+    found = {}
+    if points.shape[1] == 3:
+        doubles |= {"lonlat": stereodel.xyz_to_lonlat(points), "ridge_normals": diagram.ridge_normals()}
+        found["closing"] = digest(triangulation.closing, np.bool_)
+    if len(points):
+        integers["nearest"] = triangulation.nearest(queries)
+        integers["nearest_few"] = triangulation.nearest(queries, k=min(5, len(points)))
+        triangulation.insert(queries[:1])
+        integers["inserted"] = triangulation.simplices
+        integers["number"] = triangulation.remove([0])
+        integers["removed"] = triangulation.simplices
+        integers["left"] = triangulation.duplicates
+    found |= {name: digest(array, np.int32) for name, array in integers.items()}
+    return found | {name: digest(array, np.float64) for name, array in doubles.items()}
+
+
+def text(array):
+    return base64.b64encode(np.ascontiguousarray(array, dtype=float).tobytes()).decode("ascii")
+
+
+@pytest.fixture(scope="session")
+def bundle(tmp_path_factory):
+    """exact.ts with the module inside: `web.ready` and its functions, for any engine."""
+    folder = tmp_path_factory.mktemp("exact")
+    entry = folder / "entry.ts"
+    entry.write_text(
+        f'import bytes from "{WEB}/built/stereodel.wasm";\n'
+        f'import {{ load }} from "{WEB}/script/kernel/instance.ts";\n'
+        f'export * from "{ROOT}/tests/web/exact.ts";\n'
+        "export const ready = load(bytes);\n"
+        "const bytesOf = (text) => Uint8Array.from(atob(text), (c) => c.charCodeAt(0));\n"
+        "export const doubles = (text) => new Float64Array(bytesOf(text).buffer);\n",
+        encoding="utf-8",
+    )
+    made = folder / "exact.js"
+    line = [
+        ESBUILD,
+        entry,
+        "--bundle",
+        "--format=iife",
+        "--global-name=web",
+        "--loader:.wasm=binary",
+        f"--outfile={made}",
+    ]
+    ran = subprocess.run([*line, "--log-level=error", "--target=es2022"], capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+    return made
+
+
+@pytest.fixture(scope="session", params=["node", "chromium"])
+def web(request, bundle, tmp_path_factory):
+    """Run an expression of JavaScript on a value: `web("web.signs(...given)", value)`."""
+    if request.param == "node":
+        node = request.getfixturevalue("node")
+        code = f"import {{ readFileSync }} from 'node:fs'; (0, eval)(readFileSync({json.dumps(str(bundle))}, 'utf8'));"
+        code += "await web.ready; const given = JSON.parse(readFileSync(0, 'utf8'));"
+        yield lambda line, given: node(f"{code} console.log(JSON.stringify(await {line}))", input=json.dumps(given))
+        return
+    page = request.getfixturevalue("browser").new_page()
+    empty = tmp_path_factory.mktemp("page") / "page.html"
+    empty.write_text("<!doctype html><title>Kernel</title>", encoding="utf-8")
+    page.goto(empty.as_uri())
+    page.add_script_tag(path=bundle)
+    page.evaluate("web.ready")
+    yield lambda line, given: page.evaluate(f"async (given) => await {line}", given)
+    page.close()
+
+
+def test_every_array_of_every_set(web):
+    given = [[text(points), points.shape[1], text(queries_of(points))] for points in SETS.values()]
+    line = "(async () => { const all = []; for (const [points, width, queries] of given) "
+    line += "all.push(await web.describe(web.doubles(points), width, web.doubles(queries))); return all; })()"
+    made = web(line, given)
+    wrong = []
+    for (name, points), arrays in zip(SETS.items(), made, strict=True):
+        expected = described(points)
+        assert set(arrays) == set(expected)
+        wrong += [f"{name}: {array}" for array in expected if arrays[array] != expected[array]]
+    assert wrong == []
+
+
+def tied_rows():
+    """Rows of four (three) points that lie exactly on a circle, a plane or a line, or a hair beside."""
+    rng = np.random.default_rng(60_000)
+    for name, width, count in (
+        ("orient2d", 2, 3),
+        ("incircle", 2, 4),
+        ("orient3d", 3, 4),
+        ("in_bubble", 3, 4),
+        ("turn", 3, 3),
+    ):
+        rows = [rng.integers(-3, 4, size=(12_000, width)).astype(float) for _ in range(count)]
+        # A third of the rows are moved by one unit in the last place of one coordinate, a third are scaled.
+        rows[-1][:4000, 0] = np.nextafter(rows[-1][:4000, 0], rng.choice([-9.0, 9.0], size=4000))
+        rows[0][4000:8000] *= 2.0 ** rng.integers(-30, 30, size=(4000, 1))
+        stays = np.all([row.any(axis=1) for row in rows], axis=0)
+        yield name, [row[stays] for row in rows]
+
+
+def sphere_turn(a, b, c):
+    return _kernel.sphere.turn(a, b, c)
+
+
+PREDICATES = {
+    "orient2d": orient2d,
+    "incircle": incircle,
+    "orient3d": orient3d,
+    "in_bubble": in_bubble,
+    "turn": sphere_turn,
+}
+
+
+def test_signs_at_ties(web):
+    asked = list(tied_rows())
+    assert sum(len(rows[0]) for _, rows in asked) > 50_000
+    given = [[name, [text(points) for points in rows]] for name, rows in asked]
+    line = "Promise.all(given.map(([name, rows]) => web.signs(name, rows.map(web.doubles))))"
+    made = dict(zip([name for name, _ in asked], web(line, given), strict=True))
+    for name, rows in asked:
+        signs = PREDICATES[name](*rows)
+        assert min(np.count_nonzero(signs == s) for s in (-1, 0, 1)) > 100
+        assert made[name] == digest(signs, np.int8), name
+
+
+def test_maps_of_all_magnifications(web):
+    rng = np.random.default_rng(19)
+    lonlat = np.column_stack([rng.uniform(-180, 180, 3000), rng.uniform(-90, 90, 3000)])
+    lonlat[:6] = [[0, 90], [0, -90], [0, 0], [180, 0], [-90, 45], [12.5, 41.9]]
+    sizes = [float(10.0**k) for k in range(-9, 10)] + [1.0, 1 / 3, 7.25]
+    made = iter(web("web.maps(web.doubles(given.lonlat), given.sizes)", {"lonlat": text(lonlat), "sizes": sizes}))
+    xyz = stereodel.lonlat_to_xyz(lonlat)
+    for k, size in enumerate(sizes):
+        lens = fisheye(lonlat[k], magnification=size)
+        turned = MoebiusMap.rotation(Rotation.about(lonlat[k + 1], 10 * k + 0.1))
+        both = lens @ turned @ fisheye(xyz[k + 3], magnification=2.5)
+        for which, map_ in enumerate([lens, both, both.inverse(), lens @ lens.inverse()]):
+            parameters = [*map_.left.quaternion, map_.magnification, *map_.right.quaternion]
+            expected = {"parameters": parameters, "focus": map_.focus, "images": map_(xyz)}
+            expected |= {"scales": map_.scale_factor(xyz), "lonlat": map_.lonlat(lonlat)}
+            arrays = next(made)
+            wrong = [name for name, array in expected.items() if arrays[name] != digest(array, np.float64)]
+            assert wrong == [], (size, which)

@@ -1,0 +1,137 @@
+"""The state of the page as a link: what is written is read back, and what is hostile is refused as a whole."""
+
+import json
+import random
+import string
+
+import numpy as np
+import pytest
+
+from .conftest import SCRIPT
+
+LINK = f"""
+import {{ text }} from "node:stream/consumers";
+import {{ LinkError, LinkValues, packPlaces, readLink, unpackPlaces, writeLink, writeNumber }} from "{SCRIPT}/link.ts";
+const given = JSON.parse(await text(process.stdin));
+const attempt = (body) => {{
+  try {{ return body(); }} catch (error) {{ return error instanceof LinkError ? "refused" : String(error); }}
+}};
+"""
+
+
+def ask(node, expression, given):
+    """What an expression of `given` is; signs that end a line of output are written by their numbers."""
+    answer = rf"JSON.stringify({expression}).replace(/[^ -~]/g, (c) => '\\u' + c.charCodeAt(0).toString(16).padStart(4, '0'))"
+    return node(f"{LINK}console.log({answer});", input=json.dumps(given))
+
+
+READ = (
+    "given.map((hash) => attempt(() => { const { room, values } = readLink(hash); return [room, values.entries()]; }))"
+)
+PACKED = "given.map((places) => packPlaces(Float64Array.from(places)))"
+UNPACKED = "given.map((text) => attempt(() => [...unpackPlaces(text)]))"
+
+
+def test_a_state_comes_back(node):
+    values = {"lat": "20", "set": "gap", "file": "Orte & Städte=1 #2.csv", "sites": "dAA_-", "note": "a+b%c d"}
+    hash = ask(node, "writeLink('lift', given)", values)
+    assert ask(node, READ, ["#" + hash, hash]) == [["lift", [list(pair) for pair in values.items()]]] * 2
+    assert set("# ").isdisjoint(hash)
+
+
+def test_a_room_alone_and_nothing_are_links(node):
+    assert ask(node, READ, ["", "#", "#lift", "globe"]) == [["sphere", []], ["sphere", []], ["lift", []], ["globe", []]]
+
+
+HOSTILE = [
+    "#cellar",
+    "#main",
+    "#v=2&room=sphere",
+    "#room=sphere",
+    "#v=1",
+    "#v=1&room=__proto__",
+    "#v=1&room=sphere&lat",
+    "#v=1&room=sphere&lat=1&lat=2",
+    "#v=1&room=sphere&lat=%E0%A4%A",
+    "#<script>alert(1)</script>",
+    "#v=1&room=<img src=x onerror=alert(1)>",
+    "#javascript:alert(1)",
+    "#v=1&room=sphere&sites=" + "A" * 1_000_000,
+    "#&",
+    "#v=1&&room=sphere",
+]
+
+
+def test_hostile_links_are_refused(node):
+    assert ask(node, READ, HOSTILE) == ["refused"] * len(HOSTILE)
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["NaN", "Infinity", "1e999", "0x10", "", " 5", "5 ", "--5", "1e5e5", "91", "-90.0001", "1" * 40, "<b>", "null"],
+)
+def test_numbers_out_of_range_and_what_is_none_are_refused(node, text):
+    assert ask(node, "attempt(() => new LinkValues(given).number('lat', -90, 90, 0))", {"lat": text}) == "refused"
+
+
+def test_numbers_and_words_are_read(node):
+    read = "[new LinkValues(given).number('lat', -90, 90, 7), new LinkValues(given).number('no', 0, 1, 0.5)]"
+    assert ask(node, read, {"lat": "-53.125"}) == [-53.125, 0.5]
+    assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9, 1))", {"k": "2.5"}) == "refused"
+    words = "attempt(() => new LinkValues(given).word('click', ['keep', 'add'], 'keep'))"
+    assert [ask(node, words, each) for each in ({"click": "add"}, {}, {"click": "toString"})] == [
+        "add",
+        "keep",
+        "refused",
+    ]
+
+
+def test_numbers_are_written_short(node):
+    expression = "given.map(([value, digits]) => writeNumber(value, digits))"
+    assert ask(node, expression, [[5, 4], [-0.00001, 3], [1.25, 1], [100, 0], [-2.5, 4]]) == [
+        "5",
+        "0",
+        "1.3",
+        "100",
+        "-2.5",
+    ]
+
+
+def test_sites_come_back_to_the_bit(node, rng):
+    decimals = np.round(rng.uniform((-180, -90), (180, 90), size=(2000, 2)), 7)
+    sets = [
+        [],
+        [0.0, 0.0],
+        decimals.ravel().tolist(),
+        rng.normal(scale=50, size=200).tolist(),
+        [4.5e6 + 0.123, 5.3e6 - 1.001, 4.5e6, -5.3e6],
+        [1 / 3, 1e-12],
+    ]
+    packed = ask(node, PACKED, sets)
+    assert [text[0] for text in packed] == ["d", "d", "d", "f", "d", "f"]
+    assert len(packed[2]) < 14 * 2000
+    assert ask(node, UNPACKED, packed) == sets
+
+
+def test_sites_that_are_none_are_refused(node):
+    hostile = ["", "x", "d!", "dA", "d" + "_" * 40, "f" + "A" * 21, "f" + "_" * 22, "dgA", "d" + "AA" * 5000, "dAAAA"]
+    answers = ask(node, UNPACKED, hostile)
+    assert all(answer == "refused" or all(np.isfinite(answer)) for answer in answers)
+    assert answers.count("refused") >= 8
+
+
+def test_random_letters_are_refused_or_read_and_never_anything_else(node):
+    letters = random.Random(7)
+    hashes = []
+    for _ in range(2000):
+        kind = letters.randrange(3)
+        noise = "".join(letters.choices(string.printable + "äß∂\u2028%&=#", k=letters.randrange(60)))
+        hashes.append(["#", "#v=1&room=sphere&", "#v=1&room=lift&sites=d"][kind] + noise)
+    for answer in ask(node, READ, hashes):
+        assert answer == "refused" or answer[0] in ("sphere", "lift", "globe")
+    packed = [
+        "df"[k % 2] + "".join(letters.choices(string.ascii_letters + "-_", k=letters.randrange(90)))
+        for k in range(2000)
+    ]
+    for answer in ask(node, UNPACKED, packed):
+        assert answer == "refused" or (len(answer) % 2 == 0 and all(abs(x) <= 4e8 for x in answer))

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Usage: tools/build_web.sh VENV [compare]
+# Build the files of stereodel/web/built with the tools of VENV, unless they are up to date; with `compare` build them in
+# any case, and fail if they are not the tracked ones to the last byte.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+venv=$(cd "$1" && pwd)
+compare=${2:-}
+PATH=$venv/bin:$PATH # its cmake, ninja, node and npm come first
+script=stereodel/web/script
+built=stereodel/web/built
+work=build/web
+if [[ -z $compare ]] && python -m tools.web_hashes 2>/dev/null; then exit 0; fi
+mkdir -p "$work" "$built"
+quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
+
+zig=$(python -c 'import ziglang; print(ziglang.__path__[0])')/zig
+echo "Building the kernel for the web with zig $("$zig" version)" >&2
+# Its C++ library is made once, into a folder of ours.
+export ZIG_GLOBAL_CACHE_DIR=$PWD/$work/zig ZIG_LOCAL_CACHE_DIR=$PWD/$work/zig
+rm -f "$work/cmake/CMakeCache.txt"
+# A third fewer bytes for a tenth more time. Zig takes -Oz for -Os: hence the word for clang itself.
+quietly cmake -S . -B "$work/cmake" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$PWD/tools/zig.cmake" -DZIG="$zig" \
+    -DCMAKE_CXX_FLAGS_RELEASE="-Os -Xclang -Oz -DNDEBUG" -DSTEREODEL_DEVELOPMENT=ON -DSTEREODEL_MODULE=OFF \
+    -DSTEREODEL_THREADS=OFF -DSTEREODEL_WEB=ON
+quietly cmake --build "$work/cmake"
+rm -rf "$work/stage"
+quietly cmake --install "$work/cmake" --prefix "$work/stage"
+chmod 644 "$work/stage/stereodel.wasm"
+
+tools/node_modules.sh "$venv"
+bundle() { # ENTRY OUTPUT OPTION…
+    quietly "$script/node_modules/.bin/esbuild" "$script/$1" --bundle --minify --charset=utf8 --legal-comments=none \
+        --outfile="$work/stage/$2" "${@:3}"
+}
+bundle main.ts page.js --format=iife --target=es2022
+bundle widget.ts widget.js --format=esm --target=es2022
+bundle page.css page.css
+cp "$script/page.html" "$work/stage/page.html"
+
+python -m tools.web_hashes "$work/stage"
+if [[ -n $compare ]]; then
+    diff -rq "$work/stage" "$built" >&2 || { echo "tools/build_web.sh: run make web and commit $built" >&2; exit 1; }
+else
+    # Moved into place whole, and what is built no more goes.
+    rm -rf "$built"
+    cp -r "$work/stage" "$built"
+fi
