@@ -38,13 +38,20 @@ OPTIONS: Final = (
 )
 """No network: no name is found, the browser asks for nothing by itself. Type without hinting is the same everywhere."""
 
-COUNT_FRAMES: Final = """(() => {
+WATCH: Final = """(() => {
   let frames = 0;
   const ask = requestAnimationFrame.bind(window);
   window.requestAnimationFrame = (draw) => ask((now) => { frames += 1; return draw(now); });
   Object.defineProperty(window, "framesDrawn", { get: () => frames });
+  const watch = new MutationObserver(() => {
+    if (document.documentElement.dataset.ready === undefined) return;
+    watch.disconnect();
+    ask(() => setTimeout(() => { window.readyAt = performance.now(); }));
+  });
+  watch.observe(document, { attributes: true, subtree: true, attributeFilter: ["data-ready"] });
 })()"""
-"""Runs before every script of a page: counts the frames that the page asked for and got."""
+"""Runs before every script of a page: counts the frames that the page asked for and got, and notes the milliseconds
+until the first one after `data-ready` was set was drawn."""
 
 INK: Final = 24
 """Levels, of 255, by which a pixel must differ from the ground to be ink: more than shading from pixel to pixel has."""
@@ -170,7 +177,7 @@ class Visit:
             offline=self._address.startswith("file:") if offline is None else offline,
             accept_downloads=True,
         )
-        self._context.add_init_script(COUNT_FRAMES)
+        self._context.add_init_script(WATCH)
         self.page: Page = self._context.new_page()
         self.requests: list[str] = []
         self.complaints: list[str] = []
@@ -224,6 +231,14 @@ class Visit:
         before = self.page.evaluate("framesDrawn")
         self.page.wait_for_timeout(1000 * seconds)
         return int(self.page.evaluate("framesDrawn") - before)
+
+    def busy(self) -> float:
+        """The seconds for which the page has kept its thread busy so far: script, layout, painting."""
+        session = self._context.new_cdp_session(self.page)
+        session.send("Performance.enable")
+        found = {each["name"]: each["value"] for each in session.send("Performance.getMetrics")["metrics"]}
+        session.detach()
+        return float(found["TaskDuration"])
 
     @property
     def link(self) -> str:

@@ -37,6 +37,7 @@ bundle() { # ENTRY OUTPUT OPTION…
 bundle main.ts page.js --format=iife --target=es2022
 bundle widget.ts widget.js --format=esm --target=es2022
 bundle page.css page.css
+bundle widget.css widget.css
 cp "$script/page.html" "$work/stage/page.html"
 
 python -m tools.web_hashes "$work/stage"

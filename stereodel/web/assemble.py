@@ -21,10 +21,10 @@ from stereodel._arrays import as_choice, as_lonlat
 from stereodel._files import replacing
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents
 
-STYLE: Final = '<link rel="stylesheet" href="page.css">'
-SCRIPT: Final = '<script src="page.js"></script>'
-ENCODING: Final = '<meta charset="utf-8">'
-"""What the template has once each; the policy comes after the last."""
+ENCODING: Final = r'<meta charset="utf-8"\s*/?>'
+STYLE: Final = r'<link rel="stylesheet" href="page\.css"\s*/?>'
+SCRIPT: Final = r'<script(?: type="module"| defer)? src="page\.js"></script>'
+"""What the template has once each, in this order. The policy stands before the style."""
 
 POLICY: Final = (
     "default-src 'none'; script-src 'wasm-unsafe-eval' {script}; style-src {style}; img-src data: blob:; "
@@ -90,18 +90,16 @@ def html(resolution: str, given: Given | None = None) -> str:
         f'<script type="text/plain" id="block-{name}">{text}</script>'
         for name, text in contents(resolution, given).items()
     )
-    parts = {
-        ENCODING: f'{ENCODING}\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
-        STYLE: f"<style>{style}</style>",
-        SCRIPT: "\n".join([*blocks, f"<script>{script}</script>"]),
-    }
-    page = built("page.html").decode("utf-8")
-    for place, part in parts.items():
-        before, found, after = page.partition(place)
-        if not found or place in after:
-            raise ValueError(f"the template of the page must have {place} once")
-        page = before + part + after
-    return page
+    template = built("page.html").decode("utf-8")
+    pieces = re.split("|".join((ENCODING, STYLE, SCRIPT)), template)
+    if len(pieces) != 4 or not re.search(f"{ENCODING}.*{STYLE}.*{SCRIPT}", template, re.DOTALL):
+        raise ValueError("the template of the page must name its encoding, page.css and page.js, each once")
+    parts = (
+        f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
+        f"<style>{style}</style>",
+        "\n".join([*blocks, f"<script>{script}</script>"]),
+    )
+    return "".join(text for pair in zip(pieces, (*parts, ""), strict=True) for text in pair)
 
 
 def module(resolution: str) -> str:

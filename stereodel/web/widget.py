@@ -12,6 +12,7 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray, as_lonlat, as_scalar
 from stereodel._extras import of_extra
 from stereodel.web.assemble import module
+from stereodel.web.contents import built
 
 with of_extra("jupyter"):
     import anywidget
@@ -57,11 +58,12 @@ class GlobeWidget(anywidget.AnyWidget):
     >>> globe = GlobeWidget(lonlat=[(10.0, 48.4), (-78.5, -0.2)], focus=(10, 48.4), magnification=4)
     >>> globe.lens
     {'focus': (10.0, 48.4), 'magnification': 4.0}
-    >>> fisheye(**globe.lens).scale(lonlat=(10.0, 48.4)).round(9)
+    >>> round(fisheye(**globe.lens).magnification, 9)
     4.0
     """
 
     _esm = traitlets.Unicode().tag(sync=True)
+    _css = traitlets.Unicode().tag(sync=True)
     sites = traitlets.Bytes().tag(sync=True)
     lens = traitlets.Dict().tag(sync=True)
     view = traitlets.Dict().tag(sync=True)
@@ -93,9 +95,18 @@ class GlobeWidget(anywidget.AnyWidget):
     def lonlat(self, lonlat: npt.ArrayLike) -> None:
         self.sites = _bytes(lonlat)
 
+    @traitlets.observe("sites")
+    def _without_those_that_are_gone(self, _change: object) -> None:
+        count = len(self.lonlat)
+        self.selection = [number for number in self.selection if number < count]
+
     @traitlets.default("_esm")
     def _script(self) -> str:
         return _module()
+
+    @traitlets.default("_css")
+    def _style(self) -> str:
+        return built("widget.css").decode("utf-8")
 
     @traitlets.validate("lens")
     def _checked_lens(self, proposal: Mapping[str, Any]) -> dict[str, Any]:
@@ -128,7 +139,8 @@ def _bytes(lonlat: npt.ArrayLike) -> bytes:
 
 def _entries(given: Mapping[str, Any], names: tuple[str, ...], what: str) -> Mapping[str, Any]:
     if set(given) != set(names):
-        raise ValueError(f"{what} has the entries {', '.join(map(repr, given))}, but must have {' and '.join(names)}")
+        wanted = f"{', '.join(names[:-1])} and {names[-1]}"
+        raise ValueError(f"{what} has the entries {', '.join(map(repr, given))}, but must have {wanted}")
     return given
 
 

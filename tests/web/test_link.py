@@ -21,7 +21,8 @@ const attempt = (body) => {{
 
 def ask(node, expression, given):
     """What an expression of `given` is; signs that end a line of output are written by their numbers."""
-    answer = rf"JSON.stringify({expression}).replace(/[^ -~]/g, (c) => '\\u' + c.charCodeAt(0).toString(16).padStart(4, '0'))"
+    escape = r"(c) => '\\u' + c.charCodeAt(0).toString(16).padStart(4, '0')"
+    answer = f"JSON.stringify({expression}).replace(/[^ -~]/g, {escape})"
     return node(f"{LINK}console.log({answer});", input=json.dumps(given))
 
 

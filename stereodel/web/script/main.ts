@@ -16,10 +16,11 @@ import { sphereRoom } from "./rooms/sphere.ts";
 /** Milliseconds of rest after which the address tells the state. */
 const REST = 300;
 
-const MAKERS: Record<RoomName, (host: RoomHost) => Room> = { sphere: sphereRoom, lift: liftRoom, globe: globeRoom };
+type Makers = Record<RoomName, (host: RoomHost) => Room>;
 
 class Page {
   readonly #contents: Contents;
+  readonly #makers: Makers;
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
@@ -27,8 +28,9 @@ class Page {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStep = false;
 
-  constructor(contents: Contents) {
+  constructor(contents: Contents, makers: Makers) {
     this.#contents = contents;
+    this.#makers = makers;
   }
 
   /** Shows what the address says, and follows it from now on. */
@@ -51,7 +53,7 @@ class Page {
   get #room(): Room {
     let room = this.#rooms.get(this.#name);
     if (room === undefined) {
-      room = MAKERS[this.#name](this.#host());
+      room = this.#makers[this.#name](this.#host());
       this.#rooms.set(this.#name, room);
       room.attach(this.#section);
     }
@@ -210,12 +212,22 @@ function placeMarks(): void {
   }
 }
 
+/** The sets of the Sphere room are unpacked before it is made, so that links can name them. */
+async function makersOf(contents: Contents): Promise<Makers> {
+  const names = ["cities", "airports", "stars"] as const;
+  const stored: Record<string, Float64Array> = {};
+  for (const name of names) stored[name] = await contents.set(name);
+  const given = await contents.given();
+  if (given !== null) stored["given"] = given.lonlat;
+  return { sphere: (host) => sphereRoom(host, stored, given?.name), lift: liftRoom, globe: globeRoom };
+}
+
 async function main(): Promise<void> {
   placeMarks();
   const contents = Contents.ofDocument();
-  await load(await contents.kernel());
+  const [makers] = await Promise.all([makersOf(contents), contents.kernel().then(load)]);
   document.body.classList.remove("loading");
-  new Page(contents).start();
+  new Page(contents, makers).start();
   document.documentElement.dataset["ready"] = "true";
 }
 

@@ -21,7 +21,12 @@ export async function openPoints(
   } catch (error) {
     if (error instanceof ColumnsError && error.names.length > 1) {
       const kinds: [string, string] = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
-      messages.askColumns(file.name, error.names, kinds, (names) => void openPoints(file, kind, messages, opened, names));
+      messages.askColumns(
+        file.name,
+        error.names,
+        kinds,
+        (names) => void openPoints(file, kind, messages, opened, names),
+      );
     } else {
       messages.show(...complaint(file.name, error));
     }

@@ -1,7 +1,5 @@
 /** Sets of sites to begin with. Those of the Earth and the sky come with the page, the others are made here. */
 
-import { unpackPlaces } from "./link.ts";
-
 /** A set: its name in links, its words in the list, its places (n, 2). */
 export interface SiteSet {
   readonly name: string;
@@ -35,13 +33,17 @@ const SHEET = [
   -0.33, -0.258, -0.878,
 ];
 
-/** The sets of the sphere; `stored` holds packed longitudes and latitudes of the sets that come with the page. */
-export function sphereSets(stored: Readonly<Record<string, string>>): SiteSet[] {
+/** Longitudes and latitudes in turn by the names of sets; "given" are those that the page was made for. */
+export type Stored = Readonly<Record<string, Float64Array>>;
+
+/** The sets of the sphere: those that the page was made for and carries, and those that are made here. */
+export function sphereSets(stored: Stored, givenName = "Given sites"): SiteSet[] {
   const kept = (name: string, words: string): SiteSet[] => {
-    const text = stored[name];
-    return text === undefined ? [] : [{ name, words, make: () => unpackPlaces(text) }];
+    const places = stored[name];
+    return places === undefined || places.length === 0 ? [] : [{ name, words, make: () => places }];
   };
   return [
+    ...kept("given", givenName),
     { name: "gap", words: "Scattered, with a gap round P", make: () => Float64Array.from(GAP) },
     { name: "everywhere", words: "Scattered everywhere", make: () => scatteredOnSphere(72, 90) },
     { name: "hemisphere", words: "In one hemisphere", make: () => scatteredOnSphere(40, 75) },
@@ -126,9 +128,8 @@ function grid(): Float64Array {
   return Float64Array.from({ length: 108 }, (_, k) => (k % 2 === 0 ? (k >> 1) % 9 : Math.floor(k / 18)));
 }
 
-/** A sheet of 3 by 2 metres in a grid of a whole country: squares of its coordinates leave no digits for the sheet. */
+/** A sheet of 30 by 20 centimetres in metres of a country's grid: squares of its coordinates leave no digits for it. */
 function nearlyFlat(): Float64Array {
-  return Float64Array.from(SHEET, (value, k) =>
-    Number(((k % 2 === 0 ? 4_500_000 : 5_300_000) + value).toFixed(DECIMALS)),
-  );
+  const origin = [4_500_000, 5_300_000];
+  return Float64Array.from(SHEET, (value, k) => Number((origin[k % 2] + value / 10).toFixed(DECIMALS + 1)));
 }

@@ -37,8 +37,8 @@ export function facetsAfter({ before, seeing, fan }: Insertion): Int32Array {
   return Int32Array.from([...kept, ...fan]);
 }
 
-/** The one closed line around some facets: their sides without a facet of theirs across. */
-function outlineOf(facets: Int32Array, chosen: readonly number[]): number[] {
+/** The one closed line around some facets, on their left: their sides without a facet of theirs across. */
+export function outlineOf(facets: Int32Array, chosen: readonly number[]): number[] {
   const sides = new Map<string, [number, number]>();
   for (const k of chosen) {
     for (let corner = 0; corner < 3; ++corner) {

@@ -1,9 +1,11 @@
 /** Sites of the sheet with all that the kernel says of them: triangles of the plane, facets that see the pole. */
 
-import { PlanarDelaunay, SphericalDelaunay } from "../kernel/api.ts";
+import { PlanarDelaunay, PlanarVoronoi, SphericalDelaunay } from "../kernel/api.ts";
 import { rectangleAround, Sheet } from "./lift_sheet.ts";
 import type { Rectangle } from "./lift_sheet.ts";
 import { bubbleSigns } from "./bubble_signs.ts";
+
+type Place = [number, number];
 
 export class LiftSites {
   /** x and y in turn, in any unit. */
@@ -11,6 +13,7 @@ export class LiftSites {
   readonly rectangle: Rectangle;
   readonly delaunay: PlanarDelaunay;
   #closing: Int32Array | null = null;
+  #ridges: [Place, Place][] | null = null;
 
   /** @param sides Width and height of the sheet, where it is not the smallest rectangle round the sites. */
   constructor(places: Float64Array, sides?: readonly [number, number]) {
@@ -40,6 +43,29 @@ export class LiftSites {
    */
   get closing(): Int32Array {
     return (this.#closing ??= this.#facetsThatSee());
+  }
+
+  /** Sides of the cells of the plane, each from end to end; those without an end go on far beyond the sheet. */
+  get ridges(): [Place, Place][] {
+    return (this.#ridges ??= this.#ridgesOfPlane());
+  }
+
+  #ridgesOfPlane(): [Place, Place][] {
+    if (this.count < 2) return [];
+    const { vertices, ridgeVertices, ridgePoints } = new PlanarVoronoi(this.delaunay);
+    const site = (k: number): Place => [this.places[2 * k], this.places[2 * k + 1]];
+    const far = 4 * Math.hypot(this.rectangle.width, this.rectangle.height);
+    return Array.from({ length: ridgeVertices.length / 2 }, (_, k): [Place, Place] => {
+      const [[ax, ay], [bx, by]] = [site(ridgePoints[2 * k]), site(ridgePoints[2 * k + 1])];
+      // Site a is on the left of the way from start to end.
+      const size = Math.hypot(bx - ax, by - ay);
+      const [u, v] = [(far * (ay - by)) / size, (far * (bx - ax)) / size];
+      const [start, end] = [ridgeVertices[2 * k], ridgeVertices[2 * k + 1]].map((vertex): Place | null =>
+        vertex < 0 ? null : [vertices[2 * vertex], vertices[2 * vertex + 1]],
+      );
+      const [x, y] = start ?? end ?? [(ax + bx) / 2, (ay + by) / 2];
+      return [start ?? [x - u, y - v], end ?? [x + u, y + v]];
+    });
   }
 
   /**

@@ -2,7 +2,7 @@
 
 import { lonlatToXyz, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
 import { bubbleSigns } from "./bubble_signs.ts";
-import { insertion } from "./insertion.ts";
+import { insertion, outlineOf } from "./insertion.ts";
 import type { Insertion } from "./insertion.ts";
 import { dot, row } from "./space.ts";
 import type { Vector } from "./space.ts";
@@ -78,8 +78,32 @@ export class SphereSites {
   }
 
   /** One byte a facet: 1 where its closed bubble holds the pole, so that the plane does not have it. */
-  seeing(pole: Vector): Uint8Array {
-    return Uint8Array.from(bubbleSigns(this.xyz, this.delaunay.simplices, pole), (sign) => (sign >= 0 ? 1 : 0));
+  seeing(pole: Vector, facets: Int32Array = this.delaunay.simplices): Uint8Array {
+    return Uint8Array.from(bubbleSigns(this.xyz, facets, pole), (sign) => (sign >= 0 ? 1 : 0));
+  }
+
+  /** The sites around the facets that see the pole, which are on the left; as a line of the plane, its convex hull. */
+  outline(seeing: Uint8Array): number[] {
+    const chosen = Array.from(seeing.keys()).filter((facet) => seeing[facet] === 1);
+    return outlineOf(this.delaunay.simplices, chosen);
+  }
+
+  /** Whether all sites lie in a hemisphere, so that some facets are no spherical triangles. */
+  get hasClosing(): boolean {
+    return this.delaunay.closing.includes(1);
+  }
+
+  /** The sites around the facets that are spherical triangles, where there are others: these are on the left. */
+  get closingOutline(): number[] {
+    return this.outline(this.delaunay.closing);
+  }
+
+  /** Whether the region of the facets that see the pole holds a direction. */
+  regionHolds(seeing: Uint8Array, direction: Vector): boolean {
+    const facet = this.facetAt(direction);
+    if (facet !== null) return seeing[facet] === 1;
+    const { closing } = this.delaunay;
+    return seeing.some((sees, k) => sees === 1 && closing[k] === 1);
   }
 
   /** What it does to insert a site into those before it; null while these have no facets. */

@@ -28,7 +28,7 @@ export class Twin {
 
   constructor(pole: Vector) {
     this.pole = pole;
-    const south: Vector = [-pole[0], -pole[1], -pole[2]];
+    const south: Vector = [0 - pole[0], 0 - pole[1], 0 - pole[2]]; // no zeros below 0, whose longitude would be 180°
     const [lon, lat] = lonLatOf(south).map((degrees) => (degrees * Math.PI) / 180) as [number, number];
     this.#south = south;
     this.#east = [-Math.sin(lon), Math.cos(lon), 0];

@@ -1,0 +1,133 @@
+"""The interactive page in Chromium without a graphics card: its size, how soon it is ready, frames a second.
+
+    python -m benchmarks.web
+
+Frames are counted while the globe is turned by the mouse, with land for maps of 1 : 50 or 1 : 110 million and the
+cells of so many sites; where others use the machine, they are fewer. Writes benchmarks/web.json and the tables of
+docs/web.md.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+import math
+import os
+import statistics
+import tempfile
+import time
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from playwright.sync_api import Browser
+
+from benchmarks import pages
+from stereodel._arrays import FloatArray
+from stereodel._files import replacing
+from stereodel.web import web
+from stereodel.web.contents import built
+from tools.browser import Visit, chromium
+
+HERE: Final = Path(__file__).resolve().parent
+RESULTS: Final = HERE / "web.json"
+SCENES: Final = ((1_000, "50m"), (10_000, "110m"))
+"""Sites and land."""
+
+STEPS: Final = 60
+"""Of the mouse in a turn."""
+
+TIMES: Final = 5
+"""That the page is opened."""
+
+Row = dict[str, Any]
+
+
+def sizes() -> list[Row]:
+    """Bytes of what is sent: as they are, and packed by gzip."""
+    parts = {"kernel": built("stereodel.wasm"), "script": built("page.js")}
+    with tempfile.TemporaryDirectory() as folder:
+        for resolution in ("110m", "50m"):
+            page = web(Path(folder, "page.html"), resolution=resolution)
+            parts[f"page with land 1 : {resolution[:-1]} million"] = page.read_bytes()
+    return [
+        {"what": name, "kB": len(content) / 1000, "gzip kB": len(gzip.compress(content, 9)) / 1000}
+        for name, content in parts.items()
+    ]
+
+
+def seconds_until_ready(browser: Browser, page: Path) -> float:
+    """From the request to the first drawing, by the page's own clock: the median."""
+    found = []
+    for _ in range(TIMES):
+        visit = Visit(browser, page)
+        visit.until("window.readyAt")
+        found.append(visit.page.evaluate("readyAt") / 1000)
+        visit.close()
+    return statistics.median(found)
+
+
+def frames(browser: Browser, page: Path) -> Row:
+    """Frames a second while the globe turns, and the milliseconds for which a frame keeps the page busy."""
+    visit = Visit(browser, f"{page.as_uri()}#globe")
+    visit.until("document.documentElement.dataset.ready")
+    visit.rest(seconds=60)
+    x, y = visit.middle("#globe-plate")
+    visit.page.mouse.move(x, y)
+    visit.page.mouse.down()
+    busy, drawn, start = visit.busy(), visit.page.evaluate("framesDrawn"), time.perf_counter()
+    for step in range(STEPS):
+        turn = 2 * math.pi * step / STEPS
+        visit.page.mouse.move(x + 120 * math.sin(turn), y + 60 * math.sin(2 * turn))
+        visit.page.evaluate("new Promise((drawn) => requestAnimationFrame(() => setTimeout(drawn)))")
+    seconds = time.perf_counter() - start
+    # The line above asks for as many as there are steps.
+    drawn = visit.page.evaluate("framesDrawn") - drawn - STEPS
+    found = {"frames": drawn, "frames a second": drawn / seconds, "ms": 1000 * (visit.busy() - busy) / max(drawn, 1)}
+    visit.page.mouse.up()
+    visit.close()
+    return found
+
+
+def sites(count: int) -> FloatArray:
+    """Directions all over the sphere, as longitude and latitude in degrees."""
+    rng = np.random.default_rng(1)
+    return np.column_stack([rng.uniform(-180, 180, count), np.degrees(np.arcsin(rng.uniform(-1, 1, count)))])
+
+
+def speed() -> Row:
+    """How soon the page is ready, and its frames, by scene."""
+    with tempfile.TemporaryDirectory() as folder, chromium() as browser:
+        plain = web(Path(folder, "plain.html"), resolution="110m")
+        rows = []
+        for count, resolution in SCENES:
+            page = web(Path(folder, "sites.html"), lonlat=sites(count), name="sites", resolution=resolution)
+            rows.append({"sites": count, "land": resolution, **frames(browser, page)})
+        return {"ready, seconds": seconds_until_ready(browser, plain), "scenes": rows}
+
+
+def tables(results: Row) -> dict[str, str]:
+    """The blocks of the page."""
+    sent = [[row["what"], f"{row['kB']:.0f}", f"{row['gzip kB']:.0f}"] for row in results["sizes"]]
+    scenes = [
+        [f"{row['sites']}", f"1 : {row['land'][:-1]} million", f"{row['frames a second']:.0f}", f"{row['ms']:.0f}"]
+        for row in results["scenes"]
+    ]
+    head = ["sites with cells", "land", "frames a second", "ms of the processor a frame"]
+    ready = f"Ready {1000 * results['ready, seconds']:.0f} ms after it is opened from the disk."
+    return {
+        "sizes": pages.table(["", "kB", "packed by gzip"], sent, "lrr"),
+        "frames": f"{pages.table(head, scenes, 'rlrr')}\n\n{ready}",
+    }
+
+
+def main() -> None:
+    """Measure, save, write the page."""
+    results = {"load": os.getloadavg()[0], "sizes": sizes(), **speed()}
+    with replacing(RESULTS) as temporary:
+        temporary.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    pages.fill("web.md", tables(results))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,193 @@
+/** What lies on a ball: layers whose directions stay in the kernel, each drawn as its images under a map are. */
+
+import { Directions } from "../kernel/api.ts";
+import type { MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "../kernel/api.ts";
+import { angle, cross, directionOf, row, unit } from "../rooms/space.ts";
+import type { Vector } from "../rooms/space.ts";
+import { arcThrough, traceArc, traceLine } from "./arcs.ts";
+import type { Side } from "./arcs.ts";
+import { bentRings } from "./bent_rings.ts";
+import { holdsHidden, traceCap, traceRegions } from "./fill.ts";
+import type { Rings } from "./fill.ts";
+import type { Disc, Path, Pen } from "./pen.ts";
+import type { DotName, StyleName } from "./styles.ts";
+
+/** The longest arc of a circle that is drawn by three points, radians: they are well apart, and tell its sense. */
+const LONGEST_ARC = (2 * Math.PI) / 3;
+
+const DEGREE = Math.PI / 180;
+
+export interface Layer {
+  readonly directions: Directions;
+  /** Draws images of the directions under a map, in the axes of the view. */
+  draw(pen: Pen, disc: Disc, images: Float64Array, map: MoebiusMap, side: Side): void;
+}
+
+/** Draws layers one over the other; `map` takes them to the axes of the view: x right, y up, z toward the reader. */
+export function drawLayers(
+  pen: Pen,
+  disc: Disc,
+  map: MoebiusMap,
+  layers: readonly Layer[],
+  side: Side = "front",
+): void {
+  for (const layer of layers) {
+    if (layer.directions.xyz.length > 0) layer.draw(pen, disc, map.apply(layer.directions), map, side);
+  }
+}
+
+/** Lines: arcs of three points each, an end, a point between, the other end. */
+export function arcLayer(style: StyleName, points: Float64Array): Layer {
+  return {
+    directions: new Directions(points),
+    draw(pen, disc, images, _map, side) {
+      pen.draw(style, (path) => {
+        for (let k = 0; 3 * k < images.length; k += 3) traceArc(path, disc, images, k, k + 1, k + 2, side);
+      });
+    },
+  };
+}
+
+/** Caps by three points of each circle, counterclockwise about the cap. */
+export function capLayer(style: StyleName, points: Float64Array): Layer {
+  return {
+    directions: new Directions(points),
+    draw(pen, disc, images) {
+      // One after the other: where they overlap, both are seen.
+      for (let k = 0; 3 * k < images.length; k += 3) {
+        const circle = arcThrough(images, k, k + 1, k + 2, true);
+        if (circle !== null) pen.draw(style, (path) => traceCap(path, disc, circle));
+      }
+    },
+  };
+}
+
+/** Dots, those that are seen. */
+export function dotLayer(style: DotName, points: Float64Array): Layer {
+  return {
+    directions: new Directions(points),
+    draw(pen, disc, images, _map, side) {
+      const sign = side === "front" ? 1 : -1;
+      const places: number[] = [];
+      for (let i = 0; i < images.length; i += 3) {
+        if (sign * images[i + 2] >= 0) places.push(disc.x + disc.r * images[i], disc.y - disc.r * images[i + 1]);
+      }
+      pen.dots(style, places);
+    },
+  };
+}
+
+/**
+ * Regions on the left of rings, filled and outlined, such as land with its coast.
+ *
+ * @param outline Style of the rings as lines, if they are drawn.
+ * @param place A direction far from all rings, and whether it is in the regions.
+ */
+export function regionLayer(
+  fill: StyleName,
+  outline: StyleName | null,
+  points: Float64Array,
+  offsets: ArrayLike<number>,
+  place: Vector,
+  inside: boolean,
+): Layer {
+  const withPlace = new Float64Array(points.length + 3);
+  withPlace.set(points);
+  withPlace.set(place, points.length);
+  return {
+    directions: new Directions(withPlace),
+    draw(pen, disc, images, map) {
+      const rings = bentRings(points, { points: images.subarray(0, points.length), offsets }, map, disc.r);
+      const holds = holdsHidden(rings, row(images, points.length / 3), inside);
+      pen.draw(fill, (path) => traceRegions(path, disc, rings, holds));
+      if (outline !== null) pen.draw(outline, (path) => traceOutlines(path, disc, rings));
+    },
+  };
+}
+
+function traceOutlines(path: Path, disc: Disc, { points, offsets }: Rings): void {
+  for (let ring = 0; ring + 1 < offsets.length; ++ring) {
+    traceLine(path, disc, points, offsets[ring], offsets[ring + 1], true);
+  }
+}
+
+/** Great-circle arcs between points, by pairs of their numbers: three points each, as `arcLayer` takes them. */
+export function sides(points: ArrayLike<number>, pairs: ArrayLike<number>): Float64Array {
+  const arcs = new Float64Array((9 * pairs.length) / 2);
+  for (let k = 0; 2 * k < pairs.length; ++k) {
+    putShortArc(arcs, 9 * k, row(points, pairs[2 * k]), row(points, pairs[2 * k + 1]));
+  }
+  return arcs;
+}
+
+/** Writes a, a point between, b of the shorter great-circle arc. */
+function putShortArc(arcs: Float64Array, at: number, a: Vector, b: Vector): void {
+  arcs.set(a, at);
+  arcs.set([a[0] + b[0], a[1] + b[1], a[2] + b[2]], at + 3);
+  arcs.set(b, at + 6);
+}
+
+/** Edges of a triangulation as arcs. */
+export function edgeArcs(delaunay: SphericalDelaunay): Float64Array {
+  return sides(unitRows(delaunay.points), delaunay.edges);
+}
+
+/** Sides of Voronoi cells as arcs; those of more than 120° in two pieces. */
+export function ridgeArcs(voronoi: SphericalVoronoi): Float64Array {
+  const { vertices, ridgeVertices } = voronoi;
+  const normals = voronoi.ridgeNormals();
+  const arcs: number[] = [];
+  for (let k = 0; 2 * k < ridgeVertices.length; ++k) {
+    const [a, b] = [row(vertices, ridgeVertices[2 * k]), row(vertices, ridgeVertices[2 * k + 1])];
+    const swept = angle(a, b) * DEGREE; // never more than half a turn
+    const [n, pieces] = [row(normals, k), swept > LONGEST_ARC ? 2 : 1];
+    for (let piece = 0; piece < pieces; ++piece) {
+      const [begin, middle, end] = [0, 1, 2].map((step) => turned(n, a, (swept * (2 * piece + step)) / (2 * pieces)));
+      pushAll(arcs, piece === 0 ? a : begin, middle, piece + 1 === pieces ? b : end);
+    }
+  }
+  return Float64Array.from(arcs);
+}
+
+/** A direction turned counterclockwise about one at a right angle to it, radians. */
+function turned(n: Vector, a: Vector, by: number): Vector {
+  const [c, s, side] = [Math.cos(by), Math.sin(by), cross(n, a)];
+  return [c * a[0] + s * side[0], c * a[1] + s * side[1], c * a[2] + s * side[2]];
+}
+
+function pushAll(arcs: number[], ...points: Vector[]): void {
+  for (const [x, y, z] of points) arcs.push(x, y, z);
+}
+
+/** A direction at a right angle to another. */
+export function perpendicular(n: Vector): Vector {
+  return unit(Math.abs(n[2]) < 0.9 ? [-n[1], n[0], 0] : [0, -n[2], n[1]]);
+}
+
+/** Meridians and parallels, so many degrees apart, as arcs. */
+export function graticuleArcs(step: number): Float64Array {
+  const arcs: number[] = [];
+  for (let lon = -180; lon < 180; lon += step) {
+    for (const lat of [-90, 0]) pushAll(arcs, ...[0, 45, 90].map((up) => directionOf(lon, lat + up)));
+  }
+  for (let lat = step - 90; lat < 90; lat += step) {
+    for (const lon of [-180, -60, 60]) pushAll(arcs, ...[0, 60, 120].map((east) => directionOf(lon + east, lat)));
+  }
+  return Float64Array.from(arcs);
+}
+
+/** Three points of a circle about a direction, counterclockwise; its radius in degrees. */
+export function circlePoints(center: Vector, radius: number): Vector[] {
+  const side = perpendicular(center);
+  const [c, s] = [Math.cos(radius * DEGREE), Math.sin(radius * DEGREE)];
+  return [0, 1, 2].map((k) => {
+    const out = turned(center, side, k * LONGEST_ARC);
+    return unit([c * center[0] + s * out[0], c * center[1] + s * out[1], c * center[2] + s * out[2]]);
+  });
+}
+
+function unitRows(points: Float64Array): Float64Array {
+  const rows = new Float64Array(points.length);
+  for (let k = 0; 3 * k < points.length; ++k) rows.set(unit(row(points, k)), 3 * k);
+  return rows;
+}

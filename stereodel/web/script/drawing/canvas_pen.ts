@@ -1,0 +1,244 @@
+/** The pen of the screen: a canvas with two dimensions. */
+
+import type { Colours, Token } from "./colours.ts";
+import { textParts, traceDisc } from "./pen.ts";
+import type { Disc, Handle, Path, Pen, Picture, Trace } from "./pen.ts";
+import * as styles from "./styles.ts";
+import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+
+/** Arcs of ellipses that are stroked at once: browsers need quadratic time for paths of thousands. */
+const MOST_ARCS = 256;
+
+/** Dots beyond which they are squares, which are filled in a tenth of the time. */
+const MANY_DOTS = 20_000;
+
+type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+
+export class CanvasPen implements Pen {
+  readonly width: number;
+  readonly height: number;
+  readonly #context: Context;
+  readonly #colours: Colours;
+  readonly #weight: number;
+
+  /** @param scale Pixels of the canvas for one of the drawing. @param weight Factor of the widths of lines. */
+  constructor(context: Context, width: number, height: number, scale: number, colours: Colours, weight: number) {
+    this.width = width;
+    this.height = height;
+    this.#context = context;
+    this.#colours = colours;
+    this.#weight = weight;
+    context.setTransform(scale, 0, 0, scale, 0, 0);
+    context.lineCap = context.lineJoin = "round";
+    context.imageSmoothingQuality = "high";
+  }
+
+  draw(name: StyleName, trace: Trace): void {
+    const style: Style = styles.STYLES[name];
+    const context = this.#context;
+    if (style.fill === undefined && style.hatch === undefined) {
+      this.#line(style);
+      const path = new StrokedPath(context);
+      trace(path);
+      path.flush();
+      return;
+    }
+    context.beginPath();
+    trace(context);
+    if (style.hatch !== undefined) this.#hatch(style.hatch === "crossed");
+    if (style.fill !== undefined) {
+      context.fillStyle = this.#colours[style.fill];
+      context.globalAlpha *= style.fillOpacity ?? 1;
+      context.fill();
+      context.globalAlpha /= style.fillOpacity ?? 1;
+    }
+    if (style.stroke !== undefined) {
+      this.#line(style);
+      context.stroke();
+    }
+  }
+
+  behind(body: () => void): void {
+    this.#kept(() => {
+      this.#context.globalAlpha = styles.BEHIND;
+      body();
+    });
+  }
+
+  clipped(trace: Trace, body: () => void): void {
+    this.#kept(() => {
+      this.#context.beginPath();
+      trace(this.#context);
+      this.#context.clip();
+      body();
+    });
+  }
+
+  ball(disc: Disc, ground: "ball" | "ocean"): void {
+    if (ground === "ocean") this.#fillDisc(disc, this.#colours.ocean);
+    else this.#fillDisc(disc, this.#gradient(disc, 0.25, this.#colours.ball, this.#colours["ball-rim"]));
+  }
+
+  shade(disc: Disc): void {
+    this.#fillDisc(disc, this.#gradient(disc, 0.45, ...SHADE));
+  }
+
+  dots(name: DotName, places: ArrayLike<number>): void {
+    const { radius: r, fill, rim, rimWidth } = styles.DOTS[name];
+    const context = this.#context;
+    context.fillStyle = this.#colours[fill];
+    if (places.length > 2 * MANY_DOTS) {
+      for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
+      return;
+    }
+    this.#line({ stroke: rim, width: rimWidth });
+    context.lineWidth = rimWidth;
+    for (let k = 0; k < places.length; k += 2) {
+      context.beginPath();
+      context.arc(places[k], places[k + 1], r, 0, 2 * Math.PI);
+      context.fill();
+      context.stroke();
+    }
+  }
+
+  label(text: string, x: number, y: number, style: LabelStyle): void {
+    const context = this.#context;
+    const parts = textParts(text, style.italic ?? false).map((part) => {
+      const font = `${part.italic ? "italic " : ""}${style.size}px ${styles.SERIF}`;
+      context.font = font;
+      return { text: part.text, font, width: context.measureText(part.text).width };
+    });
+    const length = parts.reduce((sum, part) => sum + part.width, 0);
+    const start = x - (style.align === "center" ? length / 2 : style.align === "right" ? length : 0);
+    const each = (body: (text: string, at: number) => void): void => {
+      let at = start;
+      for (const part of parts) {
+        context.font = part.font;
+        body(part.text, at);
+        at += part.width;
+      }
+    };
+    context.textAlign = "left";
+    context.setLineDash([]);
+    context.lineWidth = styles.HALO_WIDTH;
+    context.strokeStyle = this.#colours[style.halo];
+    context.fillStyle = this.#colours[style.ink];
+    each((words, at) => context.strokeText(words, at, y));
+    each((words, at) => context.fillText(words, at, y));
+  }
+
+  handle(x: number, y: number, kind: Handle): void {
+    const context = this.#context;
+    context.beginPath();
+    traceDisc(context, { x, y, r: styles.HANDLE_RADIUS });
+    context.fillStyle = this.#colours.paper;
+    if (kind !== "behind") context.fill();
+    this.#line({ stroke: "accent", width: kind === "behind" ? 1.2 : 1.8 });
+    context.stroke();
+    if (kind !== "front") return;
+    const c = styles.HANDLE_CROSS;
+    this.#line({ stroke: "accent", width: 1 });
+    context.beginPath();
+    context.moveTo(x - c, y);
+    context.lineTo(x + c, y);
+    context.moveTo(x, y - c);
+    context.lineTo(x, y + c);
+    context.stroke();
+  }
+
+  picture(picture: Picture, x: number, y: number, width: number, height: number): void {
+    this.#context.drawImage(picture, x, y, width, height);
+  }
+
+  #line(style: { readonly stroke?: Token; readonly width?: number; readonly dash?: readonly number[] }): void {
+    this.#context.strokeStyle = this.#colours[style.stroke ?? "ink"];
+    this.#context.lineWidth = (style.width ?? 1) * this.#weight;
+    this.#context.setLineDash([...(style.dash ?? [])]);
+  }
+
+  #kept(body: () => void): void {
+    this.#context.save();
+    body();
+    this.#context.restore();
+  }
+
+  /** Lines over the path that stands, 45° steep. */
+  #hatch(crossed: boolean): void {
+    this.#kept(() => {
+      const context = this.#context;
+      const { width, height } = this;
+      context.clip();
+      this.#line({ stroke: "hatch" });
+      context.lineWidth = styles.HATCH_WIDTH;
+      context.beginPath();
+      const step = styles.HATCH_PITCH * Math.SQRT2;
+      for (let x = step / 2; x < width + height; x += step) {
+        context.moveTo(x, 0);
+        context.lineTo(x - height, height);
+        if (!crossed) continue;
+        context.moveTo(x - height, 0);
+        context.lineTo(x, height);
+      }
+      context.stroke();
+    });
+  }
+
+  #fillDisc(disc: Disc, fill: string | CanvasGradient): void {
+    this.#context.beginPath();
+    traceDisc(this.#context, disc);
+    this.#context.fillStyle = fill;
+    this.#context.fill();
+  }
+
+  /** From the upper left of the middle outward; its place is that of an object's bounding box in SVG. */
+  #gradient({ x, y, r }: Disc, from: number, inner: string, outer: string): CanvasGradient {
+    const [cx, cy] = [x + (LIGHT.x - 0.5) * 2 * r, y + (LIGHT.y - 0.5) * 2 * r];
+    const gradient = this.#context.createRadialGradient(cx, cy, 0, cx, cy, LIGHT.r * 2 * r);
+    gradient.addColorStop(from, inner);
+    gradient.addColorStop(1, outer);
+    return gradient;
+  }
+}
+
+/** Where the light falls on a ball: middle and radius of the gradient as parts of the ball's square. */
+export const LIGHT = { x: 0.42, y: 0.38, r: 0.68 };
+
+/** The shade of a globe, from none to its rim. */
+export const SHADE = ["rgb(27 39 48 / 0)", "rgb(27 39 48 / 0.2)"] as const;
+
+/** Strokes what it was given before its arcs are too many; only where a new line begins. */
+class StrokedPath implements Path {
+  readonly #context: Context;
+  #arcs = 0;
+
+  constructor(context: Context) {
+    this.#context = context;
+    context.beginPath();
+  }
+
+  moveTo(x: number, y: number): void {
+    if (this.#arcs >= MOST_ARCS) {
+      this.flush();
+      this.#context.beginPath();
+    }
+    this.#context.moveTo(x, y);
+  }
+
+  lineTo(x: number, y: number): void {
+    this.#context.lineTo(x, y);
+  }
+
+  ellipse(...given: Parameters<Path["ellipse"]>): void {
+    ++this.#arcs;
+    this.#context.ellipse(...given);
+  }
+
+  closePath(): void {
+    this.#context.closePath();
+  }
+
+  flush(): void {
+    this.#context.stroke();
+    this.#arcs = 0;
+  }
+}

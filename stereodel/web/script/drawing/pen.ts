@@ -1,0 +1,74 @@
+/** The one interface through which rooms draw: the same trace becomes pixels or SVG. Pixels of the screen, y down. */
+
+import type { DotName, LabelStyle, StyleName } from "./styles.ts";
+
+/** What a trace is laid into: a part of the canvas's own interface. */
+export interface Path {
+  moveTo(x: number, y: number): void;
+  lineTo(x: number, y: number): void;
+  /** Continues with a line to the arc's beginning, if there is a point before. */
+  ellipse(
+    x: number,
+    y: number,
+    radiusX: number,
+    radiusY: number,
+    rotation: number,
+    from: number,
+    to: number,
+    counterclockwise?: boolean,
+  ): void;
+  closePath(): void;
+}
+
+export type Trace = (path: Path) => void;
+
+/** A disc of the drawing: a ball seen from afar. */
+export interface Disc {
+  readonly x: number;
+  readonly y: number;
+  readonly r: number;
+}
+
+export type Handle = "front" | "behind" | "rim";
+
+/** A picture that is laid into the drawing. */
+export type Picture = HTMLCanvasElement | OffscreenCanvas;
+
+export interface Pen {
+  /** Of the drawing, pixels of the screen. */
+  readonly width: number;
+  readonly height: number;
+  /** Draws a path in a style; regions are those about which the path winds. */
+  draw(style: StyleName, trace: Trace): void;
+  /** Draws what lies behind, faintly. */
+  behind(body: () => void): void;
+  /** Draws only inside a region. */
+  clipped(trace: Trace, body: () => void): void;
+  /** The ground of a ball, lit from the upper left: the pale one of geometry, or water. */
+  ball(disc: Disc, ground: "ball" | "ocean"): void;
+  /** The shade that makes a disc of land and water round. */
+  shade(disc: Disc): void;
+  /** Dots at x, y in turn. */
+  dots(style: DotName, places: ArrayLike<number>): void;
+  /** Text at a point of its baseline. */
+  label(text: string, x: number, y: number, style: LabelStyle): void;
+  /** A ring to drag: filled and crossed in front, empty behind the ball, filled on a rim. */
+  handle(x: number, y: number, kind: Handle): void;
+  /** A picture, fitted into a rectangle. */
+  picture(picture: Picture, x: number, y: number, width: number, height: number): void;
+}
+
+/** A whole circle. */
+export function traceDisc(path: Path, { x, y, r }: Disc): void {
+  path.moveTo(x + r, y);
+  path.ellipse(x, y, r, r, 0, 0, 2 * Math.PI);
+  path.closePath();
+}
+
+/** Lines of text with italics between stars. */
+export function textParts(text: string, italic: boolean): { text: string; italic: boolean }[] {
+  return text
+    .split(/\*([^*]+)\*/)
+    .map((part, k) => ({ text: part, italic: k % 2 === 1 ? !italic : italic }))
+    .filter((part) => part.text !== "");
+}

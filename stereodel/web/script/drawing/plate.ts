@@ -1,0 +1,167 @@
+/** A drawing of the page: a canvas that is as large as its place and drawn anew when something asks for it. */
+
+import { CanvasPen } from "./canvas_pen.ts";
+import { colours, onColours } from "./colours.ts";
+import type { Disc, Pen } from "./pen.ts";
+import { NARROW, NARROW_WEIGHT } from "./styles.ts";
+import { SvgPen } from "./svg_pen.ts";
+
+/** Why a drawing is made: its kind decides how much of it may be left out. */
+export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" | "pointer";
+
+/** Milliseconds after the last frame of a movement until the drawing is made in full. */
+const REST = 120;
+
+/** Between a ball's limb and the edge of its canvas, pixels: handles on the limb are whole. The style sheet has it, too. */
+export const BALL_MARGIN = 7;
+
+/** Draws everything. While it moves, `isMoving`, what takes long may be left out. */
+export type Painter = (pen: Pen, isMoving: boolean) => void;
+
+export class Plate {
+  readonly canvas: HTMLCanvasElement;
+  /** Frames that were drawn, and what asked for the last one. */
+  frames = 0;
+  reason: Reason | null = null;
+  readonly #paint: Painter;
+  readonly #overlay: Painter | null;
+  #ground: HTMLCanvasElement | null = null; // what lies below the overlay, as it was drawn last
+  readonly #run: (body: () => void) => void;
+  readonly #place: HTMLElement;
+  readonly #observer: ResizeObserver;
+  readonly #forget: () => void;
+  #asked = 0;
+  #resting: ReturnType<typeof setTimeout> | undefined;
+
+  /**
+   * @param run Runs a painter, which may fail.
+   * @param place The part of the document whose colours hold.
+   * @param overlay What is drawn over it, and alone anew where only the pointer has moved.
+   */
+  constructor(
+    canvas: HTMLCanvasElement,
+    paint: Painter,
+    run: (body: () => void) => void = (body) => body(),
+    place: HTMLElement = document.documentElement,
+    overlay: Painter | null = null,
+  ) {
+    this.canvas = canvas;
+    this.#place = place;
+    this.#paint = paint;
+    this.#overlay = overlay;
+    this.#run = run;
+    this.#observer = new ResizeObserver(() => this.#resize());
+    this.#observer.observe(canvas);
+    this.#forget = onColours(() => this.#draw("colours"));
+  }
+
+  /** Pixels of the screen; 0 while the room is not shown. */
+  get width(): number {
+    return this.canvas.clientWidth;
+  }
+
+  get height(): number {
+    return this.canvas.clientHeight;
+  }
+
+  /** The disc of a ball that fills the drawing. */
+  get disc(): Disc {
+    const [x, y] = [this.width / 2, this.height / 2];
+    return { x, y, r: Math.max(Math.min(x, y) - BALL_MARGIN, 1) };
+  }
+
+  /** Asks for a drawing with the next frame; moves are followed by one in full. */
+  redraw(reason: Reason): void {
+    if (reason !== "pointer" || this.#asked === 0) this.reason = reason;
+    if (this.#asked === 0) this.#asked = requestAnimationFrame(() => this.#draw(this.reason ?? reason));
+  }
+
+  /** The place of a pointer in the drawing. */
+  placeOf(event: { clientX: number; clientY: number }): [number, number] {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  svg(title: string): string {
+    const pen = new SvgPen(this.width, this.height, colours(this.#place), this.#weight);
+    this.#whole(pen);
+    return pen.text(title);
+  }
+
+  png(scale: number): Promise<Blob> {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
+    const context = canvas.getContext("2d")!;
+    context.fillStyle = colours(this.#place).paper;
+    context.fillRect(0, 0, canvas.width, canvas.height);
+    this.#whole(this.#pen(canvas, scale));
+    return new Promise((resolve, reject) => {
+      canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)));
+    });
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#asked);
+    clearTimeout(this.#resting);
+    this.#observer.disconnect();
+    this.#forget();
+  }
+
+  get #weight(): number {
+    return matchMedia(NARROW).matches ? NARROW_WEIGHT : 1;
+  }
+
+  #resize(): void {
+    const scale = devicePixelRatio;
+    const [width, height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
+    if (width === 0 || height === 0) return;
+    if (this.canvas.width === width && this.canvas.height === height) return;
+    [this.canvas.width, this.canvas.height] = [width, height];
+    this.#draw("size");
+  }
+
+  #draw(reason: Reason): void {
+    cancelAnimationFrame(this.#asked);
+    this.#asked = 0;
+    this.reason = reason;
+    if (this.width === 0 || this.height === 0) return;
+    const isMoving = reason === "hand" || reason === "flight";
+    if (reason !== "pointer") clearTimeout(this.#resting);
+    if (isMoving) this.#resting = setTimeout(() => this.redraw("rest"), REST);
+    this.#run(() => this.#layers(reason, isMoving));
+    ++this.frames;
+  }
+
+  #layers(reason: Reason, isMoving: boolean): void {
+    const { canvas } = this;
+    const scale = canvas.width / this.width;
+    if (this.#overlay === null) {
+      cleared(canvas);
+      this.#paint(this.#pen(canvas, scale), isMoving);
+      return;
+    }
+    const ground = (this.#ground ??= document.createElement("canvas"));
+    if (ground.width !== canvas.width || ground.height !== canvas.height || reason !== "pointer") {
+      [ground.width, ground.height] = [canvas.width, canvas.height]; // which clears it, too
+      this.#paint(this.#pen(ground, scale), isMoving);
+    }
+    cleared(canvas).drawImage(ground, 0, 0);
+    this.#overlay(this.#pen(canvas, scale), isMoving);
+  }
+
+  #whole(pen: Pen): void {
+    this.#paint(pen, false);
+    this.#overlay?.(pen, false);
+  }
+
+  #pen(canvas: HTMLCanvasElement, scale: number): CanvasPen {
+    return new CanvasPen(canvas.getContext("2d")!, this.width, this.height, scale, colours(this.#place), this.#weight);
+  }
+}
+
+function cleared(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
+  const context = canvas.getContext("2d")!;
+  context.setTransform(1, 0, 0, 1, 0, 0);
+  context.clearRect(0, 0, canvas.width, canvas.height);
+  return context;
+}

@@ -1,0 +1,97 @@
+/** Lines, grounds, dots and labels of the drawings by name: inks by token, widths in pixels of the screen. */
+
+import type { Token } from "./colours.ts";
+
+/** How a path is drawn. */
+export interface Style {
+  readonly stroke?: Token;
+  /** Of the line, pixels. */
+  readonly width?: number;
+  readonly dash?: readonly number[];
+  readonly fill?: Token;
+  readonly fillOpacity?: number;
+  /** Lines 45° steep in place of an even ground; crossed ones for facets that only close the hull. */
+  readonly hatch?: "plain" | "crossed";
+}
+
+export const STYLES = {
+  graticule: { stroke: "graticule", width: 0.5 },
+  coast: { stroke: "coast", width: 0.7 },
+  land: { fill: "land" },
+  ocean: { fill: "ocean" },
+  frame: { stroke: "limb", width: 0.7 },
+  limb: { stroke: "limb", width: 1.3 },
+  "limb-soft": { stroke: "limb", width: 0.7 },
+  "limb-small": { stroke: "limb", width: 1 },
+  delaunay: { stroke: "delaunay", width: 0.9 },
+  voronoi: { stroke: "voronoi", width: 1.1 },
+  hull: { stroke: "hull", width: 1.3 },
+  hatch: { hatch: "plain" },
+  closing: { hatch: "crossed" },
+  bubble: { stroke: "accent", width: 1.8, fill: "accent-wash" },
+  "bubble-open": { stroke: "accent", width: 1.8 },
+  triangle: { stroke: "accent", width: 1.2 },
+  seen: { fill: "accent-wash" },
+  horizon: { stroke: "accent", width: 1.8 },
+  fan: { stroke: "accent", width: 1, dash: [4, 3] },
+  ray: { stroke: "accent", width: 0.8, dash: [5, 4] },
+  span: { stroke: "accent", width: 1.8 },
+  sheet: { fill: "sheet" },
+  "sheet-plane": { fill: "sheet", fillOpacity: 0.35, stroke: "limb", width: 0.7 },
+  side: { stroke: "voronoi", width: 1.3 },
+  touch: { stroke: "ink", width: 1 },
+  tissot: { fill: "tissot", stroke: "coast", width: 0.6 },
+  "patch-line": { stroke: "accent", width: 1 },
+} as const satisfies Record<string, Style>;
+
+export type StyleName = keyof typeof STYLES;
+
+/** A dot: its radius, its ink and its rim. */
+export interface DotStyle {
+  readonly radius: number;
+  readonly fill: Token;
+  readonly rim: Token;
+  readonly rimWidth: number;
+}
+
+export const DOTS = {
+  site: { radius: 2.2, fill: "ink", rim: "paper", rimWidth: 0.6 },
+  held: { radius: 3.2, fill: "accent", rim: "paper", rimWidth: 1 },
+  shadow: { radius: 2.2, fill: "paper", rim: "accent", rimWidth: 1.2 },
+  pole: { radius: 2, fill: "ink", rim: "paper", rimWidth: 0.6 },
+} as const satisfies Record<string, DotStyle>;
+
+export type DotName = keyof typeof DOTS;
+
+/** How a label is set: `*P*` in its text is in italics. */
+export interface LabelStyle {
+  readonly ink: Token;
+  /** The ground that the letters are kept free with. */
+  readonly halo: Token;
+  /** Of the type, pixels. */
+  readonly size: number;
+  readonly italic?: boolean;
+  readonly align?: "left" | "center" | "right";
+}
+
+/** Width of the halo round letters, pixels. */
+export const HALO_WIDTH = 3;
+
+/** Distance of hatching lines, pixels. */
+export const HATCH_PITCH = 6;
+export const HATCH_WIDTH = 0.8;
+
+/** Ring of a handle, and the half of the cross in it, pixels. */
+export const HANDLE_RADIUS = 5;
+export const HANDLE_CROSS = 2;
+
+/** Opacity of what lies behind. */
+export const BEHIND = 0.38;
+
+/** Widths of lines in a narrow window, and how narrow that is. */
+export const NARROW_WEIGHT = 0.8;
+export const NARROW = "(max-width: 43.75rem)";
+
+/** The type of the page, as in its style sheet. */
+export const SERIF =
+  '"STIX Two Text", STIXGeneral, STIX, XITS, "Times New Roman", "Nimbus Roman", "TeX Gyre Termes", "Liberation Serif", Times, serif';

@@ -1,0 +1,229 @@
+/** The pen of SVG: the same trace as on the screen, with true arcs of ellipses. */
+
+import { LIGHT, SHADE } from "./canvas_pen.ts";
+import type { Colours, Token } from "./colours.ts";
+import { textParts } from "./pen.ts";
+import type { Disc, Handle, Path, Pen, Picture, Trace } from "./pen.ts";
+import * as styles from "./styles.ts";
+import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
+
+/** Decimals of a coordinate, pixels of the screen. */
+const DECIMALS = 3;
+
+/** Longest piece of an arc, radians: below half a turn its ends tell which of two arcs is meant. */
+const LONGEST_PIECE = 3;
+
+export class SvgPen implements Pen {
+  readonly width: number;
+  readonly height: number;
+  readonly #colours: Colours;
+  readonly #weight: number;
+  readonly #definitions: string[] = [];
+  readonly #parts: string[] = [];
+
+  constructor(width: number, height: number, colours: Colours, weight: number) {
+    this.width = width;
+    this.height = height;
+    this.#colours = colours;
+    this.#weight = weight;
+  }
+
+  /** The whole drawing, on paper. */
+  text(title: string): string {
+    const [w, h] = [number(this.width), number(this.height)];
+    return [
+      `<svg xmlns="http://www.w3.org/2000/svg" width="${w}" height="${h}" viewBox="0 0 ${w} ${h}">`,
+      `<title>${escaped(title)}</title>`,
+      this.#definitions.length > 0 ? `<defs>${this.#definitions.join("")}</defs>` : "",
+      `<rect width="${w}" height="${h}" ${paint("fill", this.#colours.paper)}/>`,
+      `<g fill="none" stroke-linecap="round" stroke-linejoin="round" font-family='${styles.SERIF}'>`,
+      ...this.#parts,
+      "</g>",
+      "</svg>",
+      "",
+    ]
+      .filter((line, k, all) => line !== "" || k === all.length - 1)
+      .join("\n");
+  }
+
+  draw(name: StyleName, trace: Trace): void {
+    const d = pathData(trace);
+    if (d === "") return;
+    const style: Style = styles.STYLES[name];
+    const looks: string[] = [];
+    if (style.hatch !== undefined) looks.push(`fill="url(#${this.#hatch(style.hatch)})"`);
+    if (style.fill !== undefined) looks.push(paint("fill", this.#colours[style.fill], style.fillOpacity));
+    if (style.stroke !== undefined) looks.push(this.#line(style));
+    this.#parts.push(`<path class="${name}" ${looks.join(" ")} d="${d}"/>`);
+  }
+
+  behind(body: () => void): void {
+    this.#group(`opacity="${styles.BEHIND}"`, body);
+  }
+
+  clipped(trace: Trace, body: () => void): void {
+    const id = `clip-${this.#definitions.length}`;
+    this.#definitions.push(`<clipPath id="${id}"><path d="${pathData(trace)}"/></clipPath>`);
+    this.#group(`clip-path="url(#${id})"`, body);
+  }
+
+  ball(disc: Disc, ground: "ball" | "ocean"): void {
+    const { ball, ocean } = this.#colours;
+    if (ground === "ocean") this.#disc(disc, paint("fill", ocean));
+    else this.#disc(disc, `fill="url(#${this.#gradient("ball", 0.25, ball, this.#colours["ball-rim"])})"`);
+  }
+
+  shade(disc: Disc): void {
+    this.#disc(disc, `fill="url(#${this.#gradient("shade", 0.45, ...SHADE)})"`);
+  }
+
+  dots(name: DotName, places: ArrayLike<number>): void {
+    if (places.length === 0) return;
+    const { radius, fill, rim, rimWidth } = styles.DOTS[name];
+    const looks = [
+      paint("fill", this.#colours[fill]),
+      paint("stroke", this.#colours[rim]),
+      `stroke-width="${rimWidth}"`,
+    ];
+    this.#group(`class="${name}" ${looks.join(" ")}`, () => {
+      for (let k = 0; k < places.length; k += 2) {
+        this.#parts.push(`<circle cx="${number(places[k])}" cy="${number(places[k + 1])}" r="${radius}"/>`);
+      }
+    });
+  }
+
+  label(text: string, x: number, y: number, style: LabelStyle): void {
+    const anchor = { left: "start", center: "middle", right: "end" }[style.align ?? "left"];
+    const words = textParts(text, style.italic ?? false)
+      .map((part) => (part.italic ? `<tspan font-style="italic">${escaped(part.text)}</tspan>` : escaped(part.text)))
+      .join("");
+    const halo = `paint-order="stroke" ${paint("stroke", this.#colours[style.halo])} stroke-width="${styles.HALO_WIDTH}"`;
+    const place = `x="${number(x)}" y="${number(y)}" font-size="${style.size}" text-anchor="${anchor}"`;
+    this.#parts.push(`<text ${place} ${paint("fill", this.#colours[style.ink])} ${halo}>${words}</text>`);
+  }
+
+  handle(x: number, y: number, kind: Handle): void {
+    const ground = kind === "behind" ? 'fill="none"' : paint("fill", this.#colours.paper);
+    const line = this.#line({ stroke: "accent", width: kind === "behind" ? 1.2 : 1.8 });
+    this.#disc({ x, y, r: styles.HANDLE_RADIUS }, `${ground} ${line}`);
+    if (kind !== "front") return;
+    const c = 2 * styles.HANDLE_CROSS;
+    const d = `M${number(x - c / 2)} ${number(y)}h${c}m${-c / 2} ${-c / 2}v${c}`;
+    this.#parts.push(`<path ${this.#line({ stroke: "accent", width: 1 })} d="${d}"/>`);
+  }
+
+  picture(picture: Picture, x: number, y: number, width: number, height: number): void {
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [picture.width, picture.height];
+    canvas.getContext("2d")!.drawImage(picture, 0, 0);
+    const place = `x="${number(x)}" y="${number(y)}" width="${number(width)}" height="${number(height)}"`;
+    this.#parts.push(`<image ${place} preserveAspectRatio="none" href="${canvas.toDataURL("image/png")}"/>`);
+  }
+
+  #line(style: { readonly stroke?: Token; readonly width?: number; readonly dash?: readonly number[] }): string {
+    const dash = style.dash === undefined ? "" : ` stroke-dasharray="${style.dash.join(" ")}"`;
+    const width = number((style.width ?? 1) * this.#weight);
+    return `${paint("stroke", this.#colours[style.stroke ?? "ink"])} stroke-width="${width}"${dash}`;
+  }
+
+  #group(attributes: string, body: () => void): void {
+    this.#parts.push(`<g ${attributes}>`);
+    body();
+    this.#parts.push("</g>");
+  }
+
+  #disc({ x, y, r }: Disc, looks: string): void {
+    this.#parts.push(`<circle ${looks} cx="${number(x)}" cy="${number(y)}" r="${number(r)}"/>`);
+  }
+
+  #gradient(id: string, from: number, inner: string, outer: string): string {
+    const stop = (offset: number, colour: string): string =>
+      `<stop offset="${offset}" ${paint("stop-color", colour, 1, "stop-opacity")}/>`;
+    const place = `cx="${LIGHT.x}" cy="${LIGHT.y}" r="${LIGHT.r}"`;
+    return this.#define(
+      id,
+      `<radialGradient id="${id}" ${place}>${stop(from, inner)}${stop(1, outer)}</radialGradient>`,
+    );
+  }
+
+  #hatch(kind: "plain" | "crossed"): string {
+    const [id, p] = [`hatch-${kind}`, styles.HATCH_PITCH];
+    const lines = `M0 ${p / 2}H${p}${kind === "crossed" ? `M${p / 2} 0V${p}` : ""}`;
+    const line = `${paint("stroke", this.#colours.hatch)} stroke-width="${styles.HATCH_WIDTH}"`;
+    const place = `width="${p}" height="${p}" patternUnits="userSpaceOnUse" patternTransform="rotate(-45)"`;
+    return this.#define(id, `<pattern id="${id}" ${place}><path ${line} d="${lines}"/></pattern>`);
+  }
+
+  #define(id: string, text: string): string {
+    if (!this.#definitions.includes(text)) this.#definitions.push(text);
+    return id;
+  }
+}
+
+/** What a trace lays down, as the attribute `d`. */
+export function pathData(trace: Trace): string {
+  const path = new SvgPath();
+  trace(path);
+  return path.d;
+}
+
+class SvgPath implements Path {
+  d = "";
+  #isBegun = false;
+
+  moveTo(x: number, y: number): void {
+    this.d += `M${number(x)} ${number(y)}`;
+    this.#isBegun = true;
+  }
+
+  lineTo(x: number, y: number): void {
+    this.d += `L${number(x)} ${number(y)}`;
+  }
+
+  ellipse(
+    x: number,
+    y: number,
+    rx: number,
+    ry: number,
+    rotation: number,
+    from: number,
+    to: number,
+    counterclockwise = false,
+  ): void {
+    const [c, s] = [Math.cos(rotation), Math.sin(rotation)];
+    const at = (t: number): [number, number] => {
+      const [u, v] = [rx * Math.cos(t), ry * Math.sin(t)];
+      return [x + u * c - v * s, y + u * s + v * c];
+    };
+    if (this.#isBegun) this.lineTo(...at(from));
+    else this.moveTo(...at(from));
+    const pieces = Math.ceil(Math.abs(to - from) / LONGEST_PIECE);
+    const looks = `${number(rx)} ${number(ry)} ${number((rotation * 180) / Math.PI)} 0 ${counterclockwise ? 0 : 1}`;
+    for (let k = 1; k <= pieces; ++k) {
+      const [px, py] = at(from + ((to - from) * k) / pieces);
+      this.d += `A${looks} ${number(px)} ${number(py)}`;
+    }
+  }
+
+  closePath(): void {
+    this.d += "Z";
+  }
+}
+
+/** A coordinate with few digits and no more zeros than it takes. */
+function number(value: number): string {
+  const text = value.toFixed(DECIMALS).replace(/\.?0+$/, "");
+  return text === "-0" ? "0" : text;
+}
+
+/** A colour as attributes: those of CSS with an opacity of their own are not known to all readers of SVG. */
+function paint(attribute: string, colour: string, opacity = 1, opacityName = `${attribute}-opacity`): string {
+  const [red, green, blue, alpha = 1] = (colour.match(/[\d.]+/g) ?? []).map(Number);
+  const seen = alpha * opacity;
+  const tail = seen === 1 ? "" : ` ${opacityName}="${number(seen)}"`;
+  return `${attribute}="rgb(${red}, ${green}, ${blue})"${tail}`;
+}
+
+function escaped(text: string): string {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+}

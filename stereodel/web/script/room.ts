@@ -1,0 +1,45 @@
+/** What a room of the page is, and what the page does for it. */
+
+import type { Announcer } from "./announce.ts";
+import type { Contents } from "./contents.ts";
+import type { LinkValues } from "./link.ts";
+import type { Messages } from "./messages.ts";
+
+/** The page, as its rooms see it. */
+export interface RoomHost {
+  readonly contents: Contents;
+  readonly announcer: Announcer;
+  readonly messages: Messages;
+  /** The state has changed: the address follows at rest. A step is one that the back button takes back. */
+  changed(isStep?: boolean): void;
+  /** Runs what calls the kernel; a failure is told, and the last drawing stays. */
+  guarded(body: () => void): void;
+}
+
+/** A room: its drawings, its controls and its state. */
+export interface Room {
+  /** Takes the room's section of the page, once. */
+  attach(section: HTMLElement): void;
+  /** The state by name, as the link has it; what is as in the beginning may be left out. */
+  state(): Record<string, string>;
+  /**
+   * Shows a state; what it leaves out is as in the beginning.
+   *
+   * @throws LinkError where a value cannot be read; the state before stays.
+   */
+  restore(values: LinkValues): void;
+  /** Draws everything again, after a failure or with other colours. */
+  redraw(): void;
+  /** Opens a file of the reader's, or says why it cannot. */
+  open(file: File): Promise<void>;
+  /** The drawing as SVG. */
+  svg(): string;
+  /** The drawing with so many pixels for one of the screen. */
+  png(scale: number): Promise<Blob>;
+  /** What GeoJSON can hold of the room, or null where there is none: then the room has said so. */
+  geojson(): string | null;
+  /** The Python lines that make the same picture. */
+  python(): string;
+  /** Lets go of listeners and timers. */
+  dispose(): void;
+}

@@ -1,0 +1,89 @@
+/** Native inputs of a room: numbers in fields, switches, sets. */
+
+import { field, find, make } from "../dom.ts";
+import type { SiteSet } from "../sets.ts";
+
+/** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
+export class NumberField {
+  readonly #input: HTMLInputElement;
+  readonly #decimals: number;
+
+  /** @param typed gets each valid number; the browser keeps to `min` and `max`. */
+  constructor(root: ParentNode, name: string, decimals: number, typed: (value: number) => void) {
+    this.#input = field(root, name);
+    this.#decimals = decimals;
+    this.#input.addEventListener("input", () => {
+      if (this.#input.value !== "" && this.#input.validity.valid) typed(this.#input.valueAsNumber);
+    });
+  }
+
+  /** Shows a number, unless it is being typed. */
+  set value(value: number) {
+    if (document.activeElement !== this.#input) this.#input.value = value.toFixed(this.#decimals);
+  }
+
+  set max(value: number) {
+    this.#input.max = String(value);
+  }
+}
+
+/** Switches of a room by name. */
+export class Switches {
+  readonly #root: ParentNode;
+  readonly #names: readonly string[];
+
+  constructor(root: ParentNode, names: readonly string[], changed: () => void) {
+    this.#root = root;
+    this.#names = names;
+    for (const name of names) field(root, name).addEventListener("change", changed);
+  }
+
+  /** Whether something is drawn. */
+  isOn(name: string): boolean {
+    return field(this.#root, name).checked;
+  }
+
+  /** Names of those that differ from the way the room begins. */
+  get turned(): string {
+    return this.#names
+      .filter((name) => field(this.#root, name).checked !== field(this.#root, name).defaultChecked)
+      .join(",");
+  }
+
+  /** Turns those of a link, and all others back. */
+  set turned(names: string) {
+    const turned = names.split(",");
+    for (const name of this.#names)
+      field(this.#root, name).checked = field(this.#root, name).defaultChecked !== turned.includes(name);
+  }
+}
+
+/** Fills the list of sets; `chosen` gets the one that the reader picks. */
+export function listSets(
+  root: ParentNode,
+  sets: readonly SiteSet[],
+  chosen: (set: SiteSet) => void,
+): HTMLSelectElement {
+  const select = find<HTMLSelectElement>(root, "select[name=set]");
+  for (const set of sets) {
+    const option = make("option", "", set.words);
+    option.value = set.name;
+    select.append(option);
+  }
+  select.addEventListener("change", () => {
+    const set = sets.find(({ name }) => name === select.value);
+    if (set !== undefined) chosen(set);
+  });
+  return select;
+}
+
+/** Shows which set there is; sites of the reader's own have an entry while they are there. */
+export function showSet(select: HTMLSelectElement, name: string, words: string | null): void {
+  select.querySelector("option[value=own]")?.remove();
+  if (words !== null) {
+    const option = make("option", "", words);
+    option.value = "own";
+    select.prepend(option);
+  }
+  select.value = words === null ? name : "own";
+}

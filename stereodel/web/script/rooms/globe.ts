@@ -1,0 +1,398 @@
+/** The Globe room: the Earth through a fisheye, or one bubble of it sent onto another. */
+
+import { field, find, say } from "../dom.ts";
+import type { Reason } from "../drawing/plate.ts";
+import { collection, feature, sphericalPolygon } from "../geojson.ts";
+import { MOST_SITES, packPlaces } from "../link.ts";
+import type { LinkValues } from "../link.ts";
+import { SphericalVoronoi } from "../kernel/api.ts";
+import { complaint, openPoints } from "../opening.ts";
+import { Painted, PictureError } from "../panorama.ts";
+import type { Room, RoomHost } from "../room.ts";
+import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
+import { latitude, longitude, scale } from "../words.ts";
+import { BubbleGlobe } from "./globe_bubbles.ts";
+import { FisheyeGlobe } from "./globe_fisheye.ts";
+import type { GlobeHost } from "./globe_fisheye.ts";
+import { globePython } from "./globe_python.ts";
+import { GlobeScene } from "./globe_scene.ts";
+import type { Drawn, Places } from "./globe_scene.ts";
+import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
+import type { GlobeState } from "./globe_state.ts";
+import { FiveViews } from "./globe_views.ts";
+import { directionOf, lonLatOf, row } from "./space.ts";
+import type { Vector } from "./space.ts";
+
+/** Files that are pictures, by the ends of their names. */
+const PICTURES = /\.(jpe?g|png|webp|avif)$/i;
+
+/** Steps of the slider for a magnification of ten times. */
+const SLIDER_TEN = 50;
+
+const SWITCHES = ["land", "graticule", "tissot", "cells"] as const;
+
+export function globeRoom(host: RoomHost): Room {
+  return new GlobeRoom(host);
+}
+
+interface Parts {
+  readonly section: HTMLElement;
+  readonly globe: FisheyeGlobe;
+  readonly views: FiveViews;
+  readonly bubbles: readonly BubbleGlobe[];
+}
+
+class GlobeRoom implements Room {
+  readonly #host: RoomHost;
+  readonly #scene = new GlobeScene();
+  readonly #abort = new AbortController();
+  #state: GlobeState = BEGINNING;
+  #parts: Parts | null = null;
+  /** The cells' voice: the places of a link stand until others are opened. */
+  #isGiven = false;
+
+  constructor(host: RoomHost) {
+    this.#host = host;
+  }
+
+  attach(section: HTMLElement): void {
+    const room = this;
+    const host: GlobeHost = {
+      scene: this.#scene,
+      get state() {
+        return room.#state;
+      },
+      set: (change, reason, isStep) => this.#set(change, reason, isStep),
+      run: (body) => this.#host.guarded(body),
+    };
+    const canvas = (id: string): HTMLCanvasElement => find(section, `#${id}`);
+    this.#parts = {
+      section,
+      globe: new FisheyeGlobe(canvas("globe-plate"), host),
+      views: new FiveViews([...section.querySelectorAll<HTMLButtonElement>(".views button")], host),
+      bubbles: [
+        new BubbleGlobe(canvas("globe-before"), "before", host),
+        new BubbleGlobe(canvas("globe-after"), "after", host),
+      ],
+    };
+    this.#listen(section);
+    this.#write();
+    void this.#load();
+  }
+
+  state(): Record<string, string> {
+    const { places } = this.#scene;
+    const held =
+      places === null || this.#isGiven
+        ? {}
+        : places.lonlat.length <= 2 * MOST_SITES
+          ? { sites: packPlaces(places.lonlat), name: places.name }
+          : { file: places.name };
+    return { ...toValues(this.#state), ...held };
+  }
+
+  restore(values: LinkValues): void {
+    const state = fromValues(values);
+    const lonlat = values.places("sites");
+    if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
+    const drawn = { ...state.drawn, cells: state.drawn.cells && this.#scene.places !== null };
+    this.#parts?.globe.stop();
+    this.#set({ ...state, drawn }, "state");
+  }
+
+  redraw(): void {
+    this.#redraw("state");
+  }
+
+  async open(file: File): Promise<void> {
+    const isPicture = file.type.startsWith("image/") || PICTURES.test(file.name);
+    if (!isPicture) {
+      await openPoints(file, "lonlat", this.#host.messages, ({ places: lonlat }) => {
+        this.#show({ name: file.name, lonlat }, false);
+        this.#set({ drawn: { ...this.#state.drawn, cells: true } }, "state", true);
+      });
+      return;
+    }
+    try {
+      this.#scene.picture = await Painted.read(file);
+    } catch (error) {
+      if (!(error instanceof PictureError)) throw error;
+      this.#host.messages.show(...complaint(file.name, error));
+      return;
+    }
+    this.#host.messages.close();
+    this.#redraw("state");
+  }
+
+  svg(): string {
+    return this.#shownPlate().svg(this.#label());
+  }
+
+  png(size: number): Promise<Blob> {
+    return this.#shownPlate().png(size);
+  }
+
+  geojson(): string | null {
+    const { places } = this.#scene;
+    if (places === null) {
+      this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
+      return null;
+    }
+    const voronoi = SphericalVoronoi.fromLonlat(places.lonlat);
+    const cells = Array.from({ length: places.lonlat.length / 2 }, (_, site) => {
+      const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
+      const [longitude, latitude] = places.lonlat.subarray(2 * site, 2 * site + 2);
+      return corners.length < 3 ? [] : [feature({ site: site + 1, longitude, latitude }, sphericalPolygon(corners))];
+    });
+    return collection(cells.flat());
+  }
+
+  python(): string {
+    return globePython(this.#state, this.#scene.places?.name ?? null);
+  }
+
+  dispose(): void {
+    this.#abort.abort();
+    this.#parts?.globe.dispose();
+    this.#parts?.views.dispose();
+    for (const globe of this.#parts?.bubbles ?? []) globe.dispose();
+  }
+
+  /** Unpacks what the page carries; until then the globe is water. */
+  async #load(): Promise<void> {
+    await this.#scene.load(this.#host.contents);
+    const given = await this.#host.contents.given();
+    if (given !== null && this.#scene.places === null) {
+      this.#show(given, true);
+      this.#set({ drawn: { ...this.#state.drawn, cells: true } }, "state");
+    }
+    this.#redraw("state");
+  }
+
+  #show(places: Places, isGiven: boolean): void {
+    this.#scene.show(places);
+    this.#isGiven = isGiven;
+    this.#input("cells").disabled = false;
+  }
+
+  /** Another state: the drawings, the words, the controls and the link follow. */
+  #set(change: Partial<GlobeState>, reason: Reason, isStep = false): void {
+    this.#state = { ...this.#state, ...change };
+    this.#redraw(reason);
+    this.#write();
+    this.#host.changed(isStep);
+    if (reason !== "pointer") this.#announce(change);
+  }
+
+  #redraw(reason: Reason): void {
+    if (this.#parts === null) return;
+    const { globe, views, bubbles } = this.#parts;
+    if (this.#state.lens === "bubble") for (const bubble of bubbles) bubble.plate.redraw(reason);
+    else {
+      globe.plate.redraw(reason);
+      if (reason !== "pointer") views.redraw(reason);
+    }
+  }
+
+  #shownPlate(): { svg(title: string): string; png(size: number): Promise<Blob> } {
+    const { globe, bubbles } = this.#parts!;
+    return this.#state.lens === "bubble" ? bubbles[1].plate : globe.plate;
+  }
+
+  #input(name: string): HTMLInputElement {
+    return field(this.#parts!.section, name);
+  }
+
+  #listen(section: HTMLElement): void {
+    const { signal } = this.#abort;
+    const on = (target: Element, act: () => void, type = "change"): void =>
+      target.addEventListener(type, () => this.#host.guarded(act), { signal });
+    for (const radio of section.querySelectorAll<HTMLInputElement>("input[name=lens]")) {
+      on(radio, () => this.#set({ lens: radio.value === "bubble" ? "bubble" : "fisheye" }, "state", true));
+    }
+    const slider = this.#input("mag");
+    on(slider, () => this.#magnify(10 ** (slider.valueAsNumber / SLIDER_TEN)), "input");
+    for (const name of ["focus-lat", "focus-lon"]) on(this.#input(name), () => this.#focusByFields());
+    on(this.#input("from-radius"), () => this.#setRadius("from", "from-radius"));
+    on(this.#input("to-radius"), () => this.#setRadius("to", "to-radius"));
+    for (const button of section.querySelectorAll<HTMLButtonElement>(".presets button")) {
+      on(button, () => this.#begin(PRESETS[button.value]), "click");
+    }
+    for (const name of SWITCHES) {
+      const box = this.#input(name);
+      on(box, () => this.#set({ drawn: { ...this.#state.drawn, [name]: box.checked } as Drawn }, "state"));
+    }
+    const north = this.#input("north");
+    on(north, () => this.#setNorth(north.checked));
+    for (const button of section.querySelectorAll<HTMLButtonElement>(".views button")) {
+      on(button, () => this.#flyToSide(button), "click");
+    }
+  }
+
+  #magnify(magnification: number): void {
+    const { sight } = this.#state;
+    this.#parts?.globe.stop();
+    const kept = Math.max(1, Math.min(MOST, magnification));
+    this.#set({ sight: { ...sight, lens: { ...sight.lens, magnification: kept } } }, "hand");
+  }
+
+  #focusByFields(): void {
+    const [lat, lon] = [this.#input("focus-lat"), this.#input("focus-lon")];
+    if (!lat.validity.valid || !lon.validity.valid || lat.value === "" || lon.value === "") return;
+    const place = directionOf(lon.valueAsNumber, lat.valueAsNumber);
+    if (this.#state.lens === "bubble") this.#set({ from: { ...this.#state.from, center: place } }, "state");
+    else {
+      const { lens, view } = this.#state.sight;
+      this.#parts?.globe.fly({ lens: { ...lens, focus: place }, view });
+    }
+  }
+
+  #setRadius(which: "from" | "to", name: string): void {
+    const radius = this.#input(name).valueAsNumber;
+    if (!(radius >= LEAST_RADIUS && radius <= MOST_RADIUS)) {
+      this.#write();
+      return;
+    }
+    this.#set({ [which]: { ...this.#state[which], radius } }, "state");
+  }
+
+  #begin(preset: Partial<GlobeState> | undefined): void {
+    if (preset === undefined) return;
+    const isHere = this.#state.lens === "fisheye" && preset.lens === "fisheye";
+    if (isHere && preset.sight !== undefined) this.#parts?.globe.fly(preset.sight);
+    else this.#set(preset, "state", true);
+  }
+
+  #setNorth(isNorthUp: boolean): void {
+    const { sight, before, after } = this.#state;
+    const level = isNorthUp
+      ? { sight: { ...sight, view: sight.view.northUp }, before: before.northUp, after: after.northUp }
+      : {};
+    this.#set({ ...level, isNorthUp }, "state");
+  }
+
+  #flyToSide(button: HTMLButtonElement): void {
+    const { lens } = this.#state.sight;
+    this.#parts?.globe.fly({ lens, view: sideView(Number(button.value), lens.focus) });
+    this.#host.announcer.say(button.textContent?.trim().replace(/^\d\s*/, "") ?? "");
+  }
+
+  /** Everything of the margin and the sentences. */
+  #write(): void {
+    if (this.#parts === null) return;
+    const { section } = this.#parts;
+    const { sight, drawn, isNorthUp, from, to } = this.#state;
+    const { magnification, focus } = sight.lens;
+    for (const radio of section.querySelectorAll<HTMLInputElement>("input[name=lens]")) {
+      radio.checked = radio.value === this.#state.lens;
+    }
+    put(this.#input("mag"), String(SLIDER_TEN * Math.log10(magnification)));
+    find(section, "[data-out=mag]").textContent = scale(magnification);
+    const [lon, lat] = lonLatOf(this.#state.lens === "bubble" ? from.center : focus);
+    put(this.#input("focus-lat"), lat.toFixed(1));
+    put(this.#input("focus-lon"), lon.toFixed(1));
+    put(this.#input("from-radius"), from.radius.toFixed(1));
+    put(this.#input("to-radius"), to.radius.toFixed(1));
+    for (const name of SWITCHES) this.#input(name).checked = drawn[name];
+    this.#input("north").checked = isNorthUp;
+    if (this.#state.lens === "bubble") this.#writeBubbles(section);
+    else this.#writeFisheye(section);
+    find(section, "#globe-plate").setAttribute("aria-label", this.#label());
+  }
+
+  #writeFisheye(section: HTMLElement): void {
+    const { pointer, sight } = this.#state;
+    const { magnification, focus } = sight.lens;
+    const map = lensMap(sight.lens);
+    const [here, there] = [scaleAt(map, pointer), scaleAt(map, opposite(focus))];
+    say(
+      find(section, "[data-out=pointer]"),
+      `At the pointer, _${placeWords(pointer)}_, everything is _${scale(here)}_ times as large as on a plain globe; ` +
+        `at the focus _${scale(magnification)}_ times, on the far side _${scale(there)}_ times.`,
+    );
+    const ruler = find(section, "[data-out=scale]");
+    const share = magnification > 1 ? Math.log(here) / Math.log(magnification) : 0;
+    find(ruler, ".mark-at.first").textContent = fraction(magnification);
+    find(ruler, ".mark-at.last").textContent = short(magnification);
+    const needle = find(ruler, ".needle");
+    needle.style.setProperty("--at", `${(50 * (share + 1)).toFixed(2)}%`);
+    needle.textContent = `${scale(here)}×`;
+  }
+
+  #writeBubbles(section: HTMLElement): void {
+    const [middle, rim] = this.#bubbleScales();
+    say(
+      find(section, "[data-out=bubbles]"),
+      `In the middle of the bubble everything is _${middle}_ times as large, at its rim _${rim}_ times.`,
+    );
+  }
+
+  /** In the middle of the bubble and at its rim, as words. */
+  #bubbleScales(): [string, string] {
+    const { from, to } = this.#state;
+    const map = capToCap(from, to);
+    // Where the scale is S in the middle, it is that of the circles' own sizes at the rim.
+    const rim = Math.sin((to.radius * Math.PI) / 180) / Math.sin((from.radius * Math.PI) / 180);
+    return [scale(map.magnification), scale(rim)];
+  }
+
+  #label(): string {
+    const { sight, lens, from, to } = this.#state;
+    if (lens === "bubble") {
+      return `Globe with the bubble of ${from.radius.toFixed(1)}° sent onto one of ${to.radius.toFixed(1)}°`;
+    }
+    const seen = placeWords(sight.view.onBall([0, 0, 1]));
+    return `Globe through a fisheye, ${magnificationWords(this.#state)}, seen from ${seen}`;
+  }
+
+  #announce(change: Partial<GlobeState>): void {
+    const { announcer } = this.#host;
+    const { sight } = this.#state;
+    if (change.from || change.to) {
+      const [middle, rim] = this.#bubbleScales();
+      announcer.say(`${middle} times in the middle, ${rim} times at the rim`);
+    } else if (change.sight && change.sight.lens !== this.#said) {
+      announcer.say(magnificationWords(this.#state));
+    } else if (change.sight || change.before || change.after) {
+      const view = change.before ?? change.after ?? sight.view;
+      const [lon, lat] = view.middle;
+      announcer.say(`Seen from ${latitude(lat, 0)}, ${longitude(lon, 0)}`);
+    }
+    this.#said = sight.lens;
+  }
+
+  /** The lens that was announced last. */
+  #said = BEGINNING.sight.lens;
+}
+
+function magnificationWords({ sight }: GlobeState): string {
+  const [lon, lat] = lonLatOf(sight.lens.focus);
+  return `${scale(sight.lens.magnification)} times at ${latitude(lat)}, ${longitude(lon)}`;
+}
+
+function placeWords(direction: Vector): string {
+  const [lon, lat] = lonLatOf(direction);
+  return `${latitude(lat)} ${longitude(lon)}`;
+}
+
+function opposite([x, y, z]: Vector): Vector {
+  return [-x, -y, -z];
+}
+
+/** The end of a ruler from 1/S to S: a fraction where S is whole. */
+function fraction(magnification: number): string {
+  return Number.isInteger(magnification)
+    ? magnification === 3
+      ? "⅓"
+      : `1⁄${magnification}`
+    : scale(1 / magnification);
+}
+
+function short(magnification: number): string {
+  return Number.isInteger(magnification) ? String(magnification) : scale(magnification);
+}
+
+/** Writes a value, unless the reader is writing there. */
+function put(input: HTMLInputElement, value: string): void {
+  if (input !== document.activeElement || input.type === "range") input.value = value;
+}

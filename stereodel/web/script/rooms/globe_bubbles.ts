@@ -1,0 +1,187 @@
+/** Two globes: the bubble that is taken, and the one that it fills; rims and insides are dragged in either. */
+
+import { arcThrough } from "../drawing/arcs.ts";
+import { circlePoints } from "../drawing/ball.ts";
+import { traceCap } from "../drawing/fill.ts";
+import { traceDisc } from "../drawing/pen.ts";
+import type { Disc, Pen } from "../drawing/pen.ts";
+import { Plate } from "../drawing/plate.ts";
+import type { Reason } from "../drawing/plate.ts";
+import { MoebiusMap } from "../kernel/api.ts";
+import { arrowed, grabBall } from "../view/ball_hand.ts";
+import type { Turnable } from "../view/ball_hand.ts";
+import { distance, follow } from "../view/hand.ts";
+import type { Gestures, Hold, Place } from "../view/hand.ts";
+import { betweenSights, capToCap, seenThrough } from "../view/lens.ts";
+import type { Cap } from "../view/lens.ts";
+import { Motion } from "../view/motion.ts";
+import { between, pointUnder, turned } from "../view/view.ts";
+import type { View } from "../view/view.ts";
+import { fixed } from "../words.ts";
+import { LABEL, placeOf } from "./globe_fisheye.ts";
+import type { GlobeHost } from "./globe_fisheye.ts";
+import { BEGINNING, LEAST_RADIUS, MOST_RADIUS } from "./globe_state.ts";
+import { angle, unit } from "./space.ts";
+import type { Vector } from "./space.ts";
+
+/** Where a rim has its handle: the point of the rim that lies farthest this way in the drawing. */
+const TOWARD = [0.8, -1] as const;
+
+/** Points of a rim that are tried for the handle. */
+const TRIED = 180;
+
+type Which = "before" | "after";
+
+export class BubbleGlobe implements Turnable {
+  readonly plate: Plate;
+  readonly #which: Which;
+  readonly #host: GlobeHost;
+  readonly #motion = new Motion();
+  readonly #unfollow: () => void;
+
+  constructor(canvas: HTMLCanvasElement, which: Which, host: GlobeHost) {
+    this.#which = which;
+    this.#host = host;
+    this.plate = new Plate(
+      canvas,
+      (pen, isMoving) => this.#paint(pen, isMoving),
+      (body) => host.run(body),
+      document.documentElement,
+      (pen) => this.#paintHeld(pen),
+    );
+    this.#unfollow = follow(this.plate, this.#gestures());
+  }
+
+  get disc(): Disc {
+    return this.plate.disc;
+  }
+
+  get view(): View {
+    return this.#host.state[this.#which];
+  }
+
+  get isNorthUp(): boolean {
+    return this.#host.state.isNorthUp;
+  }
+
+  turn(view: View, reason: Reason): void {
+    this.#host.set({ [this.#which]: view }, reason);
+  }
+
+  /** Goes to another view. */
+  fly(to: View): void {
+    const [from, lens] = [this.view, BEGINNING.sight.lens];
+    this.#motion.fly((t) => {
+      const { view } = betweenSights({ lens, view: from }, { lens, view: to }, t, this.isNorthUp);
+      this.turn(view, t < 1 ? "flight" : "state");
+    });
+  }
+
+  dispose(): void {
+    this.#motion.stop();
+    this.#unfollow();
+    this.plate.dispose();
+  }
+
+  get #cap(): Cap {
+    return this.#host.state[this.#which === "before" ? "from" : "to"];
+  }
+
+  #setCap(cap: Cap): void {
+    const radius = Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius));
+    this.#host.set({ [this.#which === "before" ? "from" : "to"]: { ...cap, radius } }, "hand");
+  }
+
+  #paint(pen: Pen, isMoving: boolean): void {
+    const { from, to, drawn } = this.#host.state;
+    const map = this.#which === "before" ? MoebiusMap.identity() : capToCap(from, to);
+    this.#host.scene.draw(pen, this.disc, seenThrough(map, this.view), drawn, isMoving);
+    pen.draw("limb", (path) => traceDisc(path, this.disc));
+  }
+
+  #paintHeld(pen: Pen): void {
+    const { disc } = this;
+    const cap = this.#cap;
+    const seen: Vector[] = circlePoints(this.view.seen(cap.center), cap.radius);
+    const circle = arcThrough(seen.flat(), 0, 1, 2, true);
+    if (circle !== null) {
+      pen.draw(this.#which === "before" ? "bubble" : "bubble-open", (path) => traceCap(path, disc, circle));
+    }
+    const handle = this.#handle();
+    if (handle === null) return;
+    const [x, y] = placeOf(disc, handle);
+    pen.handle(x, y, "rim");
+    const isRight = handle[0] < 0.55;
+    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + 14, {
+      ...LABEL,
+      align: isRight ? "left" : "right",
+    });
+  }
+
+  /** The handle's point of the view, or null while the rim is behind. */
+  #handle(): Vector | null {
+    const cap = this.#cap;
+    const [a, b, c] = circlePoints(this.view.seen(cap.center), cap.radius);
+    const middle: Vector = [(a[0] + b[0] + c[0]) / 3, (a[1] + b[1] + c[1]) / 3, (a[2] + b[2] + c[2]) / 3];
+    const e: Vector = [a[0] - middle[0], a[1] - middle[1], a[2] - middle[2]];
+    const f: Vector = [0, 1, 2].map((k) => (b[k] - c[k]) / Math.sqrt(3)) as unknown as Vector;
+    let best: Vector | null = null;
+    for (let k = 0; k < TRIED; ++k) {
+      const [u, v] = [Math.cos((2 * Math.PI * k) / TRIED), Math.sin((2 * Math.PI * k) / TRIED)];
+      const point = unit([0, 1, 2].map((i) => middle[i] + u * e[i] + v * f[i]) as unknown as Vector);
+      if (point[2] >= 0 && (best === null || toward(point) > toward(best))) best = point;
+    }
+    return best;
+  }
+
+  #gestures(): Gestures {
+    return {
+      take: (at, reach) => this.#take(at, reach),
+      key: (event) => {
+        const view = event.key === "0" ? BEGINNING[this.#which] : arrowed(this, event);
+        if (view === null) return false;
+        this.#motion.stop();
+        this.turn(view, "hand");
+        return true;
+      },
+    };
+  }
+
+  #take(at: Place, reach: number): Hold | null {
+    if (distance(at, [this.disc.x, this.disc.y]) > this.disc.r) return null;
+    const start = this.#cap;
+    const point = pointUnder(this.disc, at);
+    const center = this.view.seen(start.center);
+    const apart = angle(center, point);
+    const handle = this.#handle();
+    // Near the rim, in the drawing: one degree of it is not so many pixels everywhere.
+    const rim = this.#nearestOfRim(center, start.radius, point);
+    const isRim = rim[2] >= 0 && distance(at, placeOf(this.disc, rim)) <= reach;
+    if (isRim || (handle !== null && distance(at, placeOf(this.disc, handle)) <= reach)) {
+      this.#motion.stop();
+      return { move: (to) => this.#setCap({ ...start, radius: angle(center, pointUnder(this.disc, to)) }) };
+    }
+    if (apart > start.radius) return grabBall(this, this.#motion, at);
+    this.#motion.stop();
+    return {
+      move: (to) => {
+        const moved = turned(between(point, pointUnder(this.disc, to)), center);
+        this.#setCap({ ...start, center: this.view.onBall(moved) });
+      },
+    };
+  }
+
+  /** The point of the rim that is nearest to another point of the ball. */
+  #nearestOfRim(center: Vector, radius: number, point: Vector): Vector {
+    const apart = angle(center, point);
+    const [c, s] = [Math.cos((radius * Math.PI) / 180), Math.sin((radius * Math.PI) / 180)];
+    if (apart === 0) return circlePoints(center, radius)[0];
+    const height = Math.cos((apart * Math.PI) / 180);
+    const out = unit([0, 1, 2].map((k) => point[k] - height * center[k]) as unknown as Vector);
+    return [0, 1, 2].map((k) => c * center[k] + s * out[k]) as unknown as Vector;
+  }
+}
+
+function toward([x, y]: Vector): number {
+  return TOWARD[0] * x + TOWARD[1] * y;
+}

@@ -1,0 +1,113 @@
+/** What the globes of the room show: land, graticule, circles, the reader's places, a picture of the whole sphere. */
+
+import {
+  arcLayer,
+  capLayer,
+  circlePoints,
+  dotLayer,
+  drawLayers,
+  graticuleArcs,
+  regionLayer,
+  ridgeArcs,
+} from "../drawing/ball.ts";
+import type { Layer } from "../drawing/ball.ts";
+import type { Disc, Pen } from "../drawing/pen.ts";
+import type { Contents, Rings } from "../contents.ts";
+import { lonlatToXyz, SphericalVoronoi } from "../kernel/api.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
+import type { Painted } from "../panorama.ts";
+import { directionOf } from "./space.ts";
+
+/** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
+export const CIRCLE_KILOMETRES = 150;
+const EARTH = 6371.0088;
+export const CIRCLE_RADIUS = ((CIRCLE_KILOMETRES / EARTH) * 180) / Math.PI;
+
+/** Degrees between the lines of the graticule, and between the circles. */
+export const STEP = 10;
+
+/** The place of the sea that is farthest from all land. */
+const AT_SEA = directionOf(-123.4, -48.9);
+
+/** Places beyond which their cells are left out while the globe moves. */
+const MANY_PLACES = 10_000;
+
+/** What is drawn, as the reader has switched it. */
+export interface Drawn {
+  readonly land: boolean;
+  readonly graticule: boolean;
+  readonly tissot: boolean;
+  readonly cells: boolean;
+}
+
+/** The reader's own places. */
+export interface Places {
+  readonly name: string;
+  readonly lonlat: Float64Array;
+}
+
+export class GlobeScene {
+  places: Places | null = null;
+  picture: Painted | null = null;
+  readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
+  readonly #tissot = capLayer("tissot", equalCircles());
+  #coarse: Layer | null = null;
+  #fine: Layer | null = null;
+  #cells: Layer | null = null;
+  #dots: Layer | null = null;
+
+  /** Unpacks the land that the page carries. */
+  async load(contents: Contents): Promise<void> {
+    const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
+    if (coarse !== null) this.#coarse = landLayer(coarse);
+    if (fine !== null) this.#fine = landLayer(fine);
+  }
+
+  /** Shows the reader's places, or none. */
+  show(places: Places | null): void {
+    this.places = places;
+    this.#cells = null;
+    this.#dots = places === null ? null : dotLayer("site", lonlatToXyz(places.lonlat));
+  }
+
+  /** Draws a globe; `map` takes the Earth to the axes of the view. */
+  draw(pen: Pen, disc: Disc, map: MoebiusMap, drawn: Drawn, isMoving: boolean): void {
+    pen.ball(disc, "ocean");
+    if (this.picture !== null) this.picture.draw(pen, disc, map, isMoving);
+    drawLayers(pen, disc, map, this.#layers(drawn, isMoving));
+    pen.shade(disc);
+  }
+
+  #layers(drawn: Drawn, isMoving: boolean): Layer[] {
+    const layers: (Layer | null)[] = [];
+    if (drawn.land && this.picture === null) layers.push(isMoving ? this.#coarse : (this.#fine ?? this.#coarse));
+    if (drawn.graticule) layers.push(this.#graticule);
+    if (drawn.tissot) layers.push(this.#tissot);
+    const count = (this.places?.lonlat.length ?? 0) / 2;
+    if (drawn.cells && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
+    layers.push(this.#dots);
+    return layers.filter((layer) => layer !== null);
+  }
+
+  /** Sides of the places' cells, which are computed when they are first drawn. */
+  #ridges(): Layer | null {
+    if (this.places === null) return null;
+    return (this.#cells ??= arcLayer("voronoi", ridgeArcs(SphericalVoronoi.fromLonlat(this.places.lonlat))));
+  }
+}
+
+function landLayer({ lonlat, offsets }: Rings): Layer {
+  return regionLayer("land", "coast", lonlatToXyz(lonlat), offsets, AT_SEA, false);
+}
+
+/** Three points of each circle, about places some distance apart on parallels that are as far apart. */
+function equalCircles(): Float64Array {
+  const points: number[] = [];
+  for (let lat = -90; lat <= 90; lat += STEP) {
+    const count = Math.max(1, Math.round((360 / STEP) * Math.cos((lat * Math.PI) / 180)));
+    for (let k = 0; k < count; ++k) {
+      for (const point of circlePoints(directionOf((360 * k) / count - 180, lat), CIRCLE_RADIUS)) points.push(...point);
+    }
+  }
+  return Float64Array.from(points);
+}

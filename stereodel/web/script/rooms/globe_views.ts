@@ -1,0 +1,93 @@
+/** Five small globes: the lens from five sides, as the panels of Figures 10 to 12, with the surroundings of the focus. */
+
+import { arcLayer, drawLayers, graticuleArcs, regionLayer } from "../drawing/ball.ts";
+import type { Layer } from "../drawing/ball.ts";
+import { traceDisc } from "../drawing/pen.ts";
+import type { Disc, Pen } from "../drawing/pen.ts";
+import { Plate } from "../drawing/plate.ts";
+import type { Reason } from "../drawing/plate.ts";
+import { lensMap, seenThrough } from "../view/lens.ts";
+import type { Lens } from "../view/lens.ts";
+import { sideView } from "./globe_state.ts";
+import { STEP } from "./globe_scene.ts";
+import type { GlobeHost } from "./globe_fisheye.ts";
+import { directionOf, lonLatOf } from "./space.ts";
+import type { Vector } from "./space.ts";
+
+/** Half the side of the tinted surroundings as in the figures, degrees: 8 up to S = 4, then as large as they are seen. */
+const REACH = 8;
+const REACH_TIMES_S = 32;
+
+/** Points of each of their sides. */
+const POINTS = 16;
+
+/** Between limb and edge of the small globes, pixels. */
+const MARGIN = 1;
+
+export class FiveViews {
+  readonly #host: GlobeHost;
+  readonly #plates: Plate[];
+  readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
+  #patch: { lens: Lens; layer: Layer } | null = null;
+
+  constructor(buttons: readonly HTMLButtonElement[], host: GlobeHost) {
+    this.#host = host;
+    this.#plates = buttons.map((button) => {
+      const panel = Number(button.value);
+      const plate: Plate = new Plate(
+        button.querySelector("canvas")!,
+        (pen) => this.#paint(pen, panel, discOf(plate)),
+        (body) => host.run(body),
+      );
+      return plate;
+    });
+  }
+
+  redraw(reason: Reason): void {
+    for (const plate of this.#plates) plate.redraw(reason === "hand" || reason === "flight" ? "state" : reason);
+  }
+
+  dispose(): void {
+    for (const plate of this.#plates) plate.dispose();
+  }
+
+  #paint(pen: Pen, panel: number, disc: Disc): void {
+    const { lens } = this.#host.state.sight;
+    const map = seenThrough(lensMap(lens), sideView(panel, lens.focus));
+    pen.ball(disc, "ball");
+    drawLayers(pen, disc, map, [this.#surroundings(lens), this.#graticule]);
+    pen.draw("limb-small", (path) => traceDisc(path, disc));
+  }
+
+  #surroundings(lens: Lens): Layer {
+    if (this.#patch?.lens !== lens) this.#patch = { lens, layer: patchLayer(lens) };
+    return this.#patch.layer;
+  }
+}
+
+function discOf(plate: Plate): Disc {
+  const [x, y] = [plate.width / 2, plate.height / 2];
+  return { x, y, r: Math.max(x - MARGIN, 1) };
+}
+
+/** A box of longitudes and latitudes round the focus; near a pole it ends there. */
+function patchLayer({ focus, magnification }: Lens): Layer {
+  const [lon, lat] = lonLatOf(focus);
+  const reach = Math.min(REACH, REACH_TIMES_S / magnification);
+  const [south, north] = [Math.max(lat - reach, -89), Math.min(lat + reach, 89)];
+  const corners = [
+    [lon - reach, south],
+    [lon + reach, south],
+    [lon + reach, north],
+    [lon - reach, north],
+  ];
+  const ring = corners.flatMap(([x, y], k) => {
+    const [toX, toY] = corners[(k + 1) % 4];
+    return Array.from({ length: POINTS }, (_, n) => {
+      const t = n / POINTS;
+      return [...directionOf(x + t * (toX - x), y + t * (toY - y))];
+    });
+  });
+  const opposite: Vector = [-focus[0], -focus[1], -focus[2]];
+  return regionLayer("seen", "patch-line", Float64Array.from(ring.flat()), [0, ring.length], opposite, false);
+}

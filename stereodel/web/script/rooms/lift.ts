@@ -1,0 +1,450 @@
+/** The Lift room: a sheet that bends onto a hemisphere, and how far apart two of its points are there (P10, P13, P7). */
+
+import { field, find, plain, say } from "../dom.ts";
+import { Plate } from "../drawing/plate.ts";
+import type { Reason } from "../drawing/plate.ts";
+import { MOST_SITES, packPlaces, writeNumber } from "../link.ts";
+import type { LinkValues } from "../link.ts";
+import { openPoints } from "../opening.ts";
+import type { Room, RoomHost } from "../room.ts";
+import { SHEET_SIDES, sheetSets } from "../sets.ts";
+import type { SiteSet } from "../sets.ts";
+import { SiteTable } from "../table.ts";
+import { distance, follow } from "../view/hand.ts";
+import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
+import { View } from "../view/view.ts";
+import { counted, fixed, wrap } from "../words.ts";
+import { listSets, NumberField, showSet, Switches } from "./controls.ts";
+import { drawLift, onPicture, sitePlace, standOf } from "./lift_drawing.ts";
+import type { LiftScene } from "./lift_drawing.ts";
+import { liftPython } from "./lift_python.ts";
+import type { Sheet } from "./lift_sheet.ts";
+import { LiftSites } from "./lift_sites.ts";
+import { length, ofBend, ofBounds, ofFacets, ofPair, separation, withoutTriangles } from "./lift_words.ts";
+
+const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
+
+/** How the room begins: corners of the sheet, height and side of the view, degrees; P and Q by their indices. */
+const HEMISPHERE = 90;
+const HEIGHT = 35;
+const SIDE = 17;
+const PAIR = { p: 43, q: 1 };
+
+/** Degrees that a drag of a pixel turns. */
+const DEGREES_PER_PIXEL = 0.35;
+
+/** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
+const MANY = 10_000;
+const VERY_MANY = 100_000;
+
+export function liftRoom(host: RoomHost): Room {
+  return new LiftRoom(host);
+}
+
+class LiftRoom implements Room {
+  readonly #host: RoomHost;
+  readonly #sets: readonly SiteSet[] = sheetSets();
+  #section!: HTMLElement;
+  #plate!: Plate;
+  #table!: SiteTable;
+  #switches!: Switches;
+  #select!: HTMLSelectElement;
+  #viewFields!: { height: NumberField; side: NumberField };
+  #pairFields!: { p: NumberField; q: NumberField };
+  #release = (): void => {};
+
+  #sites = new LiftSites(new Float64Array(0));
+  #set = "sheet";
+  #file: string | null = null;
+  #corner = HEMISPHERE;
+  #height = HEIGHT;
+  #side = SIDE;
+  #p: number | null = null;
+  #q: number | null = null;
+  #next: "p" | "q" = "p";
+  #lit: number | null = null;
+
+  constructor(host: RoomHost) {
+    this.#host = host;
+  }
+
+  attach(section: HTMLElement): void {
+    this.#section = section;
+    const canvas = find<HTMLCanvasElement>(section, "#lift-plate");
+    this.#plate = new Plate(canvas, (pen, moving) => drawLift(pen, this.#scene(moving), moving), this.#host.guarded);
+    this.#table = new SiteTable(find(section, ".sites"), {
+      chosen: (site) => this.#pick(site),
+      pointed: (site) => {
+        this.#lit = site;
+        this.redraw();
+      },
+    });
+    this.#switches = new Switches(section, SWITCHES, () => {
+      this.redraw();
+      this.#host.changed();
+    });
+    this.#select = listSets(section, this.#sets, (set) => this.#host.guarded(() => this.#begin(set)));
+    const turn = (): void => {
+      this.#turn(field(section, "view-side").valueAsNumber, field(section, "view-height").valueAsNumber);
+    };
+    this.#viewFields = {
+      height: new NumberField(section, "view-height", 0, turn),
+      side: new NumberField(section, "view-side", 0, turn),
+    };
+    this.#pairFields = {
+      p: new NumberField(section, "p", 0, (number) => this.#setPair("p", number - 1)),
+      q: new NumberField(section, "q", 0, (number) => this.#setPair("q", number - 1)),
+    };
+    const slider = field(section, "bend");
+    slider.addEventListener("input", () => this.#host.guarded(() => this.#bend(slider.valueAsNumber)));
+    this.#release = follow(this.#plate, this.#gestures());
+  }
+
+  // State
+
+  state(): Record<string, string> {
+    const state: Record<string, string> = {};
+    const { places } = this.#sites;
+    if (this.#set !== "own") state["set"] = this.#set;
+    else if (places.length <= 2 * MOST_SITES) state["sites"] = packPlaces(places);
+    else state["file"] = this.#file ?? "sites";
+    if (this.#corner !== HEMISPHERE) state["bend"] = writeNumber(this.#corner, 2);
+    if (this.#height !== HEIGHT) state["height"] = writeNumber(this.#height, 2);
+    if (this.#side !== SIDE) state["side"] = writeNumber(this.#side, 2);
+    if (this.#p !== null) state["p"] = String(this.#p + 1);
+    if (this.#q !== null) state["q"] = String(this.#q + 1);
+    if (this.#switches.turned) state["turned"] = this.#switches.turned;
+    return state;
+  }
+
+  restore(values: LinkValues): void {
+    const corner = values.number("bend", 0, HEMISPHERE, HEMISPHERE);
+    const height = values.number("height", 0, 90, HEIGHT);
+    const side = values.number("side", -360, 360, SIDE);
+    const name = values.word("set", [...this.#sets.map((set) => set.name), "own"], "sheet");
+    const own = values.places("sites");
+    const set = this.#sets.find((set) => set.name === name) ?? this.#sets[0];
+    const places = own ?? set.make();
+    const count = places.length / 2;
+    const [p, q] = [values.whole("p", 1, count, 0), values.whole("q", 1, count, 0)];
+    [this.#corner, this.#height, this.#side, this.#file] = [corner, height, side, null];
+    this.#switches.turned = values.text("turned", "");
+    this.#take(places, own === null ? set.name : "own");
+    if (p > 0) this.#p = p - 1;
+    if (q > 0) this.#q = q - 1;
+    this.#update();
+    if (values.has("file")) {
+      this.#host.messages.show(
+        values.text("file", ""),
+        "is named by this link, which does not hold its sites. Open the file here.",
+      );
+    }
+  }
+
+  #begin(set: SiteSet): void {
+    this.#file = null;
+    this.#take(set.make(), set.name);
+    this.#host.changed(true);
+  }
+
+  /** Other sites; P and Q are those of the first picture, or the first and the last site. */
+  #take(places: Float64Array, set: string): void {
+    this.#sites = new LiftSites(places, SHEET_SIDES[set]);
+    this.#set = set;
+    const { count } = this.#sites;
+    this.#p = count < 2 ? null : set === "sheet" ? PAIR.p : 0;
+    this.#q = count < 2 ? null : set === "sheet" ? PAIR.q : count - 1;
+    showSet(this.#select, set, set === "own" ? (this.#file ?? "Your own sites") : null);
+    find(this.#section, "[data-out=count]").textContent = count === 1 ? "The site" : `The ${counted(count)} sites`;
+    this.#plate.canvas.setAttribute("aria-label", `Sheet with ${counted(count)} sites and ball`);
+    for (const letter of ["p", "q"] as const) {
+      this.#pairFields[letter].max = Math.max(1, count);
+      field(this.#section, letter).disabled = count < 2;
+    }
+    this.#update();
+  }
+
+  // Drawing and words
+
+  redraw(reason: Reason = "state"): void {
+    this.#plate.redraw(reason);
+  }
+
+  get #sheet(): Sheet {
+    return this.#sites.sheet(this.#corner);
+  }
+
+  #scene(isMoving: boolean): LiftScene {
+    const { count } = this.#sites;
+    const isOn = (name: string): boolean => this.#switches.isOn(name);
+    const dotsAlone = isMoving && count > VERY_MANY;
+    return {
+      sites: this.#sites,
+      sheet: this.#sheet,
+      view: View.above(this.#side - 90, this.#height),
+      height: this.#height,
+      shown: {
+        triangles: isOn("triangles") && !dotsAlone,
+        cells: isOn("cells") && !(isMoving && count > MANY),
+        rays: isOn("rays"),
+        seeing: isOn("seeing") && !dotsAlone,
+      },
+      p: this.#p,
+      q: this.#q,
+      lit: this.#lit,
+    };
+  }
+
+  /** Everything that is said and drawn, after the state has changed. */
+  #update(reason: Reason = "state"): void {
+    this.#showBend();
+    this.#showPair();
+    this.#showTable();
+    const alone = withoutTriangles(this.#sites);
+    const { simplices } = this.#sites.delaunay;
+    const sum = find(this.#section, "[data-out=sum]");
+    say(sum, alone ?? ofFacets(simplices.length / 3, this.#sites.closing.length / 3));
+    this.#viewFields.height.value = this.#height;
+    this.#viewFields.side.value = this.#side;
+    this.redraw(reason);
+  }
+
+  #showBend(): void {
+    const slider = field(this.#section, "bend");
+    const words = ofBend(this.#sheet);
+    slider.value = String(this.#corner);
+    slider.setAttribute("aria-valuetext", `corners at ${fixed(this.#corner, 0)}°: ${words}`);
+    find(this.#section, "[data-out=bend]").textContent = words;
+  }
+
+  /** The sentence, and the ruler with the bounds and the angle of the moment. */
+  #showPair(): void {
+    const bounds = find(this.#section, ".bounds");
+    const [p, q] = [this.#p, this.#q];
+    const isEnd = this.#corner === HEMISPHERE;
+    bounds.classList.toggle("flat", !isEnd);
+    bounds.classList.toggle("plane", this.#corner === 0);
+    find(bounds, "[data-out=scale]").hidden = p === null || q === null;
+    if (p === null || q === null) {
+      say(find(bounds, "[data-out=separation]"), "Two sites are needed.");
+      say(find(bounds, "[data-out=promise]"), "");
+      return;
+    }
+    const now = separation(this.#sites, this.#sheet, p, q);
+    say(find(bounds, "[data-out=separation]"), ofPair(now, this.#corner));
+    say(find(bounds, "[data-out=promise]"), ofBounds(now));
+    const at = (degrees: number): string => `${fixed(degrees / 1.8, 2)}%`;
+    const needle = find(bounds, ".needle");
+    needle.hidden = now.angle === null;
+    needle.textContent = now.angle === null ? "" : `${fixed(now.angle, 1)}°`;
+    needle.style.setProperty("--at", at(now.angle ?? 0));
+    const span = find(bounds, ".span");
+    span.style.setProperty("--from", at(now.low));
+    span.style.setProperty("--to", at(now.high));
+    for (const [mark, value] of [
+      [".low", now.low],
+      [".high", now.high],
+    ] as const) {
+      find(bounds, mark).textContent = `${fixed(value, 1)}°`;
+      find(bounds, mark).style.setProperty("--at", at(value));
+    }
+    // Marks that would stand in each other's way: the bounds come first.
+    const ends = bounds.querySelectorAll<HTMLElement>(".first, .last");
+    ends[0].classList.toggle("bare", isEnd && now.low < CLOSE);
+    ends[1].classList.toggle("bare", isEnd && now.high > 180 - CLOSE);
+    bounds.classList.toggle("narrow", now.high - now.low < CLOSE);
+    const label = now.angle === null ? "No separation in the plane" : `Separation ${fixed(now.angle, 1)}°`;
+    find(bounds, "[data-out=scale]").setAttribute(
+      "aria-label",
+      isEnd ? `${label}; it must lie between ${fixed(now.low, 1)}° and ${fixed(now.high, 1)}°` : label,
+    );
+    this.#pairFields.p.value = p + 1;
+    this.#pairFields.q.value = q + 1;
+  }
+
+  #showTable(): void {
+    const { places, count } = this.#sites;
+    const sheet = this.#sheet;
+    this.#table.show({
+      count,
+      heads: ["*x*", "*y*", "Scale"],
+      cells: (site) => {
+        const [x, y] = [places[2 * site], places[2 * site + 1]];
+        const written = (value: number): string => (value < 0 ? `\u2212${length(-value)}` : length(value));
+        return [written(x), written(y), fixed(sheet.scale(x, y), 3)];
+      },
+      mark: (site) => (site === this.#p ? "P" : site === this.#q ? "Q" : ""),
+    });
+    this.#table.hold([this.#p, this.#q].filter((site) => site !== null) as number[]);
+  }
+
+  // What can be done
+
+  #bend(corner: number): void {
+    this.#corner = corner;
+    this.#update("hand");
+    this.#host.changed();
+    this.#host.announcer.say(ofBend(this.#sheet));
+  }
+
+  #turn(side: number, height: number, reason: Reason = "state"): void {
+    if (!Number.isFinite(side) || !Number.isFinite(height)) return;
+    this.#side = exact(wrap(side));
+    this.#height = exact(Math.max(0, Math.min(90, height)));
+    this.#viewFields.height.value = this.#height;
+    this.#viewFields.side.value = this.#side;
+    this.redraw(reason);
+    this.#host.changed();
+    this.#host.announcer.say(
+      `Seen from ${fixed(this.#height, 0)}° above the sheet, turned by ${fixed(this.#side, 0)}°`,
+    );
+  }
+
+  /** A site becomes P, the next one Q, and so on. */
+  #pick(site: number): void {
+    const letter = this.#next;
+    this.#next = letter === "p" ? "q" : "p";
+    this.#setPair(letter, site);
+  }
+
+  #setPair(letter: "p" | "q", site: number): void {
+    if (!Number.isInteger(site) || site < 0 || site >= this.#sites.count) return;
+    if (letter === "p") this.#p = site;
+    else this.#q = site;
+    this.#host.guarded(() => this.#update());
+    this.#host.changed();
+    if (this.#p === null || this.#q === null) return;
+    const now = separation(this.#sites, this.#sheet, this.#p, this.#q);
+    this.#host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#corner)}`));
+  }
+
+  // The hand
+
+  #gestures(): Gestures {
+    return {
+      take: (at, reach) => this.#grab(at, reach),
+      click: (at, reach) => {
+        const site = this.#siteAt(at, reach);
+        if (site !== null) this.#pick(site);
+      },
+      key: (event) => this.#key(event),
+    };
+  }
+
+  /** P or Q, by its name, its place or its image; or the picture, to turn it. */
+  #grab(at: Point, reach: number): Hold {
+    for (const letter of ["q", "p"] as const) {
+      const site = letter === "p" ? this.#p : this.#q;
+      if (site === null || !this.#placesOf(site).some((place) => distance(place, at) <= reach)) continue;
+      return {
+        move: (to) => {
+          const nearest = this.#siteAt(to, Infinity);
+          if (nearest !== null && nearest !== (letter === "p" ? this.#p : this.#q)) this.#setPair(letter, nearest);
+        },
+      };
+    }
+    const [side, height] = [this.#side, this.#height];
+    return {
+      move: ([x, y]) => {
+        const [right, down] = [x - at[0], y - at[1]];
+        this.#turn(side - DEGREES_PER_PIXEL * right, height + DEGREES_PER_PIXEL * down, "hand");
+      },
+    };
+  }
+
+  /** Where a held site is to be seen: its image, its place in the plane, its name. */
+  #placesOf(site: number): Point[] {
+    const scene = this.#scene(false);
+    const stand = this.#stand();
+    const { places } = this.#sites;
+    const above = onPicture(stand, scene.view, scene.sheet.flat(places[2 * site], places[2 * site + 1]));
+    return [sitePlace(stand, scene, site).at, above, [above[0], above[1] - 14]];
+  }
+
+  #stand(): ReturnType<typeof standOf> {
+    return standOf(this.#plate.width, this.#plate.height, this.#height);
+  }
+
+  #siteAt(at: Point, reach: number): number | null {
+    const scene = this.#scene(false);
+    const stand = this.#stand();
+    let best: { site: number; away: number } | null = null;
+    for (let site = 0; site < this.#sites.count; ++site) {
+      const { at: place, front } = sitePlace(stand, scene, site);
+      const away = distance(place, at);
+      if (front && away <= reach && away < (best?.away ?? Infinity)) best = { site, away };
+    }
+    return best?.site ?? null;
+  }
+
+  #key(event: KeyboardEvent): boolean {
+    if (event.ctrlKey) return false;
+    const step = event.shiftKey ? 1 : 5;
+    const [side, height] = [this.#side, this.#height];
+    const actions: Record<string, () => void> = {
+      ArrowLeft: () => this.#turn(side - step, height),
+      ArrowRight: () => this.#turn(side + step, height),
+      ArrowUp: () => this.#turn(side, height + step),
+      ArrowDown: () => this.#turn(side, height - step),
+      "0": () => this.#turn(SIDE, HEIGHT),
+      ",": () => this.#walk(-1),
+      ".": () => this.#walk(1),
+    };
+    const action = actions[event.key];
+    if (action !== undefined) this.#host.guarded(action);
+    return action !== undefined;
+  }
+
+  /** The next site becomes Q. */
+  #walk(by: number): void {
+    const { count } = this.#sites;
+    if (this.#q !== null) this.#setPair("q", (this.#q + by + count) % count);
+  }
+
+  // Files and what can be taken along
+
+  open(file: File): Promise<void> {
+    return openPoints(file, "plane", this.#host.messages, (points) => {
+      this.#host.guarded(() => {
+        this.#file = points.file;
+        this.#take(points.places, "own");
+        this.#host.changed(true);
+      });
+    });
+  }
+
+  svg(): string {
+    return this.#plate.svg(find(this.#section, "h1").textContent ?? "");
+  }
+
+  png(scale: number): Promise<Blob> {
+    return this.#plate.png(scale);
+  }
+
+  /** A sheet has no places on Earth. */
+  geojson(): null {
+    this.#host.messages.show(
+      "",
+      "GeoJSON holds places on Earth, and this sheet has none: take the Python lines along.",
+    );
+    return null;
+  }
+
+  python(): string {
+    const shown = { set: this.#set, file: this.#file, height: this.#height, side: this.#side, p: this.#p, q: this.#q };
+    return liftPython(this.#sites, this.#sheet, shown);
+  }
+
+  dispose(): void {
+    this.#release();
+    this.#plate.dispose();
+  }
+}
+
+/** A view as a link holds it, so that the link shows the same pixels: hundredths of a degree are invisible. */
+function exact(degrees: number): number {
+  return Number(degrees.toFixed(2));
+}
+
+/** Degrees within which two marks of the ruler stand in each other's way. */
+const CLOSE = 27;

@@ -1,0 +1,78 @@
+/** What the Lift room says: sentences whose numbers change. */
+
+import { fixed, several } from "../words.ts";
+import { separationBounds } from "./lift_sheet.ts";
+import type { Sheet } from "./lift_sheet.ts";
+import type { LiftSites } from "./lift_sites.ts";
+import { angle } from "./space.ts";
+
+const SPACED = "\u2002";
+
+/** How far apart two sites are. */
+export interface Separation {
+  /** In the plane, in its unit and in diagonals. */
+  readonly distance: number;
+  readonly fraction: number;
+  /** On the ball, degrees; null in the plane. */
+  readonly angle: number | null;
+  /** On the hemisphere, degrees. */
+  readonly low: number;
+  readonly high: number;
+  readonly promised: readonly [number, number];
+}
+
+export function separation(sites: LiftSites, sheet: Sheet, p: number, q: number): Separation {
+  const [px, py, qx, qy] = [p, q].flatMap((k) => [sites.places[2 * k], sites.places[2 * k + 1]]);
+  const distance = sites.distance(p, q);
+  const fraction = Math.min(1, distance / sheet.diagonal);
+  const between = sheet.isFlat ? null : angle(sheet.direction(px, py), sheet.direction(qx, qy));
+  return { distance, fraction, angle: between, ...separationBounds(fraction) };
+}
+
+/** The distances of a pair in the sheet and on the ball. */
+export function ofPair({ distance, fraction, angle }: Separation, corner: number): string {
+  const inSheet = `In the sheet _${length(distance)}_, which is _${fixed(fraction, 3)}_ of the diagonal.`;
+  if (angle === null) return `${inSheet} Bend it for an angle.`;
+  const on = `_${fixed(angle, 1)}°_`;
+  return corner === 90
+    ? `${inSheet} On the hemisphere ${on}, never outside this span:`
+    : `${inSheet} On the ball ${on}. The bounds are those of the hemisphere.`;
+}
+
+/** The paper's bounds, and the best ones. */
+export function ofBounds({ low, high, promised }: Separation): string {
+  return (
+    `The paper promises _${fixed(promised[0], 1)}°_ to _${fixed(Math.min(180, promised[1]), 1)}°_, with the constants ½ and 4/π. ` +
+    `The best bounds are 2\u202farcsin and 4\u202farctan of the fraction: _${fixed(low, 1)}°_ to _${fixed(high, 1)}°_.`
+  );
+}
+
+/** A length in the plane's unit: three decimals, or as many digits as small and large sheets need. */
+export function length(value: number): string {
+  return value === 0 || (value >= 0.01 && value < 1e6) ? fixed(value, 3) : value.toPrecision(4);
+}
+
+/** Facets on the ball = triangles of the sheet + facets that see the pole. */
+export function ofFacets(planar: number, closing: number): string {
+  return [
+    `${several(planar + closing, "facet")} on the ball`,
+    "=",
+    `${several(planar, "triangle")} of the sheet`,
+    "+",
+    `${several(closing, "facet")} that ${closing === 1 ? "sees" : "see"} the pole`,
+  ].join(SPACED);
+}
+
+/** What there is to say of sites without triangles; null where there are triangles. */
+export function withoutTriangles(sites: LiftSites): string | null {
+  if (sites.delaunay.dimension === 2) return null;
+  if (sites.count === 0) return "No sites yet. Open a file.";
+  if (sites.delaunay.dimension === 0) return "All sites lie at one place: there are no triangles.";
+  return "All sites lie on one line: there are no triangles.";
+}
+
+/** How far the sheet is bent. */
+export function ofBend(sheet: Sheet): string {
+  if (sheet.isFlat) return "flat: an infinite radius";
+  return `radius ${fixed(sheet.radius, 3)} of the diagonal, scale 1 to ${fixed(sheet.leastScale, 2)}`;
+}

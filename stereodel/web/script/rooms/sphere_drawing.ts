@@ -1,0 +1,396 @@
+/** The two pictures of the Sphere room: the ball, and the plane that its sites are projected to. */
+
+import type { Disc, Path, Pen } from "../drawing/pen.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
+import { circle, traceCircle } from "../drawing/arcs.ts";
+import { arcLayer, dotLayer, drawLayers, edgeArcs, ridgeArcs } from "../drawing/ball.ts";
+import type { Layer } from "../drawing/ball.ts";
+import { traceCap } from "../drawing/fill.ts";
+import { traceDisc } from "../drawing/pen.ts";
+import { MoebiusMap } from "../kernel/api.ts";
+import type { View } from "../view/view.ts";
+import type { Insertion } from "./insertion.ts";
+import { placeOf, traceGreat, tracePolygon, traceSides } from "./lines.ts";
+import type { Vector } from "./space.ts";
+import type { Bubble, SphereSites } from "./sphere_sites.ts";
+import type { Twin } from "./twin.ts";
+
+/** A step of the insertion: what it does, and which facets before it and of its fan see the pole. */
+export interface Step {
+  readonly site: number;
+  readonly insertion: Insertion | null;
+  readonly beforeSeeing: Uint8Array;
+  readonly fanSeeing: Uint8Array;
+}
+
+/** All that both pictures show. */
+export interface SphereScene {
+  readonly sites: SphereSites;
+  readonly layers: BallLayers;
+  readonly view: View;
+  readonly twin: Twin;
+  /** One byte a facet: 1 where it sees the pole. */
+  readonly seeing: Uint8Array;
+  /** Of what is drawn. */
+  readonly shown: {
+    readonly triangles: boolean;
+    readonly cells: boolean;
+    readonly seeing: boolean;
+    readonly closing: boolean;
+  };
+  readonly bubble: Bubble | null;
+  /** Sites that are held besides those of the bubble. */
+  readonly held: readonly number[];
+  /** The step of the insertion that is looked at; "done" for the picture of all sites. */
+  readonly step: Step | "done";
+  /** Half the side of the plane's frame, ball radii. */
+  readonly reach: number;
+}
+
+const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
+const PLANE_LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 15 };
+
+/** Height above the picture, ball radii, below which a site's number would be cut by the limb. */
+const LEAST_HEIGHT = 0.2;
+
+/** Radius of a circle of the plane, px, below which the numbers of its sites would lie on each other. */
+const LEAST_CIRCLE = 12;
+
+/** Distance of a site's number from its dot, px. */
+const AWAY = 12;
+
+/** What is drawn of sites on the ball, whose directions stay in the kernel while the ball turns. */
+export class BallLayers {
+  readonly #sites: SphereSites;
+  #edges: Layer | null = null;
+  #ridges: Layer | null = null;
+  #dots: Layer | null = null;
+
+  constructor(sites: SphereSites) {
+    this.#sites = sites;
+  }
+
+  get edges(): Layer {
+    return (this.#edges ??= arcLayer("delaunay", edgeArcs(this.#sites.delaunay)));
+  }
+
+  get ridges(): Layer {
+    return (this.#ridges ??= arcLayer("voronoi", ridgeArcs(this.#sites.voronoi)));
+  }
+
+  get dots(): Layer {
+    return (this.#dots ??= dotLayer("site", this.#sites.xyz));
+  }
+}
+
+/** Draws the ball into a disc. */
+export function drawBall(pen: Pen, disc: Disc, scene: SphereScene): void {
+  pen.ball(disc, "ball");
+  if (scene.step === "done") drawWholeBall(pen, disc, scene);
+  else drawBallStep(pen, disc, scene, scene.step);
+  pen.draw("limb", (path) => traceDisc(path, disc));
+  drawPole(pen, disc, scene);
+}
+
+function drawWholeBall(pen: Pen, disc: Disc, scene: SphereScene): void {
+  const { sites, layers, view, seeing, shown, bubble } = scene;
+  const look = (k: number): Vector => view.seen(sites.site(k));
+  const map = MoebiusMap.rotation(view.rotation);
+  const hidden = view.onBall([0, 0, -1]);
+  const outline = sites.outline(seeing).map(look);
+  if (shown.seeing && outline.length > 0) {
+    pen.draw("hatch", (path) => tracePolygon(path, disc, outline, sites.regionHolds(seeing, hidden)));
+  }
+  if (shown.closing && sites.hasClosing) {
+    const rim = sites.closingOutline.map(look);
+    pen.draw("closing", (path) => tracePolygon(path, disc, rim, sites.facetAt(hidden) === null));
+  }
+  if (shown.triangles) drawLayers(pen, disc, map, [layers.edges]);
+  if (shown.cells) drawLayers(pen, disc, map, [layers.ridges]);
+  if (shown.seeing) pen.draw("hull", (path) => traceSides(path, disc, outline));
+  if (bubble !== null) drawBallBubble(pen, disc, bubble, view, look);
+  drawLayers(pen, disc, map, [layers.dots]);
+  const held = [...(bubble?.sites ?? []), ...scene.held].map(look).filter((point) => point[2] >= 0);
+  pen.dots(
+    "held",
+    held.flatMap((point) => placeOf(disc, point)),
+  );
+  if (bubble === null) return;
+  const middle = view.seen(bubble.center);
+  for (const site of bubble.sites) {
+    const point = look(site);
+    const out = [point[0] - middle[0], point[1] - middle[1]] as const;
+    if (point[2] >= LEAST_HEIGHT) numberAt(pen, placeOf(disc, point), out, site, BALL_LABEL);
+  }
+}
+
+function drawBallBubble(pen: Pen, disc: Disc, bubble: Bubble, view: View, look: (site: number) => Vector): void {
+  const rim = circle(view.seen(bubble.center), bubble.cosine);
+  pen.draw("seen", (path) => traceCap(path, disc, rim));
+  pen.draw("bubble-open", (path) => traceCircle(path, disc, rim));
+  pen.draw("triangle", (path) => traceSides(path, disc, bubble.sites.map(look)));
+}
+
+function drawBallStep(pen: Pen, disc: Disc, { sites, view }: SphereScene, { site, insertion }: Step): void {
+  const look = (k: number): Vector => view.seen(sites.site(k));
+  if (insertion !== null) {
+    const outline = insertion.outline.map(look);
+    const holds = holdsDirection(insertion, sites, view.onBall([0, 0, -1]));
+    if (outline.length > 0) pen.draw("seen", (path) => tracePolygon(path, disc, outline, holds));
+    pen.draw("delaunay", (path) => eachEdge(insertion.before, (a, b) => traceGreat(path, disc, look(a), look(b))));
+    pen.draw("fan", (path) => outline.forEach((corner) => traceGreat(path, disc, look(site), corner)));
+    pen.draw("horizon", (path) => traceSides(path, disc, outline));
+  }
+  const points = Array.from({ length: site + 1 }, (_, k) => look(k)).filter((point) => point[2] >= 0);
+  pen.dots(
+    "site",
+    points.flatMap((point) => placeOf(disc, point)),
+  );
+  const held = look(site);
+  if (held[2] >= 0) pen.dots("held", placeOf(disc, held));
+}
+
+/** Whether the region of the facets that see a new site holds a direction. */
+function holdsDirection(insertion: Insertion, sites: SphereSites, direction: Vector): boolean {
+  const { before, seeing } = insertion;
+  return seeing.some((facet) => {
+    const [a, b, c] = [0, 1, 2].map((k) => sites.site(before[3 * facet + k]));
+    return [
+      [a, b],
+      [b, c],
+      [c, a],
+    ].every(([p, q]) => side(p, q, direction) >= 0);
+  });
+}
+
+function side(a: Vector, b: Vector, p: Vector): number {
+  return p[0] * (a[1] * b[2] - a[2] * b[1]) + p[1] * (a[2] * b[0] - a[0] * b[2]) + p[2] * (a[0] * b[1] - a[1] * b[0]);
+}
+
+/** The handle of the pole of projection, and its name. */
+function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
+  const pole = view.seen(twin.pole);
+  const [x, y] = placeOf(disc, pole);
+  pen.handle(x, y, pole[2] >= 0 ? "front" : "behind");
+  const text = pole[2] >= 0 ? "*P*" : "*P*, behind";
+  const left = x > disc.x; // towards the middle, where there is room
+  pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
+}
+
+/** Draws the plane into a square frame with its upper left corner at x, y. */
+export function drawPlane(pen: Pen, frame: { x: number; y: number; size: number }, scene: SphereScene): void {
+  const { sites, twin, reach } = scene;
+  const scale = frame.size / 2 / reach;
+  const place = ([u, v]: readonly [number, number]): [number, number] => [
+    frame.x + frame.size / 2 + scale * u,
+    frame.y + frame.size / 2 - scale * v,
+  ];
+  const flat = (k: number): [number, number] => place(twin.forward(sites.site(k)));
+  pen.clipped(
+    (path) => traceFrame(path, frame),
+    () => {
+      if (scene.step === "done") drawWholePlane(pen, frame, scene, place, flat);
+      else drawPlaneStep(pen, scene, scene.step, flat);
+    },
+  );
+  pen.draw("frame", (path) => traceFrame(path, frame));
+}
+
+type Place = (uv: readonly [number, number]) => [number, number];
+type Frame = { readonly x: number; readonly y: number; readonly size: number };
+
+function traceFrame(path: Path, { x, y, size }: Frame): void {
+  polygon(path, [
+    [x, y],
+    [x + size, y],
+    [x + size, y + size],
+    [x, y + size],
+  ]);
+}
+
+function polygon(path: Path, points: readonly (readonly [number, number])[]): void {
+  points.forEach(([x, y], k) => (k === 0 ? path.moveTo(x, y) : path.lineTo(x, y)));
+  if (points.length > 0) path.closePath();
+}
+
+function drawWholePlane(
+  pen: Pen,
+  frame: Frame,
+  scene: SphereScene,
+  place: Place,
+  flat: (k: number) => [number, number],
+): void {
+  const { sites, twin, seeing, shown, bubble, held } = scene;
+  const outline = sites.outline(seeing).map(flat);
+  if (shown.seeing && outline.length > 0) {
+    // The outline runs clockwise on the picture, the frame the same way turned round: between them the path winds once.
+    pen.draw("hatch", (path) => {
+      traceFrame(path, frame);
+      polygon(path, counterclockwise(outline));
+    });
+  }
+  if (shown.triangles) {
+    pen.draw("delaunay", (path) => {
+      eachPlaneEdge(sites.delaunay.simplices, seeing, (a, b) => line(path, flat(a), flat(b)));
+    });
+  }
+  if (shown.cells) pen.draw("voronoi", (path) => planeRidges(path, scene, place));
+  if (shown.seeing) pen.draw("hull", (path) => polygon(path, outline));
+  if (bubble !== null) drawPlaneBubble(pen, frame, bubble, twin, place, flat);
+  const places: number[] = [];
+  for (let k = 0; k < sites.count; ++k) places.push(...flat(k));
+  pen.dots("site", places);
+  pen.dots("held", [...(bubble?.sites ?? []), ...held].flatMap(flat));
+  if (bubble === null) return;
+  const image = twin.circle(bubble.center, bubble.cosine);
+  if (image.kind === "line" || (image.radius * frame.size) / 2 / scene.reach < LEAST_CIRCLE) return;
+  for (const site of bubble.sites) {
+    const [u, v] = twin.forward(sites.site(site));
+    const out: [number, number] = [u - image.middle[0], v - image.middle[1]];
+    numberAt(pen, flat(site), image.holdsPole ? [-out[0], -out[1]] : out, site, PLANE_LABEL);
+  }
+}
+
+/** A ring so that it runs against a clock on a picture whose y points down. */
+function counterclockwise(ring: readonly (readonly [number, number])[]): (readonly [number, number])[] {
+  let area = 0;
+  ring.forEach(([x, y], k) => {
+    const [u, v] = ring[(k + 1) % ring.length];
+    area += x * v - u * y;
+  });
+  return area > 0 ? [...ring].reverse() : [...ring];
+}
+
+function drawPlaneBubble(
+  pen: Pen,
+  frame: Frame,
+  bubble: Bubble,
+  twin: Twin,
+  place: Place,
+  flat: (k: number) => [number, number],
+): void {
+  const image = twin.circle(bubble.center, bubble.cosine);
+  if (image.kind === "line") {
+    const [a, b] = image.normal;
+    const size = a * a + b * b;
+    const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
+    pen.draw("bubble-open", (path) => line(path, place([u - 1e3 * b, v + 1e3 * a]), place([u + 1e3 * b, v - 1e3 * a])));
+    return;
+  }
+  const [x, y] = place(image.middle);
+  const r = Math.abs(place([image.middle[0] + image.radius, 0])[0] - x);
+  const ring = (path: Path): void => {
+    path.moveTo(x + r, y);
+    path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
+    path.closePath();
+  };
+  pen.draw("seen", (path) => {
+    if (image.holdsPole) traceFrame(path, frame);
+    ring(path);
+  });
+  pen.draw("bubble-open", ring);
+  if (!image.holdsPole) pen.draw("triangle", (path) => polygon(path, bubble.sites.map(flat)));
+}
+
+/** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
+function planeRidges(path: Path, { sites, twin, seeing, reach }: SphereScene, place: Place): void {
+  const { simplices, neighbors } = sites.delaunay;
+  const middles = new Map<number, readonly [number, number]>();
+  const middle = (facet: number): readonly [number, number] => {
+    let found = middles.get(facet);
+    if (found === undefined) {
+      const { center, cosine } = sites.bubble(facet);
+      const image = twin.circle(center, cosine);
+      found = image.kind === "circle" ? image.middle : [0, 0];
+      middles.set(facet, found);
+    }
+    return found;
+  };
+  for (let at = 0; at < neighbors.length; ++at) {
+    const facet = Math.floor(at / 3);
+    const beyond = neighbors[at];
+    if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
+    if (!seeing[beyond]) {
+      line(path, place(middle(facet)), place(middle(beyond)));
+      continue;
+    }
+    // The side opposite the corner runs counterclockwise: outward is to its right.
+    const [a, b] = [1, 2].map((k) => twin.forward(sites.site(simplices[3 * facet + ((at + k) % 3)])));
+    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
+    const [u, v] = middle(facet);
+    const far = (4 * reach + Math.hypot(u, v)) / length;
+    line(path, place([u, v]), place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
+  }
+}
+
+function drawPlaneStep(
+  pen: Pen,
+  { sites }: SphereScene,
+  { site, insertion, beforeSeeing, fanSeeing }: Step,
+  flat: (k: number) => [number, number],
+): void {
+  if (insertion !== null) {
+    const { outline } = insertion;
+    const next = (k: number): number => outline[(k + 1) % outline.length];
+    // Facets of the fan that see the pole are no triangles of the plane, nor are sides between two of them its sides.
+    const inPlane = (k: number): boolean => !fanSeeing[(k + outline.length) % outline.length];
+    pen.draw("seen", (path) => {
+      outline.forEach((a, k) => inPlane(k) && polygon(path, [a, next(k), site].map(flat)));
+    });
+    pen.draw("delaunay", (path) => {
+      eachPlaneEdge(insertion.before, beforeSeeing, (a, b) => line(path, flat(a), flat(b)));
+    });
+    pen.draw("fan", (path) => {
+      outline.forEach((a, k) => (inPlane(k) || inPlane(k - 1)) && line(path, flat(site), flat(a)));
+    });
+    pen.draw("horizon", (path) => {
+      outline.forEach((a, k) => inPlane(k) && line(path, flat(a), flat(next(k))));
+    });
+  }
+  const places: number[] = [];
+  for (let k = 0; k <= site; ++k) places.push(...flat(k));
+  pen.dots("site", places);
+  if (site < sites.count) pen.dots("held", flat(site));
+}
+
+function line(path: Path, a: readonly [number, number], b: readonly [number, number]): void {
+  path.moveTo(...a);
+  path.lineTo(...b);
+}
+
+/** A site's number beside its dot, on the side `out`, whose y points up. */
+function numberAt(
+  pen: Pen,
+  [x, y]: [number, number],
+  out: readonly [number, number],
+  site: number,
+  style: LabelStyle,
+): void {
+  const size = Math.hypot(...out) || 1;
+  const [u, v] = [out[0] / size, out[1] / size];
+  const align = u > 0.35 ? "left" : u < -0.35 ? "right" : "center";
+  pen.label(String(site + 1), x + 0.6 * AWAY * u, y - AWAY * v + 5, { ...style, align });
+}
+
+/** Every edge of facets once. */
+function eachEdge(facets: Int32Array, visit: (a: number, b: number) => void): void {
+  for (let k = 0; k < facets.length; ++k) {
+    const a = facets[k];
+    const b = facets[k % 3 === 2 ? k - 2 : k + 1];
+    if (a < b) visit(a, b);
+  }
+}
+
+/** Every edge of facets that the plane has: of those beside it one at least does not see the pole. */
+function eachPlaneEdge(facets: Int32Array, seeing: Uint8Array, visit: (a: number, b: number) => void): void {
+  const drawn = new Set<number>();
+  for (let k = 0; k < facets.length; ++k) {
+    if (seeing[Math.floor(k / 3)]) continue;
+    const a = facets[k];
+    const b = facets[k % 3 === 2 ? k - 2 : k + 1];
+    const name = Math.min(a, b) * 2 ** 26 + Math.max(a, b);
+    if (drawn.has(name)) continue;
+    drawn.add(name);
+    visit(a, b);
+  }
+}

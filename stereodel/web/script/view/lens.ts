@@ -1,0 +1,138 @@
+/** Conformal lenses over a view: the fisheye, magnified about a point, on its way to another one; bubble to bubble. */
+
+import { MoebiusMap, Rotation } from "../kernel/api.ts";
+import { angle, row } from "../rooms/space.ts";
+import type { Vector } from "../rooms/space.ts";
+import { about, partWay, product, View } from "./view.ts";
+
+/** The largest magnification that the page shows. */
+export const MOST = 100;
+
+const DEGREE = Math.PI / 180;
+
+/** The fisheye: where it magnifies, a unit vector, and how many times. */
+export interface Lens {
+  readonly focus: Vector;
+  readonly magnification: number;
+}
+
+/** What is seen of the Earth: through a lens, from a place above the ball that the lens makes of it. */
+export interface Sight {
+  readonly lens: Lens;
+  readonly view: View;
+}
+
+export function lensMap({ focus, magnification }: Lens): MoebiusMap {
+  return MoebiusMap.fisheye(focus, magnification);
+}
+
+/** A map of the Earth, to the axes of a view. */
+export function seenThrough(map: MoebiusMap, view: View): MoebiusMap {
+  return new MoebiusMap(view.rotation.after(map.left), map.magnification, map.right);
+}
+
+/** From the Earth to the axes of the view. */
+export function sightMap({ lens, view }: Sight): MoebiusMap {
+  return seenThrough(lensMap(lens), view);
+}
+
+/** The direction of the Earth that is seen at a point of the view. */
+export function sourceOf(map: MoebiusMap, point: Vector): Vector {
+  return row(map.inverse().apply(point), 0);
+}
+
+/** The image of one direction. */
+export function imageOf(map: MoebiusMap, direction: Vector): Vector {
+  return row(map.apply(direction), 0);
+}
+
+/** The scale at one direction. */
+export function scaleAt(map: MoebiusMap, direction: Vector): number {
+  return map.scaleFactor(direction)[0];
+}
+
+/**
+ * Magnified by a factor about a point of the view, which stays where it is.
+ *
+ * Above 1 the map goes on with a fisheye at the point, which moves the focus there little by little. Below 1 the lens is
+ * weakened where it is, so that the way back always ends at the plain ball.
+ */
+export function magnified(sight: Sight, point: Vector, factor: number, isNorthUp: boolean): Sight {
+  const { lens, view } = sight;
+  if (factor >= 1) {
+    // Magnifications multiply at the most, so that none is above the largest one.
+    const strength = Math.min(factor, MOST / lens.magnification);
+    const map = lensMap({ focus: point, magnification: strength }).after(sightMap(sight));
+    const turn = map.left.after(map.right).quaternion;
+    const free = new View([turn[0], turn[1], turn[2], turn[3]]);
+    const magnification = Math.max(1, Math.min(MOST, map.magnification));
+    const focus = magnification > 1 ? row(map.focus, 0) : lens.focus;
+    return { lens: { focus, magnification }, view: isNorthUp ? free.northUp.holding(free.onBall(point), point) : free };
+  }
+  const source = sourceOf(sightMap(sight), point);
+  const weaker = { focus: lens.focus, magnification: Math.max(1, lens.magnification * factor) };
+  return { lens: weaker, view: holding(view, imageOf(lensMap(weaker), source), point, isNorthUp) };
+}
+
+/** The view that has a direction of the ball at a point of the view, from the one before by the shortest way. */
+export function holding(view: View, direction: Vector, point: Vector, isNorthUp: boolean): View {
+  return isNorthUp ? view.holding(direction, point) : view.dragged(view.seen(direction), point);
+}
+
+/** Turned about a point of the view, radians counterclockwise. */
+export function turnedAbout(view: View, point: Vector, by: number): View {
+  return new View(product(about(point, by), view.turn));
+}
+
+/** With another focus, while a direction of the Earth stays where it is seen. */
+export function focused(sight: Sight, focus: Vector, isNorthUp: boolean): Sight {
+  const lens = { ...sight.lens, focus };
+  const point = imageOf(sightMap(sight), focus);
+  return { lens, view: holding(sight.view, focus, point, isNorthUp) };
+}
+
+/**
+ * Part of the way from one sight to another: lenses along the geodesic of hyperbolic space, whose points they are, so
+ * that the magnification goes down no more than is needed; views the short way.
+ */
+export function betweenSights(a: Sight, b: Sight, t: number, isNorthUp: boolean): Sight {
+  return t === 1 ? b : { lens: betweenLenses(a.lens, b.lens, t), view: betweenViews(a.view, b.view, t, isNorthUp) };
+}
+
+function betweenLenses(a: Lens, b: Lens, t: number): Lens {
+  const [p, q] = [Math.log(a.magnification), Math.log(b.magnification)];
+  const chord = Math.sin((angle(a.focus, b.focus) * DEGREE) / 2);
+  const d = 2 * Math.asinh(Math.sqrt(Math.sinh((p - q) / 2) ** 2 + Math.sinh(p) * Math.sinh(q) * chord ** 2));
+  const share = (u: number): number => (d > 0 ? Math.sinh(u * d) / Math.sinh(d) : u);
+  const [before, after] = [share(1 - t) * Math.sinh(p), share(t) * Math.sinh(q)];
+  const vector = [0, 1, 2].map((k) => before * a.focus[k] + after * b.focus[k]);
+  const size = Math.hypot(...vector);
+  if (size === 0) return { focus: b.focus, magnification: 1 };
+  return {
+    focus: row(
+      vector.map((x) => x / size),
+      0,
+    ),
+    magnification: Math.exp(Math.asinh(size)),
+  };
+}
+
+function betweenViews(a: View, b: View, t: number, isNorthUp: boolean): View {
+  if (!isNorthUp) return new View(partWay(a.turn, b.turn, t));
+  const [[lon, lat], [toLon, toLat]] = [a.middle, b.middle];
+  const east = ((((toLon - lon + 180) % 360) + 360) % 360) - 180;
+  return View.above(lon + t * east, lat + t * (toLat - lat));
+}
+
+/** A cap of the sphere: its middle and its radius in degrees. */
+export interface Cap {
+  readonly center: Vector;
+  readonly radius: number;
+}
+
+/** The map that takes one cap onto another, middle to middle, along the great circle between them. */
+export function capToCap(from: Cap, to: Cap): MoebiusMap {
+  const strength = Math.tan((to.radius * DEGREE) / 2) / Math.tan((from.radius * DEGREE) / 2);
+  const lens = MoebiusMap.fisheye(from.center, strength);
+  return new MoebiusMap(Rotation.between(from.center, to.center).after(lens.left), lens.magnification, lens.right);
+}

@@ -1,0 +1,136 @@
+"""The Lift room in a browser: the slider, P and Q, what is drawn and said of it."""
+
+import re
+
+import numpy as np
+import pytest
+
+from stereodel import RectangleLift, angular_distance
+
+ROOM = "#room-lift"
+PLATE = "#lift-plate"
+
+
+def said(page, name):
+    return page.page.locator(f"{ROOM} [data-out={name}]").inner_text().replace("\u2002", " ")
+
+
+def link(page):
+    page.page.wait_for_timeout(400)
+    return dict(part.split("=", 1) for part in page.link.split("&") if "=" in part)
+
+
+def test_the_first_picture_and_its_sentences(room):
+    page = room("lift")
+    assert said(page, "separation") == (
+        "In the sheet 1.602, which is 0.444 of the diagonal. On the hemisphere 86.1°, never outside this span:"
+    )
+    assert said(page, "sum") == "92 facets on the ball = 83 triangles of the sheet + 9 facets that see the pole"
+    assert said(page, "bend") == "radius 0.250 of the diagonal, scale 1 to 0.50"
+    assert "at 2\u202farcsin" in said(page, "promise") or "2\u202farcsin" in said(page, "promise")
+    assert page.ink(PLATE) > 0.05
+    assert page.frames(0.5) == 0
+
+
+def test_the_slider_bends_the_sheet(room):
+    page = room("lift")
+    pictures = {page.digest(PLATE)}
+    for angle, words in ((60, "radius 0.433 of the diagonal, scale 1 to 0.75"), (0, "flat: an infinite radius")):
+        page.page.locator("#bend").fill(str(angle))
+        page.rest()
+        assert said(page, "bend") == words
+        pictures.add(page.digest(PLATE))
+    assert len(pictures) == 3
+    assert "Bend it for an angle." in said(page, "separation")
+    assert not page.page.locator(f"{ROOM} .needle").is_visible()
+    assert link(page)["bend"] == "0"
+    page.page.locator("#bend").press("ArrowRight")
+    assert said(page, "bend").startswith("radius 28.6")
+
+
+def test_the_numbers_are_those_of_the_library(room):
+    page = room("lift")
+    places = {}
+    for site in (3, 7):
+        page.page.locator(f"{ROOM} tr[data-site='{site}'] button").click()
+        cells = page.page.locator(f"{ROOM} tr[data-site='{site}'] td").all_inner_texts()
+        x, y, scale = (float(cell.replace("\u2212", "-")) for cell in cells)
+        places[site] = (x, y)
+        assert scale == pytest.approx(float(RectangleLift(3, 2).scale_factor([x, y])), abs=6e-4)
+    lift = RectangleLift(3, 2)
+    p, q = np.array(places[3]), np.array(places[7])
+    distance = np.linalg.norm(p - q)
+    angle = float(angular_distance(lift.forward(p), lift.forward(q)))
+    numbers = [float(number) for number in re.findall(r"\d+\.\d+", said(page, "separation"))]
+    assert numbers == pytest.approx([distance, distance / lift.diagonal, angle], abs=6e-2)
+    promise = [float(number) for number in re.findall(r"\d+\.\d+", said(page, "promise"))]
+    t = distance / lift.diagonal
+    expected = [90 * t, 720 / np.pi * t, np.degrees(2 * np.arcsin(t)), np.degrees(4 * np.arctan(t))]
+    assert promise == pytest.approx(expected, abs=6e-2)
+    state = link(page)
+    assert (state["p"], state["q"]) == ("4", "8")
+
+
+def test_p_and_q_are_dragged_and_typed(room):
+    page = room("lift")
+    page.page.locator(f"{ROOM} [name=q]").fill("5")
+    page.rest()
+    assert link(page)["q"] == "5"
+    before = said(page, "separation")
+    page.page.locator(PLATE).press(".")
+    assert link(page)["q"] == "6"
+    assert said(page, "separation") != before
+
+
+def test_the_picture_is_turned_by_the_hand_and_by_fields(room):
+    page = room("lift")
+    x, y = page.middle(PLATE)
+    before = page.digest(PLATE)
+    page.drag((x + 200, y - 150), (x + 120, y - 150))
+    page.rest()
+    assert page.digest(PLATE) != before
+    turned = float(page.page.locator(f"{ROOM} [name=view-side]").input_value())
+    assert turned == pytest.approx(17 + 0.35 * 80, abs=1)
+    page.page.locator(f"{ROOM} [name=view-height]").fill("60")
+    page.rest()
+    assert link(page)["height"] == "60"
+    page.page.locator(PLATE).press("0")
+    page.rest()
+    assert page.digest(PLATE) == before
+
+
+def test_facets_that_see_the_pole_are_hatched(room):
+    page = room("lift")
+    before = page.ink(PLATE)
+    page.page.locator(f"{ROOM} [name=seeing]").check()
+    page.rest()
+    assert page.ink(PLATE) > before + 0.005
+    assert link(page)["turned"] == "seeing"
+
+
+def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
+    page = room("lift")
+    file = tmp_path / "plane.csv"
+    file.write_text("east,north,height\n0,0,1\n4,0,2\n4,3,3\n0,3,4\n2,1,5\n")
+    page.page.locator(f"{ROOM} input[type=file]").set_input_files(file)
+    message = page.page.locator("#messages")
+    assert "Which columns of plane.csv?" in message.inner_text()
+    message.get_by_role("button", name="Open").click()
+    page.rest()
+    assert said(page, "sum") == "6 facets on the ball = 4 triangles of the sheet + 2 facets that see the pole"
+    assert said(page, "separation").startswith("In the sheet 2.236, which is 0.447 of the diagonal.")
+    broken = tmp_path / "broken.csv"
+    broken.write_text("x,y\n1,2\n3,four\n")
+    page.page.locator(f"{ROOM} input[type=file]").set_input_files(broken)
+    assert message.inner_text().startswith("broken.csv, row 2: the y 'four' is not a number. Nothing has changed.")
+    assert said(page, "sum").startswith("6 facets")
+
+
+def test_the_python_lines_run(room, tmp_path, monkeypatch, capsys):
+    page = room("lift")
+    page.page.locator(".foot summary").click()
+    page.page.wait_for_timeout(100)
+    monkeypatch.chdir(tmp_path)
+    exec(page.page.locator("#python").inner_text(), {})
+    assert [path.name for path in tmp_path.iterdir()] == ["lift.svg"]
+    assert float(capsys.readouterr().out) == pytest.approx(86.1, abs=0.05)

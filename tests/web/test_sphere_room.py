@@ -1,0 +1,184 @@
+"""What the Sphere room says of sites, against the library: bubbles, facets that see the pole, insertion, the plane."""
+
+import json
+
+import numpy as np
+import pytest
+
+from stereodel import PlanarDelaunay, SphericalDelaunay, Stereographic, in_bubble, lonlat_to_xyz
+from stereodel.sphere import SphereCircle
+from stereodel.triangulation.theorem import merged_polygons, planar_part
+
+from .conftest import SCRIPT
+
+WASM = SCRIPT.parent / "built" / "stereodel.wasm"
+
+ROOM = f"""
+import {{ readFileSync }} from "node:fs";
+import {{ text }} from "node:stream/consumers";
+import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+import {{ lonlatToXyz }} from "{SCRIPT}/kernel/api.ts";
+import {{ facetsAfter }} from "{SCRIPT}/rooms/insertion.ts";
+import {{ directionOf }} from "{SCRIPT}/rooms/space.ts";
+import {{ SphereSites }} from "{SCRIPT}/rooms/sphere_sites.ts";
+import {{ Twin }} from "{SCRIPT}/rooms/twin.ts";
+import {{ sphereSets }} from "{SCRIPT}/sets.ts";
+await load(readFileSync("{WASM}"));
+const given = JSON.parse(await text(process.stdin));
+const sitesOf = (lonlat) => new SphereSites(Float64Array.from(lonlat.flat()));
+"""
+
+
+def ask(node, expression, given=None):
+    return node(f"{ROOM}console.log(JSON.stringify({expression}));", input=json.dumps(given))
+
+
+def degrees(rng, count, south=-90):
+    lonlat = np.round(rng.uniform((-180, south), (180, 90), size=(count, 2)), 3)
+    return lonlat
+
+
+def triangles(rows):
+    """Facets as a set, each from its lowest site on."""
+    turned = [tuple(np.roll(row, -int(np.argmin(row))).tolist()) for row in np.reshape(rows, (-1, 3))]
+    assert len(set(turned)) == len(turned)
+    return set(turned)
+
+
+@pytest.fixture
+def lonlat(rng):
+    return degrees(rng, 80)
+
+
+def test_facets_that_see_the_pole_are_those_the_plane_lacks(node, lonlat):
+    poles = [[-150.0, 53.1], [12.0, -89.0], lonlat[3].tolist()]
+    seeing = ask(
+        node,
+        "given.poles.map((pole) => [...sitesOf(given.lonlat).seeing(lonlatToXyz(pole))])",
+        {
+            "lonlat": lonlat.tolist(),
+            "poles": poles,
+        },
+    )
+    delaunay = SphericalDelaunay.from_lonlat(lonlat)
+    for pole, found in zip(poles, seeing, strict=True):
+        corners = delaunay.points[delaunay.simplices]
+        expected = np.asarray(in_bubble(*np.moveaxis(corners, 1, 0), lonlat_to_xyz(pole))) >= 0
+        np.testing.assert_array_equal(found, expected)
+        assert len(planar_part(delaunay, lonlat_to_xyz(pole))) == len(found) - sum(found) > 0
+        assert sum(found) > 0
+
+
+def test_the_images_of_the_other_facets_are_the_triangulation_of_the_plane(node, lonlat):
+    pole = [-150.0, 53.1]
+    expression = """(() => {
+      const sites = sitesOf(given.lonlat), pole = directionOf(...given.pole), twin = new Twin(pole);
+      const seeing = sites.seeing(pole);
+      const flat = Array.from({ length: sites.count }, (_, k) => twin.forward(sites.site(k)));
+      const kept = [...sites.delaunay.simplices].filter((_, k) => !seeing[Math.floor(k / 3)]);
+      return { flat, kept, back: flat.map(([u, v]) => twin.inverse(u, v)) };
+    })()"""
+    answer = ask(node, expression, {"lonlat": lonlat.tolist(), "pole": pole})
+    plane = Stereographic((30.0, -53.1))
+    np.testing.assert_allclose(answer["flat"], plane.forward(lonlat_to_xyz(lonlat)), rtol=1e-12, atol=1e-12)
+    np.testing.assert_allclose(answer["back"], lonlat_to_xyz(lonlat), atol=1e-14)
+    assert triangles(answer["kept"]) == triangles(PlanarDelaunay(answer["flat"]).simplices)
+
+
+def test_bubbles_and_their_images_are_circles_of_the_library(node, lonlat):
+    pole = [-150.0, 53.1]
+    expression = """(() => {
+      const sites = sitesOf(given.lonlat), twin = new Twin(directionOf(...given.pole));
+      return Array.from({ length: sites.facetCount }, (_, k) => {
+        const bubble = sites.bubble(k);
+        return { ...bubble, image: twin.circle(bubble.center, bubble.cosine) };
+      });
+    })()"""
+    bubbles = ask(node, expression, {"lonlat": lonlat.tolist(), "pole": pole})
+    delaunay, plane = SphericalDelaunay.from_lonlat(lonlat), Stereographic((30.0, -53.1))
+    held = 0
+    for bubble, corners in zip(bubbles, delaunay.points[delaunay.simplices], strict=True):
+        circle = SphereCircle.through(*corners)
+        np.testing.assert_allclose(bubble["center"], circle.center, atol=1e-12)
+        image = plane.image_of(circle)
+        np.testing.assert_allclose(bubble["image"]["middle"], image.center, rtol=1e-8, atol=1e-9)
+        np.testing.assert_allclose(bubble["image"]["radius"], image.radius, rtol=1e-8)
+        holds = bubble["cosine"] < np.dot(bubble["center"], lonlat_to_xyz(pole))
+        assert bubble["image"]["holdsPole"] == bool(holds)
+        held += holds
+    assert 0 < held < len(bubbles)
+
+
+def test_a_circle_through_the_pole_becomes_a_line(node):
+    circles = "[[1, 0, 0], 0], [[0.6, 0, 0.8], 0.8]"
+    lines = ask(node, f"[{circles}].map(([center, cosine]) => new Twin([0, 0, 1]).circle(center, cosine))")
+    assert [line["kind"] for line in lines] == ["line", "line"]
+    image = Stereographic((0.0, -90.0)).forward([0.96, 0, 0.28])  # on the second circle, opposite the pole
+    assert np.dot(lines[1]["normal"], image) == pytest.approx(lines[1]["offset"])
+    assert lines[1]["offset"] != 0
+
+
+def test_inserting_one_site_after_another_ends_with_the_kernels_facets(node, lonlat):
+    steps = ask(
+        node,
+        "((sites) => Array.from({ length: sites.count - 4 }, (_, k) => sites.insertion(k + 4))"
+        ".map((step) => ({ ...step, before: [...step.before], fan: [...step.fan], after: [...facetsAfter(step)] })))"
+        "(sitesOf(given))",
+        lonlat.tolist(),
+    )
+    assert len(steps) == len(lonlat) - 4
+    for step in steps:
+        after = SphericalDelaunay.from_lonlat(lonlat[: step["site"] + 1])
+        assert triangles(step["after"]) == triangles(after.simplices)
+        assert len(step["outline"]) == len(step["fan"]) // 3 == len(step["seeing"]) + 2
+
+
+def test_inserting_into_squares_keeps_a_triangulation(node):
+    """Sites that lie on a bubble displace nothing: what comes out differs from the kernel's by diagonals alone."""
+    around = [[lon, lat] for lat in (-40, 0, 40) for lon in range(-180, 180, 45)]
+    sites = [[0, 90], *around, [0, -90]]
+    after = ask(
+        node,
+        "Array.from({ length: given.length - 8 }, (_, k) => [...facetsAfter(sitesOf(given).insertion(k + 8))])",
+        sites,
+    )
+    for count, facets in zip(range(9, len(sites) + 1), after, strict=True):
+        delaunay = SphericalDelaunay.from_lonlat(sites[:count])
+        assert len(triangles(facets)) == 2 * count - 4
+        assert merged_polygons(delaunay, facets_of(facets)) == merged_polygons(delaunay)
+
+
+def facets_of(flat):
+    return np.reshape(flat, (-1, 3))
+
+
+def test_without_facets_nothing_sees_a_site(node):
+    circle = [[lon, 0] for lon in (0, 20, 50, 90, 200)]
+    assert ask(
+        node, "[sitesOf(given).insertion(4), sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]", circle
+    ) == [
+        None,
+        None,
+        0,
+    ]
+
+
+def test_the_first_picture_says_what_is_true(node):
+    """The numbers of the first sentence, and the sum below it, from the library."""
+    lonlat, _ = ask(node, "((set) => [[...set.make()], set.name])(sphereSets({})[0])")
+    lonlat = np.reshape(lonlat, (-1, 2))
+    delaunay = SphericalDelaunay.from_lonlat(lonlat)
+    assert len(lonlat) == 54
+    assert len(delaunay.simplices) == 104
+    assert len(planar_part(delaunay, lonlat_to_xyz([-150.0, 53.1]))) == 94
+    assert not delaunay.closing.any()
+
+
+def test_sets_are_places_of_the_sphere_with_facets(node):
+    sets = ask(node, "sphereSets({}).map((set) => [set.name, [...set.make()]])")
+    assert [name for name, _ in sets] == ["gap", "everywhere", "hemisphere", "dodecahedron"]
+    for name, places in sets:
+        lonlat = np.reshape(places, (-1, 2))
+        delaunay = SphericalDelaunay.from_lonlat(lonlat)
+        assert len(delaunay.simplices) == 2 * len(lonlat) - 4
+        assert delaunay.closing.any() == (name == "hemisphere")
