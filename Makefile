@@ -15,7 +15,7 @@ BIN := $(VENV)/bin
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
 .PHONY: help install system opengl browser figures poster animations test test-large test-pythons sanitize fuzz check \
-	lint web built stub bench dist baselines names readme-images docs clean
+	lint web built stub bench dist baselines names readme-images web-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -101,6 +101,9 @@ names: $(VENV)/installed-animations ## write the tables of docs/names.md from th
 
 readme-images: $(VENV)/installed-figures opengl ## draw the small pictures of the README anew
 	$(BIN)/python tools/readme_images.py
+
+web-images: $(VENV)/installed-test browser ## draw the screenshots of the interactive page in README and documentation anew
+	$(BIN)/python -m tools.web_images
 
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
 docs: $(VENV)/installed-docs opengl ## build the documentation into docs/_build/html; warnings are errors

@@ -179,6 +179,7 @@ class Visit:
         )
         self._context.add_init_script(WATCH)
         self.page: Page = self._context.new_page()
+        self._clock: CDPSession | None = None
         self.requests: list[str] = []
         self.complaints: list[str] = []
         self.page.on("request", lambda request: self._asked(request.url))
@@ -233,11 +234,11 @@ class Visit:
         return int(self.page.evaluate("framesDrawn") - before)
 
     def busy(self) -> float:
-        """The seconds for which the page has kept its thread busy so far: script, layout, painting."""
-        session = self._context.new_cdp_session(self.page)
-        session.send("Performance.enable")
-        found = {each["name"]: each["value"] for each in session.send("Performance.getMetrics")["metrics"]}
-        session.detach()
+        """Seconds for which the page has kept its thread busy since this was first asked: script, layout, painting."""
+        if self._clock is None:
+            self._clock = self._context.new_cdp_session(self.page)
+            self._clock.send("Performance.enable")
+        found = {each["name"]: each["value"] for each in self._clock.send("Performance.getMetrics")["metrics"]}
         return float(found["TaskDuration"])
 
     @property

@@ -114,3 +114,10 @@ def test_ink_is_what_differs_from_the_ground():
     assert ink(pixels) == 0
     pixels[0, :5] = 100
     assert ink(pixels) == 0.05
+
+
+def test_a_page_is_busy_while_it_computes(visit, ball):
+    page = visit(ball)
+    before = page.busy()
+    page.page.evaluate("(() => { const end = performance.now() + 200; while (performance.now() < end); })()")
+    assert 0.15 < page.busy() - before

@@ -1,4 +1,4 @@
-"""The drawing core of the page: true arcs, fills from all sides, the grabbed point; in Node, on the page's own kernel."""
+"""The drawing core of the page in Node, on its own kernel: true arcs, fills from all sides, the grabbed point."""
 
 import json
 import xml.etree.ElementTree as ET

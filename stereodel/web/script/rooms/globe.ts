@@ -6,7 +6,7 @@ import { collection, feature, sphericalPolygon } from "../geojson.ts";
 import { MOST_SITES, packPlaces } from "../link.ts";
 import type { LinkValues } from "../link.ts";
 import { SphericalVoronoi } from "../kernel/api.ts";
-import { complaint, openPoints } from "../opening.ts";
+import { openPoints } from "../opening.ts";
 import { Painted, PictureError } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
@@ -117,7 +117,7 @@ class GlobeRoom implements Room {
       this.#scene.picture = await Painted.read(file);
     } catch (error) {
       if (!(error instanceof PictureError)) throw error;
-      this.#host.messages.show(...complaint(file.name, error));
+      this.#host.messages.show(`${file.name}:`, `${error.message}. Nothing has changed.`);
       return;
     }
     this.#host.messages.close();

@@ -15,9 +15,9 @@ export function globePython(state: GlobeState, file: string | null): string {
   const withCells = file !== null;
   return [
     `from stereodel import ${withCells ? `SphericalVoronoi, ${names}`.split(", ").sort(byPython).join(", ") : names}`,
+    "from stereodel.drawing import View",
     "from stereodel.globe import Globe",
     ...(withCells ? ["from stereodel.io import read_points"] : []),
-    "from stereodel.render import View",
     "",
     ...(isBubble ? bubbleLines(state) : fisheyeLines(state)),
     "globe = Globe()",

@@ -1,0 +1,304 @@
+"""The Globe room in a browser: what the hand does is what the library computes, and the drawing follows it."""
+
+import io
+import subprocess
+import sys
+from urllib.parse import parse_qs
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from stereodel import SphereCircle, bubble_to_bubble, fisheye, lonlat_to_xyz
+from stereodel.drawing import View
+
+MARGIN = 7.0
+"""Of a globe's limb in its canvas, CSS pixels."""
+
+
+class Globe:
+    """A globe of the page: its link as a map, its places as the library has them."""
+
+    def __init__(self, page, selector="#globe-plate"):
+        self.page, self.selector = page, selector
+        box = page.page.locator(selector).bounding_box()
+        self.middle = np.array([box["x"] + box["width"] / 2, box["y"] + box["height"] / 2])
+        self.radius = box["width"] / 2 - MARGIN
+
+    def values(self):
+        """What the link says, once the hand rests."""
+        self.page.page.wait_for_timeout(350)
+        self.page.rest()
+        return {name: values[0] for name, values in parse_qs(self.page.link).items()}
+
+    def numbers(self, *names):
+        values = self.values()
+        return tuple(float(values.get(name, 0)) for name in names)
+
+    def switch(self, name):
+        """Switch a box on or off, where the page is: it does not scroll."""
+        box = f"#room-globe input[name={name}]"
+        self.page.page.evaluate("(box) => document.querySelector(box).click()", box)
+
+    @property
+    def lens(self):
+        lon, lat, size = self.numbers("focuslon", "focuslat", "s")
+        return fisheye((lon, lat), magnification=size)
+
+    @property
+    def view(self):
+        return View(*self.numbers("viewlon", "viewlat", "viewroll"))
+
+    def seen_at(self, lonlat):
+        """Where a place is in the window."""
+        x, y, z = self.view.matrix @ self.lens(lonlat_to_xyz(lonlat))
+        assert z > 0
+        return self.middle + self.radius * np.array([x, -y])
+
+    def place_at(self, window):
+        """What is there, as a direction."""
+        x, y = (np.asarray(window) - self.middle) / self.radius * (1, -1)
+        return self.lens.inverse()(self.view.matrix.T @ [x, y, np.sqrt(1 - x * x - y * y)])
+
+
+@pytest.fixture
+def globe(room):
+    return Globe(room("globe"))
+
+
+def test_it_is_drawn_and_rests(globe):
+    page = globe.page
+    assert page.ink("#globe-plate") > 0.3
+    assert page.frames(0.5) == 0
+    assert [page.ink(f".views li:nth-child({k}) canvas") > 0.1 for k in range(1, 6)] == [True] * 5
+    words = page.page.inner_text("[data-out=pointer]")
+    lens = fisheye((10.0, 48.0), magnification=3.0)
+    scale = float(lens.scale_factor(lonlat_to_xyz((0.0, 20.0))))
+    assert words == (
+        f"At the pointer, 20.0°\u202fN 0.0°\u202fE, everything is {scale:.2f} times as large as on a plain globe; "
+        "at the focus 3.00 times, on the far side 0.33 times."
+    )
+
+
+def test_a_drag_keeps_the_place_under_the_pointer(globe):
+    start, end = globe.middle + (-60, 40), globe.middle + (90, -30)
+    grabbed = globe.place_at(start)
+    globe.page.page.emulate_media(reduced_motion="reduce")  # no running out
+    globe.page.drag(start, end)
+    assert np.linalg.norm(globe.place_at(end) - grabbed) * globe.radius * 3 < 1
+    globe.switch("north")
+    globe.page.drag(end, start)
+    assert np.linalg.norm(globe.place_at(start) - grabbed) * globe.radius * 3 < 1
+
+
+def test_the_wheel_magnifies_about_the_pointer_once_the_globe_has_the_focus(globe):
+    page = globe.page.page
+    at = globe.middle + (70, 90)
+    page.mouse.move(*at)
+    page.mouse.wheel(0, -200)
+    assert globe.numbers("s") == (3.0,)  # the page scrolled or not: the globe has no focus
+    page.evaluate("scrollTo(0, 0)")
+    page.focus("#globe-plate")
+    place = globe.place_at(at)
+    page.mouse.wheel(0, -200)
+    (size,) = globe.numbers("s")
+    assert 3 < size <= 3 * np.exp(0.4)
+    assert np.linalg.norm(globe.place_at(at) - place) * globe.radius * size < 1
+    for _ in range(20):
+        page.mouse.wheel(0, 500)
+    assert globe.numbers("s") == (1.0,)  # the way back ends at the plain globe
+    assert np.linalg.norm(globe.place_at(at) - place) * globe.radius < 1
+
+
+def test_two_fingers_magnify_where_they_are_far_down_a_page(room):
+    page = room("globe", touch=True, width=800, height=900)
+    page.page.evaluate("void document.querySelector('.head').style.setProperty('padding-top', '600vh')")
+    page.page.locator("#globe-plate").scroll_into_view_if_needed()
+    page.rest()
+    globe = Globe(page)
+    middle = globe.middle + (50, -60)
+    place = globe.place_at(middle)
+    page.swipe((middle - (40, 0), middle - (80, 0)), (middle + (40, 0), middle + (80, 0)))
+    (size,) = globe.numbers("s")
+    assert 3 < size <= 6.001
+    assert np.linalg.norm(globe.place_at(middle) - place) * globe.radius * size < 1.5
+
+
+def test_a_double_click_sets_the_focus(globe):
+    at = globe.middle + (-100, 20)
+    place = globe.place_at(at)
+    globe.page.page.mouse.dblclick(*at)
+    globe.page.page.wait_for_timeout(450)
+    lon, lat = globe.numbers("focuslon", "focuslat")
+    assert lonlat_to_xyz((lon, lat)) @ place > np.cos(np.radians(0.01))
+    assert np.linalg.norm(globe.seen_at((lon, lat)) - at) < 1
+
+
+def test_the_ring_is_dragged(globe):
+    start = globe.seen_at((10, 48))
+    globe.page.drag(start, start + (80, 60))
+    assert np.linalg.norm(globe.seen_at(globe.numbers("focuslon", "focuslat")) - start - (80, 60)) < 1
+    assert globe.numbers("viewlon", "viewlat") == (-8.0, 20.0)
+
+
+def test_keys(globe):
+    page = globe.page.page
+    page.focus("#globe-plate")
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowUp")
+    page.keyboard.press("+")
+    assert globe.numbers("viewlon", "viewlat", "s") == (-3.0, 21.0, 3.75)
+    page.keyboard.press("f")
+    assert np.linalg.norm(globe.seen_at(globe.numbers("focuslon", "focuslat")) - globe.middle) < 1
+    page.keyboard.press("0")
+    assert globe.numbers("viewlon", "viewlat", "s", "focuslon") == (-8.0, 20.0, 3.0, 10.0)
+    page.wait_for_timeout(700)
+    assert page.inner_text("#status") == "3.00 times at 48.0°\u202fN, 10.0°\u202fE"
+
+
+def test_the_pointer_is_followed_without_a_new_globe(globe):
+    at = globe.middle + (120, 100)
+    globe.page.page.mouse.move(*at)
+    lon, lat = globe.numbers("pointerlon", "pointerlat")
+    assert lonlat_to_xyz((lon, lat)) @ globe.place_at(at) > 1 - 1e-9
+    scale = float(globe.lens.scale_factor(lonlat_to_xyz((lon, lat))))
+    assert globe.page.page.inner_text("#room-globe [data-out=scale] .needle") == f"{scale:.2f}×"
+
+
+def test_five_sides_are_flown_to(globe):
+    globe.page.page.click(".views li:nth-child(5) button")
+    globe.page.page.wait_for_timeout(450)
+    assert globe.numbers("viewlon", "viewlat") == (-170.0, -48.0)
+    assert globe.page.frames(0.5) == 0
+
+
+@pytest.mark.parametrize(("which", "size"), [("figure-10", 1.0), ("figure-11", 4.0), ("figure-12", 20.0)])
+def test_figures_to_begin_with(room, which, size):
+    globe = Globe(room("globe", reduced_motion=True))
+    globe.page.page.click(f"button[value={which}]")
+    assert globe.numbers("s", "focuslon", "focuslat", "viewlat") == (size, 0.0, 40.0, 40.0)
+
+
+def test_bubble_to_bubble(room):
+    page = room("v=1&room=globe&lens=bubble")
+    words = page.page.inner_text("[data-out=bubbles]")
+    taken, filled = SphereCircle.around((10, 48), 14.0), SphereCircle.around((10, 48), 72.0)
+    carry = bubble_to_bubble(taken, filled)
+    middle, rim = (float(carry.scale_factor(p)) for p in (lonlat_to_xyz((10, 48)), taken.sample(4)[0]))
+    assert (
+        words == f"In the middle of the bubble everything is {middle:.2f} times as large, at its rim {rim:.2f} times."
+    )
+    globe = Globe(page, "#globe-before")
+    view = View(10, 42)
+
+    def at(lon, lat):
+        x, y, _ = view.matrix @ lonlat_to_xyz((lon, lat))
+        return globe.middle + globe.radius * np.array([x, -y])
+
+    page.drag(at(10, 34), at(10, 20))  # the rim, to 28°
+    assert globe.numbers("fromradius") == (pytest.approx(28, abs=0.3),)
+    page.drag(at(10, 48), at(25, 40))  # the inside
+    lon, lat = globe.numbers("fromlon", "fromlat")
+    assert np.linalg.norm(at(lon, lat) - at(25, 40)) < 1
+    assert globe.numbers("toradius") == (72.0,)
+    after = Globe(page, "#globe-after")
+    page.page.fill("input[name=to-radius]", "30")
+    page.page.keyboard.press("Enter")
+    assert after.numbers("toradius") == (30.0,)
+    assert page.ink("#globe-after") > 0.3
+
+
+def test_the_link_makes_the_same_picture(globe, room):
+    globe.page.drag(globe.middle, globe.middle + (50, 33))
+    globe.page.page.mouse.move(5, 5)
+    globe.switch("tissot")
+    globe.values()
+    link = globe.page.link
+    before, after = (page.picture("#globe-plate").astype(int) for page in (globe.page, room(link)))
+    assert (np.abs(before - after).max(axis=-1) > 16).mean() < 0.001
+    assert "off=tissot" in link
+
+
+@pytest.mark.parametrize("value", ["s=1e999", "s=0.5", "focuslat=91", "lens=cheese", "viewlon=NaN", "fromradius=0"])
+def test_a_hostile_link_shows_the_room_as_it_begins(room, value):
+    page = room(f"v=1&room=globe&{value}")
+    assert page.page.inner_text("[role=alert]").startswith("This link cannot be read")
+    assert page.ink("#globe-plate") > 0.3
+
+
+def test_the_readers_places_have_cells(globe, tmp_path, rng):
+    file = tmp_path / "places.csv"
+    lonlat = np.round(rng.uniform((-180, -90), (180, 90), (1000, 2)), 3)
+    np.savetxt(file, lonlat, "%.3f", delimiter=",", header="lon,lat", comments="")
+    before = globe.page.picture("#globe-plate").astype(int)
+    globe.page.page.set_input_files("#room-globe input[type=file]", str(file))
+    globe.page.page.wait_for_timeout(200)
+    globe.page.rest()
+    assert (np.abs(globe.page.picture("#globe-plate") - before).max(axis=-1) > 60).mean() > 0.02
+    assert "sites=d" in globe.page.link
+    with globe.page.page.expect_download() as download:
+        globe.page.page.click("button[data-export=geojson]")
+    assert download.value.path().read_text().count('"Polygon"') > 900
+
+
+def test_a_panorama_is_seen_through_the_lens(globe, tmp_path):
+    # One colour north and south of 40° N, east and west of 0°: what is drawn tells where it comes from.
+    image = np.zeros((256, 512, 3), np.uint8)
+    image[: round(256 * 50 / 180), :, 0] = 255
+    image[:, 256:, 1] = 255
+    file = tmp_path / "whole.png"
+    Image.fromarray(image).save(file)
+    globe.page.page.set_input_files("#room-globe input[type=file]", str(file))
+    globe.switch("graticule")
+    globe.switch("tissot")
+    globe.page.page.wait_for_timeout(300)
+    globe.page.rest()
+    for lonlat, red, green in [((20, 50), 255, 255), ((-9, 52), 255, 0), ((9, 20), 0, 255), ((-9, 20), 0, 0)]:
+        x, y = np.rint(globe.seen_at(lonlat)).astype(int)
+        r, g, _ = globe.page.picture()[y, x].astype(int)
+        assert (r > 128, g > 128) == (red > 128, green > 128), lonlat
+
+
+def test_a_picture_of_another_shape_is_refused(globe, tmp_path):
+    file = tmp_path / "square.png"
+    Image.new("RGB", (100, 100)).save(file)
+    globe.page.page.set_input_files("#room-globe input[type=file]", str(file))
+    globe.page.until("document.querySelector('[role=alert]')")
+    assert "100 × 100" in globe.page.page.inner_text("[role=alert]")
+
+
+def downloaded(page, kind):
+    with page.page.expect_download() as download:
+        page.page.click(f"button[data-export={kind}]")
+    return download.value.path().read_bytes()
+
+
+def test_the_exports_are_the_picture(globe, visit, tmp_path):
+    page = globe.page
+    page.page.fill("input[name=png-scale]", "1")
+    with Image.open(io.BytesIO(downloaded(page, "png"))) as image:
+        png = np.asarray(image.convert("RGB")).astype(int)
+    file = tmp_path / "globe.svg"
+    file.write_bytes(downloaded(page, "svg"))
+    drawn = visit(file, width=png.shape[1], height=png.shape[0]).picture().astype(int)
+    assert drawn.shape == png.shape
+    assert (np.abs(drawn - png).max(axis=-1) > 48).mean() < 0.005
+
+
+def test_the_python_lines_make_the_same_map(globe, tmp_path):
+    globe.page.page.click("details summary")
+    globe.page.page.wait_for_timeout(100)
+    code = globe.page.page.text_content("#python").replace('"50m"', '"110m"')
+    subprocess.run([sys.executable, "-c", code], cwd=tmp_path, check=True)
+    assert (tmp_path / "globe.svg").stat().st_size > 10_000
+    names = {}
+    exec(code.split("globe = Globe()")[0], names)
+    assert names["lens"].is_close(fisheye((10.0, 48.0), magnification=3.0))
+    assert "View(-8.0, 20.0)" in code
+
+
+def test_no_motion_where_none_is_wanted(room):
+    page = room("globe", reduced_motion=True)
+    page.page.click(".views li:nth-child(2) button")
+    page.page.wait_for_timeout(100)
+    assert page.frames(0.5) <= 1
