@@ -119,8 +119,9 @@ export function traceArc(
   side: Side = "front",
 ): void {
   const sign = side === "front" ? 1 : -1;
-  const [za, zb] = [sign * p[3 * a + 2], sign * p[3 * b + 2]];
-  if (za >= 0 && zb >= 0 && bow(p, a, m, b) * disc.r < UNSEEN_BOW) {
+  const [isAIn, isBIn] = [sign * p[3 * a + 2] >= 0, sign * p[3 * b + 2] >= 0];
+  if (isAIn === isBIn && bow(p, a, m, b) * disc.r < UNSEEN_BOW) {
+    if (!isAIn) return;
     path.moveTo(disc.x + disc.r * p[3 * a], disc.y - disc.r * p[3 * a + 1]);
     path.lineTo(disc.x + disc.r * p[3 * b], disc.y - disc.r * p[3 * b + 1]);
     return;

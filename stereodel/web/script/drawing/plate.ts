@@ -25,7 +25,8 @@ export class Plate {
   reason: Reason | null = null;
   readonly #paint: Painter;
   readonly #overlay: Painter | null;
-  #ground: HTMLCanvasElement | null = null; // what lies below the overlay, as it was drawn last
+  #ground: HTMLCanvasElement | null = null; // what lies below the overlay
+  #isKept = false; // whether it is what is to be seen
   readonly #run: (body: () => void) => void;
   readonly #place: HTMLElement;
   readonly #observer: ResizeObserver;
@@ -132,21 +133,31 @@ export class Plate {
     ++this.frames;
   }
 
+  /** What moves is drawn at once; what stays is kept, so that only the overlay is drawn where only the pointer moves. */
   #layers(reason: Reason, isMoving: boolean): void {
     const { canvas } = this;
     const scale = canvas.width / this.width;
-    if (this.#overlay === null) {
+    if (this.#overlay === null || isMoving) {
+      this.#isKept = false;
       cleared(canvas);
-      this.#paint(this.#pen(canvas, scale), isMoving);
+      const pen = this.#pen(canvas, scale);
+      this.#paint(pen, isMoving);
+      this.#overlay?.(pen, isMoving);
       return;
     }
     const ground = (this.#ground ??= document.createElement("canvas"));
-    if (ground.width !== canvas.width || ground.height !== canvas.height || reason !== "pointer") {
-      [ground.width, ground.height] = [canvas.width, canvas.height]; // which clears it, too
-      this.#paint(this.#pen(ground, scale), isMoving);
+    if (ground.width !== canvas.width || ground.height !== canvas.height) {
+      [ground.width, ground.height] = [canvas.width, canvas.height];
+      this.#isKept = false;
+    }
+    if (!this.#isKept || reason !== "pointer") {
+      this.#isKept = false; // should the painter fail
+      cleared(ground);
+      this.#paint(this.#pen(ground, scale), false);
+      this.#isKept = true;
     }
     cleared(canvas).drawImage(ground, 0, 0);
-    this.#overlay(this.#pen(canvas, scale), isMoving);
+    this.#overlay(this.#pen(canvas, scale), false);
   }
 
   #whole(pen: Pen): void {

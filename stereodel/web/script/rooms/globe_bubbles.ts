@@ -112,7 +112,9 @@ export class BubbleGlobe implements Turnable {
     const [x, y] = placeOf(disc, handle);
     pen.handle(x, y, "rim");
     const isRight = handle[0] < 0.55;
-    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + 14, {
+    // Near the lower limb the label stands above its handle: below there is no drawing.
+    const isLow = handle[1] < -0.5 && handle[2] < 0.4;
+    pen.label(`${fixed(cap.radius, 1)}°`, x + (isRight ? 9 : -9), y + (isLow ? -6 : 14), {
       ...LABEL,
       align: isRight ? "left" : "right",
     });
