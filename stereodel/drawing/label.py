@@ -40,7 +40,7 @@ def within_disc(label: Label, center: tuple[float, float], radius: float, points
 
 def in_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> bool:
     """Whether a label lies within a disc of the page, with its halo."""
-    low, high = label_box(label, points_per_unit) + np.array([[-label.halo], [label.halo]])
+    low, high = label_box(label, points_per_unit) + halo_reach(label)
     reach = np.maximum(
         np.abs(low - points_per_unit * np.array(center)), np.abs(high - points_per_unit * np.array(center))
     )
@@ -60,6 +60,11 @@ def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], 
             boxes = np.concatenate([boxes, box[None]])
         kept.append(item)
     return kept
+
+
+def halo_reach(label: Label) -> FloatArray:
+    """What a halo adds to the corners of a label's box, points, (2, 1)."""
+    return np.array([[-label.halo], [label.halo]])
 
 
 def meets(box: FloatArray, boxes: FloatArray) -> bool:

@@ -14,11 +14,14 @@ from typing import Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.drawing.label import in_disc, label_box, meets, placed_label
+from stereodel.drawing.label import halo_reach, in_disc, label_box, meets, placed_label
 from stereodel.drawing.page import Label
 
 SIDES: Final = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
 """Where a name may stand beside its place, right and up, in the order in which they are tried."""
+
+RISE: Final = 0.2
+"""How far lines of type may lie beyond the box of their own letters, up or down, in terms of their size."""
 
 SLANT: Final = 0.75
 """Of the distance of a name that is beside its place, along either axis where it stands at a corner of it."""
@@ -71,7 +74,8 @@ def placed_apart(
         found = [
             (covered, side, candidate, box)
             for side, candidate in enumerate(on_its_sides(label, distance))
-            if in_disc(candidate, center, radius, scale) and not meets(box := label_box(candidate, scale), boxes)
+            for box in [label_box(candidate, scale)]
+            if in_disc(candidate, center, radius, scale) and not meets(claimed(candidate, scale), boxes)
             for covered in [int(((marks > box[0]) & (marks < box[1])).all(axis=1).sum())]
         ]
         if found:
@@ -79,6 +83,12 @@ def placed_apart(
             placed.append(best)
             boxes = np.concatenate([boxes, box[None]])
     return placed
+
+
+def claimed(label: Label, points_per_unit: float) -> FloatArray:
+    """The box that is a label's alone, points, (2, 2): its halo cuts no type before it, whatever letters reach up."""
+    rise = RISE * label.size * np.array([[0.0, -1.0], [0.0, 1.0]])
+    return label_box(label, points_per_unit) + halo_reach(label) + rise
 
 
 def on_its_sides(label: Label, distance: float) -> Iterator[Label]:

@@ -113,6 +113,18 @@ def test_the_lines_of_a_picture_are_all_of_the_graticule_that_it_shows(degrees, 
         assert np.array_equal(seen.offsets, expected.offsets)
 
 
+@pytest.mark.parametrize("size", [3, 30, 300])
+@pytest.mark.parametrize("focus", [(30.0, 0.0), (30.0, 0.2), (30.0, 20.0)])
+def test_no_line_is_lost_where_room_is_scarce(focus, size):
+    """The focus at the edge of a flat map, where both lens and view are largest: lines end just beside it."""
+    lens, view = fisheye(focus, magnification=size), StereographicView(focus[0] - 89.9, 0)
+    chart = Chart(lens, view)
+    for least in (0.02, 0.05, 0.2):
+        some, whole = Grid.shown(1, lens, view, least), Grid.graticule(1)
+        seen, expected = (chart.lines(SphereLines.alone(grid.thinned(lens, view, least))) for grid in (some, whole))
+        assert np.array_equal(seen.values, expected.values)
+
+
 @pytest.mark.parametrize("degrees", [15, 0.01, 1e-9, 180 / 1_000_003])
 @pytest.mark.parametrize("focus", [(2.35, 48.86), (0, 90), (30, 89.9), (179.9999, 0)])
 def test_however_fine_a_grid_is_a_picture_has_some_thousand_lines(degrees, focus):

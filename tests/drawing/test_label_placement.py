@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.label import in_disc, label_box, meets
-from stereodel.drawing.label_placement import SIDES, on_its_sides, placed_apart
+from stereodel.drawing.label_placement import SIDES, claimed, on_its_sides, placed_apart
 from stereodel.drawing.page import Label
 
 UNIT = 200.0
@@ -29,6 +29,8 @@ def test_no_label_covers_another_and_all_are_in_the_disc(seed):
     boxes = np.array([box(label) for label in before + placed])
     for k in range(len(boxes)):
         assert not meets(boxes[k], np.delete(boxes, k, axis=0))
+        halo = np.array([[-1.0], [1.0]]) if k else 0.0
+        assert not meets(boxes[k] + halo, boxes[:k])  # which would cut the type of those before
     assert all(in_disc(label, (0.0, 0.0), 1.0, UNIT) for label in placed)
     for label in placed:
         # Beside its place, as far away as was said or three quarters of that along both axes.
@@ -62,7 +64,7 @@ def test_none_is_left_out_that_has_room(seed):
         boxes = np.array([box(each) for each in placed[:number]]).reshape(-1, 2, 2)
         sides = list(on_its_sides(label, 4.0))
         assert len({side.offset for side in sides}) == len(SIDES)
-        assert all(meets(box(side), boxes) or not in_disc(side, (0.0, 0.0), 1.0, UNIT) for side in sides)
+        assert all(meets(claimed(side, UNIT), boxes) or not in_disc(side, (0.0, 0.0), 1.0, UNIT) for side in sides)
 
 
 def test_dots_are_covered_last():

@@ -1,6 +1,7 @@
 """Styles in files: what they change, what they leave, and what is wrong in them, by file and key."""
 
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from stereodel.drawing import styled
 from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.style_files import PageStyle
 
+PAGE = (Path(__file__).parents[2] / "docs" / "drawing.md").read_text(encoding="utf-8")
 SQUARE = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0)])
 LINE = np.linspace((0.0, 0.0), (1.0, 1.0), 4)[None]
 
@@ -109,3 +111,11 @@ def test_what_is_wrong_is_said_with_file_and_key(text, message, tmp_path):
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(FileNotFoundError):
         styled(page(), tmp_path / "none.toml")
+
+
+def test_the_file_of_the_page_on_drawing(tmp_path):
+    """Colours with opacity, too."""
+    (text,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
+    drawn = styled(page(), write(tmp_path, text))
+    assert drawn.items[4].width == 0.6
+    assert PageStyle.of_file(tmp_path / "mine.toml").lines["graticule"]["color"][3] == 64 / 255

@@ -20,7 +20,8 @@ def test_the_code_of_the_page(tmp_path, monkeypatch, capsys):
         exec(compile(code, "globes.md", "exec"), names)
     (printed,) = re.findall(r"```text\n(.*?)```", PAGE, re.DOTALL)
     assert capsys.readouterr().out == printed
-    assert {path.name for path in tmp_path.iterdir()} == {"paris.png", "marble.png", "airports.svg", "halves.pdf"}
+    written = {"paris.png", "marble.png", "airports.svg", "halves.pdf", "paper.png"}
+    assert {path.name for path in tmp_path.iterdir()} == written
     assert len(names["page"].views) == 3
 
 
