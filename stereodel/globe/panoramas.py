@@ -99,7 +99,7 @@ def save_panorama(
     if faces and form != "cubemap":
         raise ValueError(f"faces are those of a cubemap, and form is {form!r}")
     as_choice(form, PANORAMA_FORMS, "form")
-    side = panorama_size(width // SHARES[form] if size is None else size, form)
+    side = panorama_size(max(1, width // SHARES[form]) if size is None else size, form)
     columns, rows = {"equirectangular": (side, side // 2), "cubemap": (6 * side, side), "planet": (side, side)}[form]
     opaque = bool((photo.pixels[..., 3] == 255).all())
     check_photo(target.name, (side if faces else columns, rows), opaque=opaque)

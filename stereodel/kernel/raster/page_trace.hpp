@@ -2,8 +2,8 @@
 //
 // Page points are those of the unit disc that a view shows, x right, y up, or of a rectangle that shows the sphere or a
 // part of it from within. A page gives a unit vector in its own axes (right, up, toward the viewer); `first`, the
-// fisheye of magnification `size` along +z, and `last` lead to the source. The rotations of view and lens are multiplied
-// before, in double-double.
+// fisheye of magnification `size` along +z, and `last` lead to the source. The rotations of view and lens are
+// multiplied before, in double-double.
 #pragma once
 
 #include <cstddef>
