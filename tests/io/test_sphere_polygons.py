@@ -255,3 +255,22 @@ def test_airports():
     assert shapely.area(parts).sum() == pytest.approx(WORLD, abs=1e-6)
     assert (shapely.distance(frame.geometry.values, shapely.points(places.lonlat[frame["point"]])) < 1e-9).all()
     assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
+
+
+@pytest.mark.parametrize("latitude", ["spherical", "authalic"])
+def test_the_bound_on_straying_spares_work_and_changes_nothing(monkeypatch, latitude):
+    """Sites 1e-6 degrees apart, where chords are halved; without any halving they would lie in others' cells."""
+    rng = np.random.default_rng(3)
+    base = rng.uniform([-170, -80], [170, 80], (40, 2))
+    lonlat = np.concatenate([base, base + rng.normal(size=base.shape) * 1e-6, [[0, 60], [90, 60.00001]]])
+    diagram = SphericalVoronoi.from_lonlat(lonlat, latitude=latitude)
+
+    def cells(bound=None):
+        if bound is not None:
+            monkeypatch.setattr("stereodel.io.tiles._most_straying", lambda middle, half: np.full(len(half), bound))
+        return to_geodataframe(diagram, max_segment=5).geometry.values
+
+    usual, asked, never = cells(), cells(np.inf), cells(0.0)
+    assert shapely.equals_identical(usual, asked).all()
+    assert (shapely.distance(usual, shapely.points(lonlat)) < 1e-12).all()
+    assert (shapely.distance(never, shapely.points(lonlat)) > 1e-12).any()
