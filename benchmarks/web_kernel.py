@@ -99,9 +99,9 @@ def ratios(rows: list[Row]) -> Row:
     return {
         "web : native, sphere": last["sphere"] / last["native sphere"],
         "web : native, cells": last["cells"] / last["native cells"],
-        "d3-geo-voronoi : web, triangles": last["d3, theirs"] / last["sphere"],
+        "d3-geo-voronoi : web, triangles alone": last["d3, theirs"] / last["sphere"],
         "d3-geo-voronoi : web, triangles and cells": last["d3, theirs"] / last["both"],
-        "d3-geo-voronoi : web, the same arrays": last["d3, theirs"] / last["d3, ours"],
+        "d3-geo-voronoi : web, everything as `geoDelaunay` has it": last["d3, theirs"] / last["d3, ours"],
         "delaunator : web, plane": last["delaunator"] / last["plane"],
     }
 

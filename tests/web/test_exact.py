@@ -152,7 +152,7 @@ def tied_rows():
         ("in_bubble", 3, 4),
         ("turn", 3, 3),
     ):
-        rows = [rng.integers(-3, 4, size=(12_000, width)).astype(float) for _ in range(count)]
+        rows = [rng.integers(-3, 4, size=(14_000, width)).astype(float) for _ in range(count)]
         # A third of the rows are moved by one unit in the last place of one coordinate, a third are scaled.
         rows[-1][:4000, 0] = np.nextafter(rows[-1][:4000, 0], rng.choice([-9.0, 9.0], size=4000))
         rows[0][4000:8000] *= 2.0 ** rng.integers(-30, 30, size=(4000, 1))
@@ -175,7 +175,7 @@ PREDICATES = {
 
 def test_signs_at_ties(web):
     asked = list(tied_rows())
-    assert sum(len(rows[0]) for _, rows in asked) > 50_000
+    assert sum(len(rows[0]) for _, rows in asked) > 60_000
     given = [[name, [text(points) for points in rows]] for name, rows in asked]
     line = "Promise.all(given.map(([name, rows]) => web.signs(name, rows.map(web.doubles))))"
     made = dict(zip([name for name, _ in asked], web(line, given), strict=True))
