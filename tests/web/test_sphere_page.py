@@ -301,3 +301,30 @@ def test_the_python_lines_run(room, tmp_path, monkeypatch):
     assert sorted(path.name for path in tmp_path.iterdir()) == ["ball.svg", "plane.svg"]
     assert len(names["triangles"]) == 94
     assert (names["triangle"] + 1).tolist() == [7, 22, 41]
+
+
+def test_a_failure_is_told_and_the_room_is_drawn_again(visit, page_file):
+    page = visit(f"{page_file.as_uri()}#sphere", complaints=["no clip"])
+    page.until("document.documentElement.dataset.ready")
+    page.rest()
+    clip = "CanvasRenderingContext2D.prototype.clip"
+    page.page.evaluate(f"window.kept = {clip}; {clip} = () => {{ throw new Error('no clip'); }}; 0")
+    page.page.locator(f"{ROOM} [name=cells]").uncheck()
+    page.rest()
+    message = page.page.locator("#messages")
+    assert message.inner_text().startswith("The computation failed and was stopped. Your sites are still here.")
+    assert page.page.locator(f"{ROOM}.failed").count() == 1
+    page.page.evaluate(f"{clip} = window.kept; 0")
+    message.get_by_role("button", name="Draw again").click()
+    page.rest()
+    assert page.page.locator(f"{ROOM}.failed").count() == 0
+    assert message.inner_text() == ""
+
+
+def test_a_hostile_link_begins_the_room_with_a_message(room):
+    first = room("sphere").digest(BALL)
+    for state in ("pole-lat=NaN", "sites=d!!!!", "step=999", "view-lon=1e999", "turned=%3Cscript%3E&pole-lat=95"):
+        page = room(f"v=1&room=sphere&{state}")
+        words = "This link cannot be read, so here is the room as it begins."
+        assert page.page.locator("#messages").inner_text().startswith(words)
+        assert page.digest(BALL) == first

@@ -182,3 +182,10 @@ def test_sets_are_places_of_the_sphere_with_facets(node):
         delaunay = SphericalDelaunay.from_lonlat(lonlat)
         assert len(delaunay.simplices) == 2 * len(lonlat) - 4
         assert delaunay.closing.any() == (name == "hemisphere")
+
+
+def test_a_site_that_is_there_already_displaces_nothing(node, lonlat):
+    """It lies on the bubbles of the facets around it, and in none."""
+    sites = [*lonlat.tolist(), lonlat[7].tolist()]
+    step = ask(node, f"(({{ seeing, outline }}) => [seeing, outline])(sitesOf(given).insertion({len(lonlat)}))", sites)
+    assert step == [[], []]

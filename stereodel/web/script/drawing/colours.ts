@@ -49,6 +49,7 @@ export function colours(within: HTMLElement = document.documentElement): Colours
 function hiddenIn(within: HTMLElement): HTMLElement {
   const probe = document.createElement("span");
   probe.hidden = true;
+  probe.style.setProperty("forced-color-adjust", "none"); // drawings keep their inks
   within.append(probe);
   return probe;
 }
