@@ -16,6 +16,7 @@ from pathlib import Path
 
 import pytest
 from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
 
 import stereodel
 from stereodel._extras import EXTRAS, MissingExtraError, distributions, installing, of_extra
@@ -107,15 +108,15 @@ def needed(names):
     found = {}
     queue = list(names)
     while queue:
-        name = queue.pop()
-        if name.lower() in found:
+        name = canonicalize_name(queue.pop())
+        if name in found:
             continue
         try:
-            found[name.lower()] = distribution(name)
+            found[name] = distribution(name)
         except PackageNotFoundError:
-            assert name not in names
+            assert name not in map(canonicalize_name, names)
             continue
-        requirements = map(Requirement, found[name.lower()].requires or [])
+        requirements = map(Requirement, found[name].requires or [])
         queue += [r.name for r in requirements if r.marker is None or r.marker.evaluate({"extra": ""})]
     return found.values()
 

@@ -40,7 +40,7 @@ def test_stdout(folder, run):
 
 
 def test_columns_and_missing_places(folder, run):
-    (folder / "odd.csv").write_text("east,north\n1,2\n,\n3,4\n", encoding="utf-8")
+    (folder / "odd.csv").write_text("east,north\n1,2\n5,\n3,4\n", encoding="utf-8")
     arguments = ("web", "odd.csv", "--lon", "east", "--lat", "north", "--resolution", "110m")
     assert run(*arguments, code=2).startswith("error: odd.csv: row 2: ")
     run(*arguments, "--skip-missing")
