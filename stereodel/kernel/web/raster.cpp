@@ -10,6 +10,7 @@
 namespace stereodel::web {
 
 using raster::PageMap;
+using raster::PageProjection;
 using raster::PageWindow;
 using raster::RasterEdges;
 using raster::RasterSampler;
@@ -35,12 +36,14 @@ void raster_levels(const std::uint8_t* texels, int width, int height, const doub
     raster::make_raster_levels(texels, RasterShape(width, height), sides.north, sides.south, levels, crew, nullptr);
 }
 
-// `map`: rotation, magnification, rotation, reach, 20 numbers; `place`: left, top, a pixel's width and height.
+// `map`: rotation, magnification, rotation, reach (0 of an orthographic view), 20 numbers; `place`: left, top, width and
+// height of a pixel.
 STEREODEL_EXPORT(warp_raster)
 void warp_raster(const std::uint8_t* texels, const std::uint8_t* levels, int width, int height, const double* edges,
                  const double* map, const double* place, int across, int down, bool covered, std::uint8_t* pixels) {
     const RasterSampler sampler(RasterShape(width, height), texels, levels, to_edges(edges), {});
-    PageMap page{{}, map[9], {}, map[19]};
+    const double reach = map[19];
+    PageMap page{{}, map[9], {}, reach == 0.0 ? PageProjection::orthographic : PageProjection::stereographic, reach};
     std::copy_n(map, 9, page.first);
     std::copy_n(map + 10, 9, page.last);
     const PageWindow window{place[0], place[1], {place[2], place[3]}, across, down};
