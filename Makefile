@@ -96,7 +96,7 @@ dist: $(VENV)/installed-web ## source archive, wheel and npm archive into dist/,
 baselines: $(VENV)/installed-animations opengl ## draw the stored pictures of the image tests anew: look at what git shows before you commit
 	$(BIN)/python -m tools.baselines --scripts figures --store tests/images/baselines
 
-names: $(VENV)/installed-animations ## write the tables of docs/names.md from the library anew
+names: $(VENV)/installed-test ## write the tables of docs/names.md from the library anew
 	$(BIN)/python -m tools.names
 
 readme-images: $(VENV)/installed-figures opengl ## draw the small pictures of the README anew

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from _arcs import from_rows, to_rows
 
 from stereodel import fisheye
-from stereodel.drawing import CircleArc, Grid, Label, LineStyle, Page, Scene, Solid, View
-from stereodel.drawing.grids import WIDTHS_APART
+from stereodel.drawing import CircleArc, Graticule, Label, LineStyle, Page, Scene, Solid, View
+from stereodel.drawing.graticule import WIDTHS_APART
 from stereodel.drawing.page import Item
 from stereodel.drawing.style import DARK_GRAY, LINES
 from stereodel.sphere import SphereArc, graticule, graticule_patch
@@ -36,7 +36,7 @@ class FiveViews:
     def geometry(self) -> dict:
         """What each view shows of the images of both grids under the fisheye: circle arcs again."""
         bend = fisheye(FOCUS, magnification=self.magnification)
-        coarse, fine = Grid.graticule(self.coarse), Grid.patch(FOCUS, self.half_width, self.fine)
+        coarse, fine = Graticule.regular(self.coarse), Graticule.patch(FOCUS, self.half_width, self.fine)
         rows = {}
         for grid, name, style in ((coarse, "coarse", LINES["graticule"]), (fine, "fine", LINES["fine"])):
             least = WIDTHS_APART * WEIGHT * style.width / POINTS

@@ -19,8 +19,8 @@ from fig11_fisheye4 import PANELS as FIGURE_11
 from fig12_fisheye20 import PANELS as FIGURE_12
 
 from stereodel import fisheye
-from stereodel.drawing import Grid, LineStyle, Page, Scene, Sketch, View
-from stereodel.drawing.grids import WIDTHS_APART
+from stereodel.drawing import Graticule, LineStyle, Page, Scene, Sketch, View
+from stereodel.drawing.graticule import WIDTHS_APART
 from stereodel.drawing.style import line
 from stereodel.film import Film
 from stereodel.film.shots import eased
@@ -37,7 +37,7 @@ RADIUS, HEIGHT = 86.0, 214.0  # points
 SIZE, STEP = 440, 0.1  # pixels and seconds: all lines move, which makes large files
 NEAR = 0.35  # words are seen within this ratio of magnifications, as a logarithm
 
-Grids = dict[str, Grid | list[SphereArc]]
+Grids = dict[str, Graticule | list[SphereArc]]
 Shot = tuple[float, tuple[float, float]]
 """A magnification, and those of the pauses before and after, which have words."""
 
@@ -46,8 +46,8 @@ def grids() -> Grids:
     """The graticules of two stages, and the fine lines of each that those before it do not have."""
     fine = [patch(stage) for stage in STAGES]
     return {
-        "graticule": Grid.graticule(STAGES[0].coarse),
-        "finer graticule": Grid.graticule(STAGES[1].coarse),
+        "graticule": Graticule.regular(STAGES[0].coarse),
+        "finer graticule": Graticule.regular(STAGES[1].coarse),
         "fine": fine[0],
         "finer": added(fine[1], fine[0]),
         "finest": fine[2],
@@ -96,7 +96,9 @@ def frame(shot: Shot, lines: Grids) -> Page:
     for name, arcs in lines.items():
         if looks[name].color[3] > 0:
             least = WIDTHS_APART * looks[name].width / RADIUS
-            drawn = arcs.drawn(bend, VIEW, least) if isinstance(arcs, Grid) else [bend.image_of(arc) for arc in arcs]
+            drawn = (
+                arcs.drawn(bend, VIEW, least) if isinstance(arcs, Graticule) else [bend.image_of(arc) for arc in arcs]
+            )
             scene.add_arcs(drawn, name=name, style=looks[name])
     sketch = Sketch().add_items(scene.layout(VIEW, at=(WIDTH / 2, HEIGHT - RADIUS - 4), scale=RADIUS))
     end, strength = nearest(np.log(ends), np.log(magnification), NEAR)

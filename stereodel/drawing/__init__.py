@@ -3,7 +3,7 @@
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page
 from stereodel.drawing.fonts import MissingCharactersWarning
-from stereodel.drawing.grids import Grid
+from stereodel.drawing.graticule import Graticule
 from stereodel.drawing.legend import with_legend
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.page_styles import styled
@@ -24,7 +24,7 @@ __all__ = [
     "DotStyle",
     "Dots",
     "Fill",
-    "Grid",
+    "Graticule",
     "Label",
     "Layer",
     "LineStyle",

@@ -57,7 +57,6 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
     font : str, path-like, or sequence of them, optional
         Names of families, or paths of files ending in .ttf, .otf, .ttc or .otc. Families that the machine does not have
         are passed over, as browsers do, if there is one that it has.
-
     name : str
         By which messages call it.
 
@@ -65,6 +64,8 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
     ------
     FileNotFoundError
         For the path of a file that is not there.
+    TypeError
+        For what is neither text nor path.
     ValueError
         For a file that is no font, and where no family is known here.
 
@@ -75,7 +76,10 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
     """
     if font is None:
         return ()
-    families = tuple(os.fspath(one) for one in ((font,) if isinstance(font, str | os.PathLike) else font))
+    try:
+        families = tuple(os.fspath(one) for one in ((font,) if isinstance(font, str | os.PathLike) else font))
+    except TypeError as error:
+        raise TypeError(f"{name} is {font!r}; give a family, the path of a font's file, or several of them") from error
     if families and not any(_file(family) for family in families):
         known = sorted({entry.name for entry in _manager().ttflist})
         close = [match for family in families for match in get_close_matches(family, known)]

@@ -16,6 +16,7 @@ import numpy as np
 
 from stereodel._arrays import as_scalar
 from stereodel.drawing.colors import Color, as_color
+from stereodel.drawing.fonts import as_font
 from stereodel.drawing.lengths import as_length
 from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Polygons, Polylines, Stroke
 
@@ -31,7 +32,7 @@ def _width(value: Any, name: str) -> float:
 READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
     "lines": {"color": as_color, "width": _width},
     "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
-    "labels": {"color": as_color, "size": as_length, "halo": _width, "halo_color": as_color},
+    "labels": {"color": as_color, "font": as_font, "size": as_length, "halo": _width, "halo_color": as_color},
 }
 """Tables of a file → their keys, and what reads the value of each."""
 
@@ -51,7 +52,7 @@ class PageStyle:
     lines, dots : mapping of str to mapping
         Names of lines and of dots → "color" and "width"; "color", "radius", "rim" and "rim_width".
     labels : mapping
-        "color", "size", "halo" and "halo_color" of all type.
+        "color", "font", "size", "halo" and "halo_color" of all text.
     """
 
     base: tuple[str, ...] = ()

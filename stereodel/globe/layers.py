@@ -10,7 +10,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.drawing.colors import Color
-from stereodel.drawing.grids import LEAST_APART, WIDTHS_APART, Grid, usual_spacing
+from stereodel.drawing.graticule import LEAST_APART, WIDTHS_APART, Graticule, usual_spacing
 from stereodel.drawing.label import within_disc
 from stereodel.drawing.label_placement import placed_apart
 from stereodel.drawing.page import Dots, Fill, Item, Label, Picture, Polygons, Polylines, Stroke
@@ -85,7 +85,7 @@ class GridLines:
         lens, view = chart.lens, chart.view
         spacing = usual_spacing(lens, view) if self.spacing is None else self.spacing
         least = max(WIDTHS_APART * self.style.width, LEAST_APART) / (chart.unit * chart.scale)
-        grid = Grid.shown(spacing, lens, view, least, latitude=self.latitude)
+        grid = Graticule.shown(spacing, lens, view, least, latitude=self.latitude)
         shown = SphereLines.alone(grid.thinned(lens, view, least))
         yield from Lines(shown, self.style, self.name).lay(chart)
 

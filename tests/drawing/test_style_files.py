@@ -58,6 +58,7 @@ def test_a_file_changes_what_it_names(tmp_path):
         [labels]
         size = 12
         color = "lime"
+        font = ["Nowhere", "DejaVu Serif"]
         halo = 0
         """,
     )
@@ -72,6 +73,7 @@ def test_a_file_changes_what_it_names(tmp_path):
     assert (coast.color, coast.width) == (red, 3.0)
     assert (dots.radius, dots.color, dots.rim, dots.rim_width) == (4.5, red, (1.0, 1.0, 1.0, 1.0), 1.0)
     assert (label.size, label.color, label.halo) == (12.0, green, 0.0)
+    assert label.font == ("Nowhere", "DejaVu Serif")
     assert page().background == (1.0, 1.0, 1.0, 1.0)
 
 
@@ -98,6 +100,8 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
         ("lines.coast = 1", "mine.toml: lines.coast is 1, but must be a table, such as [lines.coast]"),
         ("fills.land = 'grass'", "mine.toml: fills.land is 'grass', which is not a colour"),
         ("labels.size = 0", "mine.toml: labels.size is 0"),
+        ("labels.font = 'Nowhere'", "mine.toml: labels.font is 'Nowhere', which this machine does not have"),
+        ("labels.font = 1", "mine.toml: labels.font"),
         ("dots = []", "mine.toml: dots is [], but must be a table"),
         ("base = 'bright'", "style is 'bright'"),
         ("background = [1, 2]", "mine.toml: background is [1, 2], which is not a colour"),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from stereodel import data, earth, fisheye, lonlat_to_xyz
-from stereodel.drawing.grids import WIDTHS_APART
+from stereodel.drawing.graticule import WIDTHS_APART
 from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
 from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, ROWS, arc_points, geometry, page, script
 

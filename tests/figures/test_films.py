@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, in_bubble
-from stereodel.drawing import Dots, Grid, Label
+from stereodel.drawing import Dots, Graticule, Label
 from stereodel.sphere import graticule_patch
 from stereodel.triangulation import check_delaunay
 from tests.figures.scripts import FOLDER, script
@@ -47,7 +47,7 @@ def test_the_fisheye_stops_at_the_numbers_of_figures_10_to_12():
         black = [arc for name in drawn if looks[name].color[:3] == (0.0, 0.0, 0.0) for arc in lines[name]]
         assert same_arcs(black, graticule_patch(module["FOCUS"], stage.half_width, stage.fine))
         gray = max((lines[name].arcs for name in drawn if "graticule" in name), key=len)
-        expected = Grid.graticule(stage.coarse).arcs
+        expected = Graticule.regular(stage.coarse).arcs
         assert np.array_equal(gray.start, expected.start)
         assert np.array_equal(gray.axis, expected.axis)
         assert all(looks[name].color[3] == 1 for name in drawn)

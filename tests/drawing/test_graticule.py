@@ -5,7 +5,7 @@ import pytest
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.drawing import StereographicView, View
-from stereodel.drawing.grids import Grid, usual_spacing
+from stereodel.drawing.graticule import Graticule, usual_spacing
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.sphere import graticule, graticule_patch
@@ -18,8 +18,8 @@ VIEWS = [View(10, 40), View(180, -40, 15), StereographicView(0, 70, angular_radi
 @pytest.mark.parametrize("spacing", [7.5, 10, 20, 36])
 def test_where_there_is_room_all_is_drawn(spacing):
     for grid, arcs in (
-        (Grid.graticule(spacing), graticule(spacing)),
-        (Grid.patch((0, 40), 8, 1), graticule_patch((0, 40), 8, 1)),
+        (Graticule.regular(spacing), graticule(spacing)),
+        (Graticule.patch((0, 40), 8, 1), graticule_patch((0, 40), 8, 1)),
     ):
         for lens in LENSES:
             drawn = grid.drawn(lens, VIEWS[0], 0.0)
@@ -37,7 +37,7 @@ def test_where_there_is_room_all_is_drawn(spacing):
     [(5, [-180, -90, 0, 90], {0, 1, 2, 6}), (10, [-180, -90, 0, 90], {0, 1, 3}), (20, [-180, 0], {0, 1, 3})],
 )
 def test_lines_that_always_stay(spacing, whole, strides):
-    grid = Grid.graticule(spacing)
+    grid = Graticule.regular(spacing)
     kept = grid.thinned(NONE, View(0, 0), 100.0)
     lons = xyz_to_lonlat(kept.points(np.arange(len(kept)), (kept.begin + kept.stop) / 2))[:-1, 0]
     assert sorted((lons + 180 + 1e-9) % 360 - 180 - 1e-9) == pytest.approx(whole)
@@ -50,7 +50,7 @@ def test_lines_that_always_stay(spacing, whole, strides):
 def test_meridians_end_where_the_formula_says():
     # From above a pole the page shows neighbours Δλ·cos φ apart on meridians, whatever the depth.
     step, least = np.radians(10), 0.05
-    grid = Grid.graticule(10)
+    grid = Graticule.regular(10)
     shown = grid.thinned(NONE, View(0, 90), least)
     north = shown.end[shown.edge < grid.meridians]
     lines = shown.edge[shown.edge < grid.meridians]
@@ -62,7 +62,7 @@ def test_meridians_end_where_the_formula_says():
 
 @pytest.mark.parametrize("lens", LENSES)
 @pytest.mark.parametrize("view", VIEWS)
-@pytest.mark.parametrize("grid", [Grid.graticule(5), Grid.patch((10, 40), 10, 1)], ids=["graticule", "patch"])
+@pytest.mark.parametrize("grid", [Graticule.regular(5), Graticule.patch((10, 40), 10, 1)], ids=["graticule", "patch"])
 def test_lines_end_where_their_neighbours_come_too_near_on_the_page(lens, view, grid):
     """By an oracle of its own: differences on the page."""
     least, checked = 0.03, 0
@@ -81,7 +81,7 @@ def test_lines_end_where_their_neighbours_come_too_near_on_the_page(lens, view, 
 @pytest.mark.parametrize("lens", LENSES)
 @pytest.mark.parametrize("view", VIEWS)
 def test_what_is_drawn_is_all_that_has_room(lens, view):
-    grid, least = Grid.graticule(10), 0.03
+    grid, least = Graticule.regular(10), 0.03
     shown = grid.thinned(lens, view, least)
     for line in range(len(grid.arcs)):
         t = grid.arcs.begin[line] + np.linspace(0.001, 0.999, 40) * (grid.arcs.stop - grid.arcs.begin)[line]
@@ -100,14 +100,14 @@ def test_what_is_drawn_is_all_that_has_room(lens, view):
 def test_the_lines_of_a_picture_are_all_of_the_graticule_that_it_shows(degrees, latitude):
     """Bit for bit, for lenses and views of every kind."""
     rng = np.random.default_rng(int(10 * degrees))
-    whole = Grid.graticule(degrees, latitude=latitude)
+    whole = Graticule.regular(degrees, latitude=latitude)
     for number in range(10):
         focus, size = rng.uniform([-180, -90], [180, 90]) if number % 4 else (30.0, 90.0), 10 ** rng.uniform(-2, 4)
         lens = fisheye(focus, magnification=size)
         other = StereographicView(*rng.uniform([-180, -90], [180, 90]), angular_radius=rng.uniform(30, 150))
         view = View(*focus) if number % 2 else other
         chart = Chart(lens, view)
-        some = Grid.shown(degrees, lens, view, 0.02, latitude=latitude)
+        some = Graticule.shown(degrees, lens, view, 0.02, latitude=latitude)
         seen, expected = (chart.lines(SphereLines.alone(grid.thinned(lens, view, 0.02))) for grid in (some, whole))
         assert np.array_equal(seen.values, expected.values)
         assert np.array_equal(seen.offsets, expected.offsets)
@@ -120,7 +120,7 @@ def test_no_line_is_lost_where_room_is_scarce(focus, size):
     lens, view = fisheye(focus, magnification=size), StereographicView(focus[0] - 89.9, 0)
     chart = Chart(lens, view)
     for least in (0.02, 0.05, 0.2):
-        some, whole = Grid.shown(1, lens, view, least), Grid.graticule(1)
+        some, whole = Graticule.shown(1, lens, view, least), Graticule.regular(1)
         seen, expected = (chart.lines(SphereLines.alone(grid.thinned(lens, view, least))) for grid in (some, whole))
         assert np.array_equal(seen.values, expected.values)
 
@@ -132,7 +132,7 @@ def test_however_fine_a_grid_is_a_picture_has_some_thousand_lines(degrees, focus
     for size in (1, 1e3, 1e6, 1e9, 1e12, 1e-6):
         lens = fisheye(focus, magnification=size)
         for view in (View(*focus), View(focus[0] + 100, -focus[1]), StereographicView(*focus, angular_radius=150)):
-            assert len(Grid.shown(degrees, lens, view, 0.0032).arcs) < 10_000
+            assert len(Graticule.shown(degrees, lens, view, 0.0032).arcs) < 10_000
 
 
 @pytest.mark.parametrize("size", [1, 3, 20, 1e3, 1e6, 1e9, 1e11])
@@ -142,7 +142,7 @@ def test_usual_spacings_suit_the_picture(size, focus):
     degrees = usual_spacing(lens, view)
     across = 4 * np.degrees(np.arctan(1 / size))
     assert across / degrees == pytest.approx(12, rel=0.6)
-    crossed = Chart(lens, view).lines(SphereLines.alone(Grid.shown(degrees, lens, view, 0.0032).arcs))
+    crossed = Chart(lens, view).lines(SphereLines.alone(Graticule.shown(degrees, lens, view, 0.0032).arcs))
     assert 12 <= len(crossed) <= 60
     assert usual_spacing(lens, View(focus[0] + 180, -focus[1])) == 15.0
 

@@ -1,4 +1,4 @@
-"""Grids of meridians and parallels, thinned where they would merge into gray.
+"""Graticules: meridians and parallels, thinned where they would merge into gray.
 
 Lines of a family crowd where a view sees them at a slant, where a lens makes things small, and meridians at the poles.
 How far apart two neighbours are on the page is known exactly: their distance on the sphere, times the scale of the
@@ -47,7 +47,7 @@ HALVINGS: Final = 40
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Graticule:
     """Meridians and parallels, and which of them remain when they are thinned.
 
     Parameters
@@ -64,7 +64,7 @@ class Grid:
     Examples
     --------
     >>> from stereodel.drawing import View
-    >>> grid = Grid.graticule(10)
+    >>> grid = Graticule.regular(10)
     >>> len(grid.arcs), len(grid.drawn(MoebiusMap.identity(), View(0, 90), 0.02))
     (53, 53)
     >>> ends = grid.thinned(MoebiusMap.identity(), View(0, 90), 0.02).end[:2]
@@ -78,7 +78,7 @@ class Grid:
     strides: Indices
 
     @classmethod
-    def graticule(cls, spacing: float = 15.0, *, latitude: Latitude = "spherical") -> Grid:
+    def regular(cls, spacing: float = 15.0, *, latitude: Latitude = "spherical") -> Graticule:
         """All meridians and parallels, as in `stereodel.sphere.graticule`; those at multiples of 90° always remain."""
         steps = as_steps(180.0, spacing, "spacing")
         half = (steps - 1) // 2
@@ -87,17 +87,17 @@ class Grid:
     @classmethod
     def shown(
         cls, spacing: float, lens: MoebiusMap, view: MapView, least: float, *, latitude: Latitude = "spherical"
-    ) -> Grid:
-        """Of `graticule` the lines of which a picture, thinned to `least`, may show a part: some thousands at most.
+    ) -> Graticule:
+        """Of `regular` the lines of which a picture, thinned to `least`, may show a part: some thousands at most.
 
-        However fine the grid is, what it costs is what is seen of it. Parameters are those of `graticule` and
+        However fine the grid is, what it costs is what is seen of it. Parameters are those of `regular` and
         `thinned`; of a ball of glass, this is the near side.
 
         Examples
         --------
         >>> from stereodel import fisheye
         >>> lens = fisheye((2.35, 48.86), magnification=1e9)
-        >>> grid = Grid.shown(2e-8, lens, View(2.35, 48.86), 0.003)  # of a graticule of 27 milliards of lines
+        >>> grid = Graticule.shown(2e-8, lens, View(2.35, 48.86), 0.003)  # of 27 billion lines
         >>> 20 < len(grid.arcs) < 60
         True
         """
@@ -114,19 +114,19 @@ class Grid:
         return cls._numbered(east, north[np.abs(north) <= half], steps, latitude)
 
     @classmethod
-    def _numbered(cls, east: Indices, north: Indices, steps: int, latitude: Latitude) -> Grid:
+    def _numbered(cls, east: Indices, north: Indices, steps: int, latitude: Latitude) -> Graticule:
         """Meridians and parallels of a graticule by their numbers, from those through (0, 0) on."""
         arcs = joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
         numbers = np.concatenate([east, north])
         return cls(numbered(arcs), len(east), np.pi / steps, _strides(numbers, _quarter(steps)))
 
     @classmethod
-    def patch(cls, center: npt.ArrayLike, half_width: float, spacing: float) -> Grid:
+    def patch(cls, center: npt.ArrayLike, half_width: float, spacing: float) -> Graticule:
         """The grid of a box, as in `stereodel.sphere.graticule_patch`; its borders and its central lines always remain.
 
         Examples
         --------
-        >>> Grid.patch((0.0, 40.0), 1.5, 0.5).strides.tolist()
+        >>> Graticule.patch((0.0, 40.0), 1.5, 0.5).strides.tolist()
         [0, 1, 1, 0, 1, 1, 0, 0, 1, 1, 0, 1, 1, 0]
         """
         arcs = exact(graticule_patch(center, half_width, spacing))
@@ -207,7 +207,7 @@ class Grid:
 class _Lines:
     """The lines of a grid on a page."""
 
-    grid: Grid
+    grid: Graticule
     lens: MoebiusMap
     view: MapView
 
