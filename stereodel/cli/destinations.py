@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel._extras import optional
 from stereodel._files import replacing, said_of
+from stereodel.cli.failures import stop_if_interrupted
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import bar, stage
 from stereodel.cli.sources import Columns
@@ -69,6 +70,7 @@ class Destination:
 
     def write(self, save: Callable[[Path], object]) -> None:
         """Let `save` write the file; for stdout a temporary one, which is then copied."""
+        stop_if_interrupted()
         if self.name != "-":
             save(Path(self.name))
             return

@@ -57,6 +57,12 @@ def interrupt(number: int, frame: object) -> NoReturn:
     raise KeyboardInterrupt
 
 
+def stop_if_interrupted() -> None:
+    """Interrupt again where an interruption was lost: some libraries drop exceptions, while they are imported or freed."""
+    if _signals:
+        raise KeyboardInterrupt
+
+
 class NothingToDoError(Exception):
     """The input is right, but there is nothing to write."""
 

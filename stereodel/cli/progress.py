@@ -8,6 +8,8 @@ from contextlib import contextmanager
 
 import typer
 
+from stereodel.cli.failures import stop_if_interrupted
+
 PIECE = 100_000
 """Rows between two signs of progress."""
 
@@ -15,8 +17,10 @@ PIECE = 100_000
 @contextmanager
 def stage(what: str) -> Iterator[None]:
     """Show what is being done, and for how long, until it is done."""
+    stop_if_interrupted()
     if not sys.stderr.isatty():
         yield
+        stop_if_interrupted()
         return
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
@@ -25,13 +29,15 @@ def stage(what: str) -> Iterator[None]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         progress.add_task(what, total=None)
         yield
+    stop_if_interrupted()
 
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float], None]]:
     """Show how much of the work is done, which is told to what is given, as a share from 0 to 1."""
+    stop_if_interrupted()
     if not sys.stderr.isatty():
-        yield lambda share: None
+        yield lambda share: stop_if_interrupted()
         return
     from rich.console import Console
     from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
@@ -39,7 +45,12 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task(what, total=None)  # until a share is told
-        yield lambda share: progress.update(task, total=1.0, completed=share)
+
+        def shown(share: float) -> None:
+            stop_if_interrupted()
+            progress.update(task, total=1.0, completed=share)
+
+        yield shown
 
 
 def in_pieces(size: int, what: str) -> Iterator[slice]:

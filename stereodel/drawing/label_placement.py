@@ -62,7 +62,7 @@ def placed_apart(
     Examples
     --------
     >>> names = [Label(name, (0.0, 0.0)) for name in ("Ulm", "Neu-Ulm", "Wiblingen")]
-    >>> placed = placed_apart(names, 4.0, center=(0.0, 0.0), radius=1.0, points_per_unit=100.0)
+    >>> placed = placed_apart(names, 8.0, center=(0.0, 0.0), radius=1.0, points_per_unit=100.0)
     >>> [(label.text, label.align) for label in placed]
     [('Ulm', 'left'), ('Neu-Ulm', 'right'), ('Wiblingen', 'center')]
     """

@@ -110,7 +110,7 @@ def test_coordinate_systems_and_layers(own, run, rows):
     (row,) = rows(run(*options, "--of-crs", "EPSG:25832"))
     assert row["site_name"] == "Ulm"
     assert abs(float(row["lon"]) - 9.986225) < 1e-6
-    assert "--crs is 'EPSG:0', which PROJ does not know" in run(*options, "--of-crs", "EPSG:0", code=2)
+    assert "--of-crs is 'EPSG:0', which PROJ does not know" in run(*options, "--of-crs", "EPSG:0", code=2)
     points = geopandas.GeoDataFrame({"name": ["a"]}, geometry=geopandas.points_from_xy([10], [48]), crs=4326)
     points.to_file("two.gpkg", layer="first")
     points.to_file("two.gpkg", layer="second")

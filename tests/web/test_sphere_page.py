@@ -84,6 +84,7 @@ def test_the_grabbed_place_stays_under_the_pointer(room):
     start, end = (x + 40, y - 30), (x - 60, y + 45)  # from between the sites
     radius = page.page.locator(BALL).bounding_box()["width"] / 2 - 7
     grabbed = unseen(page, start, (x, y), radius)
+    page.page.emulate_media(reduced_motion="reduce")  # no running out
     page.drag(start, end)
     page.rest()
     moved = unseen(page, end, (x, y), radius)

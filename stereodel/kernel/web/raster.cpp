@@ -36,8 +36,8 @@ void raster_levels(const std::uint8_t* texels, int width, int height, const doub
     raster::make_raster_levels(texels, RasterShape(width, height), sides.north, sides.south, levels, crew, nullptr);
 }
 
-// `map`: rotation, magnification, rotation, reach (0 of an orthographic view), 20 numbers; `place`: left, top, width and
-// height of a pixel.
+// `map`: rotation, magnification, rotation, reach (0 of an orthographic view), 20 numbers; `place`: left, top, width
+// and height of a pixel.
 STEREODEL_EXPORT(warp_raster)
 void warp_raster(const std::uint8_t* texels, const std::uint8_t* levels, int width, int height, const double* edges,
                  const double* map, const double* place, int across, int down, bool covered, std::uint8_t* pixels) {

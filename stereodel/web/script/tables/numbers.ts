@@ -58,7 +58,7 @@ function numbers({ name, values }: NamedColumn): Float64Array {
   if (bad.length > 0) {
     const value = result[bad[0]];
     const what = Number.isNaN(value) ? "is missing" : `is ${floatText(value)}, but must be finite`;
-    throw new TableError(`row ${bad[0] + 1}: the ${name} ${what}${more(bad)}; drop or fill such rows first`);
+    throw new TableError(`row ${bad[0] + 1}: the ${name} ${what}${more(bad)}; leave such rows out with skip_missing=True`);
   }
   return result;
 }
