@@ -58,7 +58,7 @@ def interrupt(number: int, frame: object) -> NoReturn:
 
 
 def stop_if_interrupted() -> None:
-    """Interrupt again where an interruption was lost: some libraries drop exceptions, while they are imported or freed."""
+    """Interrupt again where an interruption was lost: some libraries drop exceptions while they are imported."""
     if _signals:
         raise KeyboardInterrupt
 

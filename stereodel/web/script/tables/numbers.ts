@@ -57,8 +57,10 @@ function numbers({ name, values }: NamedColumn): Float64Array {
   }
   if (bad.length > 0) {
     const value = result[bad[0]];
-    const what = Number.isNaN(value) ? "is missing" : `is ${floatText(value)}, but must be finite`;
-    throw new TableError(`row ${bad[0] + 1}: the ${name} ${what}${more(bad)}; leave such rows out with skip_missing=True`);
+    const [what, advice] = Number.isNaN(value)
+      ? ["is missing", "leave such rows out with skip_missing=True"]
+      : [`is ${floatText(value)}, but must be finite`, "correct or drop such rows first"];
+    throw new TableError(`row ${bad[0] + 1}: the ${name} ${what}${more(bad)}; ${advice}`);
   }
   return result;
 }
