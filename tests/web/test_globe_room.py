@@ -172,6 +172,27 @@ def test_five_sides_are_flown_to(globe):
     assert globe.page.frames(0.5) == 0
 
 
+def test_five_sides_are_drawn_with_the_lens_alone(globe):
+    """Not anew while the globe turns: one drawing for a move of the mouse, and one in full when it rests."""
+    mouse, (x, y) = globe.page.page.mouse, globe.middle
+    side = ".views li:nth-child(1) canvas"
+    before = globe.page.digest(side)
+    mouse.move(x + 90, y + 70)
+    mouse.down()
+    drawn = globe.page.page.evaluate("framesDrawn")
+    for step in range(10):
+        mouse.move(x + 80 - 10 * step, y + 70)
+    globe.page.rest()
+    assert 5 <= globe.page.page.evaluate("framesDrawn") - drawn <= 12
+    mouse.up()
+    globe.page.rest()
+    assert globe.page.digest(side) == before
+    globe.page.page.focus("#room-globe input[name=mag]")
+    globe.page.page.keyboard.press("ArrowRight")
+    globe.page.rest()
+    assert globe.page.digest(side) != before
+
+
 @pytest.mark.parametrize(("which", "size"), [("figure-10", 1.0), ("figure-11", 4.0), ("figure-12", 20.0)])
 def test_figures_to_begin_with(room, which, size):
     globe = Globe(room("globe", reduced_motion=True))

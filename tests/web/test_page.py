@@ -43,7 +43,7 @@ def kilobytes(text):
 
 def test_sizes():
     assert kilobytes(assemble.html("110m")) <= 230
-    assert kilobytes(built("page.js")) <= 60
+    assert kilobytes(built("page.js")) <= 56
     assert kilobytes(built("stereodel.wasm")) <= 140
 
 

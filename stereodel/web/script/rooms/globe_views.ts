@@ -29,6 +29,7 @@ export class FiveViews {
   readonly #plates: Plate[];
   readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
   #patch: { lens: Lens; layer: Layer } | null = null;
+  #shown: Lens | null = null;
 
   constructor(buttons: readonly HTMLButtonElement[], host: GlobeHost) {
     this.#host = host;
@@ -43,8 +44,13 @@ export class FiveViews {
     });
   }
 
+  /** Draws what has changed: while the ball turns under a lens that stays, nothing has. */
   redraw(reason: Reason): void {
-    for (const plate of this.#plates) plate.redraw(reason === "hand" || reason === "flight" ? "state" : reason);
+    const { lens } = this.#host.state.sight;
+    const isMoving = reason === "hand" || reason === "flight";
+    if (isMoving && this.#shown !== null && isSame(this.#shown, lens)) return;
+    this.#shown = lens;
+    for (const plate of this.#plates) plate.redraw(isMoving ? "state" : reason);
   }
 
   dispose(): void {
@@ -63,6 +69,10 @@ export class FiveViews {
     if (this.#patch?.lens !== lens) this.#patch = { lens, layer: patchLayer(lens) };
     return this.#patch.layer;
   }
+}
+
+function isSame(a: Lens, b: Lens): boolean {
+  return a.magnification === b.magnification && a.focus.every((value, k) => value === b.focus[k]);
 }
 
 function discOf(plate: Plate): Disc {
