@@ -3,7 +3,7 @@
 from benchmarks import web_kernel
 
 
-def test_a_small_run():
+def test_a_small_run(node):
     found = web_kernel.measure((50, 200), rounds=1)
     rows = found["rows"]
     assert [row["size"] for row in rows] == [50, 200]
