@@ -152,6 +152,69 @@ class Space(Protocol):
         checked: bool = False,
     ) -> IntArray: ...
     def spanning_tree(self, points: FloatArray, edges: IntArray) -> IntArray: ...
+    def part_of(self, points: FloatArray, axis: IntArray, value: FloatArray) -> IntArray: ...
+    def blocks(self, points: FloatArray, size: int) -> tuple[IntArray, LongArray, FloatArray, FloatArray]: ...
+    def box_tree(self, lows: FloatArray, highs: FloatArray) -> tuple[FloatArray, FloatArray, LongArray]: ...
+    def near_blocks(
+        self,
+        chosen: BoolArray,
+        reach: float,
+        lows: FloatArray,
+        highs: FloatArray,
+        first: LongArray,
+        unread: IntArray,
+    ) -> BoolArray: ...
+    def open_bubbles(
+        self,
+        points: FloatArray,
+        faces: IntArray,
+        lows: FloatArray,
+        highs: FloatArray,
+        first: LongArray,
+        unread: IntArray,
+        wanted: BoolArray | None = None,
+    ) -> tuple[BoolArray, FloatArray]: ...
+    def open_discs(
+        self,
+        centers: FloatArray,
+        rims: FloatArray,
+        lows: FloatArray,
+        highs: FloatArray,
+        first: LongArray,
+        unread: IntArray,
+    ) -> tuple[BoolArray, FloatArray]: ...
+    def open_targets(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        queries: FloatArray,
+        lows: FloatArray,
+        highs: FloatArray,
+        first: LongArray,
+        unread: IntArray,
+        closing: BoolArray | None = None,
+        natural: bool = False,
+        checked: bool = False,
+    ) -> tuple[BoolArray, FloatArray]: ...
+    def final_cells(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        neighbors: IntArray,
+        duplicates: IntArray,
+        ids: LongArray,
+        rows: IntArray,
+        checked: bool = False,
+    ) -> tuple[LongArray, IntArray, FloatArray, LongArray, FloatArray]: ...
+    def final_triangles(
+        self,
+        points: FloatArray,
+        simplices: IntArray,
+        duplicates: IntArray,
+        ids: LongArray,
+        final: BoolArray,
+    ) -> tuple[LongArray, IntArray]: ...
     def turn(self, a: FloatArray, b: FloatArray, c: FloatArray, workers: int = 1) -> SignArray: ...
 
 

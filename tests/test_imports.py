@@ -90,6 +90,7 @@ KERNEL_FLOORS = [
     "interpolation",
     "conformal",
     "raster",
+    "partitions",
     "python",
     "web",
 ]

@@ -1,5 +1,5 @@
 """
-The compiled part of stereodel: predicates, triangulation, location, Voronoi diagrams, graphs, conformal maps, rasters on a globe.
+The compiled part of stereodel: predicates, triangulation, location, Voronoi diagrams, graphs, conformal maps, rasters on a globe, triangulations in parts.
 """
 
 from collections.abc import Sequence
@@ -70,6 +70,14 @@ def xyz_to_lonlat(
 ) -> Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C")]:
     """
     Rows (lon, lat) in degrees, each within an ulp, of non-zero directions of any length.
+    """
+
+def unread_counts(
+    unread: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    How many unread leaves each node of a box_tree has, from those of the leaves.
     """
 
 def orient3d(

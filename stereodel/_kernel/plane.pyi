@@ -192,6 +192,109 @@ class Mesh:
     def inconclusive(self) -> dict:
         """Tests that each stage left open, in changes so far."""
 
+def part_of(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    axis: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    value: Annotated[NDArray[numpy.float64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C")]:
+    """
+    The leaf of a k-d tree that each point belongs to. axis, value: of the inner nodes, in the order of a heap, any number of them: node k has the children 2k + 1 (coordinates up to the value) and 2k + 2, and what comes after the inner nodes is leaf 0, 1, ... Directions of any length are taken as unit vectors.
+    """
+
+def blocks(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)], size: int
+) -> tuple:
+    """
+    Rows in the order of blocks of at most `size` points (more only if all are equal), where each block begins and the last one ends (blocks + 1), low and high corners of boxes that hold them; on the sphere those of the unit vectors, rounded outward.
+    """
+
+def box_tree(
+    lows: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    highs: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+) -> tuple:
+    """
+    Low and high corners of all nodes of a tree over boxes, which stand first, and the first node of each level and one beyond.
+    """
+
+def near_blocks(
+    chosen: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    reach: float,
+    lows: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    highs: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    unread: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C")]:
+    """
+    Which unread blocks are near chosen ones: the gap along each axis is at most `reach` times the smaller diagonal. lows, highs, first: of box_tree; unread: of unread_counts.
+    """
+
+def open_bubbles(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    faces: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    lows: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    highs: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    unread: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    wanted: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)] | None = None,
+) -> tuple:
+    """
+    Whether each triangle's closed bubble may touch an unread block, never false where it does; and for each block how deep an open bubble reaches into it, 0 if none does. Triangles are counterclockwise; in the plane (u, v, -1) is an edge of the hull that has all points on its left. wanted: which points' triangles matter.
+    """
+
+def open_discs(
+    centers: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    rims: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    lows: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    highs: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    unread: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> tuple:
+    """
+    The same for the closed discs around centers through the points beside them.
+    """
+
+def open_targets(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    queries: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    lows: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    highs: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    first: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    unread: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    closing: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)]
+    | None = None,
+    natural: bool = False,
+    checked: bool = False,
+) -> tuple:
+    """
+    The same for what the answer at each target rests on: triangles that hold it, or the one or the hull's edge that it lies beyond; natural: also all triangles whose bubbles hold it, and those that it would have at itself.
+    """
+
+def final_cells(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    neighbors: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    ids: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    rows: Annotated[NDArray[numpy.int32], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    checked: bool = False,
+) -> tuple:
+    """
+    Of ascending rows whose triangles are final: the lowest id of equal points, degree, area (both 0 where that id is another one), the id of the nearest other point (the lowest of several, -1 if there is none), its distance (radians on the sphere). ids: of all rows, in any order. There must be simplices.
+    """
+
+def final_triangles(
+    points: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    simplices: Annotated[NDArray[numpy.int32], dict(shape=(None, 3), order="C", device="cpu", writable=False)],
+    duplicates: Annotated[NDArray[numpy.int32], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
+    ids: Annotated[NDArray[numpy.int64], dict(shape=(None,), order="C", device="cpu", writable=False)],
+    final: Annotated[NDArray[numpy.bool_], dict(shape=(None,), order="C", device="cpu", writable=False)],
+) -> tuple:
+    """
+    Triangles by ids (m, 3), the lowest first, counterclockwise, of which that point is final, and their rows among the simplices. final: of each row; of equal points the one of lowest id counts.
+    """
+
 def turn(
     a: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],
     b: Annotated[NDArray[numpy.float64], dict(shape=(None, 2), order="C", device="cpu", writable=False)],

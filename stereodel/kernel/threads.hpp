@@ -1,8 +1,8 @@
 // The files beside the folders are what all of them share: memory, threads, tally (signs and counts of open tests),
 // duplicates, growing_array and index_set; input_checks, for callers from outside; assumptions, which a build must
 // keep. The folders, from the ground: arithmetic, coordinates, predicates, order, mesh, engine, queries, voronoi,
-// graphs, interpolation, conformal, raster, and two doors, python and web. Each includes those before it alone; the
-// main header of each begins with what the folder is for.
+// graphs, interpolation, conformal, raster, partitions, and two doors, python and web. Each includes those before it
+// alone; the main header of each begins with what the folder is for.
 //
 // Threads: loops over tasks on several of them, and a way to stop all.
 //

@@ -11,6 +11,7 @@ void bind_graphs(Modules& modules);
 void bind_interpolation(Modules& modules);
 void bind_location(Modules& modules);
 void bind_mesh(Modules& modules);
+void bind_partitions(Modules& modules);
 void bind_predicates(Modules& modules);
 void bind_raster(Modules& modules);
 void bind_voronoi(Modules& modules);
@@ -21,7 +22,7 @@ NB_MODULE(_kernel, module) {
     using namespace stereodel::python;
     module.doc() =
         "The compiled part of stereodel: predicates, triangulation, location, Voronoi diagrams, graphs, conformal "
-        "maps, rasters on a globe.";
+        "maps, rasters on a globe, triangulations in parts.";
     Modules modules{module, module.def_submodule("plane", "Points of the plane, (n, 2)."),
                     module.def_submodule("sphere", "Directions, (n, 3): what `plane` has, under the same names.")};
     bind_conformal(modules);
@@ -31,6 +32,7 @@ NB_MODULE(_kernel, module) {
     bind_interpolation(modules);
     bind_location(modules);
     bind_mesh(modules);
+    bind_partitions(modules);
     bind_predicates(modules);
     bind_raster(modules);
     bind_voronoi(modules);

@@ -60,6 +60,8 @@ class DualTriangles {
         return !tied_.empty() && ((tied_[static_cast<std::size_t>(e.t)] >> e.place) & 1) != 0;
     }
     bool has_ties() const { return !tied_.empty(); }
+    // Whether no other triangle shares its vertex.
+    bool is_triangle(Index t) const { return !has_ties() || tied_[static_cast<std::size_t>(t)] == 0; }
 
     // The lowest triangle with the same vertex.
     Index root(Index t) const { return root_.size() == 0 ? t : root_[static_cast<std::size_t>(t)]; }
@@ -191,6 +193,38 @@ class DualTriangles {
     Buffer<PackedEdge> twins_;
     std::vector<std::uint8_t> tied_;  // three bits a triangle; empty without ties
     Buffer<Index> root_;
+};
+
+// The sites around vertices that several triangles share; after `find_ties`.
+class TiedPolygons {
+  public:
+    TiedPolygons(const DualTriangles& dual, Stop stop) : dual_(dual), side_(dual.has_ties() ? dual.count() : 0) {
+        std::fill_n(side_.data(), side_.size(), -1);
+        for_range(0, side_.size(), stop, [&](std::size_t t) {
+            Index& side = side_[static_cast<std::size_t>(dual.root(static_cast<Index>(t)))];
+            for (std::size_t place = 0; place < 3 && side < 0; ++place) {
+                if (!dual.is_tied({static_cast<Index>(t), place})) {
+                    side = static_cast<Index>(3 * t + place);
+                }
+            }
+        });
+    }
+
+    // Counterclockwise, of the vertex of a root.
+    void collect(Index root, std::vector<Index>& polygon) const {
+        const Index side = side_[static_cast<std::size_t>(root)];
+        const HalfEdge start{side / 3, static_cast<std::size_t>(side) % 3};
+        polygon.clear();
+        HalfEdge e = start;
+        do {
+            polygon.push_back(dual_.origin(e));
+            e = dual_.next_side(e);
+        } while (e.t != start.t || e.place != start.place);
+    }
+
+  private:
+    const DualTriangles& dual_;
+    Buffer<Index> side_;  // of each root: 3 t + place of a side of its polygon, where that can be entered
 };
 
 }  // namespace stereodel::voronoi

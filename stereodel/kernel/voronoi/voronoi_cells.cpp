@@ -44,10 +44,9 @@ LowestSites of_polygon(const std::vector<Index>& polygon) {
 class CellBuilder {
   public:
     CellBuilder(const DualTriangles& dual, Size sites, Crew& crew, Stop stop)
-        : dual_(dual), sites_(sites), crew_(crew), stop_(stop) {}
+        : dual_(dual), sites_(sites), crew_(crew), stop_(stop), polygons_(dual, stop) {}
 
     Diagram build() {
-        find_sides();
         // Neither can be divided; they can go side by side.
         crew_.run(2, [this](Size task) { task == 0 ? list_vertices() : count_entries(); });
         number_vertices();
@@ -66,41 +65,14 @@ class CellBuilder {
   private:
     static constexpr Size grain = Size{1} << 13;
 
-    // Where the polygons of several triangles can be entered.
-    void find_sides() {
-        if (!dual_.has_ties()) {
-            return;
-        }
-        side_ = Buffer<Index>(dual_.count());
-        std::fill_n(side_.data(), side_.size(), -1);
-        for_range(0, dual_.count(), stop_, [&](Size t) {
-            Index& side = side_[at(dual_.root(static_cast<Index>(t)))];
-            for (Size place = 0; place < 3 && side < 0; ++place) {
-                if (!dual_.is_tied({static_cast<Index>(t), place})) {
-                    side = static_cast<Index>(3 * t + place);
-                }
-            }
-        });
-    }
-
     // The sites around the vertex of a root, counterclockwise from the lowest.
     void polygon_of(Index root, std::vector<Index>& polygon) const {
-        const HalfEdge start{side_[at(root)] / 3, at(side_[at(root)]) % 3};
-        polygon.clear();
-        HalfEdge e = start;
-        do {
-            polygon.push_back(dual_.origin(e));
-            e = dual_.next_side(e);
-        } while (e.t != start.t || e.place != start.place);
+        polygons_.collect(root, polygon);
         std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     }
 
-    bool is_triangle(Index t) const {
-        return !dual_.has_ties() || !(dual_.is_tied({t, 0}) || dual_.is_tied({t, 1}) || dual_.is_tied({t, 2}));
-    }
-
     LowestSites lowest_sites(Index root, std::vector<Index>& polygon) const {
-        if (is_triangle(root)) {
+        if (dual_.is_triangle(root)) {
             return of_triangle(dual_.corners(root));
         }
         polygon_of(root, polygon);
@@ -195,7 +167,7 @@ class CellBuilder {
             if (dual_.root(t) != t) {
                 return;
             }
-            if (is_triangle(t)) {
+            if (dual_.is_triangle(t)) {
                 polygon.assign(dual_.corners(t), dual_.corners(t) + 3);
             } else {
                 polygon_of(t, polygon);
@@ -214,7 +186,7 @@ class CellBuilder {
             std::vector<Member> members;
             for_range(begin, end, stop_, [&](Size k) {
                 const Index t = static_cast<Index>(k);
-                if (is_triangle(t)) {
+                if (dual_.is_triangle(t)) {
                     diagram_.simplex_rank[k] = 0;
                 } else if (dual_.root(t) == t && !rank_pair(t)) {
                     collect_members(t, members);
@@ -363,9 +335,9 @@ class CellBuilder {
     Size sites_, entries_ = 0, order_size_ = 0;
     Crew& crew_;
     Stop stop_;
+    TiedPolygons polygons_;
     Diagram diagram_;
     Buffer<Index> roots_, list_end_;
-    Buffer<Index> side_;    // of each root of several triangles: 3 t + place of a side of its polygon
     Buffer<Index> number_;  // of each root: its vertex
     Buffer<Index> start_;   // of each site: 3 t + place
 };
