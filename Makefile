@@ -15,7 +15,7 @@ BIN := $(VENV)/bin
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
 .PHONY: help install system opengl browser figures poster animations test test-large test-pythons sanitize fuzz check \
-	lint web built stub bench dist baselines names readme-images web-images docs clean
+	lint web built stub bench dist source check-archives wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -90,8 +90,22 @@ bench: $(VENV)/installed-library ## measure against other libraries, which are i
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.rasters
 
-dist: $(VENV)/installed-web ## source archive, wheel and npm archive into dist/, each tried as users get it
+dist: $(VENV)/installed-wheels opengl ## source archive, wheel and npm archive into dist/, each tried as users get it
 	tools/dist.sh $(VENV)
+
+source: $(VENV)/installed-wheels ## the source archive into dist/
+	@tools/source_archive.sh $(VENV) dist
+
+check-archives: $(VENV)/installed-wheels ## check the texts of the archives in dist/, and the wheels of several Pythons for their interface
+	$(BIN)/twine check --strict dist/*
+	$(BIN)/abi3audit --strict --report dist/*-abi3-*.whl
+
+MACHINES := x86_64 aarch64
+wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux on MACHINES into dist/, by zig, checked and tried on each Python found
+	tools/wheels.sh $(VENV) $(MACHINES)
+
+cross: $(VENV)/installed-wheels ## compile and link the kernel for macOS, Windows and musl by zig; what this machine can run, is run
+	tools/cross.sh $(VENV)
 
 baselines: $(VENV)/installed-animations opengl ## draw the stored pictures of the image tests anew: look at what git shows before you commit
 	$(BIN)/python -m tools.baselines --scripts figures --store tests/images/baselines
@@ -100,7 +114,7 @@ names: $(VENV)/installed-test ## write the tables of docs/names.md from the libr
 	$(BIN)/python -m tools.names
 
 readme-images: $(VENV)/installed-figures opengl ## draw the small pictures of the README anew
-	$(BIN)/python tools/readme_images.py
+	$(BIN)/python -m tools.readme_images
 
 web-images: $(VENV)/installed-test browser ## draw the screenshots of the interactive page in README and documentation anew
 	$(BIN)/python -m tools.web_images

@@ -250,6 +250,7 @@ def write(results: Results) -> None:
     if "sizes" in results:
         benchmark_plots.sizes(results)
         blocks["opening"] = opening(results)
+        pages.fill("../paper/paper.md", {"opening": blocks["opening"]})
         blocks |= {f"sizes {space}": sizes(results, space) for space in SPACES}
         blocks["engines"] = taking_part(results)
     if "distributions" in results:

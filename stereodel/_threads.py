@@ -28,7 +28,8 @@ def thread_count(workers: Any, size: int) -> int:
 def in_order(job: Callable[[Task], Result], tasks: Iterable[Task], threads: int) -> Iterator[Result]:
     """Results of a job for each task, in order, made by so many threads; no more than these are waiting.
 
-    For jobs whose time goes to libraries that release the interpreter's lock, as NumPy and GEOS do.
+    For jobs whose time goes to libraries that release the interpreter's lock, as NumPy and GEOS do. Where the system
+    gives no thread, this one does them, some perhaps a second time: jobs have no effects but their results.
 
     Examples
     --------
@@ -44,8 +45,18 @@ def in_order(job: Callable[[Task], Result], tasks: Iterable[Task], threads: int)
             for task in tasks:
                 if len(waiting) == threads:
                     yield waiting.popleft().result()
-                waiting.append(pool.submit(job, task))
+                waiting.append(_begun(pool, job, task))
             while waiting:
                 yield waiting.popleft().result()
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _begun(pool: ThreadPoolExecutor, job: Callable[[Task], Result], task: Task) -> Future[Result]:
+    """The future of a job that a thread of the pool does, or that is done already as no thread could be started."""
+    try:
+        return pool.submit(job, task)
+    except RuntimeError:
+        done: Future[Result] = Future()
+        done.set_result(job(task))
+        return done

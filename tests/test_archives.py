@@ -1,12 +1,14 @@
 """The check of `make dist`: what must be in the source archive and in the wheel, and what must not."""
 
 import importlib.util
+import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TRACKED = {
     ".ci/run",
     "README.md",
+    "tests/images/baselines/fig01_sphere.png",
     "stereodel/__init__.py",
     "stereodel/_kernel/__init__.pyi",
     "stereodel/py.typed",
@@ -30,7 +32,7 @@ spec.loader.exec_module(archives)
 
 
 def test_archive():
-    whole = TRACKED - {".ci/run"} | {"PKG-INFO"}
+    whole = TRACKED - {"tests/images/baselines/fig01_sphere.png"} | {"PKG-INFO"}
     assert archives.archive_problems(whole, TRACKED) == []
     assert archives.archive_problems(whole - {"README.md"}, TRACKED) == ["not in the archive: README.md"]
     assert archives.archive_problems(whole | {KERNEL}, TRACKED) == [f"not tracked: {KERNEL}"]
@@ -48,3 +50,20 @@ def test_wheel():
     assert archives.wheel_problems(whole | {script}, TRACKED) == [f"not in the package: {script}"]
     page = "stereodel/web/built/page.js"
     assert archives.wheel_problems(whole - {page}, TRACKED) == [f"not in the wheel: {page}"]
+
+
+def test_sizes_by_part(tmp_path, capsys):
+    members = {
+        KERNEL: 7,
+        "stereodel/data/a.xz": 5,
+        "stereodel/data/b.xz": 6,
+        "stereodel/earth.py": 1,
+        "s.dist-info/RECORD": 2,
+    }
+    assert archives.sizes(members) == {"data": 11, "kernel": 7, "metadata": 2, "modules": 1}
+    wheel = tmp_path / "s.whl"
+    with zipfile.ZipFile(wheel, "w") as packed:
+        packed.writestr(KERNEL, bytes(2 * 10**6))
+        packed.writestr("stereodel/earth.py", "")
+    assert archives.report_sizes([str(wheel)]) == 0
+    assert capsys.readouterr().out == "s.whl: 2.00 MB; kernel 2.00\n"

@@ -8,27 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from tools.page_commands import sessions, tables, words, written
+
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["docs/command_line.md", "docs/start.md", "README.md"]
 SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; app()' \"$@\"; }}\n"
-
-
-def tables(text):
-    """The files that a page shows: their names, then their contents."""
-    return dict(re.findall(r"`([\w.]+\.csv)`:\n\n```text\n(.*?)```", text, re.DOTALL))
-
-
-def sessions(text):
-    """Each command that calls `stereodel`, and what it prints."""
-    blocks = re.findall(r"```console\n(.*?)```", text, re.DOTALL)
-    lines = [part for block in blocks for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]]
-    return [line.split("\n", 1) for line in lines if "stereodel " in line]
-
-
-def words(text):
-    """Lines of fields, fractions to nine digits: processors differ in the last ones."""
-    lines = (re.split(r"([, ])", line) for line in text.splitlines())
-    return [[f"{float(word):.9g}" if re.fullmatch(r"-?\d+\.\d+", word) else word for word in line] for line in lines]
 
 
 def pages():
@@ -51,8 +35,8 @@ def test_commands_print_what_the_page_says(tmp_path, page, command, printed):
         check=False,
     )
     assert words(ran.stdout) == words(printed)
-    out = re.search(r"-o ([\w.]+)", command)
-    assert "error:" in printed or out is None or (tmp_path / out[1]).stat().st_size > 0
+    out = written(command)
+    assert "error:" in printed or out is None or (tmp_path / out).stat().st_size > 0
 
 
 def test_the_page_shows_every_command():

@@ -301,7 +301,7 @@ def test_pyproject_brings_what_the_code_asks_for():
         assert {e for r in own[name] for e in r.extras} == set(extra.includes)
     (everything,) = optional["all"]
     assert everything.extras | {"draw", "render"} == set(EXTRAS)  # both come with films
-    assert set(optional) - set(EXTRAS) == {"all", "test", "docs", "web", "dev"}
+    assert set(optional) - set(EXTRAS) == {"all", "test", "docs", "web", "wheels", "dev"}
 
 
 def called(call):

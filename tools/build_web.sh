@@ -15,13 +15,12 @@ if [[ -z $compare ]] && python -m tools.web_hashes 2>/dev/null; then exit 0; fi
 mkdir -p "$work" "$built"
 quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
 
-zig=$(python -c 'import ziglang; print(ziglang.__path__[0])')/zig
+source tools/zig_environment.sh
 echo "Building the kernel for the web with zig $("$zig" version)" >&2
-# Its C++ library is made once, into a folder of ours.
-export ZIG_GLOBAL_CACHE_DIR=$PWD/$work/zig ZIG_LOCAL_CACHE_DIR=$PWD/$work/zig
 rm -f "$work/cmake/CMakeCache.txt"
 # A third fewer bytes for a tenth more time. Zig takes -Oz for -Os: hence the word for clang itself.
-quietly cmake -S . -B "$work/cmake" -G Ninja -DCMAKE_TOOLCHAIN_FILE="$PWD/tools/zig.cmake" -DZIG="$zig" \
+mapfile -t defines < <(zig_cmake wasm32-wasi)
+quietly cmake -S . -B "$work/cmake" -G Ninja "${defines[@]/#/-D}" \
     -DCMAKE_CXX_FLAGS_RELEASE="-Os -Xclang -Oz -DNDEBUG" -DSTEREODEL_DEVELOPMENT=ON -DSTEREODEL_MODULE=OFF \
     -DSTEREODEL_THREADS=OFF -DSTEREODEL_WEB=ON
 quietly cmake --build "$work/cmake"

@@ -12,7 +12,7 @@ case $what in # extras of pyproject.toml
     figures) extras=cli,render ;;  # pictures; the command with its doctor
     animations) extras=cli,film ;;
     library) extras=all ;;         # whatever the library can use
-    test | docs | web) extras=$what ;;
+    test | docs | web | wheels) extras=$what ;;
     lint) extras=dev ;;
     *) echo "tools/install.sh: there is no $what" >&2; exit 2 ;;
 esac
@@ -38,9 +38,10 @@ if [[ ! -x $venv/bin/python || ! -f $stamp || $(<"$stamp") != "$wanted" ]]; then
     # Requirements, metadata and the command alone. The package stays here, on a plain path, with no import hook that would
     # hide another copy from PYTHONPATH; its kernel is built beside it below, so that changed sources need no network.
     "${pip[@]}" install --constraint constraints.txt --no-build-isolation \
-        --config-settings wheel.cmake=false --config-settings wheel.packages='[]' ".${extras:+[$extras]}"
+        --config-settings wheel.cmake=false --config-settings wheel.packages='[]' --config-settings wheel.py-api=py3 \
+        ".${extras:+[$extras]}"
     if [[ $what == test ]]; then tools/gltf_validator.sh "$venv"; fi
-    if [[ $what == @(test|lint|web) ]]; then tools/node_modules.sh "$venv"; fi
+    if [[ $what == @(test|lint|web|wheels) ]]; then tools/node_modules.sh "$venv"; fi
     pwd >"$site/stereodel.pth"
     printf '%s\n' "$wanted" >"$stamp"
 fi

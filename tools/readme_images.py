@@ -1,12 +1,13 @@
 """Draw the small pictures of the README, the start page and the page on drawing into docs/images.
 
-python tools/readme_images.py
+python -m tools.readme_images [FOLDER]
 """
 
 from __future__ import annotations
 
 import contextlib
 import re
+import sys
 from pathlib import Path
 
 from tools.build import load_drawing
@@ -35,24 +36,23 @@ def globe_of_the_readme() -> str:
     return code
 
 
-def main() -> None:
-    """Draw them all."""
-    folder = ROOT / "docs" / "images"
+def main(folder: Path) -> None:
+    """Draw them all into a folder."""
     folder.mkdir(exist_ok=True)
     with contextlib.chdir(folder):
         exec(compile(globe_of_the_readme(), "README.md", "exec"), {})
     for name, width in WIDTHS.items():
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
         path = figure.page().save(folder / f"{name}.png", size=width, renderer=figure.renderer)
-        print(path.relative_to(ROOT))
+        print(path)
     for name, width in SOLID.items():
         figure = load_drawing(ROOT / "figures" / f"{name}.py")
-        print(figure.solid().save(folder / f"{name}_solid.png", size=width).relative_to(ROOT))
+        print(figure.solid().save(folder / f"{name}_solid.png", size=width))
     for style, width in STYLE_WIDTHS.items():
         figure = load_drawing(ROOT / "figures" / f"{STYLED}.py").styled(style)
         path = figure.page().save(folder / f"style_{style}.png", size=width, renderer=figure.renderer)
-        print(path.relative_to(ROOT))
+        print(path)
 
 
 if __name__ == "__main__":
-    main()
+    main(Path(sys.argv[1]).resolve() if sys.argv[1:] else ROOT / "docs" / "images")

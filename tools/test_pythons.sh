@@ -4,21 +4,10 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-find_version() { # the newest interpreter of version $1 that runs
-    local candidate found=""
-    for candidate in "$HOME"/.pyenv/versions/"$1".*/bin/python "python$1"; do
-        if "$candidate" -c "import sys, venv; sys.exit('%d.%d' % sys.version_info[:2] != '$1')" >/dev/null 2>&1; then
-            found=$candidate
-        fi
-    done
-    printf '%s' "$found"
-}
-
 summary=()
 failed=0
 for version in "$@"; do
-    python=$(find_version "$version")
-    if [[ -z $python ]]; then
+    if ! python=$(tools/find_python.sh "$version"); then
         summary+=("Python $version: not found here, not tested")
         continue
     fi

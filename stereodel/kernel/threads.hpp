@@ -7,7 +7,8 @@
 // Threads: loops over tasks on several of them, and a way to stop all.
 //
 // Where there are none (STEREODEL_THREADS = 0, as in WebAssembly without shared memory, whose C++ library has neither
-// std::thread nor std::mutex), every crew is the calling thread alone; the results are the same.
+// std::thread nor std::mutex), every crew is the calling thread alone; the results are the same. So they are where a
+// system has threads and gives none. No other file of the kernel asks for a thread or for a lock.
 #pragma once
 
 #if !defined(STEREODEL_THREADS)
@@ -20,14 +21,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #if STEREODEL_THREADS
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #endif
 
@@ -54,11 +58,53 @@ inline int useful_workers(int workers, std::size_t size, std::size_t worth_a_thr
 
 using Mutex = std::mutex;
 using Lock = std::lock_guard<Mutex>;
+using PatientMutex = std::timed_mutex;  // can be waited for a while
 
 // Lets other threads go first, while this one waits for what they do.
 inline void wait_for_others() {
     std::this_thread::yield();
 }
+
+// Work on a thread of its own, beside which another looks after something else. The work must not throw.
+class Background {
+  public:
+    Background() = default;
+    Background(const Background&) = delete;
+    Background& operator=(const Background&) = delete;
+    ~Background() {
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+
+    // Whether the work has begun; where the system gives no thread it has not, and is left to the caller.
+    template <class Work>
+    bool begin(Work&& work) {
+        try {
+            thread_ = std::thread([this, work = std::forward<Work>(work)]() mutable {
+                work();
+                const Lock lock(mutex_);
+                done_ = true;
+                ends_.notify_one();
+            });
+        } catch (const std::system_error&) {
+            return false;
+        }
+        return true;
+    }
+
+    // Waits for a while; whether the work has ended.
+    bool ends_within(std::chrono::milliseconds time) {
+        std::unique_lock lock(mutex_);
+        return ends_.wait_for(lock, time, [this] { return done_; });
+    }
+
+  private:
+    Mutex mutex_;
+    std::condition_variable ends_;
+    bool done_ = false;
+    std::thread thread_;
+};
 
 // Threads that wait for loops. The calling thread is one of them: a crew of one starts none.
 class Crew {
@@ -174,7 +220,22 @@ struct Lock {
     ~Lock() {}  // not trivial: a lock that is named and not used is meant
 };
 
+struct PatientMutex {
+    bool try_lock_for(std::chrono::milliseconds) { return true; }
+    void unlock() {}
+};
+
 inline void wait_for_others() {}
+
+// Nothing begins.
+class Background {
+  public:
+    template <class Work>
+    bool begin(Work&&) {
+        return false;
+    }
+    bool ends_within(std::chrono::milliseconds) { return true; }
+};
 
 // The calling thread.
 class Crew {
@@ -194,6 +255,23 @@ class Crew {
 };
 
 #endif
+
+// A lock that calls look() before it waits, and each millisecond while it does: what that throws ends the waiting.
+class PatientLock {
+  public:
+    template <class Look>
+    PatientLock(PatientMutex& mutex, Look&& look) : mutex_(mutex) {
+        do {
+            look();
+        } while (!mutex.try_lock_for(std::chrono::milliseconds(1)));
+    }
+    PatientLock(const PatientLock&) = delete;
+    PatientLock& operator=(const PatientLock&) = delete;
+    ~PatientLock() { mutex_.unlock(); }
+
+  private:
+    PatientMutex& mutex_;
+};
 
 // Calls task(begin, end) for the ranges that make up [0, size): `grain` numbers each, the last one fewer.
 template <class Task>

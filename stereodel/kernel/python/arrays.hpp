@@ -10,15 +10,11 @@
 
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <exception>
 #include <initializer_list>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
-#include <thread>
 #include <utility>
 
 #include "duplicates.hpp"
@@ -141,42 +137,31 @@ auto run_without_lock(bool is_long, Work&& work) {
         return work(Stop{});
     }
     std::atomic<bool> stop{false};
-    std::mutex mutex;
-    std::condition_variable changed;
-    bool done = false;
     std::exception_ptr failure;
     Result result{};
-    std::thread thread;
-    try {
-        thread = std::thread([&] {
-            try {
-                result = work(Stop{&stop});
-            } catch (...) {
-                failure = std::current_exception();
-            }
-            const std::lock_guard lock(mutex);
-            done = true;
-            changed.notify_one();
-        });
-    } catch (const std::system_error&) {  // no thread is to be had
+    Background background;
+    const bool begun = background.begin([&] {
+        try {
+            result = work(Stop{&stop});
+        } catch (...) {
+            failure = std::current_exception();
+        }
+    });
+    if (!begun) {
         const nb::gil_scoped_release release;
         return work(Stop{});
     }
     bool interrupted = false;
-    for (;;) {
-        {
-            const nb::gil_scoped_release release;
-            std::unique_lock lock(mutex);
-            if (changed.wait_for(lock, std::chrono::milliseconds(50), [&] { return done; })) {
-                break;
-            }
-        }
+    const auto ended = [&] {
+        const nb::gil_scoped_release release;
+        return background.ends_within(std::chrono::milliseconds(50));
+    };
+    while (!ended()) {
         if (!interrupted && PyErr_CheckSignals() != 0) {
             interrupted = true;
             stop = true;
         }
     }
-    thread.join();
     if (interrupted) {
         throw nb::python_error();
     }

@@ -2,9 +2,7 @@
 #include <nanobind/stl/optional.h>
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -102,10 +100,7 @@ class BoundMesh {
     template <class Work>
     auto read(bool is_long, Work&& work) {
         return run_without_lock(is_long, [&](Stop stop) {
-            std::unique_lock lock(mutex_, std::defer_lock);
-            do {
-                refuse_if(changing_);
-            } while (!lock.try_lock_for(std::chrono::milliseconds(1)));
+            const PatientLock lock(mutex_, [&] { refuse_if(changing_); });
             return work(stop);
         });
     }
@@ -115,7 +110,7 @@ class BoundMesh {
         return run_without_lock(is_long, [&](Stop stop) {
             refuse_if(changing_.exchange(true));
             const Changing mark(*this);
-            const std::lock_guard lock(mutex_);
+            const PatientLock lock(mutex_, [] {});
             return work(stop);
         });
     }
@@ -137,7 +132,7 @@ class BoundMesh {
     };
 
     DynamicDelaunay<Surface> delaunay_;
-    std::timed_mutex mutex_;
+    PatientMutex mutex_;
     std::atomic<bool> changing_{false};
     std::atomic<std::uint64_t> changes_{0};
 };

@@ -1,0 +1,265 @@
+"""What people look for in a project, and the files of services that are not here: they agree with each other."""
+
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from packaging.requirements import Requirement
+from packaging.specifiers import SpecifierSet
+
+import stereodel
+from stereodel._extras import EXTRAS
+from tools import documentation_versions
+
+ROOT = Path(__file__).resolve().parent.parent
+PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+CLASSIFIERS = PROJECT["project"]["classifiers"]
+PYTHONS = [found[1] for line in CLASSIFIERS if (found := re.fullmatch(r".* :: (3\.\d+)", line))]
+PINS = dict(line.split("==") for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines())
+WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
+USED = re.compile(r"[\w.-]+/[\w.-]+@v\d+\.\d+\.\d+")
+"""An action with its whole version."""
+
+
+def read(path):
+    return (ROOT / path).read_text(encoding="utf-8")
+
+
+def workflow(name):
+    return yaml.safe_load(read(f".github/workflows/{name}.yml"))
+
+
+def wanted(job):
+    """The jobs that it waits for."""
+    needs = job.get("needs", [])
+    return [needs] if isinstance(needs, str) else needs
+
+
+# Versions
+
+
+def test_every_file_tells_the_same_version():
+    assert yaml.safe_load(read("conda/recipe.yaml"))["context"]["version"] == stereodel.__version__
+    assert str(yaml.safe_load(read("CITATION.cff"))["version"]) == stereodel.__version__
+
+
+def test_the_recipe_needs_what_the_project_needs():
+    text = read("conda/recipe.yaml")
+    build, run = PROJECT["build-system"]["requires"], PROJECT["project"]["dependencies"]
+    for line in [*build, *run]:
+        needed = Requirement(line)
+        assert f"- {needed.name} {needed.specifier}" in text
+    assert f"- python {PROJECT['project']['requires-python']}" in text
+    for path in re.findall(r"- ((?:tools|tests|stereodel)/[\w./]+|LICENSE)$", text, re.MULTILINE):
+        assert (ROOT / path).is_file()
+
+
+def test_the_citation_has_what_its_form_asks_for():
+    cited = yaml.safe_load(read("CITATION.cff"))
+    assert {"cff-version", "message", "title", "authors", "version", "type"} <= set(cited)
+    assert cited["authors"] == PROJECT["project"]["authors"]
+    assert cited["license"] == PROJECT["project"]["license"].split(" AND ")
+
+
+def test_classifiers_are_the_pythons_that_are_allowed():
+    allowed = SpecifierSet(PROJECT["project"]["requires-python"])
+    assert len(PYTHONS) >= 4
+    assert [version for version in PYTHONS if version not in allowed] == []
+    oldest, newest = (int(PYTHONS[k].split(".")[1]) for k in (0, -1))
+    assert [f"3.{minor}" for minor in range(oldest, newest + 1)] == PYTHONS
+    assert f"3.{oldest - 1}" not in allowed
+    assert any("Free Threading" in line for line in CLASSIFIERS)
+    assert "Programming Language :: C++" in CLASSIFIERS
+
+
+def test_no_system_is_named_that_no_test_ran_on():
+    assert [line for line in CLASSIFIERS if line.startswith("Operating System")] == [
+        "Operating System :: POSIX :: Linux"
+    ]
+    claims = re.sub(r"(?s)```.*?```", "", read("README.md"))
+    assert not re.search(r"\b(?:macOS|Windows|musl|Pyodide)\b", claims)
+
+
+def test_the_page_on_support_names_every_python():
+    assert re.findall(r"^\| Python (3\.\d+) \|", read("docs/support.md"), re.MULTILINE) == PYTHONS
+
+
+# Nothing is invented
+
+
+@pytest.mark.parametrize(
+    "path",
+    ["CITATION.cff", "SECURITY.md", "CODE_OF_CONDUCT.md", "paper/paper.md", "paper/paper.bib", "conda/recipe.yaml"],
+)
+def test_no_address_and_no_identifier(path):
+    """They are known at publication; CONTRIBUTING lists them."""
+    text = read(path)
+    assert not re.search(r"[\w.]+@[\w-]+\.\w+", text)
+    assert not re.search(r"(?i)\b(?:doi|orcid|swhid)\b", text)
+    assert not re.search(r"https?://", text)
+
+
+def test_what_publication_adds_is_listed():
+    listed = read("CONTRIBUTING.md").partition("## Publication")[2].partition("\n## ")[0]
+    for word in ("project.urls", "DOI", "ORCID", "trusted publisher", "CITATION.cff", "paper.md", "recipe.yaml"):
+        assert word in listed
+
+
+# The paper
+
+
+def test_the_paper_has_what_the_journal_asks_for():
+    text = read("paper/paper.md")
+    head = yaml.safe_load(text.split("---")[1])
+    assert {"title", "tags", "authors", "bibliography"} <= set(head)
+    assert (ROOT / "paper" / head["bibliography"]).is_file()
+    titles = re.findall(r"^# (.*)", text, re.MULTILINE)
+    assert titles[:2] == ["Summary", "Statement of need"]
+    assert titles[-1] == "References"
+    assert 250 <= len(text.split("---", 2)[2].split()) <= 1000
+
+
+def test_the_paper_cites_what_stands_in_its_list():
+    cited = set(re.findall(r"@(\w+)", read("paper/paper.md")))
+    assert cited == set(re.findall(r"^@\w+\{(\w+),", read("paper/paper.bib"), re.MULTILINE))
+
+
+def test_the_figures_of_the_paper_are_the_measured_ones():
+    tables = [
+        re.search(r"<!-- measured: opening -->\n(.*?)<!-- end -->", read(page), re.DOTALL)[1]
+        for page in ("paper/paper.md", "docs/benchmarks.md")
+    ]
+    assert tables[0].count("\n|") == 5
+    assert tables[0] == tables[1]
+
+
+# Workflows
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
+def test_a_workflow_is_one(path):
+    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    assert {"name", True, "permissions", "jobs"} <= set(content)  # YAML takes the word "on" for true
+    assert content["name"] == path.stem
+    assert content["permissions"] == {"contents": "read"}
+    for job in content["jobs"].values():
+        assert set(wanted(job)) <= set(content["jobs"])
+        if "uses" in job:
+            assert (ROOT / job["uses"]).is_file()
+            continue
+        assert job["timeout-minutes"] <= 120
+        for step in job["steps"]:
+            assert len({"uses", "run"} & set(step)) == 1
+            assert USED.fullmatch(step.get("uses", "a/b@v1.2.3"))
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
+def test_what_a_workflow_calls_is_there(path):
+    targets = set(re.findall(r"^([a-z-]+):", read("Makefile"), re.MULTILINE))
+    text = path.read_text(encoding="utf-8")
+    assert set(re.findall(r"\bmake ([a-z-]+)", text)) <= targets
+    for script in re.findall(r"(?:python|bash)(?: -W error)? ((?:tools|\.ci)/[\w./]+)", text):
+        assert (ROOT / script).is_file()
+    installed = re.findall(r"pip install (?!-)(\w+) --constraint constraints.txt", text)
+    assert [name for name in installed if name not in PINS] == []
+
+
+def test_workflows_run_every_python():
+    matrix = workflow("tests")["jobs"]["python"]["strategy"]["matrix"]["python"]
+    first = workflow("tests")["jobs"]["change"]["steps"][1]["with"]["python-version"]
+    assert [first, *matrix] == PYTHONS
+    lockless = workflow("tests")["jobs"]["free-threads"]["steps"][1]["with"]["python-version"]
+    assert lockless == f"{PYTHONS[-1]}t"
+
+
+def test_wheels_are_built_for_every_system_and_python():
+    settings = PROJECT["tool"]["cibuildwheel"]
+    built = settings["build"].split()
+    assert built == [
+        *(f"cp{version.replace('.', '')}-*" for version in PYTHONS),
+        f"cp{PYTHONS[-1].replace('.', '')}t-*",
+    ]
+    systems = [entry["system"] for entry in workflow("wheels")["jobs"]["wheels"]["strategy"]["matrix"]["include"]]
+    assert len(systems) == len(set(systems)) == 7
+    kinds = {system.partition("-")[0] for system in systems}
+    assert kinds == {"linux", "macos", "windows", "pyodide"}
+    assert "musllinux" in str(settings["linux"])
+    assert "i686" in settings["skip"]
+    script = re.search(r"\{project\}/(\S+)", settings["test-command"])[1]
+    assert (ROOT / script).is_file()
+
+
+def test_only_the_job_that_publishes_may_prove_who_it_is():
+    jobs = workflow("wheels")["jobs"]
+    asking = {name for name, job in jobs.items() if "id-token" in job.get("permissions", {})}
+    assert asking == {"publish"}
+    assert jobs["publish"]["if"] == "startsWith(github.ref, 'refs/tags/v')"
+    assert jobs["publish"]["steps"][-1]["with"] == {"attestations": True}
+    assert not re.search(r"secrets\.|password|token:", read(".github/workflows/wheels.yml").replace("id-token:", ""))
+    reached = {"publish"}
+    while more := {need for name in reached for need in wanted(jobs[name])} - reached:
+        reached |= more
+    assert reached == set(jobs)
+
+
+def test_the_nightly_build_is_weekly():
+    (schedule,) = workflow("weekly")[True]["schedule"]
+    assert re.fullmatch(r"\d+ \d+ \* \* [0-6]", schedule["cron"])
+
+
+# Documentation with versions
+
+
+def test_versions_of_the_documentation_are_listed_newest_first(tmp_path):
+    for name in ("dev", "0.9", "0.10", "0.10rc1", "1.0", "other"):
+        (tmp_path / name).mkdir()
+        if name != "other":
+            (tmp_path / name / "index.html").touch()
+    assert documentation_versions.main(str(tmp_path)) == 0
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert re.findall(r'href="([\w.]+)/"', page) == ["1.0", "0.10", "0.10rc1", "0.9", "dev"]
+    assert "url=1.0/" in page
+
+
+def test_a_site_without_documentation_is_refused(tmp_path, capsys):
+    assert documentation_versions.main(str(tmp_path)) == 1
+    assert "has documentation" in capsys.readouterr().err
+
+
+# Pythons
+
+
+def test_a_python_is_found_by_its_version_and_lock(tmp_path):
+    """A folder of programs that say which Python they are."""
+    for name, version, lock in (("3.13", (3, 13), "0"), ("3.14t", (3, 14), "1"), ("3.15t", (3, 15), "0")):
+        program = tmp_path / f"python{name}"
+        setting = "import sys, sysconfig; sys.version_info = {}; sysconfig.get_config_var = lambda _: {}"
+        program.write_text(
+            f"#!/bin/sh\nexec {os.path.realpath(sys.executable)} -c '{setting.format((*version, 0), lock)}\n'\"$2\"\n"
+        )
+        program.chmod(0o755)
+    found = {version: find(tmp_path, version) for version in ("3.13", "3.13t", "3.14", "3.14t", "3.15t", "3.16")}
+    assert {version for version, path in found.items() if path} == {"3.13", "3.14t"}
+    assert found["3.14t"] == str(tmp_path / "python3.14t")
+
+
+def find(folder, version):
+    environment = {"PATH": f"{folder}:/usr/bin:/bin", "HOME": str(folder)}
+    ran = subprocess.run(
+        [ROOT / "tools" / "find_python.sh", version], env=environment, capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == (0 if ran.stdout else 1)
+    return ran.stdout.strip()
+
+
+def test_every_extra_can_be_installed_by_a_target():
+    """The extras of those who work on the library have a target of their own."""
+    of_the_library = {*EXTRAS, "all"}
+    script = read("tools/install.sh")
+    others = set(PROJECT["project"]["optional-dependencies"]) - of_the_library
+    assert [name for name in others if name not in script] == []

@@ -1,0 +1,93 @@
+"""The commands and the code that a page shows, run in order: what they print is what the page says.
+
+python -m tools.page_commands PAGE FOLDER    run them in a folder; 1 if something else comes out
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+
+def tables(text: str) -> dict[str, str]:
+    """The files that a page shows: their names, then their contents."""
+    return dict(re.findall(r"`([\w.]+\.csv)`:\n\n```text\n(.*?)```", text, re.DOTALL))
+
+
+def sessions(text: str) -> list[tuple[str, str]]:
+    """Each command that calls `stereodel`, and what it prints."""
+    blocks = re.findall(r"```console\n(.*?)```", text, re.DOTALL)
+    lines = [part for block in blocks for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]]
+    return [(line[0], line[1]) for line in (part.split("\n", 1) for part in lines if "stereodel " in part)]
+
+
+def programs(text: str) -> list[tuple[str, str]]:
+    """Each piece of Python, and what the page says that it prints."""
+    return re.findall(r"```python\n(.*?)```(?:\s+```text\n(.*?)```)?", text, re.DOTALL)
+
+
+def words(text: str) -> list[list[str]]:
+    """Lines of fields, fractions to nine digits: processors differ in the last ones."""
+    lines = (re.split(r"([, ])", line) for line in text.splitlines())
+    return [[f"{float(word):.9g}" if re.fullmatch(r"-?\d+\.\d+", word) else word for word in line] for line in lines]
+
+
+def written(command: str) -> str | None:
+    """The file that a command writes."""
+    found = re.search(r"-o ([\w.]+)", command)
+    return found[1] if found else None
+
+
+def wrong_commands(text: str, folder: Path) -> list[str]:
+    """Commands that print something else, or write nothing."""
+    wrong = []
+    for command, printed in sessions(text):
+        print(f"$ {command}", flush=True)
+        ran = subprocess.run(
+            ["bash", "-c", command],
+            cwd=folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            check=False,
+        )
+        name = written(command)
+        if words(ran.stdout) != words(printed):
+            wrong.append(f"$ {command}\n{ran.stdout}")
+        elif name is not None and "error:" not in printed and not (folder / name).stat().st_size:
+            wrong.append(f"$ {command}\n{name} is empty")
+    return wrong
+
+
+def wrong_programs(text: str, folder: Path) -> list[str]:
+    """Pieces of Python that print something else."""
+    wrong = []
+    with contextlib.chdir(folder):
+        for code, printed in programs(text):
+            said = io.StringIO()
+            with contextlib.redirect_stdout(said):
+                exec(compile(code, "page", "exec"), {})
+            if said.getvalue().split() != printed.split():
+                wrong.append(f"{code}\n{said.getvalue()}")
+    return wrong
+
+
+def main(page: str, into: str) -> int:
+    """Report and return the exit code."""
+    text = Path(page).read_text(encoding="utf-8")
+    folder = Path(into)
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in tables(text).items():
+        (folder / name).write_text(content, encoding="utf-8")
+    wrong = wrong_commands(text, folder) + wrong_programs(text, folder)
+    print(f"{page}: {len(sessions(text))} commands, {len(programs(text))} pieces of Python, {len(wrong)} of them wrong")
+    print(*wrong, sep="\n", end="\n" if wrong else "", file=sys.stderr)
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))

@@ -1,0 +1,67 @@
+#!/usr/bin/env bash
+# Usage: tools/try_wheel.sh PYTHON WHEEL
+# Try a wheel as users get it, in a new environment of PYTHON and with no compiler to be found: with NumPy alone, with
+# the command line, then by the README's first line, after which all its commands and pictures must come out.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+python=$1
+wheel=$(cd "$(dirname "$2")" && pwd)/${2##*/}
+root=$PWD
+pins=$PWD/constraints.txt
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+die() { echo "tools/try_wheel.sh: $*" >&2; exit 1; }
+"$python" -m venv "$work/venv"
+# What the scripts below call, and nothing that compiles.
+mkdir "$work/bin"
+for tool in bash env cat tr grep dirname uname sh ldconfig; do
+    found=$(PATH=$PATH:/sbin:/usr/sbin command -v "$tool") && ln -s "$found" "$work/bin/$tool"
+done
+bin=$work/venv/bin
+bare() { env -u CC -u CXX PATH="$bin:$work/bin" "$@"; }
+for compiler in cc c++ gcc g++ clang clang++ cmake ninja make; do
+    if bare bash -c "command -v $compiler" >/dev/null; then die "$compiler is to be found"; fi
+done
+install() {
+    bare python -m pip --disable-pip-version-check -qq install --only-binary :all: --constraint "$pins" \
+        --find-links "${wheel%/*}" "$1"
+}
+refused() { if bare "$@" >said 2>&1; then die "$* should fail"; fi; }
+expect() { grep -qF -- "$2" "$1" || { cat "$1" >&2; die "no $2 in the above"; }; } # FILE WORDS
+cd "$work"
+printf 'name,lon,lat\nQuito,-78.5,-0.2\nUlm,10.0,48.4\nKyoto,135.8,35.0\nPerth,115.9,-32.0\n' >cities.csv
+
+install "$wheel"
+site=$(bare python -c 'import sysconfig; print(sysconfig.get_path("purelib"))')
+# Without bytecode, and without pip, which the environment brings of itself.
+megabytes=$(find "$site" -type f ! -name '*.pyc' ! -path '*/pip/*' ! -path '*/setuptools/*' -printf '%s\n' |
+    awk '{ sum += $1 } END { printf "%.0f", sum / 1e6 }')
+((megabytes <= 80)) || die "NumPy and stereodel take $megabytes MB; more than 80"
+echo "NumPy and stereodel alone: $megabytes MB"
+bare python "$root/tools/answers.py"
+bare python -W error "$root/tools/free_threads.py"
+refused stereodel --help
+expect said "pip install 'stereodel[cli]'"
+
+# The extras of what is installed: pip asks no index for stereodel itself.
+install 'stereodel[cli]'
+bare stereodel --version
+bare stereodel voronoi cities.csv -o cells.csv
+expect cells.csv Kyoto
+for picture in svg png; do
+    refused stereodel globe cities.csv -o globe.$picture
+    expect said "pip install 'stereodel["
+done
+refused stereodel doctor
+expect said "pip install 'stereodel[render]'"
+
+install 'stereodel[all]'
+bare stereodel doctor >said || cat said # the machine may have no OpenGL
+if grep ' lacks ' said; then exit 1; fi
+# The scripts without the package beside them: it is the wheel's that they import.
+mkdir repository
+cp -r "$root"/{README.md,tools,figures} repository
+cd repository
+bare python -m tools.page_commands README.md "$work/readme"
+bare python -m tools.readme_images "$work/pictures"
