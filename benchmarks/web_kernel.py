@@ -101,6 +101,8 @@ def ratios(rows: list[Row]) -> Row:
         "web : native, cells": last["cells"] / last["native cells"],
         "d3-geo-voronoi : web, triangles alone": last["d3, theirs"] / last["sphere"],
         "d3-geo-voronoi : web, triangles and cells": last["d3, theirs"] / last["both"],
+        "d3-geo-voronoi : web, polygons of all cells from longitude and latitude": last["d3, polygons"]
+        / last["polygons"],
         "d3-geo-voronoi : web, everything as `geoDelaunay` has it": last["d3, theirs"] / last["d3, ours"],
         "delaunator : web, plane": last["delaunator"] / last["plane"],
     }

@@ -29,15 +29,7 @@ quietly cmake --install "$work/cmake" --prefix "$work/stage"
 chmod 644 "$work/stage/stereodel.wasm"
 
 tools/node_modules.sh "$venv"
-bundle() { # ENTRY OUTPUT OPTION…
-    quietly "$script/node_modules/.bin/esbuild" "$script/$1" --bundle --minify --charset=utf8 --legal-comments=none \
-        --outfile="$work/stage/$2" "${@:3}"
-}
-bundle main.ts page.js --format=iife --target=es2022
-bundle widget.ts widget.js --format=esm --target=es2022
-bundle page.css page.css
-bundle widget.css widget.css
-cp "$script/page.html" "$work/stage/page.html"
+quietly node tools/bundle_web.mjs "$work/stage"
 
 python -m tools.web_hashes "$work/stage"
 if [[ -n $compare ]]; then

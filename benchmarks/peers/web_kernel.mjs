@@ -12,7 +12,7 @@ const { load } = await script("kernel/instance.ts");
 const { PlanarDelaunay, SphericalDelaunay, SphericalVoronoi, xyzToLonlat } =
   await script("kernel/api.ts");
 const { geoDelaunay: ours } = await script("kernel/d3.ts");
-const { geoDelaunay: theirs } = await script(
+const { geoDelaunay: theirs, geoVoronoi } = await script(
   "node_modules/d3-geo-voronoi/src/index.js",
 );
 const { default: Delaunator } = await script(
@@ -54,6 +54,9 @@ for (const size of sizes.split(",").map(Number)) {
       return [edges, triangles, centers, neighbors, polygons, mesh, hull];
     },
     "d3, theirs": () => theirs(places),
+    // The polygons of all cells from longitude and latitude, each in its own form.
+    polygons: () => SphericalVoronoi.fromLonlat(lonlat),
+    "d3, polygons": () => geoVoronoi(places).polygons(),
     delaunator: () => new Delaunator(xy),
   };
   const best = Object.fromEntries(

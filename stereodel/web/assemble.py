@@ -1,8 +1,9 @@
 """One file that is the whole page: its script, style, kernel and data stand in it, and it asks nobody for anything.
 
-The template is `built/page.html`, which names its style and its script as files beside it; both, and what `contents`
-has, are put in where it names them. A content security policy allows these by their hashes and nothing else: whatever
-comes into the page, from a link or a file that is dropped on it, no other script runs and nothing is sent anywhere.
+The template is `page.html`, which names its style and its script as files beside it; both, and what `contents`
+has, are put in where it names them. Scripts that run when they are first needed are packed as the kernel is. A content
+security policy allows these by their hashes and nothing else: whatever comes into the page, from a link or a file that
+is dropped on it, no other script runs and nothing is sent anywhere.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ import hashlib
 import json
 import os
 import re
+from importlib import resources
 from pathlib import Path
 from typing import Final
 
@@ -20,11 +22,15 @@ import numpy.typing as npt
 from stereodel._arrays import as_choice, as_lonlat
 from stereodel._files import replacing
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents
+from stereodel.web.packing import packed
 
 ENCODING: Final = r'<meta charset="utf-8"\s*/?>'
 STYLE: Final = r'<link rel="stylesheet" href="page\.css"\s*/?>'
 SCRIPT: Final = r'<script(?: type="module"| defer)? src="page\.js"></script>'
 """What the template has once each, in this order. The policy stands before the style."""
+
+LATER: Final = ("exchange", "lift")
+"""Scripts that run when they are first needed: what files take, and a room that is not the first."""
 
 POLICY: Final = (
     "default-src 'none'; script-src 'wasm-unsafe-eval' {script}; style-src {style}; img-src data: blob:; "
@@ -85,21 +91,26 @@ def web(
 def html(resolution: str, given: Given | None = None) -> str:
     """The page, for land of a resolution, with points that it opens with."""
     script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
-    policy = POLICY.format(script=_source(script), style=_source(style))
-    blocks = (
-        f'<script type="text/plain" id="block-{name}">{text}</script>'
-        for name, text in contents(resolution, given).items()
-    )
-    template = built("page.html").decode("utf-8")
-    pieces = re.split("|".join((ENCODING, STYLE, SCRIPT)), template)
-    if len(pieces) != 4 or not re.search(f"{ENCODING}.*{STYLE}.*{SCRIPT}", template, re.DOTALL):
+    later = {name: built(f"{name}.js") for name in LATER}
+    sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
+    policy = POLICY.format(script=" ".join(sources), style=_source(style))
+    carried = contents(resolution, given) | {name: packed(code) for name, code in later.items()}
+    blocks = (f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items())
+    page = template()
+    pieces = re.split("|".join((ENCODING, STYLE, SCRIPT)), page)
+    if len(pieces) != 4 or not re.search(f"{ENCODING}.*{STYLE}.*{SCRIPT}", page, re.DOTALL):
         raise ValueError("the template of the page must name its encoding, page.css and page.js, each once")
     parts = (
         f'<meta charset="utf-8">\n<meta http-equiv="Content-Security-Policy" content="{policy}">',
         f"<style>{style}</style>",
         "\n".join([*blocks, f"<script>{script}</script>"]),
     )
-    return "".join(text for pair in zip(pieces, (*parts, ""), strict=True) for text in pair)
+    return "".join(piece for pair in zip(pieces, (*parts, ""), strict=True) for piece in pair)
+
+
+def template() -> str:
+    """What is on the page, and where its style and its script belong."""
+    return resources.files("stereodel.web").joinpath("page.html").read_text(encoding="utf-8")
 
 
 def module(resolution: str) -> str:

@@ -16,6 +16,7 @@ from stereodel.curves.seams import stitched
 from stereodel.data import airports, cities, land, stars
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.web.packing import packed, packed_doubles, packed_places
+from stereodel.web.scattered import GAP, SHEET
 
 RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
 """The land that a page has for each resolution of it: the coarse one is drawn while the globe moves."""
@@ -23,8 +24,8 @@ RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
 LAND_DIGITS: Final = 2
 """Digits behind the point of the degrees of land: 1.1 km, a third of a pixel on a globe 4000 pixels across."""
 
-SITE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5}
-"""Digits of the degrees of the sets, all that they have."""
+SITE_DIGITS: Final = {"airports": 6, "cities": 5, "gap": 3, "sheet": 3, "stars": 5}
+"""Digits of the coordinates of the sets, all that they have."""
 
 MOST_POINTS: Final = 1_000_000
 """That a page takes."""
@@ -88,15 +89,21 @@ def land_rings(resolution: str) -> str:
 
 @cache
 def sites(name: str) -> str:
-    """One of the small sets: the largest cities, the airports nearest to them, or the brightest stars."""
+    """One of the small sets, those of `SITE_DIGITS`."""
+    places = _places(name)
+    return packed_places(Ragged(places, np.array([0, len(places)])), SITE_DIGITS[name])
+
+
+def _places(name: str) -> FloatArray:
+    """The sites that a room begins with, the largest cities, the airports nearest to them, or the brightest stars."""
+    if name == "gap":
+        return GAP
+    if name == "sheet":
+        return SHEET
+    if name == "stars":
+        return stars().lonlat[stars().magnitude <= BRIGHT_STAR]
     large = cities().lonlat[cities().population >= LARGE_CITY]
-    if name == "cities":
-        lonlat = large
-    elif name == "airports":
-        lonlat = airports().lonlat[_nearest(airports().lonlat, large)]
-    else:
-        lonlat = stars().lonlat[stars().magnitude <= BRIGHT_STAR]
-    return packed_places(Ragged(lonlat, np.array([0, len(lonlat)])), SITE_DIGITS[name])
+    return large if name == "cities" else airports().lonlat[_nearest(airports().lonlat, large)]
 
 
 def _nearest(places: FloatArray, to: FloatArray) -> Indices:

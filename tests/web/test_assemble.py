@@ -27,6 +27,11 @@ const inflate = async (id) => {
   return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
 };
 const refused = (act) => { try { act(); return "allowed"; } catch { return "refused"; } };
+const run = (code) => {
+  const element = Object.assign(document.createElement("script"), { given: "before", textContent: code });
+  document.head.append(element);
+  return element.told;
+};
 (async () => {
   const module = await WebAssembly.compile(await inflate("block-kernel"));
   const name = document.getElementById("block-given-name");
@@ -36,14 +41,19 @@ const refused = (act) => { try { act(); return "allowed"; } catch { return "refu
     name: name && JSON.parse(new TextDecoder().decode(await inflate("block-given-name"))),
     eval: refused(() => eval("1")),
     function: refused(() => new Function("return 1")()),
+    second: run(new TextDecoder().decode(await inflate("block-exchange"))),
+    third: run("document.currentScript.told = 'allowed';") ?? "refused",
     fetch: await fetch("http://127.0.0.1:9/").then(() => "allowed", () => "refused"),
     colour: getComputedStyle(document.getElementById("said")).color,
   };
 })();
 """
+SECOND = "document.currentScript.told = `${document.currentScript.given} and after`;"
 BUILT = {
     "page.html": TEMPLATE,
     "page.js": SCRIPT,
+    "exchange.js": SECOND,
+    "lift.js": "",
     "page.css": '#said { color: rgb(1, 2, 3); } #said::after { content: "</style>"; }',
     "stereodel.wasm": b"\0asm\1\0\0\0",
     "widget.js": "export default {};",
@@ -62,6 +72,7 @@ def built(monkeypatch):
 
     for module in (assemble, contents):
         monkeypatch.setattr(module, "built", read)
+    monkeypatch.setattr(assemble, "template", lambda: files["page.html"])
     contents.kernel.cache_clear()
     yield files
     contents.kernel.cache_clear()
@@ -77,6 +88,8 @@ def test_a_page_runs_by_itself(built, visit, tmp_path):
         "name": '</script><script>alert("x")</script>',
         "eval": "refused",
         "function": "refused",
+        "second": "before and after",
+        "third": "refused",
         "fetch": "refused",
         "colour": "rgb(1, 2, 3)",
     }
@@ -101,7 +114,9 @@ def test_the_same_page_every_time(built):
     assert assemble.html("110m") == assemble.html("110m")
     given = contents.Given(np.array([(1.0, 2.0)]), "one")
     blocks = set(re.findall('id="block-([^"]+)"', assemble.html("50m", given)))
-    assert blocks == {"kernel", "land-110m", "land-50m", "airports", "cities", "stars", "given", "given-name"}
+    land = {"land-110m", "land-50m"}
+    sets = {"airports", "cities", "stars", "gap", "sheet", "given", "given-name"}
+    assert blocks == land | sets | {"kernel", "exchange", "lift"}
     assert "land-50m" not in assemble.html("110m")
 
 

@@ -9,6 +9,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.data import airports, cities, land, stars
 from stereodel.web.contents import MOST_POINTS, Given, land_rings, sites
 from stereodel.web.packing import packed, packed_doubles, packed_places, varints
+from stereodel.web.scattered import GAP, SHEET
 
 from .conftest import SCRIPT
 
@@ -112,6 +113,12 @@ def test_the_sets_are_places_of_the_package(node):
         kept = {tuple(place) for place in whole.tolist()}
         assert all(tuple(place) in kept for place in found.tolist())
         assert len(np.unique(found, axis=0)) == len(found)
+
+
+def test_the_sets_that_rooms_begin_with(node):
+    for name, places in {"gap": GAP, "sheet": SHEET}.items():
+        found = read(node, {name: sites(name)}, f"contents.set('{name}').then((s) => [...s])")
+        assert found == places.ravel().tolist()
 
 
 def test_too_many_points():

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, Stereographic, angular_distance, incircle
+from stereodel.web.scattered import SHEET
 
 from .conftest import SCRIPT
 
@@ -17,7 +18,7 @@ import {{ text }} from "node:stream/consumers";
 import {{ load }} from "{SCRIPT}/kernel/instance.ts";
 import {{ separationBounds }} from "{SCRIPT}/rooms/lift_sheet.ts";
 import {{ LiftSites }} from "{SCRIPT}/rooms/lift_sites.ts";
-import {{ sheetSets }} from "{SCRIPT}/sets.ts";
+import {{ sheetSets }} from "{SCRIPT}/rooms/lift_sets.ts";
 await load(readFileSync("{WASM}"));
 const given = JSON.parse(await text(process.stdin));
 const sitesOf = (places, sides) => new LiftSites(Float64Array.from(places.flat()), sides);
@@ -26,6 +27,9 @@ const imagesOf = (sites, corner) => Array.from({{ length: sites.count }}, (_, k)
   return [sheet.direction(x, y), sheet.scale(x, y), sheet.image(x, y)];
 }});
 """
+
+
+SETS = "sheetSets(Float64Array.from(given.flat()))"
 
 
 def ask(node, expression, given=None):
@@ -119,7 +123,9 @@ def test_facets_are_triangles_of_the_sheet_and_those_that_see_the_pole(node, pla
 
 def test_sets_of_the_sheet(node):
     sets = ask(
-        node, "sheetSets().map(({ name, make }) => [name, [...make()], sitesOf([...make()]).closing.length / 3])"
+        node,
+        f"{SETS}.map(({{ name, make }}) => [name, [...make()], sitesOf([...make()]).closing.length / 3])",
+        SHEET.tolist(),
     )
     assert [name for name, _, _ in sets] == ["sheet", "grid", "flat"]
     for _, flat, closing in sets:
@@ -130,7 +136,7 @@ def test_sets_of_the_sheet(node):
 
 def test_the_plain_test_fails_on_the_sheet_that_is_nearly_flat(node):
     """Signs of the usual determinant of coordinates in doubles, against the exact ones."""
-    places = np.reshape(ask(node, "[...sheetSets()[2].make()]"), (-1, 2))
+    places = np.reshape(ask(node, f"[...{SETS}[2].make()]", SHEET.tolist()), (-1, 2))
     delaunay = PlanarDelaunay(places)
     wrong = 0
     for row, beside in zip(delaunay.simplices, delaunay.neighbors, strict=True):

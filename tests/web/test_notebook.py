@@ -162,6 +162,21 @@ def test_a_notebook_from_the_first_run_to_the_next_time(notebook, folder, lab, b
     first.press("ArrowLeft")
     assert "'lon': 5" in came_back(folder, "view", 1 * patience)
 
+    # Sites are selected by keys, and by a click: the one in the middle, once it has been walked to.
+    for key in (".", "Enter"):
+        first.press(key)
+    assert came_back(folder, "selection", 1 * patience) == "[0]"
+    (folder / "selection.txt").unlink()
+    first.press(".")
+    page.wait_for_timeout(300)
+    box = first.bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    assert came_back(folder, "selection", 1 * patience) == "[0, 1]"
+    assert "selected: 0, 1" in first.get_attribute("aria-label")
+    (folder / "selection.txt").unlink()
+    first.press("Escape")
+    assert came_back(folder, "selection", 1 * patience) == "[]"
+
     # Set from Python: the picture follows.
     before = page.evaluate(PIXELS)
     page.evaluate("jupyterapp.shell.currentWidget.content.activeCellIndex = 1")

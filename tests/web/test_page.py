@@ -1,8 +1,10 @@
 """The page as its readers have it: offline, small, at rest when nothing moves, by keys, in every colour and width."""
 
+import base64
 import gzip
 import json
 import re
+import zlib
 
 import numpy as np
 import pytest
@@ -43,7 +45,9 @@ def kilobytes(text):
 
 def test_sizes():
     assert kilobytes(assemble.html("110m")) <= 230
-    assert kilobytes(built("page.js")) <= 56
+    assert kilobytes(built("page.js")) <= 40
+    assert kilobytes(built("exchange.js")) <= 13
+    assert kilobytes(built("lift.js")) <= 8
     assert kilobytes(built("stereodel.wasm")) <= 140
 
 
@@ -249,6 +253,54 @@ def test_a_page_opens_with_the_points_that_it_was_made_for(visit, tmp_path):
 
 
 # Exports
+
+
+def test_a_script_that_fails_is_told_and_tried_again(visit, page_file):
+    page = visit(f"{page_file.as_uri()}#sphere", complaints=["did not run", "Content Security Policy"])
+    page.until("document.documentElement.dataset.ready")
+    page.rest()
+    change = """(code) => {
+      const block = document.getElementById("block-exchange");
+      window.kept ??= block.textContent;
+      block.textContent = code ?? window.kept;
+    }"""
+    foreign = base64.b64encode(zlib.compress(b"document.currentScript.offers = {};")).decode()
+    page.page.evaluate(change, foreign)
+    page.page.click("[data-export=svg]")
+    page.until("document.querySelector('[role=alert]')")
+    assert page.page.inner_text("[role=alert]").startswith("The computation failed and was stopped.")
+    page.page.evaluate(change, None)
+    with page.page.expect_download() as download:
+        page.page.click("[data-export=svg]")
+    assert b"</svg>" in download.value.path().read_bytes()
+
+
+def test_what_is_not_needed_is_not_compiled(room):
+    """Neither files nor the Lift room, until they are asked for; then once."""
+    page = room("sphere")
+    page.page.evaluate(
+        """() => {
+          const append = HTMLHeadElement.prototype.append;
+          window.run = [];
+          HTMLHeadElement.prototype.append = function (element) {
+            run.push(element.text.length);
+            append.call(this, element);
+          };
+        }"""
+    )
+    page.page.click("nav a[href='#globe']")
+    page.until("!document.querySelector('#room-globe').hidden")
+    page.rest()
+    assert page.page.evaluate("run") == []
+    for name in ("lift", "sphere", "lift"):
+        page.page.click(f"nav a[href='#{name}']")
+        page.until(f"!document.querySelector('#room-{name}').hidden")
+        page.rest()
+    assert page.ink(ROOMS["lift"]) > 0.03
+    for _ in range(2):
+        with page.page.expect_download():
+            page.page.click("[data-export=svg]")
+    assert page.page.evaluate("run") == [len(built(name).decode()) for name in ("lift.js", "exchange.js")]
 
 
 @pytest.mark.parametrize("name", ROOMS)

@@ -8,6 +8,7 @@ import pytest
 
 from stereodel import SphericalDelaunay, lonlat_to_xyz
 from stereodel.triangulation.theorem import planar_part
+from stereodel.web.scattered import GAP
 
 ROOM = "#room-sphere"
 BALL = "#sphere-ball"
@@ -134,11 +135,7 @@ def said_desc(page):
 
 
 def first_sites():
-    from .conftest import SCRIPT
-
-    text = (SCRIPT / "sets.ts").read_text(encoding="utf-8")
-    numbers = re.search(r"const GAP = \[(.*?)\];", text, re.DOTALL)[1]
-    return SphericalDelaunay.from_lonlat(np.reshape(json.loads(f"[{numbers.strip().rstrip(',')}]"), (-1, 2)))
+    return SphericalDelaunay.from_lonlat(GAP)
 
 
 def test_sites_are_added_moved_removed_and_undone(room):

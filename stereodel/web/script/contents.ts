@@ -23,8 +23,11 @@ export interface Given {
   readonly lonlat: Float64Array;
 }
 
-/** Sets of points that the page may have, as they are called in `stereodel.data`. */
-export type SetName = "airports" | "cities" | "stars";
+/** Sets of points that the page may have: as they are called in `stereodel.data`, and those that rooms begin with. */
+export type SetName = "airports" | "cities" | "gap" | "sheet" | "stars";
+
+/** Scripts that are compiled at first need. */
+export type ScriptName = "exchange" | "lift";
 
 /** What a page, or a widget, carries with it. */
 export class Contents {
@@ -46,13 +49,20 @@ export class Contents {
     return bytes;
   }
 
+  /** The text of a script that is compiled at first need. */
+  async script(name: ScriptName): Promise<string> {
+    const bytes = await this.#bytes(name);
+    if (bytes === null) throw new Error(`the page has no script ${name}`);
+    return new TextDecoder().decode(bytes);
+  }
+
   /** Land for maps of 1 : 50 or 1 : 110 million; null where the page does not have it, which may be so of the former. */
   async land(resolution: "50m" | "110m"): Promise<Rings | null> {
     const bytes = await this.#bytes(`land-${resolution}`);
     return bytes === null ? null : places(bytes);
   }
 
-  /** Longitude and latitude in turn of the points of a set, degrees. */
+  /** The points of a set: longitude and latitude in turn, degrees, or x and y of the sheet. */
   async set(name: SetName): Promise<Float64Array> {
     const bytes = await this.#bytes(name);
     return bytes === null ? new Float64Array(0) : places(bytes).lonlat;

@@ -3,8 +3,10 @@
  * around the poles. Sides are great circles, sampled so that no chord is longer than a degree.
  */
 
-import { cross, dot, lonLatOf, unit } from "./rooms/space.ts";
+import { SphericalVoronoi } from "./kernel/api.ts";
+import { cross, dot, lonLatOf, row, unit } from "./rooms/space.ts";
 import type { Vector } from "./rooms/space.ts";
+import type { SphereSites } from "./rooms/sphere_sites.ts";
 
 /** Longest chord, degrees. */
 const LONGEST = 1;
@@ -26,6 +28,42 @@ export interface Feature {
   type: "Feature";
   properties: Record<string, unknown>;
   geometry: Geometry;
+}
+
+/** Cells and triangles of the Sphere room's sites; closing facets are no triangles of the sphere. */
+export function sitesGeojson(sites: SphereSites): string {
+  const features: Feature[] = [];
+  const { voronoi, delaunay } = sites;
+  const areas = sites.count > 0 ? voronoi.areas() : new Float64Array(0);
+  for (let site = 0; site < sites.count; ++site) {
+    if (sites.sameAs(site) !== null) continue;
+    const geometry = cellOf(voronoi, site) ?? (delaunay.dimension === 0 ? WHOLE_SPHERE : null);
+    if (geometry !== null) features.push(feature({ kind: "cell", point: site, area: areas[site] }, geometry));
+  }
+  for (let facet = 0; facet < sites.facetCount; ++facet) {
+    if (delaunay.closing[facet]) continue;
+    const [a, b, c] = delaunay.simplices.subarray(3 * facet, 3 * facet + 3);
+    const geometry = sphericalPolygon([a, b, c].map((site) => sites.site(site)));
+    features.push(feature({ kind: "triangle", triangle: facet, a, b, c }, geometry));
+  }
+  return collection(features);
+}
+
+/** Cells of places, (n, 2) in degrees. */
+export function placesGeojson(lonlat: Float64Array): string {
+  const voronoi = SphericalVoronoi.fromLonlat(lonlat);
+  const cells = Array.from({ length: lonlat.length / 2 }, (_, site) => {
+    const geometry = cellOf(voronoi, site);
+    const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
+    return geometry === null ? [] : [feature({ site: site + 1, longitude, latitude }, geometry)];
+  });
+  return collection(cells.flat());
+}
+
+/** The cell of a site, or null where it has no corners. */
+function cellOf(voronoi: SphericalVoronoi, site: number): Geometry | null {
+  const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
+  return corners.length < 3 ? null : sphericalPolygon(corners);
 }
 
 /** A feature of given properties. */

@@ -80,6 +80,15 @@ export class LinkValues {
     const text = this.#values.get(name);
     return text === undefined ? null : unpackPlaces(text);
   }
+
+  /** Those of the Earth: longitude and latitude in degrees. */
+  lonlat(name: string): Float64Array | null {
+    const lonlat = this.places(name);
+    if (lonlat?.some((value, k) => k % 2 === 1 && Math.abs(value) > 90)) {
+      throw new LinkError("the link holds sites beyond the poles");
+    }
+    return lonlat;
+  }
 }
 
 /**

@@ -3,24 +3,26 @@
 import { Announcer } from "./announce.ts";
 import { Contents } from "./contents.ts";
 import { field, find } from "./dom.ts";
-import { copy, download } from "./export.ts";
+import type { Exchange } from "./exchange.ts";
 import { load } from "./kernel/instance.ts";
+import { LaterScript } from "./later_script.ts";
+import type { LiftRoomMaker } from "./lift.ts";
 import { LinkError, LinkValues, readLink, ROOMS, writeLink } from "./link.ts";
 import type { Link, RoomName } from "./link.ts";
 import { Messages } from "./messages.ts";
 import type { Room, RoomHost } from "./room.ts";
 import { globeRoom } from "./rooms/globe.ts";
-import { liftRoom } from "./rooms/lift.ts";
 import { sphereRoom } from "./rooms/sphere.ts";
 
 /** Milliseconds of rest after which the address tells the state. */
 const REST = 300;
 
-type Makers = Record<RoomName, (host: RoomHost) => Room>;
+type Makers = Record<RoomName, (host: RoomHost) => Room | Promise<Room>>;
 
 class Page {
   readonly #contents: Contents;
   readonly #makers: Makers;
+  readonly #exchange: LaterScript<Exchange>;
   readonly #messages = new Messages(find(document, "#messages"));
   readonly #announcer = new Announcer(find(document, "#status"));
   readonly #rooms = new Map<RoomName, Room>();
@@ -31,12 +33,13 @@ class Page {
   constructor(contents: Contents, makers: Makers) {
     this.#contents = contents;
     this.#makers = makers;
+    this.#exchange = new LaterScript(contents, "exchange");
   }
 
   /** Shows what the address says, and follows it from now on. */
-  start(): void {
-    addEventListener("hashchange", () => this.#follow());
-    this.#follow();
+  async start(): Promise<void> {
+    addEventListener("hashchange", () => void this.#follow());
+    await this.#follow();
     this.#takeFiles();
     this.#foot();
     find(document, ".skip").addEventListener("click", (event) => {
@@ -49,14 +52,17 @@ class Page {
     return find(document, `#room-${this.#name}`);
   }
 
-  /** The room that is open; it is made when it is first entered. */
-  get #room(): Room {
-    let room = this.#rooms.get(this.#name);
-    if (room === undefined) {
-      room = this.#makers[this.#name](this.#host());
-      this.#rooms.set(this.#name, room);
-      room.attach(this.#section);
-    }
+  /** The room that is open, as soon as it is there. */
+  get #room(): Room | undefined {
+    return this.#rooms.get(this.#name);
+  }
+
+  /** A room, which is made when it is first entered. */
+  async #made(name: RoomName): Promise<Room> {
+    const made = await this.#makers[name](this.#host());
+    const room = this.#rooms.get(name) ?? made; // it may have been entered twice meanwhile
+    if (!this.#rooms.has(name)) room.attach(find(document, `#room-${name}`));
+    this.#rooms.set(name, room);
     return room;
   }
 
@@ -71,7 +77,7 @@ class Page {
   }
 
   /** Enters the room of the address in its state; what cannot be read is said, and the room begins anew. */
-  #follow(): void {
+  async #follow(): Promise<void> {
     clearTimeout(this.#timer);
     let link: Link;
     try {
@@ -82,8 +88,15 @@ class Page {
     }
     this.#enter(link.room);
     const isNew = link.values.entries().length > 0 || !this.#rooms.has(link.room);
+    let room: Room;
+    try {
+      room = this.#room ?? (await this.#made(link.room));
+    } catch (error) {
+      this.#failed(error);
+      return;
+    }
+    if (this.#name !== link.room) return; // the reader is in another room by now
     this.#guarded(() => {
-      const room = this.#room;
       if (!isNew) return;
       try {
         room.restore(link.values);
@@ -116,6 +129,7 @@ class Page {
     this.#isStep ||= isStep;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => {
+      if (this.#room === undefined) return;
       const hash = `#${writeLink(this.#name, this.#room.state())}`;
       if (hash !== location.hash) history[this.#isStep ? "pushState" : "replaceState"](null, "", hash);
       this.#isStep = false;
@@ -128,11 +142,15 @@ class Page {
       body();
       this.#section.classList.remove("failed");
     } catch (error) {
-      console.error(error);
-      this.#section.classList.add("failed");
-      const again = { words: "Draw again", act: () => this.#guarded(() => this.#room.redraw()) };
-      this.#messages.show("", "The computation failed and was stopped. Your sites are still here.", again);
+      this.#failed(error);
     }
+  }
+
+  #failed(error: unknown): void {
+    console.error(error);
+    this.#section.classList.add("failed");
+    const again = { words: "Draw again", act: () => this.#guarded(() => this.#room?.redraw()) };
+    this.#messages.show("", "The computation failed and was stopped. Your sites are still here.", again);
   }
 
   /** Files may be dropped anywhere. */
@@ -152,12 +170,11 @@ class Page {
       event.preventDefault();
       body.classList.remove("dropping");
       const file = event.dataTransfer?.files[0];
-      if (file !== undefined) void this.#room.open(file);
+      this.#open(file);
     });
     for (const input of document.querySelectorAll<HTMLInputElement>("input[type=file]")) {
       input.addEventListener("change", () => {
-        const file = input.files?.[0];
-        if (file !== undefined) void this.#room.open(file);
+        this.#open(input.files?.[0]);
         input.value = ""; // the same file may be picked again
       });
     }
@@ -166,42 +183,57 @@ class Page {
   #foot(): void {
     const foot = find(document, ".foot");
     for (const button of foot.querySelectorAll<HTMLButtonElement>("button[data-export]")) {
-      button.addEventListener("click", () => this.#guarded(() => void this.#export(button.dataset["export"] ?? "")));
+      button.addEventListener("click", () =>
+        this.#exchanging((...both) => this.#export(button.dataset["export"] ?? "", ...both)),
+      );
     }
     for (const choice of foot.querySelectorAll<HTMLInputElement>("input[name=colours]")) {
       choice.addEventListener("change", () => {
         document.documentElement.dataset["colours"] = choice.value;
-        this.#guarded(() => this.#room.redraw());
+        this.#guarded(() => this.#room?.redraw());
       });
     }
     find(foot, "details").addEventListener("toggle", () => this.#python());
   }
 
-  async #export(kind: string): Promise<void> {
-    const name = `stereodel-${this.#name}`;
+  /** Does what takes the second script; what fails is told as a failure of the kernel is. */
+  #exchanging(body: (room: Room, exchange: Exchange) => void | Promise<void>): void {
     const room = this.#room;
-    if (kind === "svg") download(`${name}.svg`, room.svg(), "image/svg+xml");
+    if (room === undefined) return;
+    const done = this.#exchange.get().then((exchange) => body(room, exchange));
+    done.catch((error: unknown) => this.#failed(error));
+  }
+
+  #open(file: File | undefined): void {
+    if (file !== undefined) this.#exchanging((room, exchange) => room.open(file, exchange));
+  }
+
+  async #export(kind: string, room: Room, exchange: Exchange): Promise<void> {
+    const name = `stereodel-${this.#name}`;
+    if (kind === "svg") exchange.download(`${name}.svg`, exchange.sheetSvg(room.sheet()), "image/svg+xml");
     else if (kind === "png") {
       const scale = field(document, "png-scale").valueAsNumber;
-      download(`${name}.png`, await room.png(scale >= 1 && scale <= 8 ? scale : 2));
+      exchange.download(`${name}.png`, await exchange.sheetPng(room.sheet(), scale >= 1 && scale <= 8 ? scale : 2));
     } else if (kind === "geojson") {
-      const text = room.geojson();
-      if (text !== null) download(`${name}.geojson`, text, "application/geo+json");
+      const text = room.geojson(exchange);
+      if (text !== null) exchange.download(`${name}.geojson`, text, "application/geo+json");
     } else {
       const state = room.state();
-      await copy(`${location.href.split("#")[0]}#${writeLink(this.#name, state)}`);
-      const named = "file" in state;
-      this.#messages.show(
-        "",
-        named ? "The link names the file but does not hold its sites; send the file along." : "Link copied.",
-      );
+      await exchange.copy(`${location.href.split("#")[0]}#${writeLink(this.#name, state)}`);
+      const left =
+        "file" in state ? "the file but does not hold its sites" : "the picture but does not hold its pixels";
+      const named = "file" in state || "picture" in state;
+      this.#messages.show("", named ? `The link names ${left}; send the file along.` : "Link copied.");
     }
   }
 
   /** The lines of Python, where they are looked at. */
   #python(): void {
     const details = find<HTMLDetailsElement>(document, ".foot details");
-    if (details.open) find(details, "code").textContent = this.#room.python();
+    if (!details.open) return;
+    this.#exchanging((room, exchange) => {
+      find(details, "code").textContent = room.python(exchange);
+    });
   }
 }
 
@@ -212,14 +244,20 @@ function placeMarks(): void {
   }
 }
 
-/** The sets of the Sphere room are unpacked before it is made, so that links can name them. */
+/** The sets are unpacked before the rooms are made, so that links can name them. */
 async function makersOf(contents: Contents): Promise<Makers> {
-  const names = ["cities", "airports", "stars"] as const;
+  const names = ["gap", "cities", "airports", "stars"] as const;
   const stored: Record<string, Float64Array> = {};
   for (const name of names) stored[name] = await contents.set(name);
+  const sheet = await contents.set("sheet");
   const given = await contents.given();
+  const lift = new LaterScript<LiftRoomMaker>(contents, "lift");
   if (given !== null) stored["given"] = given.lonlat;
-  return { sphere: (host) => sphereRoom(host, stored, given?.name), lift: liftRoom, globe: globeRoom };
+  return {
+    sphere: (host) => sphereRoom(host, stored, given?.name),
+    lift: async (host) => (await lift.get())(host, sheet),
+    globe: globeRoom,
+  };
 }
 
 async function main(): Promise<void> {
@@ -227,7 +265,7 @@ async function main(): Promise<void> {
   const contents = Contents.ofDocument();
   const [makers] = await Promise.all([makersOf(contents), contents.kernel().then(load)]);
   document.body.classList.remove("loading");
-  new Page(contents, makers).start();
+  await new Page(contents, makers).start();
   document.documentElement.dataset["ready"] = "true";
 }
 

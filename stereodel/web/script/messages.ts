@@ -20,36 +20,18 @@ export class Messages {
    *
    * @param what begins the line in the colour of what is held: a file, a row. May be empty.
    * @param text the words, which are never taken for HTML.
+   * @param inputs stand before the buttons: what the action asks for.
    */
-  show(what: string, text: string, action?: Action): void {
+  show(what: string, text: string, action?: Action, inputs: readonly Node[] = []): void {
     const line = make("p");
     if (what) line.append(make("b", "", what), " ");
     line.append(text);
-    const buttons = make("span", "line");
+    const buttons = make("span", "line", ...inputs);
     if (action) buttons.append(this.#button(action));
     buttons.append(this.#button({ words: "Close", act: () => {} }));
-    this.#put(line, buttons);
-  }
-
-  /** Asks which columns of a file are meant; `chosen` gets two names. */
-  askColumns(
-    file: string,
-    names: readonly string[],
-    kinds: readonly [string, string],
-    chosen: (names: [string, string]) => void,
-  ): void {
-    const selects = kinds.map((kind, k) => {
-      const select = make("select", "", ...names.map((name) => make("option", "", name)));
-      select.selectedIndex = Math.min(k, names.length - 1);
-      return { select, label: make("label", "field column", `${kind} `, select) };
-    });
-    const line = make("p", "", make("b", "", `Which columns of ${file}?`));
-    const buttons = make("span", "line", ...selects.map(({ label }) => label));
-    buttons.append(
-      this.#button({ words: "Open", act: () => chosen([selects[0].select.value, selects[1].select.value]) }),
-      this.#button({ words: "Close", act: () => {} }),
-    );
-    this.#put(line, buttons);
+    const message = make("div", "message", line, buttons);
+    message.setAttribute("role", "alert");
+    this.#place.replaceChildren(message);
   }
 
   close(): void {
@@ -64,11 +46,5 @@ export class Messages {
       action.act();
     });
     return button;
-  }
-
-  #put(line: Element, buttons: Element): void {
-    const message = make("div", "message", line, buttons);
-    message.setAttribute("role", "alert");
-    this.#place.replaceChildren(message);
   }
 }

@@ -1,5 +1,6 @@
 /** Opening a file of the reader's: what is wrong is told in a line, and nothing changes. */
 
+import { make } from "./dom.ts";
 import { readPoints, NoTableError, TooManyError } from "./files.ts";
 import type { Kind, Points } from "./files.ts";
 import type { Messages } from "./messages.ts";
@@ -21,12 +22,9 @@ export async function openPoints(
   } catch (error) {
     if (error instanceof ColumnsError && error.names.length > 1) {
       const kinds: [string, string] = kind === "lonlat" ? ["Longitude", "Latitude"] : ["x", "y"];
-      messages.askColumns(
-        file.name,
-        error.names,
-        kinds,
-        (names) => void openPoints(file, kind, messages, opened, names),
-      );
+      askColumns(file.name, error.names, kinds, messages, (names) => {
+        void openPoints(file, kind, messages, opened, names);
+      });
     } else {
       messages.show(...complaint(file.name, error));
     }
@@ -34,6 +32,24 @@ export async function openPoints(
   }
   messages.close();
   opened(points);
+}
+
+/** Asks which columns of a file are meant; `chosen` gets two names. */
+function askColumns(
+  file: string,
+  names: readonly string[],
+  kinds: readonly [string, string],
+  messages: Messages,
+  chosen: (names: [string, string]) => void,
+): void {
+  const selects = kinds.map((_, k) => {
+    const select = make("select", "", ...names.map((name) => make("option", "", name)));
+    select.selectedIndex = Math.min(k, names.length - 1);
+    return select;
+  });
+  const open = { words: "Open", act: () => chosen([selects[0].value, selects[1].value]) };
+  const inputs = kinds.map((kind, k) => make("label", "field column", `${kind} `, selects[k]));
+  messages.show(`Which columns of ${file}?`, "", open, inputs);
 }
 
 /** A message's beginning and its words: the file, the row where there is one, then the words of `read_points`. */

@@ -1,6 +1,7 @@
 /** A picture of the whole sphere on a globe: drawn by the graphics processor while it moves, by the kernel at rest. */
 
 import type { Disc, Pen } from "./drawing/pen.ts";
+import type { Messages } from "./messages.ts";
 import { Raster } from "./kernel/api.ts";
 import type { MoebiusMap } from "./kernel/api.ts";
 import { PanoramaShader } from "./panorama_shader.ts";
@@ -16,7 +17,21 @@ const ROUGH = 0.25;
 const RATIO_ERROR = 0.01;
 
 /** A file that is no picture, or one that is not twice as wide as high. */
-export class PictureError extends Error {}
+class PictureError extends Error {}
+
+/** Calls `opened` with the picture of a file, or says why there is none. */
+export async function openPanorama(file: File, messages: Messages, opened: (picture: Painted) => void): Promise<void> {
+  let picture: Painted;
+  try {
+    picture = await Painted.read(file);
+  } catch (error) {
+    if (!(error instanceof PictureError)) throw error;
+    messages.show(`${file.name}:`, `${error.message}. Nothing has changed.`);
+    return;
+  }
+  messages.close();
+  opened(picture);
+}
 
 export class Painted {
   readonly name: string;

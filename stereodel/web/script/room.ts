@@ -2,6 +2,8 @@
 
 import type { Announcer } from "./announce.ts";
 import type { Contents } from "./contents.ts";
+import type { Sheet } from "./drawing/sheet.ts";
+import type { Exchange } from "./exchange.ts";
 import type { LinkValues } from "./link.ts";
 import type { Messages } from "./messages.ts";
 
@@ -31,15 +33,13 @@ export interface Room {
   /** Draws everything again, after a failure or with other colours. */
   redraw(): void;
   /** Opens a file of the reader's, or says why it cannot. */
-  open(file: File): Promise<void>;
-  /** The drawing as SVG. */
-  svg(): string;
-  /** The drawing with so many pixels for one of the screen. */
-  png(scale: number): Promise<Blob>;
+  open(file: File, exchange: Exchange): Promise<void>;
+  /** The drawing, as a picture to take along. */
+  sheet(): Sheet;
   /** What GeoJSON can hold of the room, or null where there is none: then the room has said so. */
-  geojson(): string | null;
+  geojson(exchange: Exchange): string | null;
   /** The Python lines that make the same picture. */
-  python(): string;
+  python(exchange: Exchange): string;
   /** Lets go of listeners and timers. */
   dispose(): void;
 }

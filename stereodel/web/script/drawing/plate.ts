@@ -3,8 +3,8 @@
 import { CanvasPen } from "./canvas_pen.ts";
 import { colours, onColours } from "./colours.ts";
 import type { Disc, Pen } from "./pen.ts";
+import type { Sheet } from "./sheet.ts";
 import { NARROW, NARROW_WEIGHT } from "./styles.ts";
-import { SvgPen } from "./svg_pen.ts";
 
 /** Why a drawing is made: its kind decides how much of it may be left out. */
 export type Reason = "size" | "colours" | "state" | "hand" | "flight" | "rest" | "pointer";
@@ -25,13 +25,15 @@ export class Plate {
   reason: Reason | null = null;
   readonly #paint: Painter;
   readonly #overlay: Painter | null;
-  #ground: HTMLCanvasElement | null = null; // what lies below the overlay
+  readonly #ground = document.createElement("canvas"); // what lies below the overlay; a movement's whole frame
   #isKept = false; // whether it is what is to be seen
   readonly #run: (body: () => void) => void;
   readonly #place: HTMLElement;
   readonly #observer: ResizeObserver;
   readonly #forget: () => void;
   #asked = 0;
+  #width = 0;
+  #height = 0;
   #resting: ReturnType<typeof setTimeout> | undefined;
 
   /**
@@ -58,11 +60,11 @@ export class Plate {
 
   /** Pixels of the screen; 0 while the room is not shown. */
   get width(): number {
-    return this.canvas.clientWidth;
+    return this.#width;
   }
 
   get height(): number {
-    return this.canvas.clientHeight;
+    return this.#height;
   }
 
   /** The disc of a ball that fills the drawing. */
@@ -83,22 +85,13 @@ export class Plate {
     return [event.clientX - box.left, event.clientY - box.top];
   }
 
-  svg(title: string): string {
-    const pen = new SvgPen(this.width, this.height, colours(this.#place), this.#weight);
-    this.#whole(pen);
-    return pen.text(title);
-  }
-
-  png(scale: number): Promise<Blob> {
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
-    const context = canvas.getContext("2d")!;
-    context.fillStyle = colours(this.#place).paper;
-    context.fillRect(0, 0, canvas.width, canvas.height);
-    this.#whole(this.#pen(canvas, scale));
-    return new Promise((resolve, reject) => {
-      canvas.toBlob((blob) => (blob === null ? reject(new Error("the picture is too large")) : resolve(blob)));
-    });
+  /** The whole drawing, as a picture to take along. */
+  sheet(title: string): Sheet {
+    const paint = (pen: Pen): void => {
+      this.#paint(pen, false);
+      this.#overlay?.(pen, false);
+    };
+    return { title, width: this.width, height: this.height, weight: this.#weight, paint };
   }
 
   dispose(): void {
@@ -113,10 +106,12 @@ export class Plate {
   }
 
   #resize(): void {
-    const scale = devicePixelRatio;
+    const [scale, wasHidden] = [devicePixelRatio, this.#width === 0];
+    // Asked for here alone: in the midst of a movement the question would have the whole page laid out.
+    [this.#width, this.#height] = [this.canvas.clientWidth, this.canvas.clientHeight];
     const [width, height] = [Math.round(this.width * scale), Math.round(this.height * scale)];
     if (width === 0 || height === 0) return;
-    if (this.canvas.width === width && this.canvas.height === height) return;
+    if (!wasHidden && this.canvas.width === width && this.canvas.height === height) return;
     [this.canvas.width, this.canvas.height] = [width, height];
     this.#draw("size");
   }
@@ -133,19 +128,13 @@ export class Plate {
     ++this.frames;
   }
 
-  /** What moves is drawn at once; what stays is kept, so that only the overlay is drawn where only the pointer moves. */
+  /**
+   * Frames are drawn beside the canvas and shown when they are whole, so that a painter that fails leaves the last one.
+   * What lies below the overlay is kept, so that the overlay alone is drawn where only the pointer moves.
+   */
   #layers(reason: Reason, isMoving: boolean): void {
-    const { canvas } = this;
+    const [canvas, ground, overlay] = [this.canvas, this.#ground, this.#overlay];
     const scale = canvas.width / this.width;
-    if (this.#overlay === null || isMoving) {
-      this.#isKept = false;
-      cleared(canvas);
-      const pen = this.#pen(canvas, scale);
-      this.#paint(pen, isMoving);
-      this.#overlay?.(pen, isMoving);
-      return;
-    }
-    const ground = (this.#ground ??= document.createElement("canvas"));
     if (ground.width !== canvas.width || ground.height !== canvas.height) {
       [ground.width, ground.height] = [canvas.width, canvas.height];
       this.#isKept = false;
@@ -153,16 +142,13 @@ export class Plate {
     if (!this.#isKept || reason !== "pointer") {
       this.#isKept = false; // should the painter fail
       cleared(ground);
-      this.#paint(this.#pen(ground, scale), false);
-      this.#isKept = true;
+      const pen = this.#pen(ground, scale);
+      this.#paint(pen, isMoving);
+      if (isMoving) overlay?.(pen, isMoving);
+      else this.#isKept = overlay !== null;
     }
     cleared(canvas).drawImage(ground, 0, 0);
-    this.#overlay(this.#pen(canvas, scale), false);
-  }
-
-  #whole(pen: Pen): void {
-    this.#paint(pen, false);
-    this.#overlay?.(pen, false);
+    if (!isMoving) overlay?.(this.#pen(canvas, scale), false);
   }
 
   #pen(canvas: HTMLCanvasElement, scale: number): CanvasPen {

@@ -4,7 +4,17 @@ import { LIGHT, SHADE } from "./canvas_pen.ts";
 import type { Colours, Token } from "./colours.ts";
 import { textParts } from "./pen.ts";
 import type { Disc, Handle, Path, Pen, Picture, Trace } from "./pen.ts";
-import * as styles from "./styles.ts";
+import {
+  BEHIND,
+  DOTS,
+  HALO_WIDTH,
+  HANDLE_CROSS,
+  HANDLE_RADIUS,
+  HATCH_PITCH,
+  HATCH_WIDTH,
+  SERIF,
+  STYLES,
+} from "./styles.ts";
 import type { DotName, LabelStyle, Style, StyleName } from "./styles.ts";
 
 /** Decimals of a coordinate, pixels of the screen. */
@@ -36,7 +46,7 @@ export class SvgPen implements Pen {
       `<title>${escaped(title)}</title>`,
       this.#definitions.length > 0 ? `<defs>${this.#definitions.join("")}</defs>` : "",
       `<rect width="${w}" height="${h}" ${paint("fill", this.#colours.paper)}/>`,
-      `<g fill="none" stroke-linecap="round" stroke-linejoin="round" font-family='${styles.SERIF}'>`,
+      `<g fill="none" stroke-linecap="round" stroke-linejoin="round" font-family='${SERIF}'>`,
       ...this.#parts,
       "</g>",
       "</svg>",
@@ -49,7 +59,7 @@ export class SvgPen implements Pen {
   draw(name: StyleName, trace: Trace): void {
     const d = pathData(trace);
     if (d === "") return;
-    const style: Style = styles.STYLES[name];
+    const style: Style = STYLES[name];
     const looks: string[] = [];
     if (style.hatch !== undefined) looks.push(`fill="url(#${this.#hatch(style.hatch)})"`);
     if (style.fill !== undefined) looks.push(paint("fill", this.#colours[style.fill], style.fillOpacity));
@@ -58,7 +68,7 @@ export class SvgPen implements Pen {
   }
 
   behind(body: () => void): void {
-    this.#group(`opacity="${styles.BEHIND}"`, body);
+    this.#group(`opacity="${BEHIND}"`, body);
   }
 
   clipped(trace: Trace, body: () => void): void {
@@ -79,7 +89,7 @@ export class SvgPen implements Pen {
 
   dots(name: DotName, places: ArrayLike<number>): void {
     if (places.length === 0) return;
-    const { radius, fill, rim, rimWidth } = styles.DOTS[name];
+    const { radius, fill, rim, rimWidth } = DOTS[name];
     const looks = [
       paint("fill", this.#colours[fill]),
       paint("stroke", this.#colours[rim]),
@@ -97,7 +107,7 @@ export class SvgPen implements Pen {
     const words = textParts(text, style.italic ?? false)
       .map((part) => (part.italic ? `<tspan font-style="italic">${escaped(part.text)}</tspan>` : escaped(part.text)))
       .join("");
-    const halo = `paint-order="stroke" ${paint("stroke", this.#colours[style.halo])} stroke-width="${styles.HALO_WIDTH}"`;
+    const halo = `paint-order="stroke" ${paint("stroke", this.#colours[style.halo])} stroke-width="${HALO_WIDTH}"`;
     const place = `x="${number(x)}" y="${number(y)}" font-size="${style.size}" text-anchor="${anchor}"`;
     this.#parts.push(`<text ${place} ${paint("fill", this.#colours[style.ink])} ${halo}>${words}</text>`);
   }
@@ -105,9 +115,9 @@ export class SvgPen implements Pen {
   handle(x: number, y: number, kind: Handle): void {
     const ground = kind === "behind" ? 'fill="none"' : paint("fill", this.#colours.paper);
     const line = this.#line({ stroke: "accent", width: kind === "behind" ? 1.2 : 1.8 });
-    this.#disc({ x, y, r: styles.HANDLE_RADIUS }, `${ground} ${line}`);
+    this.#disc({ x, y, r: HANDLE_RADIUS }, `${ground} ${line}`);
     if (kind !== "front") return;
-    const c = 2 * styles.HANDLE_CROSS;
+    const c = 2 * HANDLE_CROSS;
     const d = `M${number(x - c / 2)} ${number(y)}h${c}m${-c / 2} ${-c / 2}v${c}`;
     this.#parts.push(`<path ${this.#line({ stroke: "accent", width: 1 })} d="${d}"/>`);
   }
@@ -147,9 +157,9 @@ export class SvgPen implements Pen {
   }
 
   #hatch(kind: "plain" | "crossed"): string {
-    const [id, p] = [`hatch-${kind}`, styles.HATCH_PITCH];
+    const [id, p] = [`hatch-${kind}`, HATCH_PITCH];
     const lines = `M0 ${p / 2}H${p}${kind === "crossed" ? `M${p / 2} 0V${p}` : ""}`;
-    const line = `${paint("stroke", this.#colours.hatch)} stroke-width="${styles.HATCH_WIDTH}"`;
+    const line = `${paint("stroke", this.#colours.hatch)} stroke-width="${HATCH_WIDTH}"`;
     const place = `width="${p}" height="${p}" patternUnits="userSpaceOnUse" patternTransform="rotate(-45)"`;
     return this.#define(id, `<pattern id="${id}" ${place}><path ${line} d="${lines}"/></pattern>`);
   }

@@ -2,6 +2,9 @@
  * Checks of what callers hand in: every message about points and indices stands here, in the words of the Python
  * library. What is no number is a `TypeError`, a number that will not do a `RangeError`; both name the argument and the
  * entry. Behind these checks arrays are finite and of known shape: the kernel takes that for granted.
+ *
+ * Statements with the label CHECK are left out of the page and the widget (`tools/bundle_web.mjs`): there, numbers come
+ * from fields, links and files that were checked in the words for readers.
  */
 
 /** Coordinates as callers may give them: numbers, row after row, in one flat array. */
@@ -34,7 +37,7 @@ function kindOf(value: unknown): string {
 /** Finite doubles in rows of `width`, at most `most`; an array of doubles is returned as it is, not copied. */
 export function asRows(values: Numbers, width: number, name: string, most = Infinity): Float64Array {
   const array = asDoubles(values, width, name, most);
-  for (let k = 0; k < array.length; ++k) {
+  CHECK: for (let k = 0; k < array.length; ++k) {
     if (!Number.isFinite(array[k])) {
       throw new RangeError(`${place(name, k, width)} is ${written(array[k])}; every value must be a finite number`);
     }
@@ -43,15 +46,15 @@ export function asRows(values: Numbers, width: number, name: string, most = Infi
 }
 
 function asDoubles(values: Numbers, width: number, name: string, most: number): Float64Array {
-  if (values === null || typeof values !== "object" || typeof values.length !== "number") {
+  CHECK: if (values === null || typeof values !== "object" || typeof values.length !== "number") {
     throw new TypeError(`${name} must be an array of numbers, row after row, but is ${kindOf(values)}`);
   }
-  if (values.length > most * width) {
+  CHECK: if (values.length > most * width) {
     const rows = Math.floor(values.length / width);
     throw new RangeError(`${name} has ${rows} rows, more than the ${most} that the kernel has memory for; give fewer`);
   }
   const array = values instanceof Float64Array ? values : doublesOf(values, width, name);
-  if (array.length % width !== 0) {
+  CHECK: if (array.length % width !== 0) {
     const rows = `(n, ${width}) as one flat array, ${width} numbers a row`;
     throw new RangeError(`${name} must have shape ${rows}, got ${array.length} numbers`);
   }
@@ -62,11 +65,11 @@ function doublesOf(values: Numbers, width: number, name: string): Float64Array {
   const array = new Float64Array(values.length);
   for (let k = 0; k < array.length; ++k) {
     const value: unknown = values[k];
-    if (typeof value !== "number") {
+    CHECK: if (typeof value !== "number") {
       const advice = Array.isArray(value) ? "; give all rows in one flat array" : "";
       throw new TypeError(`${place(name, k, width)} is ${kindOf(value)}, which is not a real number${advice}`);
     }
-    array[k] = value;
+    array[k] = value as number;
   }
   return array;
 }
@@ -79,7 +82,7 @@ export function asPoints(values: Numbers, width: number, name = "points"): Float
 /** Vectors of three that are not zero. */
 export function asDirections(values: Numbers, name: string): Float64Array {
   const array = asPoints(values, 3, name);
-  for (let k = 0; k < array.length; k += 3) {
+  CHECK: for (let k = 0; k < array.length; k += 3) {
     if (array[k] === 0 && array[k + 1] === 0 && array[k + 2] === 0) {
       throw new RangeError(`${entry(name, k / 3)} is the zero vector, which has no direction`);
     }
@@ -90,7 +93,7 @@ export function asDirections(values: Numbers, name: string): Float64Array {
 /** Rows (longitude, latitude) in degrees: any finite longitude, latitude in [-90, 90]. */
 export function asLonlat(values: Numbers, name = "lonlat"): Float64Array {
   const array = asPoints(values, 2, name);
-  for (let k = 1; k < array.length; k += 2) {
+  CHECK: for (let k = 1; k < array.length; k += 2) {
     if (Math.abs(array[k]) > 90) {
       throw new RangeError(
         `${place(name, k, 2)} is latitude ${array[k]}, outside [-90, 90]; the order is (longitude, latitude)`,
@@ -105,9 +108,9 @@ export function asIndices(values: Numbers, size: number, name = "indices"): Int3
   const array = new Int32Array(values.length);
   for (let k = 0; k < array.length; ++k) {
     const value: unknown = values[k];
-    if (!Number.isInteger(value))
+    CHECK: if (!Number.isInteger(value))
       throw new TypeError(`${name} must be integers, but ${entry(name, k)} is ${String(value)}`);
-    if ((value as number) < 0 || (value as number) >= size) {
+    CHECK: if ((value as number) < 0 || (value as number) >= size) {
       throw new RangeError(`${entry(name, k)} is ${String(value)}, but there are ${size} points (0 to ${size - 1})`);
     }
     array[k] = value as number;
@@ -117,17 +120,17 @@ export function asIndices(values: Numbers, size: number, name = "indices"): Int3
 
 /** One whole number, at least `low`, at most `high`. */
 export function asCount(value: number, name: string, low: number, high: number): number {
-  if (!Number.isInteger(value)) throw new TypeError(`${name} must be one integer, got ${String(value)}`);
-  if (value < low) throw new RangeError(`${name} is ${value}, but must be at least ${low}`);
-  if (value > high) throw new RangeError(`${name} is ${value}, but must be at most ${high}`);
+  CHECK: if (!Number.isInteger(value)) throw new TypeError(`${name} must be one integer, got ${String(value)}`);
+  CHECK: if (value < low) throw new RangeError(`${name} is ${value}, but must be at least ${low}`);
+  CHECK: if (value > high) throw new RangeError(`${name} is ${value}, but must be at most ${high}`);
   return value;
 }
 
 /** One finite number above `low`. */
 export function asScalar(value: number, name: string, low = -Infinity): number {
-  if (typeof value !== "number") throw new TypeError(`${name} is ${kindOf(value)}, which is not a real number`);
-  if (!Number.isFinite(value))
+  CHECK: if (typeof value !== "number") throw new TypeError(`${name} is ${kindOf(value)}, which is not a real number`);
+  CHECK: if (!Number.isFinite(value))
     throw new RangeError(`${name} is ${written(value)}; every value must be a finite number`);
-  if (value <= low) throw new RangeError(`${name} is ${value}, outside (${low}, inf]`);
+  CHECK: if (value <= low) throw new RangeError(`${name} is ${value}, outside (${low}, inf]`);
   return value;
 }

@@ -180,7 +180,7 @@ export abstract class Delaunay {
    * @returns Indices of points, k of each query.
    */
   nearest(queries: Numbers, k?: number): Int32Array {
-    if (this.size === 0) throw new RangeError("nearest needs at least one point; this triangulation has none");
+    CHECK: if (this.size === 0) throw new RangeError("nearest needs at least one point; this triangulation has none");
     const asked = this.check(queries, this.width === 2 ? "xy" : "xyz");
     const each = k === undefined ? 1 : asCount(k, "k", 1, this.size);
     const size = asked.length / this.width;

@@ -42,7 +42,7 @@ export class MoebiusMap {
 
   constructor(left: Rotation, magnification: number, right: Rotation) {
     asScalar(magnification, "magnification", 0);
-    if (magnification < 1 / LARGEST_MAGNIFICATION || magnification > LARGEST_MAGNIFICATION) {
+    CHECK: if (magnification < 1 / LARGEST_MAGNIFICATION || magnification > LARGEST_MAGNIFICATION) {
       throw new RangeError(
         `magnification is ${magnification}, outside the range 1e-100 to 1e+100 that can be evaluated`,
       );

@@ -37,8 +37,9 @@ export class Rotation {
   /** @param quaternion (cos θ/2, axis · sin θ/2) up to length: counterclockwise by θ, seen from the axis' tip. */
   constructor(quaternion: Numbers) {
     const values = asRows(quaternion, 1, "quaternion");
-    if (values.length !== 4) throw new RangeError(`quaternion must be four numbers (w, x, y, z), got ${values.length}`);
-    if (values.every((value) => value === 0)) {
+    CHECK: if (values.length !== 4)
+      throw new RangeError(`quaternion must be four numbers (w, x, y, z), got ${values.length}`);
+    CHECK: if (values.every((value) => value === 0)) {
       throw new RangeError("quaternion is the zero quaternion, which is not a rotation");
     }
     this.quaternion = scaled(values);
@@ -111,7 +112,7 @@ export function asDirection(point: Numbers, name: string): Float64Array {
   const values = asRows(point, 1, name);
   if (values.length === 2) return lonlatToXyz(asLonlat(values, name));
   if (values.length === 3) {
-    if (values.every((value) => value === 0)) {
+    CHECK: if (values.every((value) => value === 0)) {
       throw new RangeError(`${entry(name)} is the zero vector, which has no direction`);
     }
     return asDirections(values, name);

@@ -2,32 +2,32 @@
 
 /** Edges i < j of triangles, each once, in lexicographic order. */
 export function edgesOf(simplices: Int32Array, neighbors: Int32Array): Int32Array {
-  const low: number[] = [];
-  const high: number[] = [];
+  // As many as there are half-edges in pairs and alone.
+  const alone = neighbors.reduce((count, beyond) => count + (beyond < 0 ? 1 : 0), 0);
+  const low = new Int32Array((simplices.length + alone) / 2);
+  const high = new Int32Array(low.length);
+  let size = 0;
   forEdges(simplices, (u, v, opposite) => {
     // Of the two directions of an edge one goes up; an edge at the border has a single one.
-    if (u < v || neighbors[opposite] < 0) {
-      low.push(Math.min(u, v));
-      high.push(Math.max(u, v));
-    }
+    if (u > v && neighbors[opposite] >= 0) return;
+    low[size] = Math.min(u, v);
+    high[size++] = Math.max(u, v);
   });
-  return sortedPairs(Int32Array.from(low), Int32Array.from(high));
+  return sortedPairs(low, high);
 }
 
-/** Neighbours of each of `size` points: those of point k are indices[indptr[k]] to indices[indptr[k + 1] - 1]. */
+/**
+ * Neighbours of each of `size` points: those of point k are indices[indptr[k]] to indices[indptr[k + 1] - 1].
+ *
+ * @param edges As `edgesOf` has them: by their order, the neighbours of each point come in theirs.
+ */
 export function adjacencyOf(edges: Int32Array, size: number): { indptr: Int32Array; indices: Int32Array } {
-  const count = edges.length / 2;
-  const from = new Int32Array(2 * count);
-  const to = new Int32Array(2 * count);
-  for (let k = 0; k < count; ++k) {
-    from[2 * k] = to[2 * k + 1] = edges[2 * k];
-    to[2 * k] = from[2 * k + 1] = edges[2 * k + 1];
-  }
-  const pairs = sortedPairs(from, to);
-  const indptr = new Int32Array(size + 1);
-  for (let k = 0; k < from.length; ++k) ++indptr[from[k] + 1];
-  for (let k = 0; k < size; ++k) indptr[k + 1] += indptr[k];
-  return { indptr, indices: pairs.filter((_, k) => k % 2 === 1) };
+  const indptr = startsOf(edges, size);
+  const indices = new Int32Array(edges.length);
+  const next = indptr.slice();
+  for (let k = 0; k < edges.length; k += 2) indices[next[edges[k + 1]]++] = edges[k]; // the lower ones first
+  for (let k = 0; k < edges.length; k += 2) indices[next[edges[k]]++] = edges[k + 1];
+  return { indptr, indices };
 }
 
 /** Directed edges of the triangles `inside` that border others or nothing, in lexicographic order. */
@@ -58,24 +58,42 @@ function forEdges(simplices: Int32Array, visit: (u: number, v: number, opposite:
   }
 }
 
-/** Rows (first, second) in lexicographic order: by counting, the second numbers first. */
+/** Entries that are sorted by moving each to its place. */
+const FEW = 16;
+
+/** Rows (first, second) in lexicographic order: the second numbers in a list for each first one, each list sorted. */
 function sortedPairs(first: Int32Array, second: Int32Array): Int32Array {
-  const order = countingSort(first, countingSort(second, Int32Array.from(second.keys())));
-  const rows = new Int32Array(2 * order.length);
-  for (let k = 0; k < order.length; ++k) {
-    rows[2 * k] = first[order[k]];
-    rows[2 * k + 1] = second[order[k]];
+  const size = first.reduce((most, number) => Math.max(most, number + 1), 0);
+  const starts = startsOf(first, size);
+  const lists = new Int32Array(second.length);
+  const next = starts.slice();
+  for (let k = 0; k < first.length; ++k) lists[next[first[k]]++] = second[k];
+  const rows = new Int32Array(2 * lists.length);
+  for (let number = 0; number < size; ++number) {
+    const [begin, end] = [starts[number], starts[number + 1]];
+    if (end - begin > FEW) lists.subarray(begin, end).sort();
+    else sortFew(lists, begin, end);
+    for (let k = begin; k < end; ++k) {
+      rows[2 * k] = number;
+      rows[2 * k + 1] = lists[k];
+    }
   }
   return rows;
 }
 
-/** The places in `order` by their numbers, equal ones as they stand. */
-function countingSort(numbers: Int32Array, order: Int32Array): Int32Array {
-  const size = numbers.reduce((most, number) => Math.max(most, number + 1), 0);
-  const next = new Int32Array(size + 1);
-  for (const number of numbers) ++next[number + 1];
-  for (let k = 0; k < size; ++k) next[k + 1] += next[k];
-  const sorted = new Int32Array(order.length);
-  for (const place of order) sorted[next[numbers[place]]++] = place;
-  return sorted;
+function sortFew(numbers: Int32Array, begin: number, end: number): void {
+  for (let k = begin + 1; k < end; ++k) {
+    const number = numbers[k];
+    let place = k;
+    for (; place > begin && numbers[place - 1] > number; --place) numbers[place] = numbers[place - 1];
+    numbers[place] = number;
+  }
+}
+
+/** Where lists begin that have an entry for each of the numbers below `size` that is in `numbers`; and the last one's end. */
+function startsOf(numbers: Int32Array, size: number): Int32Array {
+  const starts = new Int32Array(size + 1);
+  for (const number of numbers) ++starts[number + 1];
+  for (let k = 0; k < size; ++k) starts[k + 1] += starts[k];
+  return starts;
 }

@@ -1,6 +1,8 @@
 /** Native inputs of a room: numbers in fields, switches, sets. */
 
 import { field, find, make } from "../dom.ts";
+import type { LinkValues } from "../link.ts";
+import type { Messages } from "../messages.ts";
 import type { SiteSet } from "../sets.ts";
 
 /** A field of numbers: what is typed and valid is told, and what the hand does is shown. */
@@ -86,4 +88,14 @@ export function showSet(select: HTMLSelectElement, name: string, words: string |
     select.prepend(option);
   }
   select.value = words === null ? name : "own";
+}
+
+/** What a link may name and does not hold: a file of sites, a picture. */
+const NAMED = { file: "its sites", picture: "its pixels" };
+
+/** Says that a link names something that it does not hold, where it does. */
+export function tellNamed(messages: Messages, values: LinkValues, what: keyof typeof NAMED): void {
+  if (!values.has(what)) return;
+  const words = `is named by this link, which does not hold ${NAMED[what]}. Open the file here.`;
+  messages.show(values.text(what, ""), words);
 }

@@ -2,25 +2,24 @@
 
 import { field, find, say } from "../dom.ts";
 import type { Reason } from "../drawing/plate.ts";
-import { collection, feature, sphericalPolygon } from "../geojson.ts";
+import type { Sheet } from "../drawing/sheet.ts";
+import type { Exchange } from "../exchange.ts";
 import { MOST_SITES, packPlaces } from "../link.ts";
 import type { LinkValues } from "../link.ts";
-import { SphericalVoronoi } from "../kernel/api.ts";
-import { openPoints } from "../opening.ts";
-import { Painted, PictureError } from "../panorama.ts";
+import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
 import { latitude, longitude, scale } from "../words.ts";
+import { tellNamed } from "./controls.ts";
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
-import type { GlobeHost } from "./globe_fisheye.ts";
-import { globePython } from "./globe_python.ts";
+import type { GlobeHost } from "./globe_plate.ts";
 import { GlobeScene } from "./globe_scene.ts";
 import type { Drawn, Places } from "./globe_scene.ts";
 import { BEGINNING, fromValues, LEAST_RADIUS, MOST_RADIUS, PRESETS, sideView, toValues } from "./globe_state.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { FiveViews } from "./globe_views.ts";
-import { directionOf, lonLatOf, row } from "./space.ts";
+import { directionOf, lonLatOf } from "./space.ts";
 import type { Vector } from "./space.ts";
 
 /** Files that are pictures, by the ends of their names. */
@@ -50,6 +49,8 @@ class GlobeRoom implements Room {
   #parts: Parts | null = null;
   /** The cells' voice: the places of a link stand until others are opened. */
   #isGiven = false;
+  /** The picture that was opened last: a step back is one without it, and the next step forward shows it again. */
+  #picture: Painted | null = null;
 
   constructor(host: RoomHost) {
     this.#host = host;
@@ -88,15 +89,20 @@ class GlobeRoom implements Room {
         : places.lonlat.length <= 2 * MOST_SITES
           ? { sites: packPlaces(places.lonlat), name: places.name }
           : { file: places.name };
-    return { ...toValues(this.#state), ...held };
+    const picture = this.#scene.picture?.name;
+    return { ...toValues(this.#state), ...held, ...(picture === undefined ? {} : { picture }) };
   }
 
   restore(values: LinkValues): void {
     const state = fromValues(values);
-    const lonlat = values.places("sites");
+    const lonlat = values.lonlat("sites");
     if (lonlat !== null) this.#show({ name: values.text("name", "sites"), lonlat }, false);
     const drawn = { ...state.drawn, cells: state.drawn.cells && this.#scene.places !== null };
     this.#parts?.globe.stop();
+    const { messages } = this.#host;
+    if (this.#scene.places?.name !== values.text("file", "")) tellNamed(messages, values, "file");
+    this.#scene.picture = values.text("picture", "") === this.#picture?.name ? this.#picture : null;
+    if (this.#scene.picture === null) tellNamed(messages, values, "picture");
     this.#set({ ...state, drawn }, "state");
   }
 
@@ -104,51 +110,38 @@ class GlobeRoom implements Room {
     this.#redraw("state");
   }
 
-  async open(file: File): Promise<void> {
-    const isPicture = file.type.startsWith("image/") || PICTURES.test(file.name);
-    if (!isPicture) {
-      await openPoints(file, "lonlat", this.#host.messages, ({ places: lonlat }) => {
+  open(file: File, exchange: Exchange): Promise<void> {
+    const { messages, guarded } = this.#host;
+    if (file.type.startsWith("image/") || PICTURES.test(file.name)) {
+      return exchange.openPanorama(file, messages, (picture) => {
+        this.#scene.picture = this.#picture = picture;
+        this.#redraw("state");
+        this.#host.changed(true);
+      });
+    }
+    return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat }) => {
+      guarded(() => {
         this.#show({ name: file.name, lonlat }, false);
         this.#set({ drawn: { ...this.#state.drawn, cells: true } }, "state", true);
       });
-      return;
-    }
-    try {
-      this.#scene.picture = await Painted.read(file);
-    } catch (error) {
-      if (!(error instanceof PictureError)) throw error;
-      this.#host.messages.show(`${file.name}:`, `${error.message}. Nothing has changed.`);
-      return;
-    }
-    this.#host.messages.close();
-    this.#redraw("state");
-  }
-
-  svg(): string {
-    return this.#shownPlate().svg(this.#label());
-  }
-
-  png(size: number): Promise<Blob> {
-    return this.#shownPlate().png(size);
-  }
-
-  geojson(): string | null {
-    const { places } = this.#scene;
-    if (places === null) {
-      this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
-      return null;
-    }
-    const voronoi = SphericalVoronoi.fromLonlat(places.lonlat);
-    const cells = Array.from({ length: places.lonlat.length / 2 }, (_, site) => {
-      const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
-      const [longitude, latitude] = places.lonlat.subarray(2 * site, 2 * site + 2);
-      return corners.length < 3 ? [] : [feature({ site: site + 1, longitude, latitude }, sphericalPolygon(corners))];
     });
-    return collection(cells.flat());
   }
 
-  python(): string {
-    return globePython(this.#state, this.#scene.places?.name ?? null);
+  sheet(): Sheet {
+    const { globe, bubbles } = this.#parts!;
+    const { plate } = this.#state.lens === "bubble" ? bubbles[1] : globe;
+    return plate.sheet(this.#label());
+  }
+
+  geojson(exchange: Exchange): string | null {
+    const { places } = this.#scene;
+    if (places !== null) return exchange.placesGeojson(places.lonlat);
+    this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
+    return null;
+  }
+
+  python(exchange: Exchange): string {
+    return exchange.globePython(this.#state, this.#scene);
   }
 
   dispose(): void {
@@ -192,11 +185,6 @@ class GlobeRoom implements Room {
       globe.plate.redraw(reason);
       if (reason !== "pointer") views.redraw(reason);
     }
-  }
-
-  #shownPlate(): { svg(title: string): string; png(size: number): Promise<Blob> } {
-    const { globe, bubbles } = this.#parts!;
-    return this.#state.lens === "bubble" ? bubbles[1].plate : globe.plate;
   }
 
   #input(name: string): HTMLInputElement {

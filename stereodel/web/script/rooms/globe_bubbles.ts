@@ -3,24 +3,21 @@
 import { arcThrough } from "../drawing/arcs.ts";
 import { circlePoints } from "../drawing/ball.ts";
 import { traceCap } from "../drawing/fill.ts";
-import { traceDisc } from "../drawing/pen.ts";
-import type { Disc, Pen } from "../drawing/pen.ts";
-import { Plate } from "../drawing/plate.ts";
+import type { Pen } from "../drawing/pen.ts";
 import type { Reason } from "../drawing/plate.ts";
 import { MoebiusMap } from "../kernel/api.ts";
 import { arrowed, grabBall } from "../view/ball_hand.ts";
-import type { Turnable } from "../view/ball_hand.ts";
-import { distance, follow } from "../view/hand.ts";
+import { distance } from "../view/hand.ts";
 import type { Gestures, Hold, Place } from "../view/hand.ts";
 import { betweenSights, capToCap, seenThrough } from "../view/lens.ts";
 import type { Cap } from "../view/lens.ts";
-import { Motion } from "../view/motion.ts";
 import { between, pointUnder, turned } from "../view/view.ts";
 import type { View } from "../view/view.ts";
 import { fixed } from "../words.ts";
-import { LABEL, placeOf } from "./globe_fisheye.ts";
-import type { GlobeHost } from "./globe_fisheye.ts";
+import { GlobePlate, LABEL } from "./globe_plate.ts";
+import type { GlobeHost } from "./globe_plate.ts";
 import { BEGINNING, LEAST_RADIUS, MOST_RADIUS } from "./globe_state.ts";
+import { placeOf } from "./lines.ts";
 import { angle, unit } from "./space.ts";
 import type { Vector } from "./space.ts";
 
@@ -30,76 +27,59 @@ const TOWARD = [0.8, -1] as const;
 /** Points of a rim that are tried for the handle. */
 const TRIED = 180;
 
+/** Degrees by which a pointer of a link may be off the one that it names. */
+const UNMOVED = 1e-6;
+
 type Which = "before" | "after";
 
-export class BubbleGlobe implements Turnable {
-  readonly plate: Plate;
+export class BubbleGlobe extends GlobePlate {
   readonly #which: Which;
-  readonly #host: GlobeHost;
-  readonly #motion = new Motion();
-  readonly #unfollow: () => void;
 
   constructor(canvas: HTMLCanvasElement, which: Which, host: GlobeHost) {
+    super(canvas, host);
     this.#which = which;
-    this.#host = host;
-    this.plate = new Plate(
-      canvas,
-      (pen, isMoving) => this.#paint(pen, isMoving),
-      (body) => host.run(body),
-      document.documentElement,
-      (pen) => this.#paintHeld(pen),
-    );
-    this.#unfollow = follow(this.plate, this.#gestures());
-  }
-
-  get disc(): Disc {
-    return this.plate.disc;
   }
 
   get view(): View {
-    return this.#host.state[this.#which];
+    return this.host.state[this.#which];
   }
 
-  get isNorthUp(): boolean {
-    return this.#host.state.isNorthUp;
+  protected get map(): MoebiusMap {
+    const { from, to } = this.host.state;
+    return seenThrough(this.isMagnified ? capToCap(from, to) : MoebiusMap.identity(), this.view);
+  }
+
+  protected get isPointed(): boolean {
+    return angle(this.host.state.pointer, BEGINNING.pointer) > UNMOVED;
+  }
+
+  protected get isMagnified(): boolean {
+    return this.#which === "after";
   }
 
   turn(view: View, reason: Reason): void {
-    this.#host.set({ [this.#which]: view }, reason);
+    this.host.set({ [this.#which]: view }, reason);
   }
 
   /** Goes to another view. */
   fly(to: View): void {
     const [from, lens] = [this.view, BEGINNING.sight.lens];
-    this.#motion.fly((t) => {
+    this.motion.fly((t) => {
       const { view } = betweenSights({ lens, view: from }, { lens, view: to }, t, this.isNorthUp);
       this.turn(view, t < 1 ? "flight" : "state");
     });
   }
 
-  dispose(): void {
-    this.#motion.stop();
-    this.#unfollow();
-    this.plate.dispose();
-  }
-
   get #cap(): Cap {
-    return this.#host.state[this.#which === "before" ? "from" : "to"];
+    return this.host.state[this.#which === "before" ? "from" : "to"];
   }
 
   #setCap(cap: Cap): void {
     const radius = Math.max(LEAST_RADIUS, Math.min(MOST_RADIUS, cap.radius));
-    this.#host.set({ [this.#which === "before" ? "from" : "to"]: { ...cap, radius } }, "hand");
+    this.host.set({ [this.#which === "before" ? "from" : "to"]: { ...cap, radius } }, "hand");
   }
 
-  #paint(pen: Pen, isMoving: boolean): void {
-    const { from, to, drawn } = this.#host.state;
-    const map = this.#which === "before" ? MoebiusMap.identity() : capToCap(from, to);
-    this.#host.scene.draw(pen, this.disc, seenThrough(map, this.view), drawn, isMoving);
-    pen.draw("limb", (path) => traceDisc(path, this.disc));
-  }
-
-  #paintHeld(pen: Pen): void {
+  protected paintHeld(pen: Pen): void {
     const { disc } = this;
     const cap = this.#cap;
     const seen: Vector[] = circlePoints(this.view.seen(cap.center), cap.radius);
@@ -136,13 +116,13 @@ export class BubbleGlobe implements Turnable {
     return best;
   }
 
-  #gestures(): Gestures {
+  protected gestures(): Gestures {
     return {
       take: (at, reach) => this.#take(at, reach),
       key: (event) => {
         const view = event.key === "0" ? BEGINNING[this.#which] : arrowed(this, event);
         if (view === null) return false;
-        this.#motion.stop();
+        this.motion.stop();
         this.turn(view, "hand");
         return true;
       },
@@ -150,7 +130,7 @@ export class BubbleGlobe implements Turnable {
   }
 
   #take(at: Place, reach: number): Hold | null {
-    if (distance(at, [this.disc.x, this.disc.y]) > this.disc.r) return null;
+    if (!this.isOnBall(at)) return null;
     const start = this.#cap;
     const point = pointUnder(this.disc, at);
     const center = this.view.seen(start.center);
@@ -160,11 +140,11 @@ export class BubbleGlobe implements Turnable {
     const rim = this.#nearestOfRim(center, start.radius, point);
     const isRim = rim[2] >= 0 && distance(at, placeOf(this.disc, rim)) <= reach;
     if (isRim || (handle !== null && distance(at, placeOf(this.disc, handle)) <= reach)) {
-      this.#motion.stop();
+      this.motion.stop();
       return { move: (to) => this.#setCap({ ...start, radius: angle(center, pointUnder(this.disc, to)) }) };
     }
-    if (apart > start.radius) return grabBall(this, this.#motion, at);
-    this.#motion.stop();
+    if (apart > start.radius) return grabBall(this, this.motion, at);
+    this.motion.stop();
     return {
       move: (to) => {
         const moved = turned(between(point, pointUnder(this.disc, to)), center);

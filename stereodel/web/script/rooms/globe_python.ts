@@ -3,13 +3,15 @@
 import { fixed } from "../words.ts";
 import type { View } from "../view/view.ts";
 import { CIRCLE_RADIUS, STEP } from "./globe_scene.ts";
+import type { GlobeScene } from "./globe_scene.ts";
 import type { GlobeState } from "./globe_state.ts";
 import { lonLatOf } from "./space.ts";
 import type { Vector } from "./space.ts";
 
-/** @param file The reader's places, if there are any. */
-export function globePython(state: GlobeState, file: string | null): string {
+export function globePython(state: GlobeState, { places, picture }: GlobeScene): string {
   const { drawn, lens } = state;
+  const file = places?.name ?? null;
+  const hasLand = drawn.land && picture === null;
   const isBubble = lens === "bubble";
   const names = isBubble ? "SphereCircle, bubble_to_bubble" : "fisheye";
   const withCells = file !== null;
@@ -21,9 +23,10 @@ export function globePython(state: GlobeState, file: string | null): string {
     "",
     ...(isBubble ? bubbleLines(state) : fisheyeLines(state)),
     "globe = Globe()",
-    ...(drawn.land ? ['globe.add_land(resolution="50m")'] : []),
+    ...(picture === null ? [] : [`globe.add_raster(${JSON.stringify(picture.name)})`]),
+    ...(hasLand ? ['globe.add_land(resolution="50m")'] : []),
     ...(drawn.graticule ? [`globe.add_graticule(${number(STEP)})`] : []),
-    ...(drawn.land ? ['globe.add_coastlines(resolution="50m")'] : []),
+    ...(hasLand ? ['globe.add_coastlines(resolution="50m")'] : []),
     ...(drawn.tissot ? [`globe.add_tissot(${number(STEP)}, ${CIRCLE_RADIUS.toFixed(4)})`] : []),
     ...(withCells ? placeLines(file, drawn.cells) : []),
     `globe.save("globe.svg", lens, ${viewText(isBubble ? state.after : state.sight.view)})`,

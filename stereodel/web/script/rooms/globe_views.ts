@@ -10,7 +10,7 @@ import { lensMap, seenThrough } from "../view/lens.ts";
 import type { Lens } from "../view/lens.ts";
 import { sideView } from "./globe_state.ts";
 import { STEP } from "./globe_scene.ts";
-import type { GlobeHost } from "./globe_fisheye.ts";
+import type { GlobeHost } from "./globe_plate.ts";
 import { directionOf, lonLatOf } from "./space.ts";
 import type { Vector } from "./space.ts";
 

@@ -3,22 +3,22 @@
 import { field, find, plain, say } from "../dom.ts";
 import { Plate } from "../drawing/plate.ts";
 import type { Reason } from "../drawing/plate.ts";
+import type { Sheet } from "../drawing/sheet.ts";
+import type { Exchange } from "../exchange.ts";
 import { MOST_SITES, packPlaces, writeNumber } from "../link.ts";
 import type { LinkValues } from "../link.ts";
-import { openPoints } from "../opening.ts";
 import type { Room, RoomHost } from "../room.ts";
-import { SHEET_SIDES, sheetSets } from "../sets.ts";
 import type { SiteSet } from "../sets.ts";
 import { SiteTable } from "../table.ts";
 import { distance, follow } from "../view/hand.ts";
 import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, wrap } from "../words.ts";
-import { listSets, NumberField, showSet, Switches } from "./controls.ts";
+import { listSets, NumberField, showSet, Switches, tellNamed } from "./controls.ts";
 import { drawLift, onPicture, sitePlace, standOf } from "./lift_drawing.ts";
 import type { LiftScene } from "./lift_drawing.ts";
-import { liftPython } from "./lift_python.ts";
-import type { Sheet } from "./lift_sheet.ts";
+import type { Sheet as BentSheet } from "./lift_sheet.ts";
+import { SHEET_SIDES, sheetSets } from "./lift_sets.ts";
 import { LiftSites } from "./lift_sites.ts";
 import { length, ofBend, ofBounds, ofFacets, ofPair, separation, withoutTriangles } from "./lift_words.ts";
 
@@ -37,13 +37,14 @@ const DEGREES_PER_PIXEL = 0.35;
 const MANY = 10_000;
 const VERY_MANY = 100_000;
 
-export function liftRoom(host: RoomHost): Room {
-  return new LiftRoom(host);
+/** @param sheet The places of the first set. */
+export function liftRoom(host: RoomHost, sheet: Float64Array): Room {
+  return new LiftRoom(host, sheetSets(sheet));
 }
 
 class LiftRoom implements Room {
   readonly #host: RoomHost;
-  readonly #sets: readonly SiteSet[] = sheetSets();
+  readonly #sets: readonly SiteSet[];
   #section!: HTMLElement;
   #plate!: Plate;
   #table!: SiteTable;
@@ -64,8 +65,9 @@ class LiftRoom implements Room {
   #next: "p" | "q" = "p";
   #lit: number | null = null;
 
-  constructor(host: RoomHost) {
+  constructor(host: RoomHost, sets: readonly SiteSet[]) {
     this.#host = host;
+    this.#sets = sets;
   }
 
   attach(section: HTMLElement): void {
@@ -133,12 +135,7 @@ class LiftRoom implements Room {
     if (p > 0) this.#p = p - 1;
     if (q > 0) this.#q = q - 1;
     this.#update();
-    if (values.has("file")) {
-      this.#host.messages.show(
-        values.text("file", ""),
-        "is named by this link, which does not hold its sites. Open the file here.",
-      );
-    }
+    tellNamed(this.#host.messages, values, "file");
   }
 
   #begin(set: SiteSet): void {
@@ -170,7 +167,7 @@ class LiftRoom implements Room {
     this.#plate.redraw(reason);
   }
 
-  get #sheet(): Sheet {
+  get #bent(): BentSheet {
     return this.#sites.sheet(this.#corner);
   }
 
@@ -180,7 +177,7 @@ class LiftRoom implements Room {
     const dotsAlone = isMoving && count > VERY_MANY;
     return {
       sites: this.#sites,
-      sheet: this.#sheet,
+      sheet: this.#bent,
       view: View.above(this.#side - 90, this.#height),
       height: this.#height,
       shown: {
@@ -211,7 +208,7 @@ class LiftRoom implements Room {
 
   #showBend(): void {
     const slider = field(this.#section, "bend");
-    const words = ofBend(this.#sheet);
+    const words = ofBend(this.#bent);
     slider.value = String(this.#corner);
     slider.setAttribute("aria-valuetext", `corners at ${fixed(this.#corner, 0)}°: ${words}`);
     find(this.#section, "[data-out=bend]").textContent = words;
@@ -230,7 +227,7 @@ class LiftRoom implements Room {
       say(find(bounds, "[data-out=promise]"), "");
       return;
     }
-    const now = separation(this.#sites, this.#sheet, p, q);
+    const now = separation(this.#sites, this.#bent, p, q);
     say(find(bounds, "[data-out=separation]"), ofPair(now, this.#corner));
     say(find(bounds, "[data-out=promise]"), ofBounds(now));
     const at = (degrees: number): string => `${fixed(degrees / 1.8, 2)}%`;
@@ -264,7 +261,7 @@ class LiftRoom implements Room {
 
   #showTable(): void {
     const { places, count } = this.#sites;
-    const sheet = this.#sheet;
+    const sheet = this.#bent;
     this.#table.show({
       count,
       heads: ["*x*", "*y*", "Scale"],
@@ -284,7 +281,7 @@ class LiftRoom implements Room {
     this.#corner = corner;
     this.#update("hand");
     this.#host.changed();
-    this.#host.announcer.say(ofBend(this.#sheet));
+    this.#host.announcer.say(ofBend(this.#bent));
   }
 
   #turn(side: number, height: number, reason: Reason = "state"): void {
@@ -314,7 +311,7 @@ class LiftRoom implements Room {
     this.#host.guarded(() => this.#update());
     this.#host.changed();
     if (this.#p === null || this.#q === null) return;
-    const now = separation(this.#sites, this.#sheet, this.#p, this.#q);
+    const now = separation(this.#sites, this.#bent, this.#p, this.#q);
     this.#host.announcer.say(plain(`${letter.toUpperCase()} is site ${site + 1}. ${ofPair(now, this.#corner)}`));
   }
 
@@ -403,8 +400,8 @@ class LiftRoom implements Room {
 
   // Files and what can be taken along
 
-  open(file: File): Promise<void> {
-    return openPoints(file, "plane", this.#host.messages, (points) => {
+  open(file: File, exchange: Exchange): Promise<void> {
+    return exchange.openPoints(file, "plane", this.#host.messages, (points) => {
       this.#host.guarded(() => {
         this.#file = points.file;
         this.#take(points.places, "own");
@@ -413,12 +410,8 @@ class LiftRoom implements Room {
     });
   }
 
-  svg(): string {
-    return this.#plate.svg(find(this.#section, "h1").textContent ?? "");
-  }
-
-  png(scale: number): Promise<Blob> {
-    return this.#plate.png(scale);
+  sheet(): Sheet {
+    return this.#plate.sheet(find(this.#section, "h1").textContent ?? "");
   }
 
   /** A sheet has no places on Earth. */
@@ -430,9 +423,16 @@ class LiftRoom implements Room {
     return null;
   }
 
-  python(): string {
-    const shown = { set: this.#set, file: this.#file, height: this.#height, side: this.#side, p: this.#p, q: this.#q };
-    return liftPython(this.#sites, this.#sheet, shown);
+  python(exchange: Exchange): string {
+    const shown = {
+      sides: SHEET_SIDES[this.#set],
+      file: this.#file,
+      height: this.#height,
+      side: this.#side,
+      p: this.#p,
+      q: this.#q,
+    };
+    return exchange.liftPython(this.#sites, this.#bent, shown);
   }
 
   dispose(): void {

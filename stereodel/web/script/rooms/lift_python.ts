@@ -1,6 +1,5 @@
 /** The Python lines that make the picture of the Lift room. */
 
-import { SHEET_SIDES } from "../sets.ts";
 import type { Sheet } from "./lift_sheet.ts";
 import type { LiftSites } from "./lift_sites.ts";
 
@@ -9,7 +8,8 @@ const MOST_WRITTEN = 200;
 
 /** What the picture shows beside the sites; degrees. */
 export interface Shown {
-  readonly set: string;
+  /** Of the rectangle, where it is not the smallest one. */
+  readonly sides: readonly [number, number] | undefined;
   readonly file: string | null;
   readonly height: number;
   readonly side: number;
@@ -18,7 +18,7 @@ export interface Shown {
 }
 
 export function liftPython(sites: LiftSites, sheet: Sheet, shown: Shown): string {
-  const sides = SHEET_SIDES[shown.set];
+  const { sides } = shown;
   const read = shown.file !== null || sites.count > MOST_WRITTEN;
   const file = JSON.stringify(shown.file ?? "sites.csv");
   const ball = [

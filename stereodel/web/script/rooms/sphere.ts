@@ -3,14 +3,11 @@
 import { field, find, say } from "../dom.ts";
 import { Plate } from "../drawing/plate.ts";
 import type { Reason } from "../drawing/plate.ts";
-import { sheetPng, sheetSvg } from "../drawing/sheet.ts";
 import type { Sheet } from "../drawing/sheet.ts";
-import { collection, feature, sphericalPolygon, WHOLE_SPHERE } from "../geojson.ts";
-import type { Feature } from "../geojson.ts";
+import type { Exchange } from "../exchange.ts";
 import { lonlatToXyz } from "../kernel/api.ts";
 import { MOST_SITES, packPlaces, writeNumber } from "../link.ts";
 import type { LinkValues } from "../link.ts";
-import { openPoints } from "../opening.ts";
 import type { Room, RoomHost } from "../room.ts";
 import { sphereSets } from "../sets.ts";
 import type { SiteSet, Stored } from "../sets.ts";
@@ -21,14 +18,13 @@ import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
 import { Motion } from "../view/motion.ts";
 import { pointUnder, View } from "../view/view.ts";
 import { counted, latitude, longitude, wrap } from "../words.ts";
-import { listSets, NumberField, showSet, Switches } from "./controls.ts";
+import { listSets, NumberField, showSet, Switches, tellNamed } from "./controls.ts";
 import { History } from "./history.ts";
 import { placeOf } from "./lines.ts";
 import { dot, lonLatOf, row } from "./space.ts";
 import type { Vector } from "./space.ts";
 import { BallLayers, drawBall, drawPlane } from "./sphere_drawing.ts";
 import type { SphereScene, Step } from "./sphere_drawing.ts";
-import { spherePython } from "./sphere_python.ts";
 import { SphereSites } from "./sphere_sites.ts";
 import type { Bubble } from "./sphere_sites.ts";
 import { ofBubble, ofDuplicates, ofFacets, ofStep, withoutTriangles } from "./sphere_words.ts";
@@ -51,7 +47,7 @@ const VIEW_DECIMALS = 4;
 const HAND_DECIMALS = 3;
 
 /** Sites from which on cells are left out while something moves, and from which on nothing but dots is drawn then. */
-const MANY = 10_000;
+const MANY = 3_000;
 const VERY_MANY = 100_000;
 
 /** Sites of the plane that may lie outside its frame: one in so many. */
@@ -189,7 +185,7 @@ class SphereRoom implements Room {
     const [pole, view, aim] = [place("pole", POLE), place("view", VIEW), place("aim", AIM)];
     const click = values.word("click", CLICKS, "keep");
     const name = values.word("set", [...this.#sets.map((set) => set.name), "own"], this.#sets[0].name);
-    const own = values.places("sites");
+    const own = values.lonlat("sites");
     const lonlat = own ?? (this.#sets.find((set) => set.name === name) ?? this.#sets[0]).make();
     const count = values.whole("step", 1, lonlat.length / 2, 0);
     this.#history.clear();
@@ -202,12 +198,7 @@ class SphereRoom implements Room {
     for (const choice of this.#section.querySelectorAll<HTMLInputElement>("input[name=click]"))
       choice.checked = choice.value === click;
     this.#take(lonlat, own === null ? name : "own");
-    if (values.has("file")) {
-      this.#host.messages.show(
-        values.text("file", ""),
-        "is named by this link, which does not hold its sites. Open the file here.",
-      );
-    }
+    tellNamed(this.#host.messages, values, "file");
   }
 
   /** A set of the list, seen as it was. */
@@ -730,8 +721,8 @@ class SphereRoom implements Room {
 
   // Files and what can be taken along
 
-  open(file: File): Promise<void> {
-    return openPoints(file, "lonlat", this.#host.messages, (points) => {
+  open(file: File, exchange: Exchange): Promise<void> {
+    return exchange.openPoints(file, "lonlat", this.#host.messages, (points) => {
       this.#guarded(() => {
         this.#history.clear();
         this.#file = points.file;
@@ -742,22 +733,16 @@ class SphereRoom implements Room {
     });
   }
 
-  svg(): string {
-    return sheetSvg(this.#sheet(), find(this.#section, "h1").textContent ?? "");
-  }
-
-  png(scale: number): Promise<Blob> {
-    return sheetPng(this.#sheet(), scale);
-  }
-
   /** Both pictures beside each other. */
-  #sheet(): Sheet {
+  sheet(): Sheet {
     const size = this.#ball.width;
     const { disc } = this.#ball;
     const scene = this.#scene(false);
     return {
+      title: find(this.#section, "h1").textContent ?? "",
       width: 2 * size + GAP,
       height: size,
+      weight: 1,
       paint: (pen) => {
         drawBall(pen, disc, scene);
         drawPlane(pen, { x: size + GAP + 1, y: 1, size: size - 2 }, scene);
@@ -765,31 +750,13 @@ class SphereRoom implements Room {
     };
   }
 
-  /** Cells and triangles; closing facets are no triangles of the sphere. */
-  geojson(): string {
-    const { sites } = this;
-    const features: Feature[] = [];
-    const { voronoi, delaunay } = sites;
-    const areas = sites.count > 0 ? voronoi.areas() : new Float64Array(0);
-    for (let site = 0; site < sites.count; ++site) {
-      if (sites.sameAs(site) !== null) continue;
-      const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
-      const geometry =
-        corners.length < 3 ? (delaunay.dimension === 0 ? WHOLE_SPHERE : null) : sphericalPolygon(corners);
-      if (geometry !== null) features.push(feature({ kind: "cell", point: site, area: areas[site] }, geometry));
-    }
-    for (let facet = 0; facet < sites.facetCount; ++facet) {
-      if (delaunay.closing[facet]) continue;
-      const [a, b, c] = delaunay.simplices.subarray(3 * facet, 3 * facet + 3);
-      const geometry = sphericalPolygon([a, b, c].map((site) => sites.site(site)));
-      features.push(feature({ kind: "triangle", triangle: facet, a, b, c }, geometry));
-    }
-    return collection(features);
+  geojson(exchange: Exchange): string {
+    return exchange.sitesGeojson(this.#sites);
   }
 
-  python(): string {
+  python(exchange: Exchange): string {
     const aim = this.#bubble === null ? null : lonLatOf(this.#aim);
-    return spherePython(this.#sites, { file: this.#file, pole: this.#pole, view: this.#view, aim });
+    return exchange.spherePython(this.#sites, { file: this.#file, pole: this.#pole, view: this.#view, aim });
   }
 
   dispose(): void {

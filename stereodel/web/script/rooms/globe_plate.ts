@@ -1,0 +1,125 @@
+/** What the globes of the room have in common: what is drawn of the Earth, the circle at the pointer, the hand. */
+
+import { arcThrough } from "../drawing/arcs.ts";
+import { circlePoints } from "../drawing/ball.ts";
+import { traceCap } from "../drawing/fill.ts";
+import { traceDisc } from "../drawing/pen.ts";
+import type { Disc, Pen } from "../drawing/pen.ts";
+import { Plate } from "../drawing/plate.ts";
+import type { Reason } from "../drawing/plate.ts";
+import type { LabelStyle } from "../drawing/styles.ts";
+import type { MoebiusMap } from "../kernel/api.ts";
+import type { Turnable } from "../view/ball_hand.ts";
+import { distance, follow } from "../view/hand.ts";
+import type { Gestures, Place } from "../view/hand.ts";
+import { imageOf, scaleAt, sourceOf } from "../view/lens.ts";
+import { Motion } from "../view/motion.ts";
+import { pointUnder } from "../view/view.ts";
+import type { View } from "../view/view.ts";
+import { scale } from "../words.ts";
+import { CIRCLE_RADIUS } from "./globe_scene.ts";
+import type { GlobeScene } from "./globe_scene.ts";
+import type { GlobeState } from "./globe_state.ts";
+import { placeOf } from "./lines.ts";
+import type { Vector } from "./space.ts";
+
+export const LABEL: LabelStyle = { ink: "accent-text", halo: "halo", size: 14 };
+
+/** What the room does for its globes. */
+export interface GlobeHost {
+  readonly scene: GlobeScene;
+  readonly state: GlobeState;
+  /** Shows another state. */
+  set(change: Partial<GlobeState>, reason: Reason, isStep?: boolean): void;
+  run(body: () => void): void;
+}
+
+export abstract class GlobePlate implements Turnable {
+  readonly plate: Plate;
+  protected readonly host: GlobeHost;
+  protected readonly motion = new Motion();
+  readonly #unfollow: () => void;
+
+  constructor(canvas: HTMLCanvasElement, host: GlobeHost) {
+    this.host = host;
+    this.plate = new Plate(
+      canvas,
+      (pen, isMoving) => this.#paint(pen, isMoving),
+      (body) => host.run(body),
+      document.documentElement,
+      (pen) => {
+        this.#paintPointer(pen);
+        this.paintHeld(pen);
+      },
+    );
+    this.#unfollow = follow(this.plate, { hover: (at) => this.point(at), ...this.gestures() });
+  }
+
+  abstract get view(): View;
+  abstract turn(view: View, reason: Reason): void;
+
+  /** From the Earth to the axes of the view. */
+  protected abstract get map(): MoebiusMap;
+  /** Whether the circle at the pointer is drawn, as the globe has it before anybody has pointed. */
+  protected abstract get isPointed(): boolean;
+  /** Whether scales differ from those of a plain globe. */
+  protected abstract get isMagnified(): boolean;
+  /** What there is to drag. */
+  protected abstract paintHeld(pen: Pen): void;
+  protected abstract gestures(): Gestures;
+
+  get disc(): Disc {
+    return this.plate.disc;
+  }
+
+  get isNorthUp(): boolean {
+    return this.host.state.isNorthUp;
+  }
+
+  stop(): void {
+    this.motion.stop();
+  }
+
+  dispose(): void {
+    this.stop();
+    this.#unfollow();
+    this.plate.dispose();
+  }
+
+  protected isOnBall(at: Place): boolean {
+    return distance(at, [this.disc.x, this.disc.y]) <= this.disc.r;
+  }
+
+  /** The circle goes to the pointer. */
+  protected point(at: Place | null): void {
+    if (at === null || !this.isOnBall(at)) return;
+    this.host.set({ pointer: sourceOf(this.map, pointUnder(this.disc, at)) }, "pointer");
+  }
+
+  #paint(pen: Pen, isMoving: boolean): void {
+    this.host.scene.draw(pen, this.disc, this.map, this.host.state.drawn, isMoving);
+    pen.draw("limb", (path) => traceDisc(path, this.disc));
+  }
+
+  /** The circle at the pointer, with its scale. */
+  #paintPointer(pen: Pen): void {
+    if (!this.isPointed) return;
+    const { disc, map } = this;
+    const { pointer } = this.host.state;
+    const images = map.apply(Float64Array.from(circlePoints(pointer, CIRCLE_RADIUS).flat()));
+    const circle = arcThrough(images, 0, 1, 2, true);
+    const at = imageOf(map, pointer);
+    if (circle === null || at[2] <= 0) return;
+    pen.draw("bubble", (path) => traceCap(path, disc, circle));
+    if (this.isMagnified) this.#label(pen, `${scale(scaleAt(map, pointer))}×`, at, circle.r);
+  }
+
+  /** Below the circle at the pointer, or above it near the lower limb. */
+  #label(pen: Pen, words: string, at: Vector, radius: number): void {
+    const [x, y] = placeOf(this.disc, at);
+    const away = radius * this.disc.r;
+    const isBelow = y + away + 20 < this.disc.y + this.disc.r * Math.sqrt(Math.max(0, 1 - at[0] ** 2));
+    const inward = this.disc.x + (x - this.disc.x) * 0.98;
+    pen.label(words, inward, isBelow ? y + away + 17 : y - away - 7, { ...LABEL, align: "center" });
+  }
+}
