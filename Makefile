@@ -14,7 +14,7 @@ FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser figures poster animations test test-large test-pythons sanitize fuzz check \
+.PHONY: help install system opengl browser librsvg figures poster animations test test-large test-pythons sanitize fuzz check \
 	lint web built stub bench dist source check-archives wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
@@ -33,13 +33,16 @@ $(VENV)/installed-%: pyproject.toml constraints.txt CMakeLists.txt $(KERNEL) \
 install: $(VENV)/installed-library ## create .venv with the compiled kernel and all that the library can use
 	@:
 
-system: opengl browser ## get what the system has packages of, one by one, or say how
+system: opengl browser librsvg ## get what the system has packages of, one by one, or say how
 
 opengl: # what draws without a display
 	@tools/system_packages.sh opengl
 
 browser: # what shows the interactive page to its tests
 	@tools/system_packages.sh browser
+
+librsvg: # what shows vector files to their tests
+	@tools/system_packages.sh librsvg
 
 figures: $(VENV)/installed-figures opengl ## draw every figure that is out of date into out/; STYLE=dark, slide or column: into a folder of it
 	@$(BUILD) fig claim globe earth sky

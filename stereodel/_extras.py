@@ -79,11 +79,17 @@ def distributions(extra: str) -> dict[str, str]:
 
 
 def installing(extra: str) -> str:
-    """The command that brings an extra into this environment, as it was made: by `make` in a checkout, or by pip."""
+    """The command that brings an extra into this environment, as it was made: by `make` in a checkout, or by pip.
+
+    In a checkout pip is told its folder; elsewhere the name alone is known, not the index, wheel or folder that it came
+    from, and the libraries themselves serve whatever that was.
+    """
     checkout = Path(__file__).resolve().parent.parent
-    if (checkout / "Makefile").is_file() and any(Path(sys.prefix).glob("installed-*")):
-        return f"make -C {checkout} install"
-    return f"pip install 'stereodel[{extra}]'"
+    if (checkout / "Makefile").is_file():
+        if any(Path(sys.prefix).glob("installed-*")):
+            return f"make -C {checkout} install"
+        return f"pip install '{checkout}[{extra}]'"
+    return f"pip install {' '.join(distributions(extra))}"
 
 
 @contextmanager

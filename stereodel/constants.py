@@ -213,6 +213,13 @@ Chords must stray less than a polygon is wide; with the last share they are 256 
 cut off.
 """
 
+STAR_ROUNDING: Final = 2.0**-50
+"""Rounding of a cross product of two differences of doubles, in terms of the sum of its two products.
+
+Each difference is off by 2⁻⁵³ of itself, so are products and their difference: four times that together, and as much
+again to be sure.
+"""
+
 DEGREE_ROUNDING: Final = 2.0**-43
 """Straying of a chord from its arc, in degrees, that may be rounding alone: four units in the last place of 180°.
 
@@ -281,6 +288,9 @@ MOST_PIECES: Final = 64
 
 Where a lens magnifies a billion times, a long edge through its focus is then a few hundred pieces, not ten million.
 """
+
+MOST_PLACES: Final = 2**30
+"""Of a grid; one value at each takes 8 GB."""
 
 GRID_ROUNDING: Final = 1e-9
 """Part of a step by which the last line of a grid may miss the border of its box, for rounding: it is reached then."""

@@ -19,6 +19,7 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import stereodel
+from stereodel import _extras
 from stereodel._extras import EXTRAS, MissingExtraError, distributions, installing, of_extra
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -170,7 +171,7 @@ def said(python, statements, cwd):
 
 def asked_for(message):
     """The extra that a message names."""
-    asked = re.fullmatch(r"(\S+) is not installed; it comes with: pip install 'stereodel\[(\w+)\]'", message)
+    asked = re.fullmatch(r"(\S+) is not installed; it comes with: pip install '.+\[(\w+)\]'", message)
     assert asked, message
     assert asked[1] in distributions(asked[2])
     return asked[2]
@@ -283,9 +284,16 @@ def test_what_no_extra_brings_is_left_as_it_is(name):
 
 def test_an_environment_made_by_make_grows_by_make(monkeypatch, tmp_path):
     monkeypatch.setattr(sys, "prefix", str(tmp_path))
-    assert installing("geo") == "pip install 'stereodel[geo]'"
+    assert installing("geo") == f"pip install '{PACKAGE.resolve().parent}[geo]'"
     (tmp_path / "installed-figures").touch()
     assert installing("geo") == f"make -C {PACKAGE.resolve().parent} install"
+
+
+def test_away_from_a_checkout_the_libraries_are_named(monkeypatch, tmp_path):
+    """The index, wheel or folder that the package came from is not known, and the libraries are the same."""
+    monkeypatch.setattr(_extras, "__file__", str(tmp_path / "site-packages" / "stereodel" / "_extras.py"))
+    assert installing("mesh") == "pip install trimesh pyvista"
+    assert installing("render") == "pip install matplotlib pillow mapbox_earcut pyrender2 PyOpenGL trimesh"
 
 
 # Written down once

@@ -5,6 +5,7 @@
 #   compiler  C++17 with the headers of `python`: nothing works without it, so that its lack is an error
 #   opengl    libraries that draw without a display: plane figures and all computations work without them
 #   browser   Chromium, for the tests and pictures of the interactive page
+#   librsvg   rsvg-convert, for the tests of SVG files
 set -euo pipefail
 
 # Debian's packages of $1 that are missing here, a line each.
@@ -25,6 +26,7 @@ if sys.base_prefix == "/usr": print("python%d.%d-dev" % sys.version_info[:2])'; 
                 echo libgl1-mesa-dri ;;
         browser) # by the names that tools/browser.py knows
             command -v chromium chromium-browser google-chrome-stable google-chrome >/dev/null || echo chromium ;;
+        librsvg) command -v rsvg-convert >/dev/null || echo librsvg2-bin ;;
         *) echo "tools/system_packages.sh: there is no $1" >&2; exit 2 ;;
     esac
 }

@@ -8,9 +8,9 @@ from stereodel._extras import of_extra
 
 with of_extra("cli"):
     from stereodel.cli import contour, doctor, globe, interpolate, nearest, panorama, triangulate, voronoi, web
-    from stereodel.cli.application import app
+    from stereodel.cli.application import Command, app
 
 __all__ = ["app"]
 
 for module in (triangulate, voronoi, interpolate, contour, nearest, globe, panorama, web, doctor):
-    app.command(module.__name__.rpartition(".")[2], epilog=f"Example: {module.EXAMPLE}")(module.command)
+    app.command(module.__name__.rpartition(".")[2], cls=Command, epilog=f"Example: {module.EXAMPLE}")(module.command)

@@ -5,19 +5,38 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 import typer
-from typer.core import TyperGroup
+from typer.core import TyperCommand, TyperGroup
 
 import stereodel
 from stereodel.cli.failures import told_plainly
 
 
+class Command(TyperCommand):
+    """A command whose flags have no type in its help, as they take no value."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Arguments and options, with that for help."""
+        return _without_types(super().get_params(ctx))
+
+
 class Commands(TyperGroup):
     """Commands whose failures become one line and an exit code."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """As those of `Command`."""
+        return _without_types(super().get_params(ctx))
 
     def invoke(self, ctx: Any) -> Any:
         """Run the chosen command."""
         with told_plainly():
             return super().invoke(ctx)
+
+
+def _without_types(parameters: list[Any]) -> list[Any]:
+    for parameter in parameters:
+        if getattr(parameter, "is_flag", False):
+            parameter.metavar = ""
+    return parameters
 
 
 app = typer.Typer(

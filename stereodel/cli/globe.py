@@ -12,6 +12,7 @@ EXAMPLE = "stereodel globe --focus=2.35,48.86 --magnify 20 -o paris.png"
 PICTURES = ("png", "svg", "pdf")
 FILMS = ("gif", "webp", "apng", "mp4")
 USUAL_WIDTH = "17cm"
+SECONDS, FPS = 10.0, 25.0
 
 
 def command(
@@ -38,8 +39,8 @@ def command(
     graticule: globe.Graticule = None,
     spin: globe.Spin = False,
     fly: globe.Fly = None,
-    seconds: globe.Seconds = 10.0,
-    fps: globe.Fps = 25.0,
+    seconds: globe.Seconds = SECONDS,
+    fps: globe.Fps = FPS,
     title: globe.Title = "",
     legend: globe.Legend = False,
     style: globe.Styles = None,
@@ -82,12 +83,17 @@ def command(
     destination = Destination.of(out, format, PICTURES + FILMS, *read_from, overwrite=overwrite)
     filming = destination.kind in FILMS
     looks = PointLooks(frozenset(show or ("points", "cells")), labels, rank, color, point_size)
-    if points is None and (labels or color or point_size):
-        raise ValueError("--labels, --color and --point-size are for POINTS; give a table, or --layer FILE,color=…")
-    if filming and (title or legend or style or transparent or dpi or width != USUAL_WIDTH):
-        raise ValueError("--title, --legend, --style, --width, --dpi and --transparent are for pictures, not for films")
-    if (spin or fly) and not filming:
-        raise ValueError(f"--spin and --fly are for films, but {out} is none; the endings are .{', .'.join(FILMS)}")
+    if points is None:
+        looked = {"--labels": labels, "--color": color, "--point-size": point_size, "--show": show}
+        options.refuse(looked, "POINTS; give a table, or --layer FILE,color=…")
+        found = {"--lon": lon, "--lat": lat, "--layer-name": layer_name, "--crs": crs, "--skip-missing": skip_missing}
+        options.refuse(found, "POINTS; give a table")
+    if filming:
+        printed = {"--legend": legend, "--style": style, "--dpi": dpi, "--transparent": transparent}
+        options.refuse(printed | {"--width": width != USUAL_WIDTH}, "pictures, not for films")
+    else:
+        moving = {"--spin": spin, "--fly": fly, "--seconds": seconds != SECONDS, "--fps": fps != FPS}
+        options.refuse(moving, f"films, but {out} is none; the endings are .{', .'.join(FILMS)}")
     aim = Aim(place(focus, "--focus"), magnify, place(view, "--view"), projection, angular_radius)
     table = None
     if points is not None:

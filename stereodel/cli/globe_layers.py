@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
-from stereodel.cli.options import Latitude, box_of
+from stereodel.cli.options import Latitude, box_of, refuse
 from stereodel.cli.sources import Table, naming
 from stereodel.data import blue_marble
 from stereodel.drawing.colors import as_color
@@ -44,10 +44,10 @@ class Features:
 def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster | None:
     """The picture that options ask for, with rows of a kind of latitude."""
     if name is None:
-        if box is not None:
-            raise ValueError("--texture-box is for a --texture")
+        refuse({"--texture-box": box}, "a --texture, and there is none")
         return None
     if name == OWN_TEXTURE:
+        refuse({"--texture-box": box}, f"files of a part of the Earth; {OWN_TEXTURE} shows all of it")
         return Raster(blue_marble(), latitude=latitude.value)
     bounds = None if box is None else box_of(box, "--texture-box")
     return Raster.open(name, bounds=bounds, latitude=latitude.value)
@@ -134,8 +134,8 @@ class PointLooks:
     size: str | None = None
 
     def __post_init__(self) -> None:
-        if self.rank is not None and self.labels is None:
-            raise ValueError("--rank is for --labels")
+        if self.labels is None:
+            refuse({"--rank": self.rank}, "--labels, and there are none")
 
     def dots(self, weight: float) -> DotStyle:
         """The style of dots, finer where they are many."""

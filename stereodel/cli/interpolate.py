@@ -75,12 +75,17 @@ def command(
     Give either --at or --grid. Outside the convex hull of the points, linear, smooth and natural leave values empty.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
-    from stereodel.cli.sources import read
+    from stereodel.cli.sources import read, read_second
     from stereodel.io import write
     from stereodel.sphere import lonlat_to_xyz
 
     if (at is None) == (grid is None):
         raise ValueError("give either --at, a table of points, or --grid, a spacing in degrees")
+    of_at = {"--at-lon": at_lon, "--at-lat": at_lat, "--at-layer-name": at_layer_name, "--at-crs": at_crs}
+    if at is None:
+        options.refuse(of_at, "the table --at, and there is none")
+    else:
+        options.refuse({"--box": box, "--centers": centers, "--unit": unit}, "a --grid, and there is none")
     if unit is not None and len(unit) != len(value):
         raise ValueError(f"there are {len(unit)} of --unit, but {len(value)} of --value; give each its own")
     if at is None and plane is not None:
@@ -98,16 +103,16 @@ def command(
         filled = replace(wanted, values=values, units=dict(zip(value, unit or (), strict=False)))
         destination.write(lambda path: write(path, filled))
         return
-    with naming_options(lon="--at-lon", lat="--at-lat", layer="--at-layer-name", crs="--at-crs"):
-        asking = read(
-            str(at),
-            lon=at_lon,
-            lat=at_lat,
-            plane=plane,
-            layer=at_layer_name,
-            crs=at_crs or (crs if plane else None),
-            skip_missing=skip_missing,
-        )
+    asking = read_second(
+        str(at),
+        "--at",
+        lon=at_lon,
+        lat=at_lat,
+        layer=at_layer_name,
+        crs=at_crs or (crs if plane else None),
+        plane=plane,
+        skip_missing=skip_missing,
+    )
     results = dict(zip(value, interpolated(asking.points(latitude)).T, strict=True))
     columns = asking.beside(results, taken=["geometry"])
     destination.write(lambda path: save_table(path, asking, columns))

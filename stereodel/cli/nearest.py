@@ -62,24 +62,23 @@ def command(
     distance. A query point with several sites has several rows, ranked from 1; one without any has none.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
-    from stereodel.cli.failures import naming_options
     from stereodel.cli.progress import say
-    from stereodel.cli.sources import read
+    from stereodel.cli.sources import read, read_second
 
     destination = Destination.of(out, format, TABLES, sites, queries, overwrite=overwrite)
     if sites == queries == "-":
         raise ValueError("SITES and --of cannot both be stdin")
     chosen = read(sites, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
-    with naming_options(lon="--of-lon", lat="--of-lat", layer="--of-layer-name", crs="--of-crs"):
-        asking = read(
-            queries,
-            lon=of_lon,
-            lat=of_lat,
-            plane=plane,
-            layer=of_layer_name,
-            crs=of_crs or (crs if plane else None),
-            skip_missing=skip_missing,
-        )
+    asking = read_second(
+        queries,
+        "--of",
+        lon=of_lon,
+        lat=of_lat,
+        layer=of_layer_name,
+        crs=of_crs or (crs if plane else None),
+        plane=plane,
+        skip_missing=skip_missing,
+    )
     pairs = _pairs(chosen.points(latitude), asking.points(latitude), count, max_distance, exclude_self)
     found = asking.taken(pairs.query)
     columns = _columns(chosen, found, pairs, _kept(chosen, keep), ranked=count > 1)

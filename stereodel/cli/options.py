@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
 from math import isfinite
 from typing import Annotated
@@ -64,6 +65,14 @@ Plane = Annotated[
         "--plane", metavar="X Y", help="Columns of coordinates in a plane, instead of longitude and latitude."
     ),
 ]
+
+
+def refuse(given: Mapping[str, object], purpose: str) -> None:
+    """Refuse options that do not apply: those of `given`, values by name, that say anything; with what they are for."""
+    names = [name for name, value in given.items() if value]
+    if names:
+        several = f"{', '.join(names[:-1])} and {names[-1]} are" if len(names) > 1 else f"{names[0]} is"
+        raise ValueError(f"{several} for {purpose}")
 
 
 def pair(text: str, option: str, meaning: str) -> tuple[float, float]:

@@ -6,12 +6,13 @@ import sys
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
 from stereodel import lonlat_to_xyz
 from stereodel._arrays import BoolArray, Column, FloatArray, Indices
-from stereodel.cli.failures import NothingToDoError
+from stereodel.cli.failures import NothingToDoError, naming_options
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import bar
 from stereodel.io import read_points
@@ -23,6 +24,9 @@ from stereodel.io.text import doubles
 Columns = dict[str, Column]
 
 LONLAT = ("lon", "lat")
+
+SECOND: Final = {"lon": "lon", "lat": "lat", "layer": "layer-name", "crs": "crs"}
+"""Ends of the names of options that a second table has of its own, by the arguments of `read`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,6 +142,23 @@ def read(
     if len(table) == 0:
         raise NothingToDoError(f"{shown}: there are no points")
     return table
+
+
+def read_second(
+    name: str,
+    option: str,
+    *,
+    lon: str | None,
+    lat: str | None,
+    layer: str | None,
+    crs: str | None,
+    plane: tuple[str, str] | None,
+    skip_missing: bool,
+) -> Table:
+    """The table that an option such as ``--at`` names, with options of its own: ``--at-lon`` and so on."""
+    own = {key: f"{option}-{ending}" for key, ending in SECOND.items()}
+    with naming_options(**own):
+        return read(name, lon=lon, lat=lat, plane=plane, layer=layer, crs=crs, skip_missing=skip_missing)
 
 
 @contextmanager

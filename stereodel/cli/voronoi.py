@@ -60,10 +60,10 @@ def command(
     from stereodel.cli.sources import read
 
     destination = Destination.of(out, format, TABLES + MESHES, points, clip, overwrite=overwrite)
-    if clip is not None and destination.kind in MESHES:
-        raise ValueError(f"{out}: holds whole cells; leave out --clip or choose {', '.join(TABLES)}")
-    if clip is not None and plane is not None:
-        raise ValueError("--clip is for cells of the sphere, not of a plane")
+    if destination.kind in MESHES:
+        options.refuse({"--clip": clip}, f"{', '.join(TABLES)}, and {out} holds whole cells")
+    if plane is not None:
+        options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage(f"cells of {len(table)} points"):
         places = table.points(latitude)

@@ -122,12 +122,17 @@ class Arcs:
         return Ragged(points, offsets)
 
 
-def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) -> Arcs:
-    """The shorter great-circle arcs between unit vectors (n, 3); `normal` tells which, where ends may be opposite."""
+def great_axes(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Of the great circles through unit vectors (n, 3), from `start` counterclockwise; zero where they are one line."""
     # a × b = (a − b) × (a + b) / 2, whose first factor is exact for close points.
     axis = crossed(start - end, start + end)
     length = np.sqrt(np.sum(axis**2, axis=1, keepdims=True))
-    axis = np.divide(axis, length, out=np.zeros_like(axis), where=length > 0)
+    return np.divide(axis, length, out=np.zeros_like(axis), where=length > 0)
+
+
+def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) -> Arcs:
+    """The shorter great-circle arcs between unit vectors (n, 3); `normal` tells which, where ends may be opposite."""
+    axis = great_axes(start, end)
     if normal is not None:
         far = (np.sum(start * end, axis=1) < 0) & normal.any(axis=1)
         axis[far] = normal[far]

@@ -40,6 +40,19 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
         return page
     left, right, bottom, top = page.extent
     label = Label(title, ((left + right) / 2, top), (0.0, GAP), "center", "bottom", size, as_color(ink, "ink"))
-    (_, low), (_, high) = label_box(label, page.points_per_unit)
-    extent = (left, right, bottom, top + (high - low + 2 * GAP) / page.points_per_unit)
+    extent = (left, right, bottom, top + title_height(title, size) / page.points_per_unit)
     return replace(page, extent=extent, items=(*page.items, replace(label, name="title")), title=title)
+
+
+def title_height(title: str, size: float = TITLE_SIZE) -> float:
+    """Points that a page grows by for a title.
+
+    Examples
+    --------
+    >>> title_height(""), round(title_height("Nothing"), 1)
+    (0.0, 20.8)
+    """
+    if not title:
+        return 0.0
+    (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), (0.0, GAP), "center", "bottom", size), 1.0)
+    return high - low + 2 * GAP

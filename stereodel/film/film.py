@@ -143,7 +143,7 @@ class Film(Generic[T]):
         background : color
             Behind the globe.
         title : str
-            As for `Film`.
+            As for `Film`; by default that of the globe, which is written above it.
 
         Returns
         -------
@@ -170,7 +170,7 @@ class Film(Generic[T]):
         as_frame_size(width, height)
         rate = as_scalar(fps, "fps", low=0.0, open_low=True)
         pages = GlobePages(globe, width, height, as_color(background, "background"))
-        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text, title=title)
+        return Film(pages, Samples(motion, rate), fps=rate, size=width, text=text, title=title or globe.title)
 
     @classmethod
     def of_pictures(

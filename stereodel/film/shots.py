@@ -22,6 +22,7 @@ from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight
 from stereodel.constants import MOST_FRAMES, OPPOSITE
 from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Page
+from stereodel.drawing.title import title_height
 from stereodel.drawing.view import MapView, View
 from stereodel.globe.globe import Globe
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
@@ -105,7 +106,7 @@ class Samples(Sequence[Shot]):
 
 @dataclass(frozen=True, eq=False)
 class GlobePages:
-    """Draws a globe in the middle of a page of any shape."""
+    """Draws a globe, with its title above it, in the middle of a page of any shape."""
 
     globe: Globe
     width: int
@@ -116,9 +117,10 @@ class GlobePages:
         """The page of a shot."""
         square = min(self.width, self.height)
         point = POINTS_PER_PIXEL * max(1.0, FULL / square) ** 0.5
-        page = self.globe.page(*shot, width=square * point, tolerance=FINE * point)
+        room = self.height * point - title_height(self.globe.title)
+        page = self.globe.page(*shot, width=min(self.width * point, room), tolerance=FINE * point)
         left, right, bottom, top = page.extent
-        x, y, half = (left + right) / 2, (bottom + top) / 2, (right - left) / 2 / square
+        x, y, half = (left + right) / 2, (bottom + top) / 2, point / page.points_per_unit / 2
         extent = (x - half * self.width, x + half * self.width, y - half * self.height, y + half * self.height)
         return replace(page, extent=extent, width=self.width * point, background=self.background)
 

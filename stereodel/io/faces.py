@@ -22,8 +22,9 @@ def voronoi_sides(diagram: PlanarVoronoi | SphericalVoronoi) -> Ragged:
     pairs, ends = diagram.ridge_points.astype(np.intp), diagram.ridge_vertices.astype(np.intp)
     cell, count = pairs.T.ravel(), len(diagram.points)
     ridge = np.arange(len(pairs))
-    order = np.argsort(cell, kind="stable")
-    if len(diagram.vertices):
+    if not len(diagram.vertices):
+        order = np.argsort(cell, kind="stable")
+    else:
         # Both lists, corners by cell and sides by the corner they start at, sorted by (cell, corner) are one list.
         base = len(diagram.vertices) + 1
         corners = np.repeat(np.arange(count), np.diff(diagram.region_offsets)) * base + diagram.region_indices + 1

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_floats, as_lonlat, as_scalar, as_steps, as_vectors, read_only
 from stereodel._extras import optional
-from stereodel.constants import GRID_ROUNDING
+from stereodel.constants import GRID_ROUNDING, MOST_PLACES
 from stereodel.earth import EQUATORIAL_RADIUS_KM, INVERSE_FLATTENING
 from stereodel.io.columns import beside
 from stereodel.io.csv_text import write_csv
@@ -107,6 +107,7 @@ class Grid:
         if bounds is None:
             steps = as_steps(180.0, spacing, "spacing")
             step, rows = 180.0 / steps, steps if centers else steps + 1
+            _check_places(spacing, 2 * steps, rows)
             lon, lat = (np.arange(low, high, dtype=np.float64) + half for low, high in ((-steps, steps), (0, rows)))
             return cls(lon * step, lat * step - 90.0, centers=centers)
         west, south, east, north = as_vectors(bounds, 4, "bounds").tolist()
@@ -114,12 +115,15 @@ class Grid:
         if not south < north:
             raise ValueError(f"bounds are {(west, south, east, north)}, but south must be below north")
         east = east if east > west else east + 360.0
-        axes = []
-        for low, high in ((west, east), (south, north)):
-            step = as_scalar(spacing, "spacing", low=0.0, high=high - low, open_low=True)
-            count = int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1)
-            axes.append(np.minimum(low + step * (np.arange(count) + half), high))
-        return cls(axes[0], axes[1], centers=centers)
+        sides = ((west, east), (south, north))
+        step = as_scalar(spacing, "spacing", low=0.0, high=min(high - low for low, high in sides), open_low=True)
+        counts = [int(np.floor((high - low) / step + GRID_ROUNDING)) + (0 if centers else 1) for low, high in sides]
+        _check_places(step, *counts)
+        lon, lat = (
+            np.minimum(low + step * (np.arange(count) + half), high)
+            for (low, high), count in zip(sides, counts, strict=True)
+        )
+        return cls(lon, lat, centers=centers)
 
     @property
     def lonlat(self) -> FloatArray:
@@ -168,6 +172,14 @@ class Grid:
                 attributes["units"] = self.units[given]
             variables[name] = (("lat", "lon"), values, attributes)
         return coordinates, variables
+
+
+def _check_places(spacing: float, columns: int, rows: int) -> None:
+    """A ValueError for a grid that no memory holds."""
+    if columns * rows > MOST_PLACES:
+        raise ValueError(
+            f"spacing is {spacing:g}, which makes a grid of {columns} × {rows} places; {MOST_PLACES} are the most"
+        )
 
 
 def write_netcdf(grid: Grid, path: Path) -> None:

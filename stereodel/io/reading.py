@@ -93,7 +93,7 @@ def read_points(
         By default what the ending of the path says, else what the first bytes are. "vector" is whatever GDAL reads:
         GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).
     layer : str, optional
-        Name of the layer, where a file has several.
+        Name of the layer, where a file has several; of a file of GDAL's formats alone.
     crs : str, optional
         Coordinate system of the columns `lon` and `lat`, eastern first, such as "EPSG:25832"; by default they are
         degrees. Files with geometries say it themselves.
@@ -141,8 +141,8 @@ def read_points(
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
     asked = Asked(lon, lat, layer, crs, skip_missing, progress)
-    file = _File(source, format)
-    return _of_frame(file.frame(layer), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
+    file = _File(source, format, layer)
+    return _of_frame(file.frame(), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
 
 
 def read_plane_points(
@@ -169,7 +169,7 @@ def read_plane_points(
     >>> points.tolist(), others["site"].tolist()
     ([[3500.0, 5400.0], [3600.0, 5410.0]], ['A', 'B'])
     """
-    file = _File(source)
+    file = _File(source, layer=layer)
     if file.kind == "csv":
         text = split_columns(_text(file.content), (x, y), progress)
         table, rows, others = text.columns, text.rows, text.typed(without=(x, y))
@@ -178,7 +178,7 @@ def read_plane_points(
         table = {name: _of_arrow(read[name]) for name in read.column_names if name != "geometry"}
         rows, others = np.arange(1, read.num_rows + 1), table
     elif file.kind == "vector":
-        frame = file.frame(layer)
+        frame = file.frame()
         table = _columns_of(frame)
         rows, others = np.arange(1, len(frame) + 1), table
     else:
@@ -193,10 +193,12 @@ def read_plane_points(
 class _File:
     """What a table is read from: its kind, and its bytes, which are read when they are asked for."""
 
-    def __init__(self, source: Source, format: Format | None = None) -> None:
-        self._source = source
+    def __init__(self, source: Source, format: Format | None = None, layer: str | None = None) -> None:
+        self._source, self._layer = source, layer
         self._path = Path(source) if isinstance(source, str | os.PathLike) else None
         self.kind: Format = as_choice(format or self._found(), (*READERS, "vector"), "format")
+        if layer is not None and self.kind != "vector":
+            raise ValueError(f"layer is {layer!r}, but a file of the kind {self.kind} has no layers; leave it out")
 
     def _found(self) -> Format:
         """The kind by the ending of a path, also before that of its compression, else by the first bytes."""
@@ -211,15 +213,15 @@ class _File:
         """The bytes, unpacked."""
         return _content(self._source)
 
-    def frame(self, layer: str | None) -> Any:
+    def frame(self) -> Any:
         """The frame in a file of GDAL's formats, which it knows by their ending and beside others of their name."""
         if self._path is not None:
             with self._path.open("rb"):  # the system says best what cannot be read
-                return read_frame(self._path, layer=layer)
+                return read_frame(self._path, layer=self._layer)
         with TemporaryDirectory() as folder:
             named = Path(folder, f"points{_ending(self.content)}")
             named.write_bytes(self.content)
-            return read_frame(named, layer=layer)
+            return read_frame(named, layer=self._layer)
 
 
 def _ending(content: bytes) -> str:

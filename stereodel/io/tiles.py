@@ -7,8 +7,9 @@ its own cell; and no two lines may cross, where a face is narrower than its line
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
 import numpy as np
@@ -16,13 +17,14 @@ import numpy as np
 from stereodel._arrays import BoolArray, FloatArray, Geometries, Indices, Packed
 from stereodel._extras import optional
 from stereodel._threads import in_order, thread_count
-from stereodel.constants import BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
+from stereodel.constants import AT_POLE, BORDER_STEPS, CHORD_CLEARANCE, DEGREE_ROUNDING, THIN_CELL
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
-from stereodel.curves.ragged import Ragged, spans
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.ragged import Ragged, offsets_of, spans
+from stereodel.curves.trace import Arcs, great, great_axes
 from stereodel.io.layers import Progress, is_there, packed, unpacked
 from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, refined, repaired, steps_of, unit
+from stereodel.io.star_rings import packed_rings, star_shaped
 from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
@@ -32,6 +34,10 @@ BLOCK = 20_000
 """Faces, and arcs, that are worked on at once by a thread: more take more memory and no less time."""
 WORLD = 360.0 * 180.0
 """Area of the map, square degrees."""
+SHORT = 0.48
+"""Half the length of chords that belong to arcs of up to 57°, which are 5 % longer than they."""
+LONGER = 1.1
+"""How much longer those arcs are at most, with room for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +58,7 @@ class Net:
     def __len__(self) -> int:
         return len(self.ends)
 
-    def arcs(self, block: slice = slice(None)) -> Arcs:
+    def arcs(self, block: slice | Indices = slice(None)) -> Arcs:
         """Some of the arcs, numbered from 0."""
         start, end = self.vertices[self.ends[block]].transpose(1, 0, 2)
         long = (np.sum(start * end, axis=1) < 0).any()
@@ -61,6 +67,19 @@ class Net:
     @cached_property
     def _normals(self) -> FloatArray:
         return np.zeros((len(self), 3)) if self.normals is None else self.normals()
+
+
+@dataclass(frozen=True, eq=False)
+class Sides:
+    """The arcs of a net as they are on the map."""
+
+    border: Antimeridian
+    pieces: Pieces
+    """Cut at the border. Of these clipping asks for no more than which of them meet."""
+    samples: Ragged
+    """Points of the pieces (k, 5) that bring their longitude and latitude."""
+    inland: BoolArray
+    """(e,): which arcs surely keep off the border, of one piece each."""
 
 
 def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude, lines: Ragged | None = None) -> Geometries:
@@ -79,23 +98,23 @@ def sphere_polygons(
     Faces are no larger than a hemisphere. Arcs and faces are taken in blocks, by several threads. All geometries would
     take three times the memory of their well-known binary.
     """
-    border, threads = Antimeridian(latitude=latitude), thread_count(None, len(faces))
+    threads = thread_count(None, len(faces))
     told = _Told(progress, len(range(0, len(net), BLOCK)) + len(range(0, len(faces), BLOCK)))
-    pieces, samples = _prepared(net, max_segment, border, threads, told)
-    rows = np.arange(len(faces))
-    result, wrong, large = _drawn(faces, rows, pieces, samples, border, threads, told)
+    sides = _prepared(net, max_segment, Antimeridian(latitude=latitude), threads, told)
+    result, wrong, large = _drawn(faces, np.arange(len(faces)), sides, threads, told)
     # If all rings are simple and counterclockwise they tile the map, as each side is shared by two. So chords of the
     # others are halved, and what lies on the other side of them is drawn anew, too.
-    while len(places := _crossing(faces.take(wrong), pieces, samples, border)):
+    while len(places := _crossing(faces.take(wrong), sides)):
+        samples = sides.samples
         finer = np.zeros(len(net), dtype=bool)
-        finer[pieces.arcs.edge[np.searchsorted(samples.offsets, places, side="right") - 1]] = True
+        finer[sides.pieces.arcs.edge[np.searchsorted(samples.offsets, places, side="right") - 1]] = True
         middles = unit(samples.values[places, :3] + samples.values[places + 1, :3])
-        samples = samples.inserted(places + 1, _with_lonlat(middles, latitude))
+        sides = replace(sides, samples=samples.inserted(places + 1, _with_lonlat(middles, latitude)))
         changed = np.unique(faces.row[finer[np.maximum(faces.values, ~faces.values)]])
-        result[changed], wrong[changed], large[changed] = _drawn(faces, changed, pieces, samples, border, threads)
+        result[changed], wrong[changed], large[changed] = _drawn(faces, changed, sides, threads)
     # A border that runs round a pole the other way by rounding has the rest of the map inside.
     some = np.flatnonzero(large)
-    result[some[_Walk(faces.take(some), pieces, samples).widths < THIN_CELL]] = None
+    result[some[_Walk(faces.take(some), sides).widths < THIN_CELL]] = None
     bad = np.flatnonzero(wrong)
     bad = bad[is_there(result[bad])]
     result[bad] = packed(repaired(unpacked(result[bad]), np.ones(len(bad), dtype=bool)))
@@ -119,25 +138,20 @@ def _blocks(size: int) -> Iterator[slice]:
     return (slice(begin, min(begin + BLOCK, size)) for begin in range(0, size, BLOCK))
 
 
-def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, told: _Told) -> tuple[Pieces, Ragged]:
-    """All arcs cut at the border, and points of them (k, 5) that bring their longitude and latitude.
-
-    Of the pieces clipping asks for no more than which of them meet.
-    """
-    slices = list(_blocks(len(net.vertices)))
+def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, told: _Told) -> Sides:
+    """All arcs cut at the border, with their points."""
     lonlat = np.zeros((len(net.vertices), 2))
-    for block, found in zip(
-        slices,
-        in_order(lambda b: xyz_to_lonlat(net.vertices[b], latitude=border.latitude), slices, threads),
-        strict=True,
-    ):
-        lonlat[block] = found
+
+    def located(block: slice) -> None:
+        lonlat[block] = xyz_to_lonlat(net.vertices[block], latitude=border.latitude)
+
+    deque(in_order(located, _blocks(len(net.vertices)), threads), maxlen=0)
     # Room for both ends of each arc and some more; what is not written to takes no memory.
     values, filled = np.empty((3 * len(net), 5)), 0
+    inland = np.zeros(len(net), dtype=bool)
     parts: list[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices]] = []
-    for part, points in in_order(
-        partial(_prepared_block, net, lonlat, max_segment, border), _blocks(len(net)), threads
-    ):
+    prepared = partial(_prepared_block, net, lonlat, max_segment, border, inland)
+    for part, points in in_order(prepared, _blocks(len(net)), threads):
         parts.append(part)
         if filled + len(points) > len(values):
             values = np.concatenate([values[:filled], np.empty((len(values) + len(points), 5))])
@@ -145,36 +159,77 @@ def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, 
         filled += len(points)
         told.step()
     if not parts:
-        parts.append(_prepared_block(net, lonlat, max_segment, border, slice(0, 0))[0])
+        parts.append(prepared(slice(0, 0))[0])
     edge, opens, shuts, along, sizes = (np.concatenate([part[k] for part in parts]) for k in range(5))
-    offsets = np.append(0, np.cumsum(sizes))
     # Which points are the same can be told by the numbers of the vertices; cuts are no ends of arcs.
     first = np.append(True, edge[1:] != edge[:-1])[: len(edge)]
     last = np.append(first[1:], True)[: len(edge)]
     start, end = (np.where(at, net.ends[edge, k], np.int32(-1))[:, None] for k, at in enumerate((first, last)))
     nothing = np.zeros((len(edge), 0))
     arcs = Arcs(start, end, nothing, nothing, nothing, nothing, nothing, edge)
-    return Pieces(arcs, opens, shuts, np.ones(len(edge), dtype=bool), along), Ragged(values[:filled], offsets)
+    pieces = Pieces(arcs, opens, shuts, np.ones(len(edge), dtype=bool), along)
+    return Sides(border, pieces, Ragged(values[:filled], offsets_of(sizes)), inland)
 
 
 def _prepared_block(
-    net: Net, lonlat: FloatArray, max_segment: float, border: Antimeridian, block: slice
+    net: Net, lonlat: FloatArray, max_segment: float, border: Antimeridian, inland: BoolArray, block: slice
 ) -> tuple[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices], FloatArray]:
-    """Of the pieces of some arcs: edge, whether it begins and ends at the border and runs along it, size and points."""
-    pieces = border.cut(net.arcs(block))
+    """Of the pieces of some arcs: edge, whether it begins and ends at the border and runs along it, size and points.
+
+    Which of the arcs keep off the border is written to `inland`.
+    """
+    inland[block], straight = _simple(net, max_segment, block)
+    bent, ends = np.flatnonzero(~straight), net.ends[block]
+    pieces = border.cut(net.arcs(block.start + bent))
     samples = _sampled(pieces, max_segment)
-    edge = pieces.arcs.edge
+    edge = bent[pieces.arcs.edge]
     if net.sites is not None and net.site is not None:
-        samples = _clear_of_sites(samples, pieces, border, net.sites[net.site[block]])
+        samples = _clear_of_sites(samples, pieces, border, net.sites[net.site[block][bent]])
     values = np.concatenate([samples.values, np.zeros((len(samples.values), 2))], axis=1)
     unknown = np.ones(len(values), dtype=bool)
     # Most points are vertices, each of several arcs.
-    for place, vertex in zip((samples.offsets[:-1], samples.offsets[1:] - 1), net.ends[block][edge].T, strict=True):
+    for place, vertex in zip((samples.offsets[:-1], samples.offsets[1:] - 1), ends[edge].T, strict=True):
         same = (samples.values[place] == net.vertices[vertex]).all(axis=1)
         values[place[same], 3:] = lonlat[vertex[same]]
         unknown[place[same]] = False
     values[unknown] = _with_lonlat(samples.values[unknown], border.latitude)
-    return (edge + block.start, pieces.opens, pieces.shuts, pieces.along, samples.sizes), values
+    # With those that are their ends and nothing else, which are one piece each, in the order of the arcs.
+    chords, corners = np.flatnonzero(straight), ends[straight].ravel()
+    order = np.argsort(np.concatenate([edge, chords]), kind="stable")
+    points = clip.together(
+        Ragged(values, samples.offsets),
+        Ragged(np.concatenate([net.vertices[corners], lonlat[corners]], axis=1), 2 * np.arange(len(chords) + 1)),
+    ).take(order)
+    flags = (
+        np.append(flag, np.zeros(len(chords), dtype=bool))[order] for flag in (pieces.opens, pieces.shuts, pieces.along)
+    )
+    opens, shuts, along = flags
+    return (np.concatenate([edge, chords])[order] + block.start, opens, shuts, along, points.sizes), points.values
+
+
+def _simple(net: Net, max_segment: float, block: slice) -> tuple[BoolArray, BoolArray]:
+    """Which of some arcs surely keep off the border of the map, and which of these surely are a chord on it.
+
+    Of a large diagram that are nearly all, and of the others all is asked.
+    """
+    start, end = net.vertices[net.ends[block]].transpose(1, 0, 2)
+    half = _lengths(end - start) / 2
+    # No point of an arc is farther from its start than its end is; twice that leaves rounding no say.
+    inland = np.maximum(np.abs(start[:, 1]), start[:, 0]) > 2 * np.maximum(2 * half, AT_POLE)
+    # Coordinates that count as zero are made zero where arcs are cut.
+    moved = (np.abs(start) <= AT_POLE).any(axis=1) | (np.abs(end) <= AT_POLE).any(axis=1)
+    some = np.flatnonzero(inland & ~moved & (half < SHORT))
+    middle, half = unit(start[some] + end[some]), half[some]
+    # In longitude an arc is as long as at its least distance from the axis, at most.
+    straight = 2 * LONGER * half <= np.radians(max_segment) * _least_reach(middle, half)
+    if net.sites is not None and net.site is not None:
+        sites, stray = net.sites[net.site[block][some]], _most_straying(middle, half)
+        near = np.flatnonzero(stray > _allowed(sites, middle, half))
+        foot = _feet(sites[near], great_axes(start[some[near]], end[some[near]]))
+        straight[near] &= stray[near] <= _allowed(sites[near], middle[near], half[near], foot)
+    result = np.zeros(len(inland), dtype=bool)
+    result[some] = straight
+    return inland, result
 
 
 def _with_lonlat(points: FloatArray, latitude: Latitude) -> FloatArray:
@@ -191,17 +246,14 @@ def _sampled(pieces: Pieces, max_segment: float) -> Ragged:
 
 def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites: FloatArray) -> Ragged:
     """Points of pieces with further ones where a chord strays by too large a part of its distance from the site."""
-    foot = np.abs(np.sum(sites[pieces.arcs.edge] * pieces.arcs.axis, axis=1))
+    foot = _feet(sites[pieces.arcs.edge], pieces.arcs.axis)
 
     def rule(some: Ragged, rows: Indices) -> tuple[Indices, FloatArray]:
         step = steps_of(some)
         piece = rows[some.row[step]]
         p, q = some.values[step], some.values[step + 1]
-        middle = unit(p + q)
-        # A site is at least as far from an arc as from its plane, and as from its middle but for half the chord.
-        gap, half = sites[pieces.arcs.edge[piece]] - middle, np.sqrt(np.sum((q - p) ** 2, axis=1)) / 2
-        away = np.maximum(foot[piece], np.sqrt(np.sum(gap**2, axis=1)) - half)
-        allowed = np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)
+        middle, half = unit(p + q), _lengths(q - p) / 2
+        allowed = _allowed(sites[pieces.arcs.edge[piece]], middle, half, foot[piece])
         # Few chords come near to that, and of the others no latitudes are needed.
         unsure = np.flatnonzero(_most_straying(middle, half) > allowed)
         off = _straying(some, step[unsure], middle[unsure], pieces.along[piece[unsure]], border)
@@ -212,6 +264,32 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
     return refined(samples, rule)
 
 
+def _feet(sites: FloatArray, axes: FloatArray) -> FloatArray:
+    """How far sites are from the planes of great circles."""
+    return np.abs(np.sum(sites * axes, axis=1))
+
+
+def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: FloatArray | float = 0.0) -> FloatArray:
+    """How far chords may stray, degrees; `foot` is how far the site is from the arc's plane, if that is known.
+
+    A site is at least as far from an arc as from its plane, and as from its middle but for half the chord.
+    """
+    away = np.maximum(foot, _lengths(sites - middle) - half)
+    return np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)
+
+
+def _lengths(vectors: FloatArray) -> FloatArray:
+    """Of vectors (n, 3): what is compared, not drawn."""
+    return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
+
+
+def _least_reach(middle: FloatArray, half: FloatArray) -> FloatArray:
+    """How near to the axis short arcs come at most; 0 for long ones and those about a pole."""
+    reach = np.hypot(middle[:, 0], middle[:, 1])
+    least = reach - LONGER * half
+    return np.where((half < SHORT) & (2 * least > reach), least, 0.0)
+
+
 def _most_straying(middle: FloatArray, half: FloatArray) -> FloatArray:
     """Bounds on how far short chords on the map are off their arcs, degrees of a great circle; infinite for others.
 
@@ -219,10 +297,8 @@ def _most_straying(middle: FloatArray, half: FloatArray) -> FloatArray:
     the length 2h, and at most 2c at its middle, they are off by h²/(2c) in latitude and h²/c in λ cos φ. Other kinds of
     latitude change the former by 1.5 % of 1/c + 1. Together that is below 2h²/c. The cosine changes by h at most.
     """
-    reach, h = np.hypot(middle[:, 0], middle[:, 1]), 1.1 * half  # arcs of up to 57° are 5 % longer than their chords
-    least = reach - h
-    short = (half < 0.48) & (2 * least > reach)
-    return np.where(short, np.degrees(2 * h**2 / np.where(short, least, 1.0)), np.inf)
+    least = _least_reach(middle, half)
+    return np.where(least > 0, np.degrees(2 * (LONGER * half) ** 2 / np.where(least > 0, least, 1.0)), np.inf)
 
 
 def _straying(samples: Ragged, step: Indices, middle: FloatArray, along: BoolArray, border: Antimeridian) -> FloatArray:
@@ -237,13 +313,7 @@ def _straying(samples: Ragged, step: Indices, middle: FloatArray, along: BoolArr
 
 
 def _drawn(
-    faces: Ragged,
-    rows: Indices,
-    pieces: Pieces,
-    samples: Ragged,
-    border: Antimeridian,
-    threads: int,
-    told: _Told | None = None,
+    faces: Ragged, rows: Indices, sides: Sides, threads: int, told: _Told | None = None
 ) -> tuple[Packed, BoolArray, BoolArray]:
     """Some of the faces as polygons, which of them are not simple and counterclockwise, and which are large."""
     result = np.full(len(rows), None, dtype=object)
@@ -251,9 +321,9 @@ def _drawn(
     blocks = list(_blocks(len(rows)))
 
     def drawn(block: slice) -> tuple[Packed, BoolArray, BoolArray]:
-        return _drawn_block(faces.take(rows[block]), pieces, samples, border)
+        return _drawn_block(faces.take(rows[block]), sides)
 
-    pieces.of_edge  # noqa: B018 - once, and not by each thread
+    sides.pieces.of_edge  # noqa: B018 - once, and not by each thread
     for block, found in zip(blocks, in_order(drawn, blocks, threads), strict=True):
         result[block], wrong[block], large[block] = found
         if told is not None:
@@ -261,11 +331,35 @@ def _drawn(
     return result, wrong, large
 
 
-def _drawn_block(
-    faces: Ragged, pieces: Pieces, samples: Ragged, border: Antimeridian
-) -> tuple[Packed, BoolArray, BoolArray]:
+def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolArray]:
+    """First the faces that keep off the border and whose rings are seen to be simple; of the others all is asked."""
+    result, large = np.full(len(faces), None, dtype=object), np.zeros(len(faces), dtype=bool)
+    wrong = np.zeros(len(faces), dtype=bool)
+    inland = np.bincount(faces.row, ~sides.inland[np.maximum(faces.values, ~faces.values)], minlength=len(faces)) == 0
+    rows = np.flatnonzero(inland & (faces.sizes > 0))
+    if len(rows):
+        rings = _rings(faces.take(rows), sides)
+        simple, area = star_shaped(rings, sides.border.slack)
+        rows = rows[simple]
+        result[rows], large[rows] = packed_rings(rings.take(simple)), area[simple] > WORLD / 10
+    others = np.ones(len(faces), dtype=bool)
+    others[rows] = False
+    result[others], wrong[others], large[others] = _clipped_block(faces.take(others), sides)
+    return result, wrong, large
+
+
+def _rings(faces: Ragged, sides: Sides) -> Ragged:
+    """Longitudes and latitudes around faces that keep off the border."""
+    back = faces.values < 0
+    piece = sides.pieces.of_edge[np.maximum(faces.values, ~faces.values)]
+    first, last = sides.samples.offsets[piece], sides.samples.offsets[piece + 1] - 1
+    places = spans(np.where(back, last, first), last - first, np.where(back, -1, 1))
+    return Ragged(sides.samples.values[places, 3:], offsets_of(last - first)[faces.offsets])
+
+
+def _clipped_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolArray]:
     count = len(faces)
-    loops, owner = clip.regions(faces, np.arange(count), count, pieces, samples, border)
+    loops, owner = clip.regions(faces, np.arange(count), count, sides.pieces, sides.samples, sides.border)
     polygons, outer = polygons_on_map(loops, owner, count)
     wrong = ~shapely.is_valid(polygons)
     wrong[owner[~outer]] = True  # convex faces have no holes
@@ -275,7 +369,8 @@ def _drawn_block(
 class _Walk:
     """The steps around faces, from each point of their sides to the next."""
 
-    def __init__(self, faces: Ragged, pieces: Pieces, samples: Ragged) -> None:
+    def __init__(self, faces: Ragged, sides: Sides) -> None:
+        pieces, samples = sides.pieces, sides.samples
         edge = np.maximum(faces.values, ~faces.values)
         first, last = (np.searchsorted(pieces.arcs.edge, edge, side=side) for side in ("left", "right"))
         piece = spans(first, last - first)
@@ -307,20 +402,20 @@ class _Walk:
         return np.where(np.sum(middle**2, axis=1) > 1 / 4, area / length, np.inf)
 
 
-def _crossing(faces: Ragged, pieces: Pieces, samples: Ragged, border: Antimeridian) -> Indices:
+def _crossing(faces: Ragged, sides: Sides) -> Indices:
     """The points behind which chords should be halved, in order.
 
     Those that stray as far as to another chord of the same face; all of a face in which none does.
     """
-    walk = _Walk(faces, pieces, samples)
+    walk = _Walk(faces, sides)
     step, face = walk.step, walk.face
     if not len(step):
         return step
-    flat = border.flat(walk.samples)
+    flat = sides.border.flat(walk.samples)
     ends = np.stack([flat[step], flat[step + 1]], axis=1)
     middle = unit(walk.samples.values[step, :3] + walk.samples.values[step + 1, :3])
-    along = pieces.along[walk.pieces[walk.samples.row[step]]]
-    off = _straying(walk.samples, step, middle, along, border).max(axis=1)
+    along = sides.pieces.along[walk.pieces[walk.samples.row[step]]]
+    off = _straying(walk.samples, step, middle, along, sides.border).max(axis=1)
     lines = shapely.linestrings(ends)
     i, j = shapely.STRtree(lines).query(lines, predicate="dwithin", distance=2 * off)
     apart = (ends[i][:, :, None] != ends[j][:, None]).any(axis=-1).all(axis=(1, 2))

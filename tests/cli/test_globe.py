@@ -158,7 +158,7 @@ def test_what_moves():
 @pytest.mark.parametrize(
     ("out", "options", "message"),
     [
-        ("a.png", ["--spin"], "--spin and --fly are for films, but a.png is none"),
+        ("a.png", ["--spin"], "--spin is for films, but a.png is none"),
         ("a.gif", ["--spin", "--fly=1,2"], "choose one"),
         ("a.gif", ["--fly=1"], "--fly is '1', but must be LON,LAT"),
         ("a.gif", ["--fly=1,95"], "outside [-90, 90]"),
@@ -218,7 +218,7 @@ def test_pdf_to_stdout(folder):
         (["--texture", "huge.png"], "huge.png has too many pixels: at most 134217728 are read"),
         (["--texture", "square.png"], "square.png: pixels is 9 wide and 9 high"),
         (["--texture", "square.png", "--texture-box", "1,2,3"], "--texture-box is '1,2,3', but must be W,S,E,N"),
-        (["--texture-box", "1,2,3,4"], "--texture-box is for a --texture"),
+        (["--texture-box", "1,2,3,4"], "--texture-box is for a --texture, and there is none"),
         (["--layer", "missing.geojson"], "missing.geojson: No such file or directory"),
         (["--layer", "broken.geojson"], "broken.geojson is not JSON"),
         (["--layer", "odd.geojson"], "odd.geojson is not GeoJSON"),
@@ -320,7 +320,7 @@ def test_styles_pixels_and_paper(folder, run):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--labels=name"], "--labels, --color and --point-size are for POINTS"),
+        (["--labels=name"], "--labels is for POINTS"),
         (["cities.csv", "--labels=town"], "there is no column 'town'"),
         (["cities.csv", "--rank=name"], "--rank is for --labels"),
         (["cities.csv", "--color=reddish"], "--color is 'reddish', which is not a colour"),
@@ -342,7 +342,39 @@ def test_wrong_looks(folder, options, message, run):
 
 
 def test_films_have_no_paper(folder, run):
-    assert "are for pictures, not for films" in run("globe", "-o", "a.gif", "--spin", "--title=Earth", code=2)
+    assert "is for pictures, not for films" in run("globe", "-o", "a.gif", "--spin", "--legend", code=2)
+    assert "are for pictures, not for films" in run("globe", "-o", "a.gif", "--dpi=9", "--width=9cm", code=2)
+
+
+def test_films_have_titles(folder, run):
+    """Written above the globe, which is as much smaller, and in the file."""
+    options = ["--fps=1", "--seconds=1", "--size=120", "--no-land", "--no-coastlines", "--spin"]
+    run("globe", "-o", "plain.apng", *options)
+    run("globe", "-o", "named.apng", *options, "--title=Earth")
+    plain, named = (iio.imread(folder / name, index=0) for name in ("plain.apng", "named.apng"))
+    assert plain.shape == named.shape
+    assert b"Earth" in (folder / "named.apng").read_bytes()
+    rows = [np.flatnonzero((picture != 255).any(axis=(1, 2))) for picture in (plain, named)]
+    gaps = [np.count_nonzero(np.diff(row) > 1) for row in rows]
+    assert gaps == [0, 1]  # between title and globe
+    assert rows[0][0] <= 1
+    assert rows[1][0] > 1
+    assert rows[1][-1] >= 117
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["globe", "--seconds=3"], "--seconds is for films"),
+        (["globe", "--lon=x", "--skip-missing"], "--lon and --skip-missing are for POINTS"),
+        (["globe", "--show=cells"], "--show is for POINTS"),
+        (["globe", "--texture=blue-marble", "--texture-box=0,0,9,9"], "--texture-box is for files of a part"),
+        (["globe", "cities.csv", "--layer-name=x"], "--layer-name is 'x', but a file of the kind csv has no layers"),
+    ],
+)
+def test_options_that_do_not_apply_are_refused(folder, run, options, said):
+    assert said in run(*options, "-o", "a.svg", code=2)
+    assert not (folder / "a.svg").exists()
 
 
 def test_fonts_are_known_before_anything_is_drawn(folder, run):

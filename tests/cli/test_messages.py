@@ -53,6 +53,8 @@ SAID = [
     ),
     ([*GRID, 0], "csv", "--grid is 0.0, outside (0, 180]"),
     ([*GRID, 7], "csv", "--grid is 7, but 180 must be a whole multiple of it"),
+    ([*GRID, 0.00001], "csv", "--grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the"),
+    ([*GRID, 1e-7, "--box=0,0,9,9"], "csv", "--grid is 1e-07, which makes a grid of 90000001 × 90000001 places; "),
     ([*GRID, "nan"], "csv", "--grid is nan; every value must be a finite number"),
     ([*GRID, 5, "--box=0,0,7"], "csv", "--box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72"),
     ([*GRID, 5, "--box=0,9,7,5"], "csv", "--box is '0,9,7,5', but its south border must be below its north border"),

@@ -81,7 +81,10 @@ def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
     [
         (["--clip", "none.geojson", "-o", "a.csv"], "none.geojson: No such file or directory"),
         (["--clip", "cities.csv", "-o", "a.csv"], "cities.csv: "),
-        (["--clip", "land", "-o", "a.svg"], "a.svg: holds whole cells; leave out --clip"),
+        (
+            ["--clip", "land", "-o", "a.svg"],
+            "--clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg holds whole cells",
+        ),
         (["--clip", "land", "--plane", "lon", "lat", "-o", "a.csv"], "--clip is for cells of the sphere"),
         (["--clip", "land", "-o", "land.gpkg", "--max-segment", "0"], "--max-segment is 0"),
     ],

@@ -107,6 +107,16 @@ def test_the_same_frames_give_the_same_bytes(tmp_path, ending):
     assert first.read_bytes() == second.read_bytes()
 
 
+def test_an_mp4_has_the_same_bytes_each_time(tmp_path):
+    """Of pictures large and restless enough that x264 uses all its code; with trees of macroblocks it fails."""
+    y, x = np.mgrid[:180, :240]
+    noise = np.random.default_rng(0).integers(0, 40, (180, 240, 3))
+    waves = [100 * np.sin((x + 3 * k) / 30) * np.cos((y + 2 * k) / 25) for k in range(24)]
+    reel = [np.clip(110 + wave[..., None] + noise, 0, 255).astype(np.uint8) for wave in waves]
+    files = {save(reel, tmp_path / f"{k}.mp4", fps=25).read_bytes() for k in range(4)}
+    assert len(files) == 1
+
+
 @pytest.mark.parametrize("ending", LOOPING)
 def test_one_frame_is_a_film_too(tmp_path, ending):
     with Image.open(save(REEL[:1], tmp_path / f"still.{ending}")) as image:

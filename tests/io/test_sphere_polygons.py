@@ -15,8 +15,13 @@ from stereodel import (
     lonlat_to_xyz,
     xyz_to_lonlat,
 )
+from stereodel.constants import CHART_ROUNDING
+from stereodel.curves.ragged import Ragged
 from stereodel.data import airports
-from stereodel.io import to_geodataframe
+from stereodel.io import tiles, to_geodataframe
+from stereodel.io.frames import layer_of
+from stereodel.io.layers import packed
+from stereodel.io.star_rings import packed_rings, star_shaped
 
 WORLD = 360.0 * 180.0
 AXES = np.eye(3)
@@ -274,3 +279,65 @@ def test_the_bound_on_straying_spares_work_and_changes_nothing(monkeypatch, lati
     assert shapely.equals_identical(usual, asked).all()
     assert (shapely.distance(usual, shapely.points(lonlat)) < 1e-12).all()
     assert (shapely.distance(never, shapely.points(lonlat)) > 1e-12).any()
+
+
+AT_THE_BORDER = lonlat_to_xyz(np.random.default_rng(5).normal([180, 0], [2, 3], size=(60, 2)) % [360, 90])
+HARD = {
+    **SETS,
+    "many": np.random.default_rng(2).normal(size=(3000, 3)),
+    "around the 180th meridian": np.vstack([AT_THE_BORDER, RANDOM[:10]]),
+    "around a pole": np.vstack([cluster([0, 0, 1], 1e-3, 60), RANDOM[:10]]),
+    "on coordinate planes": np.vstack([circle(24, axis, 0.1 * axis) for axis in range(3)]),
+    "pairs": np.vstack([RANDOM, RANDOM * (1 + 1e-7 * RANDOM[::-1])]),
+}
+
+
+@pytest.mark.parametrize("latitude", ["spherical", "authalic"])
+@pytest.mark.parametrize("what", ["cells", "triangles"])
+@pytest.mark.parametrize("name", HARD)
+def test_what_is_made_without_geometries_is_the_same(monkeypatch, name, what, latitude):
+    """The short way for faces off the border, and for arcs that are chords, gives the bytes of the long one."""
+    diagram, options = SphericalVoronoi(HARD[name]), {"what": what, "latitude": latitude, "max_segment": 20.0}
+    short = layer_of(diagram, **options)
+
+    def nothing(net, max_segment, block):
+        return np.zeros((2, len(net.ends[block])), dtype=bool)
+
+    monkeypatch.setattr(tiles, "_simple", nothing)
+    assert short.binary.tolist() == layer_of(diagram, **options).binary.tolist()
+
+
+def test_most_faces_take_the_short_way(monkeypatch):
+    """Otherwise the comparison above would compare the long way with itself."""
+    asked = []
+    clipped = tiles._clipped_block
+    monkeypatch.setattr(tiles, "_clipped_block", lambda faces, sides: asked.append(len(faces)) or clipped(faces, sides))
+    layer_of(SphericalVoronoi(HARD["many"]))
+    assert 0 < sum(asked) < 400  # those at ±180° and at the poles, and what is not star-shaped
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_star_shaped_rings_are_valid(seed):
+    """No ring that GEOS calls invalid or clockwise is called star-shaped, and convex ones all are."""
+    rng = np.random.default_rng(seed)
+    grid = [rng.integers(-3, 4, size=(rng.integers(1, 7), 2)).astype(float) for _ in range(2000)]
+    around = [np.sort(rng.uniform(0, 2 * np.pi, count)) for count in rng.integers(5, 9, 200)]
+    round_ = [np.column_stack([np.cos(t), np.sin(t)]) for t in around if np.diff(t, append=t[0] + 2 * np.pi).max() < 3]
+    twice = [np.concatenate([ring, ring]) for ring in round_]
+    thin = [ring * [1.0, 1e-16] for ring in round_]
+    rings = Ragged.of([*grid, *round_, *twice, *thin, *(ring[::-1] for ring in round_)])
+    sure, area = star_shaped(rings, CHART_ROUNDING)
+    assert sure[len(grid) : len(grid) + len(round_)].all()
+    assert not sure[len(grid) + len(round_) :].any()
+    assert sure[: len(grid)].sum() > 50
+    for ring, found in zip(np.array(list(rings), dtype=object)[sure], area[sure], strict=True):
+        polygon = shapely.Polygon(ring)
+        assert polygon.is_valid
+        assert polygon.exterior.is_ccw
+        assert polygon.area == pytest.approx(found)
+
+
+def test_packed_rings_are_those_of_geos():
+    rings = Ragged.of([np.random.default_rng(k).normal(size=(k, 2)) for k in (3, 4, 3, 9)])
+    polygons = np.array([shapely.Polygon(ring) for ring in rings])
+    assert packed_rings(rings).tolist() == packed(polygons).tolist()

@@ -87,6 +87,11 @@ def test_a_lack_of_the_compiler_is_an_error(system, tmp_path):
     ]
 
 
+def test_librsvg_is_a_package_of_its_own(system):
+    ran, _ = system("librsvg")
+    assert ran.stderr == "Missing packages of the system; on Debian: apt-get install librsvg2-bin\n"
+
+
 def test_no_such_packages(system):
     ran, _ = system("printer")
     assert ran.returncode == 2
