@@ -3,9 +3,9 @@ Animation: the fisheye grows from 1 to 20
 =========================================
 
 A globe with two grids about 40° N while the magnification S of the fisheye runs from 1 to 20, in equal ratios, with
-pauses at 1 (Figure 10), 4 (Figure 11) and 20 (Figure 12), where the grids are those of the figures. On the way the
-graticule (gray) is refined, from 10° to 5° and, up to 8° from the focus, to 1°; so is the fine grid (black), from 2° to
-1° and 1/2°. The focus stays where it is; every line stays a circle.
+pauses at 1 (Figure 10), 4 (Figure 11) and 20 (Figure 12), where the grids are those of the figures. Meanwhile the
+graticule (gray) is refined from 10° to 5° and, up to 8° from the focus, to 1°, and the fine grid (black) from 2° to 1°
+and 1/2°. The focus does not move; every line remains a circle.
 """
 
 from collections.abc import Iterator

@@ -2,9 +2,10 @@
 Animation: Paris, New York, Tokyo
 =================================
 
-A flight over a globe that bends: each city in turn is magnified eight times, and on the way the lens lets go just as
-far as the distance asks for. Every frame is conformal and shows the whole Earth but for its far side. The way is the
-shortest in hyperbolic space, where a fisheye of magnification S lies at the distance ln S from the globe as it is.
+A flight over a globe under a changing fisheye: each city in turn is magnified eight times, and in between the
+magnification decreases only as far as the distance requires. Every frame is conformal and shows the whole Earth except
+its far side. The path is the shortest in hyperbolic space, where a fisheye of magnification S is at distance ln S from
+the undistorted globe.
 """
 
 from collections.abc import Iterator

@@ -3,8 +3,8 @@ Animation: the convex hull grows point by point
 ===============================================
 
 The paper's pseudo-code at work on 28 points of the sphere, seen from in front and from behind. Each step finds the
-facets (orange) that see the new point, takes them away, and joins the point to the horizon (black), the border of what
-it sees, by a fan of new facets (blue). A hull of n points has 2n − 4 facets.
+facets (orange) that are visible from the new point, removes them, and joins the point to the horizon (black), the
+border of the visible region, by a fan of new facets (blue). A hull of n points has 2n − 4 facets.
 """
 
 from collections.abc import Iterator

@@ -3,8 +3,8 @@ Animation: the rectangle of Figure 7 rises onto the hemisphere of Figure 8
 ==========================================================================
 
 The rectangle is lifted to tangent spheres that shrink from an infinite one, the plane itself, to the sphere whose
-diameter is half the diagonal D, where it reaches half round the sphere from corner to corner. Every lift on the way is
-an inverse stereographic projection, so the triangulation never changes.
+diameter is half the diagonal D, on which it extends halfway around from corner to corner. Every intermediate lift is an
+inverse stereographic projection, so the triangulation never changes.
 """
 
 from collections.abc import Iterator

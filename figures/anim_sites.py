@@ -3,9 +3,9 @@ Animation: sites come and go
 ============================
 
 A site is inserted among 40 on the sphere, and one of them removed; then both changes are undone. The bubbles that
-contain a new site are no longer empty: their triangles (orange) are the cavity, which is joined to the site by new ones
-(blue). Where a site goes, its star is emptied and filled again. The bubbles of all new triangles are empty, so that the
-triangles are those of a fresh start. The Voronoi diagram (pale blue) follows.
+contain a new site are no longer empty: their triangles (orange) form the cavity, which is filled by new triangles at
+the site (blue). When a site is removed, the triangles of its star are replaced. The bubbles of all new triangles are
+empty, so that the result is the same as if computed from scratch. The Voronoi diagram (pale blue) follows.
 """
 
 from collections.abc import Iterator

@@ -2,16 +2,16 @@
 Claim P22: a planet as a triangulated irregular network
 =======================================================
 
-The same on the sphere: 450 points of a planet with heights. Left, the Delaunay triangulation: tints, edges and contours
-are on the sphere, arcs of great circles all of them. Right, the planet turned, with its facets in space and heights
-exaggerated.
+A network on the sphere: 450 points of a planet with heights. Left, the Delaunay triangulation, with tints, edges and
+contours on the sphere; all lines are arcs of great circles. Right, the planet rotated, with its facets in space and
+heights exaggerated.
 
 The facets are painted from back to front in the order of n·v / d, where v is the direction to the viewer and n·x = d
-the plane of the facet of the convex hull, before any point was raised. From a facet to the one that lies before it
-across an edge this grows, for the hull is convex and holds the centre, and raising points along their rays does not
-change which is before which.
+the plane of the facet of the convex hull, before any point was raised. From a facet to the one in front of it across an
+edge this value grows, because the hull is convex and contains the centre, and raising points along their rays does not
+change which facet is in front.
 
-Chosen by us: the relief, which is a formula and no planet, the number of points, and the views.
+Chosen by us: the relief, a formula rather than a real planet, the number of points, and the views.
 """
 
 import numpy as np

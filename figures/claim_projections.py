@@ -4,9 +4,9 @@ Claim P23: only stereographic projections keep the triangulation
 
 The same 150 sites, within 60° of a point, under six projections, and the Delaunay triangulation of their images in the
 plane. Triangles that are not Delaunay triangles of the sphere are vermilion. The blue curve is the image of one circle
-of the sphere. The stereographic projection makes it a circle, as every other circle, and every triangle of the plane is
-one of the sphere. Under each of the others some circles do not stay circles, and triangles break. To keep angles is not
-enough: Mercator's projection does.
+of the sphere. The stereographic projection maps it to a circle, like every other circle, and every triangle of the
+plane is one of the sphere. Under each of the other projections some circles do not remain circles, and triangles break.
+Preserving angles is not enough: Mercator's projection does so.
 
 Chosen by us: the sites and their seed, the centre of the projections, at which all planes but Mercator's touch, and the
 circle.

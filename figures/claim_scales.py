@@ -7,9 +7,10 @@ mean of the scale along the path. The scale is 1 at the centre and 1/2 at the co
 1 for every path: 40 000 very short ones (gray), 40 000 segments between random points (blue) and 10 000 paths through
 12 random points (vermilion). The more a path wanders, the nearer it comes to the mean over the rectangle.
 
-Right: a bubble of angular radius χ is mapped conformally onto one of angular radius Ξ, centre to centre. On each curve
-the largest scale over the smallest is the number written, cos² (χ/2) / cos² (Ξ/2) or its inverse. While neither bubble
-is larger than a hemisphere it is at most 2. The dots show where it would be: a hemisphere and a bubble of radius 0.
+Right: a bubble of angular radius χ is mapped conformally onto one of angular radius Ξ, centre to centre. Each curve is
+labelled with the ratio of the largest to the smallest scale, cos² (χ/2) / cos² (Ξ/2) or its inverse. If neither bubble
+is larger than a hemisphere, the ratio is at most 2. The dots show where it would be reached: a hemisphere and a bubble
+of radius 0.
 
 Chosen by us: the numbers of paths, their seed, and the levels of the curves.
 """

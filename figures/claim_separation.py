@@ -4,13 +4,13 @@ Claims P12 and P13: how far apart the points of a rectangle stay on its hemisphe
 
 Two points of a rectangle of diagonal D, at distance d, are lifted to the hemisphere of radius R = D/4. Each dot is one
 of 1500 random pairs of the rectangle of Figure 7, its angle given as a multiple c of (d/D) 180°. The paper says that c
-is at least 1/2 (dashed); that is true, and no pair comes near it. The best constants are 2/π, which close pairs at a
+is at least 1/2 (dashed); that is true, but no pair comes close. The best constants are 2/π, which close pairs at a
 corner approach, and 4/π, which close pairs at the centre approach. The scale on the right is the same for lengths: a
-geodesic of the sphere is between 1/2 and 1 times as long as the segment that it belongs to.
+geodesic on the sphere is between 1/2 and 1 times as long as the corresponding segment.
 
 The blue curves are the bounds for every distance, whatever the sides of the rectangle: the angle is at most 4
-arctan(d/D), which pairs on opposite sides of the centre reach, and at least 2 arcsin(d/D), which two corners reach.
-Vermilion: pairs of a corner and a point of a side, which reach the bound at the next corner.
+arctan(d/D), with equality for points opposite each other about the centre, and at least 2 arcsin(d/D), with equality
+for two corners. Vermilion: pairs of a corner and a point on a side, which attain the bound at the next corner.
 
 Chosen by us: the sides 3 : 2, the number of pairs and their seed.
 """

@@ -2,16 +2,16 @@
 Claim P22: terrain as a triangulated irregular network
 ======================================================
 
-A relief kept as 400 points with heights. They were taken in rounds from a grid of 145 by 97, where the network erred
-most, so that they stand where the ground is rough. Left, the map: the facets of the Delaunay triangulation lit from the
-upper left, its edges, and contours of the function that is linear in each triangle. Right, the same facets in space,
-heights exaggerated.
+A relief stored as 400 points with heights. They were selected in rounds from a grid of 145 by 97, where the error of
+the network was largest, so that they are dense where the terrain is rough. Left, the map: the facets of the Delaunay
+triangulation lit from the upper left, its edges, and contours of the function that is linear on each triangle. Right,
+the same facets in space, heights exaggerated.
 
-Nothing is hidden by a depth buffer. The facets are painted from back to front in the order of the circumcentres of
+No depth buffer is used. The facets are painted from back to front in the order of the circumcentres of
 their triangles along the line of sight: across an edge the circumcentre of the Delaunay triangle in front is never
 behind that of the other. So a Delaunay network can be painted from every side, whatever its heights.
 
-Chosen by us: the relief, which is a formula and no place, the number of points, and the view.
+Chosen by us: the relief, a formula rather than a real place, the number of points, and the view.
 """
 
 import numpy as np

@@ -3,12 +3,12 @@ Claim P7: the facets that Theorem 1 leaves out
 ==============================================
 
 Left, 16 sites in the plane with their Delaunay triangulation. Right, the same sites lifted to a sphere, and the facets
-of their convex hull as spherical triangles. Facets whose closed bubble does not hold the projection pole o are the
-triangles of the plane (gray). The others (vermilion), two fewer than the sites on the boundary of the plane's convex
-hull, close the hull round the pole and are no triangles of the plane.
+of their convex hull as spherical triangles. Facets whose closed bubble does not contain the projection pole o are the
+triangles of the plane (gray). The others (vermilion), two fewer than the sites on the boundary of the convex hull in
+the plane, close the hull around the pole and are not triangles of the plane.
 
-One of them is tinted, and dashed in the plane. Its bubble (blue) is empty and holds o. In the plane, what is empty is
-the outside of the circle, and inside are all other sites.
+One of them is tinted, and dashed in the plane. Its bubble (blue) is empty and contains o. In the plane, the exterior of
+the circle is empty, and all other sites are inside.
 
 Chosen by us: the sites and their seed, the size of the sphere, the facet and the view.
 """

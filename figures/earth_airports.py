@@ -3,8 +3,8 @@ The airport next to you
 =======================
 
 The Voronoi cells of 28 298 airports, five of which share their place with another: every point of the Earth belongs to
-the airport that is nearest to it. The colour is the area of the cell on the ellipsoid, from a few km² in the United
-States to 13 million km² of the Southern Ocean. Named are the airports of the five largest cells well in sight.
+its nearest airport. The colour shows the area of the cell on the ellipsoid, from a few km² in the United States to 13
+million km² of the Southern Ocean. The airports of the five largest cells that are clearly visible are labelled.
 """
 
 import numpy as np

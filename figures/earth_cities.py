@@ -2,9 +2,9 @@
 Where people live
 =================
 
-The Voronoi cells of all cities and villages of the table whose population is known, 204 228 of 234 908; those at one
-point count together. The colour is the density: the people of a place per km² of its cell on the ellipsoid. Of cells
-that reach into the sea the land alone is shown.
+The Voronoi cells of all cities and villages of the table whose population is known, 204 228 of 234 908; those at the
+same point are combined. The colour shows population density: the inhabitants of a place per km² of its cell on the
+ellipsoid. Only the land part of cells that extend into the sea is shown.
 """
 
 from dataclasses import replace

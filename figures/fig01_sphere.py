@@ -4,8 +4,8 @@ Figure 1: Delaunay triangulation and its dual Voronoi diagram on a sphere
 
 The Delaunay triangulation (gray) of 60 sites, whose edges are arcs of great circles, and the Voronoi diagram (black).
 Each Voronoi edge lies on the perpendicular bisector of a Delaunay edge; each Voronoi vertex is the centre of an empty
-bubble, as the one that is marked: the bubble (orange) of a triangle (heavy gray) has its three vertices on the rim, no
-site inside, and a Voronoi vertex (red) in its middle.
+bubble. One is marked: the bubble (orange) of a triangle (heavy gray) has the three vertices on its rim, no site inside,
+and a Voronoi vertex (red) at its centre.
 
 Chosen by us: the number of sites, their seed, the view and the triangle.
 """

@@ -4,7 +4,7 @@ Figure 2: Delaunay triangulation and Voronoi diagram in the plane
 
 The Delaunay triangulation (gray) of 60 sites in a rectangle and its dual Voronoi diagram (black). Each Voronoi vertex
 is the circumcentre of a Delaunay triangle and each Voronoi edge lies on the perpendicular bisector of a Delaunay
-edge, so that either is built from the other in linear time.
+edge, so either can be constructed from the other in linear time.
 
 Chosen by us: the number of sites, their seed, the oval on which those of the hull lie, and the frame, which clips the
 unbounded Voronoi edges.

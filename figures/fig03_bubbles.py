@@ -2,10 +2,10 @@
 Figure 3: Every circle on a sphere bounds two bubbles
 =====================================================
 
-Any circle is where a plane slices through the sphere. It bounds a smaller bubble (orange) and a larger one (blue).
-Right, the same in cross-section, edged with their colours. The Delaunay condition on the sphere is that one bubble is
-empty: the one on the outer side of the plane, to which its normal n points. Then the plane is that of a facet of the
-convex hull, and all other sites lie on its inner side, as does the centre O.
+Every circle is the intersection of the sphere with a plane. It bounds a smaller bubble (orange) and a larger one
+(blue). Right, a cross-section with the bubbles outlined in their colours. The Delaunay condition on the sphere is that
+one bubble is empty, the one on the outer side of the plane, to which its normal n points. Then the plane contains a
+facet of the convex hull, and all other sites lie on its inner side, as does the centre O.
 
 Chosen by us: a circle of angular radius 42° about (30° E, 32° N).
 """

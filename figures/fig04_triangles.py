@@ -3,7 +3,7 @@ Figure 4: A spherical triangle and its chordal plane triangle
 =============================================================
 
 The sides of a spherical triangle are arcs of great circles (blue), each in a plane through the centre O of the sphere.
-The plane triangle below it (hatched) has the same vertices and chords for sides (red): a facet of the convex hull. The
+The plane triangle below it (hatched) has the same vertices and chords as sides (red): a facet of the convex hull. The
 Delaunay triangulation of points on the sphere is the convex hull of the points.
 
 Chosen by us: the three vertices and the view.

@@ -2,10 +2,10 @@
 Figure 5: Normal (left) and oblique stereographic projection
 ============================================================
 
-Left, the plane touches the sphere at the south pole S and rays from the north pole N carry points p of the sphere to
-points π(p) of it. Right, the plane touches at another point t and the rays start at its antipode −t. The diameter to
-the point of contact (dashed) is perpendicular to the plane. The circle through the three points (blue) goes to a circle
-in both.
+Left, the plane touches the sphere at the south pole S, and rays from the north pole N take points p of the sphere to
+points π(p) of the plane. Right, the plane touches at another point t, and the rays start at its antipode −t. The
+diameter to the point of contact (dashed) is perpendicular to the plane. In both, the circle through the three points
+(blue) is mapped to a circle.
 
 Chosen by us: the points, the tangent point of the oblique plane, the view.
 """

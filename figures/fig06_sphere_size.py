@@ -3,8 +3,8 @@ Figure 6: Inverse stereographic projections in cross-section
 ============================================================
 
 One segment of the plane, lifted to three tangent spheres by rays from their top points. The smaller the radius R, the
-larger the extent of the arc that the segment covers, which is written below it: the radius sets how much curvature the
-lift adds. One ray of each sphere is in its colour.
+larger the angular extent of the lifted segment, which is given below each arc: the radius determines how much curvature
+the lift adds. One ray of each sphere is shown in its colour.
 
 Chosen by us: a segment of length 3.2 and the radii 2, 1 and 1/2.
 """

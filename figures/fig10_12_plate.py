@@ -2,12 +2,13 @@
 Figures 10 to 12 on one plate
 =============================
 
-The globe itself and its images at magnifications 4 and 20, row by row, seen from the same five sides. The red dot is
-the focus at 40° N: the map moves nothing there, so that in each column it is in the same spot relative to the viewer.
+The globe itself and its images at magnifications 4 and 20, row by row, seen from the same five directions. The red dot
+is the focus at 40° N, a fixed point of the map, so that in each column it has the same position relative to the viewer.
 The prime meridian is the vertical line in the middle of all 15 views; the south pole and the antipode do not see the
 finer grid. The grids are those of the three figures, and every line is a circle.
 
-Chosen by us: where neighbouring lines of a grid would be less than three line widths apart on the page, some end.
+Chosen by us: where neighbouring lines of a grid would be less than three line widths apart on the page, some of them
+end.
 """
 
 from _five_views import FOCUS, PITCH, VIEWS, plate

@@ -4,7 +4,8 @@ Figure 12: Five views of a fisheye global-gram, magnification 20
 
 The graticule at 5° (gray) and a fine grid at 1/2° (black) under the conformal map that magnifies the surroundings of
 40° N twenty times, seen as in Figure 10. The fine grid, 3° across, fills 12.5 % of the hemisphere about the focus; a
-cap of angular radius 5.72° fills it whole, and the rest of the world is gathered in the other half, about the antipode.
+cap of angular radius 5.72° fills it entirely, and the rest of the world is compressed into the other half, around the
+antipode.
 
 Chosen by us: the fine grid reaches 1.5° from its centre; up to 1.966° it cannot be seen from the south pole.
 """

@@ -2,10 +2,10 @@ r"""
 Figure 13: Relationship of parallels of latitude
 ================================================
 
-Two spheres in cross-section, of radius R and r = R/S, touch the plane at one point. A point at distance d in the
-plane comes from latitude φ on the large sphere and goes to latitude Φ on the small one. Inscribed angles are half the
-arcs that they see, hence tan((90° + φ)/2) = d/2R and tan((90° + Φ)/2) = d/2r, and so S tan((90° + φ)/2) = tan((90° +
-Φ)/2).
+Two spheres in cross-section, of radius R and r = R/S, touch the plane at one point. A point at distance d in the plane
+is the image of latitude φ on the large sphere and is lifted to latitude Φ on the small one. Inscribed angles are half
+the arcs that they subtend, hence tan((90° + φ)/2) = d/2R and tan((90° + Φ)/2) = d/2r, and so S tan((90° + φ)/2) =
+tan((90° + Φ)/2).
 
 Chosen by us: S = 2.5 and d = 1.6 R.
 """

@@ -2,9 +2,9 @@
 Europe, airport by airport
 ==========================
 
-The Voronoi cells of the airports with a code of three letters, through a fisheye over Europe: every place belongs to
-the airport that is nearest on the Earth, whatever the lens does to the picture. The colour is the area of the cell on
-the ellipsoid. The cells' sides are great circles; through the lens they are circles too, and drawn as such.
+The Voronoi cells of the airports with a three-letter code, through a fisheye over Europe: every place belongs to the
+airport nearest to it on the Earth, whatever the lens does to the picture. The colour shows the area of the cell on the
+ellipsoid. The sides of cells are arcs of great circles; their images are circular arcs and drawn as such.
 Chosen by us: focus and magnification, and which airports are labelled.
 """
 

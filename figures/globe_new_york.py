@@ -2,11 +2,12 @@
 A New Yorker's globe
 ====================
 
-What lies within 100 km of Manhattan fills one hemisphere, the rest of the world the other: the conformal map that takes
-a bubble of the Earth onto half of it (claim P16 of the paper). Angles are true everywhere; the scale falls as the
-square of the distance, so that Boston is still a place, Chicago a suburb, and the other continents are a spot.
-Chosen by us: the radius, the labels, and that every dot is an airport with a code of three letters; where dots would
-touch, those that are nearer to New York stand for the others.
+The region within 100 km of Manhattan fills one hemisphere, the rest of the world the other, under the conformal map
+that takes a bubble of the Earth onto half of it (claim P16 of the paper). Angles are preserved everywhere; the scale
+falls with the square of the distance, so that Boston is still well apart, while Chicago and the other continents are
+close to the antipode of New York.
+Chosen by us: the radius, the labels, and that every dot is an airport with a three-letter code; where dots would touch,
+only those nearer to New York are drawn.
 """
 
 from dataclasses import replace

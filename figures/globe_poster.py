@@ -4,7 +4,7 @@ Mare nostrum: a poster
 
 The Mediterranean three and a half times as large as its part of the globe, with the coasts, rivers, lakes and borders
 for maps of 1 : 10 million. ``make poster`` draws it 16 384 pixels across, in tiles.
-Chosen by us: focus, magnification, colours, the cities and on which side of them their names stand.
+Chosen by us: focus, magnification, colours, the cities and the positions of their labels.
 """
 
 from dataclasses import replace

@@ -2,10 +2,10 @@
 Equal circles through a fisheye
 ===============================
 
-Tissot's circles, 250 km in radius on the Earth, before and after a conformal map that shows the surroundings of a place
-three times as large. Through the lens every circle of the globe is a circle of the globe, and every right angle of the
-graticule is a right angle; only sizes change, from three times to, on the far side, a third. That circles look like
-ellipses near the limb is the view's doing, on the left as on the right.
+Tissot's circles, 250 km in radius on the Earth, before and after a conformal map that magnifies the surroundings of a
+place three times. Under the map every circle of the globe remains a circle, and every right angle of the graticule a
+right angle; only sizes change, by factors from three to, on the far side, a third. Circles look like ellipses near the
+limb because of the orthographic view, on the left as on the right.
 Chosen by us: the place, one of the circles' centres; the magnification; one circle about every 10°.
 """
 

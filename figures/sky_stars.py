@@ -3,9 +3,9 @@ Every star its own sky
 ======================
 
 The Voronoi cells of the 117 955 stars of the Hipparcos catalogue, on the half of the sky about the galactic anticentre,
-seen from inside, the galactic equator across the middle. Where cells are small, the picture is light: the Milky Way and
-Orion show by the number of their stars alone. The colour is the mean area of a cell and its neighbours. The stars
-brighter than magnitude 4.5 are drawn in their own colours, with faint lines for some constellations.
+seen from inside, the galactic equator across the middle. Small cells are light: the Milky Way and Orion are visible by
+the number of their stars alone. The colour shows the mean area of a cell and its neighbours. The stars brighter than
+magnitude 4.5 are drawn in their own colours, with faint lines for some constellations.
 """
 
 from dataclasses import replace

@@ -1,7 +1,7 @@
 """Casting and checking of input: every error message about points, angles and indices lives here.
 
-Public functions call these once, at the door; behind it arrays are float64, C-contiguous, finite and of known
-shape. Nothing here modifies its argument; the result may share memory with it and is never written to.
+Public functions call these once, on entry; from then on arrays are float64, C-contiguous, finite and of known shape.
+Nothing here modifies its argument; the result may share memory with it and is never written to.
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ IntArray = npt.NDArray[np.int32]
 LongArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
 SignArray = npt.NDArray[np.int8]
-"""−1, 0 or 1."""
+"""Signs: −1, 0 or 1."""
 Indices = npt.NDArray[np.intp]
-"""Places in other arrays, as NumPy takes them."""
+"""Indices into other arrays, of NumPy's index type."""
 AnyIndices = npt.NDArray[np.integer]
-"""Places in other arrays, of any width: as NumPy or the kernel gives them."""
+"""Indices into other arrays, of any width, from NumPy or the kernel."""
 BigIntegers = npt.NDArray[Any]
 """Python integers of any size, dtype object."""
 Bytes = npt.NDArray[np.uint8]
 Pixels = npt.NDArray[np.uint8]
 Texts = npt.NDArray[np.str_]
 Codes = npt.NDArray[np.uint32]
-"""Letters by their numbers in Unicode."""
+"""Unicode code points."""
 Column = npt.NDArray[np.generic]
-"""One value a row, of any type."""
+"""One value per row, of any type."""
 Geometries = npt.NDArray[np.object_]
-"""Those of Shapely."""
+"""Shapely geometries."""
 Packed = npt.NDArray[np.object_]
 """Geometries as well-known binary, None where there is none."""
 _Scalar = TypeVar("_Scalar", bound=np.generic)
@@ -59,15 +59,15 @@ def as_floats(values: npt.ArrayLike, name: str) -> FloatArray:
 
 
 def _refuse(wrong: BoolArray, array: FloatArray, name: str, expected: str) -> None:
-    if np.count_nonzero(wrong):  # of few values four times as fast as wrong.any()
+    if np.count_nonzero(wrong):  # for few values four times as fast as wrong.any()
         index = tuple(int(i) for i in np.argwhere(wrong)[0])
         raise ValueError(f"{entry(name, index)} is {array[index]}; {expected}")
 
 
 def as_values(values: npt.ArrayLike, size: int, name: str = "values", *, axis: int = 0) -> FloatArray:
-    """One value for each of `size` points along an axis: finite numbers, or NaN where the value is not known.
+    """One value for each of `size` points along an axis: finite numbers, or NaN for missing values.
 
-    Masked values of masked arrays are not known.
+    Masked values count as missing.
     """
     array = _with_gaps(values, name)
     if not -array.ndim <= axis < array.ndim or array.shape[axis] != size:
@@ -296,7 +296,7 @@ def private(array: FloatArray, given: npt.ArrayLike) -> FloatArray:
 
 
 def locked(array: npt.NDArray[_Scalar]) -> npt.NDArray[_Scalar]:
-    """An array of our own, from now on read-only."""
+    """Make an array of our own read-only."""
     array.flags.writeable = False
     return array
 
@@ -323,7 +323,7 @@ def as_indices(values: npt.ArrayLike, size: int, name: str = "indices") -> Indic
 
 
 def as_plane_or_sphere(values: npt.ArrayLike, name: str = "points") -> FloatArray:
-    """Points of the plane, (n, 2), or non-zero directions of space, (n, 3), told apart by their shape."""
+    """Points of the plane, (n, 2), or non-zero directions of space, (n, 3), distinguished by their shape."""
     array = as_floats(values, name)
     if array.ndim == 2 and array.shape[1] == 3:
         return as_directions(array, name, points=True)

@@ -53,7 +53,7 @@ class DoubleDouble:
     Parameters
     ----------
     hi, lo : array_like of float64, broadcastable
-        `lo` defaults to zero. Pairs are taken as they stand: |lo| ≤ ½ ulp(hi) is the caller's duty.
+        `lo` defaults to zero. Pairs are used unchanged: |lo| ≤ ½ ulp(hi) is the caller's responsibility.
     """
 
     __array_ufunc__ = None  # so that `ndarray * DoubleDouble` comes to __rmul__

@@ -1,4 +1,4 @@
-"""Writing files: whole or not at all."""
+"""Atomic writing of files."""
 
 from __future__ import annotations
 
@@ -13,23 +13,23 @@ from tempfile import TemporaryDirectory
 from typing import Final
 
 NAME_LENGTH: Final = 32
-"""Letters of a file's name that its temporary name begins with; file systems have names of at most 255 bytes."""
+"""Number of characters of a file's name kept in its temporary name; file systems limit names to 255 bytes."""
 
 ENDING: Final = ".tmp"
-"""Of temporary names."""
+"""Suffix of temporary names."""
 
 NEW: Final = os.O_CREAT | os.O_EXCL | os.O_WRONLY | getattr(os, "O_NOFOLLOW", 0)
-"""How a file is opened that must not be there."""
+"""Flags to open a file that must not exist."""
 
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """Give a temporary name to write to; move it into place at the end, remove it after an error.
+    """Provide a temporary file to write to; move it into place at the end, remove it after an error.
 
-    The temporary file lies in the folder of the target and is made before it is given, under a name that nobody can
-    foresee, so that nothing that was laid there is written to. The target keeps its mode. A link is followed, as a
-    shell's ``>`` follows it: the file that it leads to is replaced. What is no file, such as a pipe or a device, is not
-    replaced but written to, at the end. What the system says of the temporary file it says of the target.
+    The temporary file is created in advance in the folder of the target, under an unpredictable name, so that no
+    planted file is written to. The target keeps its mode. Links are followed, as by a shell's ``>``: the file that they
+    lead to is replaced. Pipes, devices and other special files are not replaced but written to at the end. Errors of
+    the system for the temporary file name the target.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 @contextmanager
 def said_of(target: str | os.PathLike[str], folder: str | None = None) -> Iterator[None]:
-    """What the system says of temporary files, those in a folder too, or of none by name, it says of the target."""
+    """Make errors of the system for temporary files, also in a folder or without a name, name the target."""
     try:
         yield
     except OSError as error:
@@ -65,7 +65,7 @@ def said_of(target: str | os.PathLike[str], folder: str | None = None) -> Iterat
 
 @contextmanager
 def _streamed(target: Path) -> Iterator[Path]:
-    """A file elsewhere, whose bytes go to the target at the end."""
+    """A file elsewhere, whose bytes are copied to the target at the end."""
     with TemporaryDirectory() as folder:
         whole = Path(folder, f"{target.name}{ENDING}")
         yield whole
@@ -75,7 +75,7 @@ def _streamed(target: Path) -> Iterator[Path]:
 
 @contextmanager
 def _beside(kept: Path) -> Iterator[Path]:
-    """A file beside the target, which takes its place at the end."""
+    """A file next to the target, which replaces it at the end."""
     temporary = kept.with_name(f".{kept.name[:NAME_LENGTH]}.{secrets.token_hex(8)}{ENDING}")
     os.close(os.open(temporary, NEW, 0o666))
     try:

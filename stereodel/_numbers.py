@@ -1,4 +1,4 @@
-"""Numbers of every kind as doubles: what is no real number, or would be rounded without a word, is refused."""
+"""Numbers of every type as doubles; values that are not real, or that would be rounded silently, are rejected."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 _WHOLE = 2**53
-"""Up to here every whole number is a double."""
+"""Up to this number every integer is a double."""
 
 
 def as_doubles(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
@@ -32,7 +32,7 @@ def as_doubles(values: npt.ArrayLike, name: str) -> npt.NDArray[np.float64]:
 
 def is_masked(values: npt.ArrayLike) -> bool:
     """Whether some of the values of a masked array are masked."""
-    # Nobody has a masked array before numpy.ma is loaded, and loading it would be a tenth of our import time.
+    # There are no masked arrays before numpy.ma is loaded, and loading it would take a tenth of our import time.
     masked = sys.modules.get("numpy.ma")
     return masked is not None and isinstance(values, masked.MaskedArray) and bool(masked.is_masked(values))
 

@@ -1,6 +1,6 @@
-"""Plane and sphere as the kernel has them: the same functions for points (n, 2) and for directions (n, 3).
+"""Plane and sphere as spaces of the kernel: the same functions for points (n, 2) and for directions (n, 3).
 
-What works on either takes its space once, ``space_of(points)``, and asks no further.
+Code that works on either chooses its space once, with ``space_of(points)``.
 """
 
 from __future__ import annotations

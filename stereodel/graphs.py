@@ -42,7 +42,7 @@ _SHARED = LONLAT | {
         """,
     "workers": """
         workers : int, optional
-            Threads; -1 for all processors. By default those of the triangulation. Never changes the result.
+            Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
         """,
     "edges": """
         (e, 2) array of int32

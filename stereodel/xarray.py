@@ -137,7 +137,7 @@ class StereodelAccessor:
         return self._values.coords[lon].reset_coords(drop=True), self._values.coords[lat].reset_coords(drop=True)
 
     def _found(self, kind: str) -> Hashable:
-        """The coordinate that tells longitude or latitude."""
+        """The coordinate of longitude or latitude."""
         standard, units = _WORDS[kind]
         names = [
             name

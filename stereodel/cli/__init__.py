@@ -1,7 +1,7 @@
 """The command `stereodel`.
 
-One module a command, each with a function `command` and an `EXAMPLE`. They import nothing heavy before they run, so
-that the help answers at once.
+Each command is a module with a function `command` and an `EXAMPLE`. Heavy imports wait until a command runs, so that
+--help responds at once.
 """
 
 from stereodel._extras import of_extra

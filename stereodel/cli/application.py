@@ -1,4 +1,4 @@
-"""The application that the commands register with."""
+"""The application in which the commands are registered."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Command(TyperCommand):
 
 
 class Commands(TyperGroup):
-    """Commands whose failures become one line and an exit code."""
+    """Command group that reports failures as one line and an exit code."""
 
     def get_params(self, ctx: Any) -> list[Any]:
         """As those of `Command`."""

@@ -1,4 +1,4 @@
-"""`stereodel contour`: isolines of values known at points."""
+"""`stereodel contour`: isolines of values given at points."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ def command(
     value: Annotated[str, typer.Option(metavar="COLUMN", help="Column of the values.")],
     out: options.Out,
     levels: Annotated[
-        str | None, typer.Option(metavar="VALUE,…", help="Values of the lines, separated by commas.")
+        str | None, typer.Option(metavar="VALUE,…", help="Levels of the isolines, separated by commas.")
     ] = None,
     interval: Annotated[
-        float | None, typer.Option(metavar="STEP", help="Lines at all multiples of this step, instead of --levels.")
+        float | None, typer.Option(metavar="STEP", help="Isolines at all multiples of this step, instead of --levels.")
     ] = None,
     max_segment: options.MaxSegment = 1.0,
     skip_missing: options.SkipMissing = False,
@@ -38,7 +38,7 @@ def command(
     format: options.Format = None,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """Write isolines of the function that is linear in each Delaunay triangle of the points.
+    """Write isolines of the function that is linear on each Delaunay triangle of the points.
 
     Give either --levels or --interval. Higher values lie to the left of a line; lines are cut at ±180°.
     """
@@ -51,7 +51,7 @@ def command(
     from stereodel.io import write
 
     if (levels is None) == (interval is None):
-        raise ValueError("give either --levels, values with commas between them, or --interval, a step")
+        raise ValueError("give either --levels, values separated by commas, or --interval, a step")
     destination = Destination.of(out, format, LINES, points, overwrite=overwrite)
     table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     values, table = table.values([value], skip_missing=skip_missing)
@@ -71,7 +71,7 @@ def command(
 
 
 def _values_of(text: str) -> list[float]:
-    """Numbers with commas between them."""
+    """Numbers separated by commas."""
     try:
         return [float(part) for part in text.split(",")]
     except ValueError:
@@ -87,5 +87,5 @@ def _multiples(values: FloatArray, interval: float) -> list[float]:
     step = as_scalar(interval, "--interval", low=0.0, open_low=True)
     low, high = np.ceil(np.min(values, initial=np.inf) / step), np.floor(np.max(values, initial=-np.inf) / step)
     if high - low >= MOST_LEVELS:
-        raise ValueError(f"--interval is {step:g}, which makes {high - low + 1:.0f} lines; {MOST_LEVELS} are drawn")
+        raise ValueError(f"--interval is {step:g}, which makes {high - low + 1:.0f} levels; {MOST_LEVELS} are allowed")
     return [float(k) * step for k in np.arange(low, high + 1)]

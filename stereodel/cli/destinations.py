@@ -1,4 +1,4 @@
-"""Where results go: a file whose extension names the format, or stdout. Nothing is written before all is ready."""
+"""Output: a file whose extension gives the format, or stdout. Nothing is written before the result is complete."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 TABLES = ("csv", "geojson", "geojsonl", "parquet", "gpkg", "fgb", "shp", "kml")
 SAME = {"json": "geojson", "geoparquet": "parquet"}
-"""Other endings of formats."""
+"""Alternative extensions of formats."""
 PICTURES = ("svg", "pdf")
 MESHES = ("nc", "glb", "ply", "vtp", *PICTURES)
 
@@ -42,12 +42,12 @@ class Destination:
     def of(
         cls, name: str, kind: str | None, allowed: tuple[str, ...], *inputs: str | None, overwrite: bool = False
     ) -> Destination:
-        """The destination that the options --out and --format name, refused before the work if it cannot do.
+        """The destination given by --out and --format; an impossible one is rejected before the work starts.
 
-        A file that is there is not replaced unasked, one of the inputs never.
+        An existing file is replaced only with --overwrite, an input never.
         """
         if name != "-" and kind is not None:
-            raise ValueError(f"--format is for stdout (--out -); the format of {name} is told by its extension")
+            raise ValueError(f"--format is for stdout (--out -); the format of {name} is given by its extension")
         chosen = (kind or allowed[0]) if name == "-" else Path(name).suffix
         chosen = chosen.lower().removeprefix(".")
         chosen = SAME.get(chosen, chosen)
@@ -63,13 +63,13 @@ class Destination:
         if Path(name).is_file():
             for given in inputs:
                 if given is not None and Path(given).exists() and Path(given).samefile(name):
-                    raise ValueError(f"{name}: is read, so it cannot be written; choose another name")
+                    raise ValueError(f"{name}: is an input, so it cannot be overwritten; choose another name")
             if not overwrite:
-                raise ValueError(f"{name}: is there already; replace it with --overwrite, or choose another name")
+                raise ValueError(f"{name}: already exists; replace it with --overwrite, or choose another name")
         return cls(name, chosen)
 
     def write(self, save: Callable[[Path], object]) -> None:
-        """Let `save` write the file; for stdout a temporary one, which is then copied."""
+        """Call `save` to write the file; for stdout, to write a temporary file, which is then copied."""
         stop_if_interrupted()
         if self.name != "-":
             save(Path(self.name))
@@ -90,7 +90,7 @@ class Destination:
 
 
 def save_table(path: Path, table: Table, columns: Columns) -> None:
-    """Write columns that begin with the places of a table's points, as the extension says."""
+    """Write columns, the coordinates of a table's points first, in the format of the extension."""
     if path.suffix.lower() == ".csv":
         save_csv(path, columns)
         return
@@ -101,13 +101,13 @@ def save_table(path: Path, table: Table, columns: Columns) -> None:
 
 
 def save_layer(path: Path, layer: Layer) -> None:
-    """Write rows of a map, as the extension says."""
+    """Write the rows of a map in the format of the extension."""
     with bar(f"writing {len(layer)} rows") as shown:
         write(path, layer, progress=shown)
 
 
 def save_csv(path: Path, columns: Columns) -> None:
-    """Write columns as text."""
+    """Write columns as CSV."""
     with replacing(path) as temporary, temporary.open("w", encoding="utf-8", newline="") as file:
         write_csv(columns, file)
 
@@ -115,7 +115,7 @@ def save_csv(path: Path, columns: Columns) -> None:
 def save_mesh(
     path: Path, mesh: PlanarDelaunay | PlanarVoronoi | SphericalDelaunay | SphericalVoronoi, latitude: Latitude
 ) -> None:
-    """Write cells or triangles as a mesh or a picture."""
+    """Write cells or triangles as a mesh or picture."""
     kind = path.suffix.lower().removeprefix(".")
     if kind not in PICTURES:
         with stage(f"writing {path.name}"):

@@ -25,10 +25,10 @@ import dataclasses, json, sys
 from stereodel.render.gl import describe
 print(json.dumps(dataclasses.asdict(describe(sys.argv[1]))))
 """
-"""A process draws on one platform only, and a driver may end it: so each is tried in one of its own."""
+"""A process can use only one OpenGL platform, and a driver may crash it, so each is tried in a process of its own."""
 
 SECONDS: Final = 120
-"""After which a platform that has not drawn a few pixels never will."""
+"""Time limit for a platform to draw a few pixels."""
 
 
 def command() -> None:
@@ -52,7 +52,7 @@ def command() -> None:
 
 
 def tried() -> dict[str, gl.Description]:
-    """Each platform whose library is there, and what came of drawing on it."""
+    """Each platform whose library is installed, with the result of drawing on it."""
     from stereodel.render import gl
 
     here = [name for name in gl.PLATFORMS if gl.can_open(name)]
@@ -70,14 +70,14 @@ def _tried(name: str) -> gl.Description:
     except subprocess.TimeoutExpired:
         return gl.Description(name, "argument", problem=f"{name} has drawn nothing in {SECONDS} seconds")
     if ran.returncode:
-        last = (ran.stderr.splitlines() or ["it said nothing"])[-1]
+        last = (ran.stderr.splitlines() or ["no output"])[-1]
         problem = f"the process that drew on {name} ended with code {ran.returncode}: {last}"
         return gl.Description(name, "argument", problem=problem)
     return gl.Description(**json.loads(ran.stdout.splitlines()[-1]))
 
 
 def _choice(found: Mapping[str, gl.Description]) -> tuple[str, str, str]:
-    """The platform that a program would draw on, what decides it, and what is wrong with it."""
+    """The platform that a program would use, the reason, and any problem with it."""
     from stereodel.render import gl
 
     try:
@@ -88,7 +88,7 @@ def _choice(found: Mapping[str, gl.Description]) -> tuple[str, str, str]:
 
 
 def _versions() -> list[tuple[str, str]]:
-    """The library, what it always needs, and the system."""
+    """Versions of the library, of what it always needs, and of the system."""
     from stereodel.render.provenance import library_version
 
     return [
@@ -100,7 +100,7 @@ def _versions() -> list[tuple[str, str]]:
 
 
 def _extras() -> list[tuple[str, str, str]]:
-    """Each extra: the versions of what it brings itself, or what it lacks, what for, and how to get it."""
+    """Each extra with the versions of its packages, or those it lacks, its purpose, and how to install them."""
     from stereodel.render.provenance import library_version
 
     rows = []
@@ -113,14 +113,14 @@ def _extras() -> list[tuple[str, str, str]]:
 
 
 def _missing(extra: str) -> list[str]:
-    """Distributions of an extra, and of those that come along, which are not installed."""
+    """Distributions of an extra, and of the extras it includes, that are not installed."""
     from stereodel.render.provenance import NOT_INSTALLED, library_version
 
     return [name for name in distributions(extra) if library_version(name) == NOT_INSTALLED]
 
 
 def _rendering(found: Mapping[str, gl.Description], chosen: str, reason: str) -> list[tuple[str, str]]:
-    """What draws and why, and what came of drawing on each platform."""
+    """The platform in use and why, and the result of drawing on each."""
     from stereodel.render import gl
 
     reasons = {"found": "the first that can be opened"}
@@ -140,7 +140,7 @@ def _verdict(found: gl.Description, chosen: bool) -> str:
 
 
 def _table(rows: Sequence[tuple[str, ...]]) -> str:
-    """Rows as lines, each column as wide as it must be."""
+    """Rows as aligned lines."""
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     lines = ("  ".join(f"{cell:{width}}" for cell, width in zip(row, widths, strict=True)) for row in rows)
     return "\n".join(f"  {line.rstrip()}" for line in lines)

@@ -1,4 +1,4 @@
-"""What ends a command early, as one line on stderr and an exit code."""
+"""Failures of commands, reported as one line on stderr and an exit code."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from stereodel.io.columns import RenamedColumnWarning
 NOTHING_TO_DO: Final = 1
 WRONG_INPUT: Final = 2
 INTERRUPTED: Final = 128 + 2
-"""As a shell reports a program that SIGINT ended."""
+"""Exit code of a program that SIGINT ended, by the convention of shells."""
 BROKEN_PIPE: Final = 1
-"""As rich and Python's own documentation have it."""
+"""Exit code after a closed pipe, as in rich and Python's documentation."""
 
 
 OPTIONS: Final = {
@@ -42,36 +42,36 @@ OPTIONS: Final = {
     "latitude": "--latitude",
     "angular_radius": "--angular-radius",
 }
-"""Arguments of the library that messages name, and the options that stand for them here."""
+"""Arguments of the library that messages name, and the corresponding options."""
 
 
 _signals: list[int] = []
 
 
 def interrupt(number: int, frame: object) -> NoReturn:
-    """What SIGINT does while a command runs: as Python has it, and it is remembered.
+    """Handler of SIGINT while a command runs: Python's default, and the interruption is recorded.
 
-    An interrupted import of a library may end in another exception, which then means the same.
+    An interrupted import of a library may raise another exception, which is then treated as an interruption.
     """
     _signals.append(number)
     raise KeyboardInterrupt
 
 
 def stop_if_interrupted() -> None:
-    """Interrupt again where an interruption was lost: some libraries drop exceptions while they are imported."""
+    """Interrupt again if an interruption was lost: some libraries swallow exceptions while they are imported."""
     if _signals:
         raise KeyboardInterrupt
 
 
 class NothingToDoError(Exception):
-    """The input is right, but there is nothing to write."""
+    """The input is valid, but there is nothing to write."""
 
 
 @contextmanager
 def told_plainly() -> Iterator[None]:
-    """Turn errors that a user can mend into a message and an exit code; others pass with their traceback.
+    """Turn errors that a user can fix into a message and an exit code; others pass with their traceback.
 
-    That columns were renamed is a line on stderr, too.
+    Renamed columns are reported on stderr as well.
     """
     try:
         with warnings.catch_warnings():
@@ -84,7 +84,7 @@ def told_plainly() -> Iterator[None]:
             )
             yield
     except BrokenPipeError:
-        # Python flushes stdout once more on its way out, and would complain there.
+        # Python flushes stdout once more at exit and would report an error there.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise typer.Exit(BROKEN_PIPE) from None
     except KeyboardInterrupt as reason:
@@ -103,7 +103,7 @@ def told_plainly() -> Iterator[None]:
 
 
 def _interrupted(reason: str = "") -> typer.Exit:
-    """The end of an interrupted command, which is said here; another interruption of its last steps changes nothing."""
+    """Report an interruption and return the exit; further interruptions are ignored."""
     if _signals:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     typer.echo(reason or "interrupted; nothing was written", err=True)
@@ -111,7 +111,7 @@ def _interrupted(reason: str = "") -> typer.Exit:
 
 
 def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
-    """A message in the words of the command line. Names of columns, which follow the number of a row, stay.
+    """A message with options in place of arguments. Names of columns, which follow a row number, are left unchanged.
 
     Examples
     --------
@@ -139,7 +139,7 @@ def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
 
 @contextmanager
 def naming_options(**options: str) -> Iterator[None]:
-    """Let errors in here name other options than those of `OPTIONS`, such as ``lon="--of-lon"``."""
+    """Make errors within the context name other options than those of `OPTIONS`, such as ``lon="--of-lon"``."""
     try:
         yield
     except ValueError as error:

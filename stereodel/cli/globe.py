@@ -1,4 +1,4 @@
-"""`stereodel globe`: pictures and films of globes that bend."""
+"""`stereodel globe`: pictures and films of globes under conformal maps."""
 
 from __future__ import annotations
 
@@ -58,10 +58,10 @@ def command(
     overwrite: options.Overwrite = False,
     font: globe.Font = None,
 ) -> None:
-    """Draw a globe that bends: maps, points with their cells and files, under a conformal fisheye.
+    """Draw a globe under a conformal fisheye, with maps, points and their cells, and layers from files.
 
-    A film, .gif, .webp, .apng or .mp4, turns once with --spin, flies to places with --fly; else the focus grows and
-    shrinks again.
+    A film (.gif, .webp, .apng or .mp4) makes one turn with --spin and flies to places with --fly; otherwise the focus
+    grows and shrinks again.
     """
     from stereodel.cli.destinations import Destination
     from stereodel.cli.globe_aim import Aim, place

@@ -1,4 +1,4 @@
-"""What a globe is seen through and from where: the lens and the view that options ask for."""
+"""The lens and the view of a globe, from options."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from stereodel.globe import hemispheres
 
 Place = tuple[float, float]
 
-CLOSE = 5.0  # magnification from which on the coast at 1 : 50 million shows its corners
+CLOSE = 5.0  # magnification above which the coastline at 1 : 50 million shows its corners
 
 
 def place(text: str | None, option: str) -> Place | None:
-    """Longitude and latitude as an option gives them."""
+    """Longitude and latitude from the text of an option."""
     return None if text is None else pair(text, option, "LON,LAT")
 
 
 @dataclass(frozen=True)
 class Aim:
-    """Focus, magnification, middle of the view, projection and its angular radius; what was not given is found out."""
+    """Focus, magnification, centre of the view, projection and angular radius, with defaults for missing options."""
 
     focus: Place | None
     magnification: float
@@ -40,22 +40,22 @@ class Aim:
             raise ValueError(f"--magnify is {self.magnification:g}, but a magnification is positive and finite")
 
     def with_middle_of(self, points: FloatArray) -> Aim:
-        """Above the middle of unit vectors (n, 3), unless something else was asked for."""
+        """The aim centred on unit vectors (n, 3), unless a centre or focus was given."""
         return self if self.middle or self.focus else replace(self, middle=middle_of(points))
 
     @property
     def place(self) -> Place:
-        """Where the focus is, and the middle of the view where nothing else is said."""
+        """The focus, which is also the default centre of the view."""
         return self.focus or self.middle or (0.0, 0.0)
 
     @property
     def resolution(self) -> str:
-        """Of the maps of the Earth: the finest for close looks."""
+        """Resolution of the maps of the Earth: the finest for strong magnification."""
         return "10m" if self.magnification >= CLOSE else "50m"
 
     @property
     def lens(self) -> MoebiusMap:
-        """The fisheye; the identity for magnification 1, which takes any focus."""
+        """The fisheye; the identity for magnification 1, whatever the focus."""
         return (
             MoebiusMap.identity() if self.magnification == 1 else fisheye(self.place, magnification=self.magnification)
         )

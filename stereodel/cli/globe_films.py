@@ -1,4 +1,4 @@
-"""Films of `stereodel globe`: what moves, and how it is written."""
+"""Films of `stereodel globe`: motion and output."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from stereodel.film import Film, Flight, FrameError, Morph, Spin, Stop
 from stereodel.film.shots import Motion
 from stereodel.globe import Globe
 
-FILM_SPACING = 15.0  # of the graticule, degrees: one that suited each frame would come and go
-KEPT = "interrupted; the same command goes on with the frames that are missing"
+FILM_SPACING = 15.0  # of the graticule, in degrees: a spacing adapted to each frame would flicker
+KEPT = "interrupted; the same command draws the missing frames"
 
 
 def motion_of(aim: Aim, *, spin: bool, stops: Sequence[Place], seconds: float) -> Motion:
-    """A flight where there are stops, a turn where it is asked for or nothing is magnified, else a lens that grows."""
+    """A flight if there are stops, a turn if requested or if nothing is magnified, otherwise a growing lens."""
     if spin and stops:
-        raise ValueError("--spin and --fly are two films; choose one")
+        raise ValueError("--spin and --fly cannot be combined; choose one")
     if aim.projection == Projection.hemispheres or (aim.projection != Projection.globe and (spin or stops)):
-        raise ValueError(f"--projection {aim.projection.value} stands still; --spin and --fly are for the globe")
+        raise ValueError(f"--projection {aim.projection.value} cannot move; --spin and --fly are for the globe")
     if stops:
         return Flight([Stop(place, aim.magnification) for place in (aim.place, *stops)])
     if spin or aim.magnification == 1:
@@ -33,7 +33,7 @@ def motion_of(aim: Aim, *, spin: bool, stops: Sequence[Place], seconds: float) -
 
 
 def save_film(globe: Globe, motion: Motion, path: Path, *, size: int, fps: float, kept: bool) -> None:
-    """Draw the frames and write the file; after an interruption those that are finished may be kept beside it."""
+    """Draw the frames and write the file; after an interruption, finished frames may be kept next to it."""
     try:
         Film.of_globe(globe, motion, size=(size, size), fps=fps).save(path, progress=sys.stderr.isatty())
     except FrameError as error:

@@ -1,4 +1,4 @@
-"""What is on the globe that `stereodel globe` draws, layer upon layer."""
+"""Layers of the globe that `stereodel globe` draws."""
 
 from __future__ import annotations
 
@@ -20,29 +20,29 @@ from stereodel.drawing.lengths import as_length
 from stereodel.drawing.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
 from stereodel.globe import Globe, Raster
 
-CROWDED = 500  # points from which on lines and dots are drawn finer, so that what they bound can still be seen
-FINEST = 0.2  # of the usual widths
+CROWDED = 500  # number of points above which lines and dots become finer, so that cells stay visible
+FINEST = 0.2  # smallest factor for the usual widths
 OWN_TEXTURE = "blue-marble"
 LAYER_KEYS = ("color", "width", "outline", "size", "column")  # of --layer FILE,key=…
 
 
 @dataclass(frozen=True)
 class Features:
-    """Which maps of the Earth are drawn."""
+    """Maps of the Earth to draw."""
 
     land: bool | None
-    """Unless there is a texture, when None."""
+    """Whether to fill the land; None fills it unless there is a texture."""
     coastlines: bool
     borders: bool
     rivers: bool
     lakes: bool
     graticule: float | None
-    """Degrees; 0 for none, None for what suits the picture."""
+    """Spacing in degrees; 0 for no graticule, None for a spacing that suits the picture."""
     resolution: str
 
 
 def texture_of(name: str | None, box: str | None, latitude: Latitude) -> Raster | None:
-    """The picture that options ask for, with rows of a kind of latitude."""
+    """The image given by options, with rows in a kind of latitude."""
     if name is None:
         refuse({"--texture-box": box}, "a --texture, and there is none")
         return None
@@ -60,7 +60,7 @@ def new_globe(
     title: str = "",
     font: Sequence[str] | None = None,
 ) -> Globe:
-    """A globe with maps of the Earth, from the ground up."""
+    """A globe with maps of the Earth, drawn from the bottom layer up."""
     globe = Globe(latitude=latitude.value, font=as_font(font, "--font"), title=title)
     if texture is not None:
         globe.add_raster(texture)
@@ -81,25 +81,25 @@ def new_globe(
 
 @dataclass(frozen=True)
 class LayerChoice:
-    """A file to draw, and how: what `--layer` says, ``FILE,color=…,width=…``."""
+    """A file to draw and its style, as given by `--layer`: ``FILE,color=…,width=…``."""
 
     path: Path
     looks: Mapping[str, str]
 
     @classmethod
     def of(cls, text: str) -> LayerChoice:
-        """What an option means; a file that has commas and equals signs in its name is taken as it is."""
+        """Parse an option; an existing file whose name contains commas and equals signs is taken literally."""
         if Path(text).exists():
             return cls(Path(text), {})
         path, *given = re.split(r",(?=\w+=)", text)
         looks = dict(part.split("=", 1) for part in given)
         for key in looks:
             if key not in LAYER_KEYS:
-                raise ValueError(f"--layer {text}: {key} is not known; give {', '.join(LAYER_KEYS)}")
+                raise ValueError(f"--layer {text}: {key} is unknown; the keys are {', '.join(LAYER_KEYS)}")
         return cls(Path(path), looks)
 
     def arguments(self) -> dict[str, Any]:
-        """Those of `Globe.add_layer`."""
+        """Arguments for `Globe.add_layer`."""
         looks, line, rim = self.looks, MAP_LINES["line"], MAP_LINES["outline"]
         color = as_color(looks["color"], "--layer: color") if "color" in looks else None
         width = as_length(looks["width"], "--layer: width") if "width" in looks else None
@@ -117,7 +117,7 @@ class LayerChoice:
 
 
 def add_files(globe: Globe, layers: Iterable[LayerChoice]) -> None:
-    """Draw what is in files; what is wrong in one is said with its name."""
+    """Draw the contents of files; errors name the file."""
     for layer in layers:
         with naming(str(layer.path)):
             globe.add_layer(layer.path, **layer.arguments())
@@ -125,7 +125,7 @@ def add_files(globe: Globe, layers: Iterable[LayerChoice]) -> None:
 
 @dataclass(frozen=True)
 class PointLooks:
-    """What is drawn of points, and how."""
+    """How points are drawn."""
 
     shown: frozenset[str]
     labels: str | None = None
@@ -138,7 +138,7 @@ class PointLooks:
             refuse({"--rank": self.rank}, "--labels, and there are none")
 
     def dots(self, weight: float) -> DotStyle:
-        """The style of dots, finer where they are many."""
+        """The style of dots, finer where there are many."""
         usual = DOTS["sites"].scaled(weight)
         radius = usual.radius if self.size is None else as_length(self.size, "--point-size") / 2
         color = usual.color if self.color is None else as_color(self.color, "--color")
@@ -146,7 +146,7 @@ class PointLooks:
 
 
 def add_points(globe: Globe, table: Table, looks: PointLooks) -> None:
-    """Draw points, with the ridges of their cells, the edges of their triangles, and names."""
+    """Draw points, the ridges of their cells, the edges of their triangles, and labels."""
     places = table.points(Latitude(globe.latitude))
     weight = max(FINEST, min(1.0, float(np.sqrt(CROWDED / max(1, len(places))))))
     triangulation = SphericalDelaunay(places)

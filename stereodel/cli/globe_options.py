@@ -1,4 +1,4 @@
-"""The options of `stereodel globe`, with what its help says of each."""
+"""The options of `stereodel globe` with their help."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import typer
 
 
 class Show(StrEnum):
-    """What is drawn of the points."""
+    """What to draw for the points."""
 
     points = "points"
     cells = "cells"
@@ -17,7 +17,7 @@ class Show(StrEnum):
 
 
 class Projection(StrEnum):
-    """How the sphere becomes flat."""
+    """Projections of the sphere to the page."""
 
     globe = "globe"
     stereographic = "stereographic"
@@ -30,80 +30,82 @@ Points = Annotated[
 ]
 Shows = Annotated[
     list[Show] | None,
-    typer.Option("--show", help="What is drawn of the points, repeatable; by default points and cells."),
+    typer.Option("--show", help="What to draw for the points, repeatable; by default points and cells."),
 ]
 Focus = Annotated[
-    str | None, typer.Option(metavar="LON,LAT", help="What a fisheye magnifies; by default the middle of the picture.")
+    str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
 ]
-Magnify = Annotated[float, typer.Option(metavar="S", help="How many times the surroundings of the focus are enlarged.")]
+Magnify = Annotated[float, typer.Option(metavar="S", help="Magnification at the focus.")]
 View = Annotated[
     str | None,
-    typer.Option(metavar="LON,LAT", help="Middle of the picture; by default the focus, or that of the points."),
+    typer.Option(metavar="LON,LAT", help="Centre of the picture; by default the focus, else the centre of the points."),
 ]
 Flattened = Annotated[
-    Projection, typer.Option("--projection", help="A ball, a flat stereographic map, or both halves as flat maps.")
+    Projection, typer.Option("--projection", help="A globe, a stereographic map, or maps of both hemispheres.")
 ]
-AngularRadius = Annotated[
-    float, typer.Option(metavar="DEGREES", help="What a stereographic map shows: up to so far from its middle.")
-]
+AngularRadius = Annotated[float, typer.Option(metavar="DEGREES", help="Angular radius of a stereographic map.")]
 Layers = Annotated[
     list[str] | None,
     typer.Option(
         "--layer",
         metavar="FILE[,color=…,width=…]",
-        help="Points, lines, polygons to draw: .geojson, .gpkg …, with color, width, outline, size or column; "
+        help="Points, lines or polygons to draw: .geojson, .gpkg …, with color, width, outline, size or column; "
         "repeatable.",
     ),
 ]
 Labels = Annotated[
     str | None,
-    typer.Option(metavar="COLUMN", help="Names to write at the points, as many as have room, the first rows first."),
+    typer.Option(metavar="COLUMN", help="Labels of the points, as many as fit, in the order of the rows."),
 ]
-Rank = Annotated[str | None, typer.Option(metavar="COLUMN", help="Numbers by which names matter, the largest first.")]
+Rank = Annotated[str | None, typer.Option(metavar="COLUMN", help="Priority of labels, a number; the largest first.")]
 PointColor = Annotated[
-    str | None, typer.Option("--color", metavar="COLOR", help="Of the points: a name such as firebrick, or #rrggbb.")
+    str | None,
+    typer.Option("--color", metavar="COLOR", help="Colour of the points: a name, or #rrggbb."),
 ]
 PointSize = Annotated[
-    str | None, typer.Option(metavar="LENGTH", help="Of the points, across: 3pt, 1mm; by default as fits.")
+    str | None,
+    typer.Option(metavar="LENGTH", help="Diameter of the points: 3pt, 1mm; by default chosen by their number."),
 ]
-Title = Annotated[str, typer.Option(metavar="TEXT", help="Written above the picture.")]
-Legend = Annotated[bool, typer.Option("--legend", help="Say below the picture what points and layers are.")]
+Title = Annotated[str, typer.Option(metavar="TEXT", help="Title above the picture.")]
+Legend = Annotated[bool, typer.Option("--legend", help="Explain points and layers below the picture.")]
 Styles = Annotated[
     list[str] | None,
-    typer.Option("--style", metavar="STYLE", help="column, slide, dark, or a file .toml of colours; repeatable."),
+    typer.Option("--style", metavar="STYLE", help="column, slide, dark, or a .toml file of styles; repeatable."),
 ]
-Width = Annotated[str, typer.Option(metavar="LENGTH", help="Of the page: 17cm, 120mm, 6.5in, 480pt.")]
+Width = Annotated[str, typer.Option(metavar="LENGTH", help="Width of the page: 17cm, 120mm, 6.5in, 480pt.")]
 Dpi = Annotated[float | None, typer.Option(metavar="NUMBER", help="Pixels per inch of a PNG, instead of --size.")]
-Transparent = Annotated[bool, typer.Option("--transparent", help="Leave out the paper beside the globe.")]
+Transparent = Annotated[bool, typer.Option("--transparent", help="Make the background transparent.")]
 Texture = Annotated[
     str | None,
-    typer.Option(metavar="IMAGE", help="Picture in longitude and latitude, a file, or blue-marble, which is here."),
+    typer.Option(metavar="IMAGE", help="Image in longitude and latitude, a file, or the built-in blue-marble."),
 ]
 TextureBox = Annotated[
-    str | None, typer.Option(metavar="W,S,E,N", help="Borders of the texture in degrees; by default the whole Earth.")
+    str | None, typer.Option(metavar="W,S,E,N", help="Bounds of the texture in degrees; by default the whole Earth.")
 ]
 Land = Annotated[
-    bool | None, typer.Option("--land/--no-land", help="Fill the land; by default, unless there is a texture.")
+    bool | None, typer.Option("--land/--no-land", help="Fill the land; the default unless there is a texture.")
 ]
-Coastlines = Annotated[bool, typer.Option(help="Draw the coasts.")]
-Borders = Annotated[bool, typer.Option(help="Draw the borders between countries.")]
+Coastlines = Annotated[bool, typer.Option(help="Draw coastlines.")]
+Borders = Annotated[bool, typer.Option(help="Draw borders of countries.")]
 Rivers = Annotated[bool, typer.Option(help="Draw large rivers.")]
 Lakes = Annotated[bool, typer.Option(help="Fill lakes.")]
 Graticule = Annotated[
     float | None,
-    typer.Option(metavar="DEGREES", help="Spacing of meridians and parallels; 0 for none; by default as fits."),
+    typer.Option(
+        metavar="DEGREES", help="Spacing of meridians and parallels; 0 for none; chosen automatically by default."
+    ),
 ]
 Font = Annotated[
     list[str] | None,
-    typer.Option("--font", metavar="NAME", help="Family of the names, or the file of a font; repeatable."),
+    typer.Option("--font", metavar="NAME", help="Font of the labels, a family or a file; repeatable."),
 ]
-Spin = Annotated[bool, typer.Option("--spin", help="Of a film: the globe turns once.")]
+Spin = Annotated[bool, typer.Option("--spin", help="For films: turn the globe once.")]
 Fly = Annotated[
     list[str] | None,
-    typer.Option(metavar="LON,LAT", help="Of a film: the way from the focus goes there; repeatable."),
+    typer.Option(metavar="LON,LAT", help="For films: fly from the focus to this place; repeatable."),
 ]
-Seconds = Annotated[float, typer.Option(metavar="SECONDS", help="How long a film without --fly is.")]
-Fps = Annotated[float, typer.Option(metavar="RATE", help="Frames of a film in a second.")]
+Seconds = Annotated[float, typer.Option(metavar="SECONDS", help="Duration of a film without --fly.")]
+Fps = Annotated[float, typer.Option(metavar="RATE", help="Frames per second of a film.")]
 Size = Annotated[
     int | None, typer.Option(min=1, max=65_535, help="Width in pixels; by default 1600, and 720 for films.")
 ]

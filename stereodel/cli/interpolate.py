@@ -121,7 +121,7 @@ def command(
 def _interpolator(
     table: Table, names: list[str], method: Method, latitude: options.Latitude, skip_missing: bool
 ) -> Callable[[FloatArray], FloatArray]:
-    """A function from points to values, (n, number of columns), that shows how far it is."""
+    """A function from points to values, (n, number of columns), that reports its progress."""
     import numpy as np
 
     from stereodel.cli.progress import in_pieces, stage
@@ -139,7 +139,7 @@ def _interpolator(
 
 
 def _grid(spacing: float, box: str | None, centers: bool) -> Grid:
-    """A grid of the whole Earth, or of a box "W,S,E,N"."""
+    """A grid of the whole Earth, or of the box "W,S,E,N"."""
     from stereodel.io import Grid
 
     bounds = None if box is None else options.box_of(box, "--box")

@@ -58,8 +58,8 @@ def command(
 ) -> None:
     """Find the sites nearest to each query point, and their distances in kilometres.
 
-    Writes the columns of the query points, then the row of each site in its table, the columns kept of it, and the
-    distance. A query point with several sites has several rows, ranked from 1; one without any has none.
+    Writes the columns of the query points, then the row number of each site in its table, the columns kept from it, and
+    the distance. A query point with several sites has several rows, ranked from 1; a query point with no site has none.
     """
     from stereodel.cli.destinations import TABLES, Destination, save_table
     from stereodel.cli.progress import say
@@ -88,7 +88,7 @@ def command(
 
 @dataclass(frozen=True, eq=False)
 class Pairs:
-    """Points that ask, by number, each with one of its sites, its rank from 1 and its distance; (m,) each."""
+    """Indices of query points, each with one of its sites, that site's rank from 1 and its distance; (m,) each."""
 
     query: Indices
     site: Indices
@@ -97,7 +97,7 @@ class Pairs:
 
 
 def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: float | None, exclude_self: bool) -> Pairs:
-    """The nearest sites of each query, up to `count`; distances are kilometres on the sphere."""
+    """The nearest sites of each query point, up to `count`; distances on the sphere are in kilometres."""
     import numpy as np
 
     from stereodel import PlanarDelaunay, SphericalDelaunay, angular_distance
@@ -105,7 +105,7 @@ def _pairs(sites: FloatArray, queries: FloatArray, count: int, max_distance: flo
     from stereodel.earth import MEAN_RADIUS_KM
 
     planar = sites.shape[1] == 2
-    # Of many sites at one place, none or all are at that of a query: places are asked for, and one more than wanted.
+    # Sites that share a place are all at a query point or none is: search distinct places, and one more than wanted.
     groups = _by_place(sites) if exclude_self else Ragged(np.arange(len(sites)), np.arange(len(sites) + 1))
     places = sites[groups.values[groups.offsets[:-1]]]
     triangulation = PlanarDelaunay(places) if planar else SphericalDelaunay(places)
@@ -145,13 +145,13 @@ def _by_place(sites: FloatArray) -> Ragged:
 
 
 def _kept(sites: Table, keep: list[str] | None) -> Columns:
-    """The columns of the sites that are written."""
+    """The columns of the sites to write."""
     names = [name for name in sites.columns if name.lower() == "name"] if keep is None else keep
     return {name: sites.column(name) for name in names}
 
 
 def _columns(sites: Table, found: Table, pairs: Pairs, kept: Columns, *, ranked: bool) -> Columns:
-    """One row for each point and each of its sites, as they were found."""
+    """One row for each pair of a query point and a site."""
     from stereodel.io.columns import beside
 
     results: Columns = {"rank": pairs.rank} if ranked else {}

@@ -1,4 +1,4 @@
-"""Options that several commands have, with one wording."""
+"""Options shared by several commands, with the same wording."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Points = Annotated[
     str, typer.Argument(metavar="POINTS", help="Table of points: .csv, .geojson, .gpkg, .shp, .xlsx …; - is stdin.")
 ]
 Out = Annotated[
-    str, typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension is the format; - is stdout.")
+    str, typer.Option("--out", "-o", metavar="FILE", help="File to write; its extension gives the format; - is stdout.")
 ]
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace the file if it exists.")]
 Format = Annotated[
@@ -76,7 +76,7 @@ def refuse(given: Mapping[str, object], purpose: str) -> None:
 
 
 def pair(text: str, option: str, meaning: str) -> tuple[float, float]:
-    """Longitude and latitude with a comma between them, such as ``10.5,48``."""
+    """Longitude and latitude separated by a comma, such as ``10.5,48``."""
     try:
         lon, lat = (float(part) for part in text.split(","))
     except ValueError:
@@ -89,7 +89,7 @@ def pair(text: str, option: str, meaning: str) -> tuple[float, float]:
 
 
 def box_of(text: str, option: str) -> tuple[float, float, float, float]:
-    """Borders of a box "W,S,E,N" in degrees; the eastern one is beyond 180 where the box goes over ±180°."""
+    """Bounds of a box "W,S,E,N" in degrees; the eastern one exceeds 180 if the box crosses ±180°."""
     try:
         west, south, east, north = (float(part) for part in text.split(","))
     except ValueError:

@@ -1,4 +1,4 @@
-"""`stereodel panorama`: 360° pictures through a conformal lens."""
+"""`stereodel panorama`: 360° images through a conformal lens."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ PICTURES = ("jpg", "jpeg", "png", "webp")
 
 
 class Form(StrEnum):
-    """What is written."""
+    """Format of the panorama to write."""
 
     equirectangular = "equirectangular"
     cubemap = "cubemap"
@@ -29,32 +29,32 @@ def command(
     ],
     out: options.Out,
     focus: Annotated[
-        str | None, typer.Option(metavar="LON,LAT", help="What is magnified; by default the middle of the picture.")
+        str | None, typer.Option(metavar="LON,LAT", help="Focus of the fisheye; by default the centre of the picture.")
     ] = None,
     magnify: globe.Magnify = 1.0,
     to: Annotated[
-        Form, typer.Option("--to", help="A panorama again, the six faces of a cube, or a little planet.")
+        Form, typer.Option("--to", help="Another panorama, the six faces of a cube, or a little planet.")
     ] = Form.equirectangular,
     view: Annotated[
         str | None,
-        typer.Option(metavar="LON,LAT", help="What comes into the middle; by default 0,0; of planets 0,-90."),
+        typer.Option(metavar="LON,LAT", help="Centre of the result; by default 0,0; for planets 0,-90."),
     ] = None,
     width: Annotated[
         int | None,
-        typer.Option(min=1, metavar="PIXELS", help="Of the picture, or of a face; by default as fine as PICTURE is."),
+        typer.Option(min=1, metavar="PIXELS", help="Width of the result or of a face; by default as fine as PICTURE."),
     ] = None,
-    angular_radius: Annotated[
-        float, typer.Option(metavar="DEGREES", help="What a planet shows: up to so far from its middle.")
-    ] = 140.0,
-    faces: Annotated[bool, typer.Option("--faces", help="Of a cube: a file for each face, NAME_right.jpg …")] = False,
+    angular_radius: Annotated[float, typer.Option(metavar="DEGREES", help="Angular radius of a planet.")] = 140.0,
+    faces: Annotated[
+        bool, typer.Option("--faces", help="For cubemaps: a file for each face, NAME_right.jpg …")
+    ] = False,
     format: Annotated[
         str | None, typer.Option("--format", metavar="NAME", help="Format of stdout, when --out is -; jpg by default.")
     ] = None,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """Write a 360° picture as it looks through a conformal fisheye: what is near the focus grows, circles stay round.
+    """Write a 360° picture as seen through a conformal fisheye: places near the focus grow, circles stay round.
 
-    Longitude and latitude are those of the picture: 0,0 is its middle, 0,90 straight up.
+    Longitude and latitude are those of the picture: 0,0 is its centre, 0,90 straight up.
     """
     from pathlib import Path
 
@@ -67,7 +67,7 @@ def command(
     from stereodel.globe.raster import panorama_size, planet_radius
 
     if faces and to != Form.cubemap:
-        raise ValueError(f"--faces are those of a cube, and --to is {to.value}; add --to cubemap")
+        raise ValueError(f"--faces requires --to cubemap, but --to is {to.value}")
     if faces and out == "-":
         raise ValueError("--faces are six files, and stdout is one; name a file with --out")
     destination = Destination.of(out, format, PICTURES, picture, overwrite=overwrite and not faces)

@@ -1,4 +1,4 @@
-"""What a command says while it works: on a terminal alone, so that scripts and logs see nothing of it."""
+"""Progress of a command, shown on terminals only, so that scripts and logs contain none of it."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ import typer
 from stereodel.cli.failures import stop_if_interrupted
 
 PIECE = 100_000
-"""Rows between two signs of progress."""
+"""Number of rows between two updates."""
 
 
 @contextmanager
 def stage(what: str) -> Iterator[None]:
-    """Show what is being done, and for how long, until it is done."""
+    """Show the current step and its elapsed time until it is done."""
     stop_if_interrupted()
     if not sys.stderr.isatty():
         yield
@@ -34,7 +34,7 @@ def stage(what: str) -> Iterator[None]:
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float], None]]:
-    """Show how much of the work is done, which is told to what is given, as a share from 0 to 1."""
+    """Show a progress bar; yields a function that takes the fraction done, from 0 to 1."""
     stop_if_interrupted()
     if not sys.stderr.isatty():
         yield lambda share: stop_if_interrupted()
@@ -44,7 +44,7 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=None)  # until a share is told
+        task = progress.add_task(what, total=None)  # until the first fraction is known
 
         def shown(share: float) -> None:
             stop_if_interrupted()
@@ -54,7 +54,7 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
 
 
 def in_pieces(size: int, what: str) -> Iterator[slice]:
-    """Slices that make up `size` rows, with a bar that says how many are done."""
+    """Slices that make up `size` rows, with a progress bar."""
     with bar(what) as shown:
         for start in range(0, size, PIECE):
             yield slice(start, start + PIECE)
@@ -62,6 +62,6 @@ def in_pieces(size: int, what: str) -> Iterator[slice]:
 
 
 def say(what: str) -> None:
-    """Tell a person what was done."""
+    """Report what was done, on terminals only."""
     if sys.stderr.isatty():
         typer.echo(what, err=True)

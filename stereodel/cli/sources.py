@@ -1,4 +1,4 @@
-"""Where points come from: a table in a file or on stdin, of longitudes and latitudes or of a plane."""
+"""Input points: tables in files or on stdin, with longitudes and latitudes or plane coordinates."""
 
 from __future__ import annotations
 
@@ -31,22 +31,22 @@ SECOND: Final = {"lon": "lon", "lat": "lat", "layer": "layer-name", "crs": "crs"
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Points with what else their table says of them.
+    """Points and the other columns of their table.
 
     Attributes
     ----------
     name : str
-        Of the file, as messages give it.
+        Name of the file, as shown in messages.
     places : (n, 2) array
-        Longitude and latitude in degrees, or coordinates of a plane.
+        Longitude and latitude in degrees, or plane coordinates.
     axes : tuple of str
-        What the two are called.
+        Names of the two coordinate columns.
     columns : dict
         The other columns by name, (n,) each.
     rows : (n,) array of int
         Number of each point's row in the table, from 1.
     crs : str, optional
-        Coordinate system of a plane, where it is known; degrees are EPSG:4326.
+        Coordinate reference system of plane coordinates, if known; degrees are EPSG:4326.
     """
 
     name: str
@@ -61,7 +61,7 @@ class Table:
 
     @property
     def planar(self) -> bool:
-        """Whether these are coordinates of a plane."""
+        """Whether these are plane coordinates."""
         return self.axes != LONLAT
 
     def points(self, latitude: Latitude) -> FloatArray:
@@ -69,14 +69,14 @@ class Table:
         return self.places if self.planar else lonlat_to_xyz(self.places, latitude=latitude.value)
 
     def column(self, name: str) -> Column:
-        """A column by name, or an error that lists those that are there."""
+        """A column by name, or an error that lists the columns that exist."""
         if name not in self.columns:
             known = ", ".join(self.columns) or "none besides the coordinates"
             raise ValueError(f"{self.name}: there is no column {name!r}; the columns are {known}")
         return self.columns[name]
 
     def numbers(self, name: str) -> FloatArray:
-        """A column of numbers, NaN where it is empty; for words an error that names the row of the first."""
+        """A column of numbers, NaN where a cell is empty; an error names the first row that holds text."""
         column = self.column(name)
         if column.dtype.kind in "iuf":
             return column.astype(np.float64)
@@ -87,7 +87,7 @@ class Table:
         return values
 
     def values(self, names: list[str], *, skip_missing: bool) -> tuple[FloatArray, Table]:
-        """Columns of numbers (n, number of names) and their points; rows that lack one are left out if they may be."""
+        """Columns of numbers (n, number of names) and their points, without incomplete rows if `skip_missing`."""
         values = np.column_stack([self.numbers(name) for name in names])
         missing = np.argwhere(~np.isfinite(values))
         if len(missing) and not skip_missing:
@@ -101,16 +101,16 @@ class Table:
         return values[kept], self.taken(kept)
 
     def beside(self, results: Columns, *, first: Columns | None = None, taken: Collection[str] = ()) -> Columns:
-        """The places, `first`, the other columns of the table, and results; none hides another.
+        """The places, `first`, the other columns of the table, and `results`, all under distinct names.
 
-        The names of the places, of what is new and those `taken` stay; a column that has one is renamed, and that is
-        said.
+        Names of places, new columns and those in `taken` are kept; a column of the table with one of them is renamed,
+        with a message.
         """
         own: Columns = dict(zip(self.axes, self.places.T, strict=True)) | dict(first or {})
         return own | beside([*own, *results, *taken], self.columns) | results
 
     def taken(self, which: BoolArray | Indices) -> Table:
-        """Some of the points, by number or by whether they are kept."""
+        """Some of the points, by index or mask."""
         columns = {name: values[which] for name, values in self.columns.items()}
         return Table(self.name, self.places[which], self.axes, columns, self.rows[which], self.crs)
 
@@ -125,7 +125,7 @@ def read(
     crs: str | None = None,
     skip_missing: bool = False,
 ) -> Table:
-    """The table in a file, or on stdin when `name` is "-"; a table without points is nothing to do."""
+    """The table in a file, or on stdin if `name` is "-"; raises NothingToDoError for a table without points."""
     shown = "stdin" if name == "-" else name
     source = sys.stdin.buffer if name == "-" else name
     with bar(f"reading {shown}") as told, naming(shown):
@@ -163,7 +163,7 @@ def read_second(
 
 @contextmanager
 def naming(name: str) -> Iterator[None]:
-    """Put the name of a file before what is wrong in it."""
+    """Prefix errors with the name of the file."""
     try:
         yield
     except ValueError as error:
@@ -171,4 +171,4 @@ def naming(name: str) -> Iterator[None]:
     except OSError as error:
         if error.errno is not None:
             raise
-        raise ValueError(f"{name}: {error}") from error  # of Arrow, which calls damaged files so
+        raise ValueError(f"{name}: {error}") from error  # Arrow raises it for damaged files

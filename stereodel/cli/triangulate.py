@@ -35,8 +35,8 @@ def command(
 ) -> None:
     """Write the Delaunay triangles of points, or their edges.
 
-    For each triangle the rows a, b, c of its corners in the table, counterclockwise; map formats have its shape too. If
-    all points lie in one hemisphere, the triangles that close the far side are left out.
+    Each triangle has the row numbers a, b, c of its corners in the table, counterclockwise; map formats also hold its
+    shape. If all points lie in one hemisphere, the triangles that close the far side are left out.
     """
     from stereodel import PlanarDelaunay, SphericalDelaunay
     from stereodel.cli.destinations import MESHES, TABLES, Destination
@@ -65,7 +65,7 @@ def _save(
     max_segment: float,
     latitude: options.Latitude,
 ) -> None:
-    """Write the rows in the table of each triangle's corners, or of each edge's ends."""
+    """Write the row numbers of each triangle's corners, or of each edge's endpoints."""
     from stereodel.cli.destinations import MESHES, TABLES, save_csv, save_layer, save_mesh
     from stereodel.cli.progress import bar
     from stereodel.io.frames import layer_of
@@ -92,7 +92,7 @@ def _save(
 
 
 def _corner_rows(triangulation: PlanarDelaunay | SphericalDelaunay, what: str, table: Table) -> Columns:
-    """Rows of the corners of all triangles that are no part of the far side, or of their edges."""
+    """Row numbers of the corners of all triangles except those that close the far side, or of their edges."""
     from stereodel import SphericalDelaunay
     from stereodel.triangulation.topology import edges_of
 

@@ -1,4 +1,4 @@
-"""`stereodel voronoi`: the part of the Earth or the plane that is nearest to each point."""
+"""`stereodel voronoi`: the part of the Earth or plane that is nearest to each point."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def command(
     clip: Annotated[
         str | None,
         typer.Option(
-            metavar="land|FILE", help="Cut the cells with land, or with the polygons of a file; areas are of the parts."
+            metavar="land|FILE", help="Clip the cells to land, or to the polygons of a file; areas are those inside."
         ),
     ] = None,
     lon: options.Lon = None,
@@ -48,7 +48,7 @@ def command(
     format: options.Format = None,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """Write the Voronoi cell of each point: what is nearer to it than to any other, with its area.
+    """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
 
     A table has the columns of the points and the area; map formats have the cell's shape and the point's row too. Of
     points at one place the first has the cell, the others none and the area 0. With --clip a cell is what lies on land,

@@ -13,7 +13,7 @@ EXAMPLE = "stereodel web cities.csv -o cities.html --open"
 
 
 class Land(StrEnum):
-    """Land that a page has, by the scale of the maps that it is made for, 1 : 50 or 1 : 110 million."""
+    """Land of a page, by the scale of the source map, 1 : 50 or 1 : 110 million."""
 
     of_50m = "50m"
     of_110m = "110m"
@@ -23,7 +23,7 @@ def command(
     points: Annotated[
         str | None,
         typer.Argument(
-            metavar="[POINTS]", help="Table of points that the page opens with: .csv, .geojson …; - for stdin."
+            metavar="[POINTS]", help="Table of points to open with the page: .csv, .geojson …; - for stdin."
         ),
     ] = None,
     out: Annotated[
@@ -32,9 +32,9 @@ def command(
             "--out", "-o", metavar="FILE", help="File to write, .html, named after the table by default; - for stdout."
         ),
     ] = None,
-    open_it: Annotated[bool, typer.Option("--open", help="Show the page in the browser.")] = False,
+    open_it: Annotated[bool, typer.Option("--open", help="Open the page in the browser.")] = False,
     resolution: Annotated[
-        Land, typer.Option(help="Land for maps of 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
+        Land, typer.Option(help="Land at 1 : 50 or 1 : 110 million; the latter makes a smaller page.")
     ] = Land.of_50m,
     lon: options.Lon = None,
     lat: options.Lat = None,
@@ -43,9 +43,9 @@ def command(
     skip_missing: options.SkipMissing = False,
     overwrite: options.Overwrite = False,
 ) -> None:
-    """Write a page on which the sphere, the lift and the globe can be taken in the hand, in any browser.
+    """Write an interactive page with the sphere, the lift and the globe, for any browser.
 
-    It is one file: it needs no server and no network, and sends nothing anywhere.
+    It is one file that needs no server or network and sends no data.
     """
     from pathlib import Path
 
@@ -70,14 +70,14 @@ def command(
 
 
 def _named_after(points: str | None) -> str:
-    """The file of a table's page, in the current folder."""
+    """Default file name of a table's page, in the current folder."""
     from pathlib import Path
 
     return "stereodel.html" if points in (None, "-") else f"{Path(points).stem}.html"
 
 
 def _show(name: str) -> None:
-    """Open a file in the browser of the system."""
+    """Open a file in the system's browser."""
     import webbrowser
     from pathlib import Path
 

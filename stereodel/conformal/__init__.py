@@ -1,4 +1,4 @@
-"""Conformal maps of the sphere: the Möbius group, the fisheye, bubbles to bubbles, paths between maps."""
+"""Conformal maps of the sphere: the Möbius group, the fisheye, maps between bubbles, paths between maps."""
 
 from stereodel.conformal.bubbles import bubble_to_bubble
 from stereodel.conformal.distortions import Distortion, distortion

@@ -1,10 +1,10 @@
 """Conformal maps as quaternions with complex coefficients: the group SL(2, C), in double-double.
 
 q = a + i b with real quaternions a, b stands for the 2×2 matrix in which the quaternion units are −i times the Pauli
-matrices. A rotation is a real unit quaternion; the fisheye of magnification S along the unit vector f is
-cosh(η/2) − i sinh(η/2) f with η = ln S. Products are compositions; those of maps as they are stored are
-taken in integers. For q = L·fisheye(S)·R the two parts are a = cosh(η/2) L R and b = −sinh(η/2) L z R, so the
-decomposition loses nothing however large S is.
+matrices. A rotation is a real unit quaternion; the fisheye of magnification S along the unit vector f is cosh(η/2) − i
+sinh(η/2) f with η = ln S. Products are compositions; products of stored maps are computed in integers. For q =
+L·fisheye(S)·R the two parts are a = cosh(η/2) L R and b = −sinh(η/2) L z R, so the decomposition loses nothing however
+large S is.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Biquaternion(NamedTuple):
     real: DoubleDouble
     imag: DoubleDouble
     known_square: Complex | None = None
-    """Of the vector part, where it is known better than from the components, of which it may be a small rest."""
+    """v·v of the vector part, if known more accurately than from the components, among which it may cancel."""
 
     def __matmul__(self, other: Biquaternion) -> Biquaternion:
         return Biquaternion(
@@ -41,7 +41,7 @@ class Biquaternion(NamedTuple):
 
     @property
     def scalar(self) -> Complex:
-        """The part without a direction, half the trace of the matrix."""
+        """The scalar component, half the trace of the matrix."""
         return Complex(self.real[0], self.imag[0])
 
     @property
@@ -63,7 +63,7 @@ class Biquaternion(NamedTuple):
         return dot(self.real, self.real) + dot(self.imag, self.imag)
 
     def normalized(self) -> Biquaternion:
-        """Over a square root of the determinant, which must not be zero."""
+        """The element divided by a square root of its determinant, which must not be zero."""
         element = Complex(self.real, self.imag) / self.determinant().sqrt()
         return Biquaternion(element.re, element.im)
 

@@ -1,4 +1,4 @@
-"""Bubbles to bubbles: any disc of the sphere onto any other (claim P16 of the paper)."""
+"""Maps between bubbles: any disc of the sphere onto any other (claim P16 of the paper)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def bubble_to_bubble(
     *,
     turn: float = 0.0,
 ) -> MoebiusMap:
-    """The conformal map that takes one bubble to another and a point inside to a point inside.
+    """The conformal map that takes one bubble to another, and a point inside the first to a point inside the second.
 
     Parameters
     ----------
@@ -40,13 +40,13 @@ def bubble_to_bubble(
     Returns
     -------
     MoebiusMap
-        The only one with these properties.
+        The unique map with these properties.
 
     Raises
     ------
     ValueError
-        When a point does not lie strictly inside its bubble, by more than the rounding of stored points and circles
-        (2 · `STORED_ERROR`), and when a bubble or its complement is so small that no point does.
+        If a point does not lie strictly inside its bubble, by more than the rounding error of stored points and circles
+        (2 · `STORED_ERROR`), or a bubble or its complement is so small that no point does.
 
     Notes
     -----
@@ -75,10 +75,10 @@ def bubble_to_bubble(
 def _to_hemisphere(circle: SphereCircle, point: DoubleDouble, to_north: DoubleDouble, name: str) -> Biquaternion:
     """The map of a bubble onto the northern hemisphere with a point of it at the pole.
 
-    A stored point and a stored circle are off by up to STORED_ERROR each, and the map, of scale 1/sin α on the rim,
-    makes that an error of 2 STORED_ERROR/sin α in the height over the equator. Whether a point that is not higher lies
-    inside is rounding; not even the centre, of height 1, is higher where the circle is as small as that. The error of
-    the double-doubles, some 2⁻¹⁰⁰/sin α here, is 2⁻⁵⁰ of that.
+    A stored point and a stored circle are each off by up to STORED_ERROR, and the map, whose scale on the rim is 1/sin
+    α, magnifies that to an error of 2 STORED_ERROR/sin α in the height above the equator. Whether a lower point lies
+    inside is a matter of rounding; if the circle is too small, that includes the centre, whose height is 1. The error
+    of the double-doubles, about 2⁻¹⁰⁰/sin α here, is 2⁻⁵⁰ of that.
     """
     _, cosine, sine = circle.exact_parts()
     noise = 2 * STORED_ERROR / float(sine.hi)

@@ -44,7 +44,7 @@ class Complex:
         return Complex(product.re / size, product.im / size)
 
     def conjugate(self) -> Complex:
-        """The number with the other imaginary part."""
+        """The complex conjugate."""
         return Complex(self.re, -self.im)
 
     def times_i(self) -> Complex:

@@ -1,4 +1,4 @@
-"""How a conformal map changes sizes over a region: closed formulas for bubbles, sums for points.
+"""Change of scale of a conformal map over a region: closed formulas for bubbles, sums for points.
 
 The scale at the distance χ from the focus is 1/(a − b cos χ) with a = (S + 1/S)/2 and b = (S − 1/S)/2. It falls from
 the focus to its antipode, so that on a bubble it is largest nearest to the focus and smallest farthest from it, and its
@@ -24,14 +24,14 @@ LonLat = tuple[float, float]
 
 @dataclass(frozen=True)
 class Distortion:
-    """How a map changes sizes over a region; angles are preserved.
+    """The local scale of a conformal map over a region.
 
     Parameters
     ----------
     smallest, largest : float
         The extremes of the local scale.
     mean : float
-        Its mean, over the area of a bubble or over points.
+        Mean of the local scale, over the area of a bubble or over points.
     area_ratio : float
         Area of the image over that of the region; for points the mean of the squared scale.
     smallest_at, largest_at : tuple of float
@@ -47,7 +47,7 @@ class Distortion:
 
 
 def distortion(conformal: MoebiusMap, region: SphereCircle | npt.ArrayLike) -> Distortion:
-    """How much a conformal map magnifies a region: least, most, on average and in area, and where.
+    """Smallest, largest and mean magnification of a region by a conformal map, its change in area, and where.
 
     Parameters
     ----------
@@ -58,12 +58,12 @@ def distortion(conformal: MoebiusMap, region: SphereCircle | npt.ArrayLike) -> D
     Returns
     -------
     Distortion
-        For a bubble by closed formulas, for points from the scale at each.
+        Computed by closed formulas for a bubble, from the scale at each point for points.
 
     Raises
     ------
     ValueError
-        For no points at all.
+        If there are no points.
 
     Examples
     --------
@@ -95,11 +95,11 @@ def _over_bubble(conformal: MoebiusMap, bubble: SphereCircle) -> Distortion:
 
 
 def _extremes(bubble: SphereCircle, pole: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The points of a bubble nearest to another point and farthest from it: that point itself or on the circle."""
+    """The points of a bubble nearest to and farthest from `pole`: `pole` itself, its antipode, or on the circle."""
     across = _reject(pole, bubble.center)
     if np.linalg.norm(across) <= STORED_ERROR:
-        across = np.eye(3)[np.argmin(np.abs(bubble.center))]  # concentric: all directions are alike
-    across = _reject(across / np.linalg.norm(across), bubble.center)  # again: a short one was mostly rounding
+        across = np.eye(3)[np.argmin(np.abs(bubble.center))]  # concentric: all directions are equivalent
+    across = _reject(across / np.linalg.norm(across), bubble.center)  # again: a short vector was mostly rounding error
     across /= np.linalg.norm(across)
     ends = [bubble.offset * bubble.center + side * bubble.radius * across for side in (1, -1)]
     nearest = pole if bubble.contains(pole) else ends[0]

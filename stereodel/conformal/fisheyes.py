@@ -11,7 +11,7 @@ from stereodel.sphere import Rotation, as_direction
 
 @by_name("magnification= is a keyword")
 def fisheye(focus: npt.ArrayLike, *, magnification: float) -> MoebiusMap:
-    """The conformal map that enlarges the surroundings of a focus S times and shrinks the rest.
+    """The conformal map that magnifies the surroundings of a focus S times and shrinks the rest.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def fisheye(focus: npt.ArrayLike, *, magnification: float) -> MoebiusMap:
     Raises
     ------
     ValueError
-        For a magnification that is not positive or not finite, a zero vector, or a latitude outside [−90, 90].
+        If the magnification is not positive and finite, a vector is zero, or a latitude is outside [−90, 90].
 
     Notes
     -----

@@ -1,9 +1,9 @@
-"""What kind of conformal map it is, by its fixed points and what it does next to them.
+"""Classification of conformal maps by their fixed points and multipliers.
 
 An element c + v of SL(2, C) with v·v = s² ≠ 0 is conjugate to the turn and stretch ζ ↦ kζ, k = (c + i s)². Its fixed
 points belong to n = v/s = a + i b, where |a|² − |b|² = 1 and a·b = 0: they are (±a + a × b)/|a|². H. S. M. Coxeter,
 "The inversive plane and hyperbolic space", Abh. Math. Sem. Hamburg 29 (1966), and R. Penrose, W. Rindler, "Spinors and
-Space-Time" 1 (1984), section 1.3, have the kinds.
+Space-Time" 1 (1984), section 1.3, describe the kinds.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ Kind = Literal["identity", "rotation", "boost", "parabolic", "loxodromic"]
 def kind_of(element: Biquaternion) -> Kind:
     """The kind of a map, or of one within `KIND_TOLERANCE` of it.
 
-    Rounded parameters change c by some 2⁻⁵²|v|, and s² = 1 − c² by twice that where c is 1.
+    Rounded parameters change c by about 2⁻⁵²|v|, and s² = 1 − c² by twice that where c is 1.
     """
     vector = element.vector
     slack = KIND_TOLERANCE * float(vector.square_size().hi.sum()) ** 0.5

@@ -1,17 +1,17 @@
-"""Several foci at once: a map that is not conformal, and reports by how much.
+"""Several foci at once: a map that is not conformal, with its angular distortion.
 
 No conformal map has two foci. The conformal maps of the whole sphere onto itself are the Möbius maps (Liouville's
 theorem says the same of space, H. A. Schwarz's of the sphere), and the scale of one is 1/(a − b·x): it has one maximum.
-So here each focus gets a disc of its own, inside which points move along the rays from the focus; outside all discs
-nothing moves. In stereographic terms, with τ = tan(χ/2) over its value at the rim, τ becomes G(τ) with
+So here each focus has a disc of its own, inside which points move along rays from the focus; outside all discs the map
+is the identity. In stereographic terms, with τ = tan(χ/2) over its value at the rim, τ becomes G(τ) with
 
     d ln G / d ln τ = E(ln τ),
 
 E = 1 at the rim and in a core about the focus, where the map is the conformal fisheye of magnification S, and less than
-1 in the ring between, where it is the ratio of radial to tangential scale. ln G loses ln S in the ring: the smallest E
-tells how wide, on the scale of ln τ, the ring has to be. 1 − E is a window with cosine tapers (J. W. Tukey, "An
-introduction to the calculations of numerical spectrum analysis", 1967), so that G is twice differentiable. Since E > 0
-nothing folds, and as the discs are apart the map is one to one.
+1 in the ring between, where it is the ratio of radial to tangential scale. ln G decreases by ln S in the ring, so the
+smallest E determines how wide the ring must be on the scale of ln τ. 1 − E is a window with cosine tapers (J. W. Tukey,
+"An introduction to the calculations of numerical spectrum analysis", 1967), so that G is twice differentiable. Since E
+> 0 the map does not fold, and since the discs are disjoint it is injective.
 """
 
 from __future__ import annotations
@@ -31,30 +31,30 @@ from stereodel.sphere.coordinates import as_sphere_points
 from stereodel.sphere.vectors import units
 
 _TAPER = 0.25
-"""Part of the window that each of its two tapers takes; the area under the window is 1 − _TAPER."""
+"""Share of the window taken by each of its two tapers; the area under the window is 1 − _TAPER."""
 
 
 @dataclass(frozen=True, eq=False)
 class FocusBlend:
-    """A map of the sphere that magnifies several places at once. It is one to one, but not conformal.
+    """A map of the sphere that magnifies several places at once. It is injective, but not conformal.
 
     Parameters
     ----------
     foci : array_like, shape (n, 2) or (n, 3)
         Rows (lon, lat) in degrees, or directions.
     magnification : float or array_like, shape (n,)
-        S ≥ 1, of all foci or of each.
+        S ≥ 1, for all foci or for each.
     width : float, optional
         Angular radius of the discs in degrees, in (0, 180). By default (0) half the smallest distance between two foci,
         so that discs touch; 90 for a single focus.
     limit : float, optional
-        Largest angular distortion, degrees in (0, 180): by how much an angle may differ in the rings. The smaller it is
-        and the larger S, the smaller are the cores: their radius goes like S to the power −1/(¾(1 − E)).
+        Largest angular distortion in the rings, in degrees in (0, 180). The smaller it is and the larger S, the smaller
+        the cores: their radius is proportional to S to the power −1/(¾(1 − E)).
 
     Raises
     ------
     ValueError
-        When discs overlap, or numbers are out of range.
+        If discs overlap, or a number is out of range.
 
     Examples
     --------
@@ -191,7 +191,7 @@ def _checked_width(foci: FloatArray, width: float) -> float:
 
 
 def _position(tau: FloatArray, ring: float) -> FloatArray:
-    """Where ln τ stands in the ring: 0 at the core and inside it, 1 at the rim."""
+    """Position of ln τ in the ring: 0 at the core and inside it, 1 at the rim."""
     if ring == 0:
         return np.ones_like(tau)
     with np.errstate(divide="ignore"):

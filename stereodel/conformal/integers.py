@@ -1,9 +1,9 @@
-"""Conformal maps in integers: products of any magnification without a rounding.
+"""Conformal maps in integers: products of any magnification without rounding.
 
-The numbers that define a `MoebiusMap` are doubles, and so integers over a power of two. As cosh(η/2) : sinh(η/2) is
-S + 1 : S − 1, the quaternions L (S + 1 − i (S − 1) z) R are integers up to a common factor. So are products of them,
-and their determinants are positive. Doubles of twice the precision would lose a product of magnifications of 1e16 that
-undo each other, as its terms are that much larger than their sum.
+The numbers that define a `MoebiusMap` are doubles, and so integers over a power of two. As cosh(η/2) : sinh(η/2) is S +
+1 : S − 1, the quaternions L (S + 1 − i (S − 1) z) R are integers up to a common factor. So are their products, and
+their determinants are positive. Double-doubles would lose a product of magnifications of 1e16 that cancel each other,
+as its terms are that much larger than their sum.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from stereodel.conformal.complex_pairs import Complex
 Quaternion = tuple[int, int, int, int]
 
 _ROOT_BITS = 256
-"""Of the root of a determinant at least: it is then off by 2⁻²⁵⁵ of itself, which no double-double shows."""
+"""Least number of bits of a determinant's root: its relative error is then 2⁻²⁵⁵, below any double-double."""
 
 
 @dataclass(frozen=True)

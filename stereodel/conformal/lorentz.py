@@ -54,7 +54,7 @@ def from_lorentz(matrix: FloatArray) -> Parts:
 
     With γ = M₃₃, column b = M₀₋₂,₃ and row c = M₃,₀₋₂ the rest is A = U + b cᵀ/(1 + γ), U the rotation of the polar
     decomposition. The rounding of A, ulp(S), is then in U; beyond sinh η = 1 the axes come from b and c instead, which
-    are exact to ulps of their own.
+    are accurate to their own ulps.
     """
     error = np.abs(matrix.T @ _METRIC @ matrix - _METRIC).max()
     gamma, column, row = matrix[3, 3], matrix[:3, 3], matrix[3, :3]
@@ -94,7 +94,7 @@ def from_moebius(matrix: npt.NDArray[np.complex128]) -> Parts:
 
 
 def _check_magnification(magnification: float) -> None:
-    # 2 cosh η = S + 1/S stands for S too; the margin keeps S = 1e6 itself on the good side of rounding.
+    # 2 cosh η = S + 1/S is compared in place of S; the margin accepts S = 1e6 itself in spite of rounding.
     if magnification > MATRIX_MAGNIFICATION * (1 + MATRIX_ERROR):
         raise ValueError(
             f"matrix has magnification {magnification:g}, above {MATRIX_MAGNIFICATION:g}: its doubles do not "

@@ -34,8 +34,8 @@ _FLIP = Rotation(np.array([0.0, 1.0, 0.0, 0.0]))
 class MoebiusMap:
     """A conformal map of the sphere: rotation `right`, then the fisheye along +z, then rotation `left`.
 
-    The map is the one that these parameters define exactly. Use `identity`, `rotation`, `from_matrix`, `fisheye` or
-    `bubble_to_bubble` to make one, `@` and `inverse` to combine them.
+    The parameters define the map exactly. Create maps with `identity`, `rotation`, `from_matrix`, `fisheye` or
+    `bubble_to_bubble`, and combine them with `@` and `inverse`.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ class MoebiusMap:
 
     Notes
     -----
-    Images are exact up to 4·2⁻⁵² for a point within 4·2⁻⁵² rad of the given one, also near the focus and its
-    antipode. That leaves room for parameters that were rounded once, as by `fisheye` and `@`: for the stored ones an
-    image is off by less than 13·2⁻⁵³ + scale·2⁻⁷³ and by less than (1 + scale)·6·2⁻⁵³ (derived in
+    The computed image is within 4·2⁻⁵² of the exact image of a point within 4·2⁻⁵² rad of the given one, even near the
+    focus and its antipode. This allows for parameters that were rounded once, as by `fisheye` and `@`: for the stored
+    parameters an image is off by less than 13·2⁻⁵³ + scale·2⁻⁷³ and by less than (1 + scale)·6·2⁻⁵³ (derived in
     ``stereodel/kernel/conformal/moebius.cpp``). Circles and arcs are mapped in double-double and rounded once.
 
     Examples
@@ -98,8 +98,8 @@ class MoebiusMap:
         Raises
         ------
         ValueError
-            For another shape, a singular matrix, one outside the group by more than `MATRIX_ERROR`, a reflection,
-            or a magnification above `MATRIX_MAGNIFICATION`.
+            If the matrix has another shape, is singular, is outside the group by more than `MATRIX_ERROR`, is a
+            reflection, or has a magnification above `MATRIX_MAGNIFICATION`.
 
         Examples
         --------
@@ -113,7 +113,7 @@ class MoebiusMap:
 
     @property
     def focus(self) -> FloatArray:
-        """The point of scale S, a unit vector (3,); largest scale when S > 1."""
+        """The point of scale S, a unit vector (3,); the scale is largest there if S > 1."""
         return self.right.inverse()(Z_AXIS.hi)
 
     @property
@@ -135,7 +135,8 @@ class MoebiusMap:
         xyz : array_like, shape (..., 3)
             Non-zero vectors of any length.
         workers : int, optional
-            Threads, -1 for all processors; by default all from 20 000 points on. The result is always the same.
+            Number of threads, -1 for all processors; by default all for 20 000 points or more. Does not affect the
+            result.
 
         Returns
         -------
@@ -144,7 +145,7 @@ class MoebiusMap:
         array = as_vectors(xyz, 3, "xyz", gaps=True, instead="for longitude and latitude call its method lonlat")
         images, sound = _kernel.moebius_images(*self._for_kernel(array), thread_count(workers, array.size // 3))
         if not sound:
-            as_directions(array, "xyz")  # raises: the kernel met a row that is none, without a pass of its own
+            as_directions(array, "xyz")  # raises: the kernel found an invalid row, without a separate pass
         return images.reshape(array.shape)
 
     def lonlat(self, lonlat: npt.ArrayLike, *, workers: int | None = None) -> FloatArray:
@@ -197,7 +198,7 @@ class MoebiusMap:
 
     @cached_property
     def _six_rows(self) -> tuple[FloatArray, FloatArray]:
-        """The matrices of `left` and `right`, each with what its doubles leave."""
+        """The matrices of `left` and `right`, each as doubles followed by their rounding errors."""
         left, right = (np.concatenate([part.exact_matrix.hi, part.exact_matrix.lo]) for part in (self.left, self.right))
         return left, right
 
@@ -206,12 +207,12 @@ class MoebiusMap:
     @overload
     def image_of(self, curve: SphereArc) -> SphereArc: ...
     def image_of(self, curve: SphereCircle | SphereArc) -> SphereCircle | SphereArc:
-        """The image of a circle, interior to interior, or of an arc, start to start: exact, nothing is sampled."""
+        """The exact image of a circle, interior to interior, or of an arc, start to start; nothing is sampled."""
         if isinstance(curve, SphereCircle):
             return SphereCircle.rounded(*self._circle_image(curve))
         normal, offset, radius = self._circle_image(curve.circle)
         circle = SphereCircle.rounded(normal, offset, radius)
-        # The ends are drawn onto the circle first: what they are off would be magnified, too.
+        # The endpoints are moved onto the circle first, as their distance from it would be magnified, too.
         ends = (self.right.apply(on_circle(curve.circle, unit(point))) for point in (curve.start, curve.end))
         start, end = (self.left.apply(boost_points(point, self._size)) for point in ends)
         angle = curve.angle_rad if curve.closed else swept_angle(normal / dot(normal, normal).sqrt(), start, end)
@@ -225,7 +226,7 @@ class MoebiusMap:
     def __matmul__(self, other: MoebiusMap) -> MoebiusMap:
         """The map `other`, then this one: the exact composition with its parameters rounded once.
 
-        For magnifications of any size; a ValueError if that of the composition is out of range.
+        Magnifications may have any size; ValueError if that of the composition is out of range.
         """
         if not isinstance(other, MoebiusMap):
             return NotImplemented
@@ -250,20 +251,20 @@ class MoebiusMap:
         Parameters
         ----------
         exponent : float
-            t, at most `LARGEST_EXPONENT` in size; −1 gives the inverse, ½ the map whose square is this one.
+            t, with absolute value at most `LARGEST_EXPONENT`; −1 gives the inverse, ½ the map whose square is this one.
 
         Returns
         -------
         MoebiusMap
-            Fixed points stay fixed. The map magnifies |k|ᵗ times and turns by t arg k at the first of them, k being the
-            `multiplier` and arg k in (−180°, 180°]: powers are unique but for maps that turn by half a turn, which go
-            counterclockwise about that end of the axis whose last coordinate other than 0 is positive. They jump where
-            arg k passes 180°.
+            Fixed points stay fixed. At the first of them the map magnifies |k|ᵗ times and rotates by t arg k, where k
+            is the `multiplier` and arg k is in (−180°, 180°]. Powers are unique except for maps that rotate by 180°,
+            which go counterclockwise about the end of the axis whose last non-zero coordinate is positive. They are
+            discontinuous where arg k passes 180°.
 
         Raises
         ------
         ValueError
-            For an exponent out of range, or when the power has a magnification that cannot be evaluated.
+            If the exponent is out of range, or the magnification of the power cannot be evaluated.
 
         Examples
         --------
@@ -287,28 +288,28 @@ class MoebiusMap:
 
     @property
     def fixed_points(self) -> FloatArray:
-        """The fixed points, unit vectors (2, 3), or (1, 3) for a parabolic map; a ValueError for the identity.
+        """The fixed points, unit vectors (2, 3), or (1, 3) for a parabolic map; ValueError for the identity.
 
-        The map magnifies at the first and shrinks at the second; a rotation turns counterclockwise at the first, by at
-        most 180°, seen from outside.
+        The map magnifies at the first and shrinks at the second; a rotation is counterclockwise at the first, by at
+        most 180°, as seen from outside.
         """
         return fixed_points_of(self.biquaternion)
 
     @property
     def multiplier(self) -> complex:
-        """k: at the first fixed point the map magnifies |k| ≥ 1 times and turns by arg k counterclockwise.
+        """k: at the first fixed point the map magnifies |k| ≥ 1 times and rotates by arg k counterclockwise.
 
         At the second it does the inverse. k is 1 for the identity and for parabolic maps.
         """
         return multiplier_of(self.biquaternion)
 
     def tissot(self, points: npt.ArrayLike, radius: float) -> list[SphereCircle]:
-        """Images of circles of equal size: exact, as all circles stay circles.
+        """Exact images of circles of equal size, which are circles.
 
         Parameters
         ----------
         points : array_like, shape (n, 2) or (n, 3)
-            The centres: rows (lon, lat) in degrees, or directions.
+            Centres of the circles: rows (lon, lat) in degrees, or directions.
         radius : float
             Angular radius in degrees, in (0, 180).
         """
@@ -327,8 +328,8 @@ class MoebiusMap:
         """The map as a PROJ pipeline, for GDAL, QGIS and pyproj: (lon, lat) in degrees in and out, on a sphere.
 
         `stere` with k_0 = S at the focus, then inverse `stere` at the image of the focus (claim P18); between the two a
-        turn of the plane, `affine`, where the map does not carry north at the focus to north at its image. PROJ has no
-        answer for the antipode of the focus itself.
+        rotation of the plane, `affine`, if the map does not take north at the focus to north at its image. PROJ gives
+        no result for the antipode of the focus itself.
 
         Examples
         --------

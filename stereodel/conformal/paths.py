@@ -1,4 +1,4 @@
-"""Paths in the group, for animations: from map to map, from focus to focus.
+"""Paths in the Möbius group, for animations: between maps, between foci.
 
 Every map is a fisheye followed by a rotation, and the two are unique. The fisheyes are the points of hyperbolic space:
 that of magnification S = exp η at f is the point (sinh η · f, cosh η) of the hyperboloid, at the distance η from the
@@ -6,10 +6,10 @@ identity, and two of them have the distance d with
 
     cosh d = cosh η₁ cosh η₂ − sinh η₁ sinh η₂ cos δ,
 
-δ the angle between the foci. The shortest path from one to the other is the geodesic, and it is what one expects of a
-flight: the magnification goes down, the focus moves on, the magnification comes back, all at once and no more than is
-needed. J. J. van Wijk, W. A. A. Nuij, "Smooth and efficient zooming and panning", IEEE InfoVis (2003), found the
-geodesics of the hyperbolic half-plane for views of a plane map; on the sphere the group has them built in.
+δ the angle between the foci. The shortest path between them is the geodesic, which has the form of a flight: the
+magnification decreases, the focus moves, and the magnification increases again, simultaneously and no more than
+necessary. J. J. van Wijk, W. A. A. Nuij, "Smooth and efficient zooming and panning", IEEE InfoVis (2003), found the
+geodesics of the hyperbolic half-plane for views of a plane map; on the sphere they arise from the group itself.
 """
 
 from __future__ import annotations
@@ -57,19 +57,19 @@ class GroupPath:
 
     @cached_property
     def length(self) -> float:
-        """d, the hyperbolic distance of the two fisheyes: a magnification on the spot from S₁ to S₂ has |ln S₂/S₁|.
+        """d, the hyperbolic distance between the two fisheyes: |ln S₂/S₁| for magnification in place from S₁ to S₂.
 
-        Flights whose durations are proportional to their lengths look equally fast.
+        Flights with durations proportional to their lengths appear equally fast.
         """
         (f, s), (g, r) = self.start.peak, self.end.peak
         a, b = np.log(s), np.log(r)
-        # sinh²(d/2), made of positive terms: nothing cancels where the two are close.
+        # sinh²(d/2) as a sum of positive terms, without cancellation if the two are close.
         chord = float(np.linalg.norm(f - g)) / 2
         square = np.sinh((a - b) / 2) ** 2 + np.sinh(a) * np.sinh(b) * chord**2
         return float(2 * np.arcsinh(np.sqrt(square)))
 
     def _fisheye(self, t: float) -> tuple[FloatArray, float]:
-        """Focus and magnification at t: the vector part of the point that divides the geodesic."""
+        """Focus and magnification at t, from the vector part of the point on the geodesic."""
         (f, s), (g, r), d = self.start.peak, self.end.peak, self.length
         before, after = (np.sinh((1 - t) * d) / np.sinh(d), np.sinh(t * d) / np.sinh(d)) if d > 0 else (1 - t, t)
         vector = before * np.sinh(np.log(s)) * f + after * np.sinh(np.log(r)) * g
@@ -102,14 +102,14 @@ def path_between(start: MoebiusMap, end: MoebiusMap) -> GroupPath:
     Returns
     -------
     GroupPath
-        Called with t in [0, 1] it gives the map at that time.
+        Returns the map at time t in [0, 1] when called.
 
     Notes
     -----
-    Each map is decomposed into a fisheye and a rotation after it. The fisheyes follow the geodesic of hyperbolic
-    space (`flight`), the rotations the shortest turn: between fisheyes all maps are fisheyes, between rotations
+    Each map is decomposed into a fisheye and a rotation after it. The fisheyes follow the geodesic of hyperbolic space
+    (`flight`), the rotations the shortest rotation. Between fisheyes all maps are fisheyes, between rotations all are
     rotations. The coset of a one-parameter group, ``start @ (start.inverse() @ end).power(t)``, also joins the two, but
-    rotates the picture on the way from one fisheye to another.
+    rotates the picture between one fisheye and another.
 
     Examples
     --------
@@ -131,7 +131,7 @@ def flight(
     start, end : array_like, shape (2,) or (3,)
         The foci, (lon, lat) in degrees or directions.
     magnification : float
-        S at the start, and at the end, if no other is given.
+        S at the start, and at the end unless `arrival` is given.
     arrival : float, optional
         S at the end.
 
@@ -143,12 +143,12 @@ def flight(
     Raises
     ------
     ValueError
-        As `fisheye`.
+        As for `fisheye`.
 
     Notes
     -----
     The geodesic of hyperbolic space between the two fisheyes, at constant speed: see `GroupPath`. For foci at a right
-    angle it comes down to S = exp(arsinh 1) = 1 + √2 at most, however large S is at the ends; between opposite foci it
+    angle S falls at least to exp(arsinh 1) = 1 + √2, however large it is at the ends; between antipodal foci the path
     passes through the undistorted globe.
 
     Examples

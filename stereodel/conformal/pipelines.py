@@ -16,7 +16,7 @@ def stereographic_pipeline(left: Rotation, magnification: float, right: Rotation
     """`stere` with k_0 = S at the focus, a turn of the plane, inverse `stere` at the image of the focus."""
     start, end = xyz_to_lonlat(right.inverse()(_Z)), xyz_to_lonlat(left(_Z))
     turn = left.exact_matrix.hi @ right.exact_matrix.hi
-    # How east and north at the focus stand to east and north at its image once they have been carried there.
+    # Images of east and north at the focus, in terms of east and north at its image.
     plane = tangent_frame(end).hi[:2] @ turn @ tangent_frame(start).hi[:2].T
     steps = [
         "+proj=pipeline",
@@ -31,7 +31,7 @@ def stereographic_pipeline(left: Rotation, magnification: float, right: Rotation
 
 def _turned(plane: FloatArray) -> list[str]:
     """The step of a rotation matrix (2, 2); none for the identity."""
-    # Two rounded rotations and two rounded centres, each within 2⁻⁵², stand between equal frames.
+    # Equal frames may differ by two rounded rotations and two rounded centres, each within 2⁻⁵².
     if np.abs(plane - np.eye(2)).max() <= 4 * STORED_ERROR:
         return []
     entries = " ".join(f"+s{i + 1}{j + 1}={_number(plane[i, j])}" for i in (0, 1) for j in (0, 1))

@@ -1,8 +1,8 @@
 """One-parameter subgroups: real powers of a conformal map.
 
 An element c + v of SL(2, C), v·v = s² and c² + s² = 1, is cos θ + (v/s) sin θ with a complex angle θ, and its power is
-cos tθ + (v/s) sin tθ. The angle is rounded; what follows from it is the exact power for an exponent that differs by
-some 2⁻⁵² of itself. The vector is only multiplied, so that fixed points stay where they are.
+cos tθ + (v/s) sin tθ. The angle is rounded; the result is the exact power for an exponent with a relative error of
+about 2⁻⁵². The vector is only scaled, so fixed points do not move.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from stereodel.constants import LARGEST_MAGNIFICATION, SMALL_ANGLE
 
 
 def power(element: Biquaternion, exponent: float) -> Biquaternion:
-    """The real power of an element of determinant 1; of the two signs the one of the smaller rotation is taken."""
+    """The real power of an element of determinant 1, with the sign that gives the smaller rotation."""
     element = principal(element)
     square = complex(element.vector_square)
     if abs(square) <= SMALL_ANGLE**2:

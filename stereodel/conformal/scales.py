@@ -1,4 +1,4 @@
-"""How much a lens enlarges the surroundings of a point."""
+"""The largest scale of a lens near a point."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def largest_scale(lens: MoebiusMap, points: FloatArray, radius: FloatArray) -> F
     size = lens.magnification
     height = there[:, 2] if size >= 1 else -there[:, 2]
     across = np.sqrt(there[:, 0] ** 2 + there[:, 1] ** 2)
-    # Nearest to the point of largest scale: the focus, or its antipode where the map shrinks.
+    # At the place nearest to the point of largest scale: the focus, or its antipode if the map shrinks.
     half = np.maximum(np.arctan2(across, height) - radius, 0.0) / 2
     larger = max(size, 1 / size)
     scale: FloatArray = larger / (np.cos(half) ** 2 + (larger * np.sin(half)) ** 2)

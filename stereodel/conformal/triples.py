@@ -1,4 +1,4 @@
-"""Three points to three points: the unique conformal map."""
+"""The unique conformal map that takes three points to three points."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def three_points(sources: npt.ArrayLike, targets: npt.ArrayLike) -> MoebiusMap:
     Returns
     -------
     MoebiusMap
-        It is unique, and maps the circle through the sources to the circle through the targets.
+        The unique map; it also takes the circle through the sources to the circle through the targets.
 
     Raises
     ------
     ValueError
-        For another shape, or when two of three points are the same.
+        If an argument has another shape, or two of its points coincide.
 
     Notes
     -----
@@ -57,14 +57,14 @@ def _three(points: npt.ArrayLike, name: str) -> list[Spinor]:
     vectors = unit(rows)
     spinors = [_spinor(vectors[k]) for k in range(3)]
     for i, j in ((0, 1), (0, 2), (1, 2)):
-        # |⟨p, q⟩|² is the squared chord but for a factor between 1 and 4.
+        # |⟨p, q⟩|² is the squared chord up to a factor between 1 and 4.
         if float(_bracket(spinors[i], spinors[j]).square_size().hi) <= UNDECIDED**2:
             raise ValueError(f"{name}[{i}] and {name}[{j}] are the same point; give three distinct ones")
     return spinors
 
 
 def _spinor(point: DoubleDouble) -> Spinor:
-    """Of a unit vector (3,): (1 + z, x + iy) or (x − iy, 1 − z), whichever is the longer."""
+    """The spinor of a unit vector (3,): (1 + z, x + iy) or (x − iy, 1 − z), whichever is longer."""
     x, y, z = (point[k] for k in range(3))
     zero = DoubleDouble(np.zeros(()))
     if float(z.hi) >= 0:

@@ -1,12 +1,12 @@
-"""Borders of charts: where arcs on the sphere meet them, and how a ring goes on along them.
+"""Borders of charts: where arcs on the sphere cross them, and how rings continue along them.
 
-A chart is a disc, and its border a closed curve. A border answers five questions, and clipping asks nothing else:
-`cut`, where arcs cross it and which pieces are in sight; `flat`, where points are on the chart; `place`, how far along
-the border a point of it is, counterclockwise; `between`, what to draw from one place to another; `once`, all round.
+A chart is a disc, and its border a closed curve. A border has five methods, all that clipping needs: `cut` gives the
+visible pieces of arcs that cross it; `flat` the coordinates of points on the chart; `place` the position of a point
+along the border, counterclockwise; `between` the points to draw from one position to another; `once` the whole border.
 
-Which side of the border an arc ends on is told by the sign of one coordinate of its ends, and zero counts as positive.
-The signs decide *how many* crossings there are, the closed form only *where*; so rounding may move a crossing, but the
-arcs of a ring always leave as often as they enter.
+The side on which an arc ends is the sign of one coordinate of its endpoint, and zero counts as positive. The signs
+decide *how many* crossings there are, the closed form only *where*; so rounding may move a crossing, but the arcs of a
+ring always leave as often as they enter.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ from stereodel.sphere.latitudes import Latitude
 
 TURN = 2 * np.pi
 MARGIN = 0.1
-"""What `frame_of` adds on each side of the points, in terms of their longer side."""
+"""Margin that `frame_of` adds on each side, relative to the longer side of the points' bounding box."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Arcs that cross no border: which begin and end on it, which are in sight, and which run along it."""
+    """Arcs that cross no border: which begin and end on it, which are visible, and which run along it."""
 
     arcs: Arcs
     opens: BoolArray
@@ -42,43 +42,43 @@ class Pieces:
 
     @classmethod
     def uncut(cls, arcs: Arcs, *, seen: bool) -> Pieces:
-        """Arcs as they are, all in sight or none."""
+        """Arcs without cuts, all of them visible or none."""
         none = np.zeros(len(arcs), dtype=bool)
         return cls(arcs, none, none, np.full(len(arcs), seen), none)
 
     @cached_property
     def of_edge(self) -> Indices:
-        """Where the pieces of each edge begin, up to the last that has one, and where these end."""
+        """Offsets of the pieces of each edge, up to the last edge that has pieces."""
         edge = self.arcs.edge
         return np.searchsorted(edge, np.arange(edge[-1] + 2 if len(edge) else 1))
 
 
 class Outline(Protocol):
-    """The border of a chart, of which the curves are cut already."""
+    """The border of a chart, for curves that are already cut."""
 
     @property
     def length(self) -> float:
-        """Once round it."""
+        """Total length of the border."""
 
     @property
     def slack(self) -> float:
-        """How far coordinates may be off for rounding."""
+        """Bound on rounding errors of coordinates."""
 
     @property
     def blur(self) -> float:
-        """How far curves may be off, as chords beside a border that is curved."""
+        """Bound on the distance between chords and curves, next to a curved border."""
 
     def flat(self, chains: Ragged) -> FloatArray:
         """Coordinates (n, 2) on the chart of points (n, 3) in chains."""
 
     def place(self, flat: FloatArray) -> FloatArray:
-        """How far along the border points (n, 2) of it are, counterclockwise."""
+        """Positions of border points (n, 2) along the border, counterclockwise."""
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
-        """What to draw of the border strictly between places (k,), either way."""
+        """Points of the border to draw strictly between positions (k,), in either direction."""
 
     def once(self) -> FloatArray:
-        """The whole border, its first point again at its end."""
+        """The whole border, its first point repeated at the end."""
 
 
 class Border(Outline, Protocol):
@@ -89,7 +89,7 @@ class Border(Outline, Protocol):
 
 
 class DiscView(Protocol):
-    """What maps the cap z ≥ edge of the sphere, in its own axes, onto the unit disc of a page."""
+    """A map of the cap z ≥ edge of the sphere, in its own axes, onto the unit disc of a page."""
 
     @property
     def edge(self) -> float:
@@ -101,10 +101,10 @@ class DiscView(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Cap:
-    """The edge of what a view shows, z = view.edge in view axes: the limb of a ball, the rim of a flat map.
+    """The edge of a view, z = view.edge in view axes: the limb of a ball, the rim of a flat map.
 
-    Chains stray from their curves by a tolerance, the rim by `fineness` of that: so little that chains seldom cross it.
-    Where outlines are filled by the nonzero rule that does no harm, and the rim may be as coarse as the chains.
+    Chains deviate from their curves by a tolerance, the rim by the fraction `fineness` of it, so that chains rarely
+    cross the rim. With the nonzero rule such crossings are harmless, and the rim may be as coarse as the chains.
     """
 
     view: DiscView
@@ -115,19 +115,19 @@ class Cap:
 
     @property
     def blur(self) -> float:
-        """As far as chains and rim may stray: a sliver thinner than that may come out inside out."""
+        """Bound on the deviation of chains and rim; a sliver thinner than this may be inverted."""
         return self.tolerance
 
     def cut(self, arcs: Arcs) -> Pieces:
-        """Arcs in view axes, cut at the rim; what lies on it is in sight."""
+        """Arcs in view axes, cut at the rim; arcs on the rim are visible."""
         level = self.view.edge - LIMB_DEPTH
-        # Points where the planes of circle and rim meet, moved onto the rim itself, which all that closes it shares.
+        # Points where the planes of circle and rim meet, moved onto the rim itself, which closing parts share.
         arc, t, above = crossings(arcs, np.array([0.0, 0.0, 1.0]), level)
         points = arcs.points(arc, t)
         reach = np.sqrt(1 - level**2) / np.hypot(*points[:, :2].T)
         points = np.concatenate([points[:, :2] * reach[:, None], np.full((len(arc), 1), level)], axis=1)
         pieces, opens, shuts = _marked(arcs, arc, t, points)
-        # In sight and out of sight by turns, beginning with the side of the start.
+        # Alternately visible and hidden, beginning with the side of the start.
         seen = np.repeat(above, np.bincount(arc, minlength=len(arcs)) + 1)
         number = np.arange(len(seen)) - np.maximum.accumulate(np.where(opens, 0, np.arange(len(seen))))
         return Pieces(pieces, opens, shuts, seen ^ (number % 2 == 1), np.zeros(len(seen), dtype=bool))
@@ -141,7 +141,7 @@ class Cap:
         return np.mod(np.arctan2(flat[:, 1], flat[:, 0]), TURN)
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
-        """Points of the circle strictly between two angles each, either way."""
+        """Points of the circle strictly between pairs of angles, in either direction."""
         step = 2 * np.arccos(1 - self.tolerance * self.fineness)
         pieces = np.maximum(1, np.ceil(np.abs(stop - start) / step)).astype(np.intp)
         number, way = spans(np.ones_like(pieces), pieces - 1), np.repeat(np.arange(len(pieces)), pieces - 1)
@@ -149,7 +149,7 @@ class Cap:
         return Ragged(np.stack([np.cos(angle), np.sin(angle)], axis=1), offsets_of(pieces - 1))
 
     def once(self) -> FloatArray:
-        """The whole circle, its first point again at its end."""
+        """The whole circle, its first point repeated at the end."""
         first = np.array([[1.0, 0.0]])
         return np.concatenate([first, self.between(np.zeros(1), np.array([TURN])).values, first])
 
@@ -174,16 +174,16 @@ class Box:
 
     @property
     def corners(self) -> FloatArray:
-        """Counterclockwise from the lower right one, (4, 2)."""
+        """Corners counterclockwise from the lower right, (4, 2)."""
         x, y = np.array([self.right, self.right, self.left, self.left]), np.array([self.bottom, self.top] * 2)
         return np.stack([x, y[[0, 1, 1, 0]]], axis=1)
 
     def flat(self, chains: Ragged) -> FloatArray:
-        """Points of the plane (n, 2), as they are."""
+        """Points of the plane (n, 2), unchanged."""
         return chains.values
 
     def place(self, flat: FloatArray) -> FloatArray:
-        """How far along the border points of it are; of points off it, the nearest side's."""
+        """Positions of border points along the border; other points use the nearest side."""
         x, y = np.clip(flat, [self.left, self.bottom], [self.right, self.top]).T
         width, height = self.right - self.left, self.top - self.bottom
         away = np.abs([x - self.right, y - self.top, x - self.left, y - self.bottom])
@@ -198,7 +198,7 @@ class Box:
         return along[np.argmin(away, axis=0), np.arange(len(x))] % self.length
 
     def between(self, start: FloatArray, stop: FloatArray) -> Ragged:
-        """The corners strictly between two places each, either way."""
+        """The corners strictly between pairs of positions, in either direction."""
         height, width = self.top - self.bottom, self.right - self.left
         marks = np.array([0, height, height + width, 2 * height + width]) + self.length * np.arange(-2, 3)[:, None]
         ahead = (marks.ravel() - start[:, None]) * np.where(stop < start, -1, 1)[:, None]
@@ -207,12 +207,12 @@ class Box:
         return Ragged.grouped(self.corners[mark[order] % 4], way[order], len(start))
 
     def once(self) -> FloatArray:
-        """All corners, the first one again at the end."""
+        """All corners, the first one repeated at the end."""
         return self.corners[[0, 1, 2, 3, 0]]
 
 
 def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
-    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default that of points of the plane (n, 2) and a margin.
+    """The rectangle bounds = (xmin, ymin, xmax, ymax), by default the bounding box of points (n, 2) with a margin.
 
     Raises
     ------
@@ -235,8 +235,8 @@ def frame_of(points: FloatArray, bounds: npt.ArrayLike | None = None) -> Box:
 class Antimeridian(Box):
     """The border of the map of longitude and latitude: the 180th meridian from both sides, and both poles.
 
-    The sphere is cut along half a great circle; on the map that is a rectangle, with a whole side for each pole. All is
-    in sight. Points on the meridian count as east of it, at 180°, where their arcs do not tell.
+    The sphere is cut along half a great circle, which becomes a rectangle on the map, with a whole side for each pole.
+    Everything is visible. Points on the meridian are at 180° unless their arcs determine the side.
     """
 
     left: float = -180.0
@@ -248,19 +248,19 @@ class Antimeridian(Box):
     def cut(self, arcs: Arcs) -> Pieces:
         """Arcs cut at the 180th meridian and at the poles."""
         arcs = self._with_poles(_snapped(arcs))
-        # The plane of the meridian cuts arcs on its near side too, at longitude 0; those cuts are left out.
+        # The plane of the meridian also cuts arcs at longitude 0; those cuts are left out.
         arc, t, _ = crossings(arcs, np.array([0.0, 1.0, 0.0]), 0.0, slack=AT_POLE)
         points = arcs.points(arc, t)
         west = points[:, 0] < -AT_POLE
         arc, t, points = arc[west], t[west], points[west]
         points[:, 1] = 0.0
         points /= np.sqrt(np.sum(points**2, axis=1, keepdims=True))
-        # A vertex on the meridian is where its arcs cross it, to the last bit.
+        # Arcs cross the meridian exactly at a vertex that lies on it.
         for end, at in ((arcs.start, arcs.begin), (arcs.end, arcs.stop)):
             same = (t == at[arc]) & (end[arc, 1] == 0)
             points[same] = end[arc[same]]
         pieces, _, _ = _marked(arcs, arc, t, points)
-        # Vertices on the border cut, too; what has both ends and its middle there runs along it.
+        # Vertices on the border are cuts, too; an arc whose endpoints and midpoint are there runs along it.
         opens, shuts = _on_border(pieces.start), _on_border(pieces.end)
         both = np.flatnonzero(opens & shuts)
         along = np.zeros(len(pieces), dtype=bool)
@@ -268,10 +268,10 @@ class Antimeridian(Box):
         return Pieces(pieces, opens, shuts, np.ones(len(pieces), dtype=bool), along)
 
     def _with_poles(self, arcs: Arcs) -> Arcs:
-        """Arcs cut where they pass a pole within rounding."""
+        """Arcs cut where they pass a pole within rounding error."""
         for up in (1.0, -1.0):
             pole = np.array([0.0, 0.0, up])
-            # As far from the pole as its circle is: height 1 − d²/2 would lose half the digits.
+            # From the distance of the circle to the pole: the height 1 − d²/2 would lose half the digits.
             near = np.flatnonzero(np.abs(arcs.axis[:, 2] * up - arcs.offset) <= AT_POLE)
             some = arcs.take(near)
             _, _, phase = some.waves(pole)
@@ -284,15 +284,15 @@ class Antimeridian(Box):
         return arcs
 
     def flat(self, chains: Ragged) -> FloatArray:
-        """Longitude and latitude (n, 2); of points (n, 5) that bring theirs, these.
+        """Longitude and latitude (n, 2); points (n, 5) already contain them.
 
-        An end on the meridian is on the side from which its chain comes; a pole has its neighbour's longitude.
+        An endpoint on the meridian is on the side from which its chain arrives; a pole takes its neighbour's longitude.
         """
         points = chains.values
         lonlat = points[:, 3:].copy() if points.shape[1] == 5 else xyz_to_lonlat(points, latitude=self.latitude)
         if not len(points):
             return lonlat
-        # The next point of the chain, of the last one the point before.
+        # The next point of the chain; for the last point, the previous one.
         x, y = points[:, :2].T
         beside = np.arange(len(points)) + 1
         beside[chains.offsets[1:] - 1] -= 2
@@ -314,12 +314,12 @@ def crossings(
 ) -> tuple[Indices, FloatArray, BoolArray]:
     """Where arcs cross a plane direction·x = level: arcs (k,) and parameters (k,), in order; and which start above it.
 
-    An arc of less than a turn crosses once when its ends are on different sides, and otherwise never or twice: when its
-    highest (lowest) point is on it, and beyond the level by more than the slack.
+    An arc of less than a turn crosses once if its ends are on different sides, otherwise never or twice: twice if its
+    highest (lowest) point is on the arc and beyond the level by more than the slack.
     """
     first, last = arcs.start @ direction - level, arcs.end @ direction - level
     above, ending = first >= 0, last >= 0
-    # The sides of the ends and the bound |height − h(start)| ≤ length leave few arcs to look at.
+    # The sides of the ends and the bound |height − h(start)| ≤ length leave few arcs to examine.
     reach = np.sqrt(np.sum(arcs.u**2, axis=1)) * (arcs.stop - arcs.begin)
     near = np.flatnonzero((above != ending) | (np.abs(first) + np.abs(last) <= reach))
     some, begin, stop = arcs.take(near), arcs.begin[near], arcs.stop[near]
@@ -346,7 +346,7 @@ def crossings(
 
 
 def _from(begin: FloatArray, stop: FloatArray, t: FloatArray) -> FloatArray:
-    """Angles brought into the stretch from `begin` to `stop`, to the nearer end of it where rounding leads beyond."""
+    """Angles reduced to the interval from `begin` to `stop`, clamped to its nearer end where rounding exceeds it."""
     t = begin + np.mod(t - begin, TURN)
     return np.where(t <= stop, t, np.where(t - stop < begin + TURN - t, stop, begin))
 
@@ -360,7 +360,7 @@ def _marked(arcs: Arcs, arc: Indices, t: FloatArray, points: FloatArray) -> tupl
 
 
 def _snapped(arcs: Arcs) -> Arcs:
-    """Arcs whose ends within rounding of a plane of two axes are exactly there, those near a pole at the pole."""
+    """Arcs whose ends are snapped to planes of two axes, and to the poles, within rounding error."""
     ends = []
     for given in (arcs.start, arcs.end):
         points = np.where(np.abs(given) <= AT_POLE, 0.0, given)

@@ -1,14 +1,14 @@
 """Lines and rings clipped at any border; rings closed along it.
 
-Rings have their region on the left. Cut at the border they fall into chains that run from border to border. Going
-counterclockwise along the border, the chart on the left, one enters a region wherever a chain *ends* and leaves one
-wherever a chain *starts*: deeper by one or less deep by one, whatever overlaps what. To close the chains is therefore
-to sort: **the i-th end is joined to the (i + w)-th start**, both counted along the border, where w is how deep its
-first place is. Nothing is searched for, a region may have any number of chains, and all regions are closed at once.
+Rings have their region on the left. Cut at the border, they fall into chains that run from border to border. Along the
+border counterclockwise, with the chart on the left, a region is entered wherever a chain *ends* and left wherever a
+chain *starts*, so the depth changes by ±1 even where rings overlap. Closing the chains is therefore a matter of
+sorting: **the i-th end is joined to the (i + w)-th start**, both counted along the border, where w is the depth at its
+first position. No search is needed, a region may have any number of chains, and all regions are closed at once.
 
-Two things are left to tell, and signed areas tell both, without a point to ask for:
+Two questions remain:
 
-* w is what makes the border nowhere less than outside: minus the smallest sum of ends and starts passed.
+* w is such that the depth is never negative: minus the smallest running sum of ends and starts.
 * A chart that a region surrounds without touching the border is inside when the loops on it have a negative area
   together (holes without a shell). Where nothing of a region's border is in sight, the same question is asked of the
   hidden rings, on the chart that shows all but the middle of the view, unless the caller knows.
@@ -28,26 +28,26 @@ from stereodel.curves.trace import Arcs
 
 @dataclass(frozen=True, eq=False)
 class Chains:
-    """Runs of pieces between cuts; a piece that is run backwards has the number ~piece."""
+    """Runs of pieces between cuts; a reversed piece has the index ~piece."""
 
     pieces: Ragged
     row: Indices
-    """(m,): the line or ring that each is a part of."""
+    """(m,): the line or ring of each chain."""
     whole: BoolArray
-    """(m,): closed, and nowhere cut."""
+    """(m,): whether it is closed and not cut."""
     seen: BoolArray
 
 
 def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
-    """Lines and rings, given by their edges (~edge where backwards), as chains of pieces."""
+    """Lines and rings, given by their edges (~edge if reversed), as chains of pieces."""
     arcs = pieces.arcs
-    # Pieces are in the order of their edges: those of an edge are a stretch, run from its end where it is backwards.
+    # Pieces are in the order of their edges: those of an edge are contiguous, and in reverse for a reversed edge.
     edge, back = np.maximum(sides.values, ~sides.values), sides.values < 0
-    none = len(pieces.of_edge) - 1  # edges behind the last that has pieces
+    none = len(pieces.of_edge) - 1  # edges after the last that has pieces
     first, last = (pieces.of_edge[np.minimum(edge + k, none)] for k in (0, 1))
     piece = spans(np.where(back, last - 1, first), last - first, np.where(back, -1, 1))
     run = Ragged(np.where(np.repeat(back, last - first), ~piece, piece), offsets_of(last - first)[sides.offsets])
-    # A closed line has no beginning of its own: it is begun at its first cut.
+    # A closed line has no start of its own: it starts at its first cut.
     held = run.sizes > 0
     heads, tails = run.values[run.offsets[:-1][held]], run.values[run.offsets[1:][held] - 1]
     closed = np.zeros(len(run), dtype=bool)
@@ -72,9 +72,9 @@ def chains_of(sides: Ragged, pieces: Pieces) -> Chains:
 
 
 def among(rows: Ragged, chosen: BoolArray) -> Ragged:
-    """Rows of edges without those that are not chosen; the others are numbered anew, as `Edges.take` does.
+    """Rows with only the chosen edges, renumbered as by `Edges.take`.
 
-    Edges out of sight may be left out before lines and rings are clipped: there are no ends of chains among them.
+    Hidden edges may be left out before lines and rings are clipped, since they contain no ends of chains.
     """
     number = np.cumsum(chosen) - 1
     edge = np.maximum(rows.values, ~rows.values)
@@ -82,17 +82,17 @@ def among(rows: Ragged, chosen: BoolArray) -> Ragged:
 
 
 def points_along(chains: Ragged, samples: Ragged) -> Ragged:
-    """Points of chains from the samples of their pieces, of which neighbours share their ends."""
+    """Points of chains from the samples of their pieces, whose shared endpoints are not repeated."""
     piece, back = np.maximum(chains.values, ~chains.values), chains.values < 0
     counts = samples.sizes[piece] - 1
-    counts[chains.offsets[1:][chains.sizes > 0] - 1] += 1  # the last piece of a chain brings its end
+    counts[chains.offsets[1:][chains.sizes > 0] - 1] += 1  # the last piece of a chain includes its endpoint
     start = np.where(back, samples.offsets[piece + 1] - 1, samples.offsets[piece])
     points = samples.values[spans(start, counts, np.where(back, -1, 1))]
     return without_repeats(Ragged(points, offsets_of(counts)[chains.offsets]))
 
 
 def lines(sides: Ragged, pieces: Pieces, samples: Ragged, border: Outline) -> tuple[Ragged, Indices]:
-    """What is in sight of lines, on the chart, and the line that each part belongs to."""
+    """The visible parts of lines, on the chart, and the line of each part."""
     chains = chains_of(sides, pieces)
     points = points_along(chains.pieces.take(chains.seen), samples)
     long = points.sizes > 1
@@ -108,7 +108,7 @@ def regions(
     border: Outline,
     middle: BoolArray | None = None,
 ) -> tuple[Ragged, Indices]:
-    """What is in sight of regions with their rings' left inside: closed loops on the chart, and the region of each.
+    """The visible parts of regions, interior left of their rings: closed loops on the chart, and the region of each.
 
     Parameters
     ----------
@@ -117,12 +117,10 @@ def regions(
     owner : (r,) array
         The region of each ring.
     count : int
-        Of regions.
-    pieces, samples
-        The edges' arcs, cut by the border, and points of them.
+        Number of regions. pieces, samples The arcs of the edges, cut at the border, and their points.
     middle : (count,) array, optional
-        Which regions hold the middle of the view. Where this is known, edges that are hidden from end to end may be
-        left out of the rings.
+        Which regions contain the centre of the view. If this is known, edges that are hidden throughout may be left out
+        of the rings.
     """
     loops, region, shown = in_sight(rings, owner, count, pieces, samples, border)
     if middle is None:
@@ -135,13 +133,13 @@ def regions(
 def in_sight(
     rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline
 ) -> tuple[Ragged, Indices, BoolArray]:
-    """As `regions`, but that regions of whose rings nothing is in sight are left out: `surround` may ask for them.
+    """As for `regions`, without regions whose rings are entirely hidden, which `surround` handles.
 
-    So edges out of sight may be missing. Also returned is which regions have a part of a ring in sight (count,).
+    Hidden edges may therefore be missing. Also returns which regions have a visible part of a ring (count,).
     """
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
-    # What runs along the border is the border's business: closing the rest brings it back, where it belongs.
+    # Parts along the border are dropped: closing the other chains restores them where needed.
     head = chains.pieces.values[chains.pieces.offsets[:-1]]
     drawn = chains.seen & ~_flag(pieces.along, pieces.along, head)
     points = points_along(chains.pieces.take(drawn), samples)
@@ -151,8 +149,8 @@ def in_sight(
     loops = together(flat.take(whole), joined)
     loop_owner = np.concatenate([shown[whole], closed_by])
     area, length = signed_areas(loops)
-    # A region thinner than its chords stray may come out clockwise at the border, as if it went round all the rest;
-    # what it then overlaps its neighbours by is as thin. Counterclockwise it stays, or there would be a gap.
+    # A region thinner than the deviation of its chords may become clockwise at the border, as if it surrounded
+    # everything else. Its overlap with neighbours is equally thin, so it is kept counterclockwise to avoid a gap.
     blur = np.where(np.arange(len(loops)) < whole.sum(), 0.0, border.blur)
     there = (area > length * border.slack) | (area < -length * (border.slack + blur))
     loops, loop_owner = loops.take(there), loop_owner[there]
@@ -162,7 +160,7 @@ def in_sight(
 
 
 def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) -> tuple[Ragged, Indices]:
-    """Loops, and the whole border for each region that goes round all else."""
+    """Loops, with the whole border added for each region that surrounds the chart."""
     regions = np.flatnonzero(around)
     if not len(regions):
         return loops, owner
@@ -170,10 +168,10 @@ def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) 
 
 
 def surround(rings: Ragged, owner: Indices, asked: BoolArray, pieces: Pieces, samples: Ragged) -> BoolArray:
-    """Which of some regions (count,), no ring of which is in sight, hold all that is in sight.
+    """Which of some regions (count,) without visible rings contain the whole visible part.
 
-    Projected from the middle of the view all that is hidden lies about the origin, mirrored, and the middle of the view
-    at infinity: inside where the areas have a positive sum.
+    Projected from the centre of the view, the hidden part lies around the origin, mirrored, and the centre of the view
+    is at infinity: it is inside if the sum of areas is positive.
     """
     chosen = asked[owner]
     if not chosen.any():
@@ -187,7 +185,7 @@ def surround(rings: Ragged, owner: Indices, asked: BoolArray, pieces: Pieces, sa
 
 
 def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragged, Indices]:
-    """Loops of chains (k, 2) from border to border, each region's closed along it; and the region of each loop."""
+    """Loops of chains (k, 2) from border to border, closed along it for each region; and the region of each loop."""
     if not len(chains):
         return chains, owner
     starts = border.place(chains.values[chains.offsets[:-1]])
@@ -201,25 +199,25 @@ def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragge
 
 
 def followers(starts: FloatArray, ends: FloatArray, length: float, owner: Indices) -> tuple[Indices, FloatArray]:
-    """For each chain the one that follows it in its loop, and the place at which that starts, counted on from its end.
+    """For each chain its successor in the loop, and the position at which that starts, counted onwards from its end.
 
     Parameters
     ----------
     starts, ends : (n,) arrays
-        Places of the chains' ends along a border.
+        Positions of the chains' ends along a border.
     length : float
-        Once round the border.
+        Length of the border.
     owner : (n,) array
-        The region of each chain: it has as many starts as ends.
+        The region of each chain, which has as many starts as ends.
     """
-    # How deep: +1 behind an end, −1 behind a start; at the same place the end comes first, so that what only touches
-    # the border closes there. The sums begin at 0 again with each region.
+    # Depth: +1 after an end, −1 after a start; at equal positions the end comes first, so that chains that only touch
+    # the border close there. The sums restart at 0 for each region.
     region, place, kind = np.tile(owner, 2), np.concatenate([ends, starts]), np.repeat([0, 1], len(owner))
     order = np.lexsort((kind, place, region))
     depth = np.cumsum(1 - 2 * kind[order])
     first = np.flatnonzero(np.append(True, np.diff(region[order]) > 0))
     deep = np.maximum(0, -np.minimum.reduceat(depth, first))
-    # The i-th end of a region to its (i + deep)-th start, which may be one or more times round the border.
+    # The i-th end of a region to its (i + deep)-th start, which may be one or more turns around the border.
     by_end, by_start = np.lexsort((ends, owner)), np.lexsort((starts, owner))
     base, size = first // 2, np.diff(np.append(first, 2 * len(owner))) // 2
     group = np.repeat(np.arange(len(base)), size)
@@ -247,7 +245,7 @@ def together(a: Ragged, b: Ragged) -> Ragged:
 
 
 def without_repeats(rows: Ragged) -> Ragged:
-    """Rows of points without those that are equal to the one before them."""
+    """Rows of points without points equal to their predecessors."""
     fresh = np.ones(len(rows.values), dtype=bool)
     fresh[1:] = (rows.values[1:] != rows.values[:-1]).any(axis=1)
     fresh[rows.offsets[:-1][rows.sizes > 0]] = True
@@ -255,13 +253,13 @@ def without_repeats(rows: Ragged) -> Ragged:
 
 
 def with_first_again(loops: Ragged) -> Ragged:
-    """Loops whose first point comes again at their end."""
+    """Loops with the first point repeated at the end."""
     order = np.insert(np.arange(len(loops.values)), loops.offsets[1:], loops.offsets[:-1])
     return Ragged(loops.values[order], loops.offsets + np.arange(len(loops) + 1))
 
 
 def _flag(opens: BoolArray, shuts: BoolArray, directed: Indices) -> BoolArray:
-    """Whether pieces begin at a cut, run as they are run."""
+    """Whether directed pieces begin at a cut."""
     return np.where(directed < 0, shuts[~directed], opens[directed])
 
 

@@ -1,4 +1,4 @@
-"""Closed loops on a chart as triangles, for OpenGL alone; all else fills outlines itself, by the nonzero rule."""
+"""Closed loops on a chart as triangles, for OpenGL only; other backends fill outlines by the nonzero rule."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from stereodel.curves.ragged import Ragged, cycles
 def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
     """Corners (m, 3, 2) of triangles that cover loops, and the region of each; clockwise loops are holes.
 
-    Loops without holes that are seen whole from their middle, as cells are, become fans about it, all at once; ears are
-    clipped off the others. Ear clipping wants a shell with its holes: a hole belongs to the smallest shell of its
-    region that holds its first point.
+    Loops without holes that are star-shaped about their centre, such as cells, become triangle fans, all at once; the
+    others are triangulated by ear clipping. Ear clipping needs a shell with its holes: a hole belongs to the smallest
+    shell of its region that contains its first point.
     """
     with of_extra("draw"):
         from mapbox_earcut import triangulate_float64
@@ -47,9 +47,10 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
 
 
 def union(loops: Ragged) -> Ragged:
-    """What bounds the union of regions that share the points of their borders but do not overlap, as closed loops.
+    """The border, as closed loops, of the union of regions that share border points but do not overlap.
 
-    A side that two loops have runs both ways and falls out. At each point as many of those left begin as end.
+    A side shared by two loops occurs in both directions and cancels. At each point, as many of the remaining sides
+    begin as end.
     """
     first = np.delete(np.arange(len(loops.values)), loops.offsets[1:] - 1)
     places, node = np.unique(loops.values, axis=0, return_inverse=True)
@@ -68,7 +69,7 @@ def union(loops: Ragged) -> Ragged:
 
 
 def _fans(loops: Ragged) -> tuple[BoolArray, FloatArray, Indices]:
-    """Which loops go once round the mean of their points, turning nowhere back; triangles to it, and their loops."""
+    """Which loops wind monotonically once around the mean of their points; triangles to the mean, and their loops."""
     inner = np.ones(len(loops.values), dtype=bool)
     inner[loops.offsets[1:] - 1] = False
     first, row, count = np.flatnonzero(inner), loops.row[inner], len(loops)

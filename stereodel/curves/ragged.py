@@ -1,7 +1,7 @@
-"""Rows of different lengths, one after the other: the one container of lines, rings, chains and loops.
+"""Ragged arrays: rows of different lengths, the container of lines, rings, chains and loops.
 
-Row i is ``values[offsets[i]:offsets[i + 1]]``. Whatever is done to rows is done to all of them at once, by index
-arithmetic on the offsets; no other file of this package needs a loop over rows.
+Row i is ``values[offsets[i]:offsets[i + 1]]``. Operations act on all rows at once, by index arithmetic on the offsets;
+no other module of this package needs a loop over rows.
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ class Ragged:
 
     @classmethod
     def of(cls, rows: Sequence[npt.NDArray[Any]], like: npt.NDArray[Any] | None = None) -> Ragged:
-        """Rows given one by one; `like` tells the shape of a value where there may be no row."""
+        """From a sequence of rows; `like` gives the shape of a value in case there are no rows."""
         nothing = [] if like is None else [like[:0]]
         return cls(np.concatenate([*nothing, *rows]), offsets_of([len(row) for row in rows]))
 
     @classmethod
     def grouped(cls, values: npt.NDArray[Any], row: Indices, count: int) -> Ragged:
-        """Values whose rows are told by number, in order; rows without a value are empty."""
+        """From values and their row indices, in order; rows without values are empty."""
         return cls(values, offsets_of(np.bincount(row, minlength=count)))
 
     def __len__(self) -> int:
@@ -52,7 +52,7 @@ class Ragged:
 
     @property
     def following(self) -> Indices:
-        """For each value the place of the next one of its row; after the last comes the first."""
+        """The index of the next value in the row, cyclically."""
         after = np.arange(1, len(self.values) + 1)
         held = self.sizes > 0
         after[self.offsets[1:][held] - 1] = self.offsets[:-1][held]
@@ -65,17 +65,17 @@ class Ragged:
         return Ragged(self.values[spans(self.offsets[chosen], sizes)], offsets_of(sizes))
 
     def kept(self, values: BoolArray) -> Ragged:
-        """The same rows without some of their values."""
+        """The rows with only the selected values."""
         return Ragged(self.values[values], np.concatenate([[0], np.cumsum(values)])[self.offsets])
 
     def inserted(self, places: Indices, values: npt.NDArray[Any]) -> Ragged:
-        """The same rows with further values (k, ...) before those at places (k,), in order."""
+        """The rows with additional values (k, ...) inserted before those at `places` (k,), in order."""
         return Ragged(
             np.insert(self.values, places, values, axis=0), self.offsets + np.searchsorted(places, self.offsets)
         )
 
     def rotated(self, first: Indices) -> Ragged:
-        """Each row begun at one of its values, as a closed ring may be; `first` (m,) are places in the rows."""
+        """Each row rotated to start at one of its values, as for closed rings; `first` (m,) are positions in rows."""
         sizes = self.sizes
         turned = spans(np.zeros_like(sizes), sizes) + np.repeat(first, sizes)
         base, size = np.repeat(self.offsets[:-1], sizes), np.repeat(sizes, sizes)
@@ -83,9 +83,9 @@ class Ragged:
 
 
 def thinned(lines: Ragged, spacing: float) -> Ragged:
-    """Lines in the plane without points that are closer along the line than `spacing`; ends stay.
+    """Lines in the plane without points closer along the line than `spacing`; endpoints are kept.
 
-    What is left out is less than `spacing` from a point that stays.
+    A removed point is less than `spacing` from a point that is kept.
     """
     points = lines.values
     if len(points) == 0:
@@ -107,16 +107,16 @@ def offsets_of(sizes: npt.ArrayLike) -> Indices:
 
 
 def spans(starts: Indices, sizes: Indices, step: Indices | int = 1) -> Indices:
-    """The numbers start, start + step, … of several stretches, one stretch after the other."""
+    """The integers start, start + step, … of several ranges, concatenated."""
     within = np.arange(int(sizes.sum())) - np.repeat(np.cumsum(sizes) - sizes, sizes)
     return np.repeat(starts, sizes) + within * (step if isinstance(step, int) else np.repeat(step, sizes))
 
 
 def cycles(successor: Indices) -> Ragged:
-    """The cycles of a permutation, each from its smallest member on.
+    """The cycles of a permutation, each starting at its smallest member.
 
-    By doubling: after k rounds each member knows the smallest of the 2ᵏ members ahead of it; once all agree on a
-    leader, the cycle is cut before it and the way to the cut is counted in the same manner.
+    By pointer doubling: after k rounds each member has the smallest of the 2ᵏ members ahead of it; once all agree on a
+    leader, the cycle is cut before it and the distance to the cut is found in the same way.
     """
     leader, jump = np.arange(len(successor)), successor
     for _ in range(len(successor).bit_length()):

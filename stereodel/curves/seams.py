@@ -1,9 +1,9 @@
 """Rings of map files without their seams.
 
-GeoJSON and shapefiles cut polygons at ±180° and lead them along ±90° around the poles. On the sphere nothing ends
-there: a stretch of the meridian that a ring runs up on one side of the map and another runs down on the other side is
-no border, and an edge along a pole is a point. Both are left out and the rings joined anew. A stretch with a region on
-one side alone stays: there is a real border that happens to lie on the meridian.
+GeoJSON and shapefiles cut polygons at ±180° and close them along ±90° around the poles. On the sphere there is no
+border there: a part of the meridian that one ring follows upward on one side of the map and another downward on the
+other side is a seam, and an edge along a pole is a point. Both are removed and the rings joined again. A part with a
+region on one side only is kept: it is a real border that happens to lie on the meridian.
 """
 
 from __future__ import annotations
@@ -15,20 +15,20 @@ from stereodel.curves.ragged import Ragged, cycles, spans
 
 
 def left_inside(rings: Ragged, outer: BoolArray) -> Ragged:
-    """Closed rings (k, 2) in degrees, in either direction, turned so that their region is on the left.
+    """Closed rings (k, 2) in degrees, in either direction, oriented so that their region is on the left.
 
-    Outer rings then run counterclockwise and holes clockwise. A ring whose longitudes go on round the Earth, as
-    `unwrapped` makes them, has no side of its own: it holds the pole on its smaller side.
+    Outer rings then run counterclockwise and holes clockwise. A ring whose longitudes continue around the Earth, as
+    after `unwrapped`, is not bounded on the map: it contains the pole on its smaller side.
     """
     points, after = rings.values, rings.following
     last = np.zeros(len(points), dtype=bool)
     last[rings.offsets[1:] - 1] = True
-    # Twice the area on the map, from the first point of each, and how far each goes round.
+    # Twice the area on the map, relative to the first point of each, and the longitude that each goes around.
     p = points - np.repeat(points[rings.offsets[:-1]], rings.sizes, axis=0)
     step = np.where(last[:, None], 0.0, points[after] - points)
     area = np.bincount(rings.row, p[:, 0] * step[:, 1] - p[:, 1] * step[:, 0], minlength=len(rings))
     turns = np.round(np.bincount(rings.row, step[:, 0], minlength=len(rings)) / 360)
-    # The area on the left of a ring round the Earth is 2π − ∫ sin φ dλ, whichever way it runs.
+    # The area to the left of a ring around the Earth is 2π − ∫ sin φ dλ, whatever its direction.
     sine = np.sin(np.radians(points[:, 1]))
     height = np.bincount(rings.row, (sine + sine[after]) / 2 * step[:, 0], minlength=len(rings))
     backwards = np.where(turns != 0, height < 0, area < 0) == outer
@@ -38,7 +38,7 @@ def left_inside(rings: Ragged, outer: BoolArray) -> Ragged:
 
 
 def stitched(rings: Ragged, owner: Indices, seam: float = 180.0) -> tuple[FloatArray, FloatArray, Ragged, Indices]:
-    """Closed rings (k, 2) in degrees, their first point at their end again, of regions on their left.
+    """Edges and rings, without seams, of closed rings (k, 2) in degrees with their regions on the left.
 
     The map is cut at the meridian `seam`, degrees.
 
@@ -47,7 +47,7 @@ def stitched(rings: Ragged, owner: Indices, seam: float = 180.0) -> tuple[FloatA
     start, end : (e, 2) arrays
         Edges in degrees; the end of one and the start of the next may be one point with two longitudes.
     rings : Ragged
-        Numbers of the edges of each ring.
+        Indices of the edges of each ring.
     owner : (r,) array
         The region of each ring.
     """
@@ -59,7 +59,7 @@ def stitched(rings: Ragged, owner: Indices, seam: float = 180.0) -> tuple[FloatA
     border = _on_meridian(rings.values, seam) | (np.abs(rings.values[:, 1]) == 90)
     if not border.any():
         return start, end, sides, owner
-    # Rings that touch no seam stay as they are.
+    # Rings that touch no seam are unchanged.
     touched = np.zeros(len(rings), dtype=bool)
     touched[rings.row[border]] = True
     opened, whole = sides.take(touched).values, sides.take(~touched)
@@ -83,10 +83,10 @@ def _on_meridian(places: FloatArray, seam: float) -> BoolArray:
 def _without_seams(
     a: FloatArray, b: FloatArray, owner: Indices, meridian: float
 ) -> tuple[FloatArray, FloatArray, Indices]:
-    """Edges but those along a pole, and those along the meridian of the cut that run both ways."""
+    """Edges without those along a pole and those along the seam that occur in both directions."""
     pole = (np.abs(a[:, 1]) == 90) & (a[:, 1] == b[:, 1])
     along = _on_meridian(a, meridian) & (a[:, 0] == b[:, 0]) & ~pole
-    # Edges along the meridian end wherever another one begins, on either side of the map.
+    # Edges along the meridian are split wherever another one begins, on either side of the map.
     seam = np.flatnonzero(along)
     heights = np.unique(np.concatenate([p[_on_meridian(p, meridian), 1] for p in (a, b)]))
     low, high = np.minimum(a[seam, 1], b[seam, 1]), np.maximum(a[seam, 1], b[seam, 1])
@@ -94,7 +94,7 @@ def _without_seams(
     steps = np.searchsorted(heights, high) - lowest
     row, step = np.repeat(np.arange(len(seam)), steps), spans(lowest, steps)
     up = np.where(b[seam, 1] > a[seam, 1], 1, -1)[row]
-    # Up and down cancel; what is left runs one way, as often as the sum says.
+    # Up and down cancel; the rest runs one way, as often as the sum says.
     keys, where = np.unique(np.stack([owner[seam][row], step], axis=1), axis=0, return_inverse=True)
     excess = np.bincount(where.ravel(), up, minlength=len(keys)).astype(np.intp)
     left = np.repeat(np.arange(len(keys)), np.abs(excess))
@@ -110,7 +110,7 @@ def _without_seams(
 
 
 def _followers(a: FloatArray, b: FloatArray, owner: Indices) -> Indices:
-    """For each edge the one of its region that begins where it ends, on the sphere."""
+    """For each edge, the edge of its region that begins where it ends, on the sphere."""
     places = np.concatenate([a, b])
     places[:, 0] = np.where(np.abs(places[:, 1]) == 90, 0.0, np.mod(places[:, 0], 360.0))
     node = np.unique(np.column_stack([np.tile(owner, 2), places]), axis=0, return_inverse=True)[1].ravel()

@@ -1,9 +1,10 @@
-"""Edges on the sphere as arcs of circles, and their images under a lens: exact, until they are sampled.
+"""Edges on the sphere as circular arcs, and their images under a lens: exact until they are sampled.
 
-A conformal map sends circles to circles. So an edge is kept as its circle, axis·x = offset, and the stretch of it that
-is meant; a lens moves the circle in closed form and the ends as points, and points in between are made last, as many as
+A conformal map sends circles to circles. So an edge is stored as its circle, axis·x = offset, and an interval on it; a
+lens maps the circle in closed form and the endpoints as points, and intermediate points are computed last, as many as
 the image needs. Three kinds of edges become arcs: great circles (exact), parallels and other circles (exact), and edges
-straight in longitude and latitude (exact along parallels, otherwise great circles that stray by a tolerance at most).
+straight in longitude and latitude (exact along parallels, otherwise approximated by great circles to within a
+tolerance).
 """
 
 from __future__ import annotations
@@ -25,13 +26,13 @@ from stereodel.sphere.vectors import crossed, turned
 
 @dataclass(frozen=True, eq=False)
 class Arcs:
-    """Arcs of circles of the unit sphere: center + cos t·u + sin t·v for t from `begin` to `stop`, a turn at most.
+    """Arcs of circles of the unit sphere: center + cos t·u + sin t·v for t from `begin` to `stop`, at most one turn.
 
     The circle is axis·x = offset, counterclockwise about its axis: center = offset·axis, v = axis × u.
     """
 
     start: FloatArray
-    """(n, 3): what the arcs share with their neighbours, bit for bit; so are `end`."""
+    """(n, 3): starts, bitwise equal to the ends of preceding arcs; likewise `end`."""
     end: FloatArray
     axis: FloatArray
     offset: FloatArray
@@ -39,7 +40,7 @@ class Arcs:
     begin: FloatArray
     stop: FloatArray
     edge: Indices
-    """(n,), in order: the edge that each is a piece of."""
+    """(n,), ascending: the edge of each piece."""
 
     def __len__(self) -> int:
         return len(self.edge)
@@ -64,11 +65,11 @@ class Arcs:
         return axis * self.offset[arc, None] + np.cos(t)[:, None] * u + np.sin(t)[:, None] * crossed(axis, u)
 
     def cut(self, arc: Indices, t: FloatArray, points: FloatArray) -> Arcs:
-        """The same arcs in pieces, at parameters t (k,) of arcs (k,), in order; neighbours share the points (k, 3)."""
+        """The arcs cut at parameters t (k,) of arcs (k,), in order; adjacent pieces share the points (k, 3)."""
         if not len(arc):
             return self
         pieces = self.take(np.repeat(np.arange(len(self)), np.bincount(arc, minlength=len(self)) + 1))
-        after = arc + np.arange(1, len(arc) + 1)  # the k-th cut has k cuts before it, each one more piece
+        after = arc + np.arange(1, len(arc) + 1)  # each of the k cuts before the k-th adds a piece
         pieces.start[after], pieces.end[after - 1] = points, points
         pieces.begin[after], pieces.stop[after - 1] = t, t
         return pieces
@@ -76,12 +77,13 @@ class Arcs:
     def through(self, lens: MoebiusMap) -> Arcs:
         """The images under a lens.
 
-        Arcs are cut where they are nearest to the focus and farthest from it, whose images are opposite on the image
-        circle, by symmetry: between them an image sweeps half a turn at most, and its ends tell how far.
+        Arcs are cut where they are nearest to and farthest from the focus. By symmetry the images of these points are
+        opposite on the image circle, so between them an image sweeps at most half a turn, which its endpoints
+        determine.
         """
         if lens.magnification == 1:
             return self.turned(lens.left.matrix @ lens.right.matrix)
-        # Both apsides, each in the turn from `begin` on; those beyond `stop` are not on the arc.
+        # Both apsides, each within a turn from `begin`; those beyond `stop` are not on the arc.
         _, _, phase = self.waves(lens.right.matrix[2])  # the focus
         t = self.begin[:, None] + np.sort(np.mod(phase[:, None] + [0, np.pi] - self.begin[:, None], 2 * np.pi), axis=1)
         arc, which = np.nonzero((t > self.begin[:, None]) & (t < self.stop[:, None]))
@@ -93,7 +95,7 @@ class Arcs:
         height, offset = axis[:, 2] * even + arcs.offset * odd, axis[:, 2] * odd + arcs.offset * even
         axis[:, 2] = height
         length = np.sqrt(np.sum(axis**2, axis=1))
-        length[length == 0] = 1.0  # an arc without length has no axis
+        length[length == 0] = 1.0  # an arc of length zero has no axis
         axis, offset = turned(axis, lens.left.matrix) / length[:, None], offset / length
         start, end = lens(arcs.start), lens(arcs.end)
         center = axis * offset[:, None]
@@ -101,17 +103,17 @@ class Arcs:
         return Arcs(start, end, axis, offset, u, np.zeros(len(u)), _swept(axis, u, w), arcs.edge)
 
     def sampled(self, tolerance: float) -> Ragged:
-        """Points of each arc, both ends included, whose chords stray from it by a tolerance at most.
+        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`.
 
-        A chord of the angle a is off a circle of radius r by r(1 − cos(a/2)). None sweeps more than a quarter turn: a
-        circle smaller than the tolerance still has an area, which tells on what side of it a region lies.
+        A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). No chord sweeps more than a quarter
+        turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
         """
         radius = np.sqrt(np.sum(self.u**2, axis=1))
         step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), np.sqrt(0.5), 1.0))
         return self.spread(np.maximum(1, np.ceil((self.stop - self.begin) / step)).astype(np.intp))
 
     def spread(self, pieces: Indices) -> Ragged:
-        """Points at equal steps, so many steps for each arc."""
+        """Points at equal steps, with a number of steps for each arc."""
         offsets = offsets_of(pieces + 1)
         points = np.empty((offsets[-1], 3))
         points[offsets[:-1]], points[offsets[1:] - 1] = self.start, self.end
@@ -143,7 +145,7 @@ def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) 
 
 
 def exact(arcs: Sequence[SphereArc]) -> Arcs:
-    """Arcs of circles given one by one, a turn at most each."""
+    """Arcs from a sequence of circular arcs, each at most one turn."""
     rows = [(arc.start, arc.end, arc.circle.normal, arc.frame()[1]) for arc in arcs]
     start, end, axis, u = np.array(rows, dtype=np.float64).reshape(-1, 4, 3).swapaxes(0, 1)
     offset, stop = (
@@ -153,12 +155,12 @@ def exact(arcs: Sequence[SphereArc]) -> Arcs:
 
 
 def _swept(axis: FloatArray, u: FloatArray, w: FloatArray) -> FloatArray:
-    """Angle about an axis from u to w, at most half a turn: rounding must not make −π of π."""
+    """Angle about an axis from u to w, at most half a turn; rounding must not turn π into −π."""
     return np.arctan2(np.abs(np.sum(crossed(axis, u) * w, axis=1)), np.sum(u * w, axis=1))
 
 
 def sides_of(lines: Ragged) -> tuple[Indices, Ragged]:
-    """Of lines of vertices: the vertices that another follows, and the edges of each line, numbered so."""
+    """For lines of vertices: the vertices followed by another, and the edges of each line, in this numbering."""
     inner = np.ones(len(lines.values), dtype=bool)
     inner[lines.offsets[1:] - 1] = False
     first = np.flatnonzero(inner)
@@ -167,19 +169,19 @@ def sides_of(lines: Ragged) -> tuple[Indices, Ragged]:
 
 @dataclass(frozen=True, eq=False)
 class Edges:
-    """Edges before any lens, made ready once: arcs, which edges straight in longitude and latitude leave a little.
+    """Edges before any lens, prepared once, as arcs, from which edges straight in longitude and latitude deviate.
 
-    How far depends on the lens, so that `arcs_under` one cuts such edges into as many arcs as it asks for.
+    The deviation of images depends on the lens, so `arcs_under` cuts such edges into as many arcs as necessary.
     """
 
     arcs: Arcs
-    """One for each edge: the edge itself, or the great circle through its ends."""
+    """One arc for each edge: the edge itself, or the great circle through its ends."""
     length: FloatArray
     """(n,): upper bounds, radians; no point of an edge is farther from its start."""
     exact: BoolArray
-    """(n,): which edges are their arcs."""
+    """(n,): which edges are equal to their arcs."""
     bend: FloatArray
-    """(n,): how far the others may stray from theirs, radians."""
+    """(n,): bounds on the deviation of the other edges from their arcs, in radians."""
     lonlat: FloatArray
     """(n, 2, 2): their ends in degrees."""
     latitude: Latitude = "spherical"
@@ -199,13 +201,13 @@ class Edges:
         latitude: Latitude = "spherical",
         ends: tuple[FloatArray, FloatArray] | None = None,
     ) -> Edges:
-        """Edges straight in degrees from a (k, 2) to b; `ends` are these on the sphere, for callers that have them."""
+        """Edges straight in degrees from a (k, 2) to b; `ends` are their points on the sphere, if already known."""
         p, q = ends or (lonlat_to_xyz(a, latitude=latitude), lonlat_to_xyz(b, latitude=latitude))
         length, bend = measures_in_lonlat(a, b, p, q)
         # A parallel is a circle: followed exactly. At the poles it is a point.
         level = (a[:, 1] == b[:, 1]) & (a[:, 0] != b[:, 0]) & (np.abs(a[:, 1]) < 90) & (np.abs(b - a)[:, 0] <= 360)
         arcs = great(p, q)
-        # In place of a parallel's great circle its own: about the Earth's axis, east or west, as far as longitudes say.
+        # A parallel replaces its great circle: about the Earth's axis, east or west, over the difference in longitude.
         east = np.sign((b - a)[level, 0])
         arcs.axis[level] = np.stack([0 * east, 0 * east, east], axis=1)
         arcs.offset[level] = east * p[level, 2]
@@ -217,7 +219,7 @@ class Edges:
         return len(self.arcs)
 
     def take(self, chosen: Indices | BoolArray) -> Edges:
-        """Some of the edges, numbered anew."""
+        """Some of the edges, renumbered."""
         arcs = numbered(self.arcs.take(chosen))
         length, exact = self.length[chosen], self.exact[chosen]
         return Edges(arcs, length, exact, self.bend[chosen], self.lonlat[chosen], self.latitude)
@@ -228,13 +230,13 @@ class Edges:
         return 2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach + self.length
 
     def arcs_under(self, lens: MoebiusMap, tolerance: float) -> Arcs:
-        """Arcs whose images under a lens are within a tolerance of those of the edges, radii."""
+        """Arcs whose images under a lens are within `tolerance`, in radii, of those of the edges."""
         start = self.arcs.start
         wanted = _wanted(lens, tolerance, start, self.length, self.bend)
         long = np.flatnonzero(~self.exact & (wanted > 1))
         if not len(long):
             return self.arcs
-        # Those that are cut, from corner to corner.
+        # The edges to be cut, from vertex to vertex.
         cut = _Stretches.whole(self.take(long), long, wanted[long]).halved(lens, tolerance, self.latitude)
         parts = cut.arcs(self.latitude)
         whole = np.ones(len(self), dtype=bool)
@@ -245,14 +247,14 @@ class Edges:
 
 @dataclass(frozen=True, eq=False)
 class _Stretches:
-    """Stretches of edges straight in degrees, from a (k, 2) to b, on the sphere from p (k, 3) to q."""
+    """Parts of edges straight in degrees, from a (k, 2) to b, on the sphere from p (k, 3) to q."""
 
     edge: Indices
     before: FloatArray
-    """The share of its edge that is before each, and `share`, that which it is."""
+    """Fraction of the edge before each part; `share` is the fraction of the part."""
     share: FloatArray
     pieces: FloatArray
-    """In how many great circles each is wanted."""
+    """Number of great circles into which each is divided."""
     a: FloatArray
     b: FloatArray
     p: FloatArray
@@ -269,11 +271,11 @@ class _Stretches:
         return _Stretches(*(getattr(self, name)[chosen] for name in self.__dataclass_fields__))
 
     def halved(self, lens: MoebiusMap, tolerance: float, latitude: Latitude) -> _Stretches:
-        """In halves, until none is wanted in more than `MOST_PIECES`, in order: few where nothing is magnified."""
+        """Parts halved, in order, until none needs more than `MOST_PIECES`: few where nothing is magnified."""
         done, rest = [], self
         while len(rest.edge):
             middle = (rest.a + rest.b) / 2
-            # What rounding keeps from being halved is as short as can be.
+            # Parts that rounding prevents from being halved are as short as possible.
             between = (middle != rest.a).any(axis=1) & (middle != rest.b).any(axis=1)
             long = between & (rest.pieces > MOST_PIECES)
             done.append(rest.take(~long))
@@ -288,13 +290,13 @@ class _Stretches:
         return found.take(np.lexsort([found.before, found.edge]))
 
     def arcs(self, latitude: Latitude) -> Arcs:
-        """Great circles, as many of equal steps in degrees as are wanted."""
+        """Great circles at equal steps in degrees."""
         pieces = np.ceil(np.clip(self.pieces, 1, MOST_PIECES)).astype(np.intp)
         number, row = spans(np.zeros_like(pieces), pieces), np.repeat(np.arange(len(pieces)), pieces)
         cut = np.flatnonzero(number)
         p, q, a, b = self.p[row], self.q[row], self.a[row[cut]], self.b[row[cut]]
         share = (number[cut] / pieces[row[cut]])[:, None]
-        # In this form rounding cannot lead beyond the ends, and so not beyond a pole.
+        # In this form rounding cannot exceed the ends, and therefore not a pole.
         p[cut] = q[cut - 1] = lonlat_to_xyz(a + share * (b - a), latitude=latitude)
         return replace(great(p, q), edge=self.edge[row])
 
@@ -305,9 +307,9 @@ def _together(parts: Sequence[_Stretches]) -> _Stretches:
 
 
 def _wanted(lens: MoebiusMap, tolerance: float, start: FloatArray, length: FloatArray, bend: FloatArray) -> FloatArray:
-    """Of how many great circles the images of edges keep within a tolerance, by the largest scale along them.
+    """Numbers of great circles with images within `tolerance` of those of edges, by the largest scale along them.
 
-    Long ones are cut for their length alone: a great circle through opposite points is none.
+    Long edges are cut because of their length alone: antipodal points do not determine a great circle.
     """
     wanted = np.sqrt(bend * largest_scale(lens, start, length) / tolerance)
     return np.asarray(np.maximum(wanted, length / np.radians(LONGEST_EDGE)))
@@ -331,19 +333,19 @@ def straight(
     latitude: Latitude = "spherical",
     ends: tuple[FloatArray, FloatArray] | None = None,
 ) -> Arcs:
-    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within a tolerance of theirs, radii.
+    """Edges straight in degrees from a (k, 2) to b, as arcs whose images are within `tolerance`, in radii, of theirs.
 
-    `ends` are their ends on the sphere, for callers that have them.
+    `ends` are their endpoints on the sphere, if already known.
     """
     return Edges.straight(a, b, latitude, ends).arcs_under(lens, tolerance)
 
 
 def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
-    """Lines of degrees whose longitude goes on where it jumps across ±180°, but for steps along a pole.
+    """Lines in degrees whose longitude continues across ±180° instead of jumping, except for steps along a pole.
 
-    A step of 360° is one once round the Earth, as in polygons that go round it, or with `turns` false none at all.
-    Where one jumps, longitudes are rounded to `WHOLE_TURNS`: a ring around the Earth then ends where it began, to the
-    last bit, a whole turn on.
+    A step of 360° is a turn around the Earth, as in polygons that go around it, or with `turns` false no step at all.
+    Where a line jumps, longitudes are rounded to `WHOLE_TURNS`, so that a ring around the Earth ends exactly one turn
+    from its start.
     """
     step = np.diff(lines.values, axis=0, prepend=lines.values[:1])
     step[lines.offsets[:-1][lines.sizes > 0]] = 0.0
@@ -361,10 +363,10 @@ def unwrapped(lines: Ragged, *, turns: bool = True) -> Ragged:
 def measures_in_lonlat(
     start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Upper bounds, radians: of the length of edges straight in (lon, lat), and how far they stray from a great circle.
+    """Upper bounds in radians of the lengths of edges straight in (lon, lat) and their distances from great circles.
 
     With steps a in longitude and b in latitude the covariant acceleration is (sin φ cos φ a², −2 sin φ a b) northwards
-    and eastwards; a curve strays by an eighth of it from the great-circle arc between its ends.
+    and eastwards; a curve deviates from the great-circle arc between its ends by an eighth of it.
     """
     a, b = np.abs(np.radians(end - start)).T
     sine = np.maximum(np.abs(p[:, 2]), np.abs(q[:, 2]))

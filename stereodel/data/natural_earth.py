@@ -30,7 +30,7 @@ STORED: Final = {
 """The file that holds each set for maps of 1 : 10, 1 : 50 and 1 : 110 million."""
 
 DEGREE_DIGITS: Final = 4
-"""Digits behind the point of the stored degrees: 11 m."""
+"""Decimals of the stored degrees: 11 m."""
 
 WATER_DIGITS: Final = 3
 """The same of rivers, lakes and the borders at 1 : 10 million: 111 m."""
@@ -55,7 +55,7 @@ class Coastlines(Lines):
 
 @dataclass(frozen=True, eq=False)
 class Land(Polygons):
-    """Land without the oceans, lakes included but for the Caspian Sea."""
+    """Land, with the lakes in it except the Caspian Sea."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,10 +13,10 @@ from stereodel._arrays import Bytes, FloatArray, IntArray, Texts, locked
 from stereodel.data import stored
 
 DEGREE_DIGITS: Final = {"airports": 6, "cities": 5, "stars": 5}
-"""Digits behind the point of the stored degrees: for airports and cities all that the sources have."""
+"""Decimals of the stored degrees: for airports and cities all that the sources have."""
 
 MAGNITUDE_DIGITS: Final = 2
-"""Of magnitudes and colour indices of stars."""
+"""Decimals of magnitudes and colour indices of stars."""
 
 
 @dataclass(frozen=True, eq=False)

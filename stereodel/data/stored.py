@@ -73,7 +73,7 @@ def integers(planes: Bytes) -> IntArray:
 
 
 def decimals(planes: Bytes, digits: int) -> FloatArray:
-    """A column of decimal fractions with `digits` digits behind the point."""
+    """A column of decimal fractions with `digits` decimals."""
     return integers(planes) / 10.0**digits
 
 

@@ -1,4 +1,4 @@
-"""The geometry of pictures, before anything is drawn: pages and their items, scenes, sketches, views, styles."""
+"""The geometry of pictures before rendering: pages and their items, scenes, sketches, views, styles."""
 
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.diagrams import diagram_page

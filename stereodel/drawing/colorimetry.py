@@ -1,4 +1,4 @@
-"""The light of colours: linear sRGB, luminance and contrast, and OKLab, which tells lightness and hue as they are seen.
+"""Colorimetry: linear sRGB, luminance and contrast, and OKLab, in which lightness and hue are perceptual.
 
 Contrast is that of the Web Content Accessibility Guidelines 2.1; OKLab is Björn Ottosson's ("A perceptual color space
 for image processing", 2020). Arrays of colours (..., 3) hold red, green and blue of sRGB in [0, 1], encoded.
@@ -14,10 +14,10 @@ import numpy.typing as npt
 from stereodel._arrays import FloatArray
 
 LUMINANCE: Final = np.array([0.2126, 0.7152, 0.0722])
-"""Of the primaries of sRGB, that of white being 1."""
+"""Luminances of the primaries of sRGB, relative to white."""
 
 FLARE: Final = 0.05
-"""Light that a screen reflects, which contrast counts with: luminance."""
+"""Luminance of the light that a screen reflects, which the definition of contrast adds."""
 
 CONES: Final = np.array(
     [
@@ -26,7 +26,7 @@ CONES: Final = np.array(
         [0.0883024619, 0.2817188376, 0.6299787005],
     ]
 )
-"""Linear sRGB to responses of cones, of OKLab."""
+"""Linear sRGB to cone responses in OKLab."""
 
 OPPONENTS: Final = np.array(
     [
@@ -35,34 +35,34 @@ OPPONENTS: Final = np.array(
         [0.0259040371, 0.7827717662, -0.8086757660],
     ]
 )
-"""Cube roots of responses to lightness, green to red, blue to yellow, of OKLab."""
+"""Cube roots of cone responses to OKLab: lightness, green to red, blue to yellow."""
 
 NEWTON_STEPS: Final = 8
-"""Of the lightness that has a luminance, which is a cubic: doubles need five at most within sRGB."""
+"""Newton steps for the lightness of a given luminance, a cubic: within sRGB doubles need at most five."""
 
 HALVINGS: Final = 24
-"""Of the chroma that sRGB holds: to a thousandth of the least step of 8 bits."""
+"""Bisections of the largest chroma in sRGB: to a thousandth of the smallest 8-bit step."""
 
 
 def linear(colors: npt.ArrayLike) -> FloatArray:
-    """Colours (...) of sRGB as light, linear."""
+    """Linear light (...) of sRGB colours."""
     encoded = np.asarray(colors, dtype=np.float64)
     return np.where(encoded <= 0.04045, encoded / 12.92, (np.maximum(encoded, 0.0) + 0.055) ** 2.4 / 1.055**2.4)
 
 
 def encoded(light: npt.ArrayLike) -> FloatArray:
-    """Linear light (...) as colours of sRGB, the inverse of `linear`; what is outside [0, 1] is clipped."""
+    """Linear light (...) as sRGB colours, the inverse of `linear`, clipped to [0, 1]."""
     values = np.clip(np.asarray(light, dtype=np.float64), 0.0, 1.0)
     return np.where(values <= 0.0031308, 12.92 * values, 1.055 * values ** (1 / 2.4) - 0.055)
 
 
 def luminance(colors: npt.ArrayLike) -> FloatArray:
-    """Relative luminance (...) of colours (..., 3): that of black is 0, that of white 1."""
+    """Relative luminance (...) of colours (..., 3): 0 for black, 1 for white."""
     return np.asarray(np.sum(linear(colors) * LUMINANCE, axis=-1))
 
 
 def contrast(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
-    """Contrast (...) of colours (..., 3), from 1 to 21, that of black and white.
+    """Contrast (...) of colours (..., 3), from 1 to 21 for black and white.
 
     Examples
     --------
@@ -80,7 +80,7 @@ def to_oklab(colors: npt.ArrayLike) -> FloatArray:
 
 
 def with_luminance(colors: FloatArray, target: FloatArray) -> FloatArray:
-    """Colours of the same hue, of another luminance.
+    """Colours of the same hue with another luminance.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def with_luminance(colors: FloatArray, target: FloatArray) -> FloatArray:
     Returns
     -------
     (n, 3) array
-        Of the hue that the colours have in OKLab, and of their chroma as far as sRGB has it at that luminance.
+        Colours of the same hue in OKLab, and of the same chroma as far as sRGB contains it at that luminance.
     """
     hue = to_oklab(colors)[:, 1:]
     light = _with_chroma(hue, target)
@@ -108,7 +108,7 @@ def _displayable(light: FloatArray) -> npt.NDArray[np.bool_]:
 
 
 def _with_chroma(hue: FloatArray, target: FloatArray) -> FloatArray:
-    """Linear light (n, 3) of the colours of given opponents (n, 2) that have a luminance, in or outside sRGB."""
+    """Linear light (n, 3) of colours with given opponent components (n, 2) and luminance, inside or outside sRGB."""
     from_cones = np.linalg.inv(CONES)
     roots = np.sum(hue[:, None, :] * np.linalg.inv(OPPONENTS)[:, 1:], axis=-1)
     share = np.sum(LUMINANCE[:, None] * from_cones, axis=0)

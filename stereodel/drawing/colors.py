@@ -1,4 +1,4 @@
-"""Colours: what is accepted as one, and what every page holds, sRGB and opacity."""
+"""Colours: accepted forms, and their form on pages, sRGB and opacity."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Color = tuple[float, float, float, float]
 """Red, green, blue, opacity in [0, 1], sRGB, opacity not premultiplied."""
 
 ColorLike = str | Sequence[float] | FloatArray | tuple[str | Sequence[float], float]
-"""A colour as matplotlib understands it: "tab:red", "#abc", "0.5", three or four numbers, any of them with opacity."""
+"""A colour in any form of matplotlib: "tab:red", "#abc", "0.5", three or four numbers, each also with an opacity."""
 
 
 def as_color(value: ColorLike, name: str = "color") -> Color:
@@ -25,8 +25,8 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
     Parameters
     ----------
     value : color-like
-        Red, green, blue and, if it is not 1, opacity, each in [0, 1]; or anything else that matplotlib accepts as a
-        colour: a name, "#rrggbb", a gray as "0.5", a colour and an opacity. Numbers do not load matplotlib.
+        Red, green, blue and optionally opacity, each in [0, 1]; or any other form of matplotlib: a name, "#rrggbb", a
+        gray such as "0.5", a colour with an opacity. Matplotlib is not loaded for numbers.
     name : str
         Name of the argument, for messages.
 
@@ -38,7 +38,7 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
     Raises
     ------
     ValueError
-        For invalid colours, and for numbers outside [0, 1].
+        If the colour is invalid, or a number is outside [0, 1].
 
     Examples
     --------
@@ -73,7 +73,7 @@ def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors
     Raises
     ------
     ValueError
-        For invalid colours, numbers outside [0, 1], and another number of colours than of items.
+        If a colour is invalid, a number is outside [0, 1], or the number of colours differs from that of items.
     """
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
         return np.tile(as_color(cast(ColorLike, values), name), (count, 1))
@@ -91,7 +91,7 @@ def color_map(name: str) -> Callable[[FloatArray], FloatArray]:
     Raises
     ------
     ValueError
-        For a name that matplotlib does not know.
+        If matplotlib has no colour map of this name.
     """
     with of_extra("draw"):
         from matplotlib import colormaps

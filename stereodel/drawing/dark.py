@@ -1,8 +1,9 @@
-"""Pages on a dark ground: colours of the same hue, with the contrasts that they have on white.
+"""Pages on a dark background: colours keep their hue and the contrast that they have on white.
 
-A luminance Y becomes Y' with (Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), G being that of the ground. White becomes
-the ground, black becomes white, and the contrast of any two colours stays what it was: it is the quotient of such sums.
-The picture is not inverted: hues stay, and the light on a ball, which is no colour of the page, still comes from above.
+A luminance Y becomes Y' with (Y' + 0.05)(Y + 0.05) = (G + 0.05)(1 + 0.05), where G is the luminance of the background.
+White becomes the background, black becomes white, and the contrast of any two colours, a quotient of such sums, is
+unchanged. The picture is not inverted: hues are kept, and the shading of a ball, which is not a colour of the page,
+still comes from above.
 """
 
 from __future__ import annotations
@@ -19,13 +20,13 @@ from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Picture, Polyg
 from stereodel.drawing.style import BLACK, WHITE
 
 GROUND: Final[Color] = (0.07, 0.07, 0.07, 1.0)
-"""What white becomes. Black has contrast 18.7 on it, of 21 on white; what has less than 18.7 keeps its contrast."""
+"""The dark background. White has contrast 18.7 on it, against 21 of black on white; lower contrasts are kept."""
 
 
 def dark_page(page: Page) -> Page:
-    """A page on a dark ground; one whose ground is dark stays as it is.
+    """A page on a dark background; a page that is already dark is unchanged.
 
-    Pictures, such as rasters on a globe, keep their pixels.
+    Images, such as rasters on a globe, keep their pixels.
     """
     ground = dark_color((*page.background[:3], 1.0))
     if contrast(page.background[:3], WHITE[:3]) > contrast(page.background[:3], BLACK[:3]):
@@ -34,7 +35,7 @@ def dark_page(page: Page) -> Page:
 
 
 def dark_color(color: Color) -> Color:
-    """What a colour on white becomes.
+    """The dark counterpart of a colour on white.
 
     Examples
     --------
@@ -46,9 +47,10 @@ def dark_color(color: Color) -> Color:
 
 
 def dark_colors(colors: FloatArray) -> FloatArray:
-    """What colours (n, 4) on white become, (n, 4); opacity stays.
+    """The dark counterparts (n, 4) of colours (n, 4) on white; opacity is unchanged.
 
-    What is see-through looks on the dark ground as what it looks on white becomes, as far as there is such a colour.
+    A transparent colour composited on the dark background equals the counterpart of its composite on white, as far as
+    such a colour exists.
     """
     several, which = np.unique(colors, axis=0, return_inverse=True)
     opacity = several[:, 3:]

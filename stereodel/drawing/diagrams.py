@@ -1,4 +1,4 @@
-"""Pages of diagrams and triangulations: a globe, or a rectangle of the plane, with true curves."""
+"""Pages of diagrams and triangulations: a globe, or a rectangle of the plane, with exact curves."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDela
 from stereodel.triangulation.topology import edges_of
 
 MARGIN = 0.02
-"""White space around the picture, in terms of its half width."""
+"""White space around the picture, in units of its half width."""
 
 
 def diagram_page(
@@ -30,15 +30,15 @@ def diagram_page(
     ----------
     mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi or PlanarDelaunay
     view : array_like, shape (2,)
-        (lon, lat) in degrees of the point above which the globe is seen. Sphere only.
+        (lon, lat) in degrees of the centre of the view. Sphere only.
     bounds : (4,) array_like, optional
-        (xmin, ymin, xmax, ymax) of the part of the plane to show; by default the rectangle of the points with a tenth
-        of its longer side around it.
+        (xmin, ymin, xmax, ymax) of the part of the plane to show; by default the bounding box of the points, extended
+        on all sides by a tenth of its longer side.
 
     Raises
     ------
     ValueError, TypeError
-        For a latitude outside [−90, 90], an empty rectangle, or another mesh.
+        If a latitude is outside [−90, 90], a rectangle is empty, or `mesh` is of another type.
 
     Examples
     --------

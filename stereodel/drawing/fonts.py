@@ -1,8 +1,8 @@
-"""Fonts of labels: those that are asked for, STIX, and for characters that these lack what else there is.
+"""Fonts of labels: those requested, then STIX, then any other font for characters that these lack.
 
-Every character is set in the first font that has it, of the families that a label names, STIX, which matplotlib ships,
-and where these do not do, DejaVu Sans, which it ships too, and the other fonts of the machine. Matplotlib 3.11 or newer
-joins letters and sets words from right to left where their script asks for it; older ones do not.
+Every character is set in the first font that has it: the families of the label, STIX, DejaVu Sans (both shipped with
+matplotlib), and the other fonts of the system. Matplotlib 3.11 or newer shapes scripts that join letters or run from
+right to left; older versions do not.
 """
 
 from __future__ import annotations
@@ -24,50 +24,50 @@ from stereodel.drawing.page import Label, Page
 from stereodel.drawing.style import TYPE
 
 FontLike = str | os.PathLike[str] | Sequence[str | os.PathLike[str]]
-"""A family, the path of a font's file, or several of them, the first of which matters most."""
+"""A family, the path of a font file, or several of them in order of preference."""
 
 FILES: Final = (".ttf", ".otf", ".ttc", ".otc")
-"""Endings of the files of fonts."""
+"""Extensions of font files."""
 
 SHIPPED: Final = "DejaVu Sans"
-"""The font with the most characters of those that matplotlib ships: it is there on every machine."""
+"""The font with the most characters among those that matplotlib ships on every machine."""
 
 USUAL: Final = "Noto"
-"""Fonts of the machine that begin so come first: they are made to go together, and there is one for every script."""
+"""System fonts whose names begin so come first: they are designed to go together and cover every script."""
 
 SYMBOLS: Final = re.compile(r"(?i)last ?resort|adobe ?blank|^(cm|stix|dejavu|webdings|wingdings|symbol)")
-"""Fonts of the machine that stand in for nothing: those of formulas and signs, and those of boxes for characters."""
+"""System fonts never used as a fallback: fonts of formulas and symbols, and of placeholder boxes."""
 
 FORMULA: Final = re.compile(r"(?<!\\)\$.*?(?<!\\)\$|\\(?=\$)", re.DOTALL)
-"""A formula, or what makes of a dollar sign a dollar."""
+"""A formula, or an escaped dollar sign."""
 
 NAMED: Final = 12
-"""Characters that a warning names, at most."""
+"""Largest number of characters that a warning names."""
 
 
 class MissingCharactersWarning(UserWarning):
-    """No font has some characters of a picture, and boxes stand in their place."""
+    """No font has some characters of a picture, which appear as boxes."""
 
 
 def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
-    """Families and files of fonts, as a label holds them.
+    """Font families and files in the form stored in labels.
 
     Parameters
     ----------
     font : str, path-like, or sequence of them, optional
-        Names of families, or paths of files ending in .ttf, .otf, .ttc or .otc. Families that the machine does not have
-        are passed over, as browsers do, if there is one that it has.
+        Names of families, or paths of .ttf, .otf, .ttc or .otc files. Families that are not installed are skipped, as
+        in browsers, if at least one is installed.
     name : str
-        By which messages call it.
+        Name of the argument, for messages.
 
     Raises
     ------
     FileNotFoundError
-        For the path of a file that is not there.
+        If a font file does not exist.
     TypeError
-        For what is neither text nor path.
+        If `font` is neither text nor path.
     ValueError
-        For a file that is no font, and where no family is known here.
+        If a file is not a font, or none of the families is installed.
 
     Examples
     --------
@@ -92,7 +92,7 @@ def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
 
 
 def in_font(page: Page, font: tuple[str, ...]) -> Page:
-    """A page whose labels are in a font, but for those that name one of their own."""
+    """A page with `font` for all labels that have no font of their own."""
     if not font:
         return page
     items = (replace(item, font=font) if isinstance(item, Label) and not item.font else item for item in page.items)
@@ -100,7 +100,7 @@ def in_font(page: Page, font: tuple[str, ...]) -> Page:
 
 
 def families_of(label: Label) -> list[str]:
-    """The families in which a label is set, as matplotlib takes them: for each character the first that has it."""
+    """The families in which a label is set, in matplotlib's form: each character uses the first that has it."""
     return list(_families(*set_text(label), label.font)[0])
 
 
@@ -120,7 +120,7 @@ def set_text(label: Label) -> tuple[str, bool]:
 
 
 def font_properties(label: Label) -> Any:
-    """The type of a label as matplotlib describes it, whatever the user has set."""
+    """Matplotlib's font properties of a label, independent of the user's settings."""
     with of_extra("draw"):
         from matplotlib.font_manager import FontProperties
 
@@ -131,7 +131,7 @@ def font_properties(label: Label) -> Any:
 
 @contextmanager
 def quiet_fonts() -> Iterator[None]:
-    """Without matplotlib's warning for each character that no font has: `warn_of_missing` gives one for all."""
+    """Suppress matplotlib's warning for each missing character; `warn_of_missing` gives one for all."""
     with catch_warnings():
         filterwarnings("ignore", message=r"Glyph \d+ .* missing from font")
         yield
@@ -143,7 +143,7 @@ def missing_characters(labels: Iterable[Label]) -> frozenset[str]:
 
 
 def warn_of_missing(characters: Iterable[str]) -> None:
-    """One `MissingCharactersWarning` that names characters which no font has, if there are any."""
+    """Give one `MissingCharactersWarning` that names the missing characters, if any."""
     missing = sorted(characters)
     if missing:
         told = ", ".join(
@@ -162,7 +162,7 @@ def warn_of_missing(characters: Iterable[str]) -> None:
 def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, ...], frozenset[str]]:
     """Families in which a text is set, and the characters that none of them has."""
     chosen = [family for family in font if _file(family)] + [str(TYPE["font.family"])]
-    if math:  # matplotlib sets the words beside a formula in one font
+    if math:  # matplotlib sets text next to a formula in one font
         return tuple(chosen), _lacking(frozenset(FORMULA.sub("", text)), chosen[:1])
     missing = _lacking(frozenset(text), chosen)
     if missing:
@@ -172,7 +172,7 @@ def _families(text: str, math: bool, font: tuple[str, ...]) -> tuple[tuple[str, 
 
 
 def _lacking(text: frozenset[str], families: Iterable[str]) -> frozenset[str]:
-    """The characters of a text that are to be seen and that no family has."""
+    """The visible characters of a text that no family has."""
     lacking = {
         sign for sign in text if unicodedata.category(sign) not in {"Cc", "Cf"} and not "\ufe00" <= sign <= "\ufe0f"
     }
@@ -184,11 +184,11 @@ def _lacking(text: frozenset[str], families: Iterable[str]) -> frozenset[str]:
 
 @lru_cache(maxsize=256)
 def _supplements(missing: frozenset[str]) -> tuple[str, ...]:
-    """As few other families as have characters that can be had."""
+    """The fewest other families that supply all available characters of `missing`."""
     chosen, left = [], set(missing)
     others = [SHIPPED, *_others()]
     while left:
-        most = max(others, key=lambda family: len(_had(family, left)))  # the first of several
+        most = max(others, key=lambda family: len(_had(family, left)))  # ties go to the first
         found = _had(most, left)
         if not found:
             break
@@ -198,21 +198,21 @@ def _supplements(missing: frozenset[str]) -> tuple[str, ...]:
 
 
 def _others() -> list[str]:
-    """The other families of the machine, in the order in which they are asked."""
+    """The other families of the system, in order of preference."""
     names = {entry.name for entry in _manager().ttflist}
     usable = (family for family in names if not SYMBOLS.search(family) and not family.startswith("."))
     return sorted(usable, key=lambda family: (not family.startswith(USUAL), family))
 
 
 def _had(family: str, signs: set[str]) -> set[str]:
-    """Those of some characters that a family has."""
+    """The characters of `signs` that a family has."""
     face = _face(family)
     return {sign for sign in signs if face is not None and face.get_char_index(ord(sign))}
 
 
 @cache
 def _face(family: str) -> Any:
-    """The font of a family; None where it has no outlines, or cannot be read."""
+    """The font of a family; None if it has no outlines or cannot be read."""
     with of_extra("draw"):
         from matplotlib.ft2font import FT2Font
 
@@ -230,7 +230,7 @@ def _face(family: str) -> Any:
 
 @cache
 def _file(family: str) -> str | None:
-    """The upright file of a family, as matplotlib finds it, or the file that is named; None where there is none."""
+    """The upright file of a family as found by matplotlib, or the named file; None if there is none."""
     with of_extra("draw"):
         from matplotlib.font_manager import FontProperties
 
@@ -244,7 +244,7 @@ def _file(family: str) -> str | None:
 
 
 def _take_up(path: str) -> None:
-    """Let matplotlib know a font's file, as a family by the name of its path, of which it has one."""
+    """Register a font file with matplotlib as a family named by its path."""
     if not Path(path).is_file():
         raise FileNotFoundError(f"font {path} is not there; give the path of a .ttf or .otf file, or a family")
     manager = _manager()

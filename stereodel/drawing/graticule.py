@@ -1,9 +1,9 @@
-"""Graticules: meridians and parallels, thinned where they would merge into gray.
+"""Graticules: meridians and parallels, thinned where they would merge.
 
-Lines of a family crowd where a view sees them at a slant, where a lens makes things small, and meridians at the poles.
-How far apart two neighbours are on the page is known exactly: their distance on the sphere, times the scale of the
-lens, times what the view makes of a distance across the line. Where that is less than asked for, only each second line
-goes on, or each sixth and so on, in steps that divide the grid, so that those that stay are evenly spaced.
+Lines crowd where a view foreshortens them, where a lens shrinks the map, and, for meridians, near the poles. The
+distance between neighbours on the page is known in closed form: their distance on the sphere, times the scale of the
+lens, times the view's scale across the line. Where that is less than required, only every second line continues, or
+every sixth and so on, with strides that divide the grid, so that the remaining lines are evenly spaced.
 """
 
 from __future__ import annotations
@@ -28,27 +28,27 @@ from stereodel.sphere.vectors import crossed, turned
 _Box = tuple[float, float, float, float]
 
 WIDTHS_APART: Final = 3.0
-"""Least distance between neighbouring lines of a grid, in widths of its lines: closer ones are seen as a tint."""
+"""Least distance between neighbouring lines of a grid, in line widths: closer lines look like a tint."""
 
 LEAST_APART: Final = 0.3
-"""The same distance for lines however thin, points: it bounds how many lines a picture has."""
+"""The least distance in points, however thin the lines: it bounds the number of lines in a picture."""
 
 LINES_ACROSS: Final = 12
-"""About how many lines of a family a picture has whose grid suits it."""
+"""Approximate number of meridians or of parallels in a picture with a suitable spacing."""
 
 SPACINGS: Final = (15.0, 10.0, 5.0, *(float(f"{digit}e-{power}") for power in range(12) for digit in (2, 1, 0.5)))
-"""Spacings that suit pictures, degrees. Where double precision ends, 1e-13 degrees, nothing finer is shown."""
+"""Suitable spacings in degrees, down to 1e-13 degrees, where double precision ends."""
 
 NARROWINGS: Final = 8
-"""How often the part of the sphere is made smaller in which lines have room, where meridians meet."""
+"""Number of reductions of the part of the sphere in which lines have room, where meridians meet."""
 
 HALVINGS: Final = 40
-"""Of an interval in which a line ends: then a millionth of a millionth of it is left."""
+"""Number of halvings of the interval in which a line ends, down to a millionth of a millionth of it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Graticule:
-    """Meridians and parallels, and which of them remain when they are thinned.
+    """Meridians and parallels, and the order in which they are thinned.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ class Graticule:
     step : float
         Distance between neighbours, radians.
     strides : (n,) array of int
-        The line remains where each so many-th is drawn; 0 if it always remains.
+        The line remains as long as every k-th line is drawn, k its stride; 0 if it always remains.
 
     Examples
     --------
@@ -88,10 +88,10 @@ class Graticule:
     def shown(
         cls, spacing: float, lens: MoebiusMap, view: MapView, least: float, *, latitude: Latitude = "spherical"
     ) -> Graticule:
-        """Of `regular` the lines of which a picture, thinned to `least`, may show a part: some thousands at most.
+        """The lines of `regular` that may be visible in a picture thinned to `least`: at most some thousands.
 
-        However fine the grid is, what it costs is what is seen of it. Parameters are those of `regular` and
-        `thinned`; of a ball of glass, this is the near side.
+        However fine the grid, the cost depends only on its visible part. Parameters are those of `regular` and
+        `thinned`; for a glass ball this is the near side.
 
         Examples
         --------
@@ -116,7 +116,7 @@ class Graticule:
 
     @classmethod
     def _numbered(cls, east: Indices, north: Indices, steps: int, latitude: Latitude) -> Graticule:
-        """Meridians and parallels of a graticule by their numbers, from those through (0, 0) on."""
+        """Meridians and parallels of a graticule by number, counted from those through (0, 0)."""
         arcs = joined(_meridians(east * 180.0 / steps), _parallels(north * 180.0 / steps, latitude))
         numbers = np.concatenate([east, north])
         return cls(numbered(arcs), len(east), np.pi / steps, _strides(numbers, _quarter(steps)))
@@ -140,7 +140,7 @@ class Graticule:
         """The visible lines: the images of `thinned` lines under the lens."""
         thin = self.thinned(lens, view, least)
         parts = replace(thin, edge=np.arange(len(thin))).through(lens)
-        # An image is cut at the apsides, between which it stays on its circle.
+        # An image is cut at the apsides of its circle, between which it is an arc.
         first = np.flatnonzero(np.diff(parts.edge, prepend=-1))
         sweeps = np.add.reduceat(parts.stop - parts.begin, first) if len(first) else np.zeros(0)
         parts = parts.take(first)
@@ -156,21 +156,21 @@ class Graticule:
         ----------
         lens : MoebiusMap
         view : MapView
-            Near and far side are treated alike, for glass balls.
+            Near and far sides are treated alike, for glass balls.
         least : float
-            Distance between neighbours on the page below which lines are left out, radii of the disc.
+            Least distance between neighbours on the page, in radii of the disc; closer lines are left out.
 
         Returns
         -------
         Arcs
-            In the order of the lines, whose numbers are their edges. A line ends exactly where its neighbours come too
-            near; lines that always stay are whole.
+            Arcs in the order of the lines, whose indices are their edges. A line ends exactly where its neighbours come
+            too close; lines that always remain are whole.
         """
         need = as_scalar(least, "least", low=0.0)
         lines = _Lines(self, lens, view)
         t = lines.parameters()
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
-        # Lines that stay are drawn whatever is about them.
+        # Lines that always remain are drawn regardless of their neighbours.
         wanted = np.where(self.strides == 0, 0.0, need / np.maximum(self.strides, 1))
         enough = lines.spacing(row, t) >= wanted[:, None]
         line, cut, begins = lines.ends(t, enough, wanted)
@@ -188,7 +188,7 @@ class Graticule:
         begun_order, ended_order = np.lexsort([begin, begun]), np.lexsort([stop, ended])
         line, begin, stop = begun[begun_order], begin[begun_order], stop[ended_order]
         closed = np.sum((self.arcs.start - self.arcs.end) ** 2, axis=1) == 0
-        # Of a whole circle that was cut, the part up to its first point goes on from there.
+        # On a whole circle that was cut, the part up to its first point continues beyond it.
         last = np.flatnonzero(closed[line] & (stop == self.arcs.stop[line]) & (begin > self.arcs.begin[line]))
         first = np.searchsorted(line, line[last])
         joined = begin[first] == self.arcs.begin[line[last]]
@@ -213,10 +213,10 @@ class _Lines:
     view: MapView
 
     def parameters(self) -> FloatArray:
-        """Where the spacing is looked at along each line, (n, k), ascending: at even steps before and behind the lens.
+        """Ascending parameters (n, k) at which each line's spacing is evaluated: even steps before and after the lens.
 
-        Before the lens they are fine where it makes things small, behind it where it makes them large. Besides where it
-        crosses the limb of a ball, at which all lines meet but those that are seen end on.
+        Even steps before the lens are dense where it shrinks, even steps after it where it magnifies. Added to them are
+        the crossings with the limb of a ball, where all lines merge except those seen end-on.
         """
         arcs = self.grid.arcs
         begin, stop = arcs.begin[:, None], arcs.stop[:, None]
@@ -237,7 +237,7 @@ class _Lines:
         return np.sort(np.concatenate([even, np.minimum(there, stop)], axis=1), axis=1)
 
     def spacing(self, row: Indices, t: FloatArray) -> FloatArray:
-        """Distance on the page from neighbouring lines, radii of the disc, at parameters of lines."""
+        """Distance from neighbouring lines on the page, in radii of the disc, at parameters of lines."""
         arcs = self.grid.arcs
         axis, u = arcs.axis[row], arcs.u[row]
         v, cos, sin = crossed(axis, u), np.cos(t)[..., None], np.sin(t)[..., None]
@@ -252,7 +252,7 @@ class _Lines:
         return found
 
     def ends(self, t: FloatArray, enough: BoolArray, wanted: FloatArray) -> tuple[Indices, FloatArray, BoolArray]:
-        """Where parts of lines begin and end between samples t (n, k): the line, the parameter, whether one begins."""
+        """Where parts of lines begin and end between samples t (n, k): line, parameter, whether it is a beginning."""
         line, at = np.nonzero(enough[:, 1:] != enough[:, :-1])
         shown, hidden = t[line, at], t[line, at + 1]
         begins = enough[line, at + 1]
@@ -264,10 +264,10 @@ class _Lines:
         return line, shown, begins
 
     def _turned(self, place: FloatArray, direction: FloatArray, image: FloatArray) -> FloatArray:
-        """Unit directions at places, as the lens turns them.
+        """Images of unit tangent vectors at places under the lens, normalised.
 
-        About its focus a fisheye moves places along great circles and keeps azimuths: of a direction the part along the
-        great circle stays along it, the part across stays across.
+        A fisheye moves places along great circles through its focus and keeps azimuths: the component of a vector along
+        the great circle stays along it, the component across stays across.
         """
         right, left = self.lens.right.matrix, self.lens.left.matrix
         p, d, q = turned(place, right), turned(direction, right), turned(image, left.T)
@@ -285,16 +285,16 @@ class _Lines:
 
 @dataclass(frozen=True, eq=False)
 class _Window:
-    """What of the sphere a picture shows, and of that where the lines of a grid have room."""
+    """The part of the sphere that a picture shows, and where the lines of a grid have room in it."""
 
     lens: MoebiusMap
     view: MapView
     latitude: Latitude
 
     def meridians(self, stride: int, steps: int, apart: float) -> Indices:
-        """Numbers of the meridians, multiples of a stride, of which a part may be where the picture gives them room.
+        """Indices of the meridians, multiples of a stride, that may have room somewhere in the picture.
 
-        `apart` is the least scale on the page at which neighbours on the equator have room.
+        `apart` is the least scale of the page at which neighbours on the equator have room.
         """
         box = self._room(apart, meeting=True)
         if box is None:
@@ -306,7 +306,7 @@ class _Window:
         return np.mod(numbers + steps, 2 * steps) - steps
 
     def parallels(self, stride: int, steps: int, apart: float) -> Indices:
-        """The same of parallels; numbers may be those of poles, and beyond."""
+        """The same for parallels; indices may reach the poles and beyond."""
         box = self._room(apart, meeting=False)
         if box is None:
             return np.zeros(0, dtype=np.intp)
@@ -315,7 +315,7 @@ class _Window:
         return np.arange(np.floor(south / step), np.ceil(north / step) + 1).astype(np.intp) * stride
 
     def _room(self, apart: float, *, meeting: bool) -> _Box | None:
-        """South, north, west, east of what is in sight at such a scale or a larger one; of meridians, which meet."""
+        """South, north, west, east of the part visible at this scale or a larger one; `meeting` is for meridians."""
         box = self._seen
         for _ in range(NARROWINGS if meeting else 1):
             nearest = 0.0 if box[0] <= 0 <= box[1] else min(abs(box[0]), abs(box[1]))
@@ -332,7 +332,7 @@ class _Window:
         return box
 
     def _reach(self, scale: float) -> float | None:
-        """How far from its peak the scale of the lens is as large, radians: L / (cos² + L² sin²) of half of it."""
+        """Distance in radians from the peak where the lens has this scale: L / (cos² + L² sin²) of half of it."""
         size = self.lens.magnification
         larger = max(size, 1 / size)
         if scale > larger * (1 + REACH_MARGIN):
@@ -348,13 +348,13 @@ class _Window:
 
     @property
     def _widest(self) -> float:
-        """The largest scale of the view, which is that of its edge across it."""
+        """The largest scale of the view, reached at its edge."""
         edge = self.view.edge
         return float(self.view.breadth(np.array([np.sqrt(1 - edge**2), 0.0, edge]), np.array([0.0, 1.0, 0.0])))
 
     @property
     def _peak(self) -> FloatArray:
-        """Where the scale is largest."""
+        """The place where the scale is largest."""
         focus: FloatArray = self.lens.right.matrix[2]
         return focus if self.lens.magnification >= 1 else -focus
 
@@ -389,7 +389,7 @@ def _box_around(center: FloatArray, radius: float) -> _Box:
 
 
 def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
-    """The spacing of `SPACINGS`, degrees, that gives about `LINES_ACROSS` lines across what a view behind a lens shows.
+    """The spacing of `SPACINGS`, in degrees, that gives about `LINES_ACROSS` lines across a picture.
 
     Examples
     --------
@@ -404,7 +404,7 @@ def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
 
 
 def _quarter(steps: int) -> int:
-    """The stride of the lines that always stay: in the middle of a family of so many steps, if there is one."""
+    """The stride of the lines that always remain: half of the number of steps, if it is even."""
     return steps // 2 if steps % 2 == 0 else steps
 
 
@@ -421,7 +421,7 @@ def _chain(whole: int) -> list[int]:
 
 
 def _strides(numbers: Indices, whole: int) -> Indices:
-    """Of lines by number the largest stride of the chain that they are in; 0 for multiples of all of it."""
+    """The largest stride of the chain that divides each line's number; 0 for multiples of the whole chain."""
     strides = np.ones(len(numbers), dtype=np.intp)
     for stride in _chain(whole):
         strides[numbers % stride == 0] = stride

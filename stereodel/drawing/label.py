@@ -1,4 +1,4 @@
-"""Type on maps: where it goes beside its place, and which labels have room."""
+"""Labels on maps: their position at a place, and which have room."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ GAP: Final = 1.0
 
 
 def placed_label(label: Label, offset: tuple[float, float]) -> Label:
-    """A label on the side of its place that an offset in points points to."""
+    """A label on the side of its place given by an offset in points."""
     align: Literal["left", "center", "right"] = "left" if offset[0] > 0 else "right" if offset[0] < 0 else "center"
     valign: Literal["bottom", "center", "top"] = "bottom" if offset[1] > 0 else "top"
     if offset[0] or not offset[1]:
@@ -28,9 +28,9 @@ def placed_label(label: Label, offset: tuple[float, float]) -> Label:
 
 
 def within_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> Label:
-    """A label on the other side of its place where it would leave a disc of the page; without halo if it does so there.
+    """A label moved to the other side of its place if it would leave a disc of the page; without halo if it still does.
 
-    A halo that left the disc would cut the line round it.
+    A halo outside the disc would interrupt the line around it.
     """
     if in_disc(label, center, radius, points_per_unit):
         return label
@@ -48,7 +48,7 @@ def in_disc(label: Label, center: tuple[float, float], radius: float, points_per
 
 
 def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], points_per_unit: float) -> list[Item]:
-    """Page items without labels that would cover a label before them or leave (left, right, bottom, top)."""
+    """Page items without labels that would overlap an earlier label or leave (left, right, bottom, top)."""
     low, high = points_per_unit * np.array(extent[::2]), points_per_unit * np.array(extent[1::2])
     kept: list[Item] = []
     boxes = np.zeros((0, 2, 2))
@@ -63,18 +63,18 @@ def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], 
 
 
 def halo_reach(label: Label) -> FloatArray:
-    """What a halo adds to the corners of a label's box, points, (2, 1)."""
+    """Offsets in points, (2, 1), by which a halo extends the corners of a label's box."""
     return np.array([[-label.halo], [label.halo]])
 
 
 def meets(box: FloatArray, boxes: FloatArray) -> bool:
-    """Whether a box (2, 2) comes nearer than `GAP` to one of others (n, 2, 2), in points."""
-    # Boxes meet where they do in both directions.
+    """Whether a box (2, 2) is nearer than `GAP` to one of others (n, 2, 2), in points."""
+    # Boxes overlap if they do so in both directions.
     return bool(((box[0] < boxes[:, 1] + GAP).all(axis=1) & (boxes[:, 0] < box[1] + GAP).all(axis=1)).any())
 
 
 def label_box(label: Label, points_per_unit: float) -> FloatArray:
-    """Lower left and upper right corner of a label that is not turned, in points, (2, 2)."""
+    """Lower left and upper right corner of an unrotated label, in points, (2, 2)."""
     with of_extra("draw"):
         from matplotlib import rc_context
         from matplotlib.textpath import text_to_path

@@ -1,8 +1,8 @@
-"""Names beside their places: each on the side where it has room, and where there is none, none.
+"""Placement of labels: each on a side of its place where there is room, or left out.
 
-Labels are placed one after another, and those that come first matter most. Each may stand on eight sides of its place,
-to the right before all others. It takes the side on which it covers no label that was placed before it, lies within the
-disc, and covers the fewest dots, the first such side where several are alike; without such a side it is left out.
+Labels are placed in order of priority. Each has eight candidate positions around its place, the right-hand side first.
+It takes the position where it overlaps no earlier label, lies within the disc, and covers the fewest dots; ties go to
+the earlier position. Without such a position it is left out.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from stereodel.drawing.label import halo_reach, in_disc, label_box, meets, place
 from stereodel.drawing.page import Label
 
 SIDES: Final = ((1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1))
-"""Where a name may stand beside its place, right and up, in the order in which they are tried."""
+"""Candidate positions around a place, right and up, in the order in which they are tried."""
 
 RISE: Final = 0.2
-"""How far lines of type may lie beyond the box of their own letters, up or down, in terms of their size."""
+"""How far lines of type may extend beyond the box of their letters, up or down, in units of their size."""
 
 SLANT: Final = 0.75
-"""Of the distance of a name that is beside its place, along either axis where it stands at a corner of it."""
+"""Factor on the distance, along both axes, for positions at a corner of the place."""
 
 
 def placed_apart(
@@ -37,27 +37,27 @@ def placed_apart(
     before: Sequence[Label] = (),
     dots: FloatArray | None = None,
 ) -> list[Label]:
-    """Labels on the sides of their places where they have room, without those that have none.
+    """Labels at positions where they have room, without those that have none.
 
     Parameters
     ----------
     labels : iterable of Label
-        Anchored at their places, those that matter most first.
+        Labels anchored at their places, in order of priority.
     distance : float
-        From a place to its label, points.
+        Distance from a place to its label, in points.
     center, radius : (float, float), float
-        Of the disc of the page in which they must lie, page units.
+        Centre and radius, in page units, of the disc that must contain the labels.
     points_per_unit : float
         Scale of the page.
     before : sequence of Label
-        What is on the page already.
+        Labels that are already on the page.
     dots : (n, 2) array, optional
-        Places on the page that are better not covered.
+        Places on the page that should not be covered.
 
     Returns
     -------
     list of Label
-        In their order; no two of them, and none of them and of those before, overlap.
+        Labels in the same order, none of which overlaps another or one of `before`.
 
     Examples
     --------
@@ -86,15 +86,15 @@ def placed_apart(
 
 
 def claimed(label: Label, points_per_unit: float) -> FloatArray:
-    """The box that is a label's alone, points, (2, 2): its halo cuts no type before it, whatever letters reach up."""
+    """The box reserved for a label, in points, (2, 2), so that its halo never covers earlier type."""
     rise = RISE * label.size * np.array([[0.0, -1.0], [0.0, 1.0]])
     return label_box(label, points_per_unit) + halo_reach(label) + rise
 
 
 def on_its_sides(label: Label, distance: float) -> Iterator[Label]:
-    """The label on each of its sides."""
+    """The label at each candidate position."""
     for right, up in SIDES:
         away = distance if not (right and up) else SLANT * distance
         candidate = placed_label(label, (right * away, up * away))
-        # At a corner of the place a corner of the label is nearest to it.
+        # At a corner position, a corner of the label is nearest to the place.
         yield replace(candidate, valign="bottom" if up > 0 else "top") if right and up else candidate

@@ -16,22 +16,22 @@ from stereodel.drawing.sketch import Sketch
 from stereodel.drawing.style import BLACK, LABEL_SIZE, DotStyle, LineStyle
 
 SAMPLE: Final = (18.0, 7.0)
-"""Length of a sample, and height of one of a tint, points."""
+"""Length of a sample, and height of a tint sample, in points."""
 
 GAP: Final = 5.0
-"""Between a sample and its words, points."""
+"""Space between a sample and its text, in points."""
 
 ROW: Final = 1.5
-"""Height of a row in terms of that of type."""
+"""Height of a row relative to that of type."""
 
 BAR: Final = (0.4, 0.8)
-"""Width of the bar of a scale in that of the page, and its height in terms of that of type."""
+"""Width of a scale's bar relative to the page, and its height relative to type."""
 
 BAR_ROWS: Final = 3.2
-"""Height of a scale with its name and its numbers, in rows."""
+"""Height of a scale with its title and numbers, in rows."""
 
 LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale
-"""What words of a legend are written beside."""
+"""Symbols of a legend."""
 
 
 def with_legend(
@@ -48,23 +48,23 @@ def with_legend(
     Parameters
     ----------
     page : Page
-        Keeps its width and grows downwards.
+        Page whose width is kept and which grows downwards.
     entries : mapping of str to LineStyle, DotStyle, color-like or ColorScale
-        Texts, and the symbol beside each: a short line, a dot or a tinted box. They are read row by row. Scales come
-        last, each a bar below its name.
+        Texts and their symbols: a short line, a dot or a tinted box, row by row. Scales come last, each as a bar below
+        its title.
     columns : int
-        Number of columns, at least 1; all are equally wide.
+        Number of columns of equal width, at least 1.
     indent : float
-        Space to the left of the first column and to the right of the last, points.
+        Space to the left of the first column and to the right of the last, in points.
     ink : color-like
-        Of the type.
+        Colour of the type.
     size : float
-        Of the type, points.
+        Type size in points.
 
     Raises
     ------
     ValueError
-        For less than one column, and for invalid colours.
+        If `columns` is less than 1, or a colour is invalid.
 
     Examples
     --------
@@ -96,7 +96,7 @@ def with_legend(
 
 
 def _add_sample(sketch: Sketch, style: LineStyle | DotStyle | ColorLike, place: FloatArray, point: float) -> None:
-    """A short line, a dot or a box, the middle of whose left side is a place."""
+    """A short line, a dot or a box, with the midpoint of its left side at `place`."""
     length, height = (point * size for size in SAMPLE)
     end = place + np.array([length, 0.0])
     if isinstance(style, LineStyle):

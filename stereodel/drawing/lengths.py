@@ -1,4 +1,4 @@
-"""Lengths on paper: points, or a text with a unit."""
+"""Lengths on paper: a number of points, or text with a unit."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ LengthLike = float | str
 """A number of points, 1/72 inch, or a text such as "17cm", "8.4 cm", "120mm", "6.5in", "480pt"."""
 
 POINTS: Final[Mapping[str, float]] = {"pt": 1.0, "mm": 72 / 25.4, "cm": 72 / 2.54, "in": 72.0}
-"""A unit in points."""
+"""Units in points."""
 
 _LENGTH: Final = re.compile(r"\s*(?P<number>[\d.]+(?:e[+-]?\d+)?)\s*(?P<unit>[a-z]*)\s*", re.IGNORECASE)
 
@@ -25,12 +25,12 @@ def as_length(value: LengthLike, name: str) -> float:
     value : float or str
         Points, or a number with one of the units pt, mm, cm and in.
     name : str
-        What to call it in messages.
+        Name of the argument, for messages.
 
     Raises
     ------
     ValueError
-        For another unit, and for what is not positive and finite.
+        If the unit is unknown, or the length is not positive and finite.
 
     Examples
     --------

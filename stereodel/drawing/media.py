@@ -1,8 +1,7 @@
-"""Pages for other media than a page of print: a column of a journal, a slide.
+"""Pages for media other than print at full width: a journal column, a slide.
 
-The picture is laid out anew for the size at which it is seen. What is measured in page units becomes smaller or larger
-with the page, what is measured in points (lines, dots, type) less so, and type finds its place again
-(`stereodel.drawing.type_room`).
+The picture is laid out again for the size at which it is viewed. Lengths in page units scale with the page, lengths in
+points (lines, dots, type) scale less, and labels are placed again (`stereodel.drawing.type_room`).
 """
 
 from __future__ import annotations
@@ -14,28 +13,28 @@ from stereodel.drawing.page import Dots, Item, Label, Page, Polylines, Stroke
 from stereodel.drawing.type_room import Box, clear_labels, set_anew
 
 CENTIMETRE: Final = 72.0 / 2.54
-"""In points."""
+"""Units in points."""
 
 ROUNDS: Final = 12
-"""How often a picture is made smaller for the type beside it, at most."""
+"""Largest number of times that a picture is reduced to make room for type."""
 
 
 @dataclass(frozen=True)
 class Medium:
-    """Where a picture is seen, and how what is measured in points changes with the scale s of the picture.
+    """A medium, and how lengths in points change with the scale s of the picture.
 
     Parameters
     ----------
     width : float
-        Of the page in points.
+        Width of the page in points.
     height : float, optional
-        Of the page in points; by default what the picture needs.
+        Height of the page in points; by default as needed by the picture.
     margin : float
-        About the picture, points.
+        Margin around the picture in points.
     line, type_size : (float, float)
         Factor a and power p: widths of lines and radii of dots, and sizes of type, are multiplied by a sᵖ.
     least_type : float
-        Below which no type is, points.
+        Smallest size of type in points.
     """
 
     width: float
@@ -47,14 +46,14 @@ class Medium:
 
 
 COLUMN: Final = Medium(8.4 * CENTIMETRE, None, 0.0, (1.0, 1 / 3), (1.0, 1 / 2), 7.0)
-"""A column of a journal. A line of a picture that is 17 cm wide gets 0.79 of its width, type of 9 points 7."""
+"""A journal column. Lines of a picture 17 cm wide get 0.79 of their width, 9-point type becomes 7-point."""
 
 SLIDE: Final = Medium(33.87 * CENTIMETRE, 19.05 * CENTIMETRE, 24.0, (1.25, 1.0), (1.15, 1.0), 12.0)
-"""A slide of 16 to 9, seen from afar."""
+"""A 16:9 slide, viewed from a distance."""
 
 
 def page_for(page: Page, medium: Medium) -> Page:
-    """A page laid out for a medium, the picture in its middle.
+    """A page laid out for a medium, with the picture centred.
 
     Parameters
     ----------
@@ -64,7 +63,7 @@ def page_for(page: Page, medium: Medium) -> Page:
     Returns
     -------
     Page
-        As wide as the medium and as high, or as high as the picture needs. Labels that have no room are not on it.
+        Page with the size of the medium, or of its width and as high as needed. Labels without room are left out.
     """
     free = medium.width - 2 * medium.margin
     high = None if medium.height is None else medium.height - 2 * medium.margin
@@ -86,14 +85,14 @@ def page_for(page: Page, medium: Medium) -> Page:
 
 
 def _spread(extent: Box, width: float, height: float) -> Box:
-    """An extent with the same middle, at least so wide and high."""
+    """An extent with the same centre, at least this wide and high."""
     left, right, bottom, top = extent
     across, up = max(0.0, width - (right - left)) / 2, max(0.0, height - (top - bottom)) / 2
     return (left - across, right + across, bottom - up, top + up)
 
 
 def _scaled(item: Item, medium: Medium, scale: float) -> Item:
-    """An item with what it measures in points changed."""
+    """An item with its lengths in points scaled for a medium."""
     (line, line_power), (type_size, type_power) = medium.line, medium.type_size
     weight = line * scale**line_power
     match item:

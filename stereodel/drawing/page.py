@@ -1,9 +1,9 @@
 """The content of a picture, before rendering: paths, dots, balls and labels in painter's order.
 
-A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to cubic
-Béziers, and every item carries its colour and its width in points. The vector backend writes it as SVG and PDF, the
-raster backend as triangles for OpenGL; the golden tests store `Page.arrays()`. Page coordinates: x right, y up, any
-unit; `width` says how many points the extent is wide.
+A `Page` is flat. Hidden parts have been removed analytically (`stereodel.drawing.scene`), curves are exact up to their
+approximation by cubic Béziers, and every item carries its colour and its width in points. The vector backend writes SVG
+and PDF, the raster backend draws triangles with OpenGL; the regression tests store `Page.arrays()`. Page coordinates
+have x to the right and y up, in any unit; `width` is the width of the extent in points.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Beziers = FloatArray
 """A connected run of cubic Béziers, (k, 4, 2): row i ends where row i + 1 begins; straight: controls at thirds."""
 
 FEW_COLORS: Final = 64
-"""Colours of `Polygons` that are paths on paper; with more, they are one picture."""
+"""Largest number of colours of `Polygons` written as paths in vector files; with more, they become an image."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,22 +42,22 @@ class Stroke:
     cap: Literal["round", "butt"] = "round"
     closed: bool = False
     name: str = ""
-    """What it is, in the words of the figure: "delaunay", "voronoi", "limb" …; becomes its id in SVG."""
+    """Name of what is drawn: "delaunay", "voronoi", "limb" …; becomes its id in SVG."""
 
 
 @dataclass(frozen=True)
 class Ball:
-    """The light of a ball as a function of the position on the page: its surface is darker where it turns away.
+    """The shading of a ball as a function of the position on the page.
 
-    The brightness at a position is that of the near side of the ball, whose normal it determines; it is between 0.64
-    and 1, brightest in the upper left. Pixels are lit in this way, SVG and PDF by the closest radial gradient.
+    The brightness depends on the normal of the near side at this position; it is between 0.64 and 1, brightest in the
+    upper left. Pixels are shaded exactly, SVG and PDF by the closest radial gradient.
 
     Parameters
     ----------
     center : tuple of float
         Page coordinates of its centre.
     radius : float
-        In page units, positive.
+        Radius in page units, positive.
     """
 
     center: tuple[float, float]
@@ -87,25 +87,25 @@ class Dots:
 
 
 class Painter(Protocol):
-    """What a `Picture` shows: made at the resolution at which it is drawn, and only where it is drawn."""
+    """The content of a `Picture`, computed at the resolution and in the region in which it is drawn."""
 
     def paint(self, place: tuple[float, float, float, float], pixels: tuple[int, int]) -> Pixels:
         """Pixels (rows, columns, 4) from the top: sRGB and opacity, not premultiplied.
 
-        `place` is the left and upper edge, and the width and height of a pixel, in page units; `pixels` are columns and
-        rows. What lies beyond the outline by more than a pixel may be anything.
+        `place` is the left and upper edge, then the width and height of a pixel, in page units; `pixels` are columns
+        and rows. Pixels more than one pixel outside the outline are arbitrary.
         """
 
     def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
-        """What defines it, for the golden tests."""
+        """The arrays that define it, for the regression tests."""
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
     """A region painted pixel by pixel: a raster on a globe.
 
-    Where it is transparent, lower items show through. The raster backend gives each pixel that it draws one of the
-    painter's; the vector backend embeds a picture, cut along `outline`.
+    Lower items show through transparent pixels. The raster backend draws one pixel of the painter for each of its own;
+    the vector backend embeds an image, clipped to `outline`.
     """
 
     outline: tuple[Beziers, ...]
@@ -115,10 +115,10 @@ class Picture:
 
 @dataclass(frozen=True, eq=False)
 class Polylines:
-    """Many lines of straight pieces, of one style: coastlines, borders.
+    """Many polylines of one style, such as coastlines and borders.
 
-    Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; joins and ends are round. A point
-    alone is a dot.
+    Line i is ``points[offsets[i]:offsets[i + 1]]``, closed if its ends are equal; joins and ends are round. A single
+    point is a dot.
     """
 
     points: FloatArray
@@ -133,12 +133,12 @@ class Polylines:
 
 @dataclass(frozen=True, eq=False)
 class Polygons:
-    """Many regions of straight pieces, which may lie on a ball: land, the cells of a diagram.
+    """Many polygonal regions, which may lie on a ball, such as land and the cells of a diagram.
 
-    Loop i is ``points[offsets[i]:offsets[i + 1]]``, its first point again at its end, counterclockwise about what it
-    bounds and clockwise about holes; a region is filled by the nonzero rule. Regions of different colours do not
-    overlap. On paper the regions of a colour are a path, or all of them a picture where there are more than
-    `FEW_COLORS`.
+    Loop i is ``points[offsets[i]:offsets[i + 1]]``, with its first point repeated at the end; outer loops are
+    counterclockwise, holes clockwise, and regions are filled by the nonzero rule. Regions of different colours do not
+    overlap. In vector files the regions of a colour are one path; with more than `FEW_COLORS` colours, all regions are
+    one image.
     """
 
     points: FloatArray
@@ -148,7 +148,7 @@ class Polygons:
     owner: Indices
     """(m,): the region of each loop."""
     colors: FloatArray
-    """(k, 4): of each region, sRGB and opacity."""
+    """(k, 4): sRGB and opacity of each region."""
     ball: Ball | None = None
     name: str = ""
 
@@ -159,13 +159,13 @@ class Polygons:
 
     @cached_property
     def by_color(self) -> tuple[FloatArray, Indices]:
-        """The different colours of what is drawn (c, 4), and the number of that of each loop (m,)."""
+        """The distinct colours drawn (c, 4), and the index of each loop's colour (m,)."""
         colors, number = np.unique(self.colors[self.owner], axis=0, return_inverse=True)
         return colors, number.ravel()
 
     @property
     def pictured(self) -> bool:
-        """Whether there are so many colours that only pixels hold them."""
+        """Whether there are so many colours that vector files hold the regions as an image."""
         return len(self.by_color[0]) > FEW_COLORS
 
 
@@ -183,12 +183,12 @@ class Label:
     rotation: float = 0.0
     name: str = "label"
     halo: float = 0.0
-    """Width of a line round the letters, points."""
+    """Width in points of a line around the letters."""
     halo_color: Color = (1.0, 1.0, 1.0, 1.0)
     font: tuple[str, ...] = ()
-    """Families or files of fonts, see `stereodel.drawing.fonts.as_font`; STIX for what they lack."""
+    """Font families or files, see `stereodel.drawing.fonts.as_font`; STIX supplies missing characters."""
     formulas: bool = True
-    """Whether what stands between two dollar signs is a formula of matplotlib's mathtext; else they are dollars."""
+    """Whether text between two dollar signs is a formula in matplotlib's mathtext; otherwise they are literal."""
 
 
 Item = Stroke | Polylines | Polygons | Fill | Dots | Picture | Label
@@ -208,15 +208,15 @@ class Page:
         Width of the extent in points (1/72 inch); the height follows, page units being square. 17 cm are 481.89 points.
     background : Color
     views : tuple of (3, 3) arrays
-        The view matrices that made it (rows right, up, toward), kept for the golden tests.
+        View matrices from which the page was made (rows right, up, toward), kept for the regression tests.
     title, description : str
-        What it shows, in a line and in plain paragraphs. They are not drawn: files contain them for search
-        and for readers who cannot see the picture.
+        Title in one line, and description in plain paragraphs. They are not drawn: files contain them for search and
+        for readers who cannot see the picture.
 
     Raises
     ------
     ValueError
-        For an extent without area, and a width that is not positive.
+        If the extent has no area, or the width is not positive.
     """
 
     extent: tuple[float, float, float, float]
@@ -250,7 +250,7 @@ class Page:
 
     @property
     def pictured(self) -> tuple[Polygons, ...]:
-        """The items that vector files hold as pictures, because they have too many colours."""
+        """The items that vector files hold as images because they have too many colours."""
         return tuple(item for item in self.items if isinstance(item, Polygons) and item.pictured)
 
     def without_labels(self) -> Page:
@@ -269,27 +269,26 @@ class Page:
     ) -> Path:
         """Write the page as PNG, SVG or PDF, according to the extension of `path`.
 
-        SVG and PDF hold true curves, within a thousandth of a point, text as text, in embedded fonts, and
-        the light of balls as gradients; the same page always gives the same bytes. All three contain title and
-        description. Lines, dots and text are measured in points: more pixels show the same page more finely. A poster
-        with thinner lines is a page with more points, ``dataclasses.replace(page, width=...)``.
+        SVG and PDF contain exact curves, within a thousandth of a point, text as text in embedded fonts, and the
+        shading of balls as gradients; the same page always gives the same bytes. All three formats contain title and
+        description. Lines, dots and text are measured in points: more pixels give a finer image of the same page. For a
+        poster with thinner lines, make the page wider: ``dataclasses.replace(page, width=...)``.
 
         Parameters
         ----------
         path : path-like
-            Written under a temporary name in the same folder first; an existing file is replaced.
+            File to write, first under a temporary name in the same folder; an existing file is replaced.
         size : int, optional
-            Width in pixels of a PNG, at most 65 535; by default that of print at 300 dpi, 2008 for 17 cm.
+            Width of a PNG in pixels, at most 65 535; by default 300 dpi, which is 2008 for 17 cm.
         text : bool
-            Whether labels are drawn.
+            Whether to draw labels.
         renderer : {"gl", "agg"}
-            Renderer of a PNG: OpenGL, or matplotlib, which needs no OpenGL, but does not shade balls and refuses
-            regions in more colours than vector files hold as paths.
+            Renderer of a PNG: OpenGL, or matplotlib, which needs no OpenGL but does not shade balls and rejects regions
+            in more than `FEW_COLORS` colours.
         platform : {"osmesa", "egl"}, optional
             See `stereodel.render.gl`.
         transparent : bool
-            Whether the ground of the page is left out, so that what lies under the picture shows through. A PNG is then
-            drawn twice, and held in memory.
+            Whether to make the background transparent. A PNG is then drawn twice and held in memory.
 
         Returns
         -------
@@ -299,19 +298,19 @@ class Page:
         Raises
         ------
         ValueError
-            For another extension or renderer, and for a size that is out of range.
+            If the extension or renderer is unknown, or `size` is out of range.
         OSError
-            If the file cannot be written, or there is no OpenGL, which PNG needs, and cells in vector files.
+            If the file cannot be written, or OpenGL, needed for PNG and for images in vector files, is missing.
 
         Notes
         -----
-        Browsers use the fonts embedded in an SVG. librsvg and Inkscape do not: they show the font of that name where it
-        is installed (STIX), or else another serif font. For print, and to place a picture in a document, use the PDF.
+        Browsers use the fonts embedded in an SVG. librsvg and Inkscape do not: they use the font of that name (STIX) if
+        it is installed, otherwise another serif font. For print and for documents, use PDF.
 
-        The light in SVG and PDF is off by 0.8 levels of 255 in the mean and by 4 at most, at the edge of a white ball.
+        The shading in SVG and PDF is off by 0.8 levels of 255 on average and at most by 4, at the edge of a white ball.
 
-        A PNG 16 384 pixels wide and high is drawn in less than a gigabyte; in one piece, its pixels alone would take
-        that much.
+        A PNG of 16 384 × 16 384 pixels is drawn in less than a gigabyte of memory, which its pixels alone would take at
+        once.
 
         Examples
         --------
@@ -322,7 +321,7 @@ class Page:
         ...     page.save(Path(folder, "ball.png"), size=50).stat().st_size > 1000
         True
         """
-        # Loaded on use, as matplotlib loads what draws its figures: all else of this room knows nothing of rendering.
+        # Imported on use, as matplotlib does with its backends: the rest of this package is independent of rendering.
         with of_extra("render" if renderer == "gl" and Path(path).suffix.lower() == ".png" else "draw"):
             from stereodel.render.save import save_page
 
@@ -352,7 +351,7 @@ class Page:
         Raises
         ------
         ValueError
-            For another renderer, and for a size that is out of range.
+            If the renderer is unknown, or `size` is out of range.
         stereodel.render.gl.OpenGLError
             If there is no usable OpenGL.
 
@@ -367,7 +366,7 @@ class Page:
             return draw_page(self, size=size, text=text, renderer=renderer, platform=platform)
 
     def arrays(self) -> dict[str, npt.NDArray[np.generic]]:
-        """Everything drawn as named arrays, for the golden tests: a number per thing that a reader could see change."""
+        """Everything drawn as named arrays, for the regression tests: every visible change alters a number."""
         named: dict[str, npt.NDArray[np.generic]] = {
             "page": np.array([*self.extent, self.width, *self.background]),
             "views": np.array(self.views).reshape(-1, 3, 3),

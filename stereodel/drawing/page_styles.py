@@ -1,4 +1,4 @@
-"""Styles of pages: for a column, for a slide, on a dark background. A style makes a page from a page."""
+"""Styles of pages: for a column, for a slide, on a dark background. A style turns a page into another page."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ STYLES: Final[Mapping[str, Callable[[Page], Page]]] = {
     "slide": lambda page: page_for(page, SLIDE),
     "dark": dark_page,
 }
-"""Name → what makes a page of that style."""
+"""Functions that apply a style, by name."""
 
 MEDIA: Final = ("column", "slide")
-"""Of which a page can be for one."""
+"""Styles that exclude each other."""
 
 
 Style = str | os.PathLike[str]
-"""The name of a style, or a file that holds one."""
+"""The name of a style, or a style file."""
 
 
 def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
@@ -36,13 +36,13 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
     page : Page
     *styles : {"column", "slide", "dark"} or path-like
         "column": 8.4 cm wide, for a journal column; text is not smaller than 7 points. "slide": 33.87 × 19.05 cm,
-        16 : 9, with heavier lines and larger text, the picture in the middle. "dark": on a dark background, where each
+        16 : 9, with heavier lines and larger text, and the picture centred. "dark": on a dark background, where each
         colour keeps its hue and its contrast; a page that is dark already is unchanged, and so are images made of
         pixels, such as rasters on a globe. The order does not matter.
-        A TOML file sets colours, widths and sizes by the names of what is drawn; files come last, in their order.
+        A TOML file sets colours, widths and sizes by the names of what is drawn; files are applied last, in order.
     font : str, path-like, or sequence of them, optional
-        Families of the type, or files of fonts, see `stereodel.drawing.fonts.as_font`, for labels that have none of
-        their own: what is 17 cm wide in a serif for a book may be in a sans serif on a slide.
+        Font families or font files, see `stereodel.drawing.fonts.as_font`, for labels without a font of their own, for
+        instance a sans serif on a slide.
 
     Returns
     -------
@@ -51,16 +51,15 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
     Raises
     ------
     FileNotFoundError
-        For the file of a font that is not there.
+        If a font file does not exist.
     ValueError
-        For another style, for a column and a slide at once, for a file that holds no style, and for fonts that the
-        machine does not have.
+        If a style is unknown, column and slide are combined, a file is not a style, or a font family is not installed.
 
     Notes
     -----
     In a column and on a slide, text is placed again: above and below the picture it is broken into lines, and the page
-    grows; in the picture it moves aside where it would cover other text, and what does not fit is omitted, as on
-    maps.
+    grows; in the picture it moves aside where it would overlap other text, and labels that do not fit are omitted, as
+    on maps.
 
     Examples
     --------
@@ -81,7 +80,7 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
 
 
 def as_styles(styles: Sequence[Style]) -> tuple[str, ...]:
-    """Styles, each once and in the order in which they are applied; a ValueError for what `styled` refuses."""
+    """Styles without repeats, in the order of application; ValueError as for `styled`."""
     given = [os.fspath(style) for style in styles]
     files = [style for style in given if style.lower().endswith(".toml")]
     for name in given:
@@ -95,7 +94,7 @@ def as_styles(styles: Sequence[Style]) -> tuple[str, ...]:
 
 @dataclass(frozen=True)
 class StyledDraw:
-    """What draws pages, in other styles: a function of the same arguments, which can be sent to other processes."""
+    """A picklable function that draws pages with the same arguments as `draw`, in other styles."""
 
     draw: Callable[..., Any]
     styles: tuple[Style, ...]
@@ -104,7 +103,7 @@ class StyledDraw:
         as_styles(self.styles)
 
     def __call__(self, *arguments: Any) -> Page:
-        """The page that `draw` gives, in the styles; a TypeError where it gives pixels."""
+        """The page returned by `draw`, in the styles; TypeError if it returns pixels."""
         page = self.draw(*arguments)
         if not isinstance(page, Page):
             raise TypeError(f"draw gives {type(page).__name__}, which cannot be styled; let it return a Page")

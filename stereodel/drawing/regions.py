@@ -1,6 +1,6 @@
-"""Regions of a sphere bounded by arcs, and the outlines of what is seen of them, closed along the limb.
+"""Regions of a sphere bounded by arcs, and the outlines of their visible parts, closed along the limb.
 
-Everything here is in view axes about the ball's centre.
+All coordinates are in view axes about the ball's centre.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ class SphereRegion:
     Parameters
     ----------
     boundary : tuple of CircleArc
-        A loop on the sphere that does not cross itself, each arc from the end of the one before it, counterclockwise
-        about the region as seen from outside. It may be of any size and shape.
+        A simple loop on the sphere, each arc starting at the end of the one before it, counterclockwise around the
+        region as seen from outside. It may have any size and shape.
     radius : float
-        Of the sphere.
+        Radius of the sphere.
 
     Raises
     ------
     ValueError
-        For a boundary that has a gap.
+        If the boundary has a gap.
     """
 
     boundary: tuple[CircleArc, ...]
@@ -55,7 +55,7 @@ class SphereRegion:
         return SphereRegion(tuple(arc.moved(matrix, np.zeros(3)) for arc in self.boundary), self.radius)
 
     def far_side(self) -> SphereRegion:
-        """The mirror image in the page, whose near side shows where the far side of this region is."""
+        """The mirror image in the page plane, whose near side shows the far side of this region."""
         mirror = np.array([1.0, 1.0, -1.0])
         arcs = (
             CircleArc(mirror * arc.center, mirror * arc.u, -mirror * arc.v, -arc.stop, -arc.start)
@@ -64,30 +64,30 @@ class SphereRegion:
         return SphereRegion(tuple(arcs), self.radius)
 
     def visible_outline(self) -> list[Loop]:
-        """Closed loops of arcs about the part on the near side, which is on their left; none when it is hidden."""
+        """Closed loops of arcs around the part on the near side, which is on their left; none if it is hidden."""
         ring = np.arange(len(self.boundary))
         runs = cut_at_limb(self.boundary, Ragged(ring, np.array([0, len(ring)])), self.radius)
         if runs[0].whole:
             loops = self._with_limb(runs[0].arcs, seen=runs[0].seen)
         else:
             loops = _closed_along_limb([run.arcs for run in runs if run.seen], self.radius)
-        # What is nowhere wider than rounding is not there: a boundary on the limb with the far side on its left.
+        # A part no wider than rounding errors is dropped: a boundary on the limb with the far side on its left.
         length = sum((arc.stop - arc.start) * np.sqrt(np.sum(arc.u**2)) for loop in loops for arc in loop)
         return loops if sum(map(page_area, loops)) > ON_BALL * self.radius * length else []
 
     def _with_limb(self, ring: Loop, *, seen: bool) -> list[Loop]:
-        """A ring that does not cross the limb, and the limb where the region holds it.
+        """A ring that does not cross the limb, with the limb itself if the region contains it.
 
-        A ring on the near side has the region inside it when it is counterclockwise on the page, and outside when it is
-        clockwise. One on the far side is seen through the ball, in a mirror: counterclockwise says that the region is
-        outside, and holds all of the near side.
+        The region is inside a ring on the near side if the ring is counterclockwise on the page, and outside if it is
+        clockwise. A ring on the far side appears mirrored: if counterclockwise, the region is outside it and contains
+        the whole near side.
         """
         shown = [ring] if seen else []
         return [*shown, [limb(self.radius)]] if (page_area(ring) > 0) != seen else shown
 
 
 def _closed_along_limb(runs: list[Loop], radius: float) -> list[Loop]:
-    """Runs from limb to limb with what lies between them of the limb, which has the near side on its left."""
+    """Runs from limb to limb, joined by parts of the limb, which has the near side on its left."""
     starts = LIMB.place(np.array([run[0].sample(run[0].start)[:2] for run in runs]))
     ends = LIMB.place(np.array([run[-1].sample(run[-1].stop)[:2] for run in runs]))
     follower, stop = followers(starts, ends, LIMB.length, np.zeros(len(runs), dtype=np.intp))

@@ -1,4 +1,4 @@
-"""Numbers as colours: perceptual scales, linear or logarithmic, and their legends."""
+"""Colour scales for numbers: perceptually uniform, linear or logarithmic, and their legends."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stereodel.drawing.page import Fill, Item, Label, Stroke
 from stereodel.drawing.style import BLACK, LABEL_SIZE
 
 STEPS = 256
-"""Of a legend."""
+"""Number of steps of a legend."""
 
 CATEGORIES: Final[Sequence[Color]] = (
     (0.902, 0.624, 0.000, 1.0),
@@ -27,10 +27,10 @@ CATEGORIES: Final[Sequence[Color]] = (
     (0.337, 0.706, 0.914, 1.0),
     (0.480, 0.480, 0.480, 1.0),
 )
-"""Of words, in their order: the hues of Okabe and Ito's palette, the first farthest from those of sea and land."""
+"""Colours of categories in order: the hues of Okabe and Ito's palette, first those farthest from sea and land."""
 
 TICKS: Final = 5
-"""Of a legend, where none are given."""
+"""Default number of ticks of a legend."""
 
 
 @dataclass(frozen=True)
@@ -40,16 +40,16 @@ class ColorScale:
     Parameters
     ----------
     name : str
-        A colour map of matplotlib, such as "viridis", "magma" or "cividis", whose lightness increases evenly.
+        Name of a matplotlib colour map, such as "viridis", "magma" or "cividis", whose lightness increases uniformly.
     low, high : float
-        Numbers that get its first and its last colour; numbers beyond them do too.
+        Numbers with the first and the last colour; numbers beyond them are clipped.
     log : bool
-        Whether equal ratios, instead of equal differences, are equally far apart.
+        Whether the scale is logarithmic.
 
     Raises
     ------
     ValueError
-        For an unknown map, limits out of order, or a logarithmic scale that does not begin above 0.
+        If the map is unknown, the limits are out of order, or a logarithmic scale does not begin above 0.
 
     Examples
     --------
@@ -83,7 +83,7 @@ class ColorScale:
 
     @property
     def ticks(self) -> dict[float, str]:
-        """Numbers of two or more digits, evenly spaced from about `low` to about `high`, and how they are written."""
+        """Numbers evenly spaced from about `low` to about `high`, of two or more digits, and their texts."""
         share = np.linspace(0.0, 1.0, TICKS)
         numbers = self.low * (self.high / self.low) ** share if self.log else self.low + (self.high - self.low) * share
         digits = 2
@@ -102,7 +102,7 @@ class ColorScale:
         ink: ColorLike = BLACK,
         type_size: float = LABEL_SIZE,
     ) -> tuple[Item, ...]:
-        """A horizontal bar with marks.
+        """A horizontal bar with ticks.
 
         Parameters
         ----------
@@ -120,7 +120,7 @@ class ColorScale:
         (x, y), (width, height), ink = corner, size, as_color(ink, "ink")
         bars = [
             _box(x + width * number / STEPS, x + width, y, y + height, (red, green, blue, 1.0))
-            # Each step reaches to the right end and is covered by the next: no seams.
+            # Each step extends to the right end and is covered by the next, which avoids seams.
             for number, (red, green, blue) in enumerate(self(self._numbers()).tolist())
         ]
         marks: list[Item] = []
@@ -140,12 +140,12 @@ class ColorScale:
 
 
 def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
-    """A colour for each of some words, which readers with any colour vision tell apart.
+    """A colour for each word, distinguishable with any colour vision.
 
     Raises
     ------
     ValueError
-        For more words than there are such colours.
+        If there are more words than such colours.
     """
     if len(words) > len(CATEGORIES):
         raise ValueError(

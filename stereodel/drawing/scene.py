@@ -1,7 +1,7 @@
-"""Scenes: a ball and what is drawn on and around it, laid out as page items for a view.
+"""Scenes: a ball and the items on and around it, laid out as page items for a view.
 
-A `Scene` knows nothing of pixels or paper. It is filled once and may be laid out many times, for several views, several
-globes on a page, or the frames of an animation.
+A `Scene` is independent of pixels and paper. It is filled once and may be laid out many times, for several views,
+several globes on a page, or the frames of a film.
 """
 
 from __future__ import annotations
@@ -39,30 +39,30 @@ from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import units
 
 MARGIN = 0.02
-"""White space about the ball on a page whose extent is not given, radii."""
+"""Default white space around the ball on a page, in radii."""
 
 
 class Scene:
     """A ball with items on it, inside it and around it.
 
-    Coordinates are those of space, in one unit. Methods that take points or arcs *of the ball* take them on the unit
-    sphere about the origin, as the rest of the library gives them, and put them on the ball.
+    Coordinates are those of space, in one unit. Points and arcs *of the ball* are given on the unit sphere about the
+    origin, as in the rest of the library, and are mapped onto the ball.
 
-    Every method takes the `name` of what is added: the style of that name in `stereodel.drawing.style`, unless another
-    `style` or `color` is given, and the id of its group in vector files.
+    Every method takes the `name` of what is added. It selects the style of that name in `stereodel.drawing.style`,
+    unless a `style` or `color` is given, and is the id of the group in vector files.
 
     Parameters
     ----------
     radius : float
-        Of the ball.
+        Radius of the ball.
     center : (3,) array-like
-        Of the ball.
+        Centre of the ball.
     style : {"solid", "glass", "none"}
         An opaque ball; a transparent one, through which the far side shows fainter; or no ball at all.
     weight : float
-        Factor on the widths of all lines and the radii of all dots, for globes that are small on the page.
+        Factor on all line widths and dot radii, for globes that are small on the page.
     limb : LineStyle, optional
-        Another style of the ball's outline.
+        Style of the ball's outline.
 
     Examples
     --------
@@ -110,9 +110,9 @@ class Scene:
         name : str
             What they are.
         style : LineStyle, optional
-            Another style than that of the name.
+            Style to use instead of that of the name.
         layer : Layer, optional
-            Another position in painter's order, for all parts except those behind the ball.
+            Position in painter's order of all parts except those behind the ball.
         """
         self.add_curves(
             (_circle_arc(arc).scaled(self.radius, self.center) for arc in arcs), name=name, style=style, layer=layer
@@ -190,7 +190,7 @@ class Scene:
         side: Literal["inside", "outside"] = "inside",
         color: ColorLike | None = None,
     ) -> None:
-        """Tint the bubble of a circle: the side normal·x ≥ offset ("inside") or the other one."""
+        """Tint the bubble of a circle: the side normal·x ≥ offset ("inside") or the other side."""
         whole = CircleArc.circle(circle)
         boundary = whole if side == "inside" else CircleArc(whole.center, whole.u, -whole.v)
         self.add_region([boundary], name=name, color=color)
@@ -208,7 +208,7 @@ class Scene:
         self.add_region([CircleArc.great(*pair) for pair in ((a, b), (b, c), (c, a))], name=name, color=color)
 
     def add_flat_polygon(self, corners: npt.ArrayLike, *, name: str = "plane", color: ColorLike | None = None) -> None:
-        """Tint a flat polygon in space, corners (n, 3) in order: a plane that touches the ball, a chordal triangle.
+        """Tint a flat polygon in space, corners (n, 3) in order, such as a tangent plane or a chordal triangle.
 
         It must not cut the ball (`layout` raises a ValueError); its outline is drawn separately, by `add_outline`.
         """
@@ -231,7 +231,7 @@ class Scene:
         size: float = styles.LABEL_SIZE,
         color: ColorLike = styles.BLACK,
     ) -> None:
-        """Write at a point (3,) in space, moved by `offset` points; unless `always`, not where the ball hides it."""
+        """Write at a point (3,) in space, shifted by `offset` points; omitted if the ball hides it, unless `always`."""
         label = Label(text, (0.0, 0.0), offset, align, valign, size, as_color(color))
         self._items.append(SceneLabel(label, as_vectors(point, 3, "point"), always))
 
@@ -244,25 +244,25 @@ class Scene:
         background: ColorLike = styles.WHITE,
         title: str = "",
     ) -> Page:
-        """A page with the scene seen from one side.
+        """A page with the scene in a view.
 
         Parameters
         ----------
         view : View
         extent : (float, float, float, float), optional
-            Left, right, bottom and top of the page, in the unit of space, about the origin of space. By default that
-            of the ball with a margin of `MARGIN` radii.
+            Left, right, bottom and top of the page, in the unit of space, about the origin of space. By default the
+            ball with a margin of `MARGIN` radii.
         width : float or str
-            Of the page in points, or with a unit, "17cm"; the height follows.
+            Width of the page in points, or with a unit, such as "17cm"; the height follows.
         background : color-like
-            Of the paper.
+            Colour of the background.
         title : str
-            Written above the picture.
+            Title above the picture.
 
         Raises
         ------
         ValueError
-            For an extent without area, a width that is not positive, and invalid colours.
+            If the extent has no area, the width is not positive, or a colour is invalid.
         """
         if extent is None:
             (x, y), reach = view.project(self.center), (1 + MARGIN) * self.radius
@@ -279,14 +279,14 @@ class Scene:
         ----------
         view : View
         at : tuple of float
-            Page position of the origin of space.
+            Page coordinates of the origin of space.
         scale : float
-            Page units for one unit of space.
+            Page units per unit of space.
         """
         return self.placed(view, at=at, scale=scale).page_items()
 
     def placed(self, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0) -> PlacedScene:
-        """The scene at its position on a page, for a `Solid` of more than one; parameters as in `layout`."""
+        """The scene at its position on a page, for a `Solid` with several scenes; parameters as in `layout`."""
         size = as_scalar(scale, "scale", low=0.0, open_low=True)
         return PlacedScene(Layout(view.matrix, self.center, self.radius, self.style, at, size), tuple(self._items))
 
@@ -298,7 +298,7 @@ class Scene:
         width: float = Page.width,
         background: ColorLike = styles.WHITE,
     ) -> Solid:
-        """The scene in space as seen from one side; parameters and errors as in `page`.
+        """The scene in space in a view; parameters and errors as in `page`.
 
         Examples
         --------

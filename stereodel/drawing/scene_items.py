@@ -1,4 +1,4 @@
-"""What a scene holds, and how each of it is laid out as page items with its hidden parts removed."""
+"""Items of a scene, and their layout as page items with hidden parts removed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BallStyle = Literal["solid", "glass", "none"]
 
 
 class Layer(IntEnum):
-    """Painter's order: later layers cover earlier ones; within a layer the order of adding counts."""
+    """Painter's order: later layers cover earlier ones; within a layer, items keep the order of their addition."""
 
     UNDER = 0
     """Lines seen through a sheet that lies below the ball."""
@@ -60,7 +60,7 @@ Laid = tuple[Layer, Item]
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Where a scene goes on the page: view, ball, and the planes of its sheets in view axes about the ball's centre."""
+    """Position of a scene on the page: view, ball, and planes of its sheets in view axes about the ball's centre."""
 
     matrix: FloatArray
     center: FloatArray
@@ -72,7 +72,7 @@ class Layout:
 
     @property
     def origin(self) -> tuple[float, float]:
-        """Page position of the ball's centre."""
+        """Page coordinates of the ball's centre."""
         x, y, _ = self.scale * turned(self.center, self.matrix)
         return (self.at[0] + float(x), self.at[1] + float(y))
 
@@ -90,12 +90,12 @@ class Layout:
         return page_path(curves, self.origin, self.scale)
 
     def place(self, point: FloatArray) -> Place:
-        """Place of a point in view axes; without a ball all is in front."""
+        """Place of a point in view axes; without a ball every point is in front."""
         return Place.FRONT if self.style == "none" else place_of(point, self.radius)
 
     @property
     def light(self) -> Ball:
-        """That of the ball, for what lies on it."""
+        """The shading of the ball, for items on it."""
         return Ball(self.origin, self.scale * self.radius)
 
     def split(self, curves: Sequence[Curve]) -> list[list[tuple[Curve, Place]]]:
@@ -114,14 +114,14 @@ class Layout:
 
 
 class SceneItem(Protocol):
-    """What a scene holds."""
+    """Interface of the items of a scene."""
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
         """Its visible parts as page items with their layers."""
 
 
 def laid_out(items: Sequence[SceneItem], layout: Layout) -> tuple[Item, ...]:
-    """Page items of all that a scene holds, in painter's order."""
+    """Page items of a scene, in painter's order."""
     planes = [item.plane(layout) for item in items if isinstance(item, SceneSheet)]
     layout = replace(layout, sheets=tuple(plane for plane in planes if plane[2] is not Layer.INSIDE_SHEET))
     laid = [part for item in items for part in item.lay(layout)]
@@ -138,7 +138,7 @@ class SceneLines:
     layer: Layer | None = None
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
-        """Pieces in front as they are, pieces behind fainter, or not at all behind an opaque ball."""
+        """Pieces in front unchanged, pieces behind fainter, or left out behind an opaque ball."""
         curves = [curve.moved(layout.matrix, layout.center) for curve in self.curves]
         for curve, pieces in zip(curves, layout.split(curves), strict=True):
             on_ball = layout.style != "none" and lies_on_ball(curve, layout.radius)
@@ -181,7 +181,7 @@ class SceneDots:
     name: str
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
-        """Dots whose centres are seen; on a glass ball the hidden ones fainter."""
+        """Dots whose centres are visible; on a glass ball hidden dots are fainter."""
         points = layout.axes(self.points)
         layers = np.array([self._layer(point, layout) for point in points], dtype=int)
         for layer in np.unique(layers[layers >= 0]):
@@ -207,7 +207,7 @@ class SceneRegion:
     name: str
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
-        """The part on the near side lit, the part on the far side of a glass ball flat and faint."""
+        """The part on the near side shaded, the part on the far side of a glass ball flat and faint."""
         region = self.region.turned(layout.matrix)
         near = region.visible_outline()
         if near:
@@ -226,12 +226,12 @@ class SceneSheet:
     name: str
 
     def plane(self, layout: Layout) -> tuple[FloatArray, float, Layer]:
-        """Normal toward the viewer and level of its plane in view axes, and the layer it belongs to.
+        """Normal toward the viewer and level of the plane in view axes, and the polygon's layer.
 
         Raises
         ------
         ValueError
-            When the polygon cuts the sphere, so that no painter's order is right.
+            If the polygon cuts the sphere, so that no painter's order is correct.
         """
         corners = layout.axes(self.corners)
         normal = _newell(corners)
@@ -249,7 +249,7 @@ class SceneSheet:
         )
 
     def lay(self, layout: Layout) -> Iterator[Laid]:
-        """The polygon as one fill; inside an opaque ball nothing."""
+        """The polygon as one fill; nothing if it is inside an opaque ball."""
         _, _, layer = self.plane(layout)
         if layer is Layer.INSIDE_SHEET and layout.style == "solid":
             return
@@ -260,7 +260,7 @@ class SceneSheet:
 
 @dataclass(frozen=True, eq=False)
 class SceneBall:
-    """The ball itself, lit, and its outline."""
+    """The shaded ball and its outline."""
 
     color: Color
     outline: LineStyle
@@ -289,7 +289,7 @@ class SceneLabel:
 
 
 def _newell(corners: FloatArray) -> FloatArray:
-    """Unit normal of a flat polygon by Newell's sum; TOWARD when the polygon has no area."""
+    """Unit normal of a flat polygon by Newell's method; TOWARD if the polygon has no area."""
     edges = corners - corners[0]
     normal = np.cross(edges, np.roll(edges, -1, axis=0)).sum(axis=0)
     length = float(np.sqrt(np.sum(normal**2)))

@@ -1,8 +1,8 @@
 """Drawings of the plane and cross-sections: the counterpart of `Scene` without depth.
 
-A `Sketch` collects segments, circles, arcs, regions, dots, graphs and labels in the order in which they are painted and
-gives them as the items of a `Page`. Coordinates are the page's own (x right, y up). Ticks and heads of arrows are
-measured in points, as type is: they are made when the page is, which knows how many points a unit has.
+A `Sketch` collects segments, circles, arcs, regions, dots, graphs and labels in painter's order and turns them into the
+items of a `Page`. Coordinates are those of the page (x right, y up). Ticks and arrowheads are measured in points, like
+type, so they are created together with the page, when the number of points per unit is known.
 """
 
 from __future__ import annotations
@@ -29,35 +29,35 @@ from stereodel.drawing.view import View
 Point = Sequence[float] | FloatArray
 
 InPoints = Callable[[float], Iterable[Item]]
-"""Makes items when it is known how many points a page unit has."""
+"""Creates items for a number of points per page unit."""
 
 TICK: Final = 3.0
-"""Length of a tick of an axis, and of either half of one at the end of a dimension, points."""
+"""Length of a tick of an axis, and of each half of a tick of a dimension line, in points."""
 
 GAP: Final = 3.0
-"""Between a line or its tick and its name, points."""
+"""Space between a line or tick and its label, in points."""
 
 HEAD: Final = (6.0, 2.0)
-"""Length and half width of the head of an arrow, points."""
+"""Length and half width of an arrowhead, in points."""
 
 
 class Sketch:
     """A drawing under construction.
 
-    Every `add_…` method appends to the picture and returns the sketch, so that calls chain. `name` selects the style:
-    that of this name in `stereodel.drawing.style`, unless another `style` or `color` is given. It is also the
-    id of its group in vector files.
+    Every `add_…` method appends to the picture and returns the sketch, so calls can be chained. `name` selects the
+    style of that name in `stereodel.drawing.style`, unless a `style` or `color` is given. It is also the id of the
+    group in vector files.
 
     Parameters
     ----------
     font : str, path-like, or sequence of them, optional
-        Families of the type, or files of fonts, see `stereodel.drawing.fonts.as_font`; by default STIX. Formulas, which
-        stand between dollar signs, are set in STIX always.
+        Font families or font files, see `stereodel.drawing.fonts.as_font`; by default STIX. Formulas, between dollar
+        signs, are always set in STIX.
 
     Raises
     ------
     FileNotFoundError, ValueError
-        For fonts that are not there.
+        If a font does not exist.
 
     Examples
     --------
@@ -115,14 +115,14 @@ class Sketch:
         name: str,
         style: LineStyle | None = None,
     ) -> Sketch:
-        """The graph of a smooth function by values and derivatives (n,) at its knots, as cubic Hermite pieces.
+        """The graph of a smooth function from values and derivatives (n,) at its knots, as cubic Hermite pieces.
 
-        Without `slope` the derivatives are those of the parabolas through three neighbouring knots each.
+        Without `slope` the derivatives are those of parabolas through three neighbouring knots.
 
         Raises
         ------
         ValueError
-            For fewer than three knots without `slope`.
+            If there are fewer than three knots and no `slope`.
         """
         across, up = np.asarray(x, dtype=np.float64), np.asarray(y, dtype=np.float64)
         if slope is None and len(across) < 3:
@@ -149,9 +149,9 @@ class Sketch:
         return self.add_items([Dots(centers, drawn.radius, drawn.color, drawn.rim, drawn.rim_width, name)])
 
     def add_label(self, at: Point, text: str, offset: tuple[float, float] = (0.0, 0.0), **options: Any) -> Sketch:
-        """Text at a point, moved by `offset` points; `options` go to `Label`.
+        """Text at a point, shifted by `offset` points; `options` are passed to `Label`.
 
-        What stands between two dollar signs is a formula, unless `formulas` is false.
+        Text between two dollar signs is a formula, unless `formulas` is false.
         """
         if "color" in options:
             options["color"] = as_color(options["color"])
@@ -170,9 +170,9 @@ class Sketch:
         gap: float = 8.0,
         **options: Any,
     ) -> Sketch:
-        """The angle at a vertex, from the direction of a counterclockwise to that of b, with its name beside the arc.
+        """The angle at a vertex, counterclockwise from the direction of a to that of b, with a label at the arc.
 
-        The name, if given, is placed on the bisector, `gap` points outside the arc.
+        The label, if given, is on the bisector, `gap` points outside the arc.
         """
         arms = np.array([a, b], dtype=np.float64) - np.asarray(vertex, dtype=np.float64)
         start, stop = np.degrees(np.arctan2(arms[:, 1], arms[:, 0]))
@@ -196,15 +196,15 @@ class Sketch:
         gap: float = GAP,
         **options: Any,
     ) -> Sketch:
-        """A dimension line from a to b, with a tick across each end and its name along it, `gap` points away.
+        """A dimension line from a to b, with a tick across each end and a label along it, `gap` points away.
 
-        The name, if given, is on the left of the direction from a to b, and never upside down; `options` go to
+        The label, if given, is on the left of the direction from a to b, and never upside down; `options` are passed to
         `Label`.
 
         Raises
         ------
         ValueError
-            When a and b are one point.
+            If a and b coincide.
         """
         first, last = (np.array(end, dtype=np.float64) for end in (a, b))
         ahead, left = _frame(first, last)
@@ -226,7 +226,7 @@ class Sketch:
         Raises
         ------
         ValueError
-            When a and b are one point.
+            If a and b coincide.
         """
         drawn = line(name, style)
         tail, tip = (np.array(end, dtype=np.float64) for end in (a, b))
@@ -258,16 +258,14 @@ class Sketch:
         Parameters
         ----------
         corner : (float, float)
-            The lower left one of the rectangle.
-        width, height : float
-            Of the rectangle, page units.
+            Lower left corner of the rectangle. width, height : float Size of the rectangle in page units.
         across, up : mapping of float to str
-            Numbers and the texts beside them, below the rectangle and on its left. The smallest and the largest
-            are at its corners.
+            Numbers and their texts, below and to the left of the rectangle. The smallest and the largest are at its
+            corners.
         name, style
-            Of the lines.
+            Name and style of the lines.
         options
-            Go to `Label`.
+            Passed to `Label`.
         """
         origin = np.array(corner, dtype=np.float64)
         right, above = np.array([1.0, 0.0]), np.array([0.0, 1.0])
@@ -283,12 +281,12 @@ class Sketch:
     def add_scene(
         self, scene: Scene, view: View, *, at: tuple[float, float] = (0.0, 0.0), scale: float = 1.0
     ) -> Sketch:
-        """A scene as seen in a view, with the origin of its space at a point and `scale` page units per unit."""
+        """A scene in a view, with the origin of space at a point and `scale` page units per unit."""
         self._views.append(view.matrix)
         return self.add_items(scene.layout(view, at=at, scale=scale))
 
     def add_items(self, items: Iterable[Item]) -> Sketch:
-        """Finished items, on top."""
+        """Page items, on top."""
         self._parts.extend(items)
         return self
 
@@ -300,12 +298,12 @@ class Sketch:
         background: ColorLike = WHITE,
         title: str = "",
     ) -> Page:
-        """The picture of (left, right, bottom, top), `width` points or another length wide, with a title above it.
+        """The page of the extent (left, right, bottom, top), `width` points or another length wide, with a title above.
 
         Raises
         ------
         ValueError
-            For an extent without area, a width that is not positive, and invalid colours.
+            If the extent has no area, the width is not positive, or a colour is invalid.
         """
         blank = Page(extent, (), as_length(width, "width"), as_color(background, "background"), tuple(self._views))
         scale = blank.points_per_unit
@@ -315,7 +313,7 @@ class Sketch:
     def _add_tick(
         self, at: FloatArray, way: FloatArray, name: str, style: LineStyle | None, *, both_ways: bool = False
     ) -> None:
-        """A tick from a point one way, or both ways as far."""
+        """A tick from a point in one direction, or in both."""
 
         def tick(points_per_unit: float) -> list[Item]:
             reach = TICK / points_per_unit * way
@@ -328,7 +326,7 @@ class Sketch:
 
 
 def _frame(a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Unit vectors from a to b, and to the left of that way."""
+    """Unit vectors from a to b, and to the left of that direction."""
     away = b - a
     length = float(np.hypot(*away))
     if length == 0:
@@ -338,7 +336,7 @@ def _frame(a: FloatArray, b: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 def _spaced(origin: FloatArray, away: FloatArray, names: Mapping[float, str]) -> list[tuple[FloatArray, str]]:
-    """Where names stand on an axis from the least of their numbers, at the origin, to the largest."""
+    """Positions of labels on an axis, from the smallest number at the origin to the largest."""
     low, high = min(names), max(names)
     return [(origin + (number - low) / (high - low) * away, text) for number, text in names.items()]
 
@@ -351,7 +349,7 @@ def _line(path: Beziers, name: str, style: LineStyle | None, *, closed: bool = F
 def arc_path(center: Point, radius: float, start: float, stop: float) -> Beziers:
     """The arc of a circle of the page between two directions in degrees, counterclockwise, as cubic Béziers."""
     u, v = np.array([radius, 0.0, 0.0]), np.array([0.0, radius, 0.0])
-    # Exactly 2π, so that the arc knows that it is closed.
+    # Exactly 2π, so that the arc is recognised as closed.
     turn = 2 * np.pi if stop - start == 360.0 else np.radians(stop - start)
     first = float(np.radians(start))
     return page_path([CircleArc(np.zeros(3), u, v, first, first + turn)], (float(center[0]), float(center[1])), 1.0)

@@ -1,8 +1,8 @@
-"""Pictures in space: the bodies of which a page shows the visible parts.
+"""Pictures in space: the bodies whose visible parts a page shows.
 
-A page is flat, and what is hidden is not on it. A `Solid` has the page and the scenes that it was laid out from, placed
-as on the page: x right, y up, z toward the viewer, in page units. It is written as glTF, or drawn with shading,
-nearer bodies hiding farther ones.
+A page is flat and lacks hidden parts. A `Solid` holds the page and the scenes from which it was laid out, placed as on
+the page: x right, y up, z toward the viewer, in page units. It is written as glTF, or drawn with shading and a depth
+buffer.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class PlacedScene:
     Parameters
     ----------
     layout : Layout
-        Its view and its position.
+        View and position of the scene.
     items : tuple of SceneItem
-        What it holds.
+        Items of the scene.
     """
 
     layout: Layout
@@ -38,7 +38,7 @@ class PlacedScene:
 
     @property
     def pose(self) -> FloatArray:
-        """Turns points (x, y, z, 1) of the scene's space into those of the page's space, (4, 4)."""
+        """Matrix (4, 4) from points (x, y, z, 1) of the scene's space to the page's space."""
         pose = np.eye(4)
         pose[:3, :3] = self.layout.scale * self.layout.matrix
         pose[:2, 3] = self.layout.at
@@ -53,8 +53,8 @@ class PlacedScene:
 class Solid:
     """The content of a page in space: balls, lines as tubes, dots as small balls, regions and planes as surfaces.
 
-    Widths are those on the page. What depends on the direction of view, the limb of a ball, does not exist in space;
-    labels are points with a name.
+    Widths are those on the page. The limb of a ball depends on the viewing direction and does not exist in space;
+    labels are points with text.
 
     Parameters
     ----------
@@ -82,14 +82,14 @@ class Solid:
         Returns
         -------
         trimesh.Scene
-            A node for each item of a scene, with the name under which it was added, numbered if a name repeats;
-            for dots, a node each below it, all sharing one mesh; for a label, a node without a mesh whose metadata hold
-            the text, its size and its offset in points. Several scenes are nodes "panel 1", "panel 2", …
+            Scene with a node for each item, under the name with which it was added, numbered if the name repeats. Dots
+            have one child node each, all sharing one mesh; a label is a node without a mesh whose metadata hold the
+            text, its size and its offset in points. Several scenes are nodes "panel 1", "panel 2", …
 
         Raises
         ------
         ImportError
-            Without trimesh (``pip install stereodel[render]``).
+            If trimesh is missing (``pip install stereodel[render]``).
         """
         with of_extra("render"):
             from stereodel.render.solid import to_trimesh
@@ -104,9 +104,8 @@ class Solid:
         Parameters
         ----------
         path : path-like
-            Written under a temporary name in the same folder first; an existing file is replaced.
-        size, text, platform
-            Of a PNG, as for `Page.save`.
+            File to write, first under a temporary name in the same folder; an existing file is replaced. size, text,
+            platform For PNG, as for `Page.save`.
 
         Returns
         -------
@@ -116,15 +115,15 @@ class Solid:
         Raises
         ------
         ValueError
-            For another extension, a size that is out of range, and an empty GLB.
+            If the extension is unknown, `size` is out of range, or a GLB would be empty.
         OSError
             If the file cannot be written, or there is no OpenGL, which PNG needs.
 
         Notes
         -----
-        GLB is binary glTF 2.0. Its camera named "page" sees what the page shows; other programs look from the same side
-        when they open the file, as x is right, y up and z toward the viewer in glTF too. A unit is the page's, which
-        glTF calls a metre.
+        GLB is binary glTF 2.0. Its camera "page" shows what the page shows; other programs open the file from the same
+        side, as glTF also has x right, y up and z toward the viewer. Units are those of the page, which glTF interprets
+        as metres.
         """
         with of_extra("render"):
             from stereodel.render.solid import save_solid

@@ -1,4 +1,4 @@
-r"""Curves of space as they are drawn: straight segments and arcs of circles, exact up to cubic Béziers.
+r"""Curves in space for drawing: straight segments and circular arcs, exact up to their approximation by cubic Béziers.
 
 Both kinds are linear in a small basis: a segment is o + t·d, an arc c + cos t·u + sin t·v with u ⟂ v of one length. An
 affine map, such as a view, sends o, d, c, u, v and leaves t alone; so the same classes also stand for ellipses.
@@ -34,7 +34,7 @@ LONGEST_PIECE_RAD = np.pi / 6
 
 
 class Curve(Protocol):
-    """What `Segment` and `CircleArc` have in common; the parameter t runs from `start` to `stop`."""
+    """Common interface of `Segment` and `CircleArc`; the parameter t runs from `start` to `stop`."""
 
     @property
     def start(self) -> float:
@@ -46,7 +46,7 @@ class Curve(Protocol):
 
     @property
     def closed(self) -> bool:
-        """Whether the end is the start."""
+        """Whether the curve ends where it starts."""
 
     def sample(self, t: npt.ArrayLike) -> FloatArray:
         """Points (..., 3) at parameters (...)."""
@@ -90,7 +90,7 @@ class Segment:
 
     @property
     def closed(self) -> bool:
-        """Never."""
+        """False: a segment is never closed."""
         return False
 
     def sample(self, t: npt.ArrayLike) -> FloatArray:
@@ -154,10 +154,10 @@ class CircleArc:
         Raises
         ------
         ValueError
-            When the directions are equal or antipodal.
+            If the directions are equal or antipodal.
         """
         start, end = units(as_directions(a, "a")), units(as_directions(b, "b"))
-        # a × b from difference and sum, which keeps its digits when the points are close or nearly opposite.
+        # a × b from difference and sum, which avoids cancellation for points that are close or nearly antipodal.
         axis = np.cross(start - end, start + end) / 2
         sine = float(np.sqrt(np.sum(axis**2)))
         if sine == 0:
@@ -244,8 +244,8 @@ def linear_roots(constant: float, cosine: float, sine: float) -> list[float]:
 def trigonometric_roots(constant: float, first: complex, second: complex) -> list[float]:
     """Roots of constant + 2·Re(first·eⁱᵗ + second·e²ⁱᵗ), radians.
 
-    With z = eⁱᵗ it is a quartic in z whose roots of modulus 1 are wanted; one Newton step or two on t make them as good
-    as the function allows. A touching (double) root may be missed or come twice: it separates nothing.
+    With z = eⁱᵗ it is a quartic in z, of which the roots of modulus 1 are needed; one or two Newton steps on t make
+    them as accurate as the function allows. A double root may be missed or found twice: the sign does not change there.
     """
     scale = max(abs(constant), abs(first), abs(second))
     if abs(second) <= ONE_HARMONIC * scale:
@@ -254,7 +254,7 @@ def trigonometric_roots(constant: float, first: complex, second: complex) -> lis
     # the unit circle. Roots off the circle come in pairs z, 1/conj(z) and are of no use.
     roots = np.roots([second, first, constant, np.conj(first), np.conj(second)])
     t = np.angle(roots[np.abs(np.abs(roots) - 1) < ROOT_ON_CIRCLE])
-    # Newton's method on t, whose function is real, undoes what the eigenvalues of the companion matrix have lost.
+    # Newton's method on t, for which the function is real, recovers the accuracy lost by the companion matrix.
     for _ in range(3):
         z = np.exp(1j * t)
         value = constant + 2 * (first * z + second * z**2).real
@@ -265,7 +265,7 @@ def trigonometric_roots(constant: float, first: complex, second: complex) -> lis
 
 
 def _within(curve: Curve, parameters: Iterable[float], *, period: bool = False) -> FloatArray:
-    """Those strictly inside the curve's interval, ascending; angles are first brought into its period."""
+    """Parameters strictly inside the curve's interval, ascending; angles are first reduced to its period."""
     t = np.array(list(parameters), dtype=np.float64)
     if period:
         t = curve.start + np.mod(t - curve.start, 2 * np.pi)
@@ -273,7 +273,7 @@ def _within(curve: Curve, parameters: Iterable[float], *, period: bool = False) 
 
 
 def page_path(curves: Iterable[Curve], at: tuple[float, float], scale: float) -> Beziers:
-    """Curves in view axes that follow each other, as one connected run on the page."""
+    """Consecutive curves in view axes as one connected path on the page."""
     spatial = np.concatenate([curve.beziers() for curve in curves])
     path: Beziers = spatial[..., :2] * scale + np.array(at)
     path[1:, 0] = path[:-1, 3]

@@ -1,9 +1,8 @@
 """The house style: colours, line widths, dots, tints and fonts of every picture.
 
 Widths and radii are in points (1/72 inch) for a picture that is printed 17 cm wide. The accents have the hues of Okabe
-and Ito's palette, which readers with any colour vision tell apart, and lightnesses that printing in gray leaves apart.
-The type is STIX, which matplotlib ships and which has
-the mathematics too.
+and Ito's palette, which can be distinguished with any colour vision, and lightnesses that remain distinct when printed
+in gray. The type is STIX, which matplotlib ships and which includes mathematics.
 """
 
 from __future__ import annotations
@@ -45,7 +44,7 @@ ORANGE: Final = _hex("#e69f00")
 SKY: Final = _hex("#56b4e9")
 
 FAINT: Final = 0.62
-"""How far colours go toward white on the far side of a transparent ball (0: not at all, 1: white)."""
+"""Share of white mixed into colours on the far side of a transparent ball, in [0, 1]."""
 
 
 def fainter(color: Color, amount: float = FAINT) -> Color:
@@ -66,7 +65,7 @@ class LineStyle:
     Parameters
     ----------
     color : color-like
-        As matplotlib understands it, see `as_color`.
+        Colour in any form accepted by `as_color`.
     width : float
         In points.
     dash : (float, float), optional
@@ -75,7 +74,7 @@ class LineStyle:
     Raises
     ------
     ValueError
-        For invalid colours, and for a negative width.
+        If the colour is invalid or the width negative.
 
     Examples
     --------
@@ -109,7 +108,7 @@ class DotStyle:
     Parameters
     ----------
     color : color-like
-        As matplotlib understands it, see `as_color`.
+        Colour in any form accepted by `as_color`.
     radius : float
         In points, including the rim.
     rim : color-like
@@ -120,7 +119,7 @@ class DotStyle:
     Raises
     ------
     ValueError
-        For invalid colours, and for a negative radius or width.
+        If a colour is invalid, or the radius or width negative.
     """
 
     color: Color
@@ -167,7 +166,7 @@ LINES: Final[Mapping[str, LineStyle]] = {
     "covered2": LineStyle(VERMILION, 2.6),
     "covered3": LineStyle(GREEN, 2.6),
 }
-"""What a line stands for → how it looks. On a ball no line is wider than the limb, which covers their ends."""
+"""Line styles by name. On a ball no line is wider than the limb, which covers their ends."""
 
 DOTS: Final[Mapping[str, DotStyle]] = {
     "sites": DotStyle(BLACK, 2.0, rim_width=0.5),
@@ -179,7 +178,7 @@ DOTS: Final[Mapping[str, DotStyle]] = {
     "accent2": DotStyle(VERMILION, 2.4, rim_width=0.5),
     "accent3": DotStyle(GREEN, 2.4, rim_width=0.5),
 }
-"""What a dot stands for → how it looks."""
+"""Dot styles by name."""
 
 FILLS: Final[Mapping[str, Color]] = {
     "ball": _hex("#f4f6f8"),
@@ -197,7 +196,7 @@ FILLS: Final[Mapping[str, Color]] = {
     "accent2": with_opacity(VERMILION, 0.16),
     "accent3": with_opacity(GREEN, 0.25),
 }
-"""What a region stands for → its tint."""
+"""Tints of regions by name."""
 
 MAP_LINES: Final[Mapping[str, LineStyle]] = {
     "limb": LineStyle(DARK_GRAY, 0.6),
@@ -208,24 +207,24 @@ MAP_LINES: Final[Mapping[str, LineStyle]] = {
     "line": LineStyle(BLACK, 0.5),
     "outline": LineStyle(DARK_GRAY, 0.4),
 }
-"""Lines of globes where no other style is asked for."""
+"""Default line styles of globes."""
 
 MAP_DOT: Final = DotStyle(VERMILION, 1.8, rim=WHITE, rim_width=0.4)
-"""Dots of globes."""
+"""Default dot style of globes."""
 
 MAP_FILLS: Final[Mapping[str, Color]] = {
     "ocean": (0.780, 0.860, 0.915, 1.0),
     "land": (0.957, 0.937, 0.890, 1.0),
-    "area": with_opacity(ORANGE, 0.5),  # of another hue than sea and land, both of which show through
+    "area": with_opacity(ORANGE, 0.5),  # a hue different from sea and land, which both show through
     "circle": with_opacity(VERMILION, 0.30),
 }
-"""Regions of globes."""
+"""Default tints of globes."""
 
 HALO: Final = 1.6
-"""Width of the line round type on globes, points."""
+"""Width in points of halos on globes."""
 
 HALO_OPACITY: Final = 0.8
-"""Of that line, which has the colour of the ground: what it crosses is dimmed, not cut."""
+"""Opacity of halos, which have the colour of the ground: lines under them are dimmed, not interrupted."""
 
 TYPE: Final[Mapping[str, Any]] = {
     "font.family": "STIXGeneral",
@@ -238,27 +237,27 @@ TYPE: Final[Mapping[str, Any]] = {
     "text.antialiased": True,
     "path.simplify": False,
 }
-"""matplotlib settings under which every page is drawn; fonts are those that matplotlib ships."""
+"""matplotlib settings with which every page is drawn; the fonts are those that matplotlib ships."""
 
 
 def line(name: str, style: LineStyle | None = None) -> LineStyle:
-    """The style of a line: the one given, or else that of its name.
+    """The style of a line: the one given, otherwise that of its name.
 
     Raises
     ------
     ValueError
-        For a name that has no style, when none is given.
+        If no style is given and the name has none.
     """
     return _look_up(LINES, name, "line", "style") if style is None else style
 
 
 def dot(name: str, style: DotStyle | None = None) -> DotStyle:
-    """The style of a dot, as `line`."""
+    """The style of a dot, as for `line`."""
     return _look_up(DOTS, name, "dot", "style") if style is None else style
 
 
 def fill(name: str, color: ColorLike | None = None) -> Color:
-    """The colour of a region, as `line`."""
+    """The colour of a region, as for `line`."""
     return _look_up(FILLS, name, "fill", "color") if color is None else as_color(color)
 
 

@@ -1,6 +1,7 @@
-"""Styles of one's own: a file that says in what colours, widths and sizes the parts of a page are drawn.
+"""Style files: colours, widths and sizes for the parts of a page.
 
-The file is TOML. Parts go by their names, which are the ids of SVG: "ball", "land", "coast", "graticule", "voronoi" ….
+The file is TOML. Parts are identified by their names, which are ids in SVG: "ball", "land", "coast", "graticule",
+"voronoi" ….
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from stereodel.drawing.lengths import as_length
 from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Polygons, Polylines, Stroke
 
 Changes = Mapping[str, Any]
-"""Fields of an item → what they become."""
+"""New values for fields of an item."""
 
 
 def _width(value: Any, name: str) -> float:
@@ -34,23 +35,23 @@ READERS: Final[Mapping[str, Mapping[str, Callable[[Any, str], Any]]]] = {
     "dots": {"color": as_color, "radius": _width, "rim": as_color, "rim_width": _width},
     "labels": {"color": as_color, "font": as_font, "size": as_length, "halo": _width, "halo_color": as_color},
 }
-"""Tables of a file → their keys, and what reads the value of each."""
+"""Tables of a file with their keys, and the function that parses the value of each."""
 
 
 @dataclass(frozen=True)
 class PageStyle:
-    """Colours, widths and sizes of the parts of a page, by name; what is not named stays as it is.
+    """Colours, widths and sizes of the parts of a page, by name; other parts are unchanged.
 
     Parameters
     ----------
     base : tuple of {"column", "slide", "dark"}
-        Styles in which the page is before.
+        Styles applied first.
     background : Color, optional
-        Of the paper.
+        Colour of the background.
     fills : mapping of str to Color
-        Names of regions → their colours; regions that have several, as cells, keep them.
+        Colours of regions by name; regions with several colours, such as cells, keep them.
     lines, dots : mapping of str to mapping
-        Names of lines and of dots → "color" and "width"; "color", "radius", "rim" and "rim_width".
+        "color" and "width" of lines by name; "color", "radius", "rim" and "rim_width" of dots by name.
     labels : mapping
         "color", "font", "size", "halo" and "halo_color" of all text.
     """
@@ -64,15 +65,14 @@ class PageStyle:
 
     @classmethod
     def of_file(cls, path: str | os.PathLike[str]) -> PageStyle:
-        """The style that a TOML file holds.
+        """The style in a TOML file.
 
         Raises
         ------
         OSError
-            When the file cannot be read.
+            If the file cannot be read.
         ValueError
-            For what is no TOML, for keys that styles do not have, and for values that are none of theirs; the message
-            names file and key.
+            If the file is not TOML, or a key or value is invalid; the message names file and key.
         """
         source = Path(path)
         try:
@@ -126,7 +126,7 @@ def _table(parts: Mapping[str, Any], name: str, within: str = "") -> Mapping[str
 
 
 def _parts(table: Mapping[str, Any], kind: str) -> Mapping[str, Changes]:
-    """Tables by the names of what they change."""
+    """Tables of changes by the names of the parts."""
     named = _table(table, kind)
     return {name: _read(kind, _table(named, name, f"{kind}."), f"{kind}.{name}.") for name in named}
 
@@ -134,7 +134,7 @@ def _parts(table: Mapping[str, Any], kind: str) -> Mapping[str, Changes]:
 def _known(given: Mapping[str, Any], keys: list[str], within: str) -> None:
     for key in given:
         if key not in keys:
-            raise ValueError(f"{within}{key} is no key of styles; give {', '.join(keys)}")
+            raise ValueError(f"{within}{key} is not a key of styles; give {', '.join(keys)}")
 
 
 def _read(kind: str, given: Mapping[str, Any], within: str) -> Changes:

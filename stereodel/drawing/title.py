@@ -1,4 +1,4 @@
-"""The title of a page: written above the picture, and told to those who search files or cannot see them."""
+"""The title of a page: drawn above the picture and stored in files for search and screen readers."""
 
 from __future__ import annotations
 
@@ -11,24 +11,24 @@ from stereodel.drawing.page import Label, Page
 from stereodel.drawing.style import BLACK
 
 TITLE_SIZE: Final = 12.0
-"""Height of the type of a title, points."""
+"""Type size of a title in points."""
 
 GAP: Final = 5.0
-"""Above and below it, points."""
+"""Space above and below the title in points."""
 
 
 def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = TITLE_SIZE) -> Page:
-    """The page with a title above the picture, which files say, too; as it is for an empty one.
+    """The page with a title above the picture and in its metadata; unchanged if the title is empty.
 
     Parameters
     ----------
     page : Page
-        Stays as wide as it is and grows upwards.
+        Page whose width is kept and which grows upwards.
     title : str
-        A line; what stands between two dollar signs is a formula.
+        One line; text between two dollar signs is a formula.
     ink : color-like
     size : float
-        Of the type, points.
+        Type size in points.
 
     Examples
     --------

@@ -1,8 +1,8 @@
-"""Room for the type of a page whose picture has become smaller than its type, or larger.
+"""Placing labels again on a page whose picture has been scaled relative to its type.
 
-Type above and below the picture is broken into lines and moves away from it, and the page grows. Type in the picture
-moves aside, as little as it can, where it would cover other type, or lines that it was clear of; what finds no room is
-left out, as on maps.
+Labels above and below the picture are broken into lines and moved away from it, and the page grows. Labels in the
+picture move aside as little as possible where they would overlap other labels, or lines that they were clear of; labels
+without room are left out, as on maps.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ Box = tuple[float, float, float, float]
 """Left, right, bottom, top."""
 
 LEADING: Final = 1.25
-"""From line to line of broken type, in its size."""
+"""Line spacing of broken labels, in units of type size."""
 
 GAP_OF_LINES: Final = 0.2
-"""Least distance between titles, credits and what is next to them, in their size."""
+"""Least distance between titles or credits and their neighbours, in units of type size."""
 
 EDGE: Final = 2.0
-"""Between type and the edge of a page, points."""
+"""Space between labels and the edge of a page, in points."""
 
 FARTHEST: Final = 1.5
-"""By how much type moves aside at most, in its size."""
+"""Largest displacement of a label, in units of type size."""
 
 STEPS: Final = 6
-"""In which it does."""
+"""Directions of displacements."""
 
 DIRECTIONS: Final = 16
 
 CHORDS: Final = 8
-"""For a cubic, where lines are looked at: those of an eighth of a circle are off by a thousandth of its radius."""
+"""Parameters at which cubics are sampled: chords of an eighth of a circle are off by a thousandth of its radius."""
 
 OPPOSITE: Final[Mapping[str, Any]] = {
     "left": "right",
@@ -50,11 +50,11 @@ OPPOSITE: Final[Mapping[str, Any]] = {
     "center": "center",
     "baseline": "top",
 }
-"""Alignments on the other side of an anchor."""
+"""Alignments on the opposite side of an anchor."""
 
 WORD: Final = re.compile(r"\S+")
 WORD_OR_FORMULA: Final = re.compile(r"(?:\$[^$]*\$|\S)+")
-"""What is not broken: formulas hold spaces."""
+"""Unbreakable parts: formulas may contain spaces."""
 
 
 def clear_labels(page: Page) -> list[bool]:
@@ -70,19 +70,19 @@ def set_anew(
     room: tuple[float, float],
     clear: Sequence[bool],
 ) -> tuple[tuple[Item, ...], Box]:
-    """Items whose labels have found room, and the extent that they need.
+    """Items whose labels have room, and the extent that they need.
 
     Parameters
     ----------
     items : sequence of Item
     extent : tuple of float
-        Left, right, bottom and top of the page so far, page units.
+        Left, right, bottom and top of the original page, in page units.
     points_per_unit : float
         Scale of the page.
     room : (float, float)
-        Left and right end of where type may be, page units.
+        Left and right limits for labels, in page units.
     clear : sequence of bool
-        For each label, whether it is to be clear of lines where it can.
+        For each label, whether to keep it clear of lines if possible.
     """
     unit = points_per_unit
     picture = [item for item in items if not isinstance(item, Label)]
@@ -97,7 +97,7 @@ def set_anew(
     boxes = setter.boxes(kept)
     low = min(extent[2], float(np.min(boxes[:, 0, 1], initial=np.inf) - EDGE) / unit)
     high = max(extent[3], float(np.max(boxes[:, 1, 1], initial=-np.inf) + EDGE) / unit)
-    # The picture stays in the middle.
+    # The picture stays centred.
     middle = (extent[0] + extent[1]) / 2
     aside = float(np.max(np.abs(boxes[:, :, 0] / unit - middle), initial=(extent[1] - extent[0]) / 2))
     return (*picture, *kept), (middle - aside, middle + aside, low, high)
@@ -105,21 +105,21 @@ def set_anew(
 
 @dataclass(frozen=True)
 class _Setter:
-    """Sets labels on a page of a scale, between two ends in page units, with lines given by their chords (n, 2, 2)."""
+    """Places labels at a scale, between two limits in page units, with lines given by their chords (n, 2, 2)."""
 
     unit: float
     room: tuple[float, float]
     chords: FloatArray
 
     def box(self, label: Label) -> FloatArray:
-        """Lower left and upper right corner of a label, turned as it is, in points."""
+        """Lower left and upper right corner of a label as rotated, in points."""
         pivot = self.unit * np.array(label.anchor) + np.array(label.offset)
         return pivot + _box_about_anchor(
             label.text, label.size, label.align, label.valign, label.rotation, label.font, label.formulas
         )
 
     def boxes(self, labels: Sequence[Label]) -> FloatArray:
-        """Those of several labels, (n, 2, 2)."""
+        """Boxes of several labels, (n, 2, 2)."""
         return np.array([self.box(label) for label in labels]).reshape(-1, 2, 2)
 
     def crossed(self, label: Label) -> bool:
@@ -128,14 +128,14 @@ class _Setter:
         (a, b), middle = (self.chords[:, 0], self.chords[:, 1]), (low + high) / 2
         near = ((np.maximum(a, b) > low) & (np.minimum(a, b) < high)).all(axis=1)
         along, to = b[near] - a[near], a[near] - middle
-        # A chord that overlaps a box in both directions misses it where all corners are on one side of its line.
+        # A chord that overlaps a box in both directions misses it if all corners are on one side of its line.
         reach = np.abs(along[:, ::-1]) @ ((high - low) / 2)
         return bool((np.abs(along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) < reach).any())
 
     def within(self, labels: Iterable[tuple[Label, bool]]) -> list[Label]:
-        """Labels in the picture, each where it is or beside, none over another; without those that have no room.
+        """Labels in the picture, in place or moved aside so that none overlap, without those that have no room.
 
-        With each comes whether it is to be clear of lines; it is not where there is room on a line alone.
+        The flag of each label says whether to keep it clear of lines; this is waived if there is room only on a line.
         """
         kept: list[Label] = []
         for label, free in labels:
@@ -148,7 +148,8 @@ class _Setter:
     def beyond(self, labels: Sequence[Label], way: float, edge: float, taken: FloatArray) -> list[Label]:
         """Labels above (`way` 1) or below (-1) a picture that ends at `edge` points, broken into lines.
 
-        The nearest first, each moves away until it covers neither the picture nor the boxes `taken` nor others.
+        Starting with the nearest, each moves away until it overlaps neither the picture, nor the boxes `taken`, nor
+        other labels.
         """
         kept: list[Label] = []
         for label in sorted(labels, key=lambda label: way * label.anchor[1]):
@@ -163,12 +164,12 @@ class _Setter:
         return kept
 
     def _held(self, label: Label) -> Label:
-        """A label moved sideways into the room, as far as it is no wider."""
+        """A label moved sideways into the limits, if it is not too wide."""
         box, left, right = self.box(label), self.unit * self.room[0] + EDGE, self.unit * self.room[1] - EDGE
         return _moved(label, max(min(0.0, right - box[1, 0]), left - box[0, 0]), 0.0)
 
     def _broken(self, label: Label, way: float) -> list[Label]:
-        """The lines of a label no wider than the room on its side: the last or the first of them is where it was."""
+        """The lines of a label, no wider than the limits; the last or first line keeps the label's position."""
         start = self.unit * label.anchor[0] + label.offset[0]
         left, right = self.unit * self.room[0] + EDGE, self.unit * self.room[1] - EDGE
         room = right - (start if label.align == "left" else left)
@@ -188,7 +189,7 @@ class _Setter:
 def _box_about_anchor(
     text: str, size: float, align: Any, valign: Any, rotation: float, font: tuple[str, ...], formulas: bool
 ) -> FloatArray:
-    """Lower left and upper right corner of a label about its anchor, in points; type is slow to measure."""
+    """Lower left and upper right corner of a label about its anchor, in points; cached, as measuring type is slow."""
     label = Label(text, (0.0, 0.0), (0.0, 0.0), align, valign, size, font=font, formulas=formulas)
     box = label_box(label, 1.0)
     corners = np.array([(x, y) for x in box[:, 0] for y in box[:, 1]])
@@ -200,7 +201,7 @@ def _box_about_anchor(
 
 
 def _places(label: Label) -> Iterator[Label]:
-    """Where a label may be: in its place, close by, on the other sides of its anchor, and farther away."""
+    """Candidate positions of a label: in place, close by, on the other sides of its anchor, and farther away."""
     step = label.size * FARTHEST / STEPS
     turn = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     yield label
@@ -211,7 +212,7 @@ def _places(label: Label) -> Iterator[Label]:
 
 
 def _other_sides(label: Label) -> Iterator[Label]:
-    """A label beside its anchor on the other sides of it."""
+    """A label on the other sides of its anchor."""
     (x, y), align, valign = label.offset, OPPOSITE[label.align], OPPOSITE[label.valign]
     yield replace(label, offset=(-x, y), align=align)
     yield replace(label, offset=(x, -y), valign=valign)
@@ -219,12 +220,12 @@ def _other_sides(label: Label) -> Iterator[Label]:
 
 
 def _moved(label: Label, x: float, y: float) -> Label:
-    """A label moved by points."""
+    """A label shifted by x and y points."""
     return replace(label, offset=(label.offset[0] + float(x), label.offset[1] + float(y)))
 
 
 def _meet(boxes: FloatArray, others: FloatArray) -> bool:
-    """Whether any of some boxes (n, 2, 2) comes closer to any of others (m, 2, 2) than labels may."""
+    """Whether any of some boxes (n, 2, 2) is closer to any of others (m, 2, 2) than labels may be."""
     a, b = boxes[:, None], others[None]
     return bool(((a[..., 0, :] < b[..., 1, :] + GAP) & (b[..., 0, :] < a[..., 1, :] + GAP)).all(axis=-1).any())
 
@@ -245,7 +246,7 @@ def _chords(items: Iterable[Item], unit: float) -> FloatArray:
 
 
 def _ink(picture: Sequence[Item], extent: Box) -> Box:
-    """Left, right, bottom and top of what is no type, as far as it is on the page; the page, where there is nothing."""
+    """Left, right, bottom and top of the items other than labels, within the page; the page if there are none."""
     found = [points.reshape(-1, 2) for item in picture for points in _outlines(item)]
     low, high = np.array(extent[::2]), np.array(extent[1::2])
     if found:

@@ -1,4 +1,4 @@
-"""Views: the direction from which the sphere is seen, and how the visible part becomes flat.
+"""Views: the direction from which the sphere is seen, and the projection of the visible part.
 
 Every view shows a cap of the sphere, {x : toward·x ≥ edge}, and maps it onto the unit disc of the page.
 """
@@ -30,11 +30,11 @@ class MapView(Protocol):
 
     @property
     def stretch(self) -> float:
-        """How far a curve strays from its chords on the page, at most, over how far it strays from them in space."""
+        """Largest ratio of a curve's deviation from its chords on the page to that in space."""
 
     @property
     def round(self) -> bool:
-        """Whether the page shows a ball, which is lit, and not a map."""
+        """Whether the page shows a shaded ball rather than a map."""
 
     def flattened(self, axes: FloatArray) -> FloatArray:
         """Page coordinates (..., 2) of unit vectors (..., 3) of the cap in view axes."""
@@ -43,9 +43,9 @@ class MapView(Protocol):
         """Unit vectors in view axes (..., 3) of points (..., 2) of the unit disc; NaN outside it."""
 
     def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
-        """Distance on the page between two close lines, over their distance on the sphere, (...).
+        """Ratio (...) of the distance between two close lines on the page to that on the sphere.
 
-        Both in view axes: unit vectors (..., 3), and the unit tangents there that point across the lines.
+        Arguments in view axes: unit vectors (..., 3), and unit tangent vectors there that point across the lines.
         """
 
 
@@ -56,15 +56,15 @@ class View:
     Parameters
     ----------
     lon, lat : float
-        The point in the middle of the picture, degrees. At a pole `up` is the limit along `lon`, so that the meridian
-        `lon` is a vertical line in every view of the same longitude.
+        Centre of the picture in degrees. At a pole, up is the limit along `lon`, so that the meridian `lon` is a
+        vertical line in every view of the same longitude.
     roll : float, optional
-        Degrees by which the picture is then rotated counterclockwise on the page.
+        Counterclockwise rotation of the picture on the page, in degrees.
 
     Raises
     ------
     ValueError
-        For a latitude outside [-90, 90] or a number that is not finite.
+        If the latitude is outside [-90, 90], or a number is not finite.
 
     Examples
     --------
@@ -87,12 +87,12 @@ class View:
 
     @property
     def edge(self) -> float:
-        """Cosine of the angular radius of what is seen: 0."""
+        """Cosine of the angular radius of the visible cap: 0."""
         return 0.0
 
     @property
     def stretch(self) -> float:
-        """1: what is straight in space is straight on the page, and nothing grows."""
+        """1: straight lines in space are straight on the page, and no length grows."""
         return 1.0
 
     @property
@@ -117,10 +117,10 @@ class View:
         return np.concatenate([np.where(np.isnan(height), np.nan, xy), height], axis=-1)
 
     def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
-        """Distance on the page between two close lines, over their distance on the sphere; the far side as the near.
+        """Ratio of the distance between two close lines on the page to that on the sphere; far and near side alike.
 
-        Areas shrink by |z|, z being the depth, and lengths along lines by √(z² + c²), c the depth of `across`: depths
-        of three perpendicular unit vectors have the sum of squares 1.
+        Areas shrink by |z|, where z is the depth, and lengths along lines by √(z² + c²), where c is the depth of
+        `across`: the squared depths of three perpendicular unit vectors sum to 1.
 
         Examples
         --------
@@ -147,20 +147,21 @@ class View:
 
 @dataclass(frozen=True)
 class StereographicView:
-    """A flat conformal map about a point of the sphere, north up: stereographic, from the antipode of that point.
+    """A stereographic view centred on a point of the sphere, north up: a conformal map, projected from the antipode.
 
     Parameters
     ----------
     lon, lat : float
-        The point in the middle, degrees; at a pole `up` is the limit along `lon`.
+        Centre of the picture in degrees; at a pole, up is the limit along `lon`.
     roll : float, optional
-        Degrees by which the picture is then rotated counterclockwise on the page.
+        Counterclockwise rotation of the picture on the page, in degrees.
     angular_radius : float
-        Of the cap that is shown, degrees, above 0 and at most `LARGEST_CAP`: 90 is a hemisphere.
+        Angular radius of the visible cap in degrees, above 0 and at most `LARGEST_CAP`; 90 is a hemisphere.
 
     Notes
     -----
-    A point at angular distance χ from the middle is tan(χ/2)/tan(angular_radius/2) from the middle of the unit disc.
+    A point at angular distance χ from the centre is mapped to distance tan(χ/2)/tan(angular_radius/2) from the centre
+    of the unit disc.
 
     Examples
     --------
@@ -193,7 +194,7 @@ class StereographicView:
 
     @property
     def stretch(self) -> float:
-        """Largest scale times what the change of scale adds to the curvature of an image.
+        """Bound on the ratio, from the largest scale and the curvature that the change of scale adds.
 
         The scale 1/(2 τ cos²(χ/2)), τ = tan(angular_radius/2), is largest at the edge; a curve of geodesic curvature k
         has an image whose curvature, times the scale, is at most k + tan(χ/2), while in space its curvature is
@@ -226,7 +227,7 @@ class StereographicView:
         return axes
 
     def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
-        """Distance on the page between two close lines, over their distance on the sphere: the scale of the map."""
+        """Ratio of the distance between two close lines on the page to that on the sphere: the scale of the map."""
         del across  # The map is conformal.
         with np.errstate(divide="ignore"):
             scale: FloatArray = 1 / ((1 + axes[..., 2]) * self._reach)

@@ -1,10 +1,10 @@
-"""What a ball hides: curves cut analytically where they pass in front of it, through it, beside it and behind it.
+"""Visibility: curves cut analytically into parts in front of a ball, inside it, beside it and behind it.
 
-Everything here is in view axes (right, up, toward the viewer) about the ball's centre. With ρ the distance of a point x
-from the line of sight through the centre, the ball of radius r covers x when ρ < r and x lies deeper than the near
-surface. The places can change only where |x| = r or ρ = r: for a segment two quadratic equations, for a circle one
-equation linear in cos t, sin t and one quartic. Arcs of circles *on* the sphere, where |x| = r says nothing, are cut at
-the limb, all at once, by the engine of `stereodel.curves`; they stay arcs.
+All coordinates are in view axes (right, up, toward the viewer) about the ball's centre. With ρ the distance of a point
+x from the line of sight through the centre, the ball of radius r covers x if ρ < r and x is farther away than the near
+surface. A curve's place can change only where |x| = r or ρ = r: for a segment two quadratic equations, for a circle one
+equation linear in cos t, sin t and one quartic. Arcs *on* the sphere, where |x| = r holds throughout, are cut at the
+limb together by `stereodel.curves` and remain arcs.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ ALL_AXES = np.array([1.0, 1.0, 1.0])
 PAGE_AXES = np.array([1.0, 1.0, 0.0])
 
 LIMB: Final = Cap(View(0.0, 0.0), ON_BALL)
-"""The edge of the near side of the unit sphere, for the engine of curves. In its own axes every view is the same."""
+"""The edge of the near side of the unit sphere, for `stereodel.curves`; in view axes it is the same for every view."""
 
 
 class Place(Enum):
-    """Where a point is, seen by the viewer, with respect to a ball."""
+    """Position of a point relative to a ball, as seen by the viewer."""
 
     FRONT = "in front of the ball, or on its near side"
     OUTSIDE = "beside the ball: neither covers the other"
@@ -70,28 +70,28 @@ def place_of(point: FloatArray, radius: float) -> Place:
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """Arcs of a sphere, each from the end of the one before it, that are in sight from end to end, or out of it."""
+    """Consecutive arcs of a sphere that are either all visible or all hidden."""
 
     arcs: list[CircleArc]
     seen: bool
     whole: bool
-    """Closed, and nowhere cut."""
+    """Whether it is closed and not cut."""
     row: int
-    """The line that it is a part of."""
+    """Index of its line."""
 
 
 def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> list[Run]:
-    """Lines on a sphere about the origin, cut at the limb; what runs along it is in sight.
+    """Lines on a sphere about the origin, cut at the limb; parts along the limb are visible.
 
     Parameters
     ----------
     curves : sequence of CircleArc
         On the sphere.
     lines : Ragged
-        Numbers of the curves of each line, in order: every curve in one line. Of a closed one the last ends where the
-        first begins.
+        Indices of the curves of each line, in order; every curve belongs to one line. In a closed line the last curve
+        ends where the first begins.
     radius : float
-        Of the sphere.
+        Radius of the sphere.
     """
     if not curves:
         return []
@@ -104,7 +104,7 @@ def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> li
         before = -1
         for number in numbers.tolist():
             if edge[number] == before:
-                # Of a circle that was cut, the piece up to its first point and the one from there are one arc.
+                # On a circle that was cut, the pieces before and after its first point are one arc.
                 arcs[-1] = arcs[-1].part(arcs[-1].start, stop[number] + 2 * np.pi)
             elif stop[number] > begin[number]:
                 arcs.append(curves[edge[number]].part(begin[number], stop[number]))
@@ -115,13 +115,13 @@ def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> li
 
 
 def _as_arcs(curves: Sequence[CircleArc], radius: float) -> Arcs:
-    """Arcs of the sphere as the engine of curves has them, on the unit sphere."""
+    """Arcs in the form of `stereodel.curves`, on the unit sphere."""
     center, u, v = (
         np.array([getattr(curve, name) for curve in curves]).reshape(-1, 3) / radius for name in ("center", "u", "v")
     )
     begin, stop = (np.array([getattr(curve, name) for curve in curves], dtype=np.float64) for name in ("start", "stop"))
     axis = np.cross(u, v)
-    # The circle of a point has no axis of its own.
+    # A circle of radius zero has no axis of its own.
     axis = np.where(axis.any(axis=1, keepdims=True), axis, center)
     axis /= np.sqrt(np.sum(axis**2, axis=1, keepdims=True))
     start, end = (center + np.cos(t)[:, None] * u + np.sin(t)[:, None] * v for t in (begin, stop))
@@ -129,9 +129,9 @@ def _as_arcs(curves: Sequence[CircleArc], radius: float) -> Arcs:
 
 
 def _joined(arcs: Arcs, lines: Ragged) -> Arcs:
-    """The same arcs with ends that are the beginnings of those that follow them, where rounding alone is between.
+    """The arcs with each end set to the start of the next arc if they differ only by rounding.
 
-    The engine counts how often a ring is cut by the sides of its corners, which must have one side each.
+    Crossings of a ring are counted by the sides of its corners, so each corner must have a single side.
     """
     after = lines.values[lines.following]
     meets = np.sqrt(np.sum((arcs.end[lines.values] - arcs.start[after]) ** 2, axis=1)) <= ON_BALL
@@ -167,7 +167,8 @@ def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Cur
 
 def _split_in_space(curve: Curve, radius: float) -> list[tuple[Curve, Place]]:
     # A place changes where the curve goes through the surface, x² + y² + z² = r², and where it passes through the
-    # cylinder of all that the limb covers or is covered by, x² + y² = r². What it is, the middle of each piece tells.
+    # cylinder of all that the limb covers or is covered by, x² + y² = r². The midpoint of each piece determines its
+    # place.
     surface = curve.quadric_parameters(ALL_AXES, radius**2)
     outline = curve.quadric_parameters(PAGE_AXES, radius**2)
     pieces = cut(curve, np.union1d(surface, outline), lambda point: place_of(point, radius))
@@ -177,7 +178,7 @@ def _split_in_space(curve: Curve, radius: float) -> list[tuple[Curve, Place]]:
 
 
 def _joined_at_limb(pieces: list[tuple[Curve, Place]]) -> list[tuple[Curve, Place]]:
-    """Pieces beside the ball joined to a neighbour in front of it: no seam shows where a line crosses the limb."""
+    """Pieces beside the ball joined to a neighbour in front of it, to avoid a seam where a line crosses the limb."""
     joined: list[tuple[Curve, Place]] = []
     for curve, place in pieces:
         if joined and {place, joined[-1][1]} == {Place.FRONT, Place.OUTSIDE}:
@@ -188,7 +189,7 @@ def _joined_at_limb(pieces: list[tuple[Curve, Place]]) -> list[tuple[Curve, Plac
 
 
 def cut(curve: Curve, parameters: FloatArray, kind: Callable[[FloatArray], K]) -> list[tuple[Curve, K]]:
-    """The curve cut at parameters, each piece with the kind of its middle; neighbours of one kind stay together."""
+    """The curve cut at parameters, each piece with the kind of its midpoint; adjacent pieces of one kind are joined."""
     bounds = np.array([curve.start, *parameters, curve.stop])
     kinds = [kind(point) for point in curve.sample((bounds[:-1] + bounds[1:]) / 2)]
     changes = [i for i in range(1, len(kinds)) if kinds[i] != kinds[i - 1]]

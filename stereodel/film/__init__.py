@@ -1,4 +1,4 @@
-"""Moving pictures: pages drawn in several processes and written as one file; ways to move over a globe."""
+"""Films: pages drawn in parallel and written as one file; motions over a globe."""
 
 from stereodel.film.film import Film, FrameError
 from stereodel.film.shots import Flight, Morph, Spin, Stop

@@ -1,4 +1,4 @@
-"""Films: many pages, drawn in several processes and written as one file."""
+"""Films: sequences of pages, drawn in parallel and written as one file."""
 
 from __future__ import annotations
 
@@ -36,52 +36,52 @@ from stereodel.render.sizes import LARGEST_SIZE, pixel_height
 T = TypeVar("T")
 
 FPS: Final = 25.0
-"""Frames a second where neither a rate nor times are given."""
+"""Default number of frames per second."""
 
 LIFETIME: Final = 32
-"""Frames that a process draws before another takes its place, so that what graphics libraries keep does not add up."""
+"""Frames that a process draws before it is replaced, so that memory held by graphics libraries does not accumulate."""
 
 
 def as_frame_size(width: int, height: int) -> None:
-    """A ValueError for frames of too many pixels."""
+    """Raise ValueError for frames with too many pixels."""
     if width * height > MOST_FRAME_PIXELS:
         raise ValueError(f"size makes frames of {width} × {height} pixels; give at most {MOST_FRAME_PIXELS} of them")
 
 
 class FrameError(RuntimeError):
-    """A frame could not be drawn; the message has its number, and a note the traceback from where it was drawn."""
+    """A frame could not be drawn; the message gives its number, and a note the traceback from the drawing process."""
 
 
 @dataclass(frozen=True)
 class Film(Generic[T]):
-    """A moving picture: drawn in parallel, resumed where it was interrupted, written in any format.
+    """A film: drawn in parallel, resumed after interruptions, written in several formats.
 
     Parameters
     ----------
     draw : callable
-        shot → `Page`, or pixels, (h, w, 3) uint8; all of one extent or size. Frames are drawn in other processes, so it
-        is a function of a module, an instance of a class of a module, or a `functools.partial` of one.
+        Function of a shot that returns a `Page`, or pixels (h, w, 3) uint8, all of the same extent or size. Frames are
+        drawn in other processes, so it must be picklable: a module-level function, an instance of a module-level class,
+        or a `functools.partial` of one.
     shots : sequence
-        What each frame shows: the arguments of `draw`, which can be pickled too. Equal shots are drawn once; repeat one
-        to hold it.
+        Argument of `draw` for each frame, also picklable. Equal shots are drawn once; repeat a shot to hold it.
     fps : float, optional
-        Frames a second; by default 25.
+        Frames per second; by default 25.
     seconds : float or sequence of float, optional
-        How long every frame, or each of them, is shown; in place of `fps`.
+        Duration of all frames, or of each, in seconds; instead of `fps`.
     size : int
-        Width in pixels; the height is that of the pages. Pixels keep the size that they have.
+        Width in pixels; the height follows from the pages. Frames that are already pixels keep their size.
     text : bool
-        Whether labels are drawn.
+        Whether to draw labels.
     platform : {"osmesa", "egl"}, optional
         See `stereodel.render.gl`.
     title : str
-        What it shows, in a line; the file says it to players and to those who search.
+        Title in one line, stored in the file for players and search.
 
     Raises
     ------
     ValueError
-        For no shots or more than `MOST_FRAMES`, for `fps` and `seconds` at once, for times that are not positive or not
-        as many as the shots, or for a `size` outside 1 to 65535.
+        If there are no shots or more than `MOST_FRAMES`, both `fps` and `seconds` are given, a duration is not
+        positive, their number differs from that of the shots, or `size` is outside 1 to 65535.
 
     Examples
     --------
@@ -112,7 +112,7 @@ class Film(Generic[T]):
         if self.fps is not None and self.seconds is not None:
             raise ValueError("fps and seconds both say how long a frame is shown; give one of them")
         as_count(self.size, "size", high=LARGEST_SIZE)
-        _ = self.times  # refuses what is wrong with them
+        _ = self.times  # checks them
 
     @classmethod
     def of_globe(
@@ -133,28 +133,27 @@ class Film(Generic[T]):
         globe : Globe
         motion : Flight, Spin, Morph, or any object with `seconds` that maps a time to (lens, view)
         size : (int, int)
-            Width and height in pixels, at most `MOST_FRAME_PIXELS` of them; the globe is as large as they allow, in the
-            middle. Lines and type have the same size in pixels on all globes 720 pixels across or larger; below, it
-            goes with the root of the size.
+            Width and height in pixels, with a product of at most `MOST_FRAME_PIXELS`; the globe is centred and as large
+            as they allow. Line widths and type have a fixed size in pixels on globes 720 pixels across or larger; on
+            smaller globes they scale with the square root of the size.
         fps : float
-            Frames a second.
+            Frames per second.
         text : bool
-            Whether labels are drawn.
+            Whether to draw labels.
         background : color
-            Behind the globe.
+            Colour behind the globe.
         title : str
             As for `Film`; by default that of the globe, which is written above it.
 
         Returns
         -------
         Film
-            Frame k shows the motion at the time k / fps, the last one before or at its end.
+            Film whose frame k shows the motion at time k / fps; the last frame is at or before the end.
 
         Raises
         ------
         ValueError
-            For a size that is not positive or too large, or a motion or `fps` that gives no frame or more than
-            `MOST_FRAMES`.
+            If `size` is not positive or too large, or the motion and `fps` give no frames or more than `MOST_FRAMES`.
 
         Examples
         --------
@@ -181,13 +180,13 @@ class Film(Generic[T]):
         seconds: float | Sequence[float] | None = None,
         title: str = "",
     ) -> Film[Pixels]:
-        """A film of pictures that there are already.
+        """A film of existing pictures.
 
         Parameters
         ----------
         pictures : sequence of (h, w, 3) uint8 arrays
-            sRGB, rows from the top, all of one size. Anything with a length and items by number will do: one picture
-            after the other is asked for (for a GIF some of them twice), and none is kept.
+            sRGB, rows from the top, all of one size. Any object with a length and indexing will do: pictures are read
+            in order (for a GIF, some of them twice), and none is kept.
         fps, seconds, title
             As for `Film`.
 
@@ -209,7 +208,7 @@ class Film(Generic[T]):
 
     @property
     def times(self) -> FloatArray:
-        """How long each frame is shown, (n,), seconds."""
+        """Duration of each frame in seconds, (n,)."""
         if self.seconds is not None:
             return frame_seconds(self.seconds, len(self))
         rate = FPS if self.fps is None else as_scalar(self.fps, "fps", low=0.0, open_low=True)
@@ -217,21 +216,21 @@ class Film(Generic[T]):
 
     @property
     def duration(self) -> float:
-        """How long it takes to see it, seconds."""
+        """Total duration in seconds."""
         return float(self.times.sum())
 
     def styled(self, *styles: str) -> Film[T]:
-        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must give pages.
+        """The same film in other styles, see `stereodel.drawing.styled`; `draw` must return pages.
 
         Raises
         ------
         ValueError
-            For styles that there are not, and for a column and a slide at once.
+            If a style does not exist, or column and slide are combined.
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
     def page(self, number: int) -> Page:
-        """One frame as a page; a TypeError where `draw` gives pixels."""
+        """One frame as a page; TypeError if `draw` returns pixels."""
         drawn = self.draw(self.shots[number])
         if not isinstance(drawn, Page):
             raise TypeError(f"draw gives {type(drawn).__name__}, not a Page; picture({number}) is the frame as pixels")
@@ -248,18 +247,19 @@ class Film(Generic[T]):
     def save(self, path: str | os.PathLike[str], *, jobs: int | None = None, progress: bool = True) -> Path:
         """Draw the frames and write the file.
 
-        Finished frames are kept in the folder PATH.frames beside the file until that is complete. After an
-        interruption the same call goes on where it was and gives the same file. Frames that a changed film, library or
-        function does not fit are drawn anew; of functions outside the library, their own module alone is looked at.
+        Finished frames are kept in the folder PATH.frames next to the file until the file is complete. After an
+        interruption the same call resumes and produces the same file. Frames are redrawn if the film, the library or
+        `draw` has changed; for functions outside the library, only changes of their own module are noticed.
 
         Parameters
         ----------
         path : path-like
-            Its ending decides: .gif, .png or .apng, .webp, .mp4. An existing file is replaced when all is done.
+            File to write; the extension gives the format: .gif, .png or .apng, .webp, .mp4. An existing file is
+            replaced at the end.
         jobs : int, optional
-            Processes that draw at once; by default one for each core. The file does not depend on it.
+            Number of drawing processes; by default one for each core. Does not affect the file.
         progress : bool
-            Whether to tell on the standard error stream what is being done: a bar on a terminal, lines elsewhere.
+            Whether to report progress on standard error: a bar on a terminal, lines elsewhere.
 
         Returns
         -------
@@ -269,25 +269,24 @@ class Film(Generic[T]):
         Raises
         ------
         stereodel.film.FrameError
-            If a frame cannot be drawn, with its number.
+            If a frame cannot be drawn; the message gives its number.
         ValueError, TypeError, ImportError
-            Before anything is drawn: if the ending is another one, the format cannot hold the frames, `draw` or a shot
-            cannot be pickled, or the library that encodes is missing, which comes with
-            ``pip install 'stereodel[film]'``.
+            Before anything is drawn: if the extension is unknown, the format cannot hold the frames, `draw` or a shot
+            cannot be pickled, or the encoding library is missing (``pip install 'stereodel[film]'``).
         OSError
             If the file or the folder cannot be written.
 
         Notes
         -----
-        A GIF has 255 colours, chosen at moments spread over the whole film, and keeps times in hundredths of a second,
-        a WebP in thousandths: the sum of the first n times is the best there is for every n. An APNG is lossless; WebP
-        and MP4 are not. An MP4 has an even number of rows and columns: the last one is repeated where a picture's is
-        odd.
+        A GIF has 255 colours, chosen from moments spread over the whole film. It stores durations in hundredths of a
+        second, the other formats in thousandths; they are rounded such that the start of every frame is as accurate as
+        possible. An APNG is lossless; WebP and MP4 are not. An MP4 has an even number of rows and columns: the last one
+        is repeated if a picture's number is odd.
         """
         refuse_in_import()
         target, times = Path(path), self.times
         kind = format_of(target)
-        if self.draw is _as_it_is:  # there already: neither drawn nor kept
+        if self.draw is _as_it_is:  # existing pictures are neither drawn nor stored
             kind.check(target.name, self.picture(0).shape[:2], times)
             with replacing(target) as temporary, counting("writing", len(self), shown=progress) as count:
                 kind.write(_Counted(cast(Reel, self.shots), count), temporary, times, self.title)
@@ -314,16 +313,16 @@ class Film(Generic[T]):
         return target
 
     def _drawn(self, tasks: Sequence[tuple[T, Path]], processes: int) -> Iterator[tuple[int, Done]]:
-        """Store the frames of shots; the number of each task and what became of it, as they are done."""
+        """Store the frames of shots; yields the number and outcome of each task as it finishes."""
         if min(processes, len(tasks)) <= 1:
             return ((number, attempt(self._camera, task)) for number, task in enumerate(tasks))
         return in_processes(self._camera, tasks, jobs=processes, lifetime=LIFETIME)
 
     def main(self, argv: Sequence[str] | None = None) -> None:
-        """Run as a script: write a GIF with the script's name, say where; what goes wrong becomes a message.
+        """Run as a script: write a GIF named after the script and report its path; errors become messages.
 
-        The script is the file that defines `draw`. Its options are the folder to write to, by default ``out`` beside
-        the script's own, the width, and whether labels are drawn.
+        The script is the file that defines `draw`. Its options are the output folder, by default ``out`` next to the
+        script's folder, the width, and whether to draw labels.
         """
         draw = self.draw.func if isinstance(self.draw, partial) else self.draw
         script = _Script(self, Path(inspect.getfile(draw)).stem)
@@ -332,7 +331,7 @@ class Film(Generic[T]):
 
 @dataclass(frozen=True)
 class _Camera(Generic[T]):
-    """What draws a frame, in whichever process."""
+    """Draws frames, in any process."""
 
     draw: Callable[[T], Page | Pixels]
     size: int
@@ -343,7 +342,7 @@ class _Camera(Generic[T]):
         return self._pixels(self.draw(shot))
 
     def __call__(self, task: tuple[T, Path]) -> frozenset[str]:
-        """Store the frame of a shot; gives the characters on it that no font has, of which a film tells once."""
+        """Store the frame of a shot; returns its characters that no font has, which a film reports once."""
         shot, path = task
         drawn = self.draw(shot)
         with warnings.catch_warnings():
@@ -360,7 +359,7 @@ class _Camera(Generic[T]):
 
 @dataclass(frozen=True, eq=False)
 class _Tasks(Sequence[Any]):
-    """What is drawn, and where it is kept: made when it is asked for, as shots may be."""
+    """Shots with the paths of their frames, created on access, as shots may be."""
 
     shots: Sequence[Any]
     kept: KeptFrames
@@ -376,17 +375,17 @@ class _Tasks(Sequence[Any]):
 
 @dataclass(frozen=True)
 class _Script(Generic[T]):
-    """A film as what a script draws."""
+    """A film as the output of a script."""
 
     film: Film[T]
     name: str
 
     def styled(self, *styles: str) -> _Script[T]:
-        """The same script, whose film has other styles."""
+        """The same script with the film in other styles."""
         return replace(self, film=self.film.styled(*styles))
 
     def save(self, out: str | os.PathLike[str], *, size: int | None = None, text: bool = True) -> dict[str, Any]:
-        """Write NAME.gif into a folder, which is made when it is missing."""
+        """Write NAME.gif into a folder, which is created if it does not exist."""
         begun = time.perf_counter()
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
@@ -399,7 +398,7 @@ class _Script(Generic[T]):
 
 
 class _Counted:
-    """A reel that counts its frames as they are asked for in order."""
+    """A reel that counts its frames as they are read in order."""
 
     def __init__(self, reel: Reel, count: Callable[[], Any]) -> None:
         self._reel, self._count, self._next = reel, count, 0

@@ -1,6 +1,6 @@
-"""Finished frames as lossless files in a folder, from which an interrupted film goes on.
+"""Finished frames as lossless files in a folder, from which an interrupted film resumes.
 
-The name of a file is a digest of everything that its frame depends on, so that it is taken only where it fits.
+The name of a file is a digest of everything that its frame depends on, so it is reused only where it is valid.
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ from stereodel._files import replacing
 from stereodel.render.provenance import library_digest
 
 OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")
-"""Names of frames, and of frames that a process which was ended had begun."""
+"""Names of frames, and of unfinished frames left by terminated processes."""
 
 
 @dataclass(frozen=True)
 class KeptFrames:
-    """The folder of a film's frames, a PNG each.
+    """The folder of a film's frames, one PNG each.
 
     Parameters
     ----------
     folder : Path
-        Beside the film.
+        Folder next to the film.
     names : sequence of str
-        The name of each frame's file: a digest of all that the frame depends on, so that frames that look alike share
-        one, and a frame of another film is never taken for one of this.
+        File name of each frame, a digest of all that the frame depends on, so that equal frames share a file and frames
+        of another film are never reused.
     """
 
     folder: Path
@@ -46,7 +46,7 @@ class KeptFrames:
 
     @classmethod
     def beside(cls, film: Path, names: Sequence[str]) -> KeptFrames:
-        """In the folder FILM.frames, made when it is missing; an OSError where that is not possible."""
+        """Frames in the folder FILM.frames, which is created if needed; OSError if that fails."""
         if film.is_dir():
             raise IsADirectoryError(f"{film} is a folder; give the name of a file")
         folder = film.with_name(f"{film.name}.frames")
@@ -58,7 +58,7 @@ class KeptFrames:
         return self.folder / f"{self.names[number]}.png"
 
     def missing(self) -> list[int]:
-        """Numbers of the frames to draw, of frames that look alike the first."""
+        """Indices of the frames to draw, without repeats of equal frames."""
         numbers = {name: number for number, name in reversed(list(enumerate(self.names)))}
         return sorted(number for number in numbers.values() if not self.path(number).is_file())
 
@@ -75,7 +75,7 @@ class KeptFrames:
             raise OSError(f"{self.path(number)} cannot be read ({error}); remove it and try again") from error
 
     def remove(self) -> None:
-        """Remove all frames, those of other films of the same name too, and the folder if nothing else is in it."""
+        """Remove all frames, including those of other films of this name, and the folder if it is then empty."""
         for path in self.folder.iterdir():
             if OURS.fullmatch(path.name):
                 path.unlink()
@@ -84,7 +84,7 @@ class KeptFrames:
 
 
 def store_frame(picture: Pixels, path: str | os.PathLike[str]) -> None:
-    """Write a picture without loss, quickly rather than small; whole or not at all."""
+    """Write a picture losslessly and atomically, fast rather than small."""
     with of_extra("film"):
         import imageio.v3 as iio
 
@@ -93,19 +93,20 @@ def store_frame(picture: Pixels, path: str | os.PathLike[str]) -> None:
 
 
 def frame_names(drawing: Any, shots: Iterable[Any]) -> list[str]:
-    """A name for each shot: equal ones for equal shots drawn alike by the same versions of the same code.
+    """A name for each shot, the same for equal shots drawn by the same versions of the same code.
 
     Parameters
     ----------
     drawing : object
-        What draws the frames. Of code outside the library count the files of the modules that its pickle names.
+        The object that draws the frames. Code outside the library is identified by the files of the modules in its
+        pickle.
     shots : iterable
-        What each frame shows.
+        The argument for each frame.
 
     Raises
     ------
     TypeError
-        When something cannot be pickled, a local function for instance.
+        If something cannot be pickled, such as a local function.
     """
     pickled = _pickled(drawing, "draw")
     common = hashlib.sha256(library_digest() + pickled)

@@ -1,13 +1,13 @@
-"""Tasks done in several processes at once, on `concurrent.futures`.
+"""Parallel tasks in processes, on `concurrent.futures`.
 
-The processes are spawned and not forked, because OpenGL contexts do not survive a fork. Each place has an executor of
-one process, so that when a process dies it is known with which task, and the others go on. Three things are as a
-command wants them, and not as executors have them by themselves:
+Processes are spawned, not forked, because OpenGL contexts do not survive a fork. Each place has an executor with one
+process, so that when a process dies its task is known and the others continue. Three things differ from the default
+behaviour of executors:
 
-* Processes do not import the program's main script unless what they do is defined there: a film of the library's own
-  objects needs no guard around the call that makes it.
-* Ctrl-C is for the process that started them, which then ends them whatever they do; an executor would wait.
-* They end when the process that started them does, killed or not; an executor's would wait for tasks for ever.
+* Processes import the program's main script only if their work is defined there, so a film of the library's
+  own objects needs no guard around the call that makes it.
+* Ctrl-C goes to the process that started them, which terminates them at once; an executor would wait.
+* They end when the process that started them ends, even if killed; an executor's would wait for tasks forever.
 """
 
 from __future__ import annotations
@@ -37,16 +37,16 @@ MainScript = tuple[Literal["module", "path"], str]
 
 @dataclass(frozen=True)
 class Done:
-    """What became of a task.
+    """Outcome of a task.
 
     Parameters
     ----------
     result : object
-        What the work returned; None after an error.
+        The return value; None after an error.
     error : str
-        One line that says what went wrong; empty when nothing did. Text, because not every exception can be sent.
+        Error message in one line; empty on success. It is text because not every exception can be pickled.
     trace : str
-        The traceback of the error, where there is one.
+        Traceback of the error, if any.
     """
 
     result: Any = None
@@ -55,7 +55,7 @@ class Done:
 
 
 def attempt(work: Work, task: Any) -> Done:
-    """Do a task in this process."""
+    """Run a task in this process."""
     try:
         return Done(work(task))
     except Exception as error:
@@ -65,20 +65,20 @@ def attempt(work: Work, task: Any) -> Done:
 def in_processes(
     work: Work, tasks: Sequence[Any], *, jobs: int, lifetime: int | None = None
 ) -> Iterator[tuple[int, Done]]:
-    """Do tasks in other processes; give the number of each, and what became of it, as they are done.
+    """Run tasks in other processes; yields the number and outcome of each as it finishes.
 
-    When the iterator is closed or the program interrupted, all processes are ended at once.
+    When the iterator is closed or the program interrupted, all processes are terminated at once.
 
     Parameters
     ----------
     work : callable
-        task → result; pickled once for each process.
+        Function of a task that returns its result; pickled once for each process.
     tasks : sequence
-        Gone through twice, and none is kept: they may be made when they are asked for.
+        Iterated twice without keeping any item, so tasks may be created on access.
     jobs : int
-        Processes at once.
+        Number of processes.
     lifetime : int, optional
-        Tasks that a process does before another takes its place.
+        Number of tasks after which a process is replaced.
 
     Raises
     ------
@@ -96,7 +96,7 @@ def in_processes(
             for future in wait(running, return_when=FIRST_COMPLETED).done:
                 number, place = running.pop(future)
                 done = place.outcome(future)
-                for next_number, task in waiting:  # the next one, if there is one, before anybody waits
+                for next_number, task in waiting:  # submit the next task, if any, before waiting
                     running[place.submit(task)] = next_number, place
                     break
                 yield number, done
@@ -106,7 +106,7 @@ def in_processes(
 
 
 class _Place:
-    """Where one process after another does one task after another."""
+    """A slot in which successive processes run tasks one at a time."""
 
     def __init__(self, orders: bytes, lifetime: int | None) -> None:
         self._orders, self._lifetime, self._done = orders, lifetime, 0
@@ -117,7 +117,7 @@ class _Place:
         self._executor = ProcessPoolExecutor(1, self._context, initializer=_prepare, initargs=(self._orders,))
 
     def submit(self, task: bytes) -> Future[Done]:
-        """Have a task done, by a new process where the last one has done its share or is dead."""
+        """Submit a task, to a new process if the last one has reached its lifetime or died."""
         if self._done == self._lifetime:
             self.end()
             self._start()
@@ -126,7 +126,7 @@ class _Place:
         return self._executor.submit(_do, task)
 
     def outcome(self, future: Future[Done]) -> Done:
-        """What became of a task that ended, one way or the other."""
+        """Outcome of a finished task."""
         try:
             return future.result()
         except BrokenProcessPool:
@@ -139,19 +139,19 @@ class _Place:
             return Done(error=f"its process ended with code {codes[-1]}")
 
     def end(self) -> None:
-        """End the process, whatever it does."""
+        """Terminate the process."""
         for process in self._context.started:
             process.kill()
         self._executor.shutdown(cancel_futures=True)
 
 
 class _Process(SpawnProcess):
-    """A process that does not import the main script of the one that starts it."""
+    """A process that does not import the main script of its parent."""
 
     starting = threading.Lock()
 
     def start(self) -> None:
-        """Start it, while the main module does not say where it comes from."""
+        """Start the process while the origin of the main module is hidden."""
         with self.starting:
             main = vars(sys.modules["__main__"])
             told: dict[str, Any] = {name: main.pop(name) for name in ("__spec__", "__file__") if name in main}
@@ -163,23 +163,23 @@ class _Process(SpawnProcess):
 
 
 class _Context(SpawnContext):
-    """Makes processes and remembers them."""
+    """A context that keeps the processes it creates."""
 
     def __init__(self) -> None:
         self.started: list[_Process] = []
 
     def Process(self, *args: Any, **kwargs: Any) -> _Process:  # type: ignore[override]
-        """A new one, as executors ask for it."""
+        """A new process for an executor."""
         process = _Process(*args, **kwargs)
         self.started.append(process)
         return process
 
 
-# What happens in the process that asks
+# In the parent process
 
 
 def _orders(work: Work, tasks: Iterable[bytes]) -> bytes:
-    """What a process must know before its first task."""
+    """Initialisation data for a process, as bytes."""
     pickled = pickle.dumps(work)
     # A function or class of the main script is pickled under this name.
     main_script = None
@@ -194,7 +194,7 @@ def _orders(work: Work, tasks: Iterable[bytes]) -> bytes:
 
 
 def main_script_here() -> MainScript | None:
-    """How to import the main script elsewhere; None in interactive sessions, and where a program runs it as text."""
+    """How to import the main script elsewhere; None in interactive sessions, or if a program runs it as text."""
     script = sys.modules["__main__"]
     if script.__spec__ is not None and script.__spec__.name != "__main__":
         return "module", script.__spec__.name
@@ -203,7 +203,7 @@ def main_script_here() -> MainScript | None:
 
 
 def refuse_in_import() -> None:
-    """A RuntimeError while a process imports the main script: it would start others, which would start others."""
+    """Raise RuntimeError while a process imports the main script, as it would start processes recursively."""
     if _importing_main:
         raise RuntimeError(
             "the main script makes a film while a process that draws frames imports it; "
@@ -211,20 +211,20 @@ def refuse_in_import() -> None:
         )
 
 
-# What happens in the process that is asked
+# In the child process
 
 _importing_main = False
 _work: Work | Done = Done(error="nothing was ordered")
-"""What this process does, or why it cannot do it: what an executor's process knows, it knows by its module."""
+"""The work of this process, or the error that prevents it; an executor's process keeps its state in the module."""
 
 
 def _prepare(orders: bytes) -> None:
-    """Take orders; what goes wrong is the answer to each task."""
+    """Initialise the process; an error becomes the outcome of each task."""
     global _work
-    # Ctrl-C reaches all processes of a terminal, but the one that started this one decides what it means.
+    # Ctrl-C reaches all processes of a terminal, but only the parent handles it.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    # A thread of llvmpipe for each core would be as many threads too many as there are other processes.
+    # llvmpipe would start a thread for each core in every process, which is too many.
     os.environ.setdefault("LP_NUM_THREADS", "1")
     try:
         main_script, pickled = pickle.loads(orders)
@@ -250,7 +250,7 @@ def _end_with_parent() -> None:
 
 
 def _import_main(script: MainScript) -> None:
-    """Make what the main script defines known under the names that pickles have for it, as multiprocessing does."""
+    """Import the main script under the module names that pickles use for it, as multiprocessing does."""
     global _importing_main
     main = types.ModuleType("__mp_main__")
     sys.modules["__main__"] = sys.modules["__mp_main__"] = main

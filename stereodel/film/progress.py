@@ -1,4 +1,4 @@
-"""What is said while a film is made: a bar on a terminal, a line now and then elsewhere."""
+"""Progress of a film: a bar on a terminal, occasional lines elsewhere."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ PAUSE: Final = 10.0
 
 @contextmanager
 def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], None]]:
-    """A function that counts one more of `total` steps done, and tells on the standard error stream.
+    """A context with a function that counts one more of `total` steps and reports on standard error.
 
     Parameters
     ----------
     what : str
-        What is done, "drawing" for instance.
+        Name of the activity, such as "drawing".
     total : int
-        The number of steps.
+        Number of steps.
     shown : bool
-        Whether anything is said.
+        Whether to report anything.
     """
     if not shown or total == 0:
         yield lambda: None
@@ -56,7 +56,7 @@ def _bar(what: str, total: int) -> Iterator[Callable[[], None]]:
 
 
 class _Lines:
-    """Counts steps and prints a line now and then, and at the end."""
+    """Counts steps and prints occasional lines, and one at the end."""
 
     def __init__(self, what: str, total: int) -> None:
         self.what, self.total, self.done = what, total, 0

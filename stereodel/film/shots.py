@@ -1,10 +1,10 @@
-"""What the frames of a film of a globe show: flights from focus to focus, globes that turn, paths from lens to lens.
+"""Motions of films of a globe: flights between foci, rotations, paths between lenses.
 
-A motion is a function of time; a shot is what it shows at one.
+A motion is a function of time, whose values are shots.
 
 A flight's lens follows the shortest way in hyperbolic space (`stereodel.conformal.flight`): it shrinks no more than the
-distance asks for. The view follows a like way of its own, on which every stop lies farther out, as if it were magnified
-`WIDE` times more: where nothing is magnified a lens has no focus, but the view must come from somewhere.
+distance requires. The view follows a similar path of its own, on which every stop lies farther out, as if it were
+magnified `WIDE` times more, because a lens that magnifies nothing has no focus, but the view needs a centre.
 """
 
 from __future__ import annotations
@@ -28,39 +28,39 @@ from stereodel.globe.globe import Globe
 from stereodel.sphere import angular_distance, lonlat_to_xyz, xyz_to_lonlat
 
 Shot = tuple[MoebiusMap, MapView]
-"""What a frame shows of a globe: the lens and the view."""
+"""The lens and the view of a frame."""
 
 WIDE: Final = 2.0
-"""By how much more the view's path magnifies than the lens's."""
+"""Magnification of the view's path relative to the lens's."""
 
 PACE: Final = 1.0
-"""Seconds for magnifying e times on the spot."""
+"""Seconds for magnifying e times in place."""
 
 TURN: Final = 2.0
-"""What a turn of the globe by 1 rad takes, in times of magnifying e times.
+"""Time for turning the globe by 1 rad, relative to that for magnifying e times.
 
-At constant hyperbolic speed a flight would spend its time on the zoom, and the globe would whirl round in between.
+At constant hyperbolic speed a flight would spend its time on the zoom, and the globe would spin too fast in between.
 """
 
 STEPS: Final = 256
-"""Parts of a leg in which its speed is measured."""
+"""Number of parts of a leg in which its speed is measured."""
 
 POINTS_PER_PIXEL: Final = 0.375
-"""Of a page of a film whose globe is `FULL` pixels across or more: a line of 1 pt is 2⅔ of them wide."""
+"""Width in points of a page whose globe is `FULL` pixels across or more: a line of 1 pt is 2⅔ pixels wide."""
 
 FULL: Final = 720
-"""Pixels across from which on lines and type keep their size in pixels; below, it goes with the root of the size."""
+"""Diameter in pixels above which line widths and type have a fixed size; below, it scales with the square root."""
 
 FINE: Final = 0.2
-"""How far what is drawn may be from what it stands for, pixels."""
+"""Largest deviation of the drawing from the exact image, in pixels."""
 
 
 class Motion(Protocol):
-    """What a film of a globe shows, from 0 to `seconds`."""
+    """Interface of motions: shots from time 0 to `seconds`."""
 
     @property
     def seconds(self) -> float:
-        """How long it takes."""
+        """Duration."""
 
     def __call__(self, time: float) -> Shot:
         """Lens and view at a time."""
@@ -68,12 +68,12 @@ class Motion(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Samples(Sequence[Shot]):
-    """What a motion shows at the times k / `rate`, each looked up when it is asked for.
+    """Shots of a motion at the times k / `rate`, evaluated on access.
 
     Raises
     ------
     ValueError
-        Where the motion is too short for one frame, or has more than `MOST_FRAMES`.
+        If the motion is too short for one frame, or has more than `MOST_FRAMES`.
     """
 
     motion: Motion
@@ -98,7 +98,7 @@ class Samples(Sequence[Shot]):
     @overload
     def __getitem__(self, number: slice) -> list[Shot]: ...
     def __getitem__(self, number: int | slice) -> Shot | list[Shot]:
-        """One of them, or those of a slice."""
+        """One shot, or those of a slice."""
         if isinstance(number, slice):
             return [self[k] for k in range(len(self))[number]]
         return self.motion(range(len(self))[number] / self.rate)
@@ -127,21 +127,21 @@ class GlobePages:
 
 @dataclass(frozen=True)
 class Stop:
-    """A place on a flight.
+    """A stop of a flight.
 
     Parameters
     ----------
     focus : (float, float)
-        Longitude and latitude, degrees: what is magnified and in the middle.
+        Longitude and latitude in degrees of the focus, which is at the centre.
     magnification : float
-        S ≥ 1 of the fisheye there; 1 is the globe as it is.
+        Magnification S ≥ 1 of the fisheye; 1 leaves the globe unchanged.
     hold : float
-        Seconds to stay.
+        Duration of the stop in seconds.
 
     Raises
     ------
     ValueError
-        For a magnification below 1 or not finite, a latitude outside [−90, 90], or a negative time.
+        If the magnification is below 1 or not finite, the latitude outside [−90, 90], or the duration negative.
     """
 
     focus: tuple[float, float]
@@ -161,19 +161,19 @@ class Stop:
 
 @dataclass(frozen=True)
 class Flight:
-    """A flight from stop to stop: the lens lets go, the globe turns, the lens takes hold of the next place.
+    """A flight from stop to stop: the lens weakens, the globe turns, and the lens magnifies the next place.
 
     Parameters
     ----------
     stops : sequence of Stop
-        Two or more; neighbours are not opposite on the globe. North is up at each.
+        Two or more; consecutive stops must not be antipodal. North is up at each.
     pace : float
-        Seconds for magnifying e times on the spot; a turn of the globe by 1 rad takes twice as long.
+        Seconds for magnifying e times in place; turning the globe by 1 rad takes twice as long.
 
     Raises
     ------
     ValueError
-        For fewer than two stops, neighbours opposite each other, or a pace that is not positive.
+        If there are fewer than two stops, consecutive stops are antipodal, or the pace is not positive.
 
     Examples
     --------
@@ -198,16 +198,16 @@ class Flight:
         for number, (one, other) in enumerate(zip(self.stops, self.stops[1:], strict=False)):
             if _opposite(one.focus, other.focus):
                 raise ValueError(
-                    f"stops[{number + 1}] is opposite stops[{number}], and no way is the shortest; put a stop between"
+                    f"stops[{number + 1}] is opposite stops[{number}], so no way is the shortest; add a stop between"
                 )
 
     @property
     def seconds(self) -> float:
-        """How long it takes, with the time at the stops."""
+        """Duration, including the stops."""
         return sum(stop.hold for stop in self.stops) + sum(leg.seconds for leg in self._legs)
 
     def __call__(self, time: float) -> Shot:
-        """Lens and view at a time; before 0 and after the end those of the first and the last stop."""
+        """Lens and view at a time; before 0 and after the end, those of the first and last stop."""
         left = max(as_scalar(time, "time") - self.stops[0].hold, 0.0)
         for leg, stop in zip(self._legs, self.stops[1:], strict=True):
             if left < leg.seconds:
@@ -224,7 +224,7 @@ class Flight:
 
 
 class _Leg:
-    """From one stop to the next."""
+    """The leg from one stop to the next."""
 
     def __init__(self, start: Stop, end: Stop, pace: float) -> None:
         self._start, self._end = start, end
@@ -242,7 +242,7 @@ class _Leg:
         return self._lens(t), self._view(t)
 
     def _measured(self) -> FloatArray:
-        """How far the eye has travelled at each of the times."""
+        """Distance travelled up to each of the times."""
         places = self._middles(self._times)
         sizes = np.linalg.norm(places, axis=1)
         zoom = np.diff(np.arcsinh(sizes))
@@ -251,10 +251,10 @@ class _Leg:
         return way
 
     def _middles(self, t: FloatArray) -> FloatArray:
-        """The middle of the view at times (n,) times sinh η, (n, 3), η the distance of the view's path from no lens.
+        """Centres (n, 3) of the view at times (n,) times sinh η, η the distance of the view's path from the identity.
 
-        A point of the hyperboloid has the parts sinh η · f and cosh η; the geodesic divides them in the ratio of
-        sinh (1 − t) d and sinh t d.
+        A point of the hyperboloid has the components sinh η · f and cosh η; along a geodesic of length d they are
+        combined with weights proportional to sinh (1 − t) d and sinh t d.
         """
         stops = (self._start, self._end)
         start, end = (np.sinh(np.log(WIDE * stop.magnification)) * lonlat_to_xyz(stop.focus) for stop in stops)
@@ -265,7 +265,7 @@ class _Leg:
         return middles
 
     def _view(self, t: float) -> View:
-        """From above the middle; up turns evenly against the great circle from stop to stop, from north to north."""
+        """View from above the centre; up turns uniformly relative to the great circle between the stops."""
         if t in {0.0, 1.0}:
             return View(*(self._end if t else self._start).focus)
         middle = self._middles(np.array([t]))[0]
@@ -277,14 +277,14 @@ class _Leg:
         normal /= np.linalg.norm(normal)
         before, now, after = (_north(place, normal) for place in (self._start.focus, (lon, lat), self._end.focus))
         share = float(angular_distance(start, middle) / angular_distance(start, end))
-        # Where up is to be, counterclockwise from north: the picture is turned by as much the other way.
+        # Up direction, counterclockwise from north: the picture is rotated the other way.
         up = before + share * _half_turns(after - before) - now
         return View(lon, lat, _half_turns(-up))
 
 
 @dataclass(frozen=True)
 class Spin:
-    """A globe that turns, and its lens with it.
+    """A rotating globe, whose lens rotates with it.
 
     Parameters
     ----------
@@ -295,7 +295,7 @@ class Spin:
     turns : float
         Eastward, as the Earth does; negative: westward.
     lon, lat : float
-        The point above which the view begins, degrees; it stays at its latitude.
+        Initial centre of the view in degrees; its latitude does not change.
 
     Examples
     --------
@@ -323,7 +323,7 @@ class Spin:
 
 @dataclass(frozen=True)
 class Morph:
-    """From one lens to another along a path in the group, seen from where one stands.
+    """A path from one lens to another in the Möbius group, with a fixed view.
 
     Parameters
     ----------
@@ -331,9 +331,9 @@ class Morph:
         See `stereodel.conformal.path_between`.
     view : View or StereographicView
     seconds : float
-        There, or there and back.
+        Duration, including the way back if there is one.
     back : bool
-        Whether it returns, so that the film can loop.
+        Whether the path is followed back, so that the film can loop.
 
     Examples
     --------
@@ -353,13 +353,13 @@ class Morph:
         as_scalar(self.seconds, "seconds", low=0.0, open_low=True)
 
     def __call__(self, time: float) -> Shot:
-        """Lens and view at a time; before 0 and after the end those of the ends."""
+        """Lens and view at a time; before 0 and after the end, those of the ends."""
         share = min(max(as_scalar(time, "time") / self.seconds, 0.0), 1.0)
         return self.path(eased(1.0 - abs(2.0 * share - 1.0) if self.back else share)), self.view
 
 
 def eased(share: float) -> float:
-    """From 0 to 1 in time with no jolt at either end: 3s² − 2s³.
+    """Easing from 0 to 1 with zero speed at both ends: 3s² − 2s³.
 
     Examples
     --------
@@ -370,14 +370,14 @@ def eased(share: float) -> float:
 
 
 def _north(lonlat: tuple[float, float], normal: FloatArray) -> float:
-    """Degrees counterclockwise from the direction of travel on the great circle about `normal` to north, at a point."""
+    """Angle in degrees, counterclockwise, from the direction of travel around `normal` to north, at a point."""
     right, up, toward = View(*lonlat).matrix
     ahead = np.cross(normal, toward)
     return 90.0 - math.degrees(math.atan2(float(ahead @ up), float(ahead @ right)))
 
 
 def _half_turns(angle: float) -> float:
-    """The same direction in [−180, 180), degrees."""
+    """The angle in [−180, 180), degrees."""
     return (angle + 180.0) % 360.0 - 180.0
 
 

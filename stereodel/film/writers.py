@@ -1,15 +1,15 @@
-"""Moving pictures as files, by the ending of the name: GIF, APNG, WebP or MP4, with one frame in memory at a time.
+"""Film files, by file extension: GIF, APNG, WebP or MP4, with one frame in memory at a time.
 
 GIF, APNG and MP4 are encoded by FFmpeg's libraries through PyAV, on which imageio's plugin ``pyav`` is built. Neither
-plugin of imageio serves: that one passes no options to an encoder (a rate factor of 5 and of 40 give the same MP4) and
-shows all frames equally long; ``ffmpeg``, which starts the program, does not look at its exit code, so that a full disk
-gives half a film and no error, and the program takes 165 MB, PyAV 104.
+plugin of imageio is sufficient: ``pyav`` passes no options to the encoder (rate factors of 5 and 40 give the same MP4)
+and gives all frames the same duration; ``ffmpeg``, which starts the program, ignores its exit code, so that a full disk
+yields half a film and no error. The program also takes 165 MB, PyAV 104 MB.
 
-WebP is written by Pillow, which holds what is encoded and one frame: FFmpeg's encoder gives files of the same size but
-loses how long the last frame is shown. Its writer of GIFs would hold all frames.
+WebP is written by Pillow, which holds the encoded data and one frame: FFmpeg's encoder gives files of the same size but
+loses the duration of the last frame. Pillow's GIF writer would hold all frames.
 
-The palette of a GIF is FFmpeg's. Medians refined by k-means, Pillow's best, are 3 to 5 dB farther from the frames of a
-softly lit globe (50.5 dB against 54.0, 62.4 against 65.9) in files 1 to 4 % larger.
+The palette of a GIF is FFmpeg's. Pillow's best, median cut refined by k-means, loses 3 to 5 dB of signal-to-noise ratio
+on a softly lit globe (50.5 dB against 54.0, 62.4 against 65.9), in files 1 to 4 % larger.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ from stereodel.render.xmp import xmp_title
 
 
 class Reel(Protocol):
-    """Pictures (h, w, 3) by number; a list is one, and so is a folder of files that are read when asked for."""
+    """Frames (h, w, 3) by number, such as a list, or a folder of image files read on access."""
 
     def __len__(self) -> int:
-        """How many there are."""
+        """Number of frames."""
 
     def __getitem__(self, number: int, /) -> Pixels:
-        """One of them."""
+        """The frame of this number."""
 
 
 Writer = Callable[[Reel, Path, FloatArray, str], None]
@@ -48,18 +48,18 @@ Writer = Callable[[Reel, Path, FloatArray, str], None]
 
 @dataclass(frozen=True)
 class Format:
-    """A file format: what writes it and what it cannot hold.
+    """A file format: its writer and its limits.
 
     Parameters
     ----------
     write : callable
-        (reel, path, seconds, title) writes the file.
+        Writes the file; called as ``write(reel, path, seconds, title)``.
     largest : int
-        Pixels that a side may have.
+        Largest width or height in pixels.
     shortest : float
-        Seconds that a frame is shown at least.
+        Shortest duration of a frame in seconds.
     library : str
-        The module of the extra ``film`` that encodes.
+        Module of the extra ``film`` that encodes.
     """
 
     write: Writer
@@ -68,7 +68,7 @@ class Format:
     library: str = "av"
 
     def check(self, name: str, sides: Sequence[int], seconds: FloatArray) -> None:
-        """A ValueError or ImportError if pictures of these sides, shown so long each, cannot be written to `name`."""
+        """Raise ValueError or ImportError if frames of these sides and durations cannot be written to `name`."""
         optional(self.library, "film")
         if max(sides) > self.largest:
             raise ValueError(f"size of {name} is {max(sides)} pixels, but the format has at most {self.largest}")
@@ -80,7 +80,7 @@ class Format:
 
 
 def format_of(path: str | os.PathLike[str]) -> Format:
-    """The format that the ending of a path asks for; a ValueError that lists the endings for another one."""
+    """The format for a path's extension; ValueError lists the supported extensions for any other."""
     ending = Path(path).suffix.lower()
     if ending not in FORMATS:
         raise ValueError(f"path must end in {', '.join(FORMATS)}, got {Path(path).name!r}")
@@ -88,7 +88,7 @@ def format_of(path: str | os.PathLike[str]) -> Format:
 
 
 def frames_of(reel: Reel) -> Iterator[Pixels]:
-    """All pictures in order, one in memory at a time; a ValueError where one has another size than the first."""
+    """All frames in order, one in memory at a time; ValueError if the size of one differs from the first."""
     shape: tuple[int, ...] = ()
     for number in range(len(reel)):
         picture = as_frame(reel[number], f"frame {number}")
@@ -102,12 +102,12 @@ def frames_of(reel: Reel) -> Iterator[Pixels]:
 
 
 def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
-    """How long each of `count` frames is shown, (count,), from one number for all or one for each.
+    """Durations of `count` frames in seconds, (count,), from one number for all or one for each.
 
     Raises
     ------
     ValueError
-        For another number of entries, or a time that is not positive.
+        If the number of entries is neither one nor `count`, or a duration is not positive.
 
     Examples
     --------
@@ -123,7 +123,7 @@ def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
 
 
 def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
-    """Times in whole ticks of a clock, so that the sum of the first n is the best there is for every n.
+    """Durations in whole clock ticks, such that the sum of the first n is rounded correctly for every n.
 
     Examples
     --------
@@ -137,26 +137,26 @@ def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
 # By FFmpeg's libraries
 
 PNG_HEAD: Final = 33
-"""Bytes of the head of a PNG: signature and IHDR."""
+"""Length of the head of a PNG in bytes: signature and IHDR."""
 
 SAMPLED: Final = 24
-"""Moments of which the palette of a GIF is made."""
+"""Number of moments from which the palette of a GIF is computed."""
 
 
 @dataclass(frozen=True)
 class _Encoder:
-    """What FFmpeg's libraries are told for a format.
+    """Settings of FFmpeg's libraries for a format.
 
     Parameters
     ----------
     container, codec, pixels : str
-        FFmpeg's names of the file format, the encoder, and how the encoder takes pixels.
+        FFmpeg's names of the file format, the encoder, and the encoder's pixel format.
     filters : sequence of (str, str)
-        What is done to a frame before: names of filters and their options.
+        Filters applied to each frame before encoding: their names and options.
     options, muxing : dict
         Options of the encoder and of the file format.
     threads : int
-        Of the encoder.
+        Number of the encoder's threads.
     """
 
     container: str
@@ -178,15 +178,15 @@ class _Encoder:
         palette: Any = None,
         title: str = "",
     ) -> None:
-        """Write pictures that are shown so many ticks each, of so many seconds; MP4 alone has a place for the title."""
+        """Write frames shown for `ticks` ticks of a clock each; only MP4 can store the title."""
         av = optional("av", "film")
         try:
             with av.open(str(path), "w", self.container, container_options=self.muxing | (muxing or {})) as file:
                 if title:
                     file.metadata["title"] = title
-                # The mean rate: what the encoder of MP4 spends on a frame depends on how long it is shown.
+                # The mean rate: how many bits the MP4 encoder spends on a frame depends on its duration.
                 stream = file.add_stream(self.codec, len(ticks) / (sum(ticks) * tick), self.options)
-                # Threads for frames: those for slices, which PyAV has by default, cost up to 7 % of the size.
+                # Frame threading: slice threading, PyAV's default, makes files up to 7 % larger.
                 stream.pix_fmt, stream.thread_count, stream.thread_type = self.pixels, self.threads, "FRAME"
                 stream.time_base = stream.codec_context.time_base = tick
                 chain, now = None, 0
@@ -207,21 +207,21 @@ class _Encoder:
 
 
 class _Chain:
-    """FFmpeg's filters one behind the other: frames in, frames out.
+    """A chain of FFmpeg's filters: frames in, frames out.
 
     Parameters
     ----------
     first : VideoFrame
-        A frame like those to come.
+        A frame of the same size and pixel format as those to come.
     filters : sequence of (str, str)
     palette : VideoFrame, optional
-        Second input of the last filter, as that of `palettegen`.
+        Second input of the last filter, the output of `palettegen`.
     """
 
     def __init__(self, first: Any, filters: Sequence[tuple[str, str]], palette: Any = None) -> None:
         av = optional("av", "film")
         self._ends = av.BlockingIOError, av.EOFError
-        self._graph = av.filter.Graph()  # to which the filters do not hold on
+        self._graph = av.filter.Graph()  # the filters hold no reference to it
         self._source = self._buffer(first)
         chain = [self._source, *(self._graph.add(name, options) for name, options in filters)]
         self._sink = self._graph.add("buffersink")
@@ -236,13 +236,13 @@ class _Chain:
             second.push(None)
 
     def _buffer(self, like: Any) -> Any:
-        """Where frames like one go in."""
+        """The source filter for frames like `like`."""
         return self._graph.add_buffer(
             width=like.width, height=like.height, format=like.format, time_base=like.time_base
         )
 
     def __call__(self, frame: Any) -> Iterator[Any]:
-        """Frames that come out when one is put in, or, at the end, None."""
+        """Frames that come out after `frame` goes in; None marks the end of the input."""
         self._source.push(frame)
         while True:
             try:
@@ -255,7 +255,7 @@ _GIF_ENCODER = _Encoder(
     "gif",
     "gif",
     "pal8",
-    # No dithering, so that still parts stay still: of each frame the rectangle that changed is stored.
+    # No dithering, so that still parts stay still: only the rectangle that changed is stored of each frame.
     filters=[("format", "bgra"), ("paletteuse", "dither=none:diff_mode=rectangle")],
     muxing={"loop": "0"},
 )
@@ -266,7 +266,7 @@ _MP4_ENCODER = _Encoder(
     "mp4",
     "libx264",
     "yuv420p",
-    # Matrix and range written out: left alone, FFmpeg takes those of standard television and players those of HD.
+    # Matrix and range are set explicitly: by default FFmpeg takes those of standard definition and players those of HD.
     filters=[
         ("scale", "out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact"),
         ("format", "yuv420p"),
@@ -289,7 +289,7 @@ _MP4_ENCODER = _Encoder(
 
 
 def write_gif(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
-    """Write frames as a GIF of 255 colours that loops for ever; times are kept in hundredths of a second."""
+    """Write frames as a GIF of 255 colours that loops forever; durations are rounded to hundredths of a second."""
     ticks = whole_ticks(seconds, 100)
     last = {"final_delay": str(ticks[-1])}
     _GIF_ENCODER.write(
@@ -300,30 +300,30 @@ def write_gif(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> N
 
 
 def _gif_comment(text: str) -> bytes:
-    """A text as a block of a GIF, in pieces of at most 255 bytes."""
+    """A comment block of a GIF, in pieces of at most 255 bytes."""
     data = text.encode()
     pieces = (data[first : first + 255] for first in range(0, len(data), 255))
     return b"\x21\xfe" + b"".join(bytes([len(piece)]) + piece for piece in pieces) + b"\0"
 
 
 def _gif_head(path: Path) -> int:
-    """Bytes of the head of a GIF: size, and the colours of all frames."""
+    """Length of the head of a GIF in bytes: size and global colour table."""
     with path.open("rb") as file:
         flags = file.read(11)[10]
     return 13 + (3 * 2 ** ((flags & 7) + 1) if flags & 128 else 0)
 
 
 def _insert(path: Path, place: int, data: bytes) -> None:
-    """Put bytes into a file."""
+    """Insert bytes into a file."""
     with path.open("rb") as file, replacing(path) as temporary, temporary.open("wb") as longer:
         longer.write(file.read(place) + data)
         shutil.copyfileobj(file, longer)
 
 
 def _shared_palette(reel: Reel, seconds: FloatArray) -> Any:
-    """255 colours that serve moments spread over the whole film, as a frame of FFmpeg's; the last one is see-through.
+    """255 colours chosen from moments spread over the whole film, as an FFmpeg frame; the last entry is transparent.
 
-    Moments, not frames: a picture that is shown for seconds has its colours, however many frames move before and after.
+    Moments rather than frames, so that a picture shown for seconds counts fully, however many short frames surround it.
     """
     av = optional("av", "film")
     chain = None
@@ -331,7 +331,7 @@ def _shared_palette(reel: Reel, seconds: FloatArray) -> Any:
         frame = av.VideoFrame.from_ndarray(as_frame(reel[number], f"frame {number}"), format="rgb24")
         frame.time_base, frame.pts = Fraction(1, 100), now
         chain = chain or _Chain(frame, [("palettegen", "stats_mode=full")])
-        list(chain(frame))  # nothing comes out before the end
+        list(chain(frame))  # nothing comes out before the input ends
     assert chain is not None
     (palette,) = chain(None)
     palette.time_base, palette.pts = Fraction(1, 100), 0
@@ -339,7 +339,7 @@ def _shared_palette(reel: Reel, seconds: FloatArray) -> Any:
 
 
 def _sampled_frames(seconds: FloatArray) -> list[int]:
-    """Numbers of all frames of a short film; of a long one those seen in the middles of equal parts, each once."""
+    """Indices of all frames of a short film; of a long one, those shown at the midpoints of equal parts, each once."""
     if len(seconds) <= SAMPLED:
         return list(range(len(seconds)))
     ends = np.cumsum(seconds)
@@ -348,7 +348,7 @@ def _sampled_frames(seconds: FloatArray) -> list[int]:
 
 
 def write_apng(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
-    """Write frames without loss as an APNG that loops for ever; times are kept in milliseconds."""
+    """Write frames losslessly as an APNG that loops forever; durations are rounded to milliseconds."""
     ticks = whole_ticks(seconds, 1000)
     last = {"final_delay": f"{ticks[-1]}/1000"}
     _APNG_ENCODER.write(frames_of(reel), path, ticks, Fraction(1, 1000), muxing=last)
@@ -357,10 +357,10 @@ def write_apng(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> 
 
 
 def write_mp4(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
-    """Write frames as H.264 in an MP4, which plays in every browser; rows and columns are made even in number."""
+    """Write frames as H.264 in an MP4, which plays in every browser; odd widths and heights are made even."""
     even = (_even(picture) for picture in frames_of(reel))
     if np.ptp(seconds):
-        # With frames that refer to later ones the film would end before the last one has had its time.
+        # With B-frames the film would end before the last frame has been shown for its full duration.
         encoder = replace(_MP4_ENCODER, options=_MP4_ENCODER.options | {"bf": "0"})
         encoder.write(even, path, whole_ticks(seconds, 1000), Fraction(1, 1000), title=title)
     else:
@@ -369,7 +369,7 @@ def write_mp4(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> N
 
 
 def _even(picture: Pixels) -> Pixels:
-    """The picture with its last row and column repeated where their number is odd: colours are kept for 2 by 2."""
+    """The picture, its last row or column repeated if their number is odd: chroma is stored for blocks of 2 by 2."""
     height, width = picture.shape[:2]
     return np.pad(picture, ((0, height % 2), (0, width % 2), (0, 0)), mode="edge")
 
@@ -377,11 +377,11 @@ def _even(picture: Pixels) -> Pixels:
 # By Pillow
 
 WEBP_QUALITY: Final = 90
-"""Of 100: thin coloured lines keep their colour."""
+"""WebP quality, of 100: high enough for thin coloured lines to keep their colour."""
 
 
 def write_webp(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> None:
-    """Write frames as an animated WebP that loops for ever; times are kept in milliseconds."""
+    """Write frames as an animated WebP that loops forever; durations are rounded to milliseconds."""
     with of_extra("film"):
         from PIL import Image
 
@@ -397,7 +397,7 @@ def write_webp(reel: Reel, path: Path, seconds: FloatArray, title: str = "") -> 
 
 
 def _one_at_a_time(reel: Reel) -> Any:
-    """A picture of many frames for Pillow, which asks for them in order and keeps none."""
+    """A multi-frame image for Pillow, which reads the frames in order and keeps none."""
     with of_extra("film"):
         from PIL import Image
 
@@ -410,17 +410,17 @@ def _one_at_a_time(reel: Reel) -> Any:
             self.seek(0)
 
         def seek(self, frame: int) -> None:
-            """Go to the next frame; those before it are gone, and Pillow's return to the first changes nothing."""
+            """Go to the next frame; earlier frames are gone, and Pillow's return to the first has no effect."""
             if frame > self._number:
                 shown = Image.fromarray(next(self._frames))
                 self.im, self._mode, self._size, self._number = shown.im, shown.mode, shown.size, frame
 
         def tell(self) -> int:
-            """The number of the frame that is shown."""
+            """Index of the current frame."""
             return self._number
 
         def load(self) -> Any:
-            """The pixels, which are there already."""
+            """The pixels, which are already in memory."""
             return self.im.pixel_access(self.readonly)
 
     return Frames()
@@ -429,7 +429,7 @@ def _one_at_a_time(reel: Reel) -> Any:
 _APNG: Final = Format(write_apng, 2**31 - 1, 0.001)
 
 FORMATS: Final = {
-    # Browsers show frames of less than 2/100 s five times as long.
+    # Browsers show frames shorter than 2/100 s five times as long.
     ".gif": Format(write_gif, 65535, 0.02),
     ".png": _APNG,
     ".apng": _APNG,

@@ -1,4 +1,4 @@
-"""Globes that bend: maps of the sphere in layers, through a conformal lens, as balls and flat maps; panoramas."""
+"""Globes: layered maps of the sphere through a conformal lens, as balls and flat maps; panoramas."""
 
 from stereodel.globe.globe import Globe
 from stereodel.globe.pages import Panel, hemispheres, panels

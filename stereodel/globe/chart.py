@@ -1,4 +1,4 @@
-"""Charts: how the sphere gets onto a page, through a lens and a view."""
+"""Charts: mapping the sphere to a page through a lens and a view."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ class Chart:
     lens : MoebiusMap
     view : MapView
     at : tuple of float
-        Page position of the middle of the disc.
+        Page coordinates of the centre of the disc.
     scale : float
         Radius of the disc in page units.
     tolerance : float
-        How far what is drawn may be from what it stands for, page units.
+        Largest deviation of the drawing from the exact image, in page units.
     unit : float
-        Points (1/72 inch) for a page unit: what is measured in points, line widths and type, is as large as that.
+        Points (1/72 inch) in a page unit, by which line widths and type sizes are scaled.
     """
 
     lens: MoebiusMap
@@ -56,37 +56,37 @@ class Chart:
 
     @property
     def rim(self) -> FloatArray:
-        """Points of the edge, counterclockwise, whose chords stray from it by half the tolerance at most, (n, 2)."""
+        """Points of the edge (n, 2), counterclockwise, whose chords deviate from it by at most half the tolerance."""
         steps = int(np.ceil(np.pi / np.arccos(1 - min(0.5, self.tolerance / (2 * self.scale)))))
         angle = np.arange(steps) * (2 * np.pi / steps)
         return np.array(self.at) + self.scale * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
     @property
     def ball(self) -> Ball | None:
-        """The light in which the disc lies, where it is a ball."""
+        """The shading of the disc, if it is a ball."""
         return Ball(self.at, self.scale) if self.view.round else None
 
     @cached_property
     def source(self) -> SphereCircle:
-        """What is in sight, before the lens: its inside is shown."""
+        """The circle before the lens whose interior is visible."""
         cap = SphereCircle(self.view.matrix[2], self.view.edge)
         return self.lens.inverse().image_of(cap)
 
     def lines(self, lines: SphereLines) -> Ragged:
-        """The parts of lines that are seen, on the page."""
+        """The visible parts of lines, on the page."""
         near = lines.edges.within(self.source.center, self._reach)
         pieces = self._border.cut(self._images(lines.edges.take(near)))
         seen, _ = clip.lines(clip.among(lines.sides, near), pieces, self._samples(pieces), self._border)
         return thinned(self._placed(seen), self.tolerance)
 
     def regions(self, regions: SphereRegions) -> tuple[Ragged, Indices]:
-        """What is seen of regions, as closed loops on the page with their inside on the left, and whose each is."""
+        """The visible parts of regions, as closed loops on the page, interior on the left, and the region of each."""
         edges, rings, owner = regions.edges, regions.rings, regions.owner
         near = edges.within(self.source.center, self._reach)
         pieces = self._border.cut(self._images(edges.take(near)))
         rows, samples = clip.among(rings, near), self._samples(pieces)
         loops, region, shown = clip.in_sight(rows, owner, regions.count, pieces, samples, self._border)
-        # Of the others no ring is in sight: where they may hold the view, all their rings are followed to see if so.
+        # No ring of the others is visible: where they may contain the view, all their rings are traced to find out.
         around = regions.everywhere.copy()
         asked = ~shown & regions.may_hold(self.source.center)
         if asked.any():
@@ -99,13 +99,13 @@ class Chart:
         return self._placed(loops), region
 
     def points(self, xyz: FloatArray) -> tuple[FloatArray, BoolArray]:
-        """Page coordinates (n, 2) of unit vectors, and whether they are seen; what is not has no meaning."""
+        """Page coordinates (n, 2) of unit vectors, meaningless for hidden points, and a mask of visible points."""
         axes = turned(self.lens(xyz), self.view.matrix)
         return self.scale * self.view.flattened(axes) + np.array(self.at), axes[:, 2] >= self.view.edge
 
     @property
     def slack(self) -> float:
-        """The tolerance on the sphere, in radii, that is within that of the page wherever it is."""
+        """A tolerance on the sphere, in radii, that nowhere exceeds the tolerance on the page."""
         return self.tolerance / (self.scale * self.view.stretch)
 
     @cached_property
@@ -114,11 +114,11 @@ class Chart:
 
     @property
     def _reach(self) -> float:
-        """The radius of `source`, and a millionth more, so that rounding leaves nothing out that touches the border."""
+        """The radius of `source` plus a millionth, so that rounding omits nothing that touches the border."""
         return float(np.radians(self.source.angular_radius)) * (1 + REACH_MARGIN) + UNIT_ROUNDOFF * 8
 
     def _images(self, edges: trace.Edges) -> trace.Arcs:
-        """Edges through the lens in view axes; half the tolerance is for this, half for the chords of the images."""
+        """Images of edges in view axes; half the tolerance is for them, the other half for the chords of the images."""
         return edges.arcs_under(self.lens, self.slack / 2).through(self.lens).turned(self.view.matrix)
 
     def _samples(self, pieces: Pieces) -> Ragged:

@@ -1,4 +1,4 @@
-"""What globes draw, from the Earth and from diagrams: lines and regions made ready once."""
+"""Lines and regions of the Earth and of diagrams, prepared once for all globes."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def edges(triangulation: SphericalDelaunay) -> SphereLines:
 
 
 def ridges(voronoi: SphericalVoronoi) -> SphereLines:
-    """The ridges of a diagram, of which some are half great circles."""
+    """The ridges of a diagram, some of which may be half great circles."""
     start, end = (voronoi.vertices[voronoi.ridge_vertices[:, k]] for k in (0, 1))
     return SphereLines.great(start, end, voronoi.ridge_normals())
 

@@ -1,4 +1,4 @@
-"""Globes: maps of the sphere, layer upon layer, that can be bent by a lens and seen from anywhere."""
+"""Globes: layered maps of the sphere, drawn through any lens and from any side."""
 
 from __future__ import annotations
 
@@ -61,45 +61,45 @@ from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 
 SIZE: Final = 2000
-"""Width of a picture in pixels where nothing else is said."""
+"""Default width of a picture in pixels."""
 
 LEGEND_COLUMNS: Final = 3
 LEGEND_INDENT: Final = 24.0
-"""White space beside a legend, points."""
+"""White space around a legend, in points."""
 
 
 class Globe:
     """A map of the sphere in layers, the first at the bottom, drawn through a conformal lens from any side.
 
-    What is on the globe is said once; every picture of it has a lens, by default none, and a view.
+    Layers are added once; each picture then has its own view and, optionally, a lens.
 
     Parameters
     ----------
     ocean : color-like
-        Of the ground: anything that matplotlib takes for a colour.
+        Colour of the ground, in any form that matplotlib accepts.
     latitude : {"spherical", "geodetic", "authalic"}
-        What all latitudes given to this globe are; see `stereodel.lonlat_to_xyz`. "spherical" takes them as they stand,
-        as map projections of a sphere do.
+        Kind of all latitudes passed to this globe; see `stereodel.lonlat_to_xyz`. "spherical" uses them unchanged, as
+        map projections of a sphere do.
     limb : LineStyle, optional
-        Another style of the edge.
+        Style of the edge of the globe.
     font : str, path-like, or sequence of them, optional
-        Families of the type, or files of fonts; by default STIX, a serif. For characters that these lack the machine's
-        fonts stand in; see `stereodel.drawing.fonts.as_font`.
+        Font families or font files; by default STIX, a serif. Fonts of the system supply characters that these lack;
+        see `stereodel.drawing.fonts.as_font`.
     title : str
-        Written above pictures, in matplotlib's mathtext.
+        Title above pictures, in matplotlib's mathtext.
 
     Attributes
     ----------
     legend : dict of str to LineStyle, DotStyle, color-like or ColorScale
-        What pictures with a legend have below them: words, and what they are written beside. Layers coloured by a
-        column enter it; anything else may be put there.
+        Entries of the legend below pictures: descriptions with what they describe. Layers coloured by a column are
+        added automatically; other entries may be added.
 
     Raises
     ------
     FileNotFoundError
-        For the file of a font that is not there.
+        If a font file does not exist.
     ValueError
-        For what is no colour and no kind of latitude, and for fonts that the machine does not have.
+        If `ocean` is not a colour, `latitude` is not a kind of latitude, or a font family is not installed.
 
     Examples
     --------
@@ -129,7 +129,7 @@ class Globe:
         self.legend: dict[str, LegendEntry] = {}
 
     def add(self, layer: MapLayer) -> None:
-        """Put any layer on top: an object with ``lay(chart)``, which gives page items."""
+        """Put any layer on top: an object whose method ``lay(chart)`` returns page items."""
         self.layers.append(layer)
 
     def add_raster(
@@ -140,24 +140,25 @@ class Globe:
         opacity: float = 1.0,
         name: str = "raster",
     ) -> None:
-        """Cover the globe, or a part of it, with a picture in longitude and latitude.
+        """Cover the globe, or part of it, with an image in longitude and latitude.
 
         Parameters
         ----------
         raster : Raster, pixels as for `Raster`, or path-like
-            Where it is transparent, the layers below show through. Pixels and files have the latitude of this globe, a
+            Layers below show through transparent pixels. Arrays and files use the kind of latitude of this globe, a
             `Raster` its own.
         bounds : tuple of float, optional
-            (west, south, east, north) of pixels or a file in degrees; without it they are 2:1 and show everything.
+            (west, south, east, north) of an array or file in degrees; without it, the image must be 2:1 and cover the
+            whole sphere.
         opacity : float
             In [0, 1].
         name : str
-            Names the picture in vector files.
+            Name of the image in vector files.
 
         Raises
         ------
         OSError, ValueError
-            As `Raster` and `Raster.open`; for an opacity out of range, and bounds beside a `Raster`.
+            As for `Raster` and `Raster.open`; also if `opacity` is out of range, or `bounds` are given with a `Raster`.
         """
         if isinstance(raster, Raster) and bounds is not None:
             raise ValueError("bounds belong to pixels and files; a Raster has its own")
@@ -170,11 +171,11 @@ class Globe:
     def add_land(
         self, *, color: ColorLike = MAP_FILLS["land"], outline: LineStyle | None = None, resolution: str = "50m"
     ) -> None:
-        """Fill the land of the Earth (Natural Earth), and draw its outline where a style is given."""
+        """Fill the land of the Earth (Natural Earth), and draw its outline if a style is given."""
         self._add_polygons(features.land(resolution, self.latitude), color, outline, "land")
 
     def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = "50m") -> None:
-        """Fill all that is not land of the Earth (Natural Earth): the layers below then show on land alone."""
+        """Fill everything but the land of the Earth (Natural Earth); layers below then show on land only."""
         self.add(Outside(features.land(resolution, self.latitude), as_color(color), "ocean"))
 
     def add_lakes(
@@ -196,10 +197,10 @@ class Globe:
         self.add(Lines(features.borders(resolution, self.latitude), style, "borders"))
 
     def add_graticule(self, spacing: float | None = 15.0, *, style: LineStyle = MAP_LINES["graticule"]) -> None:
-        """Draw meridians and parallels, `spacing` degrees apart, of which 180 must be a multiple.
+        """Draw meridians and parallels, `spacing` degrees apart, which must divide 180.
 
-        With None each picture has a spacing that suits it: some twelve lines across what its lens shows. Where it would
-        have less than three line widths between neighbours, as at the poles, some of them end.
+        With None the spacing suits each picture: about twelve lines across the visible part. Where neighbouring lines
+        would be less than three line widths apart, as near the poles, some of them end.
         """
         if spacing is not None:
             as_steps(180.0, spacing, "spacing")
@@ -208,16 +209,16 @@ class Globe:
     def add_lines(
         self, lines: Iterable[npt.ArrayLike], *, style: LineStyle = MAP_LINES["line"], name: str = "lines"
     ) -> None:
-        """Draw lines, (k, 2) each, degrees, whose pieces are straight in longitude and latitude.
+        """Draw lines, (k, 2) each, in degrees, whose segments are straight in longitude and latitude.
 
-        A piece that spans more than 180° of longitude goes the other, shorter way, across ±180°.
+        A segment that spans more than 180° of longitude takes the shorter way, across ±180°.
         """
         self.add(Lines(SphereLines.straight_in_lonlat(lines, self.latitude), style, name))
 
     def add_great_circles(
         self, starts: npt.ArrayLike, ends: npt.ArrayLike, *, style: LineStyle = MAP_LINES["line"], name: str = "arcs"
     ) -> None:
-        """Draw the shorter great-circle arcs between places, as for `add_points`; one start goes with all ends."""
+        """Draw the shorter great-circle arcs between places as for `add_points`; one start may serve all ends."""
         first, last = np.broadcast_arrays(self._xyz(starts, "starts"), self._xyz(ends, "ends"))
         self.add(Lines(SphereLines.great(first, last), style, name))
 
@@ -235,18 +236,18 @@ class Globe:
         ----------
         polygons : iterable of sequences of (k, 2) array_like
             Rings of each polygon; sides are straight in longitude and latitude, as in GeoJSON. A ring may cross ±180°,
-            be cut there, or go round a pole.
+            be cut there, or enclose a pole.
         color : color-like, (n, 3) or (n, 4) array
-            Of all of them, or of each.
+            Colour of all polygons, or of each.
         outline : LineStyle, optional
-            None: no outlines.
+            Style of outlines; None for no outlines.
         name : str
-            Names the group in vector files.
+            Name of the group in vector files.
         """
         self._add_polygons(SphereRegions.of_lonlat(polygons, latitude=self.latitude), color, outline, name)
 
     def add_points(self, places: npt.ArrayLike, *, style: DotStyle = MAP_DOT, name: str = "points") -> None:
-        """Draw dots at places (n, 2), degrees, or directions (n, 3)."""
+        """Draw dots at places, in degrees (n, 2) or as directions (n, 3)."""
         self.add(Points(self._xyz(places, "places"), style, name))
 
     def add_labels(
@@ -264,16 +265,16 @@ class Globe:
         rank: npt.ArrayLike | None = None,
         movable: bool = False,
     ) -> None:
-        """Write at places, as for `add_points`, moved by `offset` points, with a halo; the first matter most.
+        """Write labels with halos at places as for `add_points`, shifted by `offset` points; the first have priority.
 
-        Of labels with a `rank`, numbers (n,), those with the largest matter most. A label that would cover one that
-        matters more is left out, and so is one whose place is out of sight; one that would leave the disc stands on the
-        other side of its place, if it has room there. One that is `movable` stands on any side of its place that has
-        room, as far away as the offset says; see `stereodel.drawing.label_placement`. Without a `halo_color` halos
-        have the colour of the ground below them, at four fifths of full opacity.
+        With `rank`, numbers (n,), labels with larger numbers have priority. A label that would overlap one of higher
+        priority is left out, and so is one whose place is not visible; a label that would leave the disc moves to the
+        other side of its place if there is room. A `movable` label may be on any side of its place where there is room,
+        at the distance given by `offset`; see `stereodel.drawing.label_placement`. Without `halo_color`, halos have the
+        colour of the ground below them, at 80 % opacity.
 
-        Names may be in any script, see `Globe` on fonts; `font` is another one than the globe's. With `formulas` what
-        stands between two dollar signs is a formula of matplotlib's mathtext.
+        Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's. With `formulas`, text between
+        two dollar signs is a formula in matplotlib's mathtext.
         """
         xyz = self._xyz(places, "places")
         paper, ink = WHITE if halo_color is None else as_color(halo_color, "halo_color"), as_color(color)
@@ -284,7 +285,7 @@ class Globe:
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
         if rank is not None:
             numbers = as_values(rank, len(xyz), "rank")
-            # What has no number matters least.
+            # Labels without a number have the lowest priority.
             order = np.argsort(-np.where(np.isnan(numbers), -np.inf, numbers), kind="stable")
             xyz, labels = xyz[order], tuple(labels[k] for k in order.tolist())
         distance = float(np.hypot(*offset)) if movable else None
@@ -298,7 +299,7 @@ class Globe:
         style: LineStyle | None = MAP_LINES["line"],
         name: str = "cells",
     ) -> None:
-        """Draw the ridges of a Voronoi diagram; fill its cells where colours (n, 3) or (n, 4) are given."""
+        """Draw the ridges of a Voronoi diagram; fill its cells if colours (n, 3) or (n, 4) are given."""
         if colors is not None:
             cells = SphereRegions.cells(voronoi)
             self.add(Areas(cells, as_colors(colors, len(voronoi.points)), name))
@@ -313,7 +314,7 @@ class Globe:
         style: LineStyle | None = MAP_LINES["line"],
         name: str = "triangles",
     ) -> None:
-        """Draw the edges of a triangulation; fill its triangles but the closing ones where colours (m, 3 or 4) are."""
+        """Draw the edges of a triangulation; fill triangles, except closing ones, if colours (m, 3 or 4) are given."""
         if colors is not None:
             triangles = SphereRegions.triangles(triangulation)
             self.add(Areas(triangles, as_colors(colors, len(triangulation.simplices)), name))
@@ -328,7 +329,7 @@ class Globe:
         style: LineStyle = MAP_LINES["outline"],
         name: str = "circles",
     ) -> None:
-        """Draw circles of the sphere and fill their interiors; their images are circles, exactly."""
+        """Draw circles of the sphere and fill their interiors; their images are exact circles."""
         regions = SphereRegions.circles(circles)
         if color is not None:
             self.add(Areas(regions, as_colors(color, regions.count, "color"), name))
@@ -342,9 +343,9 @@ class Globe:
         color: ColorLike | None = MAP_FILLS["circle"],
         style: LineStyle = MAP_LINES["outline"],
     ) -> None:
-        """Draw Tissot's indicatrices: equal circles, `radius` degrees, about places `spacing` degrees apart.
+        """Draw Tissot's indicatrices: equal circles of `radius` degrees, centred `spacing` degrees apart.
 
-        On each parallel, those at multiples of `spacing`, there are as many as keep about that distance.
+        The centres are on the parallels at multiples of `spacing`, about that distance apart.
         """
         steps = as_steps(180.0, spacing, "spacing")
         size = as_scalar(radius, "radius", low=0.0, high=90.0, open_low=True)
@@ -368,32 +369,33 @@ class Globe:
         name: str = "layer",
         legend: str = "",
     ) -> None:
-        """Draw what a file or a table of shapes holds: polygons, lines on them, points on top.
+        """Draw the contents of a file or table of shapes: polygons, lines above them, points on top.
 
         Parameters
         ----------
         source : path-like, mapping, or object with __geo_interface__
-            A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or a shape of shapely.
+            A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or Shapely geometry.
         color : color-like
-            Of polygons.
+            Colour of polygons.
         column : str, optional
-            A property that colours the polygons instead, and enters the legend; those without it keep `color`. Numbers
-            have a scale, words a colour each, eight different ones at most.
+            Property by which polygons are coloured, which is added to the legend; polygons without it keep `color`.
+            Numbers use a colour scale; text gets one colour for each value, at most eight.
         scale : ColorScale, optional
-            From numbers to colours; by default viridis from the least to the largest.
+            Colour scale for numbers; by default viridis from the smallest to the largest.
         outline, style, dot_style : LineStyle, LineStyle, DotStyle
-            Of the polygons' outlines (None: none), the lines and the points.
+            Styles of the polygons' outlines (None for no outlines), the lines and the points.
         name : str
-            Names the groups in vector files.
+            Name of the groups in vector files.
         legend : str
-            What the legend calls it where no column does.
+            Entry in the legend, if no column provides one.
 
         Raises
         ------
         OSError
-            When a file cannot be read.
+            If a file cannot be read.
         ValueError
-            For what is not GeoJSON, a latitude outside [−90, 90], a column that is not there or holds more words.
+            If the source is not valid GeoJSON, a latitude is outside [−90, 90], the column does not exist or has more
+            than eight different texts.
         """
         shapes = shapes_of(source)
         if len(shapes.polygon_feature):
@@ -413,7 +415,7 @@ class Globe:
             )
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
-        """What a chart shows, in painter's order; `panels` leaves out labels that would cover others."""
+        """The page items of a chart, in painter's order; `panels` removes labels that would overlap others."""
         items: list[Item] = []
         for layer in (*self.layers, self.limb):
             if isinstance(layer, Names):
@@ -434,27 +436,28 @@ class Globe:
         style: Style | Sequence[Style] = (),
         legend: bool = False,
     ) -> Page:
-        """A picture of the globe, ready to be written as pixels or paths.
+        """A picture of the globe as a page, to be written as pixels or vector paths.
 
         Parameters
         ----------
         lens : MoebiusMap, optional
-            By default none.
+            By default the identity.
         view : View, StereographicView or a sequence of them, optional
-            By default orthographic from above the focus of the lens; several are set side by side, as `hemispheres`.
+            By default orthographic from above the focus of the lens; several views, such as `hemispheres`, are placed
+            side by side.
         width : float or str
-            Of the page in points, or with a unit, "17cm"; lines and type keep their size in points.
+            Width of the page in points, or with a unit, such as "17cm"; line widths and type keep their size in points.
         tolerance : float
-            How far what is drawn may be from what it stands for, in points.
+            Largest deviation of the drawing from the exact image, in points.
         style : str, path-like, or sequence of them
-            Styles of `stereodel.drawing.styled`: "column", "slide", "dark", or files of TOML.
+            Styles for `stereodel.drawing.styled`: "column", "slide", "dark", or TOML files.
         legend : bool
-            Whether `Globe.legend` is below the picture.
+            Whether to draw `Globe.legend` below the picture.
 
         Raises
         ------
         ValueError
-            For a width or tolerance that is not positive, and what is no style.
+            If `width` or `tolerance` is not positive, or `style` is not a style.
         """
         bend = MoebiusMap.identity() if lens is None else lens
         views = view if isinstance(view, Sequence) else [default_view(bend) if view is None else view]
@@ -477,27 +480,27 @@ class Globe:
         legend: bool = False,
         transparent: bool = False,
     ) -> Path:
-        """Write a picture as PNG, SVG or PDF, as the ending says; see `page`.
+        """Write a picture as PNG, SVG or PDF, by the extension of `path`; see `page`.
 
         Parameters
         ----------
         path : path-like
-            Written under a temporary name first; an existing file is replaced.
+            File to write, first under a temporary name; an existing file is replaced.
         lens, view, width, style, legend
             As for `page`.
         size : int, optional
-            Width of a PNG in pixels, at most 65 535; curves are as fine as a fifth of a pixel. By default `SIZE`.
+            Width of a PNG in pixels, at most 65 535, with curves accurate to a fifth of a pixel. By default `SIZE`.
         dpi : float, optional
-            Pixels per inch of the page instead.
+            Pixels per inch of the page, instead of `size`.
         transparent : bool
-            Whether the paper is left out, so that what lies under the picture shows beside the globe.
+            Whether to make the background of the page transparent.
 
         Raises
         ------
         OSError
-            When the file cannot be written, or there is no OpenGL for a PNG.
+            If the file cannot be written, or there is no OpenGL for a PNG.
         ValueError
-            For another ending, for a size and dpi at once, and as `page`.
+            If the extension is unknown, or `size` and `dpi` are both given; also as for `page`.
         """
         if size is not None and dpi is not None:
             raise ValueError("size and dpi both say how many pixels a picture has; give one of them")
@@ -509,14 +512,14 @@ class Globe:
         return page.save(path, size=pixels, transparent=transparent)
 
     def _xyz(self, places: npt.ArrayLike, name: str) -> FloatArray:
-        """Unit vectors of places in degrees, (n, 2), or of directions, (n, 3); one place may come alone."""
+        """Unit vectors from places in degrees, (n, 2), or directions, (n, 3); a single place may be one-dimensional."""
         rows = np.atleast_2d(np.asarray(places))
         if rows.shape[-1] == 3:
             return units(as_directions(rows, name, points=True))
         return lonlat_to_xyz(as_lonlat(rows, name), latitude=self.latitude)
 
     def _color_by(self, column: str, shapes: Shapes, scale: ColorScale | None, colors: FloatArray) -> None:
-        """Colour features (n, 4) by a property, and say so in the legend."""
+        """Colour features (n, 4) by a property and add it to the legend."""
         words = shapes.words(column)
         if words is not None and scale is None:
             shades = category_colors(sorted({word for word in words if word is not None}), f"column {column!r}")

@@ -1,4 +1,4 @@
-"""The ground under the names of a map: what its layers paint there, in which the halos of the names are tinted."""
+"""The ground under the labels of a map: its colour in the layers below, which tints the halos of the labels."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from stereodel.drawing.style import BLACK, HALO_OPACITY, WHITE
 
 ACROSS: Final = 9
 UP: Final = 3
-"""Places in the box of a label at which the ground is looked at."""
+"""Places in the box of a label at which the ground is sampled."""
 
 LEGIBLE: Final = 7.0
-"""Least contrast of small type: a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
+"""Least contrast of small type, a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
 
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
 
 def haloed(label: Label, below: Sequence[Item], unit: float) -> Label:
-    """A label with a halo in the colour that most of the ground below it has; `unit` is points for a page unit."""
+    """The label with a halo in the most frequent colour of the ground below it; `unit` is points per page unit."""
     (left, bottom), (right, top) = label_box(label, unit) / unit
     places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
     colors, counts = np.unique(painted(below, places.reshape(-1, 2)).round(3), axis=0, return_counts=True)
@@ -36,7 +36,7 @@ def haloed(label: Label, below: Sequence[Item], unit: float) -> Label:
 
 
 def legible(ground: FloatArray, ink: Color) -> FloatArray:
-    """A colour mixed with white or black, whichever is farther from the ink, until type on it can be read."""
+    """A colour mixed with white or black, whichever is farther from the ink, until type on it is legible."""
     away = max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
     for share in np.linspace(0.0, 1.0, 21):
         mixed: FloatArray = ground + share * (away - ground)
@@ -46,7 +46,7 @@ def legible(ground: FloatArray, ink: Color) -> FloatArray:
 
 
 def painted(items: Sequence[Item], places: FloatArray) -> FloatArray:
-    """What regions and pictures paint at places of a page (n, 2), without lines and light: sRGB (n, 3)."""
+    """Colours, sRGB (n, 3), of regions and images at places of a page (n, 2), without lines and shading."""
     colors = np.tile(np.array(WHITE[:3]), (len(places), 1))
     for item in items:
         match item:
@@ -66,16 +66,16 @@ def painted(items: Sequence[Item], places: FloatArray) -> FloatArray:
 
 
 def _lay(colors: FloatArray, over: FloatArray) -> None:
-    """Lay colours with an opacity (n, 4) over others."""
+    """Composite colours with opacity (n, 4) over others, in place."""
     colors += over[:, 3:] * (over[:, :3] - colors)
 
 
 def _polygon_colors(item: Polygons, places: FloatArray) -> FloatArray:
-    """The colour of the region that each place is in, (n, 4); of opacity 0 where it is in none."""
+    """The colour of the region that contains each place, (n, 4); opacity 0 if none does."""
     loops = item.loops
     last = np.zeros(len(loops.values), dtype=bool)
     last[loops.offsets[1:] - 1] = True
-    # Only edges that reach the heights of the places turn about one.
+    # Only edges at the heights of the places can wind around one.
     low, high = places[:, 1].min(), places[:, 1].max()
     start, end = loops.values, np.roll(loops.values, -1, axis=0)
     near = ~last & (np.minimum(start[:, 1], end[:, 1]) <= high) & (np.maximum(start[:, 1], end[:, 1]) >= low)
@@ -90,13 +90,13 @@ def _polygon_colors(item: Polygons, places: FloatArray) -> FloatArray:
 
 
 def _turns(corners: FloatArray, places: FloatArray) -> FloatArray:
-    """How often a closed line of corners (m, 2) goes round places (n, 2)."""
+    """Winding numbers of a closed line with corners (m, 2) about places (n, 2)."""
     following = np.roll(corners, -1, axis=0)
     return np.array([_crossings(corners, following, place).sum() for place in places])
 
 
 def _crossings(start: FloatArray, end: FloatArray, place: FloatArray) -> FloatArray:
-    """Of edges, +1 for those that go up on the right of a place, −1 for those that go down there, else 0."""
+    """For each edge: +1 if it goes up on the right of a place, −1 if it goes down there, else 0."""
     up = (start[:, 1] <= place[1]) & (end[:, 1] > place[1])
     down = (start[:, 1] > place[1]) & (end[:, 1] <= place[1])
     a, b = start - place, end - place
@@ -105,7 +105,7 @@ def _crossings(start: FloatArray, end: FloatArray, place: FloatArray) -> FloatAr
 
 
 def _corners(path: Beziers) -> FloatArray:
-    """Points along a run of Béziers."""
+    """Points along a path of Bézier curves."""
     s = BEZIER_STEPS[None, :, None]
     p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
     points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3

@@ -1,4 +1,4 @@
-"""Picture files: the usual kinds, by Pillow, with limits that hold before anything is decoded."""
+"""Image files in the usual formats, by Pillow, with limits that are checked before anything is decoded."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from stereodel._files import replacing
 from stereodel.constants import MOST_TEXELS
 
 SIXTEEN_BITS: Final = ("I", "I;16", "I;16B", "I;16L", "I;16N")
-"""Modes of Pillow for gray of 16 bits."""
+"""Pillow's modes for 16-bit gray."""
 
 FORMATS: Final = ("PNG", "JPEG", "TIFF", "WEBP", "GIF", "BMP", "PPM", "TGA", "JPEG2000")
-"""Kinds of pictures that are opened: those that Pillow decodes by itself. For others it starts Ghostscript and such."""
+"""Formats that are opened: those that Pillow decodes itself. For others it starts programs such as Ghostscript."""
 
 WRITTEN: Final[Mapping[str, tuple[str, int]]] = {
     ".jpg": ("JPEG", 65_500),
@@ -29,48 +29,48 @@ WRITTEN: Final[Mapping[str, tuple[str, int]]] = {
     ".png": ("PNG", 2**31 - 1),
     ".webp": ("WEBP", 16_383),
 }
-"""Endings of files that are written: Pillow's name of the format, and the longest side that it has."""
+"""Extensions of files that are written, with Pillow's name of the format and its longest side in pixels."""
 
 SETTINGS: Final[Mapping[str, Mapping[str, Any]]] = {
     "JPEG": {"quality": 95, "subsampling": 0},
-    # Photographs: level 6 of zlib takes three times as long for files 2 % smaller.
+    # For photographs, level 6 of zlib takes three times as long for files 2 % smaller.
     "PNG": {"compress_level": 3},
     "WEBP": {"quality": 92, "method": 4},
 }
 
 LONGEST_XMP: Final = 65_502
-"""Bytes that a JPEG has for it in one piece; what is longer is left out."""
+"""Largest block of EXIF or XMP data in a JPEG, in bytes; longer data are left out."""
 
 ORIENTATION: Final = 0x0112
 
 KEPT_TAGS: Final = frozenset({0x010E, 0x010F, 0x0110, 0x0131, 0x0132, 0x013B, 0x8298})
-"""Of EXIF: description, maker and model of the camera, software, date, author, rights."""
+"""EXIF tags: description, maker and model of the camera, software, date, author, rights."""
 
 KEPT_PARTS: Final = (0x8769, 0x8825)
-"""Of EXIF: how the picture was taken, and where."""
+"""EXIF blocks: how and where the picture was taken."""
 
 SIZES: Final = frozenset({0xA002, 0xA003, 0xA005})
-"""Of the first of these parts: columns and rows, and where the next part is stored."""
+"""Tags of the first of these blocks: columns and rows, and the position of the next block."""
 
 DAMAGED: Final = (OSError, SyntaxError, ValueError, EOFError, struct.error, IndexError, TypeError)
-"""What the decoders of Pillow raise on a file that is cut off or garbled."""
+"""Exceptions that Pillow's decoders raise on truncated or corrupt files."""
 
 
 @dataclass(frozen=True, eq=False)
 class Photo:
-    """A picture, and what its file says of it.
+    """An image and its metadata.
 
     Parameters
     ----------
     pixels : (h, w, 4) uint8 array
-        sRGB, or the colours of the profile, and opacity, not premultiplied; upright.
+        Colour, in sRGB or in the colour space of the profile, and opacity, not premultiplied; upright.
     profile : bytes
         ICC profile of the colours; empty for sRGB.
     exif : bytes
-        Of the camera, the place and the rights, as a file holds it; empty where there is nothing. Nothing of sizes, and
-        no orientation, as the pixels are upright.
+        Encoded EXIF data of the camera, place and rights; empty if there are none. Without sizes or orientation, as the
+        pixels are upright.
     xmp : bytes
-        As the file holds it.
+        Encoded XMP data.
     """
 
     pixels: Pixels
@@ -80,25 +80,25 @@ class Photo:
 
 
 def read_image(path: str | os.PathLike[str]) -> Pixels:
-    """The first picture of a file, (h, w, 4): sRGB and opacity, not premultiplied; errors as for `read_photo`."""
+    """The first image of a file, (h, w, 4): sRGB and opacity, not premultiplied; errors as for `read_photo`."""
     return read_photo(path).pixels
 
 
 def read_photo(path: str | os.PathLike[str]) -> Photo:
-    """The first picture of a file, turned upright where its EXIF data say that it lies.
+    """The first image of a file, rotated upright according to its EXIF data.
 
     Raises
     ------
     OSError
-        Where the file is missing or cannot be read.
+        If the file is missing or cannot be read.
     ValueError
-        When it is no picture, has more than `MOST_TEXELS` pixels, is damaged, or holds floating-point numbers.
+        If it is not an image, has more than `MOST_TEXELS` pixels, is damaged, or holds floating-point numbers.
     """
     with of_extra("draw"):
         from PIL import Image, UnidentifiedImageError
 
     name = os.fspath(path)
-    # Pillow warns of half of what it refuses, which is more than our own limit.
+    # Pillow warns at half the size that it refuses, which exceeds our own limit.
     with open(name, "rb") as file, warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         try:
@@ -112,7 +112,7 @@ def read_photo(path: str | os.PathLike[str]) -> Photo:
 
 
 def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> None:
-    """A ValueError where the format of a file's name cannot hold a picture of so many columns and rows."""
+    """Raise ValueError if the format given by a file name cannot hold an image of `size`, columns and rows."""
     kind, largest = _kind_of(name)
     if max(size) > largest:
         raise ValueError(f"{name} would have {size[0]} × {size[1]} pixels, but {kind} has at most {largest} a side")
@@ -121,9 +121,9 @@ def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> None:
 
 
 def write_photo(path: str | os.PathLike[str], photo: Photo) -> Path:
-    """Write a picture as JPEG, PNG or WebP, as the ending says, with what is said of it; errors as `check_photo`.
+    """Write an image and its metadata as JPEG, PNG or WebP, by the extension; errors as for `check_photo`.
 
-    JPEG and WebP at a quality at which the eye sees no loss. An existing file is replaced when the new one is complete.
+    JPEG and WebP are written without visible loss. An existing file is replaced once the new one is complete.
     """
     with of_extra("draw"):
         from PIL import Image, PngImagePlugin
@@ -145,7 +145,7 @@ def write_photo(path: str | os.PathLike[str], photo: Photo) -> Path:
 
 
 def _kind_of(name: str) -> tuple[str, int]:
-    """Pillow's name of a format, and its largest side."""
+    """Pillow's name of a format, and its longest side."""
     ending = Path(name).suffix.lower()
     if ending not in WRITTEN:
         raise ValueError(f"path must end in {', '.join(WRITTEN)}, got {name!r}")
@@ -171,14 +171,14 @@ def _photo(name: str, image: Any) -> Photo:
         exif = _kept_exif(said)
     except DAMAGED as error:
         raise ValueError(f"{name} is damaged or cut off: {error}") from error
-    # A profile of gray or of printing inks does not fit the colours that the pixels become.
+    # Profiles for gray or printing inks do not apply to the converted pixels.
     profile = image.info.get("icc_profile") if image.mode in ("RGB", "RGBA", "P") else None
     xmp = image.info.get("xmp") or image.info.get("XML:com.adobe.xmp") or b""
     return Photo(_converted(name, upright), profile or b"", exif, xmp.encode() if isinstance(xmp, str) else bytes(xmp))
 
 
 def _kept_exif(said: Any) -> bytes:
-    """What EXIF data say beside the way in which the pixels were stored."""
+    """The EXIF data that do not concern the storage of the pixels."""
     with of_extra("draw"):
         from PIL import Image
 

@@ -1,4 +1,4 @@
-"""What a globe shows, from the ground up: each layer lays itself out on a chart."""
+"""Layers of a globe, from the bottom up; each lays itself out on a chart."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ from stereodel.sphere.latitudes import Latitude
 
 
 class MapLayer(Protocol):
-    """What a globe holds."""
+    """Interface of the layers of a globe."""
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """Page items in painter's order, without what is out of sight."""
+        """The visible page items in painter's order."""
 
 
 @dataclass(frozen=True)
 class Ground:
-    """The ball itself, or the disc of a flat map."""
+    """The surface of the ball, or the disc of a flat map."""
 
     color: Color
     name: str = "ball"
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """The whole disc; that of a ball is lit."""
+        """The whole disc, shaded if it is a ball."""
         yield Fill(chart.outline, self.color, self.name, chart.ball)
 
 
 @dataclass(frozen=True)
 class Rim:
-    """The edge of what is seen."""
+    """The edge of the disc."""
 
     style: LineStyle
     name: str = "limb"
@@ -62,7 +62,7 @@ class Lines:
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """All parts that are seen, as one item."""
+        """All visible parts, as one item."""
         seen = chart.lines(self.lines)
         if len(seen):
             yield Polylines(seen.values, seen.offsets, self.style.color, self.style.width, self.name)
@@ -70,9 +70,9 @@ class Lines:
 
 @dataclass(frozen=True, eq=False)
 class GridLines:
-    """Meridians and parallels, thinned where they would run together.
+    """Meridians and parallels, thinned where they would merge.
 
-    They are `spacing` degrees apart, or, with None, as suits what a chart shows.
+    They are `spacing` degrees apart; None chooses a spacing that suits the chart.
     """
 
     spacing: float | None
@@ -81,7 +81,7 @@ class GridLines:
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """As `Lines`, of which some end where they come nearer to each other than `WIDTHS_APART` widths."""
+        """As for `Lines`; some lines end where they are less than `WIDTHS_APART` line widths apart."""
         lens, view = chart.lens, chart.view
         spacing = usual_spacing(lens, view) if self.spacing is None else self.spacing
         least = max(WIDTHS_APART * self.style.width, LEAST_APART) / (chart.unit * chart.scale)
@@ -99,9 +99,9 @@ class Areas:
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """Regions of one colour together, or all of them where there are too many colours.
+        """One item for each colour, or one for all regions if there are too many colours.
 
-        Those of different colours may overlap, if they are few: the later ones in the order of colours cover.
+        With few colours, regions of different colours may overlap; later colours cover earlier ones.
         """
         loops, owner = chart.regions(self.regions)
         if len(loops) == 0:
@@ -118,7 +118,7 @@ class Areas:
 
 @dataclass(frozen=True, eq=False)
 class Outside:
-    """All that is in none of some regions, in one colour: the sea about the land."""
+    """The complement of some regions, in one colour, such as the sea around the land."""
 
     regions: SphereRegions
     color: Color
@@ -137,14 +137,14 @@ class Outside:
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """A raster, as opaque as it is times `opacity`."""
+    """A raster, whose own opacity is multiplied by `opacity`."""
 
     raster: Raster
     opacity: float
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """The whole disc as one picture, warped when it is drawn."""
+        """The whole disc as one image, warped when it is drawn."""
         painter = RasterOnDisc(self.raster, chart.lens, chart.view, chart.at, chart.scale, self.opacity)
         yield Picture(chart.outline, painter, self.name)
 
@@ -158,7 +158,7 @@ class Points:
     name: str
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """Those whose middle is seen."""
+        """Dots whose centres are visible."""
         places, seen = chart.points(self.xyz)
         if seen.any():
             style = self.style
@@ -167,21 +167,21 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Names:
-    """Labels at unit vectors (n, 3), of which those farther ahead matter more."""
+    """Labels at unit vectors (n, 3), in order of decreasing priority."""
 
     xyz: FloatArray
     labels: tuple[Label, ...]
     on_ground: bool = False
-    """Whether halos have the colour of the ground below, which `Globe.items` knows."""
+    """Whether halos take the colour of the ground below, which `Globe.items` determines."""
     distance: float | None = None
-    """From its place to a label that may stand on any side of it, points; None where it stands where it is."""
+    """Distance in points of a movable label from its place; None for labels that are fixed."""
 
     def lay(self, chart: Chart) -> Iterator[Item]:
-        """Those whose place is seen, inside the disc where there is room."""
+        """Labels whose places are visible, inside the disc where there is room."""
         yield from self.beside(chart, ())
 
     def beside(self, chart: Chart, items: Sequence[Item]) -> Iterator[Label]:
-        """As `lay`, beside what is on the chart already."""
+        """As for `lay`, avoiding items that are already on the chart."""
         if self.distance is None:
             for label in self._seen(chart):
                 yield within_disc(label, chart.at, chart.scale, chart.unit)

@@ -1,4 +1,4 @@
-"""Lines on the sphere, as maps and diagrams give them, made ready once for all lenses and views."""
+"""Lines on the sphere, from maps and diagrams, prepared once for all lenses and views."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from stereodel.sphere.latitudes import Latitude
 
 @dataclass(frozen=True, eq=False)
 class SphereLines:
-    """Lines on the sphere by their edges, which they may share.
+    """Lines on the sphere as sequences of edges, which they may share.
 
     Parameters
     ----------
     edges : Edges
     sides : Ragged
-        The edges of each line, one after the other; ~e where edge e is run backwards.
+        The edges of each line in order; ~e for edge e in reverse.
     """
 
     edges: trace.Edges
@@ -32,28 +32,28 @@ class SphereLines:
 
     @classmethod
     def straight_in_lonlat(cls, lines: Iterable[npt.ArrayLike], latitude: Latitude = "spherical") -> SphereLines:
-        """Lines, (k, 2) each, degrees, straight in longitude and latitude; single points are left out.
+        """Lines, (k, 2) each, in degrees, straight in longitude and latitude; single points are left out.
 
-        A piece that spans more than 180° of longitude goes the other way, across ±180°.
+        A segment that spans more than 180° of longitude takes the shorter way, across ±180°.
         """
         arrays = [as_lonlat(line, "lines").reshape(-1, 2) for line in lines]
         return cls.of_lonlat(Ragged.of([line for line in arrays if len(line) > 1], np.zeros((0, 2))), latitude)
 
     @classmethod
     def of_lonlat(cls, lines: Ragged, latitude: Latitude = "spherical") -> SphereLines:
-        """The same of rows of degrees."""
+        """The same, from rows of points in degrees."""
         lonlat = trace.unwrapped(lines, turns=False)
         first, sides = trace.sides_of(lonlat)
         return cls(trace.Edges.straight(lonlat.values[first], lonlat.values[first + 1], latitude), sides)
 
     @classmethod
     def great(cls, starts: FloatArray, ends: FloatArray, normals: FloatArray | None = None) -> SphereLines:
-        """A great-circle arc between each pair of unit vectors (n, 3): the shorter one, or the one about a normal."""
+        """A great-circle arc between each pair of unit vectors (n, 3): the shorter one, or the one around a normal."""
         return cls.alone(trace.great(starts, ends, normals))
 
     @classmethod
     def alone(cls, arcs: trace.Arcs) -> SphereLines:
-        """Arcs made ready, each a line."""
+        """Prepared arcs, each of them a line."""
         return cls(trace.Edges.of(trace.numbered(arcs)), Ragged(np.arange(len(arcs)), np.arange(len(arcs) + 1)))
 
     def through(self, lens: MoebiusMap, *, tolerance: float) -> tuple[FloatArray, Indices]:

@@ -17,17 +17,17 @@ from stereodel.globe.chart import Chart
 from stereodel.sphere import xyz_to_lonlat
 
 MARGIN = 0.03
-"""Round a disc, in its radii."""
+"""Margin around a disc, in its radii."""
 
 TITLE_HEIGHT = 14.0
-"""Of type above a panel, with its margin, points."""
+"""Height of the title above a panel with its margin, in points."""
 
 
 class Drawable(Protocol):
-    """What a panel shows: a `Globe`."""
+    """Interface of what a panel shows, such as a `Globe`."""
 
     def items(self, chart: Chart) -> tuple[Item, ...]:
-        """What a chart shows, in painter's order."""
+        """The page items of a chart, in painter's order."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,9 +39,9 @@ class Panel:
     globe : Globe
     lens : MoebiusMap, optional
     view : View or StereographicView, optional
-        By default from above the focus.
+        By default orthographic from above the focus.
     title : str
-        Written above the disc; what stands between two dollar signs is a formula of matplotlib's mathtext.
+        Title above the disc; text between two dollar signs is a formula in matplotlib's mathtext.
     """
 
     globe: Drawable
@@ -51,13 +51,13 @@ class Panel:
 
 
 def hemispheres(lon: float, lat: float = 0.0, *, flat: bool = False) -> tuple[MapView, MapView]:
-    """The views of the hemisphere about a point, degrees, and of the other one, to be set side by side.
+    """Views of the hemisphere centred on a point, in degrees, and of the opposite one, to be placed side by side.
 
     Parameters
     ----------
     lon, lat : float
     flat : bool
-        Stereographic, not orthographic.
+        Whether the views are stereographic rather than orthographic.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def hemispheres(lon: float, lat: float = 0.0, *, flat: bool = False) -> tuple[Ma
 
 
 def default_view(lens: MoebiusMap) -> View:
-    """From above the image of the focus, or of (0, 0) where nothing is magnified."""
+    """View from above the image of the focus, or of (0, 0) if nothing is magnified."""
     if lens.magnification == 1:
         return View(0.0, 0.0)
     lon, lat = xyz_to_lonlat(lens(lens.focus))
@@ -90,28 +90,28 @@ def panels(
     ----------
     contents : sequence of Panel
     columns : int, optional
-        By default all in one row.
+        Panels in a row; by default all.
     width : float
-        Of the page in points.
+        Width of the page in points.
     tolerance : float
-        How far what is drawn may be from what it stands for, in points.
+        Largest deviation of the drawing from the exact image, in points.
     font : str, path-like, or sequence of them, optional
-        Of titles, and of labels of globes that have none of their own; see `stereodel.drawing.fonts.as_font`.
+        Font of titles, and of labels of globes without a font of their own; see `stereodel.drawing.fonts.as_font`.
 
     Raises
     ------
     FileNotFoundError
-        For the file of a font that is not there.
+        If a font file does not exist.
     ValueError
-        For no panels, a width or tolerance that is not positive, or fonts that the machine does not have.
+        If there are no panels, `width` or `tolerance` is not positive, or a font family is not installed.
     """
     if not contents:
-        raise ValueError("contents must have a panel or more")
+        raise ValueError("contents must have at least one panel")
     across = len(contents) if columns is None else min(as_count(columns, "columns"), len(contents))
     size = as_scalar(width, "width", low=0.0, open_low=True)
     fine = as_scalar(tolerance, "tolerance", low=0.0, open_low=True)
     pitch = 2 * (1 + MARGIN)
-    unit = size / (across * pitch)  # points for a radius of a disc
+    unit = size / (across * pitch)  # points per radius of a disc
     head = TITLE_HEIGHT / unit if any(panel.title for panel in contents) else 0.0
     rows = -(-len(contents) // across)
     items: list[Item] = []

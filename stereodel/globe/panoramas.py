@@ -1,7 +1,7 @@
-"""Files of panoramas through lenses: pictures of all directions, with what viewers want to know of them.
+"""Panorama files through lenses: images of all directions with the metadata that viewers need.
 
-Viewers learn from the file that it is a panorama: by the XMP data that Google's "Photo Sphere" describes. What they say
-is written anew for what the file then holds; the rest of XMP, the colour profile and the EXIF data of the camera stay.
+Viewers recognise a panorama by the XMP data of Google's "Photo Sphere". These are rewritten for the new image; all
+other XMP data, the colour profile and the camera's EXIF data are kept.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from stereodel.render.xmp import META, RDF, xmp_packet
 from stereodel.sphere import xyz_to_lonlat
 
 VIEWERS: Final = "http://ns.google.com/photos/1.0/"
-"""With which the names begin of what viewers want to know, and of sounds and depths that a file also held."""
+"""XMP namespaces for viewers, and for sound and depth data that a file may also hold."""
 
 SPHERE: Final = "equirectangular"
 
@@ -43,19 +43,20 @@ def save_panorama(
     angular_radius: float = PLANET_RADIUS,
     faces: bool = False,
 ) -> list[Path]:
-    """Read a panorama, and write it as it looks through a lens.
+    """Read a panorama and write it as seen through a lens.
 
     Parameters
     ----------
     source : path-like
-        A picture of all directions, twice as wide as high, as cameras for 360° write it: of any kind that Pillow reads.
+        An image of all directions, twice as wide as high, as written by 360° cameras, in any format that Pillow reads.
     path : path-like
-        Its ending decides: .jpg, .png or .webp. An existing file is replaced when the new one is complete.
+        File to write; its extension, .jpg, .png or .webp, gives the format. An existing file is replaced once the new
+        one is complete.
     lens, form, view, size, angular_radius
-        As for `Raster.panorama`. The faces of a cubemap stand in a row.
+        As for `Raster.panorama`. The faces of a cubemap are placed in a row.
     faces : bool
-        Of a cubemap: six files, NAME_right.jpg, NAME_left.jpg, NAME_up.jpg, NAME_down.jpg, NAME_front.jpg and
-        NAME_back.jpg.
+        Whether to write a cubemap as six files: NAME_right.jpg, NAME_left.jpg, NAME_up.jpg, NAME_down.jpg,
+        NAME_front.jpg and NAME_back.jpg.
 
     Returns
     -------
@@ -65,18 +66,18 @@ def save_panorama(
     Raises
     ------
     OSError
-        Where a file is missing, or cannot be read or written.
+        If a file is missing, or cannot be read or written.
     ValueError
-        When the source is no picture, is damaged, not 2:1 or of more than `MOST_TEXELS` pixels; for another ending, for
-        `faces` of what is no cubemap, for transparent parts in a JPEG, for what `Raster.panorama` refuses. Before
-        anything is drawn.
+        If the source is not an image, is damaged, is not 2:1 or has more than `MOST_TEXELS` pixels; if the extension is
+        unknown, `faces` is used without a cubemap, or a JPEG would have transparent pixels; and as for
+        `Raster.panorama`. All this is checked before drawing.
 
     Notes
     -----
-    An equirectangular file tells viewers its size, and the compass bearing of its middle if the source told one. The
-    tilt of the camera and the first view are left out, as directions are others; of cubemaps and planets, which are no
-    panoramas to viewers, all of it. EXIF data keep camera, exposure, date, place and rights; where they say that the
-    picture lies, it is turned upright. Colours stay numbers of the file's own profile.
+    An equirectangular file holds its size for viewers, and the compass bearing of its centre if the source has one. The
+    tilt of the camera and the initial view are left out, as directions have changed; cubemaps and planets, which
+    viewers do not treat as panoramas, have none of these data. EXIF data keep camera, exposure, date, place and rights;
+    an image stored sideways is rotated upright. Colours stay in the file's own colour profile.
 
     Examples
     --------
@@ -94,7 +95,7 @@ def save_panorama(
     if width != 2 * height:
         raise ValueError(
             f"{os.fspath(source)} has {width} × {height} pixels, but a panorama of all directions is twice as wide as "
-            "high; add what is missing of it, as a plain ground"
+            "high; extend it to 2:1 with a plain colour"
         )
     if faces and form != "cubemap":
         raise ValueError(f"faces are those of a cubemap, and form is {form!r}")
@@ -116,7 +117,7 @@ def save_panorama(
 
 
 def face_paths(path: Path) -> list[Path]:
-    """The files of the six faces of a cubemap, beside each other.
+    """Paths of the six faces of a cubemap, in one folder.
 
     Examples
     --------
@@ -127,7 +128,7 @@ def face_paths(path: Path) -> list[Path]:
 
 
 def _said(photo: Photo, lens: MoebiusMap | None, view: View, width: int, height: int) -> dict[str, str]:
-    """What viewers want to know of an equirectangular picture of all directions."""
+    """Metadata for viewers of an equirectangular image of all directions."""
     said = {
         "UsePanoramaViewer": "True",
         "ProjectionType": SPHERE,
@@ -148,7 +149,7 @@ def _said(photo: Photo, lens: MoebiusMap | None, view: View, width: int, height:
 
 
 def _bearing(xmp: bytes) -> float | None:
-    """The compass bearing of the middle of a panorama, degrees, where it is told."""
+    """The compass bearing of the centre of a panorama in degrees; None if unknown."""
     root, name = _parsed(xmp), f"{{{GPANO}}}PoseHeadingDegrees"
     found = (
         [] if root is None else [*(node.get(name) for node in root.iter()), *(node.text for node in root.iter(name))]
@@ -160,7 +161,7 @@ def _bearing(xmp: bytes) -> float | None:
 
 
 def _xmp(xmp: bytes, said: Mapping[str, str]) -> bytes:
-    """XMP data that say other things to viewers, or nothing."""
+    """XMP data with the metadata for viewers replaced by `said`, or removed."""
     root = _parsed(xmp)
     if root is None:
         if not said:
@@ -182,13 +183,13 @@ def _xmp(xmp: bytes, said: Mapping[str, str]) -> bytes:
 
 
 def _parsed(xmp: bytes) -> ET.Element | None:
-    """XMP data as a tree; None where there are none, or none that can be read."""
-    # Entities could grow without end, and XMP has none.
+    """XMP data as a tree; None if there are none or they are invalid."""
+    # Entities could expand without limit, and XMP has none.
     if not xmp or b"<!" in xmp:
         return None
     root: Any = None
     try:
-        # Programs look for prefixes that they know: those that are there stay.
+        # Programs look for known prefixes, so existing ones are kept.
         for event, found in ET.iterparse(io.BytesIO(xmp.strip(b"\0 \n\r\t")), events=("start-ns", "start")):
             if event == "start-ns":
                 _name_prefix(*found)

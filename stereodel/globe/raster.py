@@ -1,4 +1,4 @@
-"""Equirectangular pictures of the globe, and how a lens and a view show them."""
+"""Equirectangular images of the globe, drawn through a lens and a view."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ PanoramaForm = Literal["equirectangular", "cubemap", "planet"]
 PANORAMA_FORMS: Final = ("equirectangular", "cubemap", "planet")
 
 SHARES: Final[Mapping[str, int]] = {"equirectangular": 1, "cubemap": 4, "planet": 2}
-"""Of a panorama's width, what the usual width of a picture of each form is one of."""
+"""Divisor of the panorama's width that gives the default width of each form."""
 
 PLANET_RADIUS: Final = 140.0
-"""Of a little planet, degrees: the horizon is a circle about a third as wide as the picture."""
+"""Default angular radius of a little planet in degrees: the horizon is a circle about a third as wide as the image."""
 
 MOST_PLANET_RADIUS: Final = 160.0
-"""Degrees: the corners are then 166° from the middle, and the scale in them 67 times as large."""
+"""Largest angular radius in degrees: the corners are then 166° from the centre, and their scale 67 times as large."""
 
 FACES: Final[Mapping[str, FloatArray]] = {
     "right": np.array([[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
@@ -56,11 +56,11 @@ FACES: Final[Mapping[str, FloatArray]] = {
     "front": np.eye(3),
     "back": np.array([[-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]),
 }
-"""Faces of a cubemap in their order: right, up and ahead of each in terms of the front's (rows)."""
+"""Faces of a cubemap in order: right, up and forward of each, as rows, in the axes of the front face."""
 
 
 def panorama_size(size: int, form: PanoramaForm, name: str = "size") -> int:
-    """A size as `Raster.panorama` takes it; its ValueError for another one."""
+    """Check a size for `Raster.panorama`; ValueError if it is invalid."""
     width = as_count(size, name)
     if form == "equirectangular" and width % 2:
         raise ValueError(
@@ -75,40 +75,40 @@ def panorama_size(size: int, form: PanoramaForm, name: str = "size") -> int:
 
 
 def planet_radius(angular_radius: float, name: str = "angular_radius") -> float:
-    """An angular radius as `Raster.panorama` takes it; its ValueError for another one."""
+    """Check an angular radius for `Raster.panorama`; ValueError if it is invalid."""
     return as_scalar(angular_radius, name, low=0.0, high=MOST_PLANET_RADIUS, open_low=True)
 
 
 @dataclass(frozen=True, eq=False)
 class Raster:
-    """A picture of the Earth, or of a part of it, in which longitude and latitude run evenly.
+    """An equirectangular image of the Earth or part of it.
 
     Parameters
     ----------
     pixels : array_like of uint8, shape (h, w), (h, w, 3) or (h, w, 4)
-        Gray, sRGB, or sRGB and opacity (not premultiplied); rows from the north, columns from the west. At most
-        `MOST_TEXELS` pixels.
+        Gray, sRGB, or sRGB with opacity (not premultiplied); rows from north to south, columns from west to east. At
+        most `MOST_TEXELS` pixels.
     bounds : tuple of float, optional
-        (west, south, east, north) of the outer edges in degrees, 0 < east − west ≤ 360. Without it the picture shows
-        the whole globe from −180 to 180 and must be twice as wide as high.
+        (west, south, east, north) of the outer edges in degrees, 0 < east − west ≤ 360. Without it the image covers the
+        whole globe from −180 to 180 and must be twice as wide as high.
     latitude : {"spherical", "geodetic", "authalic"}
-        What the latitudes of rows and bounds are; see `stereodel.lonlat_to_xyz`.
+        Kind of latitude of rows and bounds; see `stereodel.lonlat_to_xyz`.
 
     Raises
     ------
     TypeError
-        For numbers that are not uint8.
+        If `pixels` is not uint8.
     ValueError
-        For another shape, more pixels, a picture that is not 2:1 without bounds, or bounds out of range.
+        If `pixels` has the wrong shape or too many pixels, is not 2:1 without `bounds`, or `bounds` are out of range.
 
     Notes
     -----
-    Row i is centred at latitude north − (i + 1/2)·(north − south)/h, and columns likewise. A raster that goes all the
-    way round has no seam, and one that reaches a pole goes on beyond it along the opposite meridian.
+    Row i is centred at latitude north − (i + 1/2)·(north − south)/h; columns likewise in longitude. A raster that spans
+    360° has no seam, and one that reaches a pole continues beyond it along the opposite meridian.
 
-    `warp` takes for each pixel the mean of the raster over the pixel's image: what shrinks does not flicker. What grows
-    is the surface through the texels of cubic convolution (Catmull and Rom: sharp, at an edge at most a fourteenth
-    beyond it, and never beyond 0 and 255). Means are taken of sRGB values as they stand, as everywhere in
+    Where the image shrinks, `warp` averages the raster over the area of each pixel, so films do not flicker. Where it
+    grows, the raster is interpolated by cubic convolution (Catmull and Rom), which is sharp and overshoots at edges by
+    at most a fourteenth, clipped to 0 and 255. Averages are taken of sRGB values directly, as everywhere in
     `stereodel.render`.
 
     Examples
@@ -132,7 +132,7 @@ class Raster:
         if self.bounds is None and width != 2 * height:
             raise ValueError(
                 f"pixels is {width} wide and {height} high; a picture of the whole globe is twice as wide as high: "
-                "say what this one shows, bounds=(west, south, east, north) in degrees"
+                "for any other, give bounds=(west, south, east, north) in degrees"
             )
         object.__setattr__(self, "pixels", locked(pixels))
         object.__setattr__(self, "bounds", as_edges(WHOLE if self.bounds is None else self.bounds, "bounds"))
@@ -145,22 +145,22 @@ class Raster:
         bounds: tuple[float, float, float, float] | None = None,
         latitude: Latitude = "spherical",
     ) -> Raster:
-        """Read a picture file of any kind that Pillow reads; palettes, gray, 16 bits and opacity are understood.
+        """Read an image file in any format that Pillow reads, including palettes, gray, 16 bits and opacity.
 
         Parameters
         ----------
         path : path-like
-            Of a file with several pictures the first is read.
+            Image file; of several images the first is read.
         bounds, latitude
             As for `Raster`.
 
         Raises
         ------
         OSError
-            Where the file is missing or cannot be read.
+            If the file is missing or cannot be read.
         ValueError
-            When it is no picture, is damaged, or has more than `MOST_TEXELS` pixels, which is seen before they are
-            decoded; for a picture that is not 2:1 without bounds.
+            If it is not an image, is damaged, has more than `MOST_TEXELS` pixels (checked before decoding), or is not
+            2:1 without `bounds`.
         """
         pixels = read_image(path)
         try:
@@ -177,30 +177,31 @@ class Raster:
         window: tuple[int, int, int, int] | None = None,
         workers: int | None = None,
     ) -> Pixels:
-        """The globe as it looks through a lens.
+        """Image of the globe through a lens.
 
         Parameters
         ----------
         lens : MoebiusMap
-            Where each point of the globe is shown.
+            Conformal map applied to the globe.
         view : View or StereographicView
         size : int
-            Pixels across the globe, which touches all four sides of the picture.
+            Diameter of the globe in pixels, which touches all four sides of the image.
         window : tuple of int, optional
-            (left, top, width, height) in pixels of that picture: the part that is wanted; by default all of it.
+            Part of the image to compute, (left, top, width, height) in its pixels; by default all of it.
         workers : int, optional
-            Threads; −1 for all processors. By default all for more than a few pixels. Never changes the result.
+            Number of threads; −1 for all processors. By default all, except for very small images. Does not affect the
+            result.
 
         Returns
         -------
         (height, width, 4) uint8 array
-            sRGB and opacity, not premultiplied, rows from the top. Opacity is that of the raster, times the part of the
-            pixel that the globe covers.
+            sRGB and opacity, not premultiplied, rows from the top. Opacity is that of the raster times the fraction of
+            the pixel covered by the globe.
 
         Raises
         ------
         ValueError
-            For a size or a window out of range.
+            If `size` or `window` is out of range.
         """
         across = as_count(size, "size", high=MOST_PIXELS_ACROSS)
         left, top, width, height = as_window(window, across, "window")
@@ -218,21 +219,22 @@ class Raster:
         covered: bool = True,
         workers: int | None = None,
     ) -> Pixels:
-        """As `warp`, for pixels anywhere on the page.
+        """As for `warp`, for pixels anywhere on the page.
 
         Parameters
         ----------
         lens, view, workers
             As for `warp`.
         place : tuple of float
-            Left and upper edge, width and height of a pixel, in radii of the disc about its centre, y up.
+            Left and upper edge of the image, then width and height of a pixel, in radii of the disc from its centre, y
+            up.
         pixels : tuple of int
-            Columns and rows.
+            Number of columns and rows.
         covered : bool
-            Whether the opacity of pixels on the limb says how much of them the disc covers. Without, they are as opaque
-            as the raster: for a picture that is then cut along the disc.
+            Whether opacity on the limb includes the fraction of the pixel covered by the disc. Otherwise it is that of
+            the raster, for an image that is then clipped to the disc.
         """
-        # tan(α/2) from the cosine of the radius α of what a flat view shows.
+        # tan(α/2) from the cosine of the angular radius α of a flat view.
         reach = 0.0 if view.round else float(np.sqrt((1 - view.edge) / (1 + view.edge)))
         projection = "orthographic" if view.round else "stereographic"
         return self._warped(lens, view.matrix, projection, reach, place, pixels, covered=covered, workers=workers)
@@ -247,40 +249,42 @@ class Raster:
         angular_radius: float = PLANET_RADIUS,
         workers: int | None = None,
     ) -> Pixels:
-        """All directions as they look through a lens: a picture for viewers of panoramas, or a little planet.
+        """Image of all directions through a lens, for panorama viewers or as a little planet.
 
         Parameters
         ----------
         lens : MoebiusMap, optional
-            Where each direction is shown; by default as it is. A fisheye enlarges what surrounds its focus, and a
-            circle in the panorama stays a circle.
+            Conformal map of the directions; by default the identity. A fisheye enlarges the surroundings of its focus,
+            and circles of the sphere stay circles.
         form : {"equirectangular", "cubemap", "planet"}
-            Longitude and latitude evenly, twice as wide as high. The six faces of a cube, in the order of OpenGL: right
-            (+X), left (−X), up (+Y), down (−Y), front (+Z), back (−Z), each as it is seen from within; the lower edge
-            of the upper face and the upper edge of the lower one meet the front. A little planet: a stereographic
-            picture that fills its square.
+            "equirectangular" is linear in longitude and latitude and twice as wide as high. "cubemap" has the six faces
+            of a cube as seen from inside, in the order of OpenGL: right (+X), left (−X), up (+Y), down (−Y), front
+            (+Z), back (−Z); the lower edge of the upper face and the upper edge of the lower face meet the front.
+            "planet" is a stereographic image that fills a square, called a little planet.
         view : View, optional
-            What is in the middle of the picture, or of the front face, and which way is up; by default longitude and
-            latitude 0, and for a planet the nadir.
+            Direction at the centre of the image or of the front face, and which way is up; by default longitude and
+            latitude 0, for a planet the nadir.
         size : int, optional
-            Width in pixels, for a cubemap that of a face; even for "equirectangular". By default so many that nothing
-            is lost in the middle: the width of the raster, were it of the whole sphere, or a quarter of it for a face,
-            and a half for a planet.
+            Width in pixels, for a cubemap that of a face; must be even for "equirectangular". By default large enough
+            to keep the detail at the centre: the width of a raster of the whole sphere at this resolution, a quarter of
+            it for a face, and half of it for a planet.
         angular_radius : float
-            Of a planet, from its middle to the middles of its sides, degrees, at most 160.
+            For a planet, the angle in degrees between the centre and the midpoints of the sides, at most 160.
         workers : int, optional
-            Threads; −1 for all processors. By default all for more than a few pixels. Never changes the result.
+            Number of threads; −1 for all processors. By default all, except for very small images. Does not affect the
+            result.
 
         Returns
         -------
         uint8 array
             sRGB and opacity, not premultiplied, rows from the top: (size/2, size, 4), (6, size, size, 4) for a cubemap,
-            (size, size, 4) for a planet. Where the raster shows nothing, it is transparent.
+            (size, size, 4) for a planet. Directions outside the raster are transparent.
 
         Raises
         ------
         ValueError
-            For another form, for a size that is odd or of more than `MOST_TEXELS` pixels, for a radius out of range.
+            If `form` is unknown, `size` is odd for "equirectangular" or gives more than `MOST_TEXELS` pixels, or
+            `angular_radius` is out of its range.
 
         Examples
         --------
@@ -305,7 +309,7 @@ class Raster:
             return np.stack(sides)
         if form == "planet":
             radius = planet_radius(angular_radius)
-            # The square lies in the middle of a disc that is twice as wide: its corners are inside.
+            # The square is centred in a disc twice as wide, which contains its corners.
             reach, place = 2.0 * float(np.tan(np.radians(radius) / 2)), (-0.5, 0.5, 1.0 / width, 1.0 / width)
             return self._warped(
                 bend, seen.matrix, "stereographic", reach, place, (width, width), covered=False, workers=workers
@@ -346,23 +350,23 @@ class Raster:
 
     @property
     def _whole_width(self) -> int:
-        """Columns of a raster of the whole sphere with as many in a degree."""
+        """Width of a raster of the whole sphere at the same resolution."""
         west, _, east, _ = WHOLE if self.bounds is None else self.bounds
         return max(4, round(self.pixels.shape[1] * 360.0 / (east - west)))
 
     @cached_property
     def digest(self) -> str:
-        """SHA-256 of shape and pixels, for tests that must notice another picture."""
+        """SHA-256 of shape and pixels, by which tests notice a changed image."""
         return hashlib.sha256(f"{self.pixels.shape}\n".encode() + self.pixels.tobytes()).hexdigest()
 
     @cached_property
     def _texels(self) -> Pixels:
-        """Colour premultiplied, which is what means are taken of."""
+        """Premultiplied colours, from which averages are computed."""
         opacity = self.pixels[..., 3:]
         if opacity.min() == 255:
             return self.pixels
         texels = self.pixels.copy()
-        # At most 255² + 127, which fits into 16 bits.
+        # At most 255² + 127, which fits in 16 bits.
         texels[..., :3] = (self.pixels[..., :3] * opacity.astype(np.uint16) + 127) // 255
         return texels
 
@@ -378,10 +382,10 @@ class Raster:
 
 @cache
 def _shifts(latitude: Latitude) -> FloatArray:
-    """What is added to latitudes of the sphere, at 1025 of them, to get those of rows; radians.
+    """Differences between the latitude of rows and that on the sphere, at 1025 latitudes, in radians.
 
-    Straight between them it is within 2e-8 rad: at most 0.0034 rad · sin 2φ, its second derivative is below 0.0135, and
-    the entries are π/1024 apart.
+    Linear interpolation between them is accurate to 2e-8 rad: the difference is at most 0.0034 rad · sin 2φ, its second
+    derivative is below 0.0135, and the entries are π/1024 apart.
     """
     if latitude == "spherical":
         return np.zeros(0)
@@ -401,11 +405,11 @@ class RasterOnDisc:
     lens, view
         As for `Raster.warp`.
     at : tuple of float
-        Page position of the middle of the disc.
+        Page coordinates of the centre of the disc.
     scale : float
-        Its radius in page units.
+        Radius of the disc in page units.
     opacity : float
-        In [0, 1]; the raster's own is multiplied by it.
+        Factor in [0, 1] by which the raster's own opacity is multiplied.
     """
 
     raster: Raster

@@ -1,4 +1,4 @@
-"""Regions of the sphere by their borders: polygons of maps, cells and triangles of diagrams, the insides of circles."""
+"""Regions of the sphere by their borders: map polygons, cells and triangles of diagrams, interiors of circles."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay, SphericalVoronoi
 
 Rings = Sequence[npt.ArrayLike]
-"""An outer ring and its holes, (k, 2) each, degrees; a last point that repeats the first may be there or not."""
+"""An outer ring and its holes, (k, 2) each, in degrees; the first point may be repeated at the end."""
 
 HALF_OF_MAP = 180.0 * 180.0
 """Square degrees."""
@@ -30,17 +30,17 @@ HALF_OF_MAP = 180.0 * 180.0
 
 @dataclass(frozen=True, eq=False)
 class SphereRegions:
-    """Regions by rings of edges that have them on their left; neighbours may share edges.
+    """Regions bounded by rings of edges, interior on the left; neighbours may share edges.
 
     Parameters
     ----------
     edges : Edges
     rings : Ragged
-        The edges of each ring, one after the other; ~e where edge e is run backwards.
+        The edges of each ring in order; ~e for edge e in reverse.
     owner : (r,) array
         The region of each ring.
     everywhere : (n,) bool array
-        For each region whether it is all of the sphere, without any ring.
+        Whether each region is the whole sphere, without any ring.
     """
 
     edges: trace.Edges
@@ -61,16 +61,16 @@ class SphereRegions:
         Parameters
         ----------
         polygons : iterable of sequences of (k, 2) array_like
-            Rings of each in degrees, the outer one first, in either direction. A ring that jumps by more than 180° of
-            longitude goes on across ±180°; one that goes round both poles has its smaller side inside.
+            Rings of each polygon in degrees, the outer one first, in either direction. A ring that jumps by more than
+            180° of longitude continues across ±180°; one that separates the poles has its smaller side as interior.
         owners : (n,) array_like of int, optional
-            The region that each polygon belongs to; by default its own.
+            The region of each polygon; by default each polygon is one region.
         latitude : {"spherical", "geodetic", "authalic"}
 
         Raises
         ------
         ValueError
-            For a latitude outside [−90, 90], or a ring of fewer than three points.
+            If a latitude is outside [−90, 90], or a ring has fewer than three points.
         """
         rings, polygon, hole = [], [], []
         for number, polygon_rings in enumerate(polygons):
@@ -83,14 +83,14 @@ class SphereRegions:
         count = int(region.max(initial=-1)) + 1
         lonlat, area = _oriented(trace.unwrapped(Ragged.of(rings, np.zeros((0, 2)))), np.array(hole, dtype=bool))
         start, end, sides, owner = stitched(lonlat, region)
-        # What fills the map and has no border left when the seams of the map are gone is everything.
+        # A polygon that fills the map, with no border left once the map's seams are removed, is the whole sphere.
         everywhere = np.bincount(region, area, minlength=count) > HALF_OF_MAP
         everywhere[owner[sides.sizes > 0]] = False
         return cls(trace.Edges.straight(start, end, latitude), sides, owner, everywhere)
 
     @classmethod
     def cells(cls, voronoi: SphericalVoronoi) -> SphereRegions:
-        """The cells of a diagram, a region for each site."""
+        """The cells of a diagram, one region for each site."""
         sizes = np.diff(voronoi.region_offsets)
         if (sizes == 2).any() or (len(sizes) and len(voronoi.region_indices) == 0):
             raise ValueError(
@@ -102,7 +102,7 @@ class SphereRegions:
 
     @classmethod
     def triangles(cls, triangulation: SphericalDelaunay) -> SphereRegions:
-        """The triangles of a triangulation but the closing ones, a region for each simplex."""
+        """The triangles of a triangulation except closing ones, one region for each simplex."""
         kept = np.flatnonzero(~triangulation.closing)
         points, (sides, pairs) = units(triangulation.points), triangle_sides(triangulation.simplices[kept])
         arcs = trace.great(points[pairs[:, 0]], points[pairs[:, 1]])
@@ -110,7 +110,7 @@ class SphereRegions:
 
     @classmethod
     def circles(cls, circles: Iterable[SphereCircle]) -> SphereRegions:
-        """The insides of circles."""
+        """The interiors of circles."""
         arcs = trace.exact([SphereArc.whole(circle) for circle in circles])
         number = np.arange(len(arcs))
         return cls._of(arcs, Ragged(number, np.arange(len(arcs) + 1)), number, len(arcs))
@@ -121,7 +121,7 @@ class SphereRegions:
 
     @property
     def count(self) -> int:
-        """Of regions."""
+        """Number of regions."""
         return len(self.everywhere)
 
     @property
@@ -130,14 +130,14 @@ class SphereRegions:
         return SphereLines(self.edges, self.rings)
 
     def may_hold(self, place: FloatArray) -> BoolArray:
-        """Which regions may hold a place that is far from their rings, (n,): all but those that are somewhere else."""
+        """Which regions may contain a place far from their rings, (n,): all that are not certainly elsewhere."""
         center, reach = self._caps
         chord = np.sqrt(np.sum((center - place) ** 2, axis=1))
         return 2 * np.arcsin(np.minimum(chord / 2, 1.0)) <= reach
 
     @cached_property
     def _caps(self) -> tuple[FloatArray, FloatArray]:
-        """Centres (n, 3) and radii of caps that hold the regions; of what is no part of a hemisphere, everything."""
+        """Centres (n, 3) and radii of caps that contain the regions; of one in no hemisphere, the sphere."""
         edge = np.where(self.rings.values < 0, ~self.rings.values, self.rings.values)
         region = self.owner[self.rings.row]
         start = np.where((self.rings.values < 0)[:, None], self.edges.arcs.end[edge], self.edges.arcs.start[edge])
@@ -148,7 +148,7 @@ class SphereRegions:
         away = 2 * np.arcsin(np.minimum(np.sqrt(np.sum((start - center[region]) ** 2, axis=1)) / 2, 1.0))
         reach = np.zeros(self.count)
         np.maximum.at(reach, region, away + self.edges.length[edge])
-        # Seen from its centre, the inside of a cap is on the left of the rings: the sum of their areas is positive.
+        # Seen from the centre of the cap, the interior is on the left of the rings: the sum of their areas is positive.
         axis = center[region]
         far = axis + start
         height = 1 + np.sum(axis * start, axis=1)
@@ -160,7 +160,7 @@ class SphereRegions:
 
 
 def _closed(ring: npt.ArrayLike, number: int) -> FloatArray:
-    """A ring as an array with its first point again at its end."""
+    """A ring as an array with its first point repeated at the end."""
     points = as_lonlat(ring, f"polygons[{number}]").reshape(-1, 2)
     if len(points) > 1 and (points[0] == points[-1]).all():
         points = points[:-1]
@@ -170,9 +170,9 @@ def _closed(ring: npt.ArrayLike, number: int) -> FloatArray:
 
 
 def _oriented(rings: Ragged, hole: BoolArray) -> tuple[Ragged, FloatArray]:
-    """Rings turned so that the polygon is on their left, and their areas on the map, negative those of holes.
+    """Rings oriented so that the polygon is on their left, and their areas on the map, negative for holes.
 
-    A ring that goes once round the Earth has its smaller side inside.
+    A ring that goes once around the Earth has its smaller side as interior.
     """
     area, _ = signed_areas(rings)
     first, last = rings.offsets[:-1], rings.offsets[1:] - 1

@@ -17,25 +17,24 @@ from stereodel.triangulation.dispatch import Triangulation, as_triangulation, op
 
 @dataclass(frozen=True, eq=False)
 class Contour:
-    """A connected piece of a contour.
+    """A connected component of a contour.
 
     Parameters
     ----------
     level : float
         The value along it.
     points : (k, 2) or (k, 3) array
-        Corners of the polyline, at least two: points of the plane, to be joined by segments, or unit vectors, to be
-        joined by great circles. Higher values lie on the left, on the sphere as seen from outside. Read-only.
+        Vertices of the polyline, at least two: points of the plane, joined by segments, or unit vectors, joined by
+        great-circle arcs. Higher values lie on the left, as seen from outside the sphere. Read-only.
     closed : bool
-        Whether it is a ring; then the last point repeats the first. Otherwise it ends at the hull, or beside a
-        value that is NaN.
+        Whether it is a ring; then the last point repeats the first. Otherwise it ends at the hull or next to a NaN.
     latitude : str, optional
         The kind of latitude by which the points of the triangulation were given.
 
     Attributes
     ----------
     lonlat : (k, 2) array
-        `points` in degrees, of that latitude.
+        `points` in degrees, with that kind of latitude.
 
     Examples
     --------
@@ -74,20 +73,21 @@ def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, level
     ----------
     {sites}
     values : (n,) array_like
-        A number for each point; triangles with a NaN are skipped.
+        One number for each point; triangles with a NaN are skipped.
     levels : float or (l,) array_like
         Values along the contours.
 
     Returns
     -------
     list of Contour
-        Level by level in the order given; with `lonlat`, if the triangulation was made from longitude and latitude.
+        Contours level by level, in the order given; with `lonlat` if the triangulation was made from longitude and
+        latitude.
 
     Raises
     ------
     ValueError, TypeError
-        For points, as in the triangulation; for values that are infinite, not real numbers, or not one number for each
-        point; for levels that are not finite numbers.
+        As for the triangulation; if a value is infinite or not a real number, their number differs from that of the
+        points, or a level is not finite.
 
     Notes
     -----
@@ -96,7 +96,7 @@ def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, level
     value. Contours that shrink to such a point are omitted. The topology follows from comparisons alone; only the
     points where contours cross edges are rounded.
 
-    Contours of smooth functions: take the values of a `SmoothInterpolator` at more points.
+    For smoother contours, evaluate a `SmoothInterpolator` at more points first.
 
     Examples
     --------
@@ -145,7 +145,7 @@ class _Network:
         ends = [self._simplices[triangles, (opposite + k) % 3] for k in (1, 2)]
         swap = self._values[ends[0]] < level
         high, low = np.where(swap, ends[1], ends[0]), np.where(swap, ends[0], ends[1])
-        # Halves: the difference of two large values of opposite sign is no double.
+        # Halves: the difference of two large values of opposite sign may overflow.
         drop = self._values[high] / 2 - level / 2
         fraction = drop / (self._values[high] / 2 - self._values[low] / 2)
         start = self._places.rounded[high]
@@ -161,7 +161,7 @@ class _Network:
 
 
 def chains(following: AnyIndices) -> list[tuple[list[int], bool]]:
-    """Cut a one-to-one map, -1 where it ends, into chains of numbers, and tell which are rings.
+    """Split a one-to-one map, -1 where it ends, into chains of indices, and say which are rings.
 
     Open chains come first, each kind in the order of its lowest number.
     """

@@ -67,7 +67,7 @@ def fit_gradients(triangulation: Triangulation, values: FloatArray) -> FloatArra
     gradients = np.full((*triangulation.points.shape, values.shape[1]), np.nan)
     sites = PrecisePoints(triangulation.points)
     known = ~np.isnan(values)
-    # Columns with the same points share the work of the fit.
+    # Columns without values at the same points share the work of the fit.
     groups = [slice(None)] if known.all() else [slice(k, k + 1) for k in range(values.shape[1])]
     for block, owners, others in rings_in_blocks(triangulation):
         for columns in groups:
@@ -130,7 +130,7 @@ def _columns(
     unit = _third_least(size, owners, starts)
     of_pair = np.repeat(unit, counts)
     longer = np.maximum(size, of_pair)
-    # (1 − r/R)², R a tenth beyond the farthest: the weight but for its 1/r², for which (u/max(u, r))² stands below.
+    # (1 − r/R)², R a tenth beyond the farthest: the weight without its 1/r², which (u/max(u, r))² replaces below.
     share = (1.0 - size / np.repeat(1.1 * np.maximum.reduceat(size, starts), counts)) ** 2
     # Coordinates along the axes of the owner, of d over max(u, r).
     nearer = of_pair / longer
@@ -141,8 +141,8 @@ def _columns(
 
 
 def _third_least(size: FloatArray, owners: AnyIndices, starts: AnyIndices) -> FloatArray:
-    """Of the lengths of each owner, equal ones counted each; the largest if there are fewer than three."""
-    # Twice the least of what remains is put aside, one of them where several are equal; the least of the rest is third.
+    """The third smallest length of each owner, equal lengths counted separately; the largest if fewer than three."""
+    # Twice, one smallest of the remaining lengths is set aside; the smallest of the rest is the third.
     rest, counts = size.copy(), np.diff(starts, append=len(owners))
     for _ in range(2):
         least = np.flatnonzero(rest == np.repeat(np.minimum.reduceat(rest, starts), counts))

@@ -1,4 +1,4 @@
-"""The common part of all interpolators: the triangulation, the values, and what happens outside."""
+"""The common base of all interpolators: triangulation, values, and behaviour outside."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from stereodel.sphere.lonlat import BY_NAME, IN_ROWS, LONLAT, as_asked
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation
 
 BLOCK = 4096
-"""Queries at a time: a temporary of three vectors is 300 KB and stays in the second-level cache."""
+"""Queries in a block: a temporary of three vectors takes 300 KB and stays in the second-level cache."""
 
 
 class Interpolator(ABC):
@@ -28,9 +28,9 @@ class Interpolator(ABC):
     Attributes
     ----------
     triangulation : PlanarDelaunay or SphericalDelaunay
-        Of the points; a copy, independent of later changes to the one given.
+        Triangulation of the points; a copy, independent of later changes to the one given.
     values : (n, ...) array
-        As used, read-only: equal points have the mean of their values.
+        Values as used, read-only: coincident points have the mean of their values.
     latitude : str or None
         The kind of latitude by which the points were given (`from_lonlat`).
     """
@@ -100,25 +100,25 @@ class Interpolator(ABC):
         Parameters
         ----------
         queries : array_like of shape (..., 2) or (..., 3)
-            Points of the plane, or directions. A tuple of two xarray.DataArrays, x and y, means all points of both:
-            points if they have the same dimensions, a grid if each has its own.
+            Points of the plane, or directions. A tuple of two xarray.DataArrays, x and y, gives points if they share
+            dimensions, and a grid if each has its own.
         {asked}
             Two DataArrays in a tuple, longitude and latitude, as for `queries`.
         workers : int, optional
-            Threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
+            Number of threads of the search for triangles and points; see `PlanarDelaunay.find_simplex`.
 
         Returns
         -------
         array of the leading shape, then the shape of one value
-            NaN outside, unless `extrapolate` is given, and where a NaN of `values` takes part. For DataArrays a
-            DataArray with their dimensions and coordinates, and those, name and attributes of `values`, if they are
-            one.
+            NaN outside, unless `extrapolate` is given, and where a NaN of `values` takes part. For DataArrays, a
+            DataArray with their dimensions and coordinates, and with the name, attributes and remaining dimensions of
+            `values` if those are a DataArray.
 
         Raises
         ------
         ValueError, TypeError
-            For values that are not finite real numbers, zero vectors, or another last axis; for `lonlat` where the
-            points were not given by longitude and latitude.
+            If a coordinate is not a finite real number, a vector is zero, or the last axis has the wrong length; if
+            `lonlat` is given although the points were not given by longitude and latitude.
         """
         array, flat = self._as_queries(queries, lonlat)
         with np.errstate(all="ignore"):
@@ -186,7 +186,7 @@ class Interpolator(ABC):
 
 
 class TriangleInterpolator(Interpolator):
-    """An interpolator that asks the triangle of each query; outside of all, NaN or the nearest point's value."""
+    """An interpolator on the triangle that contains each query; outside all triangles, NaN or the nearest value."""
 
     def _evaluate(self, queries: FloatArray, workers: int | None) -> FloatArray:
         result = np.full((len(queries), self._values.shape[1]), np.nan)
@@ -209,7 +209,7 @@ class TriangleInterpolator(Interpolator):
         workers: int | None,
         function: Callable[[AnyIndices, FloatArray], FloatArray],
     ) -> AnyIndices:
-        """Fill the rows of `result` for queries inside triangles; returns the other rows."""
+        """Fill the rows of `result` for queries inside triangles, and return the other rows."""
         found = np.asarray(self.triangulation.find_simplex(queries, workers=workers))
         inside = np.flatnonzero(found >= 0)
         for first in range(0, len(inside), BLOCK):

@@ -1,6 +1,6 @@
-"""Numbers that know their derivatives by two parameters: formulas written once give values and gradients.
+"""Values with their derivatives by two parameters, so that one formula gives values and gradients.
 
-Forward differentiation: each operation applies the rule of the derivative beside its own.
+Forward-mode automatic differentiation: each operation also applies its derivative rule.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ class Jet:
         Derivatives by the two parameters; the rest of the shape broadcasts against that of `value`.
     """
 
-    __array_ufunc__ = None  # so that `ndarray * Jet` comes to __rmul__
+    __array_ufunc__ = None  # so that `ndarray * Jet` calls __rmul__
     __slots__ = ("slope", "value")
 
     def __init__(self, value: FloatArray, slope: FloatArray) -> None:

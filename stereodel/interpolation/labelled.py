@@ -1,6 +1,6 @@
-"""Arrays with names of dimensions and coordinates: DataArrays of xarray in, DataArrays out.
+"""Labelled arrays: DataArrays of xarray in, DataArrays out.
 
-xarray is not imported before somebody has such an array, who imported it then.
+xarray is never imported here: whoever passes such an array has imported it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ def is_labelled(array: Any) -> bool:
 
 @dataclass(frozen=True)
 class Labels:
-    """Names that go with the axes of an array."""
+    """Dimensions, coordinates, name and attributes of an array."""
 
     dims: tuple[Any, ...]
     coords: dict[Any, Any]
@@ -30,7 +30,7 @@ class Labels:
 
 
 def labels_of_one(values: Any) -> Labels | None:
-    """Those of a single value, of values (n, ...) with names; None if they have none."""
+    """Labels of a single value, from labelled values (n, ...); None if they have none."""
     if not is_labelled(values) or not values.dims:
         return None
     points = values.dims[0]
@@ -46,7 +46,7 @@ class Places:
     ----------
     pairs : (..., 2) array
     labels : Labels
-        Of the leading shape.
+        Labels of the leading shape.
     """
 
     pairs: FloatArray
@@ -54,7 +54,7 @@ class Places:
 
     @classmethod
     def of(cls, first: Any, second: Any, names: tuple[str, str] = ("lon", "lat")) -> Places:
-        """All places of both: a grid, with the second coordinate first, if they have dimensions of their own.
+        """Places from two coordinates; a grid, with the second coordinate first, if they have different dimensions.
 
         `names` are for coordinates without a name.
         """
@@ -66,7 +66,7 @@ class Places:
         return cls(np.stack([one.values, two.values], axis=-1), Labels(tuple(two.dims), coords, {}))
 
     def array(self, found: FloatArray, value: Labels | None) -> Any:
-        """What was found at the places, one value of these labels at each, as a DataArray."""
+        """Results at the places, one value with these labels at each, as a DataArray."""
         if value is None:
             further = found.ndim - len(self.labels.dims)
             value = Labels(tuple(f"value_{k}" for k in range(further)), {}, {})

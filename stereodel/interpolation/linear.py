@@ -65,7 +65,7 @@ class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
     def _within(self, corners: AnyIndices, queries: FloatArray) -> FloatArray:
         weights = LocatedQueries(self._sites, corners, queries).weights()
         values = self._values[corners]
-        # From the heaviest corner: at a point the value is met to the last bit.
+        # From the heaviest corner, so that values at points are reproduced exactly.
         first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)
         one, two, three = np.moveaxis(weights[:, :, None] * (values - first), 1, 0)
         return first[:, 0] + (one + two + three)

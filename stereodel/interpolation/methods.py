@@ -27,11 +27,11 @@ METHODS: Final[MappingProxyType[Method, type[Interpolator]]] = MappingProxyType(
         "smooth": SmoothInterpolator,
     }
 )
-"""Interpolators by the words for them."""
+"""Interpolators by name."""
 
 
 def as_method(method: str) -> type[Interpolator]:
-    """The interpolator that a word means."""
+    """The interpolator of this name."""
     if method == "cubic":
         raise ValueError("method is 'cubic', which SciPy has; the smooth interpolant here is 'smooth'")
     return METHODS[as_choice(method, tuple(METHODS), "method")]
@@ -51,19 +51,19 @@ def griddata(
     Parameters
     ----------
     points : (n, 2) or (n, 3) array_like, or tuple of (n,) arrays
-        Points of the plane, or directions; with `latitude` (longitude, latitude) in degrees. A tuple holds their
-        coordinates one by one: x and y, or longitude and latitude.
+        Points of the plane, or directions; with `latitude`, (longitude, latitude) in degrees. A tuple holds separate
+        coordinates: x and y, or longitude and latitude.
     values : (n, ...) array_like
         A number or an array of numbers for each point; NaN or masked where missing.
     xi : (..., 2) or (..., 3) array_like, or tuple of arrays
-        Query points, given as the points are; the arrays of a tuple are broadcast against each other, so
-        that ``np.ix_``, ``np.mgrid`` and ``np.meshgrid`` give grids.
+        Query points, in the form of `points`; the arrays of a tuple are broadcast against each other, so that
+        ``np.ix_``, ``np.mgrid`` and ``np.meshgrid`` give grids.
     method : {"linear", "nearest", "natural", "smooth"}, optional
         `LinearInterpolator`, `NearestInterpolator`, `NaturalNeighborInterpolator` or `SmoothInterpolator`.
     fill_value : float, optional
-        Value outside all triangles; for "nearest" there is no outside.
+        Value outside all triangles; not used by "nearest".
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        Declares that points and `xi` are longitude and latitude, and of which kind, as in `lonlat_to_xyz`.
+        If given, `points` and `xi` are longitude and latitude, with this kind of latitude, as in `lonlat_to_xyz`.
 
     Returns
     -------
@@ -73,11 +73,11 @@ def griddata(
     Raises
     ------
     ValueError, TypeError
-        For points and values, as in the interpolators; for another method.
+        As for the interpolators; if `method` is unknown.
 
     Notes
     -----
-    For several fields, or several sets of queries, make the interpolator once; its `weights` serve time series.
+    For several fields or sets of queries, create the interpolator once; for time series use its `weights`.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def griddata(
 
 
 def _joined(coordinates: Any, name: str) -> npt.ArrayLike:
-    """Coordinates given one by one in a tuple as rows."""
+    """Separate coordinates in a tuple, as rows."""
     if not isinstance(coordinates, tuple) or np.ndim(coordinates[0]) == 0:
         return coordinates
     columns = [as_floats(column, f"{name}[{k}]") for k, column in enumerate(coordinates)]

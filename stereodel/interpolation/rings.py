@@ -1,4 +1,4 @@
-"""The neighbours of points and the neighbours of these, block by block."""
+"""The neighbours of points and their neighbours, block by block."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from stereodel.triangulation.dispatch import Triangulation, open_triangles
 from stereodel.triangulation.topology import adjacency_of, edges_of
 
 BLOCK = 4096
-"""Points at a time: they have some 80 000 neighbours of neighbours."""
+"""Points in a block, with about 80 000 neighbours of neighbours."""
 
 
 class Adjacency:

@@ -59,7 +59,7 @@ def side_vertex_slope(located: LocatedQueries, values: FloatArray, gradients: Fl
 def _met(
     found: FloatArray, at_corner: FloatArray, weights: FloatArray, values: FloatArray, gradients: FloatArray
 ) -> FloatArray:
-    """What was found, but at corners what is given there: the smallest weight times a steep slope is not nothing."""
+    """Results, replaced at corners by the given values: even the smallest weight times a steep slope is not zero."""
     rows = np.flatnonzero(weights.max(axis=1) == 1.0)
     known = np.asarray(np.isfinite(values[rows]).all(axis=1) & np.isfinite(gradients[rows]).all(axis=(1, 2)))
     found[rows] = np.where(known if found.ndim == 2 else known[:, None], at_corner[rows], found[rows])
@@ -73,7 +73,7 @@ def _mix(
     first: FloatArray,
     gradients: FloatArray,
 ) -> Number:
-    """What is to be added to the value `first` of one corner."""
+    """The difference from the value `first` of one corner."""
     total: Number = 0.0
     divisor: Number = 0.0
     for i in range(3):
@@ -180,9 +180,9 @@ class _Corner:
             Fractions of its length before and behind the query.
         length
         divisor
-            Of slopes along the vector from the corner to the chord, at the corner, and of the next.
+            Divisor of slopes along the vector from the corner to the chord, at the corner, and of `components`.
         components
-            Of the line's direction at Q, along the side and across.
+            Components of the line's direction at Q, along the side and across.
         """
         tangent = self.side.tangents[0]
         across = dot(self.to_start, self.side.normal)

@@ -24,8 +24,8 @@ class SmoothInterpolator(TriangleInterpolator):
     {points}
     {values}
     gradients : (n, ..., 2) or (n, ..., 3) array_like, optional
-        Gradients at the points, per unit of length or per radian; on the sphere the part along the vector of the point
-        is left out. By default those of `estimate_gradients`.
+        Gradients at the points, per unit of length or per radian; on the sphere their radial components are ignored. By
+        default those of `estimate_gradients`.
     {extrapolate}
 
     Attributes
@@ -37,8 +37,8 @@ class SmoothInterpolator(TriangleInterpolator):
     Raises
     ------
     ValueError, TypeError
-        For points, as in the triangulation; for values or gradients that are infinite, not real numbers, or not one for
-        each point.
+        As for the triangulation; if a value or gradient is infinite or not real, or their number differs from that of
+        the points.
 
     Notes
     -----

@@ -1,4 +1,4 @@
-"""Where a query stands in the triangle that holds it, and slopes there.
+"""Barycentric coordinates of queries in the triangles that contain them, and gradients there.
 
 On the sphere the triangle is the plane one with the same corners, met by the ray through the query: with unit vectors
 a, b, c and q the barycentric coordinates are det[q b c], det[a q c] and det[a b q], divided by their sum.
@@ -43,14 +43,14 @@ def lengths(vectors: FloatArray) -> FloatArray:
     if len(rows[0]):
         odd = vectors[rows]
         exponent = np.frexp(np.abs(odd).max(axis=-1, keepdims=True))[1]
-        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ alone is no double
+        odd = np.ldexp(np.ldexp(odd, -(exponent // 2)), exponent // 2 - exponent)  # 2¹⁰⁷⁴ itself overflows
         root = np.sqrt(np.sum(np.square(odd), axis=-1, keepdims=True))
         plain[rows] = np.ldexp(np.ldexp(root, exponent // 2), exponent - exponent // 2)
     return plain
 
 
 class LocatedQueries:
-    """Queries, each with the triangle that holds it.
+    """Queries, each with the triangle that contains it.
 
     Parameters
     ----------

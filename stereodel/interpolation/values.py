@@ -1,4 +1,4 @@
-"""Points that carry values: a triangulation as it was, lengths one in double-double, one value a place."""
+"""Points with values: exact differences of points, and one value for each place."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from stereodel.triangulation.dispatch import Triangulation
 FAMILY: Final = {
     "points": """
         points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-            Points of the plane, directions, or a triangulation of them. Longitude and latitude come by `from_lonlat`.
+            Points of the plane, directions, or a triangulation of them. For longitude and latitude use `from_lonlat`.
         """,
     "sites": """
         points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
-            Points of the plane, directions, or a triangulation of them: for longitude and latitude that of
+            Points of the plane, directions, or a triangulation of them; for longitude and latitude, one made by
             `SphericalDelaunay.from_lonlat`.
         """,
     "values": """
@@ -28,30 +28,30 @@ FAMILY: Final = {
         """,
     "extrapolate": """
         extrapolate : "nearest", optional
-            The value of the nearest point where there is no triangle, with gradient zero. Without it, NaN.
+            Outside all triangles use the value of the nearest point, with gradient zero; by default NaN.
         """,
     "attributes": """
         triangulation : PlanarDelaunay or SphericalDelaunay
         values : (n, ...) array
-            As used: equal points have the mean of their values.
+            Values as used: coincident points have the mean of their values.
         latitude : str or None
             The kind of latitude by which the points were given.
         """,
     "raises": """
         ValueError, TypeError
-            For points, as in the triangulation; for values that are infinite, not real numbers, or not one for each
-            point.
+            As for the triangulation; if a value is infinite or not a real number, or their number differs from that of
+            the points.
         """,
 }
-"""What the docstrings of this package have in common."""
+"""Parts shared by the docstrings of this package."""
 
 
 def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> FloatArray:
-    """Values (n, k) in which equal points all have the mean of theirs; NaN if one of them is NaN."""
+    """Values (n, k) in which coincident points all have the mean of theirs; NaN if one of them is NaN."""
     dropped, kept = triangulation.duplicates.T
     if len(dropped) == 0:
         return values
-    # Means of differences from the kept one: what is equal stays equal to the last bit.
+    # Means of differences from the kept point: equal values stay bitwise equal.
     total, count = np.zeros_like(values), np.ones(len(values))
     np.add.at(total, kept, values[dropped] - values[kept])
     np.add.at(count, kept, 1.0)
@@ -61,7 +61,7 @@ def one_value_a_place(triangulation: Triangulation, values: FloatArray) -> Float
 
 
 def as_site_values(triangulation: Triangulation, values: npt.ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
-    """Checked values as (n, k), one a place, and the shape of a single value."""
+    """Checked values as (n, k), one for each place, and the shape of a single value."""
     array = as_values(values, len(triangulation.points))
     shape = array.shape[1:]
     flat = array.reshape(len(array), int(np.prod(shape, dtype=np.intp)))
@@ -71,8 +71,8 @@ def as_site_values(triangulation: Triangulation, values: npt.ArrayLike) -> tuple
 class PrecisePoints:
     """Points of the plane, or unit vectors in double-double, and their differences to full relative precision.
 
-    A unit vector rounded to doubles is off by 1e-16, which is nothing to its place and everything to its difference
-    from a neighbour 1e-15 away.
+    A unit vector rounded to doubles is off by 1e-16, which is negligible for its place but not for its difference from
+    a neighbour 1e-15 away.
     """
 
     def __init__(self, points: FloatArray) -> None:

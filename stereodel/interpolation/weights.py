@@ -1,4 +1,4 @@
-"""Weights of points at query points, a sparse matrix: interpolation done once for many fields."""
+"""Weights of points at query points as a sparse matrix: interpolation set up once for many fields."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Shares(NamedTuple):
 class Weights:
     """The weight of each point at each query: a sparse matrix with a row for each query.
 
-    Made by `weights` of `LinearInterpolator`, `NearestInterpolator` and `NaturalNeighborInterpolator`.
+    Returned by `weights` of `LinearInterpolator`, `NearestInterpolator` and `NaturalNeighborInterpolator`.
 
     Parameters
     ----------
@@ -41,9 +41,9 @@ class Weights:
     columns : (s,) array of int
         The point of each entry.
     data : (s,) array
-        Its weight: not negative; those of a row add up to one, up to rounding.
+        Weight of each entry: not negative; those of a row sum to one, up to rounding.
     shape : tuple of int
-        Shape of the queries, m of them.
+        Shape of the m queries.
     size : int
         Number of points n.
 
@@ -54,11 +54,11 @@ class Weights:
 
     Notes
     -----
-    ``weights @ values`` takes values (n,) or (n, ...), `apply` those with the points along another axis. The result is
-    that of the interpolator for these values, to the last bit; where equal points share their values, up to rounding,
-    as the weight is divided among them. A row is summed as differences from the value of its heaviest
-    point, in the order of its entries. A NaN among the values of a row gives NaN, even if its weight is zero, and so
-    does a row without entries.
+    ``weights @ values`` accepts values (n,) or (n, ...); `apply` accepts values with the points along another axis. The
+    result is bitwise that of the interpolator for these values; only for coincident points, among which the weight is
+    divided, is it equal up to rounding. A row is summed as differences from the value of its heaviest point, in the
+    order of its entries. A NaN among the values of a row gives NaN, even if its weight is zero, and so does a row
+    without entries.
 
     Examples
     --------
@@ -107,19 +107,19 @@ class Weights:
         Parameters
         ----------
         values : array_like
-            Numbers of the points, finite or NaN; masked ones count as NaN.
+            Values of the points, finite or NaN; masked values count as NaN.
         axis : int, optional
             The axis of the points, of length n.
 
         Returns
         -------
         array
-            The shape of the values, with that of the queries instead of the axis of the points.
+            Array with the shape of `values`, the axis of the points replaced by the shape of the queries.
 
         Raises
         ------
         ValueError, TypeError
-            For values that are infinite, not real numbers, or not one for each point along the axis.
+            If a value is infinite or not a real number, or the axis does not have length n.
         """
         array = as_values(values, self.size, axis=axis)
         fields = np.moveaxis(array, axis, -1)
@@ -131,14 +131,14 @@ class Weights:
         return np.ascontiguousarray(result).reshape(result.shape[:before] + self.shape + result.shape[before + 1 :])
 
     def _fill(self, found: FloatArray, field: FloatArray) -> None:
-        """One field (n,) at the places (m,), where rows have entries."""
+        """Evaluate one field (n,) at the queries (m,) whose rows have entries."""
         leads = self._heaviest
         held = self.rows[leads]
         base = np.zeros(len(found))
         base[held] = field[self.columns[leads]]
         with np.errstate(all="ignore"):
             rises = self.data * (field[self.columns] - base[self.rows])
-            # Entry after entry, as the interpolators do it.
+            # Entry by entry, as in the interpolators.
             above = np.bincount(self.rows, rises, len(found))
             found[held] = (base + above)[held]
 
@@ -148,13 +148,13 @@ class Weights:
         Returns
         -------
         scipy.sparse.csr_array
-            With the same entries, including zeros. Its product with values is the same up to rounding, but has
-            zeros where this one has NaN because a row has no entries.
+            Array with the same entries, including zeros. Its product with values is the same up to rounding, except
+            that rows without entries give zero instead of NaN.
 
         Raises
         ------
         ImportError
-            Without SciPy (``pip install stereodel[scipy]``).
+            If SciPy is missing (``pip install stereodel[scipy]``).
         """
         sparse = optional("scipy.sparse", "scipy")
         parts = (self.data.copy(), self.columns.copy(), self.indptr.copy())
@@ -166,7 +166,7 @@ class Weights:
         Parameters
         ----------
         path : path
-            Replaced if it is there.
+            File to write; an existing file is replaced.
         """
         with replacing(path) as temporary, temporary.open("wb") as file:
             np.savez_compressed(
@@ -175,7 +175,7 @@ class Weights:
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Weights:
-        """Read from a file that `save` wrote.
+        """Read from a file written by `save`.
 
         Parameters
         ----------
@@ -188,7 +188,7 @@ class Weights:
         Raises
         ------
         ValueError
-            For a file with other content.
+            If the file does not contain weights.
         """
         with np.load(path, allow_pickle=False) as archive:
             missing = {"indptr", "columns", "data", "shape", "size"} - set(getattr(archive, "files", ()))
@@ -212,7 +212,7 @@ class Weights:
 
 
 class WeightedInterpolator(Interpolator):
-    """An interpolator whose values are sums of the given ones with weights that depend on places alone."""
+    """An interpolator whose results are weighted sums of the values, with weights that depend only on places."""
 
     @shared(**LONLAT)
     def weights(
@@ -222,7 +222,7 @@ class WeightedInterpolator(Interpolator):
         lonlat: npt.ArrayLike | None = None,
         workers: int | None = None,
     ) -> Weights:
-        """Weights of the points at queries, for further values: time series, several fields, other files.
+        """Weights of the points at queries, for use with other values such as time series.
 
         Parameters
         ----------
@@ -258,10 +258,10 @@ class WeightedInterpolator(Interpolator):
 
     @abstractmethod
     def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
-        """Of the kept points, at queries (m, d)."""
+        """Points and weights at queries (m, d), without duplicates."""
 
     def _with_nearest(self, shares: Shares, queries: FloatArray, outside: AnyIndices, workers: int | None) -> Shares:
-        """Rows of the nearest point alone in the place of the empty ones of queries `outside`, if that is wanted."""
+        """The shares with the empty rows of queries `outside` replaced by the nearest point, if extrapolation is on."""
         if not self._nearest_outside or not len(outside):
             return shares
         counts = np.diff(shares.indptr)
@@ -275,7 +275,7 @@ class WeightedInterpolator(Interpolator):
         return Shares(indptr, columns, data)
 
     def _among_duplicates(self, shares: Shares) -> Shares:
-        """The weight of each place divided among the points there."""
+        """The shares with the weight of each place divided among its coincident points."""
         dropped, kept = self.triangulation.duplicates.T
         if len(dropped) == 0:
             return shares

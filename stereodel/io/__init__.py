@@ -1,7 +1,7 @@
-"""Files: tables of points in; GeoPandas, GeoJSON, UGRID, grids and meshes out.
+"""Input and output: tables of points in; GeoPandas, GeoJSON, UGRID, grids and meshes out.
 
-Every other library is imported when a function needs it; the extras ``draw``, ``geo``, ``grid`` and ``mesh`` bring
-them.
+Other libraries are imported only when a function needs them; the extras ``draw``, ``geo``, ``grid`` and ``mesh``
+install them.
 """
 
 from stereodel.io.columns import RenamedColumnWarning

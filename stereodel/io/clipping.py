@@ -1,4 +1,4 @@
-"""Polygons on the map cut with others, such as land."""
+"""Clipping polygons on the map to other polygons, such as land."""
 
 from __future__ import annotations
 
@@ -16,25 +16,25 @@ from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
 LAND: Final = "land"
-"""What stands for the land of the Earth."""
+"""Name of the Earth's land as a clipping mask."""
 
 TILES: Final = (1.40625, 5.625, 22.5, 90.0)
-"""Sides of the squares, degrees, into which what cuts is divided: each a fourth of the next."""
+"""Sides, in degrees, of the squares into which the mask is divided; each is a quarter of the next."""
 
 FOURTHS: Final = 4
 
 CORNER: Final = np.array([-180.0, -90.0])
-"""Of the map, from which squares are counted."""
+"""Corner of the map from which squares are counted."""
 
 MARGIN: Final = 1 / 64
-"""What a square takes of its neighbours, in terms of its side: what is cut ends before the square does."""
+"""Overlap of a square with its neighbours, in units of its side: a clipped polygon ends before the square does."""
 
 
 def clipped(binary: Packed, clip: Any, latitude: Latitude) -> tuple[Packed, FloatArray]:
-    """Polygons as far as they lie in others, None where they do not, and what share of each one's area that is.
+    """Polygons clipped to others, None if they lie outside, and the fraction of each area that remains.
 
-    Lines are straight on the map: those of the polygons follow great circles as closely as they did before, those of
-    what cuts are taken as GIS take them. Crossings are rounded to doubles, by each of two neighbours.
+    Lines are straight on the map, as in a GIS; those of the polygons follow great circles as closely as before.
+    Crossings are rounded to doubles, separately for each of two neighbours.
     """
     mask, result, share = Mask(clip), binary.copy(), np.zeros(len(binary))
     for begin in range(0, len(binary), ROWS):
@@ -50,12 +50,12 @@ def clipped(binary: Packed, clip: Any, latitude: Latitude) -> tuple[Packed, Floa
 
 
 class Mask:
-    """What polygons are cut with.
+    """The polygons to which others are clipped.
 
     Parameters
     ----------
     clip
-        "land", or what `shapes_of` takes; in degrees, cut at ±180° or going on beyond.
+        "land", or a source for `shapes_of`; in degrees, either cut at ±180° or continued beyond.
     """
 
     def __init__(self, clip: Any) -> None:
@@ -74,7 +74,7 @@ class Mask:
         self._whole = whole
 
     def _made(self, level: int, x: int, y: int) -> Any:
-        """The part of the whole in a square, cut out of that in the next larger one."""
+        """The part of the mask in a square, clipped from that in the next larger square."""
         if level == len(TILES):
             return self._whole
         side = TILES[level]
@@ -86,7 +86,7 @@ class Mask:
         )
 
     def cut(self, polygons: Geometries) -> Geometries:
-        """Polygons as far as they lie in the mask, empty where they do not."""
+        """Polygons clipped to the mask; empty if they lie outside."""
         shapely.prepare(self._whole)
         result = polygons.copy()
         touched = shapely.intersects(self._whole, polygons)
@@ -107,12 +107,12 @@ class Mask:
 
 
 def _moved(geometry: Any, degrees: float) -> Any:
-    """A geometry farther east."""
+    """A geometry shifted eastward."""
     return shapely.transform(geometry, lambda lonlat: lonlat + np.array([degrees, 0.0]))
 
 
 def _areal(geometries: Geometries) -> Geometries:
-    """Polygons alone, counterclockwise, of what overlays give: where borders touch there are lines and points, too."""
+    """The polygons in results of overlays, counterclockwise; where borders touch, these also hold lines and points."""
     mixed = shapely.get_type_id(geometries) == 7
     for place in np.flatnonzero(mixed | (shapely.get_dimensions(geometries) < 2)).tolist():
         parts = shapely.get_parts(geometries[place])
@@ -121,10 +121,11 @@ def _areal(geometries: Geometries) -> Geometries:
 
 
 def areas_on_sphere(polygons: Geometries, latitude: Latitude) -> FloatArray:
-    """Areas on the unit sphere of polygons whose sides are straight in longitude and its latitude, steradians.
+    """Areas on the unit sphere, in steradians, of polygons whose sides are straight in longitude and latitude.
 
-    Along such a side the sine of the latitude is sin(m) sin(d)/d on average, where m is the latitude in the middle and
-    d half of what it grows by; the area between it and the equator is that times its longitudes.
+    Along such a side the mean sine of the latitude is sin(m) sin(d)/d, where m is the latitude of the midpoint and d
+    half the difference in latitude; the area between the side and the equator is that mean times the difference in
+    longitude.
     """
     parts, polygon = shapely.get_parts(polygons, return_index=True)
     rings, part = shapely.get_rings(parts, return_index=True)

@@ -1,4 +1,4 @@
-"""Names of columns: which are longitude and latitude, and what becomes of two with one name."""
+"""Names of columns: finding longitude and latitude, and renaming columns whose names collide."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from typing import Any, TypeVar
 T = TypeVar("T")
 
 NAMES_SHOWN, NAME_SHOWN = 30, 40
-"""Columns, and letters of the name of one, that a message lists."""
+"""Number of columns, and characters of a name, that a message shows."""
 
 NAMES = {
     "lon": ({"lon", "lng", "long", "longitude"}, {"x"}),
     "lat": ({"lat", "latitude"}, {"y"}),
 }
-"""Words for each, surest first."""
+"""Words for each, the most reliable first."""
 
 
 def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = None) -> tuple[str, str]:
@@ -27,14 +27,14 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
     ----------
     names : sequence of str
     lon, lat : str, optional
-        What the caller says; else they are guessed: a name that is one of the words lon, lng, long, longitude, lat,
-        latitude, in any case, comes before one that has such a word in it (``decimalLongitude``, ``lat_deg``), and that
-        before ``x`` and ``y``.
+        The names, if known. Otherwise they are guessed, ignoring case: a name that is one of the words lon, lng, long,
+        longitude, lat, latitude is preferred to one that contains such a word (``decimalLongitude``, ``lat_deg``), and
+        that to ``x`` and ``y``.
 
     Raises
     ------
     ValueError
-        Listing the columns, where there is none or more than one.
+        If no column or more than one matches; the message lists the columns.
     """
     found = [_find(names, kind, given) for kind, given in (("lon", lon), ("lat", lat))]
     if found[0] == found[1]:
@@ -43,7 +43,7 @@ def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = 
 
 
 def has_lonlat(names: Sequence[str]) -> bool:
-    """Whether names are those of longitude and latitude without asking."""
+    """Whether columns of longitude and latitude can be found by their names."""
     try:
         find_lonlat(names)
     except ValueError:
@@ -52,22 +52,22 @@ def has_lonlat(names: Sequence[str]) -> bool:
 
 
 class RenamedColumnWarning(UserWarning):
-    """A column is written under another name, because its own belongs to something else there."""
+    """A column is written under another name because its own is taken."""
 
 
 def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = False) -> dict[str, T]:
-    """Columns under names that are free beside others; a warning tells which were renamed.
+    """Columns under names that are not taken; a warning lists those that were renamed.
 
-    A name that is taken, in any case, gets the first free number behind it: ``lon`` becomes ``lon_1``.
+    A name that is taken, ignoring case, gets the first free number appended: ``lon`` becomes ``lon_1``.
 
     Parameters
     ----------
     taken : iterable of str
-        Names that belong to something else, such as the places.
+        Names already in use, such as those of the coordinates.
     columns : mapping
-        What came with the points.
+        The columns of the input.
     any_case : bool
-        Whether the columns must differ in more than the case of letters among themselves, too, as in databases.
+        Whether the names of `columns` must also differ from each other in more than case, as databases require.
 
     Examples
     --------
@@ -105,7 +105,7 @@ def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = F
 
 
 def index_columns(frame: Any) -> dict[str, Any]:
-    """The levels of a frame's index by name, as GeoPandas writes them: not whole numbers without a name."""
+    """The levels of a frame's index by name, as GeoPandas writes them: an unnamed index of integers is left out."""
     index = frame.index
     if index.nlevels == 1 and index.name is None and index.dtype.kind in "iu":
         return {}
@@ -136,12 +136,12 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
 
 
 def words(name: str) -> set[str]:
-    """Words of a column's name in lower case, split at signs and where a capital follows a small letter."""
+    """Words of a column name in lower case, split at punctuation and where a capital follows a small letter."""
     return set(re.split(r"[^a-z]+", re.sub(r"(?<=[a-z])(?=[A-Z])", " ", name).lower()))
 
 
 def listed(names: Sequence[str]) -> str:
-    """Names for a message, which has room for so many of such lengths."""
+    """Names for a message, shortened in number and length."""
     shown = [repr(name if len(name) <= NAME_SHOWN else name[: NAME_SHOWN - 1] + "…") for name in names[:NAMES_SHOWN]]
     more = [f"and {len(names) - len(shown)} more"] if len(names) > len(shown) else []
     return ", ".join(shown + more) if names else "none at all"

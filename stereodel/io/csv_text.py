@@ -1,4 +1,4 @@
-"""Tables as text, by the csv module: separators and headers are found out, columns of numbers become numbers."""
+"""Text tables, read by the csv module: separator and header are detected, columns of numbers become numbers."""
 
 from __future__ import annotations
 
@@ -19,30 +19,30 @@ from stereodel.io.text import EXACT_INTEGERS, NUMBER, objects, texts, typed
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50
-"""Lines from which the separator is found."""
+"""Number of lines from which the separator is detected."""
 BLOCK = 20_000
-"""Rows that are taken apart at once."""
+"""Rows that are split in one block."""
 COMMENTS = re.compile(r"(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|\Z))+")
-"""Lines on top that begin with a hash."""
+"""Comment lines at the top, which begin with a hash."""
 
 Rows = list[list[str]]
 
 
 @dataclass(frozen=True, eq=False)
 class TextTable:
-    """Columns of text by name, the numbers of their rows, and whether commas are decimal signs."""
+    """Columns of text by name, their row numbers, and whether commas are decimal separators."""
 
     columns: dict[str, Column]
     rows: Indices
     comma: bool
 
     def typed(self, *, without: Collection[str] = ()) -> dict[str, Column]:
-        """The columns, but some, as numbers where all their values are."""
+        """The columns, except `without`; a column whose values are all numbers becomes numeric."""
         return {name: typed(values, comma=self.comma) for name, values in self.columns.items() if name not in without}
 
 
 def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | None = None) -> TextTable:
-    """Columns of a table as text; a first line that has one of the names `wanted` is known for a header."""
+    """Columns of a table as text; a first line that contains one of the names `wanted` is a header."""
     comments = COMMENTS.match(text)
     above = text[: comments.end()] if comments else ""
     text = text[len(above) :]
@@ -53,7 +53,7 @@ def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | 
     if first is None:
         raise ValueError("the table is empty: there is not even a line with the names of the columns")
     names, data = _header(first, wanted)
-    # In blocks: a million lists at once keep the interpreter's collector of garbage busy.
+    # In blocks: a million lists at once would keep the garbage collector busy.
     blocks, before = [_columns(data, len(names), 0)], len(data)
     while block := list(islice(rows, BLOCK)):
         blocks.append(_columns(block, len(names), before))
@@ -71,7 +71,7 @@ def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | 
 
 
 def _columns(rows: Rows, width: int, before: int) -> list[Column]:
-    """Rows of text as columns; `before` is how many rows of data came earlier."""
+    """Rows of text as columns; `before` is the number of earlier rows of data."""
     for number, row in enumerate(rows, before + 1):
         if len(row) != width:
             raise ValueError(f"row {number} has {len(row)} fields, but there are {width} columns")
@@ -79,8 +79,8 @@ def _columns(rows: Rows, width: int, before: int) -> list[Column]:
 
 
 def _separator(text: str) -> str | None:
-    """The mark that gives all the first lines the same number of fields, the largest one; None for blanks."""
-    # A table may have one field as long as itself; csv refuses those of 131 072 letters, whoever asks.
+    """The separator that splits the first lines into the same, largest number of fields; None for blanks."""
+    # One field may be as long as the table; by default, csv refuses fields of 131 072 characters for the whole process.
     csv.field_size_limit(max(csv.field_size_limit(), len(text)))
     lines = list(islice(io.StringIO(text, newline=""), LOOKED_AT))
     lengths = {mark: _lengths(lines, mark) for mark in SEPARATORS}
@@ -93,13 +93,13 @@ def _separator(text: str) -> str | None:
 
 
 def _lengths(lines: list[str], mark: str) -> set[int]:
-    """How many fields lines have, without the last one, which may end amid a quoted field."""
+    """Numbers of fields of the lines, except the last line, which may end inside a quoted field."""
     lengths = [len(row) for row in csv.reader(lines, delimiter=mark) if row]
     return set(lengths[:-1] or lengths)
 
 
 def _rows(lines: TextIO, mark: str | None, above: int) -> Iterator[list[str]]:
-    """Fields of each row; a quotation mark that nothing closes is an error, not the rest of the table."""
+    """Fields of each row; an unclosed quotation mark is an error and does not swallow the rest of the table."""
     if mark is None:
         yield from (line.split() for line in lines)
         return
@@ -119,9 +119,9 @@ def _rows(lines: TextIO, mark: str | None, above: int) -> Iterator[list[str]]:
 
 
 def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Rows]:
-    """Names of the columns, empty where there is none, and the row if it is data.
+    """Names of the columns, empty where there is none, and the first row if it is data.
 
-    It is data where most of its fields are numbers, unless names of coordinates are among them. Two columns without
+    The row is data if most of its fields are numbers, unless names of coordinates are among them. Two columns without
     names are longitude and latitude.
     """
     first = [field.strip() for field in row]
@@ -135,9 +135,9 @@ def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Rows]:
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
-    """Columns with a line of their names, numbers with as many digits as it takes to read the same ones back.
+    """Write columns under a header line; numbers have as many digits as needed to read the same values back.
 
-    A number that is missing is empty; a column of doubles that are whole numbers is written as such.
+    Missing numbers are empty fields; a column of doubles that are all integers is written as integers.
     """
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
@@ -145,7 +145,7 @@ def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
 
 
 def _cells(values: Column) -> Column:
-    """What stands in the fields of a column."""
+    """The text of a column's fields."""
     if values.dtype.kind != "f":
         return values
     known = np.isfinite(values.astype(np.float64))

@@ -1,4 +1,4 @@
-"""Triangulations and diagrams as callers give them: each made of the other, arcs of ridges, columns of points."""
+"""Triangulations and diagrams as arguments: conversion into each other, ridges as arcs, columns of points."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Columns = dict[str, npt.NDArray[Any]]
 
 
 def usual_kind(mesh: Mesh) -> str:
-    """Cells of a diagram, triangles of a triangulation; a TypeError for anything else."""
+    """What a mesh shows by default: cells of a diagram, triangles of a triangulation; TypeError for anything else."""
     if not isinstance(mesh, Mesh):
         raise TypeError(f"mesh must be a triangulation or a Voronoi diagram of stereodel, not {type(mesh).__name__}")
     return "cells" if isinstance(mesh, PlanarVoronoi | SphericalVoronoi) else "triangles"
@@ -28,7 +28,7 @@ def is_spherical(mesh: Mesh) -> bool:
 
 
 def point_columns(columns: Mapping[str, npt.ArrayLike] | None, count: int) -> Columns:
-    """A caller's columns as arrays with a value for each of `count` points."""
+    """The columns as arrays with a value for each of `count` points."""
     given = {name: np.asarray(values) for name, values in (columns or {}).items()}
     for name, values in given.items():
         if values.ndim < 1 or len(values) != count:
@@ -49,7 +49,7 @@ def triangulation_of(mesh: Mesh) -> Any:
 
 
 def ridge_arcs(diagram: SphericalVoronoi) -> Arcs:
-    """The ridges as arcs; half great circles have the sides of their own."""
+    """The ridges as arcs; half great circles take their normals from the diagram."""
     if not len(diagram.ridge_vertices):
         return great(np.zeros((0, 3)), np.zeros((0, 3)))
     start, end = diagram.vertices[diagram.ridge_vertices].transpose(1, 0, 2)

@@ -1,6 +1,6 @@
-"""Cells and triangles as rows of sides, each side an arc that two faces share. Integers only.
+"""Cells and triangles as rows of sides, each side an arc shared by two faces; connectivity only.
 
-A side has the number of its arc, and ~number where it runs from the arc's end to its start, as in TopoJSON; the arc
+A side is the index of its arc, or ~index where it runs from the arc's end to its start, as in TopoJSON; the arc
 of a side is ``np.maximum(side, ~side)``.
 """
 
@@ -16,8 +16,8 @@ from stereodel.triangulation import PlanarVoronoi, SphericalVoronoi
 def voronoi_sides(diagram: PlanarVoronoi | SphericalVoronoi) -> Ragged:
     """The ridges around the cell of each point, counterclockwise; a duplicate's cell has none.
 
-    Within a cell a vertex is the start of one side, so that the sides follow in the order of the cell's vertices. The
-    strips between points of one line have no vertices, and sides in no particular order.
+    In a cell each vertex is the start of one side, so the sides follow the order of the cell's vertices. The strips
+    between collinear points have no vertices; their sides are in no particular order.
     """
     pairs, ends = diagram.ridge_points.astype(np.intp), diagram.ridge_vertices.astype(np.intp)
     cell, count = pairs.T.ravel(), len(diagram.points)
@@ -34,7 +34,7 @@ def voronoi_sides(diagram: PlanarVoronoi | SphericalVoronoi) -> Ragged:
 
 
 def triangle_sides(simplices: IntArray) -> tuple[Ragged, Indices]:
-    """The sides of triangles (m, 3), and the ends of the edges (e, 2), lower index first."""
+    """The sides of triangles (m, 3), and the endpoints of the edges (e, 2), lower index first."""
     start, end = simplices.ravel().astype(np.intp), np.roll(simplices, -1, axis=1).ravel().astype(np.intp)
     keys = np.minimum(start, end) << 32 | np.maximum(start, end)
     edges, number = np.unique(keys, return_inverse=True)

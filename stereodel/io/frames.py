@@ -1,4 +1,4 @@
-"""Diagrams as tables of geometries: GeoDataFrames, from which GeoPandas writes nearly everything."""
+"""Diagrams as GeoDataFrames, which GeoPandas writes in nearly every format."""
 
 from __future__ import annotations
 
@@ -38,56 +38,59 @@ def to_geodataframe(
     Parameters
     ----------
     mesh : SphericalVoronoi, SphericalDelaunay, PlanarVoronoi, PlanarDelaunay, or list of Contour
-        The other one of the two is computed where `what` asks for it. Contours are those of `contours`; of the options
-        they have `latitude`, `max_segment` and `crs`.
+        Diagram and triangulation are computed from each other where `what` requires it. Contours come from `contours`;
+        of the options only `latitude`, `max_segment` and `crs` apply to them.
     what : {"cells", "triangles", "edges", "ridges", "sites"}, optional
-        Voronoi cells, Delaunay triangles, Delaunay edges, Voronoi ridges or the points themselves. By default cells of
-        a diagram and triangles of a triangulation.
+        Voronoi cells, Delaunay triangles, Delaunay edges, Voronoi ridges or the points themselves. By default the cells
+        of a diagram and the triangles of a triangulation.
     columns : mapping of str to (n,) array_like, optional
         Further columns for cells and sites, one value for each point, such as ``read_points(path).columns``.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        Which latitude results have, as in `xyz_to_lonlat`; by default that by which the points were given. Sphere only.
+        Kind of latitude of the results, as in `xyz_to_lonlat`; by default that of the input points. Sphere only.
     radius : float, optional
-        Of the sphere: areas are steradians times its square, lengths radians times it; with
-        `stereodel.earth.AUTHALIC_RADIUS_KM`, km² and km. In the plane the length of the unit of the coordinates.
+        Radius of the sphere. Areas are steradians times its square, lengths radians times it; with
+        `stereodel.earth.AUTHALIC_RADIUS_KM`, they are in km² and km. In the plane, the length of one coordinate unit.
     max_segment : float, optional
-        Longest chord in degrees, in (0, 90], on the great circle and in longitude. Sphere only.
+        Longest chord in degrees, in (0, 90], measured along the great circle and in longitude. Sphere only.
     bounds : (4,) array_like, optional
         (xmin, ymin, xmax, ymax) to which cells and ridges of the plane are cut; by default the rectangle of the points
-        with a tenth of its longer side around it.
+        extended on all sides by a tenth of its longer side.
     crs : optional
-        Coordinate system of the plane's coordinates, as GeoPandas takes it. The sphere's is EPSG:4326.
+        Coordinate reference system of plane coordinates, in any form that GeoPandas accepts. On the sphere it is
+        EPSG:4326.
     clip : "land", path-like, GeoDataFrame, geometry or GeoJSON, optional
-        Polygons with which cells or triangles of the sphere are cut, in degrees or with a coordinate system of their
-        own; "land" is that of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is that of the part.
+        Polygons to which cells or triangles of the sphere are clipped, in degrees or with a coordinate system of their
+        own; "land" is the land of Natural Earth, 1:50 000 000. What lies outside has no row; ``area`` is the area
+        inside.
 
     Returns
     -------
     geopandas.GeoDataFrame
         ``point`` (index of the point) and ``area`` for cells; ``triangle``, ``a``, ``b``, ``c`` (indices of its
         corners) and ``area`` for triangles; ``a``, ``b`` and ``length`` for edges and ridges; ``point`` for sites;
-        ``level`` and ``closed`` for contours, whose higher values are on the left of the lines; then
-        `columns`, then ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. Of
-        `columns`, one with such a name gets a number behind it, which a warning tells.
+        ``level`` and ``closed`` for contours, whose lines have higher values on their left; then `columns`, then
+        ``geometry``, longitude before latitude. Duplicates and cells outside the bounds have no row. A column of
+        `columns` whose name is taken gets a number appended, with a warning.
 
     Raises
     ------
     ImportError
         Without GeoPandas (``pip install stereodel[geo]``).
     TypeError, ValueError
-        For another mesh, options out of range, columns of another length.
+        If `mesh` is of another type, an option is out of range, or a column has the wrong length.
 
     Notes
     -----
-    Polygons are valid, counterclockwise, cut at ±180° and led along ±90° around the poles; those of the
-    sphere tile [−180, 180] × [−90, 90] without gaps or overlaps, since every arc is sampled once for both of its sides
+    Polygons are valid, counterclockwise, cut at ±180° and closed along ±90° around the poles. Those of the sphere tile
+    [−180, 180] × [−90, 90] without gaps or overlaps, since every arc is sampled once for the two faces that share it
     and chords are halved where straight lines on the map would cross. Cells and triangles narrower than a micrometre
-    are the exception: they are valid or empty, and may overlap others as far as chords stray from arcs. Triangles that
-    are `closing` are no part of the sphere's surface and have no row; nor have edges that only they have.
+    are the exception: they are valid or empty, and may overlap others by the distance between chords and arcs.
+    `closing` triangles are not part of the sphere's surface and have no row; nor do edges that belong to them alone.
 
-    Polygons are clipped on the map, where the lines of `clip` are straight, as GIS take them, and arcs are the chords
-    of `max_segment`. Crossings are rounded to doubles, for each of two neighbours on its own. The area of a part is its
-    share of the polygon on the map, measured on the sphere, times the area of the polygon, which is exact.
+    Polygons are clipped on the map, where the lines of `clip` are straight, as in a GIS, and arcs are chords no longer
+    than `max_segment`. Crossings are rounded to doubles separately for each of two neighbours. The area of a clipped
+    polygon is the share of the polygon on the map that remains, measured on the sphere, times the area of the whole
+    cell or triangle, which comes from its arcs.
 
     Examples
     --------
@@ -131,7 +134,7 @@ def layer_of(
     clip: Any = None,
     progress: Progress | None = None,
 ) -> Layer:
-    """The rows of `to_geodataframe`, for files: without a geometry of Shapely for each of them."""
+    """The rows of `to_geodataframe` for writing to files, without creating a Shapely geometry for each."""
     as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
         if what is not None or columns or bounds is not None or clip is not None:

@@ -1,4 +1,4 @@
-"""GeoJSON after RFC 7946."""
+"""GeoJSON as specified by RFC 7946."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     Parameters
     ----------
     frame : geopandas.GeoDataFrame
-        From `to_geodataframe` or elsewhere. In another coordinate system than EPSG:4326 it is transformed; without any
-        coordinates are written as they stand.
+        From `to_geodataframe` or elsewhere. Coordinates in a system other than EPSG:4326 are transformed; without a
+        coordinate system they are written unchanged.
     decimals : int, optional
-        Digits after the point to which coordinates are rounded; 7 are a centimetre. By default all that are needed to
-        read the same doubles back. Neighbours that share points still share them, but narrow polygons may become
+        Number of decimals to which coordinates are rounded; 7 correspond to a centimetre. By default as many as needed
+        to read the same doubles back. Neighbours that share points still share them, but narrow polygons may become
         invalid.
     sequence : bool
-        A feature a line and nothing else, as programs for large data read it, instead of a collection.
+        Write one feature per line, as programs for large data expect, instead of a FeatureCollection.
 
     Returns
     -------
     str
-        Outer rings are counterclockwise, properties without a value (NaN, infinity) are null, and there is no member
-        ``crs``. Polygons of `to_geodataframe` are cut at ±180° already.
+        Outer rings are counterclockwise, non-finite properties (NaN, infinity) are null, and there is no member
+        ``crs``. Polygons of `to_geodataframe` are already cut at ±180°.
 
     Notes
     -----
@@ -60,7 +60,7 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
 def write_geojson(
     layer: Layer, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
 ) -> None:
-    """Rows of a map as a file of `to_geojson`, piece by piece."""
+    """Write the rows of a map in the format of `to_geojson`, block by block."""
     between = "\n" if sequence else ",\n"
     with path.open("w", encoding="utf-8", newline="") as file:
         file.write("" if sequence else HEAD)
@@ -71,7 +71,7 @@ def write_geojson(
 
 
 def features(frame: Any, decimals: int | None) -> Iterator[str]:
-    """The rows of a frame as GeoJSON, a line each."""
+    """The rows of a frame as GeoJSON features, one line each."""
     shapely = optional("shapely", "geo")
     if frame.crs is not None:
         frame = frame.to_crs("EPSG:4326")
@@ -88,7 +88,7 @@ def features(frame: Any, decimals: int | None) -> Iterator[str]:
 
 
 def _values(column: npt.NDArray[Any]) -> list[Any]:
-    """Values that JSON has: no NaN, no infinity."""
+    """Values with None for NaN and infinity, which JSON lacks."""
     if column.dtype.kind == "f":
         return [value if np.isfinite(value) else None for value in column.tolist()]
     return [None if value is None or value != value else value for value in column.tolist()]

@@ -1,6 +1,6 @@
 """Cells, triangles, edges, ridges and sites as geometries, each with its columns.
 
-Imported where something needs Shapely, and not before.
+Imported only where Shapely is needed.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from stereodel.sphere.vectors import units
 def on_sphere(
     mesh: Mesh, what: str, max_segment: float, latitude: Latitude, radius: float, progress: Progress | None = None
 ) -> tuple[Columns, Packed]:
-    """Columns and geometries of a mesh on the sphere, in degrees; None where there is no geometry."""
+    """Columns and geometries, in degrees, of a mesh on the sphere; None where there is no geometry."""
     if what == "cells":
         return _sphere_cells(diagram_of(mesh), max_segment, latitude, radius, progress)
     if what == "triangles":
@@ -45,7 +45,7 @@ def on_sphere(
 
 
 def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, Packed]:
-    """The same for a mesh of the plane; cells and ridges as far as they lie in a rectangle."""
+    """The same for a mesh of the plane; cells and ridges are clipped to a rectangle."""
     if what == "cells":
         diagram = diagram_of(mesh)
         columns = {"point": np.arange(len(diagram.points)), "area": diagram.areas(radius=radius)}
@@ -70,7 +70,7 @@ def in_plane(mesh: Mesh, what: str, box: Box, radius: float) -> tuple[Columns, P
 
 
 def ridge_net(diagram: Any) -> Net:
-    """The ridges of a diagram on the sphere, each clear of the first of its two sites."""
+    """The ridges of a diagram on the sphere, each kept clear of the first of its two sites."""
     sites, site = units(diagram.points), diagram.ridge_points[:, 0]
     return Net(diagram.vertices, diagram.ridge_vertices, diagram.ridge_normals, sites, site)
 

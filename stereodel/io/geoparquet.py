@@ -1,4 +1,4 @@
-"""GeoParquet, after its specification 1.0.0: Parquet whose metadata say what the column of geometries holds."""
+"""GeoParquet, specification 1.0.0: Parquet with metadata that describe the geometry column."""
 
 from __future__ import annotations
 

@@ -29,30 +29,30 @@ WGS84: Final = {
         'UNIT["degree",0.0174532925199433,AUTHORITY["EPSG","9122"]],AUTHORITY["EPSG","4326"]]'
     ),
 }
-"""The coordinate system of longitude and latitude, as the CF conventions (1.8, appendix F) and GDAL name it."""
+"""The coordinate system of longitude and latitude in terms of the CF conventions (1.8, appendix F) and GDAL."""
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """Values at the nodes of a regular grid of longitude and latitude, or in the middles of its cells.
+    """Values at the nodes of a regular grid of longitude and latitude, or at the centres of its cells.
 
     Parameters
     ----------
     lon : (w,) array_like
-        Degrees, from west to east with equal steps; beyond 180 where the grid crosses the 180th meridian.
+        Degrees, from west to east in equal steps; above 180 where the grid crosses the 180th meridian.
     lat : (h,) array_like
-        Degrees in [−90, 90], from south to north with equal steps.
+        Degrees in [−90, 90], from south to north in equal steps.
     values : mapping of str to (h, w) array_like
-        By name, rows from south to north; NaN where there is none.
+        Values by name, rows from south to north; NaN marks a missing value.
     units : mapping of str to str, optional
-        Of some of the values.
+        Units by name, for some or all of the values.
     centers : bool
-        Whether the values are those of cells, whose middles the places are.
+        Whether values belong to cells, with the nodes at their centres.
 
     Raises
     ------
     ValueError, TypeError
-        For steps that are not equal, latitudes out of range, and values of another shape.
+        If steps are unequal, latitudes out of range, or values of the wrong shape.
 
     Examples
     --------
@@ -91,17 +91,17 @@ class Grid:
 
     @classmethod
     def regular(cls, spacing: float, bounds: npt.ArrayLike | None = None, *, centers: bool = False) -> Grid:
-        """A grid without values, for the whole Earth or a part of it.
+        """A grid without values, for the whole Earth or part of it.
 
         Parameters
         ----------
         spacing : float
-            Degrees between neighbours. For the whole Earth 180 is a whole multiple of it.
+            Degrees between neighbouring nodes; for the whole Earth a divisor of 180.
         bounds : (4,) array_like, optional
-            (west, south, east, north) in degrees; east may be less than west, across the 180th meridian. The grid
-            begins in the southwest and goes as far as it fits.
+            (west, south, east, north) in degrees; east is less than west if the grid crosses the 180th meridian. The
+            grid starts at the southwest corner and extends as far as it fits.
         centers : bool
-            Whether the bounds are those of cells, half a step beyond the places.
+            Whether `bounds` are the outer edges of cells, half a step beyond their centres.
         """
         half = 0.5 if centers else 0.0
         if bounds is None:
@@ -127,12 +127,12 @@ class Grid:
 
     @property
     def lonlat(self) -> FloatArray:
-        """The places, (h, w, 2) in degrees, rows from south to north."""
+        """Coordinates of the nodes, (h, w, 2) in degrees, rows from south to north."""
         return np.stack(np.meshgrid(self.lon, self.lat), axis=-1)
 
     @property
     def steps(self) -> tuple[float, float]:
-        """Degrees between neighbours, in longitude and latitude; those of a cell where a side has one place."""
+        """Degrees between neighbours in longitude and latitude; along an axis with one node, the size of its cell."""
         lon, lat = (
             float(axis[-1] - axis[0]) / (len(axis) - 1) if len(axis) > 1 else 0.0 for axis in (self.lon, self.lat)
         )
@@ -183,7 +183,7 @@ def _check_places(spacing: float, columns: int, rows: int) -> None:
 
 
 def write_netcdf(grid: Grid, path: Path) -> None:
-    """A grid as NetCDF, in the classic format that everything reads."""
+    """Write a grid as NetCDF in the classic format, which every reader supports."""
     coordinates, variables = grid._described()
     with optional("scipy.io", "scipy").netcdf_file(path, "w", version=2) as file:
         file.Conventions = "CF-1.8"
@@ -204,7 +204,7 @@ def write_netcdf(grid: Grid, path: Path) -> None:
 
 
 def write_geotiff(grid: Grid, path: Path) -> None:
-    """A grid as a GeoTIFF of EPSG:4326, a band for each of the values; rows from the north, as pictures have them."""
+    """Write a grid as a GeoTIFF in EPSG:4326, one band for each name; rows from north to south, as in images."""
     rasterio = optional("rasterio", "raster")
     (dx, dy), bands = grid.steps, list(grid.values.items())
     if not bands:
@@ -212,7 +212,7 @@ def write_geotiff(grid: Grid, path: Path) -> None:
     transform = rasterio.Affine(dx, 0.0, grid.lon[0] - dx / 2, 0.0, -dy, grid.lat[-1] + dy / 2)
     profile = {"driver": "GTiff", "dtype": "float64", "nodata": np.nan, "crs": "EPSG:4326", "transform": transform}
     shape = {"count": len(bands), "height": len(grid.lat), "width": len(grid.lon)}
-    # In memory first: of a full disk GDAL tells nobody.
+    # In memory first: GDAL does not report a full disk.
     with rasterio.MemoryFile() as memory:
         with memory.open(**profile, **shape, compress="deflate", predictor=3) as file:
             file.update_tags(AREA_OR_POINT="Area" if grid.centers else "Point")
@@ -225,7 +225,7 @@ def write_geotiff(grid: Grid, path: Path) -> None:
 
 
 def write_grid_table(grid: Grid, path: Path) -> None:
-    """A grid as a table, a row for each place, from the southwest."""
+    """Write a grid as a table, one row for each node, starting in the southwest."""
     lon, lat = grid.lonlat.reshape(-1, 2).T
     columns = {"lon": lon, "lat": lat}
     columns |= {name: values.ravel() for name, values in beside(columns, grid.values).items()}

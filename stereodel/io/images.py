@@ -1,6 +1,6 @@
-"""Images of Shapely geometries under conformal maps, one function for each kind of geometry.
+"""Images of Shapely geometries under conformal maps, one function for each geometry type.
 
-Imported where something needs Shapely, and not before.
+Imported only where Shapely is needed.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ BORDER = Antimeridian()
 
 
 def images_of(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
-    """The images of geometries (n,), those of one kind together; chords on the map are off them by `slack` at most."""
+    """The images of geometries (n,), computed by type; chords on the map deviate from them by at most `slack`."""
     images = np.array(shapely.force_2d(geometries), dtype=object)
     as_lonlat(shapely.get_coordinates(images), "shapes")
     kinds = np.where(shapely.is_empty(images), -1, shapely.get_type_id(images))
@@ -59,7 +59,7 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
 
 
 def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
-    """The images of polygons; those that cross themselves, where they are narrow, are followed more closely."""
+    """The images of polygons; those that are narrow and would cross themselves are sampled more finely."""
     polygons, geometry = shapely.get_parts(geometries, return_index=True)
     rings, polygon = shapely.get_rings(polygons, return_index=True)
     lonlat, ring = shapely.get_coordinates(rings, return_index=True)
@@ -83,16 +83,17 @@ def _filled(outlines: Ragged, owner: Indices, count: int, lens: MoebiusMap, slac
     pieces = BORDER.cut(straight(start, end, lens, slack / 4).through(lens))
     loops, region = clip.regions(rings, owner, count, pieces, _sampled(pieces, slack), BORDER)
     images, _ = polygons_on_map(loops, region, count)
-    # What had no border on the sphere covers all of it.
+    # A polygon without a border on the sphere covers all of it.
     images[np.setdiff1d(np.arange(count), owner)] = shapely.box(-180.0, -90.0, 180.0, 90.0)
     return images
 
 
 def _sampled(pieces: Pieces, slack: float) -> Ragged:
-    """Points of pieces, joined on the map by chords that are off the images of edges by the slack, at most.
+    """Points on pieces, close enough that chords on the map deviate from the images of edges by at most `slack`.
 
-    A quarter of it is used up by `straight`, another one by chords off their circles: with chords of the length c, off
-    a circle of radius r ≤ 1 by c²/(8 r), so that c² ≤ 2 slack. The rest is for the map: there, with such chords in
-    longitude and latitude, a great circle strays from what is straight by |sin φ|·√((c² cos φ)² + (2 c²)²)/8 ≤ c²/4.
+    A quarter of it is taken by `straight`, another quarter by the distance between chord and circle: c²/(8 r) for a
+    chord of length c on a circle of radius r ≤ 1, so that c² ≤ 2 slack. The rest is for the map: between the ends of
+    such a chord a great circle deviates from the straight line in longitude and latitude by |sin φ|·√((c² cos φ)² + (2
+    c²)²)/8 ≤ c²/4.
     """
     return close_in_longitude(pieces.arcs.sampled(slack / 4), float(np.sqrt(2 * slack)))

@@ -1,6 +1,7 @@
-"""Layers of maps: rows with columns and a geometry each, which stays well-known binary until somebody needs more.
+"""Layers of maps: rows with columns and one geometry each, kept as well-known binary until more is needed.
 
-That takes a third of the memory of geometries; the files of GDAL and GeoParquet want it, and Arrow passes it on.
+Well-known binary takes a third of the memory of geometry objects. GDAL's formats and GeoParquet store it, and Arrow
+passes it on as it is.
 """
 
 from __future__ import annotations
@@ -17,16 +18,16 @@ from stereodel._extras import optional
 from stereodel.io.columns import beside, index_columns
 
 Progress = Callable[[float], object]
-"""Told the share of the work that is done, from 0 to 1."""
+"""Called with the fraction of the work that is done, from 0 to 1."""
 
 ROWS: Final = 65_536
-"""Rows that are passed on at once."""
+"""Rows in a block."""
 
 KINDS: Final = {1: "Point", 2: "LineString", 3: "Polygon", 4: "MultiPoint", 5: "MultiLineString", 6: "MultiPolygon"}
-"""Of geometries, by their numbers in well-known binary; a thousand more has heights."""
+"""Geometry types by their codes in well-known binary; 1000 is added for geometries with heights."""
 
 ONE: Final = {kind: bytes([1, kind + 3, 0, 0, 0, 1, 0, 0, 0]) for kind in (1, 2, 3)}
-"""What makes a geometry of several parts of one, by its kind, put before it."""
+"""Header that turns a single-part geometry into a multi-part one, by the code of its type."""
 
 
 def packed(geometries: Geometries) -> Packed:
@@ -54,13 +55,13 @@ class Layer:
     Attributes
     ----------
     columns : mapping of str to (n,) array
-        Of NumPy, pandas or Arrow.
+        Arrays of NumPy, pandas or Arrow.
     binary : (n,) array of bytes
-        Geometries, None where there is none.
+        Geometries as well-known binary; None where a row has none.
     crs
-        Coordinate system, as pyproj takes it; None where it is not known.
+        Coordinate reference system in any form that pyproj accepts; None if unknown.
     name : str
-        Of the column of geometries.
+        Name of the geometry column.
     """
 
     columns: Mapping[str, Any]
@@ -70,7 +71,7 @@ class Layer:
 
     @classmethod
     def of_frame(cls, frame: Any) -> Layer:
-        """The rows of a GeoDataFrame or GeoSeries; of several columns of geometries the others as well-known text."""
+        """The rows of a GeoDataFrame or GeoSeries; geometry columns that are not active become well-known text."""
         shapely, active = optional("shapely", "geo"), frame.geometry.name or "geometry"
         own = {name: frame[name].reset_index(drop=True) for name in getattr(frame, "columns", ()) if name != active}
         columns = {
@@ -89,7 +90,7 @@ class Layer:
         return Layer(columns, self.binary[rows], self.crs, self.name)
 
     def blocks(self, progress: Progress | None = None) -> Iterator[Layer]:
-        """The rows piece by piece."""
+        """The rows in blocks of `ROWS`."""
         for begin in range(0, len(self), ROWS):
             yield self.take(slice(begin, begin + ROWS))
             if progress is not None:
@@ -104,12 +105,12 @@ class Layer:
 
     @cached_property
     def kinds(self) -> list[str]:
-        """The kinds of its geometries."""
+        """Geometry types in the layer."""
         found = {int.from_bytes(cell[1:5], "little") for cell in self.binary.tolist() if cell is not None}
         return [KINDS.get(kind % 1000, "GeometryCollection") + (" Z" if kind > 1000 else "") for kind in sorted(found)]
 
     def several(self) -> Layer:
-        """The same with geometries of several parts throughout, where some are, as formats with one kind want it."""
+        """The same layer, all multi-part if any geometry is, for formats that allow one geometry type only."""
         if not any(kind.startswith("Multi") for kind in self.kinds):
             return self
         cells = [cell and ONE.get(int.from_bytes(cell[1:5], "little"), b"") + cell for cell in self.binary.tolist()]
@@ -118,7 +119,7 @@ class Layer:
         return replace(self, binary=binary)
 
     def batches(self, progress: Progress | None = None) -> tuple[Any, Iterator[Any]]:
-        """The rows as record batches of Arrow, and their schema, with geometries as binary in the last column."""
+        """Schema and Arrow record batches of the rows, with the geometries as binary in the last column."""
         arrow = optional("pyarrow", "geo")
         whole = replace(self, columns={name: arrow_column(values) for name, values in self.columns.items()})
         fields = [arrow.field(name, values.type) for name, values in whole.columns.items()]
@@ -131,7 +132,7 @@ class Layer:
 
 
 def arrow_column(values: Any) -> Any:
-    """A column of Arrow; what has no type there, such as whole numbers of any size, as text."""
+    """The column as an Arrow array; values without an Arrow type, such as integers of any size, become text."""
     arrow = optional("pyarrow", "geo")
     try:
         column = arrow.array(values, from_pandas=True)

@@ -1,4 +1,4 @@
-"""Meshes in space: trimesh, which writes GLB and PLY, and PyVista."""
+"""Meshes in space, for PyVista and for trimesh, which writes GLB and PLY."""
 
 from __future__ import annotations
 
@@ -25,31 +25,31 @@ GOLDEN = (np.sqrt(5.0) - 1) / 2
 def to_trimesh(
     mesh: Mesh, *, what: str | None = None, colors: npt.ArrayLike | None = None, max_segment: float = 5.0
 ) -> Any:
-    """Triangles or coloured cells as a trimesh.Trimesh, for GLB, PLY and everything else that trimesh writes.
+    """Triangles or coloured cells as a trimesh.Trimesh, for GLB, PLY and the other formats that trimesh writes.
 
     Parameters
     ----------
     mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
     what : {"triangles", "cells"}, optional
-        By default triangles of a triangulation and cells of a diagram.
+        By default the triangles of a triangulation and the cells of a diagram.
     colors : (n, 3) or (n, 4) array_like, optional
-        Of each triangle, or of the cell of each point: integers from 0 to 255, or floats from 0 to 1. By default cells
-        have pale colours that vary with their numbers, and triangles none.
+        Colour of each triangle, or of each point's cell: integers from 0 to 255, or floats from 0 to 1. By default
+        cells have pale colours that vary with their index, and triangles have none.
     max_segment : float, optional
-        Longest side of the pieces of a cell in degrees, in (0, 90]. Sphere only.
+        Longest side, in degrees, of the triangles that make up a cell, in (0, 90]. Sphere only.
 
     Returns
     -------
     trimesh.Trimesh
-        Made with ``process=False``: vertices are unchanged. Triangles are flat, those of the sphere all facets of
-        the hull, and share the points as vertices unless they have colours. Cells do not share vertices, so that
-        colours end at their boundaries; ``vertex_attributes["point"]`` is the number of each vertex's point. Unbounded
-        cells are left out. The plane is z = 0.
+        Made with ``process=False``: vertices are unchanged. Triangles are flat; on the sphere they are the facets of
+        the convex hull. They share the points as vertices unless they have colours. Cells do not share vertices, so
+        that colours end at their boundaries; ``vertex_attributes["point"]`` is the index of each vertex's point.
+        Unbounded cells are left out. The plane is z = 0.
 
     Raises
     ------
     ValueError, TypeError
-        For colours of another shape, options out of range, or another mesh.
+        If `colors` has the wrong shape, an option is out of range, or `mesh` is of another type.
 
     Examples
     --------
@@ -88,9 +88,9 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     -------
     pyvista.PolyData
         Flat polygons between unit vectors, or in the plane z = 0, with ``cell_data["point"]`` or
-        ``cell_data["triangle"]``, the number of each polygon's point or triangle, and for cells ``cell_data["area"]``,
-        that on the sphere in steradians. Points of a triangulation are the points as given, so that values go into
-        ``point_data`` as they are. Closing triangles, unbounded cells and duplicates' cells are left out.
+        ``cell_data["triangle"]``, the index of each polygon's point or triangle, and for cells ``cell_data["area"]``,
+        in steradians on the sphere. Points of a triangulation are in input order, so values can be assigned to
+        ``point_data`` directly. Closing triangles, unbounded cells and the cells of duplicates are left out.
 
     Raises
     ------
@@ -115,15 +115,15 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
 
 
 def _space(points: FloatArray) -> FloatArray:
-    """Points of the plane as points of space."""
+    """Points of the plane as points in space, with z = 0."""
     return points if points.shape[1] == 3 else np.column_stack([points, np.zeros(len(points))])
 
 
 def _sphere_fans(diagram: SphericalVoronoi, max_segment: float) -> tuple[FloatArray, Indices, Indices]:
-    """Triangles around each site in rings no further apart than `max_segment`; the point of each vertex."""
+    """Triangles around each site in rings at most `max_segment` apart; and the point of each vertex."""
     arcs = ridge_arcs(diagram)
     pieces = np.maximum(np.ceil(np.degrees(arcs.stop) / max_segment), 1).astype(np.intp)
-    # Around each cell, its first point again at the end, which is left out.
+    # Around each cell; its first point is repeated at the end and left out.
     around = points_along(voronoi_sides(diagram), arcs.spread(pieces))
     inner = np.ones(len(around.values), dtype=bool)
     inner[around.offsets[1:] - 1] = False
@@ -143,7 +143,7 @@ def _plane_fans(mesh: Mesh) -> tuple[FloatArray, Indices, Indices]:
 def _rings(
     border: FloatArray, owner: Indices, center: FloatArray, levels: Indices
 ) -> tuple[FloatArray, Indices, Indices]:
-    """Vertices level by level from the centre outwards, and the triangles between neighbours on two levels.
+    """Vertices level by level from the centre outwards, and the triangles between neighbouring levels.
 
     Border point b of a cell with k levels has the vertices first[b] … first[b] + k; at level 0 it is the centre.
     """
@@ -183,7 +183,7 @@ def _as_colors(colors: npt.ArrayLike, count: int) -> Bytes:
 
 
 def _pale(count: int) -> Bytes:
-    """Hues a golden section of the circle apart, so that successive ones differ much, in three strengths."""
+    """Hues spaced by the golden ratio, so that successive ones differ strongly, in three saturations."""
     looks = ((0.20, 0.97), (0.38, 0.93), (0.52, 0.84))
     wheel = np.array([[colorsys.hsv_to_rgb(k / 360, *look) for k in range(360)] for look in looks])
     number = np.arange(count)

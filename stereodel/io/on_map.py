@@ -1,4 +1,4 @@
-"""Arcs of the sphere on the map of longitude and latitude: points that straight lines may join, Shapely geometries."""
+"""Arcs of the sphere on the map of longitude and latitude: sampled for straight lines, as Shapely geometries."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from stereodel.curves.ragged import Ragged, spans
 shapely = optional("shapely", "geo")
 
 Rule = Callable[[Ragged, Indices], tuple[Indices, FloatArray]]
-"""Given some rows of points and their numbers: behind which points there should be new ones, and the new ones."""
+"""Given some rows of points and their indices, returns after which points to insert new ones, and the new points."""
 
 
 def refined(samples: Ragged, rule: Rule) -> Ragged:
-    """Rows of points with new ones in between until a rule wants none; rows that got none are not looked at again."""
+    """Rows of points, refined until a rule inserts none; rows that received no points are not checked again."""
     rows = np.arange(len(samples))
     while True:
         some = samples.take(rows)
@@ -33,40 +33,40 @@ def refined(samples: Ragged, rule: Rule) -> Ragged:
 
 
 def steps_of(samples: Ragged) -> Indices:
-    """The points that another one of their row follows."""
+    """The points that are followed by another in their row."""
     inner = np.ones(len(samples.values), dtype=bool)
     inner[samples.offsets[1:] - 1] = False
     return np.flatnonzero(inner)
 
 
 def close_in_longitude(samples: Ragged, step_rad: float) -> Ragged:
-    """Points of arcs with further ones between those that are too far apart in longitude, as close to a pole."""
+    """Points of arcs, with more inserted between those too far apart in longitude, as near a pole."""
 
     def rule(some: Ragged, _: Indices) -> tuple[Indices, FloatArray]:
         step = steps_of(some)
         reach = np.hypot(some.values[:, 0], some.values[:, 1])
-        # Raised or lowered to the equator's cylinder; a pole has no longitude to be far from.
+        # Projected onto the cylinder through the equator; a pole has no longitude.
         level = some.values / np.where(reach > AT_POLE, reach, 1.0)[:, None]
         p, q = level[step], level[step + 1]
         turn = np.abs(np.arctan2(p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0], p[:, 0] * q[:, 0] + p[:, 1] * q[:, 1]))
         apart = (turn > step_rad) & (reach[step] > AT_POLE) & (reach[step + 1] > AT_POLE)
-        # Half-way in longitude, in the plane of the chord and so on its great circle.
+        # Halfway in longitude, in the plane of the chord and therefore on its great circle.
         return step[apart], unit(p[apart] + q[apart])
 
     return refined(samples, rule)
 
 
 def unit(vectors: FloatArray) -> FloatArray:
-    """Vectors (n, 3), none of them zero, with length 1."""
+    """Non-zero vectors (n, 3) scaled to length 1."""
     return vectors / np.sqrt(np.sum(vectors**2, axis=1, keepdims=True))
 
 
 def lines_on_map(
     sides: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Antimeridian
 ) -> Geometries:
-    """LineStrings (count,) of rows of edges, a MultiLineString for one that has several or crosses ±180° or a pole."""
+    """Lines (count,) of rows of edges: a MultiLineString for several rows, or if one crosses ±180° or a pole."""
     rows, line = clip.lines(sides, pieces, samples, border)
-    # What runs along ±180° is cut at each vertex, as at a border: put together where it goes on.
+    # A line along ±180° is cut at each vertex, as at a border: join it where it continues.
     first = rows.offsets[1:-1]
     goes_on = (line[1:] == line[:-1]) & (rows.values[first] == rows.values[first - 1]).all(axis=1)
     begins = np.append(True, ~goes_on)[: len(rows)]
@@ -78,7 +78,8 @@ def lines_on_map(
 def polygons_on_map(loops: Ragged, owner: Indices, count: int) -> tuple[Geometries, BoolArray]:
     """Polygons and MultiPolygons (count,) of closed loops, and which loops run counterclockwise.
 
-    Loops that run clockwise are holes of the smallest shell that holds their first point; without one they are nothing.
+    Clockwise loops are holes of the smallest shell that contains their first point; without such a shell they are
+    dropped.
     """
     result = np.full(count, shapely.Polygon())
     if not len(loops):
@@ -99,7 +100,7 @@ def polygons_on_map(loops: Ragged, owner: Indices, count: int) -> tuple[Geometri
 
 
 def grouped(parts: Geometries, owner: Indices, empty: Geometries, collect: Any) -> Geometries:
-    """One geometry for each owner, several parts as one of `collect`, and `empty` where there are none."""
+    """One geometry for each owner: `collect` combines several parts, and `empty` is used where there are none."""
     counts, result = np.bincount(owner, minlength=len(empty)), empty.copy()
     alone = counts[owner] == 1
     result[owner[alone]] = parts[alone]
@@ -111,7 +112,7 @@ def grouped(parts: Geometries, owner: Indices, empty: Geometries, collect: Any) 
 
 
 def repaired(geometries: Geometries, wrong: BoolArray) -> Geometries:
-    """Valid polygons in place of those that are smaller than the spacing of degrees as doubles."""
+    """Valid polygons in place of those smaller than the spacing of doubles."""
     for place in np.flatnonzero(wrong).tolist():
         parts = shapely.get_parts(shapely.make_valid(geometries[place]))
         geometries[place] = shapely.union_all(parts[shapely.get_dimensions(parts) == 2])

@@ -1,4 +1,4 @@
-"""Cells of the plane as polygons, as far as they lie in a rectangle."""
+"""Cells of the plane as polygons, clipped to a rectangle."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
     """A Polygon for each point, empty where its cell is outside; neighbours share points, as ridges are cut once."""
     count = len(diagram.points)
     segments, ridge = _segments(diagram, box)
-    # Ridges that are cut already: of these arcs nothing is asked but their ends.
+    # The ridges are already cut: only the endpoints of these arcs are used.
     none = np.zeros((len(ridge), 0))
     arcs = Arcs(segments[:, 0], segments[:, 1], none, none, none, none, none, ridge)
     low, high = [box.left, box.bottom], [box.right, box.top]
@@ -31,7 +31,7 @@ def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
     joined, owner = clip.closed_along(box, points.take(~chains.whole), chains.row[~chains.whole])
     loops, owner = clip.together(points.take(chains.whole), joined), np.append(chains.row[chains.whole], owner)
     if not len(ridge) and count:
-        # One cell fills the rectangle: that of the point nearest to any of its places.
+        # One cell fills the rectangle: that of the site nearest to any place in it.
         middle = (box.corners[0] + box.corners[2]) / 2
         loops = Ragged.of([box.once()])
         owner = np.argmin(np.sum((diagram.points - middle) ** 2, axis=1), keepdims=True)
@@ -41,9 +41,10 @@ def plane_cells(diagram: PlanarVoronoi, box: Box) -> Geometries:
 
 
 def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:
-    """The ridges' parts in the rectangle, in order, with ends that are vertices or lie on its border exactly.
+    """The parts of ridges in the rectangle, in order, whose endpoints are vertices or lie exactly on its border.
 
-    A vertex within rounding of the border is on it, for all its ridges alike; parts along the border are left out.
+    A vertex within rounding error of the border is placed on it for all its ridges; parts along the border are left
+    out.
     """
     low, high = np.array([box.left, box.bottom]), np.array([box.right, box.top])
     pieces, ridge = diagram.segments((box.left, box.bottom, box.right, box.top))
@@ -52,7 +53,7 @@ def _segments(diagram: PlanarVoronoi, box: Box) -> tuple[FloatArray, Indices]:
     size = max(map(abs, (box.left, box.right, box.bottom, box.top)))
     at_vertex = (ends >= 0) & (np.abs(pieces - vertices).max(axis=-1) <= 8 * UNIT_ROUNDOFF * size)
     pieces = np.clip(np.where(at_vertex[..., None], vertices, pieces), low, high)
-    # Other ends go to the nearest side.
+    # Other endpoints move to the nearest side.
     gaps = np.concatenate([pieces - low, high - pieces], axis=-1)
     row, end = np.nonzero(~at_vertex)
     side = np.argmin(gaps[row, end], axis=-1)

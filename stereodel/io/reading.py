@@ -1,4 +1,4 @@
-"""Reading tables of points: what a file is, and the readers of each kind."""
+"""Reading tables of points: detection of the format, and a reader for each."""
 
 from __future__ import annotations
 
@@ -46,13 +46,12 @@ BEGINNINGS: Final[dict[bytes, str]] = {
     b"{": ".geojson",
     b"\x1e{": ".geojson",
 }
-"""First bytes of files, and the ending that files of the kind have; XML is KML or GPX, a zip archive a spreadsheet or a
-shapefile."""
+"""First bytes of files and matching extensions; XML may be KML or GPX, a zip archive a spreadsheet or a shapefile."""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """What a caller of `read_points` says of the table."""
+    """Options of `read_points` that describe the table."""
 
     lon: str | None = None
     lat: str | None = None
@@ -62,7 +61,7 @@ class Asked:
     progress: Progress | None = None
 
     def table(self, columns: dict[str, Column], rows: Indices, others: dict[str, Column] | None = None) -> PointTable:
-        """A table with coordinates in two of its columns; `others` are the columns as they are kept, if differently."""
+        """A table with coordinates in two of its columns; `others` are the columns to keep, if not the same."""
         where = find_lonlat(list(columns), self.lon, self.lat)
         kept = {name: values for name, values in (others or columns).items() if name not in where}
         lon, lat = (columns[name] for name in where)
@@ -85,22 +84,22 @@ def read_points(
     Parameters
     ----------
     source : path-like or stream
-        A file, or an open one, of text or bytes.
+        A file, or an open stream of text or bytes.
     lon, lat : str, optional
-        Names of the columns in degrees. By default the one whose name is or has in it one of the words lon, lng, long,
-        longitude and lat, latitude, else x and y, in any case. Files with geometries need none.
+        Names of the columns, in degrees. By default the columns whose names are or contain one of the words lon, lng,
+        long, longitude and lat, latitude, else x and y, ignoring case. Files with geometries need none.
     format : {"csv", "geojson", "parquet", "vector"}, optional
-        By default what the ending of the path says, else what the first bytes are. "vector" is whatever GDAL reads:
-        GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).
+        By default taken from the extension of the path, else from the first bytes. "vector" is any format that GDAL
+        reads: GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).
     layer : str, optional
         Name of the layer, where a file has several; of a file of GDAL's formats alone.
     crs : str, optional
-        Coordinate system of the columns `lon` and `lat`, eastern first, such as "EPSG:25832"; by default they are
-        degrees. Files with geometries say it themselves.
+        Coordinate reference system of the columns `lon` and `lat` (easting first), such as "EPSG:25832"; by default
+        they are in degrees. Files with geometries state their own.
     skip_missing : bool
-        Whether rows without a place are left out, which are an error by default.
+        Whether to leave out rows without a place, which are an error by default.
     progress : callable, optional
-        Called with the share of a table of text that is read, from 0 to 1, again and again.
+        Called repeatedly with the fraction of a text table that has been read, from 0 to 1.
 
     Returns
     -------
@@ -110,23 +109,23 @@ def read_points(
     Raises
     ------
     ValueError
-        For a wrong row, naming its number (the first row of data is 1): a missing value, one that is not a number, a
-        latitude outside [−90, 90]; where no column or several look like longitude or latitude, listing the columns;
-        for geometries other than points.
+        If a coordinate is missing or not a number, or a latitude is outside [−90, 90] (the message gives the row,
+        counted from 1 for the first row of data); if no column or several may be longitude or latitude (the message
+        lists the columns); or if a geometry is not a point.
     ImportError
-        For what CSV and GeoJSON are not without its libraries, and for coordinate systems (``pip install
+        If libraries for formats other than CSV and GeoJSON, or for coordinate systems, are missing (``pip install
         stereodel[geo]``).
     OSError
-        Where the file cannot be read.
+        If the file cannot be read.
 
     Notes
     -----
-    Text is UTF-8, or UTF-16 with its mark, compressed by gzip, bzip2 or not. CSV: commas, semicolons, tabs, bars or
-    blanks; a decimal comma beside another separator; a line of names unless most fields of the first line are numbers;
-    lines on top that begin with # are comments. Columns become numbers where all their values are and doubles hold all
-    their digits, but not where digits follow a leading zero. Geometries in another coordinate system, in GeoJSON those
-    with a member ``crs``, are transformed to EPSG:4326; those without any are taken for longitude and latitude in
-    degrees. A multipoint of one point is a point.
+    Text is UTF-8, or UTF-16 with a byte order mark, and may be compressed with gzip or bzip2. CSV: separated by commas,
+    semicolons, tabs, vertical bars or blanks; decimal commas are accepted with any separator but the comma; the first
+    line is a header unless most of its fields are numbers; leading lines that begin with # are comments. A column
+    becomes numeric if all its values are numbers whose digits a double can hold and none has a leading zero followed by
+    digits. Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326;
+    without one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
 
     Examples
     --------
@@ -154,12 +153,12 @@ def read_plane_points(
     skip_missing: bool = False,
     progress: Progress | None = None,
 ) -> tuple[FloatArray, dict[str, Column], Indices]:
-    r"""Points of a plane by the names of two columns of a table: (n, 2), other columns, row numbers.
+    r"""Points of the plane from two columns of a table: (n, 2), the other columns, and row numbers.
 
     Raises
     ------
     ValueError
-        For GeoJSON, columns that are not there, and rows without finite numbers, by number.
+        If the source is GeoJSON, a column does not exist, or a row (named in the message) lacks finite numbers.
 
     Examples
     --------
@@ -191,7 +190,7 @@ def read_plane_points(
 
 
 class _File:
-    """What a table is read from: its kind, and its bytes, which are read when they are asked for."""
+    """The source of a table: its format, and its bytes, read on demand."""
 
     def __init__(self, source: Source, format: Format | None = None, layer: str | None = None) -> None:
         self._source, self._layer = source, layer
@@ -201,7 +200,7 @@ class _File:
             raise ValueError(f"layer is {layer!r}, but a file of the kind {self.kind} has no layers; leave it out")
 
     def _found(self) -> Format:
-        """The kind by the ending of a path, also before that of its compression, else by the first bytes."""
+        """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
         endings = [ending.lower() for ending in self._path.suffixes[-2:]] if self._path is not None else []
         for ending in (endings[-1:], endings[:1] if endings[-1:] in ([".gz"], [".bz2"]) else []):
             if ending and ending[0] in ENDINGS:
@@ -210,7 +209,7 @@ class _File:
 
     @cached_property
     def content(self) -> bytes:
-        """The bytes, unpacked."""
+        """The decompressed bytes."""
         return _content(self._source)
 
     def frame(self) -> Any:
@@ -225,7 +224,7 @@ class _File:
 
 
 def _ending(content: bytes) -> str:
-    """The ending that a file with these bytes should have."""
+    """The extension that matches these bytes."""
     start = content[:64].lstrip(b"\xef\xbb\xbf \t\r\n")
     found = next((ending for mark, ending in BEGINNINGS.items() if start.startswith(mark)), ".csv")
     if found == ".zip" and b"xl/workbook.xml" in content:
@@ -278,11 +277,11 @@ def _read_geojson(content: bytes, asked: Asked) -> PointTable:
 
 
 def _json(text: str) -> Any:
-    """A document of JSON, or a sequence of features (RFC 8142, or one a line) as a collection."""
+    """A JSON document; a sequence of features (RFC 8142, or one per line) becomes a collection."""
     try:
         return json.loads(text)
     except RecursionError:
-        raise ValueError("the file is no table: its JSON is nested too deeply") from None
+        raise ValueError("the file is not a table: its JSON is nested too deeply") from None
     except json.JSONDecodeError as error:
         lines = [line.strip("\x1e \t\r") for line in text.split("\n")]
         if not lines[0].endswith("}"):
@@ -294,7 +293,7 @@ def _json(text: str) -> Any:
 
 
 def _crs_of(collection: dict[str, Any]) -> str | None:
-    """The coordinate system that a collection names as GeoJSON did before RFC 7946; None for degrees."""
+    """The coordinate system named by a collection in the manner of GeoJSON before RFC 7946; None for degrees."""
     crs = collection.get("crs")
     if crs is None:
         return None
@@ -334,7 +333,7 @@ def _read_parquet(content: bytes, asked: Asked) -> PointTable:
 
 
 def _of_arrow(values: Any) -> Column:
-    """A column of Arrow; whole numbers with gaps are no doubles where these would round them."""
+    """An Arrow column as an array; integers with missing values do not become doubles if that would round them."""
     whole = optional("pyarrow", "geo").types.is_integer(values.type)
     return column(values.to_pylist()) if whole and values.null_count else _plain(values.to_numpy())
 
@@ -345,19 +344,19 @@ def from_geodataframe(frame: Any) -> PointTable:
     Parameters
     ----------
     frame : geopandas.GeoDataFrame or geopandas.GeoSeries
-        Of points. In another coordinate system they are transformed to EPSG:4326; without any they are taken for
+        Rows of points. Those in another coordinate system are transformed to EPSG:4326; without one they are taken as
         longitude and latitude in degrees.
 
     Returns
     -------
     PointTable
-        With the columns that are no geometries, and before them the index, as GeoPandas writes it to files: where it
-        has a name, several levels, or is not of whole numbers.
+        With the columns that are not geometries, preceded by the index where GeoPandas writes it to files: if it has a
+        name or several levels, or is not made of integers.
 
     Raises
     ------
     ValueError
-        For a row whose geometry is missing, empty or no point, or lies outside [−90, 90] in latitude.
+        If a geometry is missing, empty or not a point, or its latitude is outside [−90, 90].
 
     Examples
     --------
@@ -370,7 +369,7 @@ def from_geodataframe(frame: Any) -> PointTable:
 
 
 def _of_frame(frame: Any, asked: Asked) -> PointTable:
-    """Points of a frame: of its geometries, or of two columns where it has none."""
+    """Points of a frame: from its geometries, or from two columns if it has none."""
     if not hasattr(frame, "geometry"):
         if not hasattr(frame, "columns"):
             raise TypeError(f"frame must be a GeoDataFrame or GeoSeries, not {type(frame).__name__}")
@@ -393,7 +392,7 @@ def _of_frame(frame: Any, asked: Asked) -> PointTable:
 
 
 def _columns_of(frame: Any) -> dict[str, Column]:
-    """The columns of a frame that are no geometries, and its index if that says more than a number."""
+    """The columns of a frame that are not geometries, and its index if that is more than row numbers."""
     names = [name for name in getattr(frame, "columns", ()) if frame[name].dtype != "geometry"]
     columns = {str(name): frame[name] for name in names}
     return {
@@ -402,7 +401,7 @@ def _columns_of(frame: Any) -> dict[str, Column]:
 
 
 def _plain(values: Any) -> Column:
-    """Objects of one kind as an array of that kind."""
+    """Objects of one type as an array of that type."""
     array = np.asarray(values)
     if array.dtype.kind != "O" or not len(array):
         return array

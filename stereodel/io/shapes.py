@@ -1,6 +1,6 @@
-"""The one taker of shapes: GeoJSON, files, frames and geometries as points, lines and rings in degrees.
+"""Reading shapes: GeoJSON, files, frames and geometries as points, lines and rings in degrees.
 
-GeoJSON is read without any library; frames and Shapely's geometries are taken apart by Shapely, all at once.
+GeoJSON is read without any library; frames and geometries are taken apart by Shapely, all at once.
 """
 
 from __future__ import annotations
@@ -24,26 +24,26 @@ GEOGRAPHIC = "EPSG:4326"
 GEOJSON = (".geojson", ".json")
 PARQUET = (".parquet", ".geoparquet")
 KINDS = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineString", "Polygon", "MultiPolygon")
-"""Of geometries with coordinates; LinearRing is what Shapely calls a closed line."""
+"""Types of geometries with coordinates; a LinearRing is a closed line of Shapely."""
 POINT, LINE, RING, POLYGON, MULTIPOINT, MULTILINE, MULTIPOLYGON, COLLECTION = range(8)
-"""Types of geometries in Shapely's numbering; those after POLYGON have several parts."""
+"""Type codes of geometries in Shapely; those above POLYGON are multi-part."""
 
 
 @dataclass(frozen=True, eq=False)
 class Shapes:
-    """Everything in a source by kind, with the feature that it belongs to; degrees, longitude first.
+    """All points, lines and polygons of a source, with their features; degrees, longitude first.
 
     Attributes
     ----------
     properties : sequence of mappings
-        Of each feature.
+        Properties of each feature.
     points : (n, 2) array
     point_feature : (n,) array of int
     lines : Ragged of (k, 2)
     line_feature : (m,) array of int
     rings : Ragged of (k, 2)
-        Closed, the first point again at the end; of each polygon the outer ring first, then its holes, in either
-        direction, as they were given.
+        Closed, with the first point repeated at the end. The outer ring of each polygon comes first, then its holes;
+        orientations are those of the source.
     ring_polygon : (r,) array of int
         The polygon of each ring, in order.
     polygon_feature : (p,) array of int
@@ -65,12 +65,12 @@ class Shapes:
         return [rings[a:b] for a, b in pairwise(first.tolist())]
 
     def column(self, name: str) -> FloatArray:
-        """A property of each feature as a number, NaN where it has none.
+        """A property of each feature as a number, NaN if the feature lacks it.
 
         Raises
         ------
         ValueError
-            Where no feature has the property, or a value is not a number.
+            If no feature has the property, or a value is not a number.
         """
         if not any(name in entry for entry in self.properties):
             known = sorted({str(key) for entry in self.properties for key in entry})
@@ -86,7 +86,7 @@ class Shapes:
             ) from None
 
     def words(self, name: str) -> list[str | None] | None:
-        """A property of each feature where it is text, None for those without it; None where it is no text."""
+        """A property of each feature as text, None for features that lack it; None if any value is not text."""
         values = [entry.get(name) for entry in self.properties]
         given = [value for value in values if value is not None]
         if not given or not all(isinstance(value, str) for value in given):
@@ -101,23 +101,24 @@ def shapes_of(source: Any) -> Shapes:
     ----------
     source : path-like, mapping, GeoDataFrame, GeoSeries, geometry, or a sequence of geometries
         A GeoJSON file or object (RFC 7946); any other file that GeoPandas reads; anything with ``__geo_interface__``.
-        Frames in another coordinate system are transformed to longitude and latitude; those without any hold degrees.
+        Frames in another coordinate system are transformed to longitude and latitude; without one they are in degrees.
 
     Returns
     -------
     Shapes
-        A feature for each row of a frame, for each geometry of a sequence. Null and empty geometries have no shapes.
+        One feature for each row of a frame or geometry of a sequence. Null and empty geometries have no shapes.
 
     Raises
     ------
     OSError
-        When a file cannot be read.
+        If a file cannot be read.
     ValueError
-        For what is not GeoJSON, saying where; a latitude outside [−90, 90]; a ring of fewer than three points.
+        If GeoJSON is invalid (the message says where), a latitude is outside [−90, 90], or a ring has fewer than three
+        points.
     TypeError
-        For any other object.
+        If `source` is of another type.
     ImportError
-        For other files than GeoJSON without GeoPandas (``pip install stereodel[geo]``).
+        For files other than GeoJSON, if GeoPandas is missing (``pip install stereodel[geo]``).
 
     Examples
     --------
@@ -144,7 +145,7 @@ def shapes_of(source: Any) -> Shapes:
 
 
 def _of_file(path: Path) -> Shapes:
-    path.stat()  # the system says best that there is none
+    path.stat()  # the system's own message says best that there is none
     if path.suffix.lower() in PARQUET:
         return shapes_of(optional("geopandas", "geo").read_parquet(path))
     if path.suffix.lower() not in GEOJSON:
@@ -160,7 +161,7 @@ def _of_file(path: Path) -> Shapes:
 
 
 def _of_sequence(items: list[Any]) -> Shapes:
-    """Geometries of Shapely, or anything else with `__geo_interface__`; each is a feature."""
+    """Shapely geometries, or other objects with `__geo_interface__`, one feature each."""
     if all(item is None or hasattr(item, "geom_type") for item in items):
         geometries = np.empty(len(items), dtype=object)
         geometries[:] = items
@@ -176,7 +177,7 @@ def _of_sequence(items: list[Any]) -> Shapes:
 
 
 def _of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] | None = None) -> Shapes:
-    """Geometries of Shapely, a feature each."""
+    """Shapely geometries, one feature each."""
     shapely = optional("shapely", "geo")
     parts, feature = geometries, np.arange(len(geometries))
     while (shapely.get_type_id(parts) > POLYGON).any():
@@ -199,7 +200,7 @@ def _of_geometries(geometries: Geometries, properties: list[Mapping[str, Any]] |
 
 @dataclass
 class _Found:
-    """What GeoJSON brings, feature by feature."""
+    """Collects the shapes of GeoJSON feature by feature."""
 
     properties: list[Mapping[str, Any]] = field(default_factory=list)
     points: list[FloatArray] = field(default_factory=list)
@@ -225,12 +226,12 @@ class _Found:
         return Shapes(self.properties, points, point, lines, line, rings, ring, polygon)
 
     def add(self, properties: Mapping[str, Any], geometry: Any, where: str) -> None:
-        """A feature."""
+        """Add a feature."""
         self.properties.append(properties)
         self._sort(geometry, where)
 
     def _sort(self, geometry: Any, where: str) -> None:
-        """A geometry, or all of a collection, by kind; null geometries are none."""
+        """Sort a geometry, or the members of a collection, by type; null geometries are skipped."""
         if geometry is None:
             return
         kind = _kind(geometry)
@@ -279,7 +280,7 @@ def _kind(content: Any) -> Any:
 
 
 def _features(content: Any, name: str) -> Iterator[tuple[Mapping[str, Any], Any]]:
-    """Properties and geometry of each feature of an object of GeoJSON."""
+    """Properties and geometry of each feature of a GeoJSON object."""
     kind = _kind(content)
     if kind == "FeatureCollection":
         features = content.get("features")
@@ -308,7 +309,7 @@ def _positions(positions: Any, kind: str, where: str) -> FloatArray:
 
 
 def _closed(ring: FloatArray, kind: str, where: str) -> FloatArray:
-    """A ring with its first point again at its end, whether it was there or not."""
+    """A ring closed by its first point, which is added if it is missing."""
     closed = ring if len(ring) > 1 and (ring[0] == ring[-1]).all() else np.concatenate([ring, ring[:1]])
     if len(closed) < 4:
         raise ValueError(f"{where} has a {kind} with a ring of {max(0, len(closed) - 1)} points; a ring needs three")

@@ -1,4 +1,4 @@
-"""Triangulations and diagrams as meshes: nodes and the polygons between them."""
+"""Triangulations and diagrams as polygon meshes."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Surface:
     polygons : Ragged of int
         The nodes of each polygon.
     number : (f,) array of int
-        The point of each cell, the triangle of each triangle.
+        Index of each cell's point, or of each triangle.
     cells : bool
         Whether the polygons are cells.
     """
@@ -38,7 +38,7 @@ class Surface:
 
     @property
     def table(self) -> IntArray:
-        """The polygons as rows, (f, largest number of corners), the rest of each row -1."""
+        """The polygons as rows, (f, largest number of corners), padded with -1."""
         sizes = self.polygons.sizes
         rows = np.full((len(sizes), int(sizes.max(initial=3))), -1, dtype=np.int32)
         rows[self.polygons.row, spans(np.zeros_like(sizes), sizes)] = self.polygons.values
@@ -46,7 +46,7 @@ class Surface:
 
     @property
     def edges(self) -> IntArray:
-        """Pairs of nodes with a side between them, (e, 2), each once."""
+        """Edges as pairs of nodes, (e, 2), each once."""
         here = self.polygons.values
         sides = np.column_stack([here, here[self.polygons.following]])
         return np.unique(np.sort(sides, axis=1), axis=0).astype(np.int32)
@@ -76,7 +76,7 @@ def _cells(diagram: Any) -> Surface:
 
 
 def _lunes(diagram: SphericalVoronoi) -> Surface:
-    """Cells between two opposite vertices, with the middle of each ridge as a further node."""
+    """Cells between two antipodal vertices, with the midpoint of each ridge as an additional node."""
     sides, arcs = voronoi_sides(diagram), ridge_arcs(diagram)
     ridge = np.maximum(sides.values, ~sides.values)
     start = diagram.ridge_vertices[ridge, (sides.values < 0).astype(np.intp)].astype(np.intp)

@@ -1,4 +1,4 @@
-"""Tables of points: longitude, latitude and whatever else came with them."""
+"""Tables of points: longitude, latitude and their other columns."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from stereodel.io.text import doubles
 
 @dataclass(frozen=True, eq=False)
 class PointTable:
-    """Points of the Earth with their other columns, as `read_points` gives them and `write` takes them.
+    """Points on the Earth and their other columns, as returned by `read_points` and accepted by `write`.
 
     Parameters
     ----------
@@ -25,17 +25,17 @@ class PointTable:
     columns : mapping of str to (n,) array_like, optional
         The other columns by name.
     rows : (n,) array_like of int, optional
-        The number of each point's row in its source, for messages; the first row of data is 1.
+        Row number of each point in its source, for messages; the first row of data is 1.
 
     Attributes
     ----------
     lonlat, columns, rows
-        Read-only arrays; `columns` a read-only mapping.
+        Read-only arrays; `columns` is a read-only mapping.
 
     Raises
     ------
     ValueError, TypeError
-        For latitudes out of range, values that are not finite real numbers, and columns of another length.
+        If a latitude is out of range, a coordinate is not a finite real number, or a column has the wrong length.
 
     Examples
     --------
@@ -73,23 +73,23 @@ def table_of(
     crs: str | None = None,
     skip_missing: bool = False,
 ) -> PointTable:
-    """A table of two columns of coordinates, numbers or text; what is wrong is told with the number of its row.
+    """A table from two columns of coordinates, as numbers or text; errors give the row number.
 
     Parameters
     ----------
     lon, lat : (n,) arrays
-        Longitude and latitude, or the coordinates of another system, eastern first.
+        Longitude and latitude, or coordinates in `crs`, easting first.
     columns, rows
         As for `PointTable`.
     crs : str, optional
-        That other system, which is transformed to EPSG:4326.
+        Coordinate reference system of the columns, which are transformed to EPSG:4326.
     skip_missing : bool
-        Whether rows without a place are left out.
+        Whether to leave out rows without a place.
 
     Raises
     ------
     ValueError
-        Naming the first row whose longitude or latitude is missing, not a number, or out of range.
+        If a longitude or latitude is missing, not a number, or out of range; the message gives the first such row.
     """
     names = ("longitude", "latitude") if crs is None else ("easting", "northing")
     pair = list(zip(names, (lon, lat), strict=True))
@@ -108,9 +108,9 @@ def table_of(
 def located(
     pair: Sequence[tuple[str, Column]], columns: Mapping[str, Column], rows: Indices, *, skip_missing: bool
 ) -> tuple[FloatArray, dict[str, Column], Indices]:
-    """Two columns of coordinates, each behind its name in messages, as places (n, 2), with the other columns.
+    """Two columns of coordinates, each with its name for messages, as places (n, 2), and the other columns.
 
-    Rows without a place are left out if they may be.
+    With `skip_missing`, rows without a place are left out.
     """
     places = np.column_stack([numbers(values, name, rows, gaps=skip_missing) for name, values in pair])
     there = ~np.isnan(places).any(axis=1)
@@ -118,7 +118,7 @@ def located(
 
 
 def known_crs(crs: str) -> Any:
-    """A coordinate system by its name, or a ValueError."""
+    """The coordinate system of this name; ValueError if PROJ does not know it."""
     pyproj = optional("pyproj", "geo")
     try:
         return pyproj.CRS(crs)
@@ -127,18 +127,18 @@ def known_crs(crs: str) -> Any:
 
 
 def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
-    """Coordinates of another system, eastern first, as longitude and latitude."""
+    """Coordinates in another system, easting first, as longitude and latitude."""
     transformer = optional("pyproj", "geo").Transformer.from_crs(known_crs(crs), "EPSG:4326", always_xy=True)
     lonlat = np.column_stack(transformer.transform(*places.T)) if len(places) else places
     lost = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
     if len(lost):
         x, y = places[lost[0]]
-        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) is no place of {crs}{_more(lost)}")
+        raise ValueError(f"row {rows[lost[0]]}: ({x}, {y}) has no longitude and latitude in {crs}{_more(lost)}")
     return lonlat
 
 
 def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False) -> FloatArray:
-    """A column as finite numbers, or NaN for gaps if they may be; else a ValueError that names the first such row."""
+    """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row."""
     array = np.asarray(values)
     if array.dtype.kind in "iuf":
         result = array.astype(np.float64)

@@ -1,7 +1,7 @@
-"""Columns of text: kept as they stand, or as numbers where not a digit is lost.
+"""Columns of text: converted to numbers where no digit is lost, otherwise kept unchanged.
 
-A number here is what people and programs write in tables: digits, a sign, a point or decimal comma, an exponent. What
-Python would read as one besides, such as 1_000 or digits of other scripts, is text.
+A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent. Other
+notations that Python accepts, such as 1_000 or digits of other scripts, are text.
 """
 
 from __future__ import annotations
@@ -16,25 +16,27 @@ import numpy as np
 from stereodel._arrays import BoolArray, Codes, Column, FloatArray, Texts
 
 MISSING: Final = ("", "na", "n/a", "nan", "null", "none", "<na>", "-")
-"""What stands for no value, in any case."""
+"""Spellings of a missing value, in any case."""
 
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
 
 LONG: Final = 24
-"""Letters from which on text is kept as objects where few are so long: arrays of text cost 4 bytes for each letter of
-the longest, in every row. No number that a double prints is longer."""
+"""Length in characters above which text is stored as objects if few values are so long; doubles print no longer.
+
+In NumPy's text arrays every row takes 4 bytes for each character of the longest value.
+"""
 
 SAFE_DIGITS: Final = 15
-"""Decimal digits that every double holds."""
+"""Number of decimal digits that a double always preserves."""
 
 EXACT_INTEGERS: Final = 2.0**53
-"""The doubles up to here hold all whole numbers."""
+"""Up to this number doubles represent every integer."""
 
 _LETTERS: Final = np.frombuffer("0123456789+-.,eE\0".encode("utf-32-le"), dtype=np.uint32)
 
 
 def texts(values: Iterable[str]) -> Column:
-    """Strings as an array: of text, or of objects where a few long ones would make all of them long."""
+    """Strings as an array of text, or of objects if a few long strings would make the text array large."""
     cells = list(values)
     lengths = [len(cell) for cell in cells]
     longest = max(lengths, default=0)
@@ -44,7 +46,7 @@ def texts(values: Iterable[str]) -> Column:
 
 
 def objects(values: Iterable[Any]) -> Column:
-    """Anything as an array of objects, one an entry."""
+    """Any values as an array of objects, one per entry."""
     cells = list(values)
     array = np.empty(len(cells), dtype=object)
     array[:] = cells
@@ -52,9 +54,9 @@ def objects(values: Iterable[Any]) -> Column:
 
 
 def column(values: Iterable[Any]) -> Column:
-    """Values of Python as a column: whole numbers, numbers, or text, where all are, else objects.
+    """Python values as a column: integers, floats or text if all values are, else objects.
 
-    A missing value, None, is NaN among numbers that doubles hold.
+    Among numbers that doubles can represent, None becomes NaN.
     """
     cells = list(values)
     known = [cell for cell in cells if cell is not None]
@@ -71,16 +73,16 @@ def column(values: Iterable[Any]) -> Column:
 
 
 def typed(values: Column, *, comma: bool = False) -> Column:
-    """A column of text as whole numbers, or as numbers with NaN for missing ones, where all its values are.
+    """A column of text as integers, or as floats with NaN for missing values, if all its values are numbers.
 
-    Text stays as it is where a number has more digits than a double holds, or begins with a zero and another digit,
-    which makes it a code.
+    The column stays text if a number has more digits than a double can hold, or starts with a zero and another digit,
+    as codes do.
 
     Parameters
     ----------
     values : (n,) array of text
     comma : bool
-        Whether a comma is a decimal sign.
+        Whether a comma is a decimal separator.
 
     Examples
     --------
@@ -120,9 +122,9 @@ def typed(values: Column, *, comma: bool = False) -> Column:
 
 
 def doubles(values: Column) -> tuple[FloatArray, BoolArray]:
-    """Text, and numbers among it, as the nearest doubles, NaN where there is no value; and where it is no number.
+    """Text and numbers as the nearest doubles, NaN where a value is missing; and a mask of values that are not numbers.
 
-    A comma is a decimal sign.
+    A comma is a decimal separator.
     """
     if values.dtype.kind == "U":
         text = np.char.strip(values.astype(np.str_, copy=False))
@@ -142,14 +144,14 @@ def doubles(values: Column) -> tuple[FloatArray, BoolArray]:
 
 
 def _letters(text: Texts) -> Codes:
-    """The code points of text, (n, longest), with zeros behind."""
+    """The code points of text, (n, longest), padded with zeros."""
     if not len(text) or not text.dtype.itemsize:
         return np.zeros((len(text), 1), dtype=np.uint32)
     return np.ascontiguousarray(text).view(np.uint32).reshape(len(text), -1)
 
 
 def _has_codes(points: Codes) -> bool:
-    """Whether a value begins with a zero and another digit, a sign before them or not."""
+    """Whether any value starts, after an optional sign, with a zero and another digit."""
     padded = np.pad(points, ((0, 0), (0, 2)))
     signed = np.isin(padded[:, 0], [ord("+"), ord("-")])
     first, second = (np.where(signed, padded[:, k + 1], padded[:, k]) for k in (0, 1))
@@ -157,7 +159,7 @@ def _has_codes(points: Codes) -> bool:
 
 
 def _all_held(text: Texts, numbers: FloatArray) -> bool:
-    """Whether doubles hold all digits of text that they were read from."""
+    """Whether the doubles preserve all digits of the text from which they were read."""
     if not np.isfinite(numbers).all():
         return False
     points = _letters(text)

@@ -1,8 +1,8 @@
-"""Faces of the sphere as polygons on the map of longitude and latitude that tile it.
+"""Faces of the sphere as polygons that tile the map of longitude and latitude.
 
-All sides are cut and sampled once, for both faces beside them, so that neighbours share every point. Two things are
-left to do on a map, where points are joined by straight lines: no line may come too near to a site, which must stay in
-its own cell; and no two lines may cross, where a face is narrower than its lines stray.
+Each side is cut and sampled once for the two faces that share it, so that neighbours share every point. Two problems
+remain on a map, where points are joined by straight chords: no chord may come too near to a site, which must stay
+inside its own cell; and no two chords may cross where a face is narrower than the distance between chord and arc.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from stereodel.sphere.latitudes import Latitude
 shapely = optional("shapely", "geo")
 
 BLOCK = 20_000
-"""Faces, and arcs, that are worked on at once by a thread: more take more memory and no less time."""
+"""Faces, or arcs, in a thread's block: larger blocks take more memory and save no time."""
 WORLD = 360.0 * 180.0
 """Area of the map, square degrees."""
 SHORT = 0.48
@@ -42,24 +42,24 @@ LONGER = 1.1
 
 @dataclass(frozen=True, eq=False)
 class Net:
-    """Great-circle arcs between vertices, as they bound faces."""
+    """Great-circle arcs between vertices, which bound the faces."""
 
     vertices: FloatArray
     """(v, 3) unit vectors."""
     ends: Indices
     """(e, 2): the vertices where each arc starts and ends."""
     normals: Callable[[], FloatArray] | None = None
-    """Gives those of the arcs' planes (e, 3), where their ends may be opposite; asked for long arcs alone."""
+    """Returns the arcs' normals (e, 3), needed where endpoints may be antipodal; called only if there are long arcs."""
     sites: FloatArray | None = None
-    """(n, 3): unit vectors that must stay on their side of arcs."""
+    """(n, 3): unit vectors that must stay on their own side of the arcs."""
     site: Indices | None = None
-    """(e,): that of each arc."""
+    """(e,): index of the site next to each arc."""
 
     def __len__(self) -> int:
         return len(self.ends)
 
     def arcs(self, block: slice | Indices = slice(None)) -> Arcs:
-        """Some of the arcs, numbered from 0."""
+        """A block of the arcs, renumbered from 0."""
         start, end = self.vertices[self.ends[block]].transpose(1, 0, 2)
         long = (np.sum(start * end, axis=1) < 0).any()
         return great(start, end, self._normals[block] if long else None)
@@ -93,17 +93,17 @@ def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude, lines: Ragg
 def sphere_polygons(
     net: Net, faces: Ragged, max_segment: float, latitude: Latitude, progress: Progress | None = None
 ) -> Packed:
-    """A Polygon or MultiPolygon for each face, a row of sides; None for one without sides.
+    """A Polygon or MultiPolygon for each face, given as a row of sides; None for a face without sides.
 
-    Faces are no larger than a hemisphere. Arcs and faces are taken in blocks, by several threads. All geometries would
-    take three times the memory of their well-known binary.
+    Faces are at most hemispheres. Arcs and faces are processed in blocks by several threads. The result is well-known
+    binary, a third of the memory of geometry objects.
     """
     threads = thread_count(None, len(faces))
     told = _Told(progress, len(range(0, len(net), BLOCK)) + len(range(0, len(faces), BLOCK)))
     sides = _prepared(net, max_segment, Antimeridian(latitude=latitude), threads, told)
     result, wrong, large = _drawn(faces, np.arange(len(faces)), sides, threads, told)
-    # If all rings are simple and counterclockwise they tile the map, as each side is shared by two. So chords of the
-    # others are halved, and what lies on the other side of them is drawn anew, too.
+    # Rings that are all simple and counterclockwise tile the map, since each side is shared by two faces. So the chords
+    # of the other rings are halved, and the faces across them are rebuilt, too.
     while len(places := _crossing(faces.take(wrong), sides)):
         samples = sides.samples
         finer = np.zeros(len(net), dtype=bool)
@@ -112,7 +112,7 @@ def sphere_polygons(
         sides = replace(sides, samples=samples.inserted(places + 1, _with_lonlat(middles, latitude)))
         changed = np.unique(faces.row[finer[np.maximum(faces.values, ~faces.values)]])
         result[changed], wrong[changed], large[changed] = _drawn(faces, changed, sides, threads)
-    # A border that runs round a pole the other way by rounding has the rest of the map inside.
+    # A border that rounding errors lead around the wrong side of a pole encloses the rest of the map.
     some = np.flatnonzero(large)
     result[some[_Walk(faces.take(some), sides).widths < THIN_CELL]] = None
     bad = np.flatnonzero(wrong)
@@ -122,13 +122,13 @@ def sphere_polygons(
 
 
 class _Told:
-    """Tells how much of so many steps is done."""
+    """Reports progress over a known number of steps."""
 
     def __init__(self, progress: Progress | None, steps: int) -> None:
         self._progress, self._steps, self._done = progress, steps, 0
 
     def step(self) -> None:
-        """One more is done."""
+        """Count one more step as done."""
         self._done += 1
         if self._progress is not None:
             self._progress(self._done / self._steps)
@@ -139,14 +139,14 @@ def _blocks(size: int) -> Iterator[slice]:
 
 
 def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, told: _Told) -> Sides:
-    """All arcs cut at the border, with their points."""
+    """All arcs cut at the border, with their sample points."""
     lonlat = np.zeros((len(net.vertices), 2))
 
     def located(block: slice) -> None:
         lonlat[block] = xyz_to_lonlat(net.vertices[block], latitude=border.latitude)
 
     deque(in_order(located, _blocks(len(net.vertices)), threads), maxlen=0)
-    # Room for both ends of each arc and some more; what is not written to takes no memory.
+    # Room for both endpoints of each arc and some more points; pages that are never written to take no memory.
     values, filled = np.empty((3 * len(net), 5)), 0
     inland = np.zeros(len(net), dtype=bool)
     parts: list[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices]] = []
@@ -161,7 +161,7 @@ def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, 
     if not parts:
         parts.append(prepared(slice(0, 0))[0])
     edge, opens, shuts, along, sizes = (np.concatenate([part[k] for part in parts]) for k in range(5))
-    # Which points are the same can be told by the numbers of the vertices; cuts are no ends of arcs.
+    # Vertex indices say which points coincide; cuts are not endpoints of arcs.
     first = np.append(True, edge[1:] != edge[:-1])[: len(edge)]
     last = np.append(first[1:], True)[: len(edge)]
     start, end = (np.where(at, net.ends[edge, k], np.int32(-1))[:, None] for k, at in enumerate((first, last)))
@@ -174,7 +174,7 @@ def _prepared(net: Net, max_segment: float, border: Antimeridian, threads: int, 
 def _prepared_block(
     net: Net, lonlat: FloatArray, max_segment: float, border: Antimeridian, inland: BoolArray, block: slice
 ) -> tuple[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices], FloatArray]:
-    """Of the pieces of some arcs: edge, whether it begins and ends at the border and runs along it, size and points.
+    """The pieces of a block of arcs: edge, whether each opens, shuts and follows the border, size; and the points.
 
     Which of the arcs keep off the border is written to `inland`.
     """
@@ -233,19 +233,19 @@ def _simple(net: Net, max_segment: float, block: slice) -> tuple[BoolArray, Bool
 
 
 def _with_lonlat(points: FloatArray, latitude: Latitude) -> FloatArray:
-    """Points (n, 3) with their longitude and latitude behind them."""
+    """Points (n, 3) followed by their longitude and latitude, (n, 5)."""
     return np.concatenate([points, xyz_to_lonlat(points, latitude=latitude)], axis=1)
 
 
 def _sampled(pieces: Pieces, max_segment: float) -> Ragged:
-    """Points of pieces of great circles, at most so many degrees apart, also in longitude."""
+    """Points on pieces of great circles, at most `max_segment` degrees apart, in longitude as well."""
     step_rad, sweep = float(np.radians(max_segment)), pieces.arcs.stop - pieces.arcs.begin
     steps = np.maximum(np.ceil(sweep / step_rad), 1).astype(np.intp)
     return close_in_longitude(pieces.arcs.spread(steps), step_rad)
 
 
 def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites: FloatArray) -> Ragged:
-    """Points of pieces with further ones where a chord strays by too large a part of its distance from the site."""
+    """The samples, refined where a chord departs from its arc by too large a share of its distance to the site."""
     foot = _feet(sites[pieces.arcs.edge], pieces.arcs.axis)
 
     def rule(some: Ragged, rows: Indices) -> tuple[Indices, FloatArray]:
@@ -254,7 +254,7 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
         p, q = some.values[step], some.values[step + 1]
         middle, half = unit(p + q), _lengths(q - p) / 2
         allowed = _allowed(sites[pieces.arcs.edge[piece]], middle, half, foot[piece])
-        # Few chords come near to that, and of the others no latitudes are needed.
+        # Few chords come close to the limit; the others need no latitudes.
         unsure = np.flatnonzero(_most_straying(middle, half) > allowed)
         off = _straying(some, step[unsure], middle[unsure], pieces.along[piece[unsure]], border)
         off[:, 0] *= np.hypot(middle[unsure, 0], middle[unsure, 1])
@@ -272,7 +272,7 @@ def _feet(sites: FloatArray, axes: FloatArray) -> FloatArray:
 def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: FloatArray | float = 0.0) -> FloatArray:
     """How far chords may stray, degrees; `foot` is how far the site is from the arc's plane, if that is known.
 
-    A site is at least as far from an arc as from its plane, and as from its middle but for half the chord.
+    A site is at least as far from an arc as from its plane, and as from its midpoint less half the chord.
     """
     away = np.maximum(foot, _lengths(sites - middle) - half)
     return np.maximum(CHORD_CLEARANCE * np.degrees(away), DEGREE_ROUNDING)
@@ -291,19 +291,20 @@ def _least_reach(middle: FloatArray, half: FloatArray) -> FloatArray:
 
 
 def _most_straying(middle: FloatArray, half: FloatArray) -> FloatArray:
-    """Bounds on how far short chords on the map are off their arcs, degrees of a great circle; infinite for others.
+    """Bounds on the distance of short chords on the map from their arcs, in degrees of a great circle; else infinite.
 
-    Along a great circle, t in radians, |φ''| ≤ tan φ and |λ''| ≤ tan φ/cos φ. Where cos φ is at least c on an arc of
-    the length 2h, and at most 2c at its middle, they are off by h²/(2c) in latitude and h²/c in λ cos φ. Other kinds of
-    latitude change the former by 1.5 % of 1/c + 1. Together that is below 2h²/c. The cosine changes by h at most.
+    Along a great circle, parametrised by arc length in radians, |φ''| ≤ tan φ and |λ''| ≤ tan φ/cos φ. On an arc of
+    length 2h where cos φ is at least c, and at most 2c at the midpoint, a chord is off by h²/(2c) in latitude and h²/c
+    in λ cos φ. Other kinds of latitude change the former by 1.5 % of 1/c + 1. The sum is below 2h²/c. The cosine
+    changes by at most h.
     """
     least = _least_reach(middle, half)
     return np.where(least > 0, np.degrees(2 * (LONGER * half) ** 2 / np.where(least > 0, least, 1.0)), np.inf)
 
 
 def _straying(samples: Ragged, step: Indices, middle: FloatArray, along: BoolArray, border: Antimeridian) -> FloatArray:
-    """How far the middles of chords on the map are off those of the arcs, (s, 2), in longitude and latitude."""
-    # The two ends of each chord alone: an end on the meridian or at a pole has the side of the other.
+    """Distances of the midpoints of chords on the map from those of their arcs, (s, 2), in longitude and latitude."""
+    # Endpoints of each chord by itself: an endpoint on the 180th meridian or at a pole takes the side of the other one.
     ends = Ragged(samples.values[np.stack([step, step + 1], axis=1).ravel()], 2 * np.arange(len(step) + 1))
     flat = border.flat(ends)
     off = np.abs(xyz_to_lonlat(middle, latitude=border.latitude) - (flat[::2] + flat[1::2]) / 2)
@@ -315,7 +316,7 @@ def _straying(samples: Ragged, step: Indices, middle: FloatArray, along: BoolArr
 def _drawn(
     faces: Ragged, rows: Indices, sides: Sides, threads: int, told: _Told | None = None
 ) -> tuple[Packed, BoolArray, BoolArray]:
-    """Some of the faces as polygons, which of them are not simple and counterclockwise, and which are large."""
+    """Polygons of some of the faces, which are not simple and counterclockwise, and which are large."""
     result = np.full(len(rows), None, dtype=object)
     wrong, large = np.zeros(len(rows), dtype=bool), np.zeros(len(rows), dtype=bool)
     blocks = list(_blocks(len(rows)))
@@ -323,7 +324,7 @@ def _drawn(
     def drawn(block: slice) -> tuple[Packed, BoolArray, BoolArray]:
         return _drawn_block(faces.take(rows[block]), sides)
 
-    sides.pieces.of_edge  # noqa: B018 - once, and not by each thread
+    sides.pieces.of_edge  # noqa: B018 - computed once here, not by each thread
     for block, found in zip(blocks, in_order(drawn, blocks, threads), strict=True):
         result[block], wrong[block], large[block] = found
         if told is not None:
@@ -367,7 +368,7 @@ def _clipped_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, Bool
 
 
 class _Walk:
-    """The steps around faces, from each point of their sides to the next."""
+    """The steps around faces, from each sample point of their sides to the next."""
 
     def __init__(self, faces: Ragged, sides: Sides) -> None:
         pieces, samples = sides.pieces, sides.samples
@@ -378,7 +379,7 @@ class _Walk:
         self.pieces, number = np.unique(piece, return_inverse=True)
         self.samples = samples.take(self.pieces)
         self.origin = spans(samples.offsets[self.pieces], self.samples.sizes)
-        """Where the points are among all."""
+        """Indices of the points among all samples."""
         sizes = self.samples.sizes[number] - 1
         self.step = spans(self.samples.offsets[number], sizes)
         self.face = np.repeat(np.repeat(faces.row, last - first), sizes)
@@ -386,10 +387,10 @@ class _Walk:
 
     @property
     def widths(self) -> FloatArray:
-        """About how wide faces are, (f,), infinite for those that are not narrow: area over length of the border.
+        """Approximate widths of faces, (f,), area over length of the border; infinite for faces that are not narrow.
 
-        The area as seen from the middle of the border, where chords of one great circle cancel however they are cut. A
-        narrow face is no longer than half a great circle, whose points have a mean of length 2/π.
+        The area is that seen from the centroid of the border, where chords of one great circle cancel however they are
+        cut. A narrow face is no longer than half a great circle, whose points have a mean of length 2/π.
         """
         start, chord = self.samples.values[self.step, :3], self.samples.values[self.step + 1, :3]
         chord = chord - start
@@ -403,9 +404,10 @@ class _Walk:
 
 
 def _crossing(faces: Ragged, sides: Sides) -> Indices:
-    """The points behind which chords should be halved, in order.
+    """Indices, in order, of the points after which chords should be halved.
 
-    Those that stray as far as to another chord of the same face; all of a face in which none does.
+    These are the chords whose distance from their arcs reaches another chord of the same face; in a face without such a
+    chord, all of them.
     """
     walk = _Walk(faces, sides)
     step, face = walk.step, walk.face

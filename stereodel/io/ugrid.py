@@ -1,4 +1,4 @@
-"""UGRID: meshes as xarray datasets, after the conventions for unstructured grids in netCDF, version 1.0."""
+"""UGRID: meshes as xarray datasets that follow the conventions for unstructured grids in NetCDF, version 1.0."""
 
 from __future__ import annotations
 
@@ -24,30 +24,31 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
     ----------
     mesh : SphericalDelaunay, SphericalVoronoi, PlanarDelaunay or PlanarVoronoi
     what : {"triangles", "cells"}, optional
-        By default triangles of a triangulation and cells of a diagram.
+        By default the triangles of a triangulation and the cells of a diagram.
     latitude : {"spherical", "geodetic", "authalic"}, optional
-        Which latitude the nodes have, as in `xyz_to_lonlat`; by default that by which the points were given.
+        Kind of latitude of the nodes, as in `xyz_to_lonlat`; by default that of the input points.
 
     Returns
     -------
     xarray.Dataset
-        ``mesh`` with the topology; ``node_lon`` and ``node_lat`` in degrees and ``node_x``, ``node_y``, ``node_z``, the
-        unit vectors (in the plane ``node_x`` and ``node_y`` alone); ``face_node_connectivity``, counterclockwise from
-        0, short rows filled with -1; ``edge_node_connectivity``. On faces ``face_point`` or ``face_triangle``, the
-        number of the point or triangle, and on the sphere ``face_area`` in steradians. ``face_lon`` and ``face_lat``
-        are the sites of cells and the directions of the mean of triangles' corners, ``edge_lon`` and ``edge_lat`` the
-        middles of edges (in the plane ``face_x``, ``face_y``, ``edge_x``, ``edge_y``).
+        ``mesh`` holds the topology; ``node_lon`` and ``node_lat`` are in degrees, ``node_x``, ``node_y``, ``node_z``
+        unit vectors (in the plane, ``node_x`` and ``node_y`` alone); ``face_node_connectivity`` is counterclockwise,
+        counts from 0 and pads short rows with -1; then ``edge_node_connectivity``. Faces have ``face_point`` or
+        ``face_triangle``, the index of the point or triangle, and on the sphere ``face_area`` in steradians.
+        ``face_lon`` and ``face_lat`` are the sites of cells or the directions of the mean of a triangle's corners,
+        ``edge_lon`` and ``edge_lat`` the midpoints of edges (in the plane, ``face_x``, ``face_y``, ``edge_x``,
+        ``edge_y``).
 
     Raises
     ------
     ImportError
-        Without xarray (``pip install stereodel[grid]``).
+        If xarray is missing (``pip install stereodel[grid]``).
 
     Notes
     -----
-    Triangles that are `closing`, unbounded cells and duplicates' cells are left out. Cells between two
-    opposite vertices have the middles of their ridges as further nodes. ``uxarray.open_grid`` takes the dataset.
-    Source: UGRID Conventions 1.0, https://ugrid-conventions.github.io/ugrid-conventions.
+    `closing` triangles, unbounded cells and the cells of duplicates are left out. Cells between two antipodal vertices
+    have the midpoints of their ridges as additional nodes. ``uxarray.open_grid`` accepts the dataset. Source: UGRID
+    Conventions 1.0, https://ugrid-conventions.github.io/ugrid-conventions.
 
     Examples
     --------
@@ -81,7 +82,7 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
 
 
 def _centers(mesh: Mesh, surface: Surface) -> FloatArray:
-    """The sites of cells, the means of the corners of triangles."""
+    """The sites of cells, or the means of triangles' corners."""
     if surface.cells:
         points: FloatArray = mesh.points[surface.number]
         return points
@@ -89,7 +90,7 @@ def _centers(mesh: Mesh, surface: Surface) -> FloatArray:
 
 
 def _places(location: str, points: FloatArray, spherical: bool, latitude: Latitude) -> dict[str, Any]:
-    """Coordinates of nodes, faces or edges; directions of any length are places of the sphere."""
+    """Coordinates of nodes, faces or edges; on the sphere, points are directions of any length."""
     variables: dict[str, Any] = {}
     if spherical:
         lonlat = xyz_to_lonlat(points, latitude=latitude).T
@@ -132,20 +133,20 @@ def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
     Parameters
     ----------
     dataset : xarray.Dataset
-        With a mesh topology of dimension 2, of this library or another.
+        Dataset with a mesh topology of dimension 2, from this library or another.
 
     Returns
     -------
     nodes : (n, 3) or (n, 2) ndarray
-        Directions, of ``node_x``, ``node_y``, ``node_z`` where they are there, else of longitude and latitude; for a
-        mesh of the plane its coordinates.
+        Directions, from ``node_x``, ``node_y``, ``node_z`` if present, else from longitude and latitude; plane
+        coordinates for a mesh of the plane.
     faces : (f, k) ndarray of int32
-        Nodes of each face counted from 0; -1 fills short rows.
+        Nodes of each face, counted from 0; short rows are padded with -1.
 
     Raises
     ------
     ValueError
-        Where there is no such mesh, or its variables are missing.
+        If there is no such mesh, or its variables are missing.
 
     Examples
     --------

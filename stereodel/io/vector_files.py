@@ -1,4 +1,4 @@
-"""Files of geometries that GDAL knows, through pyogrio: GeoPackage, Shapefile, FlatGeobuf, KML and others."""
+"""Vector formats of GDAL, through pyogrio: GeoPackage, Shapefile, FlatGeobuf, KML and others."""
 
 from __future__ import annotations
 
@@ -20,29 +20,30 @@ from stereodel.io.columns import RenamedColumnWarning, beside, listed
 from stereodel.io.layers import Layer, Progress, arrow_column
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
-"""Names that a format has for its own columns."""
+"""Column names that a format reserves."""
 
 DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML"}
 
 LETTERS: Final = 200
-"""Of what GDAL says, that a message has room for."""
+"""Characters of GDAL's messages that an error message repeats."""
 
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
-"""What GDAL warns of a column whose name it cuts."""
+"""GDAL's warning for a column name that it shortens."""
 
 
 def read_frame(source: str | os.PathLike[str] | bytes, *, layer: str | None = None) -> Any:
-    """A layer of a file, or of its bytes, as a GeoDataFrame; of a file with several, the one that is named.
+    """A layer of a file, or of its bytes, as a GeoDataFrame; `layer` selects one of several.
 
     Raises
     ------
     ValueError
-        For a damaged file, one that GDAL does not know, a layer that is not there, and several when none is named.
+        If the file is damaged or its format unknown to GDAL, `layer` does not exist, or it is not given and there are
+        several.
     """
     pyogrio = optional("pyogrio", "geo")
     optional("geopandas", "geo")
     with told(), warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # guesses of GDAL, in its own words
+        warnings.simplefilter("ignore", RuntimeWarning)  # GDAL's guesses, in its own words
         layers = pyogrio.list_layers(source)
         if not len(layers):
             raise ValueError("the file is damaged: there is no layer in it")
@@ -51,13 +52,13 @@ def read_frame(source: str | os.PathLike[str] | bytes, *, layer: str | None = No
             raise ValueError(f"layer is {layer!r}, which is not one of {listed(names)}")
         if layer is None and len(names) > 1:
             raise ValueError(f"there are several layers, {listed(names)}; say which with layer=")
-        # Whole numbers with gaps stay whole numbers, which doubles may not hold.
+        # Integers with missing values stay integers, which doubles may not represent.
         objects = {"integer_object_nulls": True}
         return pyogrio.read_dataframe(source, layer=layer, use_arrow=True, arrow_to_pandas_kwargs=objects)
 
 
 def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | None = None) -> None:
-    """Rows of a map as a file of one layer with a name, in the format that the ending of `path` names."""
+    """Write the rows of a map as a file with one named layer, in the format given by the extension of `path`."""
     pyogrio, arrow = optional("pyogrio", "geo"), optional("pyarrow", "geo")
     kind = path.suffix[1:].lower()
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
@@ -75,12 +76,12 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
             geometry_type=whole.kinds[0] if len(whole.kinds) == 1 else "Unknown",
             crs=None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_wkt("WKT1_GDAL"),
         )
-    # Of a full disk GDAL does not always tell.
+    # GDAL does not always report a full disk.
     if kind == "kml":
         path.write_bytes(memory.getbuffer())
     if (kind == "shp" and not _is_whole(path)) or (kind == "gpkg" and len(layer) and not _is_indexed(path)):
         raise OSError(errno.EIO, "the file could not be written to its end")
-    for warning in said:  # names of shapefiles have ten letters; that a plane has no coordinate system is no news
+    for warning in said:  # shapefiles shorten names to ten characters; a plane needs no coordinate system
         found = LAUNDERED.search(str(warning.message))
         if found:
             text = f"column {found[1]!r} is written as {found[2]!r}, which is as long as the format allows"
@@ -88,7 +89,7 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
 
 
 def _is_whole(path: Path) -> bool:
-    """Whether the files of a shapefile are as long as their headers say; the length of two of them is in words of 2."""
+    """Whether the files of a shapefile have the lengths in their headers, two of which count 16-bit words."""
     heads = {}
     for part in (path, path.with_suffix(".shx"), path.with_suffix(".dbf")):
         with part.open("rb") as file:
@@ -101,14 +102,14 @@ def _is_whole(path: Path) -> bool:
 
 
 def _is_indexed(path: Path) -> bool:
-    """Whether a GeoPackage has its index of places, which is written last."""
+    """Whether a GeoPackage has its spatial index, which is written last."""
     with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as base:
         found = base.execute("SELECT COUNT(*) FROM gpkg_extensions WHERE extension_name = 'gpkg_rtree_index'")
         return bool(found.fetchone()[0])
 
 
 def plain_column(values: Any) -> Any:
-    """A column of Arrow of a type that GDAL has."""
+    """An Arrow column of a type that GDAL supports."""
     arrow = optional("pyarrow", "geo")
     column = arrow_column(values)
     if arrow.types.is_dictionary(column.type):
@@ -123,10 +124,10 @@ def plain_column(values: Any) -> Any:
 
 @contextmanager
 def told(*, writing: bool = False) -> Iterator[None]:
-    """What GDAL says of a file, as an error in its words, without the names that it was given."""
+    """Raise GDAL's errors as ValueError or OSError, without the internal file names."""
     try:
         yield
-    except RuntimeError as error:  # all of pyogrio's are, and have no class in common but that
+    except RuntimeError as error:  # the only common base class of pyogrio's errors
         said = re.sub(r"; It might help to specify.*", "", str(error), flags=re.DOTALL)
         said = shorten(said, LETTERS, placeholder=" …")
         if writing:

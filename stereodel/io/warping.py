@@ -1,4 +1,4 @@
-"""Shapely geometries through conformal maps, for libraries that draw longitude and latitude: cartopy, GeoPandas."""
+"""Conformal maps of Shapely geometries, for libraries that draw longitude and latitude: cartopy, GeoPandas."""
 
 from __future__ import annotations
 
@@ -17,34 +17,33 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     Parameters
     ----------
     shapes : geometry, array_like of geometries, GeoSeries or GeoDataFrame
-        In degrees, polygons as in GeoJSON and shapefiles: valid, cut at ±180°, straight in longitude and
-        latitude between their vertices; they cover what they cover on the map. Lines that jump by more than 180°
-        continue across ±180°. Frames in another coordinate system are transformed to EPSG:4326 first. Heights are
-        dropped.
+        In degrees. Polygons are as in GeoJSON and shapefiles: valid, cut at ±180°, with edges straight in longitude and
+        latitude. Lines that jump by more than 180° continue across ±180°. Frames in another coordinate system are
+        transformed to EPSG:4326 first. Heights are dropped.
     lens : MoebiusMap
     tolerance : float
-        How far straight pieces of the resulting map may deviate from the image, degrees on the sphere.
+        Largest deviation of the straight segments of the result from the exact image, in degrees on the sphere.
 
     Returns
     -------
     geometry, ndarray of geometries, GeoSeries or GeoDataFrame
-        The same type as given, in the same order, None and empty geometries unchanged. In [−180, 180] × [−90, 90], with
-        new vertices where edges bend. Polygons are valid, cut at ±180° and led around poles that they contain; parts
-        that met at ±180° are joined where they no longer lie there. A polygon may become a MultiPolygon, a line a
-        MultiLineString.
+        Same type and order as the input, None and empty geometries unchanged. Coordinates are in [−180, 180] × [−90,
+        90], with new vertices where edges bend. Polygons are valid, cut at ±180° and closed along ±90° around poles
+        that they contain; parts that met at ±180° are merged if they no longer lie there. A polygon may become a
+        MultiPolygon, a line a MultiLineString.
 
     Raises
     ------
     ValueError
-        For a latitude outside [−90, 90], or a tolerance outside (0, 45].
+        If a latitude is outside [−90, 90], or `tolerance` outside (0, 45].
     ImportError
-        Without Shapely (``pip install stereodel[geo]``).
+        If Shapely is missing (``pip install stereodel[geo]``).
 
     Notes
     -----
-    The image of a great-circle arc is an arc of a circle, which is followed as such; there is no search by
-    bisection, so that an edge close to the focus is as exact as any other. The inside of a polygon is on the
-    left of its boundary, and a conformal map keeps it there, however large it becomes.
+    The image of a great-circle arc is a circular arc, which is computed in closed form rather than by bisection, so an
+    edge near the focus is as exact as any other. The interior of a polygon is on the left of its boundary, and a
+    conformal map keeps it there, however large it becomes.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Writing anything to a file, by its ending."""
+"""Writing data to a file whose extension selects the format."""
 
 from __future__ import annotations
 
@@ -67,33 +67,33 @@ def write(
     Parameters
     ----------
     path : path-like or binary stream
-        A file is written whole or not at all; an existing one is replaced.
+        Files are written completely or not at all; an existing file is replaced.
     thing : Mesh, PointTable, Grid, list of Contour, or geopandas.GeoDataFrame
-        A triangulation or diagram of plane or sphere; a table or frame where the format holds tables; a grid as csv,
-        nc or tif; contours where the format holds lines.
+        A triangulation or diagram of the plane or sphere; a table or frame for formats that hold tables; a grid for
+        csv, nc or tif; contours for formats that hold lines.
     format : str, optional
-        By default what the ending of the path says. For a stream it is needed.
+        By default the extension of the path. Required for a stream.
     progress : callable, optional
-        Called with the share of the rows of a map that are written, from 0 to 1, again and again.
+        Called repeatedly with the fraction of the rows that have been written, from 0 to 1.
     **options
-        Of the function that makes what is in the file: `to_geodataframe` for csv, geojson and geojsonl (and
+        Options of the function that makes the contents: `to_geodataframe` for csv, geojson and geojsonl (and
         ``decimals`` of `to_geojson`), parquet, gpkg, fgb, shp and kml; `to_ugrid` for nc; `to_trimesh` for glb and ply;
         `to_polydata` for vtp.
 
     Raises
     ------
     ValueError, TypeError
-        For another ending or format, a thing that the format cannot hold, or options that it does not have.
+        If the extension or format is unknown, the format cannot hold `thing`, or an option does not apply.
     ImportError
-        Where the library for the format is missing, naming the extra that brings it.
+        If the library for the format is missing; the message names the extra that installs it.
     OSError
-        Where the file cannot be written.
+        If the file cannot be written.
 
     Notes
     -----
-    CSV: for cells and sites a row for each point, duplicates too, with lon and lat (x and y in the plane), the area of
-    its cell and `columns`; for triangles and edges the indices of their corners, from 0. `what`, `columns`, `latitude`
-    and `radius` are options. It needs no other library.
+    CSV: for cells and sites, one row for each point, duplicates included, with lon and lat (x and y in the plane), the
+    area of its cell and `columns`; for triangles and edges, the indices of their corners, from 0. Its options are
+    `what`, `columns`, `latitude` and `radius`. It needs no other library.
 
     Examples
     --------
@@ -114,21 +114,21 @@ def write(
     writer = WRITERS[as_choice(kind, tuple(WRITERS), "format")]
     stem = Path(path).stem if isinstance(path, str | os.PathLike) else "layer"
     with TemporaryDirectory() as folder:
-        made = Path(folder, f"{stem}.{kind}")  # libraries look at the ending, and name the layer after the rest
+        made = Path(folder, f"{stem}.{kind}")  # libraries go by the extension, and name the layer after the stem
         with said_of(path, folder) if isinstance(path, str | os.PathLike) else nullcontext():
             writer(thing, made, options, progress)
         if not isinstance(path, str | os.PathLike):
             with made.open("rb") as stream:
                 shutil.copyfileobj(stream, path)
             return
-        # A shapefile is several files, and none without the one that is named.
+        # A shapefile consists of several files; the named one is written last, as the others mean nothing without it.
         for part in sorted(Path(folder).iterdir(), key=lambda part: part == made):
             with replacing(path if part == made else Path(path).with_suffix(part.suffix)) as temporary:
                 shutil.copyfile(part, temporary)
 
 
 def _layer(thing: Any, options: dict[str, Any]) -> Layer:
-    """Rows of a map of whatever was given."""
+    """The rows of a map for any supported `thing`."""
     if isinstance(thing, Mesh | list):
         return layer_of(thing, **options)
     _no_options(options)
@@ -197,7 +197,7 @@ def _write_parquet(thing: Any, path: Path, options: dict[str, Any], progress: Pr
     optional("pyarrow", "geo")
     if hasattr(thing, "to_parquet"):
         _no_options(options)
-        thing.to_parquet(path)  # with its index, and all its columns of geometries
+        thing.to_parquet(path)  # with its index and all its geometry columns
         return
     write_parquet(_layer(thing, options), path, progress)
 
@@ -222,7 +222,7 @@ def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progres
     dataset = to_ugrid(thing, **options)
     try:
         dataset.to_netcdf(path, engine="netcdf4")
-    except RuntimeError as error:  # what HDF5 says of files
+    except RuntimeError as error:  # HDF5's errors about files
         raise OSError(errno.EIO, f"the file cannot be written: {error}") from error
 
 
@@ -232,7 +232,7 @@ def _write_trimesh(thing: Any, path: Path, options: dict[str, Any], progress: Pr
 
 def _write_polydata(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
     data = to_polydata(thing, **options)
-    # In memory first: on a full disk VTK does not stop, or worse.
+    # In memory first: on a full disk VTK continues, or crashes.
     writer = optional("vtkmodules.vtkIOXML", "mesh").vtkXMLPolyDataWriter()
     writer.SetInputData(data)
     writer.SetDataModeToBinary()

@@ -1,7 +1,7 @@
 """Globes in matplotlib: the axes `FisheyeAxes`, for use wherever matplotlib takes a projection.
 
-``plt.subplot(projection=FisheyeAxes, focus=…, magnification=…)`` needs nothing else; importing this module changes
-nothing. After `register`, ``projection="stereodel.fisheye"`` works too.
+``plt.subplot(projection=FisheyeAxes, focus=…, magnification=…)`` needs nothing else; importing this module has no side
+effects. After `register`, ``projection="stereodel.fisheye"`` works too.
 """
 
 from stereodel._extras import of_extra

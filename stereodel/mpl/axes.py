@@ -1,9 +1,9 @@
 """Globes as axes of matplotlib.
 
 Data are longitude and latitude in degrees. Vertices of a line or polygon are joined by the shorter great-circle arc,
-so that nothing has to be cut at ±180° or at a pole; with ``edges="straight"`` edges are straight on the map of
+so nothing needs to be cut at ±180° or at a pole; with ``edges="straight"`` edges are straight on the map of
 longitude and latitude, as in GeoJSON and cartopy's PlateCarree. ``transform=ax.transGreatCircle`` and
-``transform=ax.transStraight`` choose for one artist.
+``transform=ax.transStraight`` select the kind of edges for one artist.
 """
 
 from __future__ import annotations
@@ -41,34 +41,34 @@ from stereodel.sphere import SphereArc, graticules, xyz_to_lonlat
 __all__ = ["FisheyeAxes"]
 
 LAND = "0.86"
-"""Gray on which coasts, borders and the graticule can be seen."""
+"""Gray of the land, against which coasts, borders and the graticule are visible."""
 
 
 class FisheyeAxes(GlobePlots):
     """A globe, or a flat stereographic map, seen through a conformal map.
 
-    Made by ``plt.subplot(projection=FisheyeAxes, focus=…, magnification=…)``, and likewise by `add_subplot` and
-    `add_axes` of figures and the ``subplot_kw`` of ``plt.subplots``. The limits of the axes are in units of the radius
-    of the disc that the whole view fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `zoom_to` and the toolbar. Hidden
-    parts are not drawn: lines end at the edge of the view, and filled regions follow it.
+    Create it with ``plt.subplot(projection=FisheyeAxes, focus=…, magnification=…)``, with `add_subplot` or `add_axes`
+    of a figure, or with the ``subplot_kw`` of ``plt.subplots``. The limits of the axes are in units of the radius of
+    the disc that the whole view fills: ``set_xlim(-0.5, 0.5)`` zooms, and so do `zoom_to` and the toolbar. Hidden parts
+    are not drawn: lines end at the edge of the view, and filled regions follow it.
 
     Parameters
     ----------
     focus : array_like, shape (2,) or (3,), optional
-        The point that is magnified: (lon, lat) in degrees or a direction; by default (0, 0).
+        Focus of the fisheye, (lon, lat) in degrees or a direction; by default (0, 0).
     magnification : float, optional
-        S > 0, by default 1: nothing is magnified.
+        S > 0; by default 1, which magnifies nothing.
     lens : MoebiusMap, optional
         Any conformal map, instead of `focus` and `magnification`.
     view : (lon, lat), View or StereographicView, optional
-        The point above which the globe is seen, after the lens; by default the image of the focus.
+        Centre of the view, after the lens; by default the image of the focus.
     edges : {"great circle", "straight"}
         How vertices are joined: by the shorter great-circle arc, or straight on the map of longitude and latitude.
 
     Raises
     ------
     ValueError
-        For an invalid focus, magnification, view or kind of edges, and for both a lens and a magnification.
+        If the focus, magnification, view or kind of edges is invalid, or a lens and a magnification are both given.
 
     Examples
     --------
@@ -83,12 +83,12 @@ class FisheyeAxes(GlobePlots):
     """
 
     name = "stereodel.fisheye"
-    """By which `register` makes the projection known."""
+    """Name under which `register` registers the projection."""
 
     transGreatCircle: Transform  # noqa: N815 (matplotlib's way to name transforms)
     """Degrees to pixels, with great circles between vertices."""
     transStraight: Transform  # noqa: N815
-    """Degrees to pixels, with what is straight on the map of longitude and latitude between vertices."""
+    """Degrees to pixels, with edges straight on the map of longitude and latitude between vertices."""
 
     def __init__(
         self,
@@ -109,11 +109,11 @@ class FisheyeAxes(GlobePlots):
         self._graticule: PathPatch | None = None
         super().__init__(*args, **kwargs)
 
-    # What matplotlib asks of a projection.
+    # Interface of projections in matplotlib.
 
     @classmethod
     def _as_mpl_axes(cls) -> tuple[type[FisheyeAxes], dict[str, Any]]:
-        """So that the class itself is a projection."""
+        """Make the class itself usable as a projection."""
         return cls, {}
 
     def _init_axis(self) -> None:
@@ -130,7 +130,7 @@ class FisheyeAxes(GlobePlots):
         self._globes = tuple(kinds.values())
 
     def get_xaxis_transform(self, which: str = "grid") -> Transform:
-        """Across by the limits, up by the height of the axes: there are no ticks, but `axvline` and others ask."""
+        """Across by the limits, up by the height of the axes; there are no ticks, but `axvline` uses it."""
         return self._xaxis_transform  # type: ignore[attr-defined]
 
     def get_yaxis_transform(self, which: str = "grid") -> Transform:
@@ -144,7 +144,7 @@ class FisheyeAxes(GlobePlots):
         return {"limb": Limb(self)}
 
     def clear(self) -> None:
-        """Empty the axes: the whole view; a graticule only where matplotlib's setting ``axes.grid`` wants one."""
+        """Clear the axes and show the whole view, with a graticule only if matplotlib's setting ``axes.grid`` is on."""
         self._graticule = None
         super().clear()
         self.set_autoscale_on(False)
@@ -155,29 +155,29 @@ class FisheyeAxes(GlobePlots):
         self.grid(mpl.rcParams["axes.grid"])
 
     def autoscale_view(self, *args: Any, **kwargs: Any) -> None:
-        """Does nothing: the limits show the whole globe until you change them."""
+        """Do nothing: the limits show the whole globe until you change them."""
 
     def set_aspect(self, *args: Any, **kwargs: Any) -> None:
-        """Does nothing: a globe is round. GeoPandas calls this for flat maps of longitude and latitude."""
+        """Do nothing: a globe is round. GeoPandas calls this for maps of longitude and latitude."""
 
     def draw(self, renderer: Any) -> None:
         """Draw, with lines resampled as finely as the zoom requires."""
         width = abs(self.viewLim.width)
-        # In powers of two, so that small changes of the limits do not make all paths anew.
+        # In powers of two, so that small changes of the limits do not recompute all paths.
         finer = min(1.0, 2.0 ** float(np.floor(np.log2(width / 2))))
         for globe in self._globes:
             globe.tolerance = PAGE_TOLERANCE * finer
         super().draw(renderer)
 
     def format_coord(self, x: float, y: float) -> str:
-        """The position under the pointer, such as "48.8600° N, 2.3500° E"; empty beside the globe."""
+        """The position under the pointer, such as "48.8600° N, 2.3500° E"; empty outside the globe."""
         if not np.isfinite([x, y]).all():
             return ""
         return f"{abs(y):.4f}° {'N' if y >= 0 else 'S'}, {abs(x):.4f}° {'E' if x >= 0 else 'W'}"
 
     @contextmanager
     def _limits_as_data(self) -> Iterator[None]:
-        """While it lasts, matplotlib's zoom and pan take the page, which the limits are on, for the data."""
+        """A context in which matplotlib's zoom and pan treat page coordinates, the units of the limits, as data."""
         data, self.transData = self.transData, self.transPage
         try:
             yield
@@ -193,7 +193,7 @@ class FisheyeAxes(GlobePlots):
         with self._limits_as_data():
             super().start_pan(x, y, button)
 
-    # What is shown.
+    # Extent and content.
 
     def set_global(self) -> None:
         """Show the whole disc of the view."""
@@ -206,8 +206,8 @@ class FisheyeAxes(GlobePlots):
         Parameters
         ----------
         bounds : (west, south, east, north)
-            Degrees, as in ``geometry.bounds`` and ``frame.total_bounds``; over ±180° with an east beyond 180 or a west
-            beyond −180.
+            Degrees, as in ``geometry.bounds`` and ``frame.total_bounds``; across ±180° with an east above 180 or a west
+            below −180.
 
         Raises
         ------
@@ -223,7 +223,7 @@ class FisheyeAxes(GlobePlots):
         [-0.5, 0.5]
         """
         west, south, east, north = as_edges(bounds, "bounds")
-        # In thirds: an edge over more than half of the map would be taken to go the other way round.
+        # In thirds: an edge across more than half of the map would be taken the other way around.
         lon = np.linspace(west, east, 4)
         south_side, north_side = (np.stack([lon, np.full(4, lat)], axis=1) for lat in (south, north))
         corners = np.concatenate([south_side, north_side[::-1], south_side[:1]])
@@ -239,7 +239,7 @@ class FisheyeAxes(GlobePlots):
     def grid(self, visible: bool | None = None, which: str = "major", axis: str = "both", **kwargs: Any) -> None:
         """Show or hide the graticule; `kwargs` are those of `graticule`. `which` and `axis` are ignored."""
         if getattr(self, "patch", None) is None:
-            return  # matplotlib asks while it makes the axes; `clear` asks again
+            return  # matplotlib calls this while it creates the axes; `clear` calls it again
         shown = self._graticule is not None
         if self._graticule is not None:
             self._graticule.remove()
@@ -284,12 +284,12 @@ class FisheyeAxes(GlobePlots):
         )
 
     def _added(self, artist: PathPatch) -> PathPatch:
-        # Not by add_patch, which reads every vertex for limits that a globe has no use for.
+        # Not by add_patch, which reads every vertex for data limits, which a globe does not use.
         self.add_artist(artist)
         return artist
 
     def add_geometries(self, geometries: Any, *, edges: Edges = "straight", **kwargs: Any) -> PathCollection:
-        """Draw Shapely geometries: polygons filled right across the limb, ±180° and the poles, lines and points.
+        """Draw Shapely geometries: polygons, filled correctly across the limb, ±180° and the poles, lines and points.
 
         Parameters
         ----------
@@ -299,8 +299,8 @@ class FisheyeAxes(GlobePlots):
         edges : {"straight", "great circle"}
             How vertices are joined; by default straight, as in GeoJSON, shapefiles and cartopy's PlateCarree.
         **kwargs
-            Those of `matplotlib.collections.PathCollection`, for polygons and lines; an `array` with a value for each
-            colours them.
+            Options of `matplotlib.collections.PathCollection` for polygons and lines; an `array` with one value for
+            each sets their colours.
 
         Returns
         -------

@@ -1,4 +1,4 @@
-"""The frame of a globe in matplotlib: the disc of the view, where it lies within the limits of the axes."""
+"""The frame of a globe in matplotlib: the part of the view's disc within the limits of the axes."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from matplotlib.transforms import Bbox
 
 CIRCLE = Path.unit_circle()
 POLYGON = Path.unit_regular_polygon(2000)
-"""Off the unit circle by 1.3e-6; it stands in for the circle where the limits cut it."""
+"""A polygon within 1.3e-6 of the unit circle, used where the limits cut the circle."""
 
 
 class _Shown:
-    """The disc within the limits, in axes coordinates; the same path as long as the limits are the same."""
+    """The part of the disc within the limits, in axes coordinates; the path is cached until the limits change."""
 
     def __init__(self, axes: Axes) -> None:
         self._axes = axes
@@ -25,7 +25,7 @@ class _Shown:
         self._path = CIRCLE
 
     def path(self) -> Path:
-        """For `get_path` of an artist that is drawn in axes coordinates."""
+        """The path for artists in axes coordinates."""
         box = self._axes.viewLim
         limits = tuple(np.asarray(box.extents).tolist())
         if limits != self._limits:
@@ -46,19 +46,19 @@ def _within(box: Bbox) -> Path:
 
 
 class Disc(Patch):
-    """What is behind all artists, and bounds them."""
+    """The background patch, to which artists are clipped."""
 
     def __init__(self, axes: Axes) -> None:
         super().__init__()
         self._shown = _Shown(axes)
 
     def get_path(self) -> Path:
-        """In axes coordinates."""
+        """The path in axes coordinates."""
         return self._shown.path()
 
 
 class Limb(Spine):
-    """The line around what is shown."""
+    """The outline of the visible part."""
 
     def __init__(self, axes: Axes, **kwargs: Any) -> None:
         super().__init__(axes, "circle", CIRCLE, **kwargs)
@@ -68,5 +68,5 @@ class Limb(Spine):
         self.set_joinstyle("round")
 
     def get_path(self) -> Path:
-        """In axes coordinates."""
+        """The path in axes coordinates."""
         return self._shown.path()

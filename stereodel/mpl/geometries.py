@@ -1,4 +1,4 @@
-"""Shapes that users draw as matplotlib paths in degrees."""
+"""User geometries as matplotlib paths in degrees."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from stereodel.mpl.transforms import compounds
 def paths_of(geometries: Any) -> tuple[list[Path], FloatArray]:
     """A path for each polygon and line in the order of their features, rings closed; and all points, (n, 2).
 
-    `geometries` is whatever `stereodel.io.shapes.shapes_of` takes.
+    `geometries` is any source for `stereodel.io.shapes.shapes_of`.
     """
     shapes = shapes_of(geometries)
     polygons = compounds(shapes.rings, shapes.ring_polygon, len(shapes.polygon_feature), closed=True)

@@ -1,12 +1,12 @@
-"""Which side of a ring is its inside: rings in any direction, turned so that their region is on the left.
+"""The interior of rings: rings in any direction, oriented so that their region is on the left.
 
-That is told on the map of longitude and latitude, where matplotlib, GeoJSON and shapefiles mean it: the inside is the
-bounded side, whichever way the ring runs, and rings within rings are holes and islands by turns, which is the even-odd
-rule. A ring that goes once around the Earth without visiting a pole is not closed on that map; of its two sides the
-smaller one is meant.
+It is defined on the map of longitude and latitude, as in matplotlib, GeoJSON and shapefiles: the interior is the
+bounded side, whatever the direction of the ring, and nested rings are alternately holes and islands (the even-odd
+rule). A ring that goes once around the Earth without visiting a pole is not closed on that map; its interior is the
+smaller side.
 
-All measures are taken on the map of equal areas, (λ, sin φ). The area on the left of a ring that is closed there is
-−∮ sin φ dλ, which both kinds of edges have in closed form.
+Areas are computed on the equal-area map (λ, sin φ). The area to the left of a ring that is closed there is −∮ sin φ dλ,
+which has a closed form for both kinds of edges.
 """
 
 from __future__ import annotations
@@ -22,28 +22,28 @@ from stereodel.curves.ragged import Ragged, spans
 from stereodel.curves.trace import sides_of, unwrapped
 
 POLAR_LATITUDE: Final = 80.0
-"""Degrees beyond which an edge that is given the long way round leads along the border of the map, over the pole.
+"""Span in degrees above which an edge follows the border of the map, over the pole.
 
-So it is in the hull of scattered points, and in rings cut at ±180° that were not led along ±90°.
+Such edges occur in hulls of scattered points, and in rings cut at ±180° that are not closed along ±90°.
 """
 
 PROBE: Final = (3 - 5**0.5) / 2
-"""Share of an edge at which its ring is asked for its depth: no simple fraction, so that no vertex has the meridian."""
+"""Position on an edge where its ring's depth is measured: not a simple fraction, to avoid meridians of vertices."""
 
 
 def on_the_left(
     rings: Ragged, owner: Indices, count: int, spot: FloatArray, *, straight: bool
 ) -> tuple[Ragged, BoolArray]:
-    """Closed rings with their region on the left, and which regions hold a spot.
+    """Closed rings with their region on the left, and which regions contain a spot.
 
     Parameters
     ----------
     rings : Ragged of (k, 2)
-        Degrees; the first point again at the end.
+        In degrees, the first point repeated at the end.
     owner : (r,) array
         The region of each ring.
     count : int
-        Of regions.
+        Number of regions.
     spot : (2,) array
         Degrees.
     straight : bool
@@ -55,12 +55,12 @@ def on_the_left(
         return np.bincount(edges.ring, of_edges, minlength=len(rings)).astype(np.float64)
 
     area = -total(edges.swept() + edges.border * np.sign(edges.lat))
-    # Whole turns, but for rounding.
+    # Whole turns, up to rounding.
     around = np.abs(total(edges.turn + edges.border)) > 180.0
     # Eastwards around the Earth the left is the north, 360 + area large where the sphere is 720; westwards it is the
     # south, again 360 + area: in both cases the smaller side where the area is negative.
     left = (area > 0) ^ around
-    # Above all edges is the upper border of the map: rings may lead along it, or hold the pole without visiting it.
+    # The upper border of the map is above all edges: rings may follow it, or contain the pole without visiting it.
     over = np.rint(total(np.where(edges.lat > 0, edges.border, 0.0)) / 360.0).astype(np.intp)
     over += around & ((total(edges.turn) > 0) == left)
     hole = _is_hole(edges, rings, owner, count, left, over)
@@ -68,7 +68,7 @@ def on_the_left(
     sizes = rings.sizes
     order = spans(np.where(backwards, rings.offsets[1:] - 1, rings.offsets[:-1]), sizes, np.where(backwards, -1, 1))
     edge, _, ahead = edges.passing(spot[:1])
-    # Of the pole itself a place beside it is asked, below the border of the map.
+    # For the pole itself, test a place next to it, below the border of the map.
     lat = min(spot[1], 90.0 - DEGREE_ROUNDING)
     above = np.bincount(owner[edges.ring[edge]], edges.height(edge, ahead) > lat, minlength=count)
     return Ragged(rings.values[order], rings.offsets), (above + np.bincount(owner, over, minlength=count)) % 2 == 1
@@ -76,7 +76,7 @@ def on_the_left(
 
 @dataclass(frozen=True, eq=False)
 class _Edges:
-    """Edges of rings on the map, degrees, (e,) each: from (lon, lat) by `turn` and `rise`."""
+    """Edges of rings on the map in degrees, (e,) each: from (lon, lat) by `turn` and `rise`."""
 
     ring: Indices
     lon: FloatArray
@@ -84,7 +84,7 @@ class _Edges:
     turn: FloatArray
     rise: FloatArray
     border: FloatArray
-    """What the edge leads along the upper or lower border of the map besides: whole turns."""
+    """Additional whole turns along the upper or lower border of the map."""
     straight: bool
 
     @classmethod
@@ -99,7 +99,7 @@ class _Edges:
         )
 
     def swept(self) -> FloatArray:
-        """∫ sin φ dλ along the edges, degrees: what is between them and the equator."""
+        """∫ sin φ dλ along the edges, in degrees: the areas between them and the equator."""
         middle, half = np.radians(self.lat + self.rise / 2), np.radians(self.rise / 2)
         if self.straight:
             return self.turn * np.sin(middle) * np.sinc(half / np.pi)
@@ -107,20 +107,20 @@ class _Edges:
         return 2 * np.degrees(np.arctan2(np.sin(turn) * np.sin(middle), np.cos(turn) * np.cos(half)))
 
     def height(self, edge: Indices, ahead: FloatArray) -> FloatArray:
-        """Latitudes of edges (k,) where they have gone so far in longitude, from 0 to `turn`, (k,)."""
+        """Latitudes of edges (k,) at longitudes `ahead` of their starts, from 0 to `turn`, (k,)."""
         lat, turn, rise = self.lat[edge], self.turn[edge], self.rise[edge]
         if self.straight:
             return lat + rise * (ahead / turn)
         whole, gone = np.radians(np.abs(turn)), np.radians(np.abs(ahead))
         start, end = np.tan(np.radians(lat)), np.tan(np.radians(lat + rise))
-        # On a great circle tan φ is a sine of the longitude.
+        # On a great circle tan φ is a sine function of the longitude.
         return np.degrees(np.arctan2(start * np.sin(whole - gone) + end * np.sin(gone), np.sin(whole)))
 
     def passing(self, lon: FloatArray) -> tuple[Indices, Indices, FloatArray]:
-        """Pairs of edges and meridians (m,) that they pass: the edges, the meridians' numbers, how far ahead they are.
+        """Pairs of edges and meridians (m,) that they cross: indices of edges, indices of meridians, distance ahead.
 
-        Of meridians in order, said once for each turn, an edge passes a stretch. Its eastern end belongs to it, its
-        western one does not, so that of two edges that meet one passes.
+        With the meridians in order, repeated for each turn, an edge crosses a contiguous range. The range includes the
+        eastern end of the edge but not the western one, so of two edges that meet, exactly one crosses.
         """
         west = np.mod(np.minimum(self.lon, self.lon + self.turn), 360.0)
         east = west + np.abs(self.turn)
@@ -137,13 +137,13 @@ class _Edges:
 def _is_hole(edges: _Edges, rings: Ragged, owner: Indices, count: int, left: BoolArray, over: Indices) -> BoolArray:
     """Which rings lie within an odd number of other rings of their region.
 
-    A place of each ring, on its widest edge, looks along the meridian to the north pole and counts what is above it.
+    For one place on the widest edge of each ring, the edges above it on the meridian to the north pole are counted.
     """
     hole = np.zeros(len(rings), dtype=np.bool_)
     several = np.bincount(owner, minlength=count)[owner] > 1
     if not several.any():
         return hole
-    # The widest edge of each ring on the sphere; those at a pole have no width.
+    # The widest edge of each ring on the sphere; edges at a pole have no width.
     width = np.abs(edges.turn) * np.cos(np.radians(edges.lat + edges.rise / 2))
     width[np.minimum(np.abs(edges.lat), np.abs(edges.lat + edges.rise)) == 90.0] = 0.0
     order = np.lexsort((-width, edges.ring))
@@ -152,14 +152,14 @@ def _is_hole(edges: _Edges, rings: Ragged, owner: Indices, count: int, left: Boo
     mine = edges.ring[own]
     ahead = PROBE * edges.turn[own]
     lat = edges.height(own, ahead)
-    # The inside of a ring is on its left, north of edges that run eastwards, once it is turned as `left` tells.
+    # The interior of a ring is on its left, north of edges that run eastwards, once it is oriented by `left`.
     north = (edges.turn[own] > 0) == left[mine]
     edge, place, ahead = edges.passing(edges.lon[own] + ahead)
     theirs = edges.ring[edge]
     others = (theirs != mine[place]) & (owner[theirs] == owner[mine[place]])
     edge, place, ahead = edge[others], place[others], ahead[others]
     above = edges.height(edge, ahead) - lat[place]
-    # Where two rings have the edge in common, the place is taken to be a little inside its own ring.
+    # If two rings share the edge, the place is taken slightly inside its own ring.
     crossed = np.where(np.abs(above) <= DEGREE_ROUNDING, ~north[place], above > 0)
     depth = np.bincount(place[crossed], minlength=len(own)) - over[mine]
     hole[mine] = (depth + np.bincount(owner, over, minlength=count)[owner[mine]]) % 2 == 1

@@ -19,7 +19,7 @@ def mesh_paths(corners: FloatArray, globe: LonLatToPage) -> list[Path]:
     a, b, c, d = kept[:-1, :-1], kept[:-1, 1:], kept[1:, 1:], kept[1:, :-1]
     cells = np.stack([a, b, c, d, a], axis=2).reshape(-1, 5, 2)
     page = globe.transform_non_affine(cells.reshape(-1, 2)).reshape(-1, 5, 2)
-    # In space and on the page a side of length L strays from its chord by about L²/8: circles have radii up to 1.
+    # In space and on the page a side of length L deviates from its chord by about L²/8, for circles of radius up to 1.
     sides = np.sqrt(np.sum(np.diff(page, axis=1) ** 2, axis=2)).max(axis=1)
     small = sides < np.sqrt(8 * globe.tolerance / globe.view.stretch)
     paths = [Path(outline, closed=True) if whole else NOTHING for outline, whole in zip(page, small, strict=True)]

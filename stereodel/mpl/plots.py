@@ -1,4 +1,4 @@
-"""Plots of matplotlib that a globe makes in another way: contours, meshes, hexagons, arrows, pictures."""
+"""Plotting methods that a globe overrides: contours, meshes, hexagons, arrows, images."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from stereodel.mpl.transforms import LonLatToPage
 
 
 class GlobePlots(Axes):
-    """Axes whose data is longitude and latitude, and whose limits are on a page."""
+    """Axes with data in longitude and latitude, and limits in page coordinates."""
 
     transGlobe: LonLatToPage  # noqa: N815 (matplotlib's way to name transforms)
     """Degrees to the unit disc."""
@@ -27,31 +27,31 @@ class GlobePlots(Axes):
     """The unit disc to pixels."""
 
     def contour(self, *args: Any, **kwargs: Any) -> Any:
-        """Contour lines, as in matplotlib; closed ones are not regions, so they end where the view ends."""
+        """Contour lines, as in matplotlib; closed ones are lines, not regions, and are cut at the edge of the view."""
         return _with_open_lines(super().contour(*args, **kwargs))
 
     def tricontour(self, *args: Any, **kwargs: Any) -> Any:
-        """Contour lines of scattered points, as in matplotlib; they end where the view ends."""
+        """Contour lines of scattered points, as in matplotlib, cut at the edge of the view."""
         return _with_open_lines(super().tricontour(*args, **kwargs))
 
     def pcolormesh(self, *args: Any, **kwargs: Any) -> PathCollection:  # type: ignore[override]
-        """Cells of a grid of longitude and latitude, as in matplotlib but for `shading`, which is never "gouraud".
+        """Cells of a grid of longitude and latitude, as in matplotlib, except that `shading` cannot be "gouraud".
 
-        Returns a PathCollection with the values as its array, cut where the view ends.
+        Returns a PathCollection with the values as its array, cut at the edge of the view.
         """
         mesh = super().pcolormesh(*args, **kwargs)
         paths = mesh_paths(np.asarray(mesh.get_coordinates()), self.transGlobe)
         return self._instead(mesh, paths, self.transPage, kwargs)
 
     def hexbin(self, *args: Any, **kwargs: Any) -> PathCollection:  # type: ignore[override]
-        """Hexagons of the map of longitude and latitude, as in matplotlib; a PathCollection."""
+        """Hexagonal bins on the map of longitude and latitude, as in matplotlib; returns a PathCollection."""
         cells = super().hexbin(*args, **kwargs)
         outline, middles = np.asarray(cells.get_paths()[0].vertices), np.asarray(cells.get_offsets())
         corners = np.clip(middles[:, None] + outline, [-np.inf, -90.0], [np.inf, 90.0])
         return self._instead(cells, [Path(cell, closed=True) for cell in corners], self.transData, kwargs)
 
     def _instead(self, old: Any, paths: list[Path], transform: Transform, given: dict[str, Any]) -> PathCollection:
-        """Paths with the colours of a collection that is removed."""
+        """Replace a collection by paths with its colours."""
         old.remove()
         style = {"norm": old.norm, "cmap": old.cmap, "alpha": old.get_alpha(), "zorder": old.get_zorder()}
         cells = self._collection(paths, transform, style)
@@ -77,18 +77,18 @@ class GlobePlots(Axes):
         return super().barbs(*self._turned(args), **kwargs)
 
     def _turned(self, args: tuple[Any, ...]) -> tuple[Any, ...]:
-        """The places and components of vectors, these along the axes of the page; their lengths stay."""
+        """Positions and components of vectors, the latter along the axes of the page with unchanged lengths."""
         if len(args) < 4:
             raise TypeError("give the positions of the vectors, in degrees, first: lon, lat, east, north")
         lon, lat, east, north = np.broadcast_arrays(*(np.ma.filled(np.ma.asarray(a, float), np.nan) for a in args[:4]))
-        # What steps of one length on the sphere are on the page, along the meridian and along the parallel, on which a
-        # degree is shorter. The orthographic view shortens them toward the limb, unlike in the two directions.
+        # Images on the page of steps of equal length on the sphere, along the meridian and along the parallel, on which
+        # a degree is shorter. Toward the limb, the orthographic view shortens them differently in the two directions.
         toward_north = _page_step(self.transGlobe, lon, lat, np.array([0.0, DIRECTION_STEP]))
         with np.errstate(divide="ignore"):
             along = DIRECTION_STEP / np.cos(np.radians(lat))
         toward_east = _page_step(self.transGlobe, lon, lat, np.stack([along, np.zeros_like(along)], axis=-1))
         vector = east[..., None] * toward_east + north[..., None] * toward_north
-        # The direction on the page, with the length that was given: what is hidden stays NaN.
+        # The direction on the page with the given length; hidden vectors remain NaN.
         size = np.hypot(vector[..., 0], vector[..., 1])
         scale = np.hypot(east, north) / np.where(size > 0, size, 1.0)
         return (lon, lat, scale * vector[..., 0], scale * vector[..., 1], *args[4:])
@@ -99,8 +99,8 @@ class GlobePlots(Axes):
         Raises
         ------
         ValueError
-            Without that transform: use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` makes an image of the
-            page.
+            Without that transform. Use `pcolormesh`, or `stereodel.globe.Raster`, whose `warp` returns an image in page
+            coordinates.
         """
         if kwargs.get("transform") is not self.transPage:
             raise ValueError(
@@ -111,9 +111,9 @@ class GlobePlots(Axes):
 
 
 def _page_step(globe: LonLatToPage, lon: FloatArray, lat: FloatArray, step: FloatArray) -> FloatArray:
-    """What a small step in degrees is on the page, (..., 2)."""
+    """The image on the page of a small step in degrees, (..., 2)."""
     places = np.stack([lon, lat], axis=-1)
-    # Away from the pole, beyond which there is nothing.
+    # Away from the pole, as there is nothing beyond it.
     side = np.where(lat > 0, -1.0, 1.0)[..., None]
     moved = (globe.transform((places + side * step).reshape(-1, 2)) - globe.transform(places.reshape(-1, 2))).reshape(
         places.shape
@@ -127,7 +127,7 @@ def _with_open_lines(contours: Any) -> Any:
 
 
 def _opened(path: Path) -> Path:
-    """The path with closing lines that are lines like others."""
+    """The path with explicit lines in place of closing commands."""
     if path.codes is None:
         return path
     codes, points = np.array(path.codes), np.array(path.vertices)

@@ -29,17 +29,17 @@ NOTHING = Path(np.zeros((0, 2)))
 
 
 class LonLatToPage(Transform):
-    """Longitude and latitude to the unit disc of a view; edges of paths are resampled, and cut where the view ends.
+    """Longitude and latitude to the unit disc of a view; edges of paths are resampled and cut at the edge of the view.
 
-    Open paths stay lines. A path with a closed part is a region, bounded by all its closed parts together by the
-    even-odd rule; where the edge of the view cuts it, its outline follows that edge.
+    Open paths remain lines. A path with closed parts is a region, bounded by all of them together by the even-odd rule;
+    where it is cut by the edge of the view, its outline follows that edge.
 
     Parameters
     ----------
     lens : MoebiusMap
     view : View or StereographicView
     edges : {"great circle", "straight"}
-        What joins two vertices: the shorter great-circle arc, or what is straight on the map of longitude and latitude.
+        Edges between vertices: shorter great-circle arcs, or straight on the map of longitude and latitude.
     """
 
     input_dims = output_dims = 2
@@ -52,13 +52,13 @@ class LonLatToPage(Transform):
         self._tolerance = PAGE_TOLERANCE
         toward = self.matrix[2]
         self._middle = xyz_to_lonlat(self.back(toward))
-        # What the lens brings into sight: a cap, too, and a little more.
+        # The preimage of the visible cap under the lens is also a cap; slightly enlarged.
         self._shown = self.back.image_of(SphereCircle(toward, view.edge - ON_BALL))
         self._reach = float(np.arctan2(self._shown.radius, self._shown.offset)) + STORED_ERROR
 
     @property
     def tolerance(self) -> float:
-        """How far the pieces of lines may stray from them, page units; a closer look wants a smaller one."""
+        """Largest deviation of line segments from the exact lines, in page units; reduce it for closer zoom."""
         return self._tolerance
 
     @tolerance.setter
@@ -68,7 +68,7 @@ class LonLatToPage(Transform):
             self.invalidate()
 
     def transform_non_affine(self, values: npt.ArrayLike) -> FloatArray:
-        """Page points (n, 2); NaN for what is hidden and for what is no place, such as a latitude beyond 90°."""
+        """Page points (n, 2); NaN for hidden points and for invalid ones, such as a latitude beyond 90°."""
         lonlat = np.ma.filled(np.ma.asarray(values, dtype=np.float64), np.nan)
         rows = lonlat.reshape(-1, 2)
         page = np.full(rows.shape, np.nan)
@@ -79,7 +79,7 @@ class LonLatToPage(Transform):
         return page.reshape(lonlat.shape)
 
     def transform_path_non_affine(self, path: Path) -> Path:
-        """The visible part of a path, with its curves, as straight pieces."""
+        """The visible part of a path, its curves included, as straight segments."""
         lines, closed = _parts(path)
         if not len(lines.values):
             return Path(lines.values)
@@ -89,7 +89,7 @@ class LonLatToPage(Transform):
         return compound(self.regions(rings, np.zeros(len(rings), dtype=np.intp), 1)[0], closed=True)
 
     def lines(self, lines: Ragged) -> Ragged:
-        """What is in sight of lines (k, 2) in degrees, as polylines on the page."""
+        """The visible parts of lines (k, 2) in degrees, as polylines on the page."""
         lines = unwrapped(lines) if self.edges == "straight" else self._led(lines)
         first, sides = sides_of(lines)
         xyz = lonlat_to_xyz(lines.values)
@@ -98,24 +98,24 @@ class LonLatToPage(Transform):
         return clip.lines(clip.among(sides, near), pieces, samples, self._border)[0]
 
     def regions(self, rings: Ragged, owner: Indices, count: int) -> tuple[Ragged, Indices]:
-        """What is in sight of regions, as closed loops on the page that follow its edge, and the region of each.
+        """The visible parts of regions, as closed loops on the page along the edge of the view, and the region of each.
 
         Parameters
         ----------
         rings : Ragged of (k, 2)
-            Degrees, in any direction; the first point again at the end.
+            In degrees, in any direction, with the first point repeated at the end.
         owner : (r,) array
             The region of each ring.
         count : int
-            Of regions.
+            Number of regions.
         """
-        # So that places a turn apart are one place, to the last bit.
+        # So that points a whole turn apart are bitwise the same point.
         lon = np.rint(rings.values[:, 0] / WHOLE_TURNS) * WHOLE_TURNS
         rings = Ragged(np.stack([lon, rings.values[:, 1]], axis=1), rings.offsets)
         rings = rings if self.edges == "straight" else self._led(rings)
         rings, middle = on_the_left(rings, owner, count, self._middle, straight=self.edges == "straight")
         rings = unwrapped(rings)
-        # Where the map is cut: at its own western border if it is as wide as the Earth, otherwise at ±180°.
+        # The map is cut at its own western border if it is as wide as the Earth, otherwise at ±180°.
         lon = rings.values[:, 0]
         west, east = lon.min(initial=np.inf), lon.max(initial=-np.inf)
         start, end, sides, owner = stitched(rings, owner, west if east - west == 360.0 else 180.0)
@@ -133,7 +133,7 @@ class LonLatToPage(Transform):
         return Cap(self.view, self.tolerance, fineness=1.0)
 
     def _led(self, lines: Ragged) -> Ragged:
-        """The same lines; great circles between opposite places lead over the north, from a pole down its meridian."""
+        """The lines, with great circles between antipodal places led over the north; from a pole, down its meridian."""
         lon, lat = lines.values.T
         across = np.abs(np.mod(np.diff(lon), 360.0) - 180.0) <= DEGREE_ROUNDING
         opposite = (np.abs(lat[:-1] + lat[1:]) <= DEGREE_ROUNDING) & (across | (np.abs(lat[:-1]) == 90.0))
@@ -145,14 +145,14 @@ class LonLatToPage(Transform):
         return lines.inserted(at + 1, between)
 
     def _edges(self, start: FloatArray, end: FloatArray, p: FloatArray, q: FloatArray) -> tuple[trace.Edges, BoolArray]:
-        """Edges from start to end in degrees, p to q on the sphere, and of which something may be in sight."""
+        """Edges from start to end in degrees, p to q on the sphere, and which of them may be visible."""
         straight = self.edges == "straight"
         edges = trace.Edges.straight(start, end, ends=(p, q)) if straight else trace.Edges.of(trace.great(p, q))
         return edges, edges.within(self._shown.normal, self._reach)
 
     def _traced(self, edges: trace.Edges) -> tuple[Pieces, Ragged]:
-        """Edges in view axes, cut where the view ends, and points of the pieces."""
-        # In space chords may stray by so much; half of it each arcs from edges and chords from arcs, where both do.
+        """Edges in view axes, cut at the edge of the view, and points of the pieces."""
+        # Tolerance for chords in space; if arcs are approximate too, half is for arcs and half for chords.
         slack = self.tolerance / self.view.stretch / (2 if self.edges == "straight" else 1)
         pieces = self._border.cut(edges.arcs_under(self.lens, slack).through(self.lens).turned(self.matrix))
         return pieces, pieces.arcs.sampled(slack)
@@ -194,7 +194,7 @@ def _is_place(lonlat: FloatArray) -> BoolArray:
 def _parts(path: Path) -> tuple[Ragged, BoolArray]:
     """The parts of a path, rows of vertices (k, 2), and which are closed, with equal ends.
 
-    What is no place ends a part, as NaN does everywhere in matplotlib.
+    An invalid point ends a part, as NaN does throughout matplotlib.
     """
     points = np.ma.filled(np.ma.asarray(path.vertices, dtype=np.float64), np.nan)
     codes = path.codes
@@ -224,7 +224,7 @@ def compound(lines: Ragged, *, closed: bool) -> Path:
 
 
 def compounds(lines: Ragged, number: Indices, count: int, *, closed: bool) -> list[Path]:
-    """Several paths of lines (k, 2), the number of its path beside each, in order; those without lines are empty."""
+    """Several paths of lines (k, 2), with the index of each line's path, in order; paths without lines are empty."""
     everything = compound(lines, closed=closed)
     vertices, codes = np.asarray(everything.vertices), np.asarray(everything.codes)
     ends = lines.offsets[np.searchsorted(number, np.arange(count + 1))].tolist()

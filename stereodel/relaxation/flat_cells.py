@@ -40,7 +40,7 @@ def outside(points: FloatArray, polygon: FloatArray) -> BoolArray:
 
 
 def check_inside(points: FloatArray, polygon: FloatArray) -> None:
-    """Refuse points outside the polygon."""
+    """Raise ValueError for points outside the polygon."""
     wrong = outside(points, polygon)
     if wrong.any():
         k = int(np.argmax(wrong))
@@ -65,7 +65,7 @@ def flat_cells(points: FloatArray, polygon: FloatArray, workers: int | None) -> 
 
 
 def _far_points(polygon: FloatArray) -> FloatArray:
-    """Four points so far around a polygon that they bound all cells and take nothing of it.
+    """Four points so far around a polygon that they bound all cells without reaching into it.
 
     Within the polygon every site is at most 2r away, r the radius of a circle around it; these are at least 7r away.
     """

@@ -35,7 +35,7 @@ class Progress(NamedTuple):
     energy : float
         Energy after it.
     move : float
-        The longest way of a point: in units of the plane, on the sphere in degrees.
+        The largest displacement of a point, in coordinate units in the plane, in degrees on the sphere.
     """
 
     step: int
@@ -45,14 +45,14 @@ class Progress(NamedTuple):
 
 @dataclass(frozen=True)
 class Quality:
-    """How even the cells of relaxed points are; the result of `Relaxation.quality`.
+    """Measures of how even the cells of relaxed points are; the result of `Relaxation.quality`.
 
     Attributes
     ----------
     neighbors : dict
-        Number of points by number of neighbours in the triangulation. In the plane those on the hull do not count.
+        Number of points by number of neighbours in the triangulation. In the plane, points on the hull are not counted.
     defects : int
-        Points that do not have six.
+        Number of points that do not have six neighbours.
     area_ratio : float
         Area of the largest cell, within the bounds, over that of the smallest.
     energy : float
@@ -69,7 +69,7 @@ class Quality:
 
 
 class Step(NamedTuple):
-    """The energy of a set of points, and the centroids of their cells."""
+    """The energy of a set of points and the centroids of their cells."""
 
     energy: float
     centroids: FloatArray
@@ -86,15 +86,15 @@ class Relaxation:
     energies : (steps + 1,) array
         Energy before the first step and after each.
     moves : (steps,) array
-        The longest way of a point in each step: in units of the plane, on the sphere in degrees.
+        The largest displacement of a point in each step, in coordinate units in the plane, in degrees on the sphere.
     converged : bool
         Whether the last step moved no point farther than the tolerance.
     latitude : str or None
         The kind of latitude by which the points were given.
     bounds : (k, 2) array or None
-        Corners of the polygon that the cells divide; None on the sphere.
+        Corners of the polygon divided by the cells; None on the sphere.
     lonlat : (n, 2) array
-        `points` in degrees, of that latitude.
+        `points` in degrees, with that kind of latitude.
 
     Examples
     --------
@@ -121,8 +121,8 @@ class Relaxation:
         Returns
         -------
         Quality
-            Neighbours, defects, ratio of areas; without a density the fewest possible defects on the sphere are twelve
-            points with five neighbours.
+            Neighbours, defects and ratio of areas. On the sphere, six less the number of neighbours sums to twelve over
+            all points; the best to be expected is twelve points with five neighbours and all others with six.
 
         Examples
         --------
@@ -181,18 +181,19 @@ def lloyd(
         Density as a function of position: takes points (m, 2), or unit vectors (m, 3), and returns m finite numbers ≥
         0. By default it is constant.
     bounds : array_like, (4,) or (k, 2)
-        In the plane, the region that the cells divide: (xmin, ymin, xmax, ymax), or the corners of a convex polygon,
-        counterclockwise. Not on the sphere, which the cells divide as a whole.
+        The region divided by the cells of the plane: (xmin, ymin, xmax, ymax), or the corners of a convex polygon,
+        counterclockwise. Not allowed on the sphere, where the cells divide the whole surface.
     tolerance : float, optional
-        Stop after a step that moves no point farther than this: in units of the plane, on the sphere in degrees.
+        Stop after a step that moves no point farther than this, in coordinate units in the plane, in degrees on the
+        sphere.
     factor : float, optional
-        Length of a step relative to the way to the centroid, above 0 and below 2. Above 1 it goes beyond
+        Length of a step relative to the distance from the centroid, in (0, 2). Values above 1 overshoot
         (over-relaxation): with 1.9, little more than half as many steps are needed.
     callback : callable, optional
         Called after each step with a `Progress`: step, energy, move. Its result is ignored; an exception
         ends the relaxation.
     workers : int, optional
-        Threads; -1 for all processors. Never changes the result.
+        Number of threads; -1 for all processors. Does not affect the result.
 
     Returns
     -------
@@ -203,23 +204,23 @@ def lloyd(
     Raises
     ------
     ValueError, TypeError
-        For points that are not finite real numbers, or outside `bounds`; for `bounds` that are missing, or given on
-        the sphere, or not convex; for a density with other values; for other options out of range; for points and
-        `lonlat` together, and `latitude` without `lonlat`.
+        If a point is not finite and real, or outside `bounds`; if `bounds` are missing in the plane, given on the
+        sphere, or not convex; if `density` returns other values or another option is out of range; if `points` and
+        `lonlat` are both given, or `latitude` without `lonlat`.
 
     Notes
     -----
-    The energy is the sum over the cells of ∫ ρ(x) |x − p|² dx, on the sphere with the chord |x − p|. A step takes p
-    to the mass centroid of its cell, on the sphere projected to it from the centre: where this integral is least. The
-    new cells are at least as good, so the energy never increases, up to rounding and, with a density, quadrature.
+    The energy is the sum over the cells of ∫ ρ(x) |x − p|² dx, on the sphere with the chord |x − p|. A step takes p to
+    the mass centroid of its cell, on the sphere projected to the surface from the centre, which minimises this
+    integral. The new cells are at least as good, so the energy never increases, up to rounding and, with a density,
+    quadrature.
 
-    That holds for each `factor` too: with the old cells the energy depends on the distance from the centroid alone (on
-    the sphere on the angle), and none is longer afterwards than before. A point that would leave the bounds stops at
-    the centroid.
+    This holds for every `factor`: with the old cells the energy depends only on the distance from the centroid (on the
+    sphere, the angle), which never grows. A point that would leave the bounds stops at the centroid.
 
     Without a density the integrals are exact up to rounding. With one they are sums over triangles of a site and two
     corners of its cell by Radon's rule of degree five; on the sphere triangles are first halved until no side is longer
-    than 11.5°. A density that varies within a cell is seen at seven places in each of its triangles.
+    than 11.5°. A density that varies within a cell is sampled at seven nodes in each of its triangles.
 
     A dropped duplicate has no cell and stays for a step, in which the kept one mostly moves away; so does a point whose
     cell has zero mass, or is the whole sphere. Symmetric points stay symmetric, on a great circle for example: such
@@ -275,7 +276,7 @@ def lloyd(
 
 
 class Course(NamedTuple):
-    """How many steps are taken, and who hears of them."""
+    """Number of steps, stopping rule and callback."""
 
     steps: int
     tolerance: float
@@ -304,7 +305,7 @@ def _relax(
 
 
 def _in_plane(points: FloatArray, centroids: FloatArray, factor: float, polygon: FloatArray) -> FloatArray:
-    """Points that went a part of the way to their centroids, or beyond, within the polygon."""
+    """Points moved part of the way to their centroids, or beyond, within the polygon."""
     if factor == 1.0:
         return centroids
     reached = points + factor * (centroids - points)
@@ -358,7 +359,7 @@ def _step_on_sphere(points: FloatArray, density: Density | None, workers: int | 
 
 
 def _where_pulled(points: FloatArray, mass: FloatArray, moments: FloatArray, centroids: FloatArray) -> FloatArray:
-    """The centroids of cells whose mass has a middle, the points of the others."""
+    """The centroids of cells with positive mass and a defined centroid, and the points of the others."""
     return np.where(
         (np.linalg.norm(moments, axis=1) > BALANCED * mass)[:, None] & (mass > 0)[:, None], centroids, points
     )

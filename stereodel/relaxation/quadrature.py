@@ -11,7 +11,7 @@ from stereodel.constants import QUADRATURE_CHORD
 
 
 class Rule(NamedTuple):
-    """Barycentric coordinates (k, 3) of nodes, and their shares (k,) of the area, which add up to one."""
+    """Barycentric coordinates (k, 3) of nodes, and their weights (k,), which sum to one."""
 
     nodes: FloatArray
     shares: FloatArray

@@ -1,4 +1,4 @@
-"""Voronoi cells of the sphere: integrals along their ridges, and cells as triangles."""
+"""Voronoi cells of the sphere: integrals along their ridges, and decomposition into triangles."""
 
 from __future__ import annotations
 

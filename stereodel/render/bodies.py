@@ -1,4 +1,4 @@
-"""What a scene holds as bodies of its space: whole, whatever is seen of them."""
+"""Items of a scene as complete bodies in space, whether visible or not."""
 
 from __future__ import annotations
 
@@ -38,10 +38,10 @@ from stereodel.render.surfaces import (
 from stereodel.sphere.vectors import turned
 
 BALL_POINTS: Final = 0.1
-"""Distance of a ball from its triangles, at most, in points of the page: no line is so thin that it sinks in."""
+"""Largest distance of a ball from its triangles, in points on the page, so that even thin lines do not sink in."""
 
 ROUGHNESS: Final = 0.65
-"""Of all materials of glTF, from 0, a mirror, to 1: a soft sheen and no reflections of lamps."""
+"""Roughness of all glTF materials, from 0 (mirror) to 1: a soft sheen without reflections of lamps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,10 +53,10 @@ class Body:
     name : str
     color : Color
     layer : Layer
-        Where it belongs in painter's order, for what is transparent.
+        Position in painter's order, for transparent bodies.
     surface : Surface
     places : (k, 4) array, optional
-        Centre and scale of each copy in the scene's space; by default one as it stands.
+        Centre and scale of each copy in the scene's space; by default one unscaled copy.
     """
 
     name: str
@@ -67,7 +67,7 @@ class Body:
 
     @property
     def poses(self) -> FloatArray:
-        """Of each copy in the scene's space, (k, 4, 4)."""
+        """Transformation of each copy in the scene's space, (k, 4, 4)."""
         places = np.array([[0.0, 0.0, 0.0, 1.0]]) if self.places is None else self.places
         poses = places[:, 3, None, None] * np.eye(4)
         poses[:, :3, 3], poses[:, 3, 3] = places[:, :3], 1.0
@@ -89,13 +89,13 @@ def bodies_of(placed: PlacedScene, points_per_unit: float) -> Iterator[Body]:
     ----------
     placed : PlacedScene
     points_per_unit : float
-        Of the page, which tells how thick a line is in space.
+        Scale of the page, which determines the thickness of lines in space.
 
     Notes
     -----
-    Lines on the ball lie `CURVE_ERROR` radii above those of the name before: chords of the same arc may be that far
-    apart, and what has a later name covers what has an earlier one, as on the page. Regions lie above all of the ball's
-    triangles, and each above those before it.
+    Lines on the ball lie `CURVE_ERROR` radii above those with the preceding name: chords of the same arc may be that
+    far apart, and later names cover earlier ones, as on the page. Regions lie above all triangles of the ball, each
+    above its predecessors.
     """
     layout, point = placed.layout, 1 / (points_per_unit * placed.layout.scale)
     level = ball_level(BALL_POINTS * point / layout.radius)
@@ -129,7 +129,7 @@ def marks_of(items: tuple[SceneItem, ...]) -> list[Mark]:
 
 
 def _sphere(layout: Layout, factor: float) -> FloatArray:
-    """The place of the ball, larger by a factor."""
+    """Centre and radius of the ball, enlarged by a factor."""
     return np.array([[*layout.center, factor * layout.radius]])
 
 

@@ -1,4 +1,4 @@
-"""Pages on a canvas of matplotlib: the pictures that Agg draws, and the type over those of OpenGL."""
+"""Pages on a matplotlib canvas: pictures drawn by Agg, and labels over those drawn by OpenGL."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ with of_extra("draw"):
 
 @contextmanager
 def matplotlib_settings() -> Iterator[None]:
-    """Matplotlib as it comes, whatever the user has set, with the type of `style`."""
-    # rc_context does not give the backend back, so it stays out.
+    """Matplotlib with its defaults, independent of the user's settings, and with the type of `style`."""
+    # rc_context does not restore the backend, so it is excluded.
     settings: dict[Any, Any] = {key: value for key, value in mpl.rcParamsDefault.items() if key != "backend"}
     settings.update(TYPE)
     with mpl.rc_context(settings), quiet_fonts():
@@ -45,9 +45,9 @@ def pixel_grid(page: Page, width_px: int) -> tuple[float, tuple[int, int]]:
 
 
 def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canvas:
-    """The page on a canvas of its own size, or of whole pixels."""
+    """The page on a canvas of its own size, or of a whole number of pixels."""
     width, height = page.width, page.height
-    if pixels is not None:  # a little more, because Agg cuts a size such as 2007.9999999 to 2007
+    if pixels is not None:  # slightly more, because Agg truncates a size such as 2007.9999999 to 2007
         width, height = ((side + PIXEL_ROUNDING) * 72 / dpi for side in pixels)
     canvas = Canvas(figsize=(width / 72, height / 72), dpi=dpi)
     left, right, bottom, top = page.extent
@@ -59,7 +59,7 @@ def drawn(page: Page, dpi: float, pixels: tuple[int, int] | None = None) -> Canv
         artist.set(zorder=1 + number, snap=False, clip_on=isinstance(artist, AxesImage))
         axes.add_artist(artist)
     for label in page.labels:
-        # FreeType refuses type much smaller than a pixel, and nobody could read it.
+        # FreeType rejects type much smaller than a pixel, which would be illegible anyway.
         if pixels is None or label.size * dpi / 72 >= 1:
             _draw_label(axes, label)
     return canvas
@@ -92,9 +92,9 @@ def _path(outline: Outline) -> Path:
 
 
 def _turned(fill: Fill) -> Fill:
-    """A region with runs turned so that the nonzero rule, all that matplotlib has, fills what the even-odd one does.
+    """A region with runs oriented so that matplotlib's nonzero rule fills the same as the even-odd rule.
 
-    Runs do not cross, so a run inside an even number of others must go counterclockwise and any other clockwise.
+    Runs do not cross, so a run inside an even number of others must be counterclockwise, any other clockwise.
     """
     turned = []
     for number, path in enumerate(fill.paths):
@@ -108,7 +108,7 @@ def _turned(fill: Fill) -> Fill:
 
 
 def _corners(path: Beziers) -> FloatArray:
-    """Points along a run, close enough to tell its inside from its outside."""
+    """Points along a run, close enough to determine its interior."""
     s = np.linspace(0.0, 1.0, 8, endpoint=False)[None, :, None]
     p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
     points = (1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3

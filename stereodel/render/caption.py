@@ -1,4 +1,4 @@
-"""Captions: what a script says about its picture, and how that is set below it."""
+"""Captions: the title and description of a script, and their typesetting below its picture."""
 
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from stereodel.drawing.page_styles import StyledDraw
 from stereodel.drawing.style import BLACK, LABEL_SIZE, WHITE
 
 TITLE_SIZE: Final = 11.0
-"""Height of the title's type, points."""
+"""Type size of the title in points."""
 
 LEADING: Final = 1.3
-"""From one line to the next, in heights of the type."""
+"""Line spacing in units of type size."""
 
 MARGIN: Final = 12.0
-"""Points around a caption."""
+"""Margin around a caption in points."""
 
 DARK: Final = 0.5
-"""Luma of a ground below which type on it is white."""
+"""Luma of the background below which type on it is white."""
 
 
 def script_of(function: Callable[..., Any], name: str) -> Path | None:
-    """The script that draws a picture: the file of its name in the folder of a function that it draws with.
+    """The script that draws a picture: the file of its name in the folder of its drawing function.
 
-    None for pictures of no script: those of the command line, of a session, of a program with another name.
+    None for pictures without a script: from the command line, a session, or a program with another name.
     """
     inner = function
     while isinstance(inner, partial | StyledDraw):
@@ -47,7 +47,7 @@ def script_of(function: Callable[..., Any], name: str) -> Path | None:
 
 
 def caption_of(script: Path) -> tuple[str, str]:
-    """Title and description of a script: the first line of its docstring, and the paragraphs below the line's rule."""
+    """Title and description of a script: the first line of its docstring, and the paragraphs below its underline."""
     return parted(ast.get_docstring(ast.parse(script.read_text(encoding="utf-8"))) or "")
 
 
@@ -66,12 +66,12 @@ def parted(docstring: str) -> tuple[str, str]:
 
 
 def captioned(page: Page) -> Page:
-    """A page with its title and description below it: as much higher as they need, and as wide as it was.
+    """A page with its title and description below the picture; its width is unchanged, its height grows as needed.
 
     Parameters
     ----------
     page : Page
-        Type is `LABEL_SIZE` points high, and lines are broken by their true widths.
+        Page to extend. Type has `LABEL_SIZE` points, and lines are broken by their measured widths.
 
     Examples
     --------
@@ -99,13 +99,13 @@ def captioned(page: Page) -> Page:
         depth += (LEADING - 1) * size
     low = bottom - (depth + MARGIN) / unit
     corners = np.array([(left, low), (right, low), (right, bottom), (left, bottom), (left, low)])
-    # What leaves the page below must not be seen through the caption.
+    # Items that extend below the page must not show through the caption.
     ground = Fill((np.linspace(corners[:-1], corners[1:], 4, axis=1),), (red, green, blue, 1.0), "caption-ground")
     return replace(page, extent=(left, right, low, top), items=(*page.items, ground, *labels))
 
 
 def _broken(text: str, size: float, room: float) -> Iterator[str]:
-    """Lines as long as the room allows; a longer word has a line of its own."""
+    """Lines no longer than `room`; a longer word gets a line of its own."""
     line = ""
     for word in text.split():
         longer = f"{line} {word}".strip()

@@ -1,4 +1,4 @@
-"""Figures: a named picture, from its geometry to its three files; the command line that all scripts share."""
+"""Figures: named pictures, from their geometry to their files; the command line shared by all scripts."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ Geometry = Mapping[str, Any]
 
 @dataclass(frozen=True)
 class Figure:
-    """A figure: what it shows, how it is laid out on a page, and how the page becomes files.
+    """A figure: its geometry, its layout on a page, and its files.
 
     Parameters
     ----------
     name : str
-        Stem of the files; and of the script that defines it, whose docstring gives the page title and description.
+        Stem of the files and of the script that defines it, whose docstring provides the page's title and description.
     geometry : callable
-        () → named arrays: everything that the picture shows, computed by the library.
+        Function without arguments that returns named arrays: the geometry of the picture, computed by the library.
     draw : callable
-        (geometry) → `Page`.
+        Function of the geometry that returns a `Page`.
     renderer : {"gl", "agg"}
         Renderer of the PNG: OpenGL for globes, matplotlib for the plane.
     in_space : callable, optional
-        (geometry) → `Solid`: what the picture shows, in space.
+        Function of the geometry that returns a `Solid`, the picture in space.
 
     Examples
     --------
@@ -73,7 +73,7 @@ class Figure:
         Raises
         ------
         ValueError
-            For unknown styles, and for a column and a slide at once.
+            If a style is unknown, or column and slide are combined.
         """
         return replace(self, draw=StyledDraw(self.draw, styles))
 
@@ -83,7 +83,7 @@ class Figure:
         Raises
         ------
         ValueError
-            For a figure without `in_space`.
+            If the figure has no `in_space`.
         """
         return self._solid(self.geometry())
 
@@ -114,9 +114,9 @@ class Figure:
         size, text
             As for `Page.save`.
         caption : bool
-            Whether title and description are written below the picture, if it has text.
+            Whether to write title and description below the picture, if it has text.
         solid : bool
-            Whether to write NAME_solid.png too: the picture in space, with shading.
+            Whether to also write NAME_solid.png, the picture in space with shading.
 
         Returns
         -------
@@ -155,7 +155,7 @@ class Figure:
         }
 
     def main(self, argv: Sequence[str] | None = None) -> None:
-        """Run as a script: write the files, say where; what goes wrong becomes a message and exit code 1."""
+        """Run as a script: write the files and report where; errors become a message and exit code 1."""
         kind = "PNG, SVG and PDF" if self.in_space is None else "PNG, SVG, PDF and GLB"
         flags = {"caption": "set title and text of the script below the picture"}
         if self.in_space is not None:
@@ -164,7 +164,7 @@ class Figure:
 
 
 class Drawing(Protocol):
-    """What a script draws."""
+    """Interface of what a script draws."""
 
     @property
     def name(self) -> str:
@@ -187,7 +187,7 @@ def run_script(
     usual_size: str,
     flags: Mapping[str, str] = MappingProxyType({}),
 ) -> None:
-    """Write the files and say where; what goes wrong becomes a message and exit code 1.
+    """Write the files and report where; errors become a message and exit code 1.
 
     Parameters
     ----------
@@ -195,11 +195,11 @@ def run_script(
     argv : sequence of str or None
         Arguments; by default those of the process.
     source : callable
-        A function that the script defines; `out` beside the script's folder is where files go by default.
+        A function defined in the script; files go to `out` next to the script's folder by default.
     kind, usual_size : str
-        What is drawn and how wide it is by default, for the help.
+        Kind of files and default width, for the help.
     flags : mapping of str to str, optional
-        Further options of `Drawing.save` that are on or off, and what the help says of them.
+        Additional Boolean options of `Drawing.save`, with their help.
     """
     parser = argparse.ArgumentParser(description=f"Draw {drawing.name} as {kind}.")
     out = default_folder(source)
@@ -240,11 +240,11 @@ def style_names(text: str) -> tuple[str, ...]:
 
 
 def styled_folder(out: Path, styles: tuple[str, ...]) -> Path:
-    """Where pictures in other styles go: a folder of their own in that of the pictures."""
+    """The folder for pictures in other styles, within that of the pictures."""
     return out / "-".join(Path(style).stem for style in styles)
 
 
 def default_folder(source: Callable[..., Any]) -> Path:
-    """`out` beside the folder of the script that defines a function, whatever the current folder."""
+    """`out` next to the folder of the script that defines a function, whatever the current folder."""
     function = source.func if isinstance(source, partial) else source
     return Path(inspect.getfile(function)).resolve().parent.parent / "out"

@@ -1,21 +1,21 @@
-"""The only door to OpenGL: triangles in, pixels out.
+"""The only interface to OpenGL: triangles in, pixels out.
 
 Everything goes through pyrender (the distribution pyrender2) on a software renderer, without a window: OSMesa first,
 EGL on a software device as its equal; both are Mesa's llvmpipe and give the same pixels. PyOpenGL fixes its platform
 when it is first imported, so a process has one `Door`, `DOOR`, which chooses before that and opens when it is needed.
 
-Each pixel has four samples. Renderers that take one alone, like Mesa's softpipe, draw a picture four times, each time
-with another of the four in the middle of the pixels.
+Each pixel has four samples. Renderers with a single sample, such as Mesa's softpipe, draw a picture four times, each
+time with another of the four sample positions at the pixel centres.
 
-A picture is drawn in windows, so that memory does not grow with it. They lie on one grid, counted from its upper left
-corner, whatever part is asked for: where OpenGL cuts a triangle at the edge of a window it rounds the new corners, and
-so a picture drawn at once and one written row by row are the same bits.
+A picture is drawn in windows, so that memory does not grow with it. The windows lie on a fixed grid, counted from the
+upper left corner of the picture, whatever part is requested: where OpenGL clips a triangle at the edge of a window it
+rounds the new corners, so only with fixed windows is a picture drawn at once bitwise equal to one written row by row.
 
 All triangles of a window go into one mesh, in painter's order, with a colour at each vertex and one depth per item.
-OpenGL draws the triangles of a mesh in their order, so see-through items blend back to front; and since a fragment at
-the depth of what is already there is refused, an item whose triangles overlap blends once, as the union of them. An
-item with a texture is a part of the mesh for itself; a texel is a pixel of the window. An item on a ball is lit in the
-fragment shader, where the place of the pixel tells the normal.
+OpenGL draws the triangles of a mesh in their order, so transparent items blend back to front; and since a fragment at
+an already drawn depth is rejected, an item whose triangles overlap blends once, as their union. An item with a texture
+is a separate part of the mesh, with one texel per pixel of the window. An item on a ball is shaded in the fragment
+shader, where the position of the pixel determines the normal.
 """
 
 from __future__ import annotations
@@ -43,53 +43,53 @@ VARIABLE: Final = "STEREODEL_GL"
 """Environment variable that chooses the platform."""
 
 PLATFORMS: Final = ("osmesa", "egl")
-"""In the order in which they are tried."""
+"""Platforms in the order in which they are tried."""
 
 LIBRARIES: Final = {"osmesa": ("libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"), "egl": ("libEGL.so.1", "libEGL.so")}
-"""Shared libraries, any one of which a platform needs."""
+"""Shared libraries, of which a platform needs any one."""
 
 PACKAGES: Final = {"osmesa": "libosmesa6", "egl": "libegl1 libgl1-mesa-dri"}
-"""Debian packages that hold them."""
+"""Debian packages with these libraries."""
 
 SLOTS: Final = 2**18
-"""Items that a picture may have: neighbours are 64 steps of a 24-bit depth buffer apart, and 16 of float32."""
+"""Largest number of items: adjacent ones are 64 steps of a 24-bit depth buffer apart, and 16 of float32."""
 
 BAND: Final = 1024
 """Rows drawn at once."""
 
 COLUMNS: Final = 4096
-"""Pixels across that are drawn at once; even. The multisampled buffers of a window take 32 bytes a pixel, 134 MB."""
+"""Width in pixels drawn at once, even. The multisampled buffers of a window take 32 bytes per pixel, 134 MB."""
 
 SUBPIXELS: Final = 256
-"""Parts of a pixel to which llvmpipe rounds corners."""
+"""Fractions of a pixel to which llvmpipe rounds corners."""
 
 STRIDE: Final = 8192
-"""Coordinates lose whole multiples of it, pixels, so that those in a window keep `SUBPIXELS` as float32 of 24 bits."""
+"""Pixels, multiples of which are subtracted from coordinates, so that float32 preserves `SUBPIXELS` in a window."""
 
 FAR: Final = 100.0
-"""Distance of the camera from bodies in space, in sides of the picture: light is reflected as to a viewer far away."""
+"""Distance of the camera from bodies in space, in sides of the picture: reflections are those for a distant viewer."""
 
 SAMPLES: Final = ((0.375, 0.125), (0.875, 0.375), (0.125, 0.625), (0.625, 0.875))
-"""Where in a pixel llvmpipe takes its four samples, from the lower left corner; Direct3D's standard pattern too."""
+"""Sample positions of llvmpipe in a pixel, from the lower left corner, which are also Direct3D's standard pattern."""
 
 NEAREST: Final = 0x2600
 CLAMP_TO_EDGE: Final = 0x812F
-"""How texels are looked up: names of OpenGL's C header."""
+"""Texture filters: constants of OpenGL's C header."""
 
 SHADERS: Final = os.path.join(os.path.dirname(__file__), "shaders")
-"""Our own, under the names by which pyrender asks for them."""
+"""Our own shaders, under the names that pyrender requests."""
 
 EGL_EXTENSIONS: Final = 0x3055
 """Name of the extension string in EGL's C header."""
 
 
 class OpenGLError(OSError):
-    """There is no usable OpenGL, or it was set up before in another way; the message says what to do."""
+    """There is no usable OpenGL, or it was set up differently before; the message says what to do."""
 
 
 @dataclass(frozen=True)
 class Description:
-    """What would draw, for `stereodel doctor`; `problem` is empty when it works.
+    """The renderer that would be used, for `stereodel doctor`; `problem` is empty if it works.
 
     Without `multisamples` each picture is drawn four times.
     """
@@ -109,7 +109,7 @@ class Description:
 
 
 def choose(platform: str | None = None) -> tuple[str, str]:
-    """The platform to use and what decided it.
+    """The platform to use and the reason.
 
     Parameters
     ----------
@@ -124,9 +124,9 @@ def choose(platform: str | None = None) -> tuple[str, str]:
     Raises
     ------
     ValueError
-        For another `platform`.
+        If `platform` is unknown.
     OpenGLError
-        If the environment asks for something else, or nothing can be opened.
+        If the environment requests an unknown platform, or none can be opened.
     """
     if platform is not None:
         if platform not in PLATFORMS:
@@ -157,10 +157,10 @@ def draw(
     background: Color = (1.0, 1.0, 1.0, 1.0),
     platform: str | None = None,
 ) -> Pixels:
-    """Draw triangles with 4 samples a pixel.
+    """Draw triangles with 4 samples per pixel.
 
-    Colours are drawn as given, without light but that of `Triangles.balls`; those of a triangle's corners are mixed
-    linearly. What is farther back in the order is covered or shows through.
+    Colours are drawn as given, shaded only by `Triangles.balls`; those of a triangle's corners are interpolated
+    linearly. Earlier items are covered or show through.
 
     Parameters
     ----------
@@ -179,9 +179,9 @@ def draw(
     Raises
     ------
     OpenGLError
-        If there is no usable OpenGL; if this process draws on another platform already.
+        If there is no usable OpenGL, or this process already draws on another platform.
     ValueError
-        For a picture without pixels, or with too many items for the depth buffer.
+        If the picture has no pixels, or too many items for the depth buffer.
     """
     return np.concatenate(
         list(bands(lambda window: triangles, width, height, background=background, platform=platform))
@@ -197,21 +197,21 @@ def bands(
     platform: str | None = None,
     finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
 ) -> Iterator[Pixels]:
-    """Draw a picture from the top, `BAND` rows at a time; memory is that of a band and of the triangles of a window.
+    """Draw a picture from the top, `BAND` rows at a time, in the memory of a band and the triangles of a window.
 
     Parameters
     ----------
     part : callable
-        (window) → at least those triangles of the picture that touch a window, in their order. Others change nothing.
+        Function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
     width, height, background, platform
         As for `draw`, which raises the same errors.
     finish : callable, optional
-        (pixels of a window) → those that are kept of them.
+        Function of the pixels of a window that returns those to keep.
 
     Yields
     ------
     (rows, width, 3) uint8 array
-        Or what `finish` makes of it.
+        Or the result of `finish`.
     """
     if min(width, height) < 1:
         raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
@@ -230,27 +230,27 @@ def space_bands(
     platform: str | None = None,
     finish: Callable[[Pixels], Pixels] = lambda pixels: pixels,
 ) -> Iterator[Pixels]:
-    """Draw bodies in space from the top, `BAND` rows at a time: pyrender's own light, and its depth test.
+    """Draw bodies in space from the top, `BAND` rows at a time, with pyrender's own lighting and depth test.
 
     Parameters
     ----------
     make : callable
-        (module pyrender) → a scene of it without a camera. Its meshes are drawn in the order of their nodes' names, see
-        `node_name`, which counts where something is transparent.
+        Function of the module pyrender that returns a scene without a camera. Its meshes are drawn in the order of
+        their nodes' names, see `node_name`, which matters for transparent ones.
     box : tuple of float
-        Left, right, bottom, top, and the least and largest z of what is shown; it is seen along −z, from far away.
+        Left, right, bottom, top, and the smallest and largest z of the scene, which is viewed along −z from far away.
     width, height : int
         In pixels.
     numbered : bool
-        Instead of light, each mesh in the colour that is its number from 1 on in 24 bits, red first, on black; without
-        multisampling: what is seen in the middle of each pixel.
+        Whether to draw each mesh, without lighting, in the colour of its number, from 1, in 24 bits, red first, on
+        black; without multisampling, so that each pixel shows the mesh at its centre.
     platform, finish
         As for `bands`, which raises the same errors.
 
     Yields
     ------
     (rows, width, 3) uint8 array
-        Or what `finish` makes of it.
+        Or the result of `finish`.
     """
     context = DOOR.context(platform)
     scene, camera = make(context.pyrender), None
@@ -265,7 +265,7 @@ def space_bands(
 
 
 def node_name(number: int) -> str:
-    """Of the mesh that is drawn as one of that number, from 0."""
+    """Node name of the mesh that is drawn at this position, from 0."""
     return f"{number:08d}"
 
 
@@ -285,7 +285,7 @@ def _aim(
     height: int,
     window: Window,
 ) -> Any:
-    """Put a camera before a window of a picture of a box."""
+    """Add a camera for a window of a picture of a box."""
     left, right, bottom, top, low, high = box
     across, up = (right - left) / width, (top - bottom) / height
     distance = FAR * max(right - left, top - bottom)
@@ -300,9 +300,9 @@ def _aim(
 
 
 def describe(platform: str | None = None) -> Description:
-    """What would draw in this process and with which versions; a failure is the `problem`, never an exception.
+    """The renderer of this process and its versions; a failure is reported as `problem`, never as an exception.
 
-    A small picture is drawn and compared with what it must be.
+    A small test picture is drawn and compared with the expected pixels.
 
     Examples
     --------
@@ -313,9 +313,9 @@ def describe(platform: str | None = None) -> Description:
 
 
 class Door:
-    """OpenGL as a process has it: one platform, chosen once, and a context that all its pictures share.
+    """The OpenGL of a process: one platform, chosen once, and a context shared by all pictures.
 
-    The context is made when something is drawn or described, given back at the end, and made anew after `close`.
+    The context is created on first use, released at exit, and created again after `close`.
     """
 
     def __init__(self) -> None:
@@ -323,7 +323,7 @@ class Door:
         self._chosen: tuple[str, str] | None = None
 
     def context(self, platform: str | None = None) -> _Context:
-        """The context; an `OpenGLError` if there can be none, or another platform was chosen before."""
+        """The context; OpenGLError if there can be none, or another platform was chosen before."""
         name, reason = self._choice(platform)
         if self._context is None:
             self._context = _Context(name)
@@ -346,18 +346,18 @@ class Door:
             return replace(found, problem=str(error))
 
     def close(self) -> None:
-        """Give the context back."""
+        """Release the context."""
         if self._context is not None:
             self._context.close()
             self._context = None
 
     def _choice(self, platform: str | None) -> tuple[str, str]:
-        # What a process began with stays.
+        # The first choice of a process is kept.
         return self._chosen if platform is None and self._chosen is not None else choose(platform)
 
 
 DOOR: Final = Door()
-"""That of this process."""
+"""The instance of this process."""
 
 
 class _Context:
@@ -380,17 +380,17 @@ class _Context:
             except OpenGLError:
                 raise
             except Exception as error:
-                # pyrender and PyOpenGL raise anything from AssertionError to AttributeError where a context fails.
+                # pyrender and PyOpenGL raise anything from AssertionError to AttributeError if a context fails.
                 raise OpenGLError(_missing(f"{platform} gives no OpenGL context ({_told(error)})", platform)) from error
 
     def draw(self, triangles: Triangles, window: Window, background: Color) -> Pixels:
-        """What a window shows of triangles, rows from the top."""
+        """The pixels of a window of triangles, rows from the top."""
         scene = _scene(self.pyrender, triangles, window, background)
         flags = self.pyrender.RenderFlags.FLAT | self.pyrender.RenderFlags.SKIP_CULL_FACES
         return self._drawn(scene, window, own=True, flags=flags)
 
     def draw_space(self, scene: Any, window: Window, *, numbered: bool) -> Pixels:
-        """What a window shows of a scene of pyrender with a camera, rows from the top."""
+        """The pixels of a window of a pyrender scene with a camera, rows from the top."""
         if not numbered:
             return self._drawn(scene, window, own=False, flags=self.pyrender.RenderFlags.NONE)
         nodes = sorted(scene.mesh_nodes, key=lambda node: node.name)
@@ -398,7 +398,7 @@ class _Context:
         return self._drawn(scene, window, own=False, flags=self.pyrender.RenderFlags.SEG, seg_node_map=colors)
 
     def _drawn(self, scene: Any, window: Window, *, own: bool, flags: int, **more: Any) -> Pixels:
-        """By our own shaders or by those of pyrender; what is numbered with one sample a pixel."""
+        """Draw with our own shaders or those of pyrender; numbered scenes with one sample per pixel."""
         self._offscreen.viewport_width, self._offscreen.viewport_height = window.width, window.height
         self._offscreen._renderer._program_cache.shader_dir = self._shaders[own]
         once = self.multisamples or bool(flags & self.pyrender.RenderFlags.SEG)
@@ -411,7 +411,7 @@ class _Context:
             raise OpenGLError(f"{self.platform} gives an OpenGL context but cannot draw ({_told(error)})") from error
 
     def trial_problem(self) -> str:
-        """What is wrong with a small picture whose pixels are known; empty if nothing is."""
+        """A description of errors in a test picture with known pixels; empty if there are none."""
         whole = Window(0, 0, trial.SIDE, trial.SIDE)
         wrong = trial.trial_problem(self.draw(trial.trial_triangles(), whole, (1.0, 1.0, 1.0, 1.0)))
         return wrong and f"{self.platform} draws wrongly: {wrong}"
@@ -421,7 +421,7 @@ class _Context:
         return color
 
     def _sample_by_sample(self, scene: Any, options: dict[str, Any]) -> Pixels:
-        """The scene drawn once for each sample of a pixel, that lying in the middle, and averaged, rounded half up."""
+        """The average, rounded half up, of the scene drawn once for each sample position, moved to the pixel centre."""
         camera = scene.main_camera_node
         pose, pixel = camera.matrix, 2 * camera.camera.xmag / self._offscreen.viewport_width
         total = np.full((self._offscreen.viewport_height, self._offscreen.viewport_width, 3), 2, dtype=np.uint16)
@@ -438,14 +438,14 @@ class _Context:
         return self._gl.glGetString(self._gl.GL_VERSION).decode(), self._gl.glGetString(self._gl.GL_RENDERER).decode()
 
     def close(self) -> None:
-        """Give everything back."""
-        # A context in which something failed fails again here, and so do those of drivers at the end of a process.
+        """Release all resources."""
+        # A context that failed before fails again here, as do some drivers at the end of a process.
         with suppress(Exception):
             self._offscreen.delete()
 
 
 def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Color) -> Any:
-    """All triangles as one mesh before an orthographic camera, a unit of the scene being a pixel."""
+    """All triangles as one mesh with an orthographic camera, in units of pixels."""
     if triangles.slots.size and int(triangles.slots.max()) >= SLOTS:
         raise ValueError(f"a picture has at most {SLOTS} items, got {int(triangles.slots.max()) + 1}")
     scene = pyrender.Scene(bg_color=[*map(float, background[:3]), 1.0])
@@ -465,11 +465,11 @@ def _scene(pyrender: Any, triangles: Triangles, window: Window, background: Colo
 
 
 def _primitive(pyrender: Any, triangles: Triangles, faces: IntArray, window: Window, origin: IntArray) -> Any:
-    """Some of the triangles: those of one item with a texture, or of any without."""
+    """Some of the triangles: those of one item with a texture, or those of items without."""
     # Without indices, which pyrender would pass through float32.
     corners = faces.ravel()
     depth = -3 + 2 * (triangles.slots[corners] + 0.5) / SLOTS
-    # Rounded here as llvmpipe would, so that the rounding of its transformations has nothing to decide.
+    # Rounded here as llvmpipe would, so that the rounding of its transformations has no effect.
     points = np.round(SUBPIXELS * triangles.points[corners]) / SUBPIXELS
     material = pyrender.MetallicRoughnessMaterial(alphaMode="BLEND", baseColorFactor=[1.0] * 4)
     texture = triangles.textures.get(int(triangles.slots[corners[0]]))
@@ -488,7 +488,7 @@ def _primitive(pyrender: Any, triangles: Triangles, faces: IntArray, window: Win
 
 
 def _balls(triangles: Triangles, slots: IntArray, window: Window) -> FloatArray | None:
-    """For each corner the ball that its item is on, in pixels of the window, as `shaders/flat.frag` wants it."""
+    """For each corner, the ball of its item in pixels of the window, as expected by `shaders/flat.frag`."""
     found = np.zeros((len(slots), 4))
     for number, ball in triangles.balls.items():
         found[np.searchsorted(slots, number) : np.searchsorted(slots, number + 1)] = ball
@@ -499,9 +499,9 @@ def _balls(triangles: Triangles, slots: IntArray, window: Window) -> FloatArray 
 
 @contextmanager
 def _environment(**variables: str) -> Iterator[None]:
-    """Variables that pyrender and PyOpenGL look at while they are imported and make a context, and no longer.
+    """Environment variables for pyrender and PyOpenGL, set only while they are imported and create a context.
 
-    What a process chose for itself is no order to those that it starts.
+    Child processes must not inherit the choice of this process.
     """
     before = {name: os.environ.get(name) for name in variables}
     os.environ.update(variables)
@@ -516,9 +516,9 @@ def _environment(**variables: str) -> Iterator[None]:
 
 
 def _import_pyrender(platform: str) -> Any:
-    """Import pyrender on a platform, without its windows."""
+    """Import pyrender on a platform, without its viewer."""
     _require_platform(platform)
-    # Mesa must not take a graphics card: its pixels differ.
+    # Mesa must not use a graphics card, whose pixels differ.
     os.environ.setdefault("LIBGL_ALWAYS_SOFTWARE", "1")
     try:
         return import_pyrender()
@@ -529,7 +529,7 @@ def _import_pyrender(platform: str) -> Any:
 
 
 def _require_platform(platform: str) -> None:
-    """Refuse if PyOpenGL was imported for another platform."""
+    """Raise OpenGLError if PyOpenGL was imported for another platform."""
     module = sys.modules.get("OpenGL.platform")
     loaded = type(getattr(module, "PLATFORM", None)).__name__
     if module is not None and loaded.removesuffix("Platform").lower() != platform:
@@ -540,7 +540,7 @@ def _require_platform(platform: str) -> None:
 
 
 def _software_device() -> int:
-    """Number of the EGL device that is Mesa's software renderer."""
+    """Index of the EGL device of Mesa's software renderer."""
     from OpenGL import EGL
     from pyrender.platforms import egl
 
@@ -561,7 +561,7 @@ def _loads(library: str) -> bool:
 
 
 def _told(error: Exception) -> str:
-    """An error in a line; PyOpenGL's own are short as `repr` alone."""
+    """An error in one line; PyOpenGL's own errors are short only as `repr`."""
     text = repr(error) if hasattr(error, "err") else f"{type(error).__name__}: {error}"
     return " ".join(text.split())
 

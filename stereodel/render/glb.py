@@ -1,7 +1,7 @@
 """Scenes in space as scenes of trimesh, and as glTF 2.0 in its binary form, GLB.
 
-trimesh writes the file. What it leaves open is set before it does: short indices where they do, what a buffer is for,
-colours that are not rounded to 1/255 of linear light, the camera of the page, and who made it.
+trimesh writes the file. Details that it leaves open are set beforehand: short indices where they suffice, the targets
+of buffers, colours that are not rounded to 1/255 of linear light, the camera of the page, and the generator.
 """
 
 from __future__ import annotations
@@ -19,25 +19,25 @@ from stereodel.drawing.solid import PlacedScene, Solid
 from stereodel.render.bodies import ROUGHNESS, Body, bodies_of, marks_of
 
 CAMERA: Final = "page"
-"""Name of the camera that sees what the page shows."""
+"""Name of the camera that shows what the page shows."""
 
 SPACE: Final = 1.0
-"""Page units between the camera and what it sees, and behind that."""
+"""Page units between the camera and the scene, and behind the scene."""
 
 SHORT: Final = 2**16 - 1
-"""Points that may be numbered in two bytes: the last number means something else."""
+"""Number of points that two bytes can index; the last value is reserved."""
 
 UNSIGNED_SHORT: Final = 5123
 STRIDE: Final = 12
-"""Bytes of a point or normal: three single-precision numbers."""
+"""Size in bytes of a point or normal: three single-precision numbers."""
 
 VERTICES: Final = 34962
 INDICES: Final = 34963
-"""Names of the specification of glTF: a type of numbers, and what buffers are for."""
+"""Constants of the glTF specification: a component type and buffer targets."""
 
 
 def linear(color: Color) -> list[float]:
-    """A colour of sRGB, by IEC 61966-2-1, in linear light; opacity stays.
+    """An sRGB colour in linear light (IEC 61966-2-1); opacity is unchanged.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def linear(color: Color) -> list[float]:
 
 
 def to_trimesh(solid: Solid) -> Any:
-    """What `Solid.to_trimesh` promises."""
+    """Implementation of `Solid.to_trimesh`."""
     with of_extra("render"):
         import trimesh
 
@@ -62,7 +62,7 @@ def to_trimesh(solid: Solid) -> Any:
 
 
 class _Builder:
-    """A scene of trimesh while it grows: every name once, equal meshes once."""
+    """Builder of a trimesh scene with unique names and shared meshes."""
 
     def __init__(self, trimesh: Any, scene: Any) -> None:
         self._trimesh, self._scene = trimesh, scene
@@ -70,7 +70,7 @@ class _Builder:
         self._meshes: dict[tuple[str, Color, bytes, bytes], str] = {}
 
     def add(self, placed: PlacedScene, points_per_unit: float, name: str) -> None:
-        """All of a scene below a node that puts it in its place."""
+        """Add a scene below a node that places it."""
         above = self._node(name, self._scene.graph.base_frame, placed.pose)
         for body in bodies_of(placed, points_per_unit):
             mesh, poses = self._mesh(body), body.poses
@@ -115,7 +115,7 @@ class _Builder:
             metallicFactor=0.0,
             roughnessFactor=ROUGHNESS,
             alphaMode="BLEND" if body.color[3] < 1 else "OPAQUE",
-            # A ball is seen from outside; through one of glass, regions and sheets from within.
+            # A ball is seen from outside; through a glass ball, regions and sheets are seen from inside.
             doubleSided=body.color[3] < 1 and body.layer is not Layer.BALL,
         )
 
@@ -129,7 +129,7 @@ class _Builder:
 
 
 def glb_bytes(solid: Solid) -> bytes:
-    """A GLB file; the same bytes for the same picture."""
+    """The bytes of a GLB file, which are the same for the same picture."""
     scene = to_trimesh(solid)
     if not scene.geometry:
         raise ValueError("scenes hold no body, and a GLB must; add a ball, lines, dots or regions")
@@ -146,7 +146,7 @@ def glb_bytes(solid: Solid) -> bytes:
 
 
 def depths(scene: Any) -> tuple[float, float]:
-    """The least and the largest z of a scene of trimesh, a little apart."""
+    """The smallest and the largest z of a trimesh scene, at least slightly apart."""
     low, high = (0.0, 0.0) if scene.bounds is None else scene.bounds[:, 2]
     return float(low) - SPACE, float(high) + SPACE
 
@@ -157,7 +157,7 @@ def _primitives(tree: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
-    """Write indices in two bytes where there are few enough points."""
+    """Store indices in two bytes where there are few enough points."""
     accessors, keys = list(tree["accessors"].values()), list(buffers)
     for primitive in _primitives(tree):
         indices, points = accessors[primitive["indices"]], accessors[primitive["attributes"]["POSITION"]]
@@ -182,7 +182,7 @@ def _set_targets(tree: dict[str, Any]) -> None:
             view = tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
             view["target"] = target
             if target == VERTICES:
-                # Points of a ball are its normals, and stand in the file once.
+                # Points of a ball are also its normals, and are stored once.
                 view["byteStride"] = STRIDE
 
 

@@ -1,16 +1,16 @@
-"""The light on a ball as one radial gradient, for files that hold no pixels.
+"""The shading of a ball as a radial gradient, for vector files.
 
-Pixels are lit one by one (`shaders/flat.frag`): with n the normal that a place tells, l the direction toward the light
-and t = n·l, a colour is multiplied by
+Pixels are shaded individually (`shaders/flat.frag`): with n the normal at a place, l the direction toward the light and
+t = n·l, a colour is multiplied by
 
     b = 1 − SHADE ((1 − t)/2)²,    t = p λ + √(1 − ρ²) l_z,
 
-where ρ is the distance from the middle, in radii, p its part toward the light on the page, and λ the length of l there.
-The lines of equal light are circles of the ball, which the page shows as ellipses: no gradient of SVG or PDF has them.
-These have the circles about (1 − s) f + s c with radii s r, which shrink to a focus f. Here f lies on the axis toward
-the light, c is farther from the light by the part `drift` of r, s = 1 where the last of the disc is reached. Given f
-and drift, s is a function of the place, and the brightness at some values of it follows by least squares over the disc.
-Of a grid of both, that pair is taken whose largest difference from b is the least.
+where ρ is the distance from the centre in radii, p its component toward the light on the page, and λ the length of l
+there. Lines of equal brightness are circles of the ball, which the page shows as ellipses; no gradient of SVG or PDF
+has that form. Their gradients have circles about (1 − s) f + s c with radii s r, which shrink to a focus f. Here f lies
+on the axis toward the light, c is farther from the light by the fraction `drift` of r, and s = 1 is reached at the far
+edge of the disc. Given f and drift, s is a function of the place, and the brightness at some values of s follows by
+least squares over the disc. From a grid of both, the pair with the smallest maximum difference from b is chosen.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ LIGHT: Final = np.array([-0.35, 0.45, 0.82]) / np.linalg.norm([-0.35, 0.45, 0.82
 """Direction toward the light in view axes (right, up, toward), as in `shaders/flat.frag`."""
 
 SHADE: Final = 0.36
-"""How much darker a ball is where it is turned away from the light, as there."""
+"""How much darker a ball is where it faces away from the light, as in `shaders/flat.frag`."""
 
 STOPS: Final = 16
-"""Values of s at which the gradient has a colour; closer together outward, where the light falls fastest."""
+"""Values of s at which the gradient has a colour; denser outward, where the brightness falls fastest."""
 
 RINGS, SPOKES = 25, 19
-"""Places on the disc where the light is compared: rings that part equal areas, over half a turn, both being alike."""
+"""Places on the disc where brightness is compared: rings of equal area, over half a turn, by symmetry."""
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,13 @@ class Gradient:
     Parameters
     ----------
     focus, center : tuple of float
-        Where circles shrink to, and the middle of the last one; x right, y up.
+        The point to which circles shrink, and the centre of the last circle; x right, y up.
     radius : float
-        Of the last circle.
+        Radius of the last circle.
     offsets : tuple of float
         From 0 at the focus to 1 at the last circle.
     brightness : tuple of float
-        By which a colour is multiplied there; linear in between.
+        Factors on a colour at the offsets; linear in between.
     """
 
     focus: tuple[float, float]
@@ -61,7 +61,7 @@ class Gradient:
 
 
 def brightness(x: FloatArray, y: FloatArray) -> FloatArray:
-    """By how much the colour at a place of the unit disc is multiplied in pixels."""
+    """Factor on the colour of pixels at a place of the unit disc."""
     normal = np.stack([x, y, np.sqrt(np.maximum(0.0, 1 - x**2 - y**2))], axis=-1)
     light: FloatArray = 1 - SHADE * ((1 - normal @ LIGHT) / 2) ** 2
     return light
@@ -69,7 +69,7 @@ def brightness(x: FloatArray, y: FloatArray) -> FloatArray:
 
 @cache
 def ball_gradient() -> Gradient:
-    """The gradient that is nearest to the light of pixels."""
+    """The gradient closest to the shading of pixels."""
     rho, turn = np.sqrt(np.linspace(0, 1, RINGS))[:, None], np.linspace(0, np.pi, SPOKES)
     along, across = (rho * np.cos(turn)).ravel(), (rho * np.sin(turn)).ravel()
     reach = float(np.hypot(*LIGHT[:2]))
@@ -95,14 +95,14 @@ def ball_gradient() -> Gradient:
 
 
 def _shares(x: FloatArray, y: FloatArray, drift: float) -> FloatArray:
-    """Radii s of the circles about (−drift s, 0) through places beside the focus: |(x + drift s, y)| = s."""
+    """Radii s of the circles about (−drift s, 0) through places relative to the focus: |(x + drift s, y)| = s."""
     a, b, c = 1 - drift**2, drift * x, x**2 + y**2
     shares: FloatArray = (b + np.sqrt(b**2 + a * c)) / a
     return shares
 
 
 def _fitted(place: FloatArray, offsets: FloatArray, exact: FloatArray) -> tuple[FloatArray, float]:
-    """Values at the offsets, linear in between, that are nearest to the exact ones; the largest difference."""
+    """Least-squares values at the offsets, linear in between, and the largest difference from the exact ones."""
     hats = np.stack([np.interp(place, offsets, row) for row in np.eye(len(offsets))], axis=1)
     levels = np.asarray(np.linalg.lstsq(hats, exact, rcond=None)[0], dtype=np.float64)
     return levels, float(np.abs(hats @ levels - exact).max())

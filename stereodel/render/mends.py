@@ -1,4 +1,4 @@
-"""What other libraries do that no picture can use, and how it is mended: nothing else in the library reaches into them.
+"""Workarounds for other libraries, whose internals no other module touches.
 
 pyrender, on objects that `stereodel.render.gl` owns:
 
@@ -6,12 +6,12 @@ pyrender, on objects that `stereodel.render.gl` owns:
 * it denies that OSMesa has framebuffer objects, and draws without multisampling;
 * it asks for four samples a pixel of whatever cannot give them;
 * it compiles its shaders for each picture, and keeps them all;
-* it reads depths that nobody asks for;
-* it draws meshes in the order of a set, those that are transparent by the places of their nodes, which tell nothing.
+* it reads depths that are not needed;
+* it draws meshes in the order of a set, and transparent ones by the positions of their nodes, which are meaningless.
 
-matplotlib, which sets the type of `stereodel.render.type`:
+matplotlib, which typesets for `stereodel.render.type`:
 
-* it tells where the outlines of characters lie, but not which characters they are.
+* it gives the positions of the outlines of characters, but not the characters.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from stereodel._extras import of_extra
 
 
 def import_pyrender() -> Any:
-    """Import pyrender without its viewer, which would import pyglet; the variable of PyOpenGL's platform is set."""
+    """Import pyrender without its viewer, which would import pyglet; PyOpenGL's platform variable must be set."""
     if "pyrender" not in sys.modules:
         viewer: Any = types.ModuleType("pyrender.viewer")
         viewer.Viewer = type("Viewer", (), {})
@@ -40,7 +40,7 @@ def import_pyrender() -> Any:
 
 
 def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
-    """Let an `OffscreenRenderer` sample each pixel four times, keep shaders, draw in order, and read colours alone.
+    """Make an `OffscreenRenderer` sample each pixel four times, cache shaders, draw in order, and read only colours.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
     opengl : module
         OpenGL.GL.
     multisamples : bool
-        Whether OpenGL can sample a pixel four times; else it does so once, in the middle.
+        Whether OpenGL can sample a pixel four times; otherwise it takes one sample, at the centre.
     """
     if not multisamples:
         module: Any = sys.modules["pyrender.renderer"]
@@ -65,10 +65,10 @@ def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
 
 
 def _kept(make: Any) -> Any:
-    """The same shader program for the same names.
+    """A cache of shader programs by names.
 
-    PyOpenGL has another name for OSMesa's context each time that it is asked, and pyrender, which keeps programs by
-    that name, compiles them for each picture and keeps them all: 0.9 MB of memory a picture.
+    PyOpenGL returns a different handle for OSMesa's context each time, and pyrender, which caches programs by that
+    handle, compiles them for each picture and keeps them all: 0.9 MB of memory per picture.
     """
     programs: dict[str, Any] = {}
 
@@ -82,7 +82,7 @@ def _kept(make: Any) -> Any:
 
 
 def _colors(renderer: Any, gl: Any) -> Pixels:
-    """What was drawn last, rows from the top, the samples of each pixel averaged.
+    """The last picture drawn, rows from the top, with the samples of each pixel averaged.
 
     pyrender would also read the depths and turn them into lengths, which takes longer than drawing.
     """
@@ -104,7 +104,7 @@ def characters(text: str, font: Any) -> Iterator[tuple[Any, int, str, float, flo
     ----------
     text : str
     font : matplotlib.ft2font.FT2Font
-        With the fonts that stand in for what it lacks.
+        With its fallback fonts.
     """
     with of_extra("draw"):
         from matplotlib import _text_helpers
@@ -112,14 +112,14 @@ def characters(text: str, font: Any) -> Iterator[tuple[Any, int, str, float, flo
 
     item: Any
     for item in _text_helpers.layout(text, font):
-        # Before matplotlib 3.11 all characters stood on the line, and the name was another.
+        # Before matplotlib 3.11 all characters were on the baseline, and the name was different.
         index = item.glyph_index if hasattr(item, "glyph_index") else item.glyph_idx
         x, y = item.x / TextToPath.FONT_SCALE, getattr(item, "y", 0.0) / TextToPath.FONT_SCALE
         yield item.ft_object, index, item.char, x, y
 
 
 def font_of(properties: Any) -> Any:
-    """The font of some properties, at the size of which `characters` gives places."""
+    """The font for some properties, at the size to which the places of `characters` refer."""
     with of_extra("draw"):
         from matplotlib.textpath import text_to_path
 

@@ -1,4 +1,4 @@
-"""Numbers of vector files: places on paper in thousandths of a point, and paths made of them."""
+"""Numbers in vector files: positions on paper in thousandths of a point, and paths."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ PLACES = round(1 / FINEST_PLACE)
 """Steps of coordinates in a point."""
 
 LETTERS = {MOVE: "M", LINE: "l", CURVE: "c"}
-"""Of commands in SVG."""
+"""Letters of commands in SVG."""
 
 
 @dataclass(frozen=True, eq=False)
 class Paper:
-    """Where page coordinates lie on a sheet, in points.
+    """The map from page coordinates to a sheet, in points.
 
     Parameters
     ----------
     corner : (2,) array
-        Page coordinates of what becomes the origin.
+        Page coordinates of the origin of the sheet.
     scale : (2,) array
         Points per page unit, right and along the sheet's second axis.
     """
@@ -37,13 +37,13 @@ class Paper:
 
     @classmethod
     def downward(cls, page: Page) -> Paper:
-        """From the upper left corner, as SVG measures."""
+        """With the origin in the upper left corner, as in SVG."""
         scale = page.points_per_unit
         return cls(np.array([page.extent[0], page.extent[3]]), np.array([scale, -scale]))
 
     @classmethod
     def upward(cls, page: Page) -> Paper:
-        """From the lower left corner, as PDF measures."""
+        """With the origin in the lower left corner, as in PDF."""
         scale = page.points_per_unit
         return cls(np.array([page.extent[0], page.extent[2]]), np.array([scale, scale]))
 
@@ -58,7 +58,7 @@ class Paper:
 
 
 def number(value: float) -> str:
-    """A number to three decimals, no longer than it must be.
+    """A number to three decimals, as short as possible.
 
     Examples
     --------
@@ -69,12 +69,12 @@ def number(value: float) -> str:
 
 
 def numbers(values: Iterable[float]) -> str:
-    """Numbers with a space between them."""
+    """Numbers separated by spaces."""
     return " ".join(map(number, values))
 
 
 def exact(*values: float) -> str:
-    """Numbers to six decimals with a space between them: what is no place. PDF knows no exponents.
+    """Numbers other than positions, to six decimals, separated by spaces; without exponents, which PDF lacks.
 
     Examples
     --------
@@ -91,13 +91,13 @@ def _written(steps: int) -> str:
 
 
 def commands(outline: Outline, pattern: Mapping[int, str]) -> str:
-    """An outline in points as the commands of a path: pieces of no length, and those that closing draws, are left out.
+    """An outline in points as path commands, without pieces of length zero and those drawn by closing.
 
     Parameters
     ----------
     outline : Outline
     pattern : mapping
-        `MOVE`, `LINE`, `CURVE`, `CLOSE` → the command, with a place for each of its numbers.
+        Commands for `MOVE`, `LINE`, `CURVE` and `CLOSE`, with a placeholder for each number.
 
     Examples
     --------
@@ -118,9 +118,9 @@ def commands(outline: Outline, pattern: Mapping[int, str]) -> str:
 
 
 def runs(outline: Outline) -> list[str]:
-    """The runs of an outline in points as SVG writes them, in relative commands and no more characters than it takes.
+    """The runs of an outline in points as compact relative SVG commands.
 
-    Places are rounded before they are subtracted, so that errors do not add up.
+    Positions are rounded before they are subtracted, so that errors do not accumulate.
 
     Examples
     --------
@@ -135,7 +135,7 @@ def runs(outline: Outline) -> list[str]:
     away = steps - np.where((kinds == MOVE)[:, None], 0, steps[before])
     text = list(map(_written, away.ravel().tolist()))
     parts: list[list[str]] = []
-    # The controls of a curve stand behind its letter, as its end does.
+    # The control points of a curve follow its letter, as does its end.
     inner = np.zeros(len(kinds), dtype=bool)
     inner[third], inner[third - 1] = True, True
     for place, (kind, follows) in enumerate(zip(kinds.tolist(), inner.tolist(), strict=True)):
@@ -151,13 +151,13 @@ def runs(outline: Outline) -> list[str]:
 
 
 def _beside(before: str, number: str) -> str:
-    """A number behind another, with a space where it takes one to see that it begins."""
+    """A number after another, separated by a space where necessary."""
     apart = number[0] == "-" or (number[0] == "." and "." in before)
     return number if apart else f" {number}"
 
 
 def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:
-    """What shows of a path in whole steps."""
+    """The visible part of a path in whole steps."""
     move, line = kinds == MOVE, kinds == LINE
     still = np.zeros(len(kinds), dtype=bool)
     still[1:] = (steps[1:] == steps[:-1]).all(axis=1)
@@ -167,7 +167,7 @@ def _seen(steps: Indices, kinds: Bytes) -> tuple[Indices, Bytes]:
     kept[np.concatenate([idle, idle - 1, idle - 2])] = False
     run, first = np.cumsum(move) - 1, np.flatnonzero(move)
     moves = np.bincount(run, weights=kept & (line | (kinds == CURVE)), minlength=len(first)) > 0
-    # What leads back to the beginning is drawn by closing.
+    # A line back to the start is drawn by closing.
     back = np.flatnonzero(line[:-1] & (kinds[1:] == CLOSE) & (steps[:-1] == steps[first[run[1:]]]).all(axis=1))
     kept[back] = False
     kept &= moves[run]

@@ -1,8 +1,8 @@
-"""Pages as PDF: true curves, text that is text, balls lit by gradients.
+"""Pages as PDF: exact curves, text as text, balls shaded by gradients.
 
-The same shapes and glyphs as in `stereodel.render.svg`, in points from the lower left corner, with three decimals. What
-is used of fonts is embedded, with the characters that glyphs stand for. Version 1.4 of the format (ISO 32000-1, 2008,
-describes all of it), one page.
+The same shapes and glyphs as in `stereodel.render.svg`, in points from the lower left corner, with three decimals. The
+used glyphs of fonts are embedded, with their characters. The file has one page, in version 1.4 of the format (described
+in ISO 32000-1, 2008).
 """
 
 from __future__ import annotations
@@ -28,10 +28,10 @@ PATH: Final = {MOVE: "%s %s m\n", LINE: "%s %s l\n", CURVE: "%s %s %s %s %s %s c
 """Operators of paths."""
 
 LEAST_STEP: Final = 0.05
-"""Steps between letters that are left out, in thousandths of their size: rounding of the font's own widths."""
+"""Largest adjustment between letters that is left out, in thousandths of their size: rounding of the font's widths."""
 
 UPRIGHT: Final = 80
-"""Thickness of a font's stems, which PDF wants to know and nothing uses where the font is embedded; per mille."""
+"""Stem width of fonts in thousandths, which PDF requires but which is not used for embedded fonts."""
 
 
 def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
@@ -41,7 +41,7 @@ def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
     ----------
     page : Page
     pictures : sequence of (h, w, 3) uint8 arrays
-        A picture of the whole page for each of `page.pictured`, of which the part inside the regions is shown.
+        An image of the whole page for each of `page.pictured`, clipped to its regions.
 
     Examples
     --------
@@ -58,18 +58,18 @@ class _Objects:
         self.bodies: list[bytes] = []
 
     def add(self, body: str | bytes) -> str:
-        """Take an object up and give the reference to it."""
+        """Add an object and return the reference to it."""
         self.bodies.append(body if isinstance(body, bytes) else body.encode("ascii"))
         return f"{len(self.bodies)} 0 R"
 
     def stream(self, data: bytes, entries: str = "") -> str:
-        """Take data up, packed."""
+        """Add a compressed stream."""
         packed = zlib.compress(data, 9)
         head = f"<< {entries} /Filter /FlateDecode /Length {len(packed)} >>\nstream\n".encode("ascii")
         return self.add(head + packed + b"\nendstream")
 
     def file(self, catalog: str, info: str) -> bytes:
-        """All of it, with the table of where each object begins."""
+        """The whole file, with the table of object offsets."""
         file = bytearray(b"%PDF-1.4\n%\xb5\xb6\xb7\xb8\n")
         places = []
         for count, body in enumerate(self.bodies, start=1):
@@ -85,11 +85,11 @@ class _Objects:
 
 
 class _Sheet:
-    """A page while it is written."""
+    """A page being written."""
 
     def __init__(self, page: Page) -> None:
         self.page, self.paper, self.objects = page, Paper.upward(page), _Objects()
-        # What the content names, by kind: name → object.
+        # Resources that the content names, by kind and name.
         self.resources: dict[str, dict[str, str]] = {"Font": {}, "XObject": {}, "Pattern": {}, "ExtGState": {}}
 
     def file(self, pictures: Sequence[Pixels]) -> bytes:
@@ -121,7 +121,7 @@ class _Sheet:
         return self.objects.file(catalog, info)
 
     def named(self, kind: str, body: str) -> str:
-        """The name by which the content calls a resource; the same for the same one."""
+        """The name of a resource in the content, the same for equal resources."""
         entries = self.resources[kind]
         for name, known in entries.items():
             if known == body:
@@ -161,7 +161,7 @@ class _Sheet:
                 return f"q\n{self.path(shape.outline)}W n\n{place} cm\n/{image} Do\nQ\n"
 
     def gradient(self, ball: Ball, color: Color) -> str:
-        """A colour under the light of a ball: a pattern whose parts run linearly from one colour to the next."""
+        """A colour shaded by a ball: a pattern that is linear between colours."""
         light, base = ball_gradient(), np.array(color[:3])
         ends = [
             self.paper.points(np.array(ball.center) + ball.radius * np.array(place))
@@ -184,7 +184,7 @@ class _Sheet:
         )
 
     def label(self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], named: dict[Face, str]) -> str:
-        """A label: its halo, its lines of type, its bars."""
+        """A label: halo, lines of type and bars."""
         parts, lines = ["q\n"], list(lines)
         if label.halo:
             halo = "".join(commands(line.outline, PATH) for line in lines)
@@ -195,7 +195,7 @@ class _Sheet:
         parts.append(f"{self.opacity(label.color)}{_rgb(label.color)} rg\n")
         for line in lines:
             shown = "".join(["BT\n", *_shows(line, fonts, named), "ET\n"])
-            # Marks do not stand in the order of glyphs. Letters from right to left do so for programs, from behind.
+            # Marks are not in the order of glyphs. Right-to-left letters are stored in reverse.
             if line.words and not line.leftward:
                 shown = f"/Span << /ActualText <{_utf16(line.words, mark=True)}> >> BDC\n{shown}EMC\n"
             parts.append(shown)
@@ -205,7 +205,7 @@ class _Sheet:
 
 
 def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Iterator[str]:
-    """The operators of a line of type: glyphs of one font, size and height together, with the steps between them."""
+    """The operators of a line of type: runs of glyphs of one font, size and height, with adjustments between them."""
     matrix = line.matrix
     turned = exact(*matrix[:, :2].T.ravel())
     for (font, size, y), group in groupby(line.glyphs, key=lambda glyph: (glyph.font, glyph.size, glyph.y)):
@@ -213,7 +213,7 @@ def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Ite
         begin: FloatArray = matrix @ [glyphs[0].x, y, 1.0]
         pen, shown = glyphs[0].x, ""
         for glyph in glyphs:
-            # Steps back, in thousandths of the size, measured from where steps before have led to.
+            # Adjustments in thousandths of the size, relative to the accumulated position.
             step = round(1000 * (pen - glyph.x) / size, 2)
             if abs(step) >= LEAST_STEP:
                 shown += f">{exact(step)}<"
@@ -224,7 +224,7 @@ def _shows(line: Line, fonts: dict[Face, Subset], named: dict[Face, str]) -> Ite
 
 
 def _font(objects: _Objects, font: Subset) -> str:
-    """A font of glyphs by number, with the characters that they stand for."""
+    """A font with glyphs by index, and their characters."""
     face = font.face
     scale = 1000 / face["head"].unitsPerEm
     head, across = face["head"], face["hhea"]
@@ -248,7 +248,7 @@ def _font(objects: _Objects, font: Subset) -> str:
 
 
 def _characters(font: Subset) -> str:
-    """The map from glyphs to characters, in blocks of at most a hundred as the format wants them."""
+    """The map from glyphs to characters, in blocks of at most a hundred as the format requires."""
     entries = [f"<{index:04X}> <{_utf16(text)}>" for index, text in sorted(font.glyphs.items())]
     blocks = [entries[first : first + 100] for first in range(0, len(entries), 100)]
     maps = "".join(f"{len(block)} beginbfchar\n{chr(10).join(block)}\nendbfchar\n" for block in blocks)
@@ -262,7 +262,7 @@ def _characters(font: Subset) -> str:
 
 
 def _image(objects: _Objects, pixels: Pixels) -> str:
-    """A picture, with a mask where it is seen through."""
+    """An image, with a mask if it is transparent."""
     height, width = pixels.shape[:2]
     size = f"/Type /XObject /Subtype /Image /Width {width} /Height {height} /BitsPerComponent 8"
     mask = ""
@@ -278,7 +278,7 @@ def _dictionary(entries: dict[str, str]) -> str:
 
 
 def _utf16(text: str, *, mark: bool = False) -> str:
-    """Text as hexadecimal digits, behind a mark of its encoding where it could be another."""
+    """Text as hexadecimal digits, with a byte order mark where the encoding is ambiguous."""
     return ("\ufeff" * mark + text).encode("utf-16-be").hex().upper()
 
 

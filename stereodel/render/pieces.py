@@ -1,4 +1,4 @@
-"""The triangles of a picture: pieces of items in painter's order, and what of them a window needs for OpenGL."""
+"""The triangles of a picture: pieces of items in painter's order, and those needed for a window."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ Corners = FloatArray
 """Triangles by their corners, (n, 3, 2)."""
 
 Disc = tuple[float, float, float, float]
-"""Centre x, y and radius along x and y, in pixels, which need not be quite as high as wide."""
+"""Centre x, y and radius along x and y, in pixels, which may differ slightly."""
 
 MARGIN = 1.0
-"""Pixels by which a window is widened when it is asked what lies in it: coordinates to 2²⁴ are rounded by 1/2."""
+"""Pixels by which a window is widened to find its triangles: coordinates up to 2²⁴ are rounded by 1/2."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,15 +31,15 @@ class Triangles:
     colors : (n, 4) array
         sRGB and opacity in [0, 1].
     slots : (n,) int array
-        Number of the item that a vertex belongs to; must not decrease along `faces`.
+        Index of the item of each vertex; must not decrease along `faces`.
     faces : (m, 3) int array
         Either orientation.
     textures : mapping of int to (height, width, 4) uint8 array
-        Number of an item → the window that is drawn as it alone would look, sRGB and opacity, rows from the top: what
-        the colours of its triangles are multiplied by, pixel for pixel.
+        By index of an item, an image of the window with this item alone, sRGB and opacity, rows from the top; it
+        multiplies the colours of the item's triangles pixel by pixel.
     balls : mapping of int to tuple of float
-        Number of an item → centre x, y and radius along x and y, pixels from the lower left corner: the ball in whose
-        light it is drawn, see `stereodel.drawing.page.Ball`.
+        By index of an item, the ball that shades it: centre x, y and radius along x and y, in pixels from the lower
+        left corner, see `stereodel.drawing.page.Ball`.
     """
 
     points: FloatArray
@@ -64,8 +64,8 @@ class Window:
 class Piece:
     """Triangles of one item by their corners (n, 3, 2), pixels, and a colour at each corner (n, 3, 4).
 
-    With a texture, which is made for a window when that is drawn, an item must be of one piece; all pieces of an item
-    are in the light of one ball, or of none.
+    An item with a texture, which is created when a window is drawn, must consist of one piece; all pieces of an item
+    are shaded by the same ball, or by none.
     """
 
     corners: Corners
@@ -75,7 +75,7 @@ class Piece:
 
     @cached_property
     def boxes(self) -> SingleArray:
-        """Of each triangle, (n, 4)."""
+        """Bounding box of each triangle, (n, 4)."""
         a, b, c = (self.corners[:, i] for i in range(3))
         low, high = np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
         return np.concatenate([low, high], axis=1, dtype=np.float32)
@@ -87,7 +87,7 @@ class Pieces:
     Parameters
     ----------
     numbered : iterable of (int, Piece)
-        Number of the item that a piece belongs to, which does not decrease, and the piece.
+        Index of a piece's item, not decreasing, and the piece.
 
     Examples
     --------
@@ -104,7 +104,7 @@ class Pieces:
         self._boxes = np.array([_around(piece.boxes) for piece in self._pieces], dtype=np.float32).reshape(-1, 4)
 
     def within(self, window: Window) -> Triangles:
-        """At least those triangles that touch a window, in their order."""
+        """All triangles that touch a window, in order, and possibly others."""
         hit = np.flatnonzero(_touching(self._boxes, window))
         chosen = [(self._pieces[i], np.flatnonzero(_touching(self._pieces[i].boxes, window))) for i in hit]
         corners = np.concatenate([np.zeros((0, 3, 2)), *(piece.corners[rows] for piece, rows in chosen)])

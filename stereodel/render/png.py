@@ -1,8 +1,8 @@
-"""PNG files written while the picture is made: rows go in, bytes come out, and no more than some rows are held.
+"""Streaming PNG encoder: rows go in, bytes come out, and only a few rows are held in memory.
 
-Pillow and the libraries over it, imageio among them, hold the whole picture, and pypng, which does not, filters no row
+Pillow and the libraries built on it, such as imageio, hold the whole picture; pypng does not, but applies no filters
 and was last released in 2022. The format is that of the third edition of the PNG specification (W3C, 2025): 8 bits,
-red, green, blue and perhaps opacity, no interlace.
+red, green, blue and optionally opacity, no interlacing.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from stereodel._arrays import Pixels
 SIGNATURE: Final = b"\x89PNG\r\n\x1a\n"
 
 KINDS: Final = {3: 2, 4: 6}
-"""Channels → the number that the format has for such pixels."""
+"""Colour types of the format, by number of channels."""
 
 LEVEL: Final = 6
-"""Of zlib: 9 takes eight times as long for files 3 % smaller."""
+"""Compression level of zlib: 9 takes eight times as long for files 3 % smaller."""
 
 QUICK: Final = 1
-"""Level at which it is tried what packs better."""
+"""Compression level of trials."""
 
 UNFILTERED: Final = 0
 UP: Final = 2
-"""Kinds of filter: rows as they are, and less the row above, byte by byte.
+"""Filter types: none, and the difference from the row above, byte by byte.
 
-Lines on flat colours repeat themselves and pack a quarter smaller as they are, photographs a third smaller as
-differences. The other kinds of the specification would save another twentieth of a photograph, and nothing else.
+Lines on flat colours repeat and compress a quarter better unfiltered, photographs a third better as differences. The
+other types of the specification would only save another twentieth on photographs.
 """
 
 ROWS: Final = 32
-"""Rows that are packed alike."""
+"""Rows with the same filter."""
 
 METERS_PER_POINT: Final = 0.0254 / 72
 
@@ -50,7 +50,7 @@ def png_chunks(
     texts: Mapping[str, str] | None = None,
     channels: int = 3,
 ) -> Iterator[bytes]:
-    """A PNG file piece by piece.
+    """The chunks of a PNG file.
 
     Parameters
     ----------
@@ -59,16 +59,16 @@ def png_chunks(
     width, height : int
         In pixels.
     page_width : float
-        Width in print, points; the file says how large it is meant to be.
+        Width in print in points, from which the resolution in the file follows.
     texts : mapping, optional
-        What the file says of itself, by the format's keywords: Title, Description. Empty texts are left out.
+        Texts by the format's keywords: Title, Description. Empty texts are left out.
     channels : {3, 4}
         Red, green and blue, or those, not premultiplied, and opacity.
 
     Raises
     ------
     ValueError
-        For rows of another width or type, and for more or fewer than `height`.
+        If rows have another width or type, or their number is not `height`.
 
     Examples
     --------
@@ -109,15 +109,15 @@ def _chunk(kind: bytes, data: bytes) -> bytes:
 
 
 def text_chunk(keyword: str, text: str) -> bytes:
-    """What a file says of itself under a keyword: a text as Latin-1, which every program reads, or as UTF-8."""
+    """A text chunk: Latin-1 if possible, which every program reads, otherwise UTF-8."""
     key = keyword.encode("latin-1")
     try:
         return _chunk(b"tEXt", key + b"\0" + text.encode("latin-1"))
     except UnicodeEncodeError:
-        # Not packed, of no language, without a translated keyword.
+        # Not compressed, no language, no translated keyword.
         return _chunk(b"iTXt", key + b"\0\0\0\0\0" + text.encode())
 
 
 def _filtered(rows: Pixels, kind: int) -> bytes:
-    """Rows as a file holds them: behind the number of the kind of filter that was applied to each."""
+    """Filtered rows, each preceded by the number of its filter type."""
     return np.pad(rows.reshape(len(rows), -1), ((0, 0), (1, 0)), constant_values=kind).tobytes()

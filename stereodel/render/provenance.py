@@ -1,4 +1,4 @@
-"""What every picture depends on beside its description: the library itself, and the libraries that it draws with."""
+"""Dependencies of every picture besides its description: the library itself, and the libraries that draw."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ NOT_DRAWN_WITH: Final = ("cli",)
 
 
 NOT_INSTALLED: Final = "not installed"
-"""In place of a version."""
+"""Version of a missing distribution."""
 
 
 def library_versions() -> dict[str, str]:

@@ -1,7 +1,7 @@
 """A page without its labels as rows of pixels, from the top: through OpenGL, or through matplotlib's Agg.
 
-OpenGL draws the picture twice as large with four samples a pixel, then it is averaged: sixteen samples. Averages are
-taken of sRGB values as they stand, as OpenGL's own multisampling and matplotlib do, so that thin dark lines keep their
+OpenGL draws the picture twice as large with four samples per pixel, which are then averaged: sixteen samples. Averages
+are taken of sRGB values directly, as in OpenGL's own multisampling and matplotlib, so that thin dark lines keep their
 weight.
 """
 
@@ -30,14 +30,14 @@ with of_extra("draw"):
 Renderer = Literal["gl", "agg"]
 
 SUPERSAMPLING: Final = 2
-"""Pixels drawn per pixel of the picture, each way."""
+"""Pixels drawn per pixel of the picture, in each direction."""
 
 AT_ONCE: Final = 2**25
-"""Pixels that Agg draws at once: with a copy they take 256 MB."""
+"""Largest number of pixels that Agg draws at once: with a copy they take 256 MB."""
 
 
 def bare_rows(page: Page, width: int, renderer: Renderer, platform: str | None = None) -> Iterator[Pixels]:
-    """A picture of a page, `width` pixels wide, without its labels: rows (k, width, 3) after rows."""
+    """A picture of a page, `width` pixels wide, without its labels, in blocks of rows (k, width, 3)."""
     bare = page.without_labels()
     if as_choice(renderer, ("gl", "agg"), "renderer") == "agg":
         return agg_rows(bare, width)
@@ -59,7 +59,7 @@ def agg_rows(page: Page, width: int) -> Iterator[Pixels]:
     rows = max(1, AT_ONCE // width)
     for top in range(0, height, rows):
         bottom = min(height, top + rows)
-        # Written so that a page drawn at once keeps its numbers.
+        # In this form a page drawn at once keeps its exact numbers.
         lower, upper = (low * (row / height) + high * (1 - row / height) for row in (bottom, top))
         part = replace(page, extent=(left, right, lower, upper))
         with matplotlib_settings():
@@ -71,7 +71,7 @@ def agg_rows(page: Page, width: int) -> Iterator[Pixels]:
 
 
 def averaged(large: Pixels) -> Pixels:
-    """Each block of SUPERSAMPLING² pixels as one, rounded half up."""
+    """Averages of blocks of SUPERSAMPLING² pixels, rounded half up."""
     n = SUPERSAMPLING
     # Plane by plane: a sum over two axes of a reshaped array takes ten times as long.
     total = np.full((large.shape[0] // n, large.shape[1] // n, 3), n * n // 2, dtype=np.uint16)
@@ -81,7 +81,7 @@ def averaged(large: Pixels) -> Pixels:
 
 
 class PixelDigest:
-    """SHA-256 of a picture of known shape, of which rows are added from the top; `pixel_hash` of the whole."""
+    """SHA-256 of a picture of known shape whose rows are added from the top; equal to `pixel_hash` of the whole."""
 
     def __init__(self, shape: tuple[int, ...], dtype: npt.DTypeLike = np.uint8) -> None:
         self._digest = hashlib.sha256(f"{shape} {np.dtype(dtype).str}\n".encode())
@@ -91,7 +91,7 @@ class PixelDigest:
         self._digest.update(np.ascontiguousarray(rows).data)
 
     def passed(self, rows: Iterable[Pixels]) -> Iterator[Pixels]:
-        """The rows of a picture as they are, each added on its way."""
+        """The rows of a picture unchanged, each added as it passes."""
         for part in rows:
             self.add(part)
             yield part
@@ -101,7 +101,7 @@ class PixelDigest:
 
 
 def pixel_hash(picture: npt.NDArray[Any]) -> str:
-    """SHA-256 of the decoded pixels: of shape, type and values in row order.
+    """SHA-256 of decoded pixels: shape, type and values in row order.
 
     Examples
     --------
@@ -114,6 +114,6 @@ def pixel_hash(picture: npt.NDArray[Any]) -> str:
 
 
 def over_white(color: Color) -> Color:
-    """A colour as it looks on white paper, opaque, of 8 bits."""
+    """A colour composited on white paper, opaque, in 8 bits."""
     red, green, blue = (np.floor(255 * (1 - color[3] * (1 - value)) + 0.5) / 255 for value in color[:3])
     return (red, green, blue, 1.0)

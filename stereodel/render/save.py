@@ -2,11 +2,11 @@
 
     page → triangles → rows of pixels → labels over them → encoder
 
-Each stage takes from the one before and hands on; what comes after the triangles takes and gives rows, from the top, so
-that a picture is drawn, lettered and written some rows at a time and memory does not grow with the square of its width.
-SVG and PDF are written from the page itself, but for regions in very many colours: of these they hold pixels.
+Stages are streamed: after the triangles, each consumes and produces rows from the top, so that a picture is drawn,
+labelled and written a few rows at a time and memory does not grow with the square of its width. SVG and PDF are written
+from the page itself, except regions in very many colours, which they hold as images.
 
-`stereodel.drawing.Page` loads this module where it is saved or drawn.
+`stereodel.drawing.Page` imports this module when it is saved or drawn.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ from stereodel.render.vector import save_vector
 ENDINGS: Final = (".png", ".svg", ".pdf")
 
 BAND: Final = 256
-"""Rows of a picture without ground that are made at once."""
+"""Rows in a block of a picture with transparent background."""
 
 FINEST_DPI: Final = 600
-"""Pixels per inch, at most, of what vector files hold as pictures: no press shows more."""
+"""Largest resolution of images in vector files in pixels per inch: no press reproduces more."""
 
 
 def draw_page(page: Page, *, size: int | None, text: bool, renderer: Renderer, platform: str | None) -> Pixels:
-    """What `Page.pixels` promises."""
+    """Implementation of `Page.pixels`."""
     shown, width = page if text else page.without_labels(), as_width(page, size)
     warn_of_missing(missing_characters(shown.labels))
     picture = np.empty((pixel_height(page, width), width, 3), dtype=np.uint8)
@@ -60,7 +60,7 @@ def save_page(
     platform: str | None = None,
     transparent: bool = False,
 ) -> tuple[int, str]:
-    """What `Page.save` promises, for several files of one picture; what all of them hold as pixels is drawn once.
+    """Implementation of `Page.save`, for several files of one picture; images shared by them are drawn once.
 
     Returns
     -------
@@ -88,7 +88,7 @@ def save_page(
 
 
 def region_pictures(page: Page, width: int, platform: str | None = None) -> list[Pixels]:
-    """Of each item with too many colours for a vector file, a picture of it alone."""
+    """An image of each item with too many colours for a vector file."""
     size = min(width, print_pixels(page, FINEST_DPI))
     alone = [replace(page, items=(item,)) for item in page.pictured]
     return [draw_page(part, size=size, text=False, renderer="gl", platform=platform) for part in alone]
@@ -106,7 +106,7 @@ def _without_ground(page: Page) -> Page:
 
 
 def _write_see_through(page: Page, target: Path, width: int, renderer: Renderer, platform: str | None) -> None:
-    """Write a page as PNG without its ground: what two grounds show tells colour and opacity of what is on them."""
+    """Write a page as PNG with transparent background: colour and opacity follow from pictures on two backgrounds."""
     white, black = (
         draw_page(replace(page, background=(*ground, 1.0)), size=width, text=True, renderer=renderer, platform=platform)
         for ground in ((1.0, 1.0, 1.0), (0.0, 0.0, 0.0))
@@ -118,7 +118,7 @@ def _write_see_through(page: Page, target: Path, width: int, renderer: Renderer,
 
 
 def unmixed(white: Pixels, black: Pixels) -> Pixels:
-    """Pixels (..., 4), not premultiplied, from what they look like on white and on black, (..., 3).
+    """Pixels (..., 4), not premultiplied, from their composites on white and on black, (..., 3).
 
     Examples
     --------
@@ -128,7 +128,7 @@ def unmixed(white: Pixels, black: Pixels) -> Pixels:
     """
     through = np.sum(white.astype(np.int32) - black, axis=-1, keepdims=True)
     opacity = np.clip(255 - (through + 1) // 3, 0, 255)
-    # A colour that rounding would make brighter than white is white.
+    # Rounding must not make a colour brighter than white.
     color = np.minimum((255 * black.astype(np.int32) + opacity // 2) // np.maximum(opacity, 1), 255)
     found: Pixels = np.concatenate([np.where(opacity > 0, color, 0), opacity], axis=-1).astype(np.uint8)
     return found

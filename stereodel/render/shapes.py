@@ -1,7 +1,7 @@
-"""A page as shapes that are filled, drawn or shown: what SVG, PDF and matplotlib's Agg are all written from.
+"""A page as filled, stroked or image shapes, the common source for SVG, PDF and matplotlib's Agg.
 
-Curves stay cubics, neighbours of one style are one path, regions of many colours are the part of a picture that lies in
-them. Everything is in page coordinates; `Place` turns them into points.
+Curves remain cubics, adjacent items of one style become one path, and regions of many colours become a clipped image.
+All coordinates are page coordinates; `Paper` converts them to points.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from stereodel.drawing.colors import Color
 from stereodel.drawing.page import Ball, Beziers, Dots, Fill, Item, Page, Picture, Polygons, Polylines, Stroke
 
 CIRCLE_KAPPA: Final = 4 / 3 * np.tan(np.pi / 16)
-"""Reach of the controls of a circle drawn as eight cubics, in radii."""
+"""Distance of the control points of a circle drawn as eight cubics, in radii."""
 
 STRAIGHTENED: Final = 4
-"""How often every other point of a loop is left out where it lies on the line of its neighbours."""
+"""Number of passes that drop every other point of a loop where it lies on the line of its neighbours."""
 
 MOVE, LINE, CURVE, CLOSE = 1, 2, 4, 79
 """Kinds of points of an outline, as in `matplotlib.path.Path`; three points in a row make a curve."""
@@ -51,7 +51,7 @@ class Outline:
 
 @dataclass(frozen=True, eq=False)
 class Filled:
-    """A region in one colour (even-odd rule, or nonzero), which may be lit as a ball is."""
+    """A region in one colour (even-odd or nonzero rule), which may be shaded as a ball."""
 
     outline: Outline
     color: Color
@@ -62,7 +62,7 @@ class Filled:
 
 @dataclass(frozen=True, eq=False)
 class Discs(Filled):
-    """Discs of one colour, for what can say so in fewer words than by their outline."""
+    """Discs of one colour, for formats that describe them more briefly than by outlines."""
 
     centers: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     radius: float = 0.0
@@ -83,7 +83,7 @@ class Drawn:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """The part of a picture that lies within an outline."""
+    """An image clipped to an outline."""
 
     pixels: Pixels
     extent: tuple[float, float, float, float]
@@ -96,20 +96,20 @@ Shape = Filled | Drawn | Shown
 
 
 def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[Shape]:
-    """What a page shows but its labels, in painter's order.
+    """The shapes of a page without its labels, in painter's order.
 
     Parameters
     ----------
     page : Page
     dpi : float
-        Pixels per inch of what a `Picture` paints.
+        Pixels per inch of each `Picture`.
     pictures : sequence of (h, w, 3) uint8 arrays
-        A picture of the whole page for each of `page.pictured`.
+        An image of the whole page for each of `page.pictured`.
 
     Raises
     ------
     ValueError
-        For another number of pictures.
+        If the number of pictures is wrong.
     """
     count = len(page.pictured)
     if len(pictures) != count:
@@ -148,20 +148,20 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
 
 
 def _style(item: Item) -> tuple[Any, ...]:
-    """What neighbours must have in common to be drawn as one; see-through strokes stay apart, as they darken."""
+    """Key of items that can be drawn as one; transparent strokes stay separate, as overlaps are darker."""
     if isinstance(item, Stroke) and item.color[3] == 1:
         return (Stroke, item.color, item.width, item.dash, item.cap, item.name)
     return (id(item),)
 
 
 def has_length(stroke: Stroke, points_per_unit: float) -> bool:
-    """Whether a line is more than a point on paper; what is left of one that touches the limb from behind is not."""
+    """Whether a line is longer than a point on paper; the rest of a line that touches the limb from behind is not."""
     return bool(np.ptp(stroke.path.reshape(-1, 2), axis=0).max() * points_per_unit > FINEST_PLACE)
 
 
 def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float) -> Outline:
-    """Runs of Béziers, each closed or not; pieces that are straight on paper become straight lines."""
-    # A piece strays by three quarters of what its controls do.
+    """Runs of Bézier curves, each closed or open; pieces that are straight on paper become lines."""
+    # A piece deviates by at most three quarters of the deviation of its control points.
     bend = FINEST_PLACE / 4 / points_per_unit
     points: list[FloatArray] = []
     kinds: list[int] = []
@@ -180,7 +180,7 @@ def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float) -> Out
 
 
 def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
-    """Lines, and a disc for each point alone, or as good as that: some programs draw nothing of a line of no length."""
+    """Lines, with a disc for each single point or very short line: some programs do not draw lines of length zero."""
     rows = Ragged(lines.points, lines.offsets)
     rows = rows.take(rows.sizes > 0)
     if len(rows) == 0:
@@ -209,10 +209,10 @@ def _by_color(polygons: Polygons, spacing: float) -> Iterator[Filled]:
 
 
 def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
-    """Loops with at most a point in each piece of a length, and without what then encloses nothing.
+    """Loops with at most one point per interval of length `spacing`, without those that then enclose nothing.
 
-    Where points stray from a straight line by less than a twentieth of the length together, they are thinned, too: arcs
-    of the limb are very many chords.
+    Points that deviate from a straight line by less than a twentieth of `spacing` in total are thinned, too, since arcs
+    of the limb consist of very many chords.
     """
     loops = thinned(loops, spacing)
     for _ in range(STRAIGHTENED):
@@ -223,7 +223,7 @@ def thinned_loops(loops: Ragged, spacing: float) -> Ragged:
         step = points[odd] - a
         across, ahead = np.abs(b[:, 0] * step[:, 1] - b[:, 1] * step[:, 0]), np.sum(step * b, axis=1)
         kept = np.ones(len(points), dtype=bool)
-        # The tip of a needle is beyond its neighbours.
+        # The tip of a spike lies beyond its neighbours.
         between = (ahead >= 0) & (ahead <= np.sum(b**2, axis=1))
         kept[odd] = ~between | (across >= spacing / (20 * STRAIGHTENED) * np.hypot(*b.T))
         loops = loops.kept(kept)
@@ -238,7 +238,7 @@ def _loops(loops: Ragged) -> Outline:
 
 
 def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
-    """A picture as far as its outline goes, on whole pixels of the page's own grid: those of Agg are met one to one."""
+    """A picture within its outline, on whole pixels of the page's grid, which coincide with those of Agg."""
     side = 72 / (dpi * page.points_per_unit)
     corner = np.array([page.extent[0], page.extent[3]])
     cells = (np.concatenate(picture.outline).reshape(-1, 2) - corner) / (side, -side)
@@ -255,7 +255,7 @@ def _painted(picture: Picture, page: Page, dpi: float) -> Shown:
 
 
 def _dots(dots: Dots, points_per_unit: float) -> Iterator[Discs]:
-    """A dot is a disc, and a smaller one on top when it has a rim."""
+    """A disc for each dot, with a smaller one on top if it has a rim."""
     discs = [(dots.radius, dots.rim if dots.rim_width else dots.color)]
     if dots.rim_width:
         discs.append((dots.radius - dots.rim_width, dots.color))

@@ -1,4 +1,4 @@
-"""How many pixels a picture of a page has."""
+"""Pixel dimensions of pictures of pages."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from stereodel.drawing.page import Page
 from stereodel.drawing.style import PRINT_DPI
 
 LARGEST_SIZE: Final = 2**16 - 1
-"""Pixels across; Agg, which draws the labels, has no wider canvas. A square of it has 4.3 thousand million pixels."""
+"""Largest width in pixels, which is that of a canvas of Agg, which draws the labels."""
 
 
 def print_pixels(page: Page, dpi: float = PRINT_DPI) -> int:
@@ -23,5 +23,5 @@ def pixel_height(page: Page, width_px: int) -> int:
 
 
 def as_width(page: Page, size: int | None) -> int:
-    """A width in pixels, by default that of print; a ValueError for one that cannot be drawn."""
+    """A width in pixels, by default that of print; ValueError if it cannot be drawn."""
     return print_pixels(page) if size is None else as_count(size, "size", high=LARGEST_SIZE)

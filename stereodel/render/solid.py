@@ -2,7 +2,7 @@
 
     scenes → bodies → trimesh → glTF, or pyrender, its lights and its depth test → rows of pixels → labels over them
 
-What is drawn is what is written.
+The PNG shows exactly the bodies that are written to glTF.
 """
 
 from __future__ import annotations
@@ -30,25 +30,25 @@ from stereodel.render.text import labelled
 __all__ = ["draw_solid", "save_solid", "to_trimesh"]
 
 GAMMA: Final = 2.2
-"""Exponent of pyrender's colours, which it takes for sRGB."""
+"""Exponent by which pyrender decodes colours, in place of sRGB."""
 
 AMBIENT: Final = 0.45
-"""Light from everywhere: what is turned away from the lamps has that share of its brightness, in linear light."""
+"""Ambient light: fraction of the brightness, in linear light, where a surface faces away from the lamps."""
 
 LAMPS: Final = (((-0.35, 0.45, 0.82), 0.75), ((0.0, 0.0, 1.0), 0.25), ((-0.2, 0.9, 0.1), 0.15))
-"""Directions toward the lamps and shares of the rest of the light: one from the upper left, as on pages, one from
-where the viewer is, which lights all that is seen so that the edge of the first one's light is not, and one from above.
+"""Directions toward the lamps and their shares of the remaining light: one from the upper left, as on pages; one from
+the viewer, which softens the edge of the first lamp's light; and one from above.
 """
 
 
 GLASS_RIM: Final = 3.0
-"""Exponent of the cosine with which glass grows denser toward the limb: the picture has no line there."""
+"""Exponent of the cosine by which glass becomes more opaque toward the limb, where the picture has no line."""
 
 
 def save_solid(
     solid: Solid, path: str | os.PathLike[str], *, size: int | None, text: bool, platform: str | None = None
 ) -> None:
-    """What `Solid.save` promises."""
+    """Implementation of `Solid.save`."""
     target = Path(path)
     match target.suffix.lower():
         case ".glb":
@@ -63,13 +63,13 @@ def save_solid(
 
 
 def draw_solid(solid: Solid, *, size: int | None, text: bool, platform: str | None = None) -> Pixels:
-    """What `Solid.pixels` promises."""
+    """Implementation of `Solid.pixels`."""
     page, width = solid.page if text else solid.page.without_labels(), as_width(solid.page, size)
     return np.concatenate(list(labelled(lit_rows(solid, width, platform), page, width)))
 
 
 def lit_rows(solid: Solid, width: int, platform: str | None = None) -> Iterator[Pixels]:
-    """A picture `width` pixels wide, without its labels: rows (k, width, 3) after rows."""
+    """A picture `width` pixels wide, without its labels, in blocks of rows (k, width, 3)."""
     scene, large = to_trimesh(solid), (SUPERSAMPLING * width, SUPERSAMPLING * pixel_height(solid.page, width))
     box = (*solid.page.extent, *depths(scene))
     ground = over_white(solid.page.background)
@@ -79,14 +79,14 @@ def lit_rows(solid: Solid, width: int, platform: str | None = None) -> Iterator[
 
 
 def lit(pyrender: Any, scene: Any, ground: Color) -> Any:
-    """A scene of trimesh as one of pyrender, with lamps."""
+    """A trimesh scene as a pyrender scene with lamps."""
     made = pyrender.Scene(bg_color=[*map(float, ground[:3]), 1.0], ambient_light=[AMBIENT] * 3)
     for toward, share in LAMPS:
         lamp = pyrender.DirectionalLight(intensity=np.pi * (1 - AMBIENT) * share)
         made.add(lamp, pose=_facing(np.array(toward)))
     nodes = scene.graph.geometry_nodes
     parts = [part for name in scene.geometry for part in _parts(pyrender, scene, name, nodes[name])]
-    # What is opaque first, then what is behind.
+    # Opaque bodies first, then transparent ones from back to front.
     for number, (_, primitive) in enumerate(sorted(parts, key=lambda part: part[0])):
         made.add(pyrender.Mesh([primitive]), name=gl.node_name(number))
     return made
@@ -103,7 +103,7 @@ def _facing(toward: FloatArray) -> FloatArray:
 
 
 def _parts(pyrender: Any, scene: Any, name: str, nodes: list[str]) -> Iterator[tuple[int, Any]]:
-    """What is drawn of a mesh, with its place in painter's order: 0 for what is opaque."""
+    """Primitives of a mesh with their position in painter's order; 0 for opaque ones."""
     mesh = scene.geometry[name]
     poses = np.array([scene.graph.get(node)[0] for node in nodes])
     color, layer = mesh.metadata["color"], mesh.metadata["layer"]
@@ -147,7 +147,7 @@ def _primitive(
 
 
 def _glass(mesh: Any, pose: FloatArray, opacity: float) -> FloatArray:
-    """Opacity at the points of a ball of glass: more of it is in the way, and more light reflected, toward the limb."""
+    """Opacity at the points of a glass ball: toward the limb the path is longer and more light is reflected."""
     normals = mesh.vertex_normals @ pose[:3, :3].T
     facing = np.abs(normals[:, 2]) / np.sqrt(np.sum(normals**2, axis=1))
     return np.asarray(opacity + (1 - opacity) * (1 - facing) ** GLASS_RIM)

@@ -1,6 +1,6 @@
-"""Surfaces of space as triangles: balls, tubes along curves, regions of a sphere, flat polygons.
+"""Surfaces in space as triangles: balls, tubes along curves, regions of a sphere, flat polygons.
 
-Triangles are counterclockwise seen from outside. Corners carry the normals of the true surface: light is smooth.
+Triangles are counterclockwise as seen from outside. Corners have the normals of the exact surface, for smooth shading.
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ from stereodel.sphere.vectors import units
 from stereodel.triangulation import SphericalDelaunay
 
 CURVE_ERROR: Final = 1 / 2000
-"""Distance of a curve from its chords, at most, in radii of the scene's ball: half a pixel of a thousand."""
+"""Largest distance of a curve from its chords, in radii of the scene's ball: half a pixel in a thousand."""
 
 BALL_LEVELS: Final = (4, 5, 6)
-"""How often the sides of an icosahedron may be halved for a ball: 5120, 20480 or 81920 triangles."""
+"""Subdivision levels of an icosahedron for a ball: 5120, 20480 or 81920 triangles."""
 
 DOT_LEVEL: Final = 2
-"""The same for dots, which are small: 320 triangles."""
+"""Subdivision level for dots, which are small: 320 triangles."""
 
 LEAST_SIDES: Final = 6
-"""Of the section of a tube."""
+"""Least number of sides of a tube's cross-section."""
 
 CAP_ANGLES: Final = np.radians([45.0])
-"""Latitudes of the rings between the end of a tube and the tip of the half ball that closes it."""
+"""Latitudes of the rings between the end of a tube and the tip of its hemispherical cap."""
 
 BISECTIONS: Final = 24
-"""Rounds in which sides of a region that its triangulation does not have are halved: then they are below 1e-8 radii."""
+"""Rounds of halving sides of a region that are missing in its triangulation, down to 1e-8 radii."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ class Surface:
 
     @property
     def depth(self) -> float:
-        """Of a part of the unit sphere, how far its triangles are below the sphere where they are lowest."""
+        """Largest depth of the triangles of a part of the unit sphere below the sphere."""
         a, b, c = (self.points[self.faces[:, k]] for k in range(3))
         return 1 - float(np.sum(a * units(np.cross(b - a, c - a)), axis=1).min())
 
@@ -87,7 +87,7 @@ def ball(level: int) -> Surface:
 
 
 def ball_level(error: float) -> int:
-    """The least of `BALL_LEVELS` that is no farther than `error` radii from the ball, or the last one."""
+    """The smallest of `BALL_LEVELS` whose triangles are within `error` radii of the ball, or the last one."""
     return next((level for level in BALL_LEVELS if ball(level).depth <= error), BALL_LEVELS[-1])
 
 
@@ -95,15 +95,16 @@ def ball_level(error: float) -> int:
 
 
 def tube(curve: Curve, radius: float, error: float) -> Surface | None:
-    """What is within `radius` of a curve, its ends round; None for one without length.
+    """The points within `radius` of a curve, with round ends; None for a curve of length zero.
 
     Parameters
     ----------
     curve : Segment or CircleArc
-        Not seen by any view yet: of an arc both radii have one length.
+        Before any view, so that both radii of an arc have the same length.
     radius : float
     error : float
-        Distance of the curve from its chords, at most. Sections have enough sides to be as exact, and six at least.
+        Largest distance of the curve from its chords. Cross-sections have enough sides for the same accuracy, and at
+        least six.
 
     Examples
     --------
@@ -135,7 +136,7 @@ def tube(curve: Curve, radius: float, error: float) -> Surface | None:
 
 
 def dashed(curve: Curve, dash: float, gap: float) -> list[Curve]:
-    """The dashes of a curve, of some length, whole ones only but for the last."""
+    """The dashes of a curve of positive length; only the last may be shorter."""
     length = _speed(curve) * (curve.stop - curve.start)
     if length == 0:
         return []
@@ -149,13 +150,13 @@ def dashed(curve: Curve, dash: float, gap: float) -> list[Curve]:
 
 
 def _frames(curve: Curve, error: float) -> tuple[FloatArray, FloatArray, FloatArray] | None:
-    """Points along a curve, its direction there, and a direction across it that turns as little as can be, (k, 3)."""
+    """Points along a curve, tangents, and perpendicular directions that rotate as little as possible, (k, 3) each."""
     speed = _speed(curve)
     if speed == 0 or curve.stop <= curve.start:
         return None
     if isinstance(curve, Segment):
         along = curve.direction / speed
-        # Across what the segment is least along, so that the product has all its digits.
+        # Perpendicular to the axis least aligned with the segment, to avoid cancellation in the product.
         across = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
         t = np.array([curve.start, curve.stop])
         return curve.sample(t), np.tile(along, (2, 1)), np.tile(across / np.sqrt(np.sum(across**2)), (2, 1))
@@ -169,19 +170,19 @@ def _frames(curve: Curve, error: float) -> tuple[FloatArray, FloatArray, FloatAr
 
 
 def _speed(curve: Curve) -> float:
-    """Length for a unit of the parameter."""
+    """Length per unit of the parameter."""
     step = curve.u if isinstance(curve, CircleArc) else curve.sample(1.0) - curve.sample(0.0)
     return float(np.sqrt(np.sum(step**2)))
 
 
 def _pieces(sweep: float, radius: float, error: float) -> int:
-    """Chords of an arc, so many that it is at most `error` away: one over the angle 2a is radius·(1 − cos a) away."""
+    """Number of chords that keep an arc within `error`: a chord over the angle 2a is radius·(1 − cos a) away."""
     widest = 2 * float(np.arccos(max(1 - error / radius, 0.5)))
     return max(1, int(np.ceil(sweep / widest)))
 
 
 def _sleeve(rings: int, sides: int, *, closed: bool) -> Indices:
-    """Triangles between neighbouring rings of as many points each."""
+    """Triangles between neighbouring rings with equal numbers of points."""
     ring = np.arange(rings if closed else rings - 1)[:, None]
     here, after = ring * sides + np.arange(sides), ring * sides + np.roll(np.arange(sides), -1)
     there, there_after = (here + sides) % (rings * sides), (after + sides) % (rings * sides)
@@ -189,13 +190,13 @@ def _sleeve(rings: int, sides: int, *, closed: bool) -> Indices:
 
 
 def _cap_rings(ring: FloatArray, outward: FloatArray) -> FloatArray:
-    """Normals (k, sides, 3) on the rings of a half ball, from its rim on."""
+    """Normals (k, sides, 3) on the rings of a hemisphere, starting at its rim."""
     cosine, sine = np.cos(CAP_ANGLES)[:, None, None], np.sin(CAP_ANGLES)[:, None, None]
     return np.asarray(cosine * ring + sine * outward)
 
 
 def _tips(rings: int, sides: int) -> Indices:
-    """Triangles from the outermost rings of a tube to its two tips, the points behind those of its rings."""
+    """Triangles from the outermost rings of a tube to its two tips, whose points follow those of the rings."""
     ring, after = np.arange(sides), np.roll(np.arange(sides), -1)
     first, last = np.full(sides, rings * sides), np.full(sides, rings * sides + 1)
     high = (rings - 1) * sides
@@ -206,7 +207,7 @@ def _tips(rings: int, sides: int) -> Indices:
 
 
 def polygon(corners: FloatArray, normal: FloatArray) -> Surface:
-    """A flat polygon that does not cross itself, corners (n, 3) in either order, seen from the side of its normal."""
+    """A flat simple polygon, corners (n, 3) in either order, visible from the side of its normal."""
     with of_extra("draw"):
         import mapbox_earcut
 
@@ -221,21 +222,21 @@ def polygon(corners: FloatArray, normal: FloatArray) -> Surface:
 
 
 def _doubled_areas(a: FloatArray, b: FloatArray, c: FloatArray) -> FloatArray:
-    """Of flat triangles, positive counterclockwise."""
+    """Twice the areas of flat triangles, positive if counterclockwise."""
     (ux, uy), (vx, vy) = (b - a).T, (c - a).T
     return np.asarray(ux * vy - uy * vx)
 
 
 def patch(region: SphereRegion, level: int) -> Surface:
-    """A region as one of the unit sphere, its corners on the sphere and its sides on the boundary.
+    """A region on the unit sphere as triangles, with corners on the sphere and sides along the boundary.
 
-    The points of a ball of that level and those of the boundary are triangulated together, but for points of the ball
-    that would come between two of the boundary. What is on the left of the boundary is the region.
+    The points of a ball of that level and those of the boundary are triangulated together, without points of the ball
+    that would separate neighbours on the boundary. The region is what lies on the left of the boundary.
 
     Raises
     ------
     ValueError
-        For a boundary that crosses itself.
+        If the boundary crosses itself.
     """
     arcs = [arc.scaled(1 / region.radius, np.zeros(3)) for arc in region.boundary]
     steps = [np.linspace(a.start, a.stop, _pieces(a.stop - a.start, _speed(a), CURVE_ERROR) + 1) for a in arcs]
@@ -252,7 +253,7 @@ def patch(region: SphereRegion, level: int) -> Surface:
 
 
 def _away_from(rim: FloatArray, points: FloatArray) -> FloatArray:
-    """Points outside circles about the sides of a loop of points, a quarter wider than these are long."""
+    """Points outside circles around the sides of a loop, whose diameters are a quarter longer than the sides."""
     after = np.roll(rim, -1, axis=0)
     middle, reach = (rim + after) / 2, 0.625 * np.sqrt(np.sum((rim - after) ** 2, axis=1))
     distance = np.sqrt(np.sum((points[:, None] - middle) ** 2, axis=-1))
@@ -284,6 +285,6 @@ def _left_of(simplices: AnyIndices, neighbors: AnyIndices, count: int) -> BoolAr
 
 
 def _only(points: FloatArray, faces: AnyIndices) -> Surface:
-    """Triangles of the unit sphere with the points that they need."""
+    """Triangles of the unit sphere with only the points that they use."""
     used, numbers = np.unique(faces, return_inverse=True)
     return Surface(points[used], points[used], numbers.reshape(-1, 3))

@@ -1,9 +1,9 @@
-"""Pages as SVG: true curves, text that is text, balls lit by gradients.
+"""Pages as SVG: exact curves, text as text, balls shaded by gradients.
 
-Coordinates are points from the upper left corner, with three decimals. Names of items become ids, each of them unique.
-Type has its glyphs in their places, in fonts that the file brings along: browsers show what PNG and PDF show, and find
-and select the words. Programs that take no fonts from files (librsvg, Inkscape) show the type of the same name where it
-is installed, otherwise another with serifs, in the same places; for them there is PDF.
+Coordinates are points from the upper left corner, with three decimals. Names of items become unique ids. Glyphs are
+positioned individually, in embedded fonts: browsers show the same as PNG and PDF, and can find and select the text.
+Programs that do not use embedded fonts (librsvg, Inkscape) show the font of the same name if it is installed, otherwise
+another serif font, in the same places; for them there is PDF.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ with of_extra("draw"):
     from PIL import Image
 
 LONGEST_PATH: Final = 200_000
-"""Characters beyond which lines and dots become several paths of a group: editors redraw a path as a whole."""
+"""Length in characters above which lines and dots are split into several paths, as editors redraw whole paths."""
 
 SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
-"""Type that stands in where a program takes none from the file."""
+"""Fallback fonts for programs that ignore embedded fonts."""
 
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
@@ -44,7 +44,7 @@ def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
     ----------
     page : Page
     pictures : sequence of (h, w, 3) uint8 arrays
-        A picture of the whole page for each of `page.pictured`, of which the part inside the regions is shown.
+        An image of the whole page for each of `page.pictured`, clipped to its regions.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
 
 
 class _Sheet:
-    """A page while it is written."""
+    """A page being written."""
 
     def __init__(self, page: Page) -> None:
         self.page, self.paper = page, Paper.downward(page)
@@ -104,14 +104,14 @@ class _Sheet:
         return "".join(self.runs(outline))
 
     def discs(self, discs: Discs) -> list[str]:
-        """Each as two halves of a circle."""
+        """Each disc as two semicircles."""
         radius, across = number(discs.radius), number(2 * discs.radius)
         halves = f"a{radius} {radius} 0 1 0 {across} 0a{radius} {radius} 0 1 0 -{across} 0Z"
         corners = self.paper.points(discs.centers) - [discs.radius, 0.0]
         return [f"M{numbers(corner)}{halves}" for corner in corners.tolist()]
 
     def split(self, name: str, paint: str, found: list[str], *, whole: bool) -> Iterator[str]:
-        """Runs of one style: a path, or several in a group unless they must stay together."""
+        """Runs of one style as a path, or as several in a group unless they must stay together."""
         paths = ["".join(found)] if whole else _parted(found)
         if len(paths) == 1:
             yield f'<path id={quoteattr(name)} {paint} d="{paths[0]}"/>'
@@ -140,7 +140,7 @@ class _Sheet:
                     f'fill="none" {_paint("stroke", shape.color)} stroke-width="{exact(shape.width)}"{dash} '
                     f'stroke-linecap="{shape.cap}" stroke-linejoin="round"'
                 )
-                # Lines that are seen through would be darker where those of two paths cross.
+                # Transparent lines of separate paths would be darker where they cross.
                 whole = shape.color[3] < 1
                 yield from self.split(self.name(shape.name), paint, self.runs(shape.outline), whole=whole)
             case Shown():
@@ -156,7 +156,7 @@ class _Sheet:
                 )
 
     def gradient(self, name: str, ball: Ball, color: Color) -> str:
-        """A colour under the light of a ball."""
+        """A colour shaded by a ball."""
         light = ball_gradient()
         (cx, cy), (fx, fy) = (
             self.paper.points(np.array(ball.center) + ball.radius * np.array(place)).tolist()
@@ -176,7 +176,7 @@ class _Sheet:
     def label(
         self, label: Label, lines: Iterable[Line], fonts: dict[Face, Subset], shaped: dict[Face, Subset]
     ) -> Iterator[str]:
-        """A label: its halo, its lines of type, its bars."""
+        """A label: halo, lines of type and bars."""
         name, lines = self.name(label.name), list(lines)
         yield f"<g id={quoteattr(name)} {_paint('fill', label.color)}>"
         if label.halo:
@@ -193,16 +193,16 @@ class _Sheet:
         yield "</g>"
 
     def typed(self, outline: Outline) -> str:
-        """A path of what is in points from the lower left corner."""
+        """A path from an outline in points from the lower left corner."""
         return "".join(runs(Outline(outline.points * [1, -1] + [0, self.page.height], outline.kinds)))
 
     def words(self, line: Line, fonts: dict[Face, Subset]) -> str:
-        """A line of type that programs set again by the rules of its script, from its left end."""
+        """A line of type that programs shape themselves by the rules of its script, from its left end."""
         x, y = line.x, self.page.height - line.y
         used = dict.fromkeys(glyph.font for glyph in line.glyphs)
         families = ",".join(f"'{fonts[font].name}'" for font in fonts if font in used)
         own = ",".join(_quoted(fonts[font].family) for font in used)
-        # The end of words that begin on the right is on the left.
+        # Text that starts on the right ends on the left.
         way = ' direction="rtl" text-anchor="end"' if line.begins_leftward else ""
         return (
             f'<text xml:space="preserve" text-rendering="geometricPrecision" x="{number(x)}" y="{number(y)}" '
@@ -211,14 +211,14 @@ class _Sheet:
         )
 
     def turn(self, line: Line) -> str:
-        """The attribute that turns a line of type about where it begins."""
+        """The attribute that rotates a line of type about its start."""
         if not line.rotation:
             return ""
         place = numbers((line.x, self.page.height - line.y))
         return f' transform="rotate({exact(-line.rotation)} {place})"'
 
     def line(self, line: Line, fonts: dict[Face, Subset]) -> str:
-        """A line of type: each character in its place, those of one font and size together."""
+        """A line of type with each character positioned, grouped by font and size."""
         x, y = line.x, self.page.height - line.y
         spans = []
         order = list(fonts)
@@ -231,14 +231,14 @@ class _Sheet:
                 f'x="{numbers(x + glyph.x for glyph in glyphs)}" '
                 f'y="{heights[0] if len(set(heights)) == 1 else " ".join(heights)}">{escape(text)}</tspan>'
             )
-        # Left to themselves, browsers move letters to whole pixels.
+        # By default, browsers move letters to whole pixels.
         return (
             f'<text xml:space="preserve" text-rendering="geometricPrecision"{self.turn(line)}>{"".join(spans)}</text>'
         )
 
 
 def _parted(found: list[str]) -> list[str]:
-    """Runs one after another, in as many texts as keep each below `LONGEST_PATH`, but for runs that are longer."""
+    """Runs joined into texts of at most `LONGEST_PATH` characters, except runs that are longer themselves."""
     if not found:
         return [""]
     ends = np.cumsum([len(run) for run in found])
@@ -247,13 +247,13 @@ def _parted(found: list[str]) -> list[str]:
 
 
 def _together(glyph: Glyph, fonts: dict[Face, Subset]) -> tuple[Face, float, int]:
-    """What characters have in common that stand in one element; those beyond 16 bits would count as two places."""
+    """Key of characters in one element; characters beyond 16 bits would count as two positions."""
     code = ord(fonts[glyph.font].codes[glyph.index])
     return glyph.font, glyph.size, id(glyph) if code > 0xFFFF else 0
 
 
 def _sheet(fonts: Iterable[Subset], shaped: Iterable[Subset]) -> str:
-    """The fonts of a file, and a class for each of those whose glyphs have their places."""
+    """The fonts of a file, with a class for each font whose glyphs are positioned."""
     rules = []
     for number_, font in enumerate(fonts, start=1):
         kind = f"font-style:{'italic' if font.italic else 'normal'};font-weight:{'bold' if font.bold else 'normal'}"
@@ -269,7 +269,7 @@ def _brought(font: Subset, kind: str) -> str:
 
 
 def _quoted(family: str) -> str:
-    """The name of a family as style sheets have it."""
+    """The name of a family, quoted for style sheets."""
     return "'" + family.replace("\\", "").replace("'", "\\'") + "'"
 
 

@@ -1,8 +1,8 @@
 """The labels of a page over the rows of its picture.
 
-Text is drawn by matplotlib's Agg, whose canvas is as large as its picture. Here the canvas has the rows that are asked
-for and the text keeps its place on the page, a whole number of pixels above or below them: the pixels are those of a
-canvas for the whole page.
+Text is drawn by matplotlib's Agg, whose canvas is normally as large as its picture. Here the canvas has only the
+requested rows, and text is shifted by a whole number of pixels, so that the pixels equal those of a canvas for the
+whole page.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ with of_extra("draw"):
     from matplotlib.transforms import Affine2D
 
 ROWS: Final = 16
-"""Rows over which labels are laid at once: that takes 32 bytes a pixel."""
+"""Rows labelled in one block, which takes 32 bytes per pixel."""
 
 
 def labelled(rows: Iterable[Pixels], page: Page, width: int) -> Iterator[Pixels]:
@@ -37,7 +37,7 @@ def labelled(rows: Iterable[Pixels], page: Page, width: int) -> Iterator[Pixels]
 
 
 class LabelLayer:
-    """The labels of a page on a transparent ground.
+    """The labels of a page on a transparent background.
 
     Parameters
     ----------
@@ -73,7 +73,7 @@ class LabelLayer:
         for first in range(0, len(rows), ROWS):
             part = slice(first, first + ROWS)
             opacity = layer[part, :, 3:].astype(np.uint16)
-            # At most 255² + 127, which fits into 16 bits.
+            # At most 255² + 127, which fits in 16 bits.
             mixed = layer[part, :, :3] * opacity + rows[part] * (255 - opacity)
             composed[part] = (mixed + 127) // 255
         return composed
@@ -84,14 +84,14 @@ class LabelLayer:
 
     @property
     def span(self) -> tuple[int, int]:
-        """Rows between which all labels lie, as far as these are on the page; empty where there is none."""
+        """Range of rows that contains all labels on the page; empty if there are none."""
         first = min((first for _, first, _ in self._placed), default=0.0)
         last = max((last for _, _, last in self._placed), default=0.0)
         return max(0, math.floor(first)), min(self.height, math.ceil(last))
 
     def _drawn(self, top: int, bottom: int) -> Pixels:
-        """As `rows`, until the next call."""
-        # One canvas for all rows: a text keeps the canvas that it was drawn on.
+        """As for `rows`, valid until the next call."""
+        # One canvas for all rows, since a text keeps a reference to its canvas.
         if self._canvas is None or self._canvas.height != bottom - top:
             self._canvas = _Canvas(self.width, bottom - top, self._dpi)
         self._canvas.clear()
@@ -106,11 +106,11 @@ class LabelLayer:
 
 
 class _Canvas(RendererAgg):
-    """Some rows of a page, `below` of whose rows lie under them.
+    """A canvas for some rows of a page, with `below` rows of the page under them.
 
-    Matplotlib turns the place of type round by the height that a canvas says it has, but paths, which type with a halo
-    is drawn as, by the height that it has. So it says that it is as high as its rows and what lies below them, and
-    lowers paths by the difference.
+    Matplotlib flips the position of text by the height that a canvas reports, but that of paths, as which text with a
+    halo is drawn, by its actual height. So the canvas reports the height of its rows and those below, and lowers paths
+    by the difference.
     """
 
     below = 0
@@ -126,8 +126,8 @@ class _Canvas(RendererAgg):
 
 
 def _rows_of(text: Text, ruler: _Canvas, height: int) -> tuple[float, float]:
-    """The rows between which a text lies."""
+    """The range of rows of a text."""
     box = text.get_window_extent(ruler)
-    # Ink may leave the box that a line of type is given, though never by the height of the type.
+    # Ink may extend beyond the box of a line of type, but never by its height.
     reach = text.get_fontsize() * ruler.dpi / 72
     return height - box.y1 - reach, height - box.y0 + reach

@@ -1,7 +1,7 @@
-"""A small picture whose pixels are known, drawn to see whether a machine draws.
+"""A small test picture with known pixels, drawn to check whether rendering works.
 
-A picture of its own texels, and before it a veil of two triangles: a texel out of place, a triangle that is missing, an
-edge that is not sampled four times and a seam along the diagonal all show.
+It shows a texture behind a translucent rectangle of two triangles, so that a misplaced texel, a missing triangle, an
+edge without four samples and a seam along the diagonal are all detected.
 """
 
 from __future__ import annotations
@@ -17,17 +17,17 @@ SIDE: Final = 8
 """Pixels across and down."""
 
 VEIL: Final = (1.25, 2.0, 6.5, 7.0)
-"""Left, bottom, right and top: three quarters of a column of pixels, whole ones, and half of one."""
+"""Left, bottom, right and top of the rectangle: three quarters of a column, whole columns, and half of one."""
 
 VEILED: Final = np.array([0.0, 0.75, 1.0, 1.0, 1.0, 1.0, 0.5, 0.0])
-"""Which share of the samples of each column the veil covers, in the rows that it covers."""
+"""Fraction of the samples of each column covered by the rectangle, in its rows."""
 
 ROUNDING: Final = 2
 """Levels of 255 by which a pixel may differ: blending is rounded once, and the average of the samples once."""
 
 
 def trial_triangles() -> Triangles:
-    """What is drawn, `SIDE` pixels wide and high."""
+    """The triangles of the test picture, `SIDE` pixels wide and high."""
     left, bottom, right, top = VEIL
     ground = [(0, 0), (SIDE, 0), (SIDE, SIDE), (0, SIDE)]
     veil = [(left, bottom), (right, bottom), (right, top), (left, top)]
@@ -39,7 +39,7 @@ def trial_triangles() -> Triangles:
 
 
 def trial_pixels() -> Pixels:
-    """What must be seen of it, (SIDE, SIDE, 3)."""
+    """The expected pixels, (SIDE, SIDE, 3)."""
     _, bottom, _, top = VEIL
     rows = np.arange(SIDE - 1, -1, -1)
     share = np.outer((rows >= bottom) & (rows < top), VEILED)[..., None]
@@ -47,7 +47,7 @@ def trial_pixels() -> Pixels:
 
 
 def trial_problem(picture: Pixels) -> str:
-    """What is wrong with a picture that was drawn; empty if nothing is.
+    """A description of errors in a rendered test picture; empty if there are none.
 
     Examples
     --------
@@ -66,6 +66,6 @@ def trial_problem(picture: Pixels) -> str:
 
 
 def _texels() -> Pixels:
-    """Each texel of another colour: red tells the column, green the row."""
+    """Texels of distinct colours: red encodes the column, green the row."""
     row, column = np.indices((SIDE, SIDE))
     return np.stack([32 * column, 32 * row, np.full_like(row, 90)], axis=-1).astype(np.uint8)

@@ -1,10 +1,10 @@
 """A page as triangles for OpenGL: every item but labels, in painter's order.
 
-Items are placed on the picture, and from there on all is in its pixels: strokes are ribbons of constant width, dots are
-discs, and regions are cut into slabs or, where they are polygons, into fans and ears. The triangles of one item may
-overlap (a ribbon is rectangles, with a wedge at each bend and end); `stereodel.render.gl` draws an item as the union of
-its triangles. A region is cut at the height of every corner and crossing into slabs, in which the even-odd rule pairs
-the edges off; the horizontal cuts are exact, so nothing shows between the slabs.
+Items are first mapped to pixels of the picture. Strokes become ribbons of constant width, dots become discs, and
+regions are cut into slabs or, if they are polygons, into fans and ears. The triangles of one item may overlap (a ribbon
+is rectangles, with a wedge at each bend and end); `stereodel.render.gl` draws an item as the union of its triangles. A
+region is cut at the height of every corner and crossing into slabs, in which the even-odd rule pairs the edges off; the
+horizontal cuts are exact, so nothing shows between the slabs.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from stereodel.render.shapes import has_length
 
 
 def triangulate(page: Page, width: int, height: int) -> Pieces:
-    """Everything on a page but its labels as triangles of a picture of `width` by `height` pixels."""
+    """All items of a page except labels as triangles of a picture of `width` by `height` pixels."""
     left, right, bottom, top = page.extent
     scale = np.array([width / (right - left), height / (top - bottom)])
     canvas = _Canvas(np.array([left, bottom]), scale, page.points_per_unit, width / page.width)
@@ -45,7 +45,7 @@ def triangulate(page: Page, width: int, height: int) -> Pieces:
 
 @dataclass(frozen=True, eq=False)
 class _Canvas:
-    """Where page coordinates and points lie in a picture."""
+    """The map from page coordinates and points to pixels."""
 
     origin: FloatArray
     scale: FloatArray
@@ -53,7 +53,7 @@ class _Canvas:
     pixels_per_point: float
 
     def pieces(self, item: Item) -> list[Piece]:
-        """What an item is made of; where pieces overlap, the first is seen."""
+        """The pieces of an item; where they overlap, the first is visible."""
         match item:
             case Stroke():
                 return [_flat(self._stroke(item), item.color)] if has_length(item, self.points_per_unit) else []
@@ -120,7 +120,7 @@ def _flat(corners: Corners, color: Color) -> Piece:
 
 
 def _colored(corners: Corners, colors: FloatArray, ball: Disc | None) -> Piece:
-    """Triangles in colours that spread to their corners (n, 3, 4)."""
+    """Triangles with colours broadcast to their corners (n, 3, 4)."""
     if ball is None:
         # Levels of 1/255, rounded half up, so that rounding inside OpenGL has nothing to decide.
         colors = np.floor(255 * colors + 0.5) / 255
@@ -128,7 +128,7 @@ def _colored(corners: Corners, colors: FloatArray, ball: Disc | None) -> Piece:
 
 
 def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
-    """Points along a run of cubics so close that their chords stay within `tolerance`.
+    """Points along a run of cubics whose chords are within `tolerance`.
 
     A cubic cut into n equal parts of its parameter is off by at most (3/4) M/n², M = max |Pᵢ − 2Pᵢ₊₁ + Pᵢ₊₂|
     (Wang's formula).
@@ -175,16 +175,16 @@ def ribbon(
     width : float
         In pixels, as `dash`.
     closed : bool
-        Whether the end is joined to the beginning.
+        Whether the end is joined to the start.
     round_caps : bool
-        Half discs at the ends, also of dashes; otherwise the ends are cut straight.
+        Whether ends, including those of dashes, are semicircles; otherwise they are cut straight.
     dash : (float, float), optional
         Length of dash and gap; the first dash begins at the first point.
 
     Returns
     -------
     (n, 3, 2) array
-        Triangles, which overlap; a point alone is a disc when caps are round, and nothing otherwise.
+        Triangles, which overlap; a single point is a disc if caps are round, and nothing otherwise.
     """
     if closed:
         points = np.concatenate([points, points[:1]])
@@ -199,14 +199,14 @@ def ribbon(
 
 
 def ribbons(points: FloatArray, offsets: Indices, width: float) -> Corners:
-    """Polylines of one constant width, all at once, with round joins and ends.
+    """Polylines of one constant width, with round joins and ends.
 
     Parameters
     ----------
     points : (n, 2) array
         In pixels, as `width`.
     offsets : (m + 1,) int array
-        Line i is ``points[offsets[i]:offsets[i + 1]]``, closed where its ends are equal; a point alone is a disc.
+        Line i is ``points[offsets[i]:offsets[i + 1]]``, closed if its ends are equal; a single point is a disc.
     width : float
 
     Returns
@@ -238,7 +238,7 @@ def ribbons(points: FloatArray, offsets: Indices, width: float) -> Corners:
 
 
 def discs(centers: FloatArray, radius: float) -> Corners:
-    """A disc at each of (n, 2) centres."""
+    """Discs at centres (n, 2)."""
     turn = np.full(len(centers), 2 * np.pi)
     return _wedges(centers, np.zeros(len(centers)), turn, radius)
 
@@ -275,14 +275,14 @@ def _halved(quads: FloatArray) -> Corners:
 
 
 def _dashed(points: FloatArray, dash: float, gap: float) -> tuple[FloatArray, BoolArray]:
-    """The polyline with points added where dashes begin and end, and which of its segments are drawn."""
+    """The polyline with points added at the ends of dashes, and which of its segments are drawn."""
     along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     begins = np.arange(0.0, along[-1], dash + gap)
     cuts = np.concatenate([begins, begins + dash])
     at = np.unique(np.concatenate([along, cuts[cuts < along[-1]]]))
     cut = np.stack([np.interp(at, along, points[:, axis]) for axis in (0, 1)], axis=1)
     drawn = (at[:-1] + at[1:]) / 2 % (dash + gap) < dash
-    # Cuts closer than the spacing of doubles give the same point twice.
+    # Cuts closer than the spacing of doubles coincide.
     apart = np.any(cut[1:] != cut[:-1], axis=1)
     return cut[np.concatenate([[True], apart])], drawn[apart]
 
@@ -305,7 +305,7 @@ def _bends(points: FloatArray, drawn: BoolArray, radius: float, rings: Indices, 
     after[last] = drawn[first]
     turn = (angle_out - angle_in + np.pi) % (2 * np.pi) - np.pi
     joins = before & after
-    joins[last] = False  # where a closed line ends it begins, and has its bend there
+    joins[last] = False  # a closed line has its bend at its start
     # Turning left (turn > 0) opens the right side, a quarter turn clockwise from the direction of travel.
     wedges = [_wedges(points[joins], (angle_in - np.copysign(np.pi / 2, turn))[joins], turn[joins], radius)]
     if round_caps:
@@ -316,7 +316,7 @@ def _bends(points: FloatArray, drawn: BoolArray, radius: float, rings: Indices, 
 
 def _wedges(centers: FloatArray, start_rad: FloatArray, turn_rad: FloatArray, radius: float) -> Corners:
     """Sectors of discs from the direction `start_rad` through `turn_rad`, in triangles flat to `FLATNESS`."""
-    # A chord of angle a is off by r(1 − cos(a/2)).
+    # A chord of angle a deviates by r(1 − cos(a/2)).
     step = 2 * np.arccos(max(1 - FLATNESS / radius, 0.5)) if radius > 0 else np.pi
     parts = np.ceil(np.abs(turn_rad) / step).astype(np.intp)
     wedge = np.repeat(np.arange(len(parts)), parts)
@@ -328,7 +328,7 @@ def _wedges(centers: FloatArray, start_rad: FloatArray, turn_rad: FloatArray, ra
 
 
 def _abscissa(low: FloatArray, high: FloatArray, edge: Indices, y: FloatArray) -> FloatArray:
-    """Where edges meet horizontal lines; exactly their ends at the heights of their ends."""
+    """Where edges meet horizontal lines; at the heights of their ends, exactly those ends."""
     (x0, y0), (x1, y1) = low[edge].T, high[edge].T
     share = (y - y0) / (y1 - y0)
     x: FloatArray = x0 * (1 - share) + x1 * share

@@ -1,7 +1,7 @@
-"""The labels of a page as glyphs in their places, and the fonts that vector files carry for them.
+"""The labels of a page as positioned glyphs, and the fonts that vector files embed for them.
 
-Matplotlib sets the type, as for pixels, on a canvas so fine that what it rounds is not seen. Files hold characters, so
-that they can be searched, copied and read aloud, and of each font the glyphs that they use.
+Matplotlib typesets the labels, as for pixels, on a canvas so fine that its rounding is invisible. Files contain
+characters, so that text can be searched, copied and read aloud, and of each font only the glyphs used.
 """
 
 from __future__ import annotations
@@ -35,23 +35,23 @@ with of_extra("draw"):
     from matplotlib.backend_bases import RendererBase
 
 FINER: Final = 64
-"""Pixels a point of the canvas on which type is set: matplotlib rounds the sizes of formulas to whole ones."""
+"""Pixels per point of the canvas on which type is set: matplotlib rounds sizes in formulas to whole pixels."""
 
 PRIVATE: Final = range(0xE000, 0xF900)
-"""The characters that Unicode leaves to everybody: for glyphs that no character of their own leads to."""
+"""Private use characters of Unicode, for glyphs without a character of their own."""
 
 LEFTWARD: Final = ("R", "AL")
-"""Directions of letters, in the words of Unicode, that are read from right to left."""
+"""Unicode's bidirectional classes of right-to-left letters."""
 
 VARIATIONS: Final = ("fvar", "gvar", "avar", "cvar", "HVAR", "VVAR", "MVAR", "STAT", "COLR", "CPAL", "SVG ")
-"""Tables of fonts of many weights, of which the usual one is taken, and of many colours, of which labels have one."""
+"""Font tables of variable weights, of which the default is used, and of colours, of which labels have one."""
 
 TABLES: Final = ("GSUB", "GPOS", "GDEF", "kern", "DSIG", "FFTM", "MATH", "prop")
-"""What subsets of fonts do without: glyphs have their places, and no others take theirs."""
+"""Font tables that subsets omit: glyphs are positioned explicitly and never substituted."""
 
 
 class Face(NamedTuple):
-    """A font: a file, and which of its fonts, where it holds several."""
+    """A font: a file, and the index of the font within it."""
 
     path: str
     number: int = 0
@@ -59,12 +59,12 @@ class Face(NamedTuple):
 
 @dataclass(frozen=True)
 class Glyph:
-    """A glyph in its place on a line of type, in points."""
+    """A positioned glyph on a line of type, in points."""
 
     font: Face
     index: int
     text: str
-    """The characters that it stands for: two for a ligature."""
+    """The characters that it represents: two for a ligature."""
     size: float
     x: float
     y: float
@@ -79,12 +79,12 @@ class Line:
     glyphs : tuple of Glyph
     bars : tuple of (x, y, width, height)
     x, y : float
-        Where it begins on the page, in points from the lower left corner.
+        Start on the page, in points from the lower left corner.
     rotation : float
-        About that place, degrees, counterclockwise.
+        Counterclockwise rotation about the start, in degrees.
     words : str
-        What is written, where letters join, stand on each other or run from right to left: its glyphs are not in the
-        order of its characters, nor one for each.
+        The text, if letters join, stack or run from right to left, so that glyphs do not correspond to characters in
+        order.
     """
 
     glyphs: tuple[Glyph, ...]
@@ -96,12 +96,12 @@ class Line:
 
     @property
     def leftward(self) -> bool:
-        """Whether some words are read from right to left."""
+        """Whether some words run from right to left."""
         return any(bidirectional(sign) in LEFTWARD for sign in self.words)
 
     @property
     def begins_leftward(self) -> bool:
-        """Whether the first letter that has a direction is read from right to left: the first word is on the right."""
+        """Whether the first letter with a direction runs from right to left, so that the first word is on the right."""
         strong = (bidirectional(sign) for sign in self.words)
         return next((kind != "L" for kind in strong if kind in {"L", *LEFTWARD}), False)
 
@@ -118,7 +118,7 @@ class Line:
 
     @property
     def outline(self) -> Outline:
-        """All that is inked, in points on the page."""
+        """The outlines of all glyphs and bars, in points on the page."""
         nothing = Outline(np.zeros((0, 2)), np.zeros(0, dtype=np.uint8))
         letters = (moved(glyph_outline(g.font, g.index), g.size, (g.x, g.y)) for g in self.glyphs)
         return self.placed(sum((*letters, self.bar_outline), start=nothing))
@@ -132,16 +132,16 @@ class Line:
 
 
 def moved(outline: Outline, scale: float, shift: tuple[float, float]) -> Outline:
-    """An outline of another size elsewhere."""
+    """An outline scaled and shifted."""
     return Outline(scale * outline.points + np.array(shift), outline.kinds)
 
 
 def lines_of(page: Page) -> Iterator[tuple[Label, list[Line]]]:
-    """The labels of a page that show something, with their lines of type."""
+    """The visible labels of a page with their lines of type."""
     if not page.labels:
         return
     with matplotlib_settings():
-        # Text with a halo is drawn as outlines, which are not told to be text.
+        # Text with a halo is drawn as outlines, which are not reported as text.
         bare = replace(page, items=tuple(replace(label, halo=0.0) for label in page.labels))
         canvas = drawn(bare, 72.0 * FINER)
         for label, text in zip(page.labels, canvas.axes[0].texts, strict=True):
@@ -152,14 +152,14 @@ def lines_of(page: Page) -> Iterator[tuple[Label, list[Line]]]:
 
 
 class _Recorder(RendererBase):
-    """Takes down the lines that a text is drawn as."""
+    """Records the lines as which a text is drawn."""
 
     def __init__(self) -> None:
         super().__init__()
         self.lines: list[Line] = []
 
     def flipy(self) -> bool:
-        """Places are measured upward."""
+        """False: positions are measured upward."""
         return False
 
     def points_to_pixels(self, points: Any) -> Any:
@@ -196,7 +196,7 @@ def _face(font: Any) -> Face:
 
 
 def _shaped(text: str) -> bool:
-    """Whether glyphs of a text depend on what is around their characters: right-to-left scripts, and marks."""
+    """Whether the glyphs of a text depend on context, as in right-to-left scripts and with combining marks."""
     return any(bidirectional(sign) in LEFTWARD or category(sign) in {"Mn", "Mc"} for sign in text)
 
 
@@ -224,7 +224,7 @@ def glyph_outline(face: Face, index: int) -> Outline:
 
 
 class _Pen(BasePen):  # type: ignore[misc]
-    """Takes down an outline, its quadratic curves as cubics."""
+    """Records an outline, with quadratic curves as cubics."""
 
     def __init__(self, glyphs: Any) -> None:
         super().__init__(glyphs)
@@ -250,13 +250,13 @@ class _Pen(BasePen):  # type: ignore[misc]
 
 @dataclass(frozen=True, eq=False)
 class Subset:
-    """The glyphs of a font that a file uses, as a font of their own.
+    """The subset of a font used in a file, as a font.
 
     Parameters
     ----------
     font : Face
     glyphs : mapping
-        Number of each glyph in the font → the characters that it stands for.
+        Characters of each glyph, by its index in the font.
     """
 
     font: Face
@@ -274,17 +274,17 @@ class Subset:
 
     @property
     def italic(self) -> bool:
-        """Whether it slopes."""
+        """Whether the font is italic."""
         return bool(self.face["head"].macStyle & 2)
 
     @property
     def bold(self) -> bool:
-        """Whether it is heavy."""
+        """Whether the font is bold."""
         return bool(self.face["head"].macStyle & 1)
 
     @property
     def name(self) -> str:
-        """Its name for programs, behind six letters that tell subsets apart, as PDF wants it."""
+        """The PostScript name, with a six-letter prefix that distinguishes subsets, as PDF requires."""
         digest = hashlib.sha256(repr(sorted(self.glyphs.items())).encode()).digest()
         letters = "".join(chr(ord("A") + byte % 26) for byte in digest[:6])
         own = self.face["name"].getDebugName(6) or self.family
@@ -292,7 +292,7 @@ class Subset:
 
     @cached_property
     def codes(self) -> dict[int, str]:
-        """The one character that leads to each glyph: its own, unless it has two or another glyph has it already."""
+        """The one character mapped to each glyph: its own, unless it has several or another glyph already has it."""
         codes: dict[int, str] = {}
         for index, text in sorted(self.glyphs.items()):
             own = text if len(text) == 1 else _ligature(self.font, index, text)
@@ -303,12 +303,12 @@ class Subset:
 
     @property
     def widths(self) -> dict[int, float]:
-        """How far the place of the next glyph is, at size 1."""
+        """Advance widths at size 1."""
         font = self.face
         return {i: font["hmtx"][font.getGlyphName(i)][0] / font["head"].unitsPerEm for i in self.glyphs}
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
-        """The font, as TrueType or packed for the web; its glyphs keep their numbers."""
+        """The font file, TrueType or WOFF; glyphs keep their indices."""
         font = _opened(self.font)
         options = Options(layout_features=[], hinting=False, notdef_outline=True, retain_gids=True)
         options.drop_tables += (*TABLES, *VARIATIONS)
@@ -321,10 +321,10 @@ class Subset:
 
 @dataclass(frozen=True, eq=False)
 class ShapedSubset(Subset):
-    """What a file uses of a font for words that programs set again: with the rules by which letters join and stack."""
+    """A subset for text that programs shape themselves, including the rules by which letters join and stack."""
 
     def file(self, flavor: Literal["woff"] | None = None) -> bytes:
-        """The font, as TrueType or packed for the web."""
+        """The font file, TrueType or WOFF."""
         font = _opened(self.font)
         options = Options(hinting=False, notdef_outline=True)
         options.drop_tables += (*VARIATIONS, "FFTM")
@@ -335,7 +335,7 @@ class ShapedSubset(Subset):
 
 
 def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Subset]:
-    """What lines of type use of each font."""
+    """The subset of each font used by lines of type."""
     used: dict[Face, Subset] = {}
     for line in lines:
         for glyph in line.glyphs:
@@ -344,7 +344,7 @@ def subsets(lines: Iterable[Line], kind: type[Subset] = Subset) -> dict[Face, Su
 
 
 def _bytes(font: Any, flavor: Literal["woff"] | None) -> bytes:
-    """A font as a file, its outlines in the way of TrueType."""
+    """A font as a file with TrueType outlines."""
     if "glyf" not in font:
         _to_truetype(font)
     font.flavor = flavor
@@ -354,12 +354,12 @@ def _bytes(font: Any, flavor: Literal["woff"] | None) -> bytes:
 
 
 def _to_truetype(font: Any) -> None:
-    """Replace the cubic outlines of a font by quadratic ones, at most `FINEST_OUTLINE` of its size away from them."""
+    """Replace the cubic outlines of a font by quadratic ones within `FINEST_OUTLINE` of its size."""
     drawn, order = font.getGlyphSet(), font.getGlyphOrder()
     glyphs = {}
     for name in order:
         pen = TTGlyphPen(None)
-        # Outlines of TrueType run the other way round.
+        # TrueType outlines have the opposite direction.
         drawn[name].draw(Cu2QuPen(pen, FINEST_OUTLINE * font["head"].unitsPerEm, reverse_direction=True))
         glyphs[name] = pen.glyph()
     font["loca"], table = newTable("loca"), newTable("glyf")
@@ -378,7 +378,7 @@ def _to_truetype(font: Any) -> None:
 
 
 def _ligature(face: Face, index: int, text: str) -> str:
-    """The character of a glyph for several ones, U+FB01 for f and i; nothing where there is none."""
+    """The character of a ligature, such as U+FB01 for f and i; empty if there is none."""
     font = _font(face)
     name = font.getGlyphName(index)
     codes = (chr(code) for code, glyph in font.getBestCmap().items() if glyph == name)
@@ -386,7 +386,7 @@ def _ligature(face: Face, index: int, text: str) -> str:
 
 
 def _character_map(glyphs: dict[int, str]) -> Any:
-    """The table of a font that leads from characters to glyphs, for all of Unicode."""
+    """The font table from characters to glyphs, for all of Unicode."""
     entry = CmapSubtable.newSubtable(12)
     entry.platformID, entry.platEncID, entry.language, entry.cmap = 3, 10, 0, glyphs
     table = newTable("cmap")

@@ -1,7 +1,6 @@
-"""Files that hold lines instead of pixels: the door to SVG and PDF.
+"""Vector files: SVG and PDF.
 
-They have the page's size, and carry no date, no version and no random identifier: the same page always gives the same
-bytes.
+They have the page's size and contain no date, version or random identifier: the same page always gives the same bytes.
 """
 
 from __future__ import annotations
@@ -18,15 +17,15 @@ from stereodel.render.svg import svg
 
 
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
-    """Write a page as SVG or PDF, as the ending of `path` says; `Page.save` makes the pictures that it needs.
+    """Write a page as SVG or PDF, by the extension of `path`; `Page.save` provides the images that it needs.
 
     Parameters
     ----------
     page : Page
     path : path-like
-        An existing file is replaced, when the new one is complete.
+        File to write; an existing file is replaced once the new one is complete.
     pictures : sequence of (h, w, 3) uint8 arrays
-        A picture of the whole page for each of `page.pictured`, of which the part inside the regions is shown.
+        An image of the whole page for each of `page.pictured`, clipped to its regions.
 
     Returns
     -------
@@ -36,9 +35,9 @@ def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[
     Raises
     ------
     ValueError
-        For an ending other than .svg and .pdf, and for another number of pictures than are needed.
+        If the extension is not .svg or .pdf, or the number of images is wrong.
     OSError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     target = Path(path)
     match target.suffix.lower():

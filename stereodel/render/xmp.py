@@ -1,4 +1,4 @@
-"""XMP: what pictures and films say of themselves, as XML in RDF (ISO 16684-1)."""
+"""XMP metadata of pictures and films (ISO 16684-1)."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ META: Final = "adobe:ns:meta/"
 
 
 def xmp_packet(tree: str) -> bytes:
-    """XML data of XMP as files hold them: between the marks by which programs find them."""
+    """XMP data wrapped in the packet markers by which programs find them."""
     return f'<?xpacket begin="\ufeff" id="W5M0MpCehiHzreSzNTczkc9d"?>\n{tree}\n<?xpacket end="w"?>'.encode()
 
 
 def xmp_title(title: str) -> bytes:
-    """XMP data that tell a title and nothing else.
+    """XMP data with only a title.
 
     Examples
     --------

@@ -117,7 +117,7 @@ class NearMisses:
 
     @cached_property
     def _centroid(self) -> FloatArray:
-        """Of the hull's area, (2,)."""
+        """Centroid of the hull's area, (2,)."""
         points = self._triangulation.points
         size = np.frexp(np.abs(points).max())[1] + 1
         corners = np.ldexp(points, -size)[self._triangulation.simplices]

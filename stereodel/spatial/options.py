@@ -22,7 +22,7 @@ class Options:
     at_infinity : bool
         "Qz": there is a point at infinity, with an empty Voronoi region.
     coplanar : bool
-        "Qc": points that are no vertices are listed.
+        "Qc": points that are not vertices are listed.
     """
 
     scaled: bool

@@ -130,7 +130,7 @@ def _on_ellipsoid(rows: FloatArray, kind: Latitude) -> FloatArray:
 def scaled(vectors: FloatArray) -> tuple[FloatArray, IntArray]:
     """Vectors (..., k) over a power of two, so that their largest component is in [½, 1), and its exponent (...)."""
     _, exponent = np.frexp(np.abs(vectors).max(axis=-1, keepdims=True))
-    half = exponent // 2  # in two steps, since 2**1074 is no double
+    half = exponent // 2  # in two steps, since 2**1074 overflows
     return np.ldexp(np.ldexp(vectors, -half), half - exponent), exponent[..., 0]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, Indices, LongArray, as_count
 
 _LARGEST = 2**29
-"""Of nside: 12 nside² pixels still have numbers below 2⁶³."""
+"""Largest nside: 12 nside² pixels still have numbers below 2⁶³."""
 
 
 def healpix_centers(nside: int, *, nested: bool = False) -> FloatArray:

@@ -29,7 +29,7 @@ from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 Latitude = Literal["spherical", "geodetic", "authalic"]
 
 KINDS: Final[tuple[Latitude, ...]] = ("spherical", "geodetic", "authalic")
-"""What a latitude may be: of the sphere as it stands, or of WGS84 with the direction from its centre or equal areas."""
+"""What a latitude may be: of the sphere unchanged, or of WGS84 with the direction from its centre or equal areas."""
 
 # 1/f = 298.257223563 as a fraction of two doubles, so that e² is known to twice the precision of one.
 _ONE_LESS_F = DoubleDouble(297257223563.0) / 298257223563.0

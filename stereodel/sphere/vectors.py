@@ -18,7 +18,7 @@ def units(vectors: FloatArray) -> FloatArray:
 
 
 def determinant(matrix: FloatArray) -> float:
-    """Of a matrix (3, 3), as a triple product: LAPACK divides by pivots, which may be subnormal, and warns."""
+    """Determinant of a matrix (3, 3) as a triple product; LAPACK warns as it divides by pivots, possibly subnormal."""
     return float(np.sum(matrix[0] * np.cross(matrix[1], matrix[2])))
 
 

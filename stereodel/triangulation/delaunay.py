@@ -35,7 +35,7 @@ _T = TypeVar("_T")
 FAMILY: Final = {
     "options": """
         workers : int, optional
-            Threads; -1 for all processors. By default all of them from 20 000 points on. Never changes the result.
+            Threads; -1 for all processors. By default all of them from 20 000 points on. Does not affect the result.
         neighbors : bool, optional
             Whether to compute `neighbors` at once, which costs little; otherwise on first use.
         """,
@@ -208,7 +208,7 @@ class Delaunay(Versioned, ABC):
 
     @kept
     def _flat_order(self) -> IntArray:
-        """The different points in the order along their line or great circle, without triangles."""
+        """The distinct points in the order along their line or great circle, without triangles."""
         return locked(self._space.flat_order(self.points, checked=True))
 
     @property

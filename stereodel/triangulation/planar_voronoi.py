@@ -23,7 +23,7 @@ class PlanarVoronoi(Diagram):
     points : (n, 2) array_like or PlanarDelaunay
         Sites, or their triangulation, which is then not computed again.
     workers : int, optional
-        Threads; -1 for all processors. By default as for `PlanarDelaunay`. Never changes the result.
+        Threads; -1 for all processors. By default as for `PlanarDelaunay`. Does not affect the result.
 
     Attributes
     ----------
@@ -163,7 +163,7 @@ class PlanarVoronoi(Diagram):
         first, last = np.maximum(start, enter), np.minimum(end, leave)
         seen = np.flatnonzero(first < last)
         ends = middle[seen, None] + np.column_stack([first, last])[seen, :, None] * along[seen, None]
-        # An end that is the ridge's own is its vertex, to the last bit.
+        # An end that is the ridge's own equals its vertex exactly.
         whole = np.column_stack([first == start, last == end])[seen]
         ends[whole] = self.vertices[self.ridge_vertices[seen][whole]]
         return ends, seen

@@ -69,7 +69,7 @@ class InsertionSites(ABC):
 
     @abstractmethod
     def independent(self, a: int, b: int) -> bool:
-        """Whether two different points span a line (a great circle)."""
+        """Whether two distinct points span a line (a great circle)."""
 
     @abstractmethod
     def _exact_signs(self, *four: int) -> Iterator[int]:
@@ -154,7 +154,7 @@ class PlaneSites(InsertionSites):
         return orient2d_integer(points[a], points[b], points[c])
 
     def independent(self, a: int, b: int) -> bool:
-        """Two different points always span a line."""
+        """Two distinct points always span a line."""
         return True
 
     def _exact(self) -> list[Point]:

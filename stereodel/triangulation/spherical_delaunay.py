@@ -114,7 +114,7 @@ class SphericalDelaunay(Delaunay):
         Returns
         -------
         SphericalDelaunay
-            Of the unit vectors that `lonlat_to_xyz` gives, which are exact from then on.
+            Triangulation of the unit vectors from `lonlat_to_xyz`, which are then taken as exact.
 
         Raises
         ------

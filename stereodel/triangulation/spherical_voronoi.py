@@ -27,7 +27,7 @@ class SphericalVoronoi(Diagram):
     points : (n, 3) array_like or SphericalDelaunay
         Sites (directions; lengths do not matter), or their triangulation, which is then not computed again.
     workers : int, optional
-        Threads; -1 for all processors. By default as for `SphericalDelaunay`. Never changes the result.
+        Threads; -1 for all processors. By default as for `SphericalDelaunay`. Does not affect the result.
 
     Attributes
     ----------
@@ -112,7 +112,7 @@ class SphericalVoronoi(Diagram):
         Returns
         -------
         SphericalVoronoi
-            Of the unit vectors that `lonlat_to_xyz` gives, which are exact from then on.
+            Diagram of the unit vectors from `lonlat_to_xyz`, which are then taken as exact.
 
         Raises
         ------

@@ -146,7 +146,7 @@ def first_occurrences(points: FloatArray) -> LongArray:
     """For each point the lowest index of an equal one; in space, of one with the same direction.
 
     A quotient x/max is the rounding of a real number that depends on the direction alone: equal directions have equal
-    keys. Different directions with one key (closer than half an ulp) are told apart by integers.
+    keys. Different directions with one key (closer than half an ulp) are distinguished by integers.
     """
     # Equal keys stand next to each other when sorted, by index within a key (the sort is stable): all take the first.
     keys = points + 0.0  # −0 becomes 0

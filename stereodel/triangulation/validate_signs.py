@@ -194,7 +194,7 @@ def _nearly_unit(points: FloatArray) -> tuple[FloatArray, FloatArray | None]:
     A row times a positive number keeps every sign, so t need not be the exact 1/|x|: with t = fl(1/fl|x|) the length
     of t·x is off by at most 1.5u + u + u (three squares under a root, root, quotient) and the product is error-free
     down to components of 2⁻⁹⁶⁰, below which its error is far under the u² that the filter has to spare.
-    A vector whose computed |x|² is within 12u of 1 has a length within 8u of 1 and is taken as it stands.
+    A vector whose computed |x|² is within 12u of 1 has a length within 8u of 1 and is used unchanged.
     """
     squared = np.einsum("ij,ij->i", points, points, optimize=False)
     with np.errstate(over="ignore", invalid="ignore"):

@@ -1,6 +1,6 @@
-"""The interactive page: the kernel in the browser, one file without a server or a network, and a widget of notebooks.
+"""The interactive page: the kernel in the browser, as one file without server or network, and a notebook widget.
 
-`web` writes the page; `GlobeWidget` is its globe in a notebook, and comes with the extra ``jupyter``.
+`web` writes the page; `GlobeWidget` is its globe in a notebook and needs the extra ``jupyter``.
 """
 
 from typing import Any
@@ -11,7 +11,7 @@ __all__ = ["GlobeWidget", "web"]
 
 
 def __getattr__(name: str) -> Any:
-    """The widget, whose library is loaded with it."""
+    """Load the widget and its library on first use."""
     if name == "GlobeWidget":
         from stereodel.web.widget import GlobeWidget
 

@@ -1,4 +1,4 @@
-"""One file that is the whole page: its script, style, kernel and data stand in it, and it asks nobody for anything.
+"""Assembly of the page as one file with its script, style, kernel and data, which loads nothing else.
 
 The template is `page.html`, which names its style and its script as files beside it; both, and what `contents`
 has, are put in where it names them. Scripts that run when they are first needed are packed as the kernel is. A content
@@ -27,7 +27,7 @@ from stereodel.web.packing import packed
 ENCODING: Final = r'<meta charset="utf-8"\s*/?>'
 STYLE: Final = r'<link rel="stylesheet" href="page\.css"\s*/?>'
 SCRIPT: Final = r'<script(?: type="module"| defer)? src="page\.js"></script>'
-"""What the template has once each, in this order. The policy stands before the style."""
+"""Parts that the template contains once each, in this order. The policy precedes the style."""
 
 LATER: Final = ("exchange", "lift")
 """Scripts that run when they are first needed: what files take, and a room that is not the first."""
@@ -36,7 +36,7 @@ POLICY: Final = (
     "default-src 'none'; script-src 'wasm-unsafe-eval' {script}; style-src {style}; img-src data: blob:; "
     "base-uri 'none'; form-action 'none'"
 )
-"""Pictures come from the reader's own files alone; `wasm-unsafe-eval` allows WebAssembly and no `eval`."""
+"""Images come only from the reader's own files; `wasm-unsafe-eval` allows WebAssembly but not `eval`."""
 
 
 def web(
@@ -46,21 +46,20 @@ def web(
     name: str = "points",
     resolution: str = "50m",
 ) -> Path:
-    """Write the interactive page: the sphere, the lift and the globe, to take in the hand in any browser.
+    """Write the interactive page with the sphere, the lift and the globe, for any browser.
 
-    It is one file, which needs no server, no network and no library, and sends nothing anywhere.
+    It is one file that needs no server, network or library, and sends no data.
 
     Parameters
     ----------
     path : path-like
-        File to write, .html; one that is there is replaced.
+        File to write, .html; an existing file is replaced.
     lonlat : (n, 2) array_like, optional
-        Longitude and latitude in degrees of points that the page opens with, at most a million. They are in the page
-        to the bit.
+        Longitude and latitude in degrees of initial points, at most a million, stored exactly.
     name : str
-        What the page calls these points, such as the name of their file.
+        Name of these points on the page, such as that of their file.
     resolution : {"50m", "110m"}
-        Land for maps of 1 : 50 or 1 : 110 million. The latter makes the page 0.1 MB smaller.
+        Land at 1 : 50 or 1 : 110 million. The latter makes the page 0.1 MB smaller.
 
     Returns
     -------
@@ -70,7 +69,7 @@ def web(
     Raises
     ------
     ValueError
-        For a latitude outside [−90, 90], more than a million points, or another resolution.
+        If a latitude is outside [−90, 90], there are more than a million points, or the resolution is unknown.
 
     Examples
     --------
@@ -89,7 +88,7 @@ def web(
 
 
 def html(resolution: str, given: Given | None = None) -> str:
-    """The page, for land of a resolution, with points that it opens with."""
+    """The page as HTML, with land at a resolution and optional initial points."""
     script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
     later = {name: built(f"{name}.js") for name in LATER}
     sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
@@ -114,12 +113,12 @@ def template() -> str:
 
 
 def module(resolution: str) -> str:
-    """The script of the widget, with what it carries as a constant of its own."""
+    """The script of the widget, with its contents as a constant."""
     return f"const CONTENTS = {json.dumps(contents(resolution, sets=False))};\n{built('widget.js').decode('utf-8')}"
 
 
 def _inline(code: str) -> str:
-    r"""Code that may stand within an element: nothing in it ends a script or a style, or begins a comment of HTML.
+    r"""Code that is safe inside an element: nothing in it ends a script or style, or begins an HTML comment.
 
     Examples
     --------
@@ -130,5 +129,5 @@ def _inline(code: str) -> str:
 
 
 def _source(code: str) -> str:
-    """How a content security policy allows code."""
+    """The source expression that allows code in a content security policy."""
     return f"'sha256-{base64.b64encode(hashlib.sha256(code.encode('utf-8')).digest()).decode('ascii')}'"

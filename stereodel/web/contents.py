@@ -1,4 +1,4 @@
-"""What a page carries with it: the kernel, land, sets of the package, and the reader's own points, as texts by name."""
+"""Contents of a page: the kernel, land, data sets of the package, and the reader's own points, as texts by name."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from stereodel.web.packing import packed, packed_doubles, packed_places
 from stereodel.web.scattered import GAP, SHEET
 
 RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
-"""The land that a page has for each resolution of it: the coarse one is drawn while the globe moves."""
+"""Land included for each resolution; the coarse one is drawn while the globe moves."""
 
 LAND_DIGITS: Final = 2
-"""Digits behind the point of the degrees of land: 1.1 km, a third of a pixel on a globe 4000 pixels across."""
+"""Decimals of land in degrees: 1.1 km, a third of a pixel on a globe 4000 pixels across."""
 
 SITE_DIGITS: Final = {"airports": 6, "cities": 5, "gap": 3, "sheet": 3, "stars": 5}
 """Digits of the coordinates of the sets, all that they have."""
 
 MOST_POINTS: Final = 1_000_000
-"""That a page takes."""
+"""Largest number of points on a page."""
 
 LARGE_CITY: Final = 2_000_000
-"""People in the cities of the page; its airports are the nearest ones to them."""
+"""Smallest population of the page's cities; its airports are those nearest to them."""
 
 BRIGHT_STAR: Final = 3.0
 """The largest magnitude of the page's stars."""
@@ -39,14 +39,14 @@ BRIGHT_STAR: Final = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """Points that a reader brings.
+    """Points given by the reader.
 
     Parameters
     ----------
     lonlat : (n, 2) array
         Degrees.
     name : str
-        What the page calls them, such as the name of their file.
+        Name of the points on the page, such as that of their file.
     """
 
     lonlat: FloatArray
@@ -61,7 +61,7 @@ class Given:
 
 
 def built(name: str) -> bytes:
-    """A file that was built for the page and comes with the library."""
+    """A built file of the page, shipped with the library."""
     return resources.files("stereodel.web").joinpath("built", name).read_bytes()
 
 
@@ -73,10 +73,10 @@ def kernel() -> str:
 
 @cache
 def land_rings(resolution: str) -> str:
-    """Land as rings that have it on their left, joined where the map is cut, at ±180° and along the South Pole.
+    """Land as rings, interior on the left, joined across the map's cuts at ±180° and along the South Pole.
 
-    The first point of a ring is not repeated at its end. Neighbours that are one place when they are rounded are one
-    point, and rings that are then no rings are left out.
+    The first point of a ring is not repeated at its end. Neighbouring points that round to the same place are merged,
+    and rings that collapse are left out.
     """
     table = land(resolution)
     rings = Ragged(table.lonlat, table.ring_offsets.astype(np.intp))
@@ -107,12 +107,12 @@ def _places(name: str) -> FloatArray:
 
 
 def _nearest(places: FloatArray, to: FloatArray) -> Indices:
-    """The numbers of the places that are nearest to others, in order and each once."""
+    """Indices of the places nearest to `to`, sorted and without repeats."""
     return np.unique(SphericalDelaunay.from_lonlat(places).nearest(lonlat=to))
 
 
 def contents(resolution: str, given: Given | None = None, *, sets: bool = True) -> dict[str, str]:
-    """Everything by name, as `script/contents.ts` asks for it."""
+    """All contents by name, as read by `script/contents.ts`."""
     blocks = {"kernel": kernel()}
     blocks |= {f"land-{each}": land_rings(each) for each in RESOLUTIONS[resolution]}
     if sets:

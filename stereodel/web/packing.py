@@ -1,6 +1,6 @@
-"""Numbers as texts that a page carries and its script unpacks: deflate, then base64, which all browsers have built in.
+"""Numbers as text for a page, unpacked by its script: deflate, then base64, which all browsers decode natively.
 
-`script/contents.ts` reads what is written here.
+`script/contents.ts` reads this format.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def packed(content: bytes) -> str:
 
 
 def packed_places(places: Ragged, digits: int) -> str:
-    """Rows of longitude and latitude, degrees, rounded to so many digits behind the point.
+    """Rows of longitude and latitude in degrees, rounded to `digits` decimals.
 
     Parameters
     ----------
@@ -42,8 +42,8 @@ def packed_places(places: Ragged, digits: int) -> str:
     -------
     str
         Packed numbers of `varints`: digits, number of rows, size of each row, then the steps of all longitudes and of
-        all latitudes from one place to the next, in units of the last digit. A negative step s is written as −2s − 1
-        and another one as 2s. Quotients by a power of ten of whole numbers are the doubles that the digits mean.
+        all latitudes from one place to the next, in units of the last digit. A negative step s is written as −2s − 1,
+        any other as 2s. Integers divided by a power of ten give the doubles nearest to the decimals.
     """
     units = np.rint(places.values * 10.0**digits).astype(np.int64)
     steps = np.diff(units, axis=0, prepend=np.zeros((1, 2), dtype=np.int64)).T.ravel()
@@ -52,16 +52,16 @@ def packed_places(places: Ragged, digits: int) -> str:
 
 
 def packed_doubles(values: FloatArray) -> str:
-    """Numbers as they are: of all the eight bytes from the lowest on, the first of each, then the second, and so on.
+    """Doubles stored exactly: the lowest byte of all, then the second lowest of all, and so on.
 
-    Side by side, high bytes are nearly the same and compress well.
+    Grouped in this way, high bytes are similar and compress well.
     """
     planes = np.ascontiguousarray(values, dtype="<f8").reshape(-1, 1).view(np.uint8).T
     return packed(planes.tobytes())
 
 
 def varints(numbers: npt.NDArray[np.int64]) -> Bytes:
-    """Numbers from 0 on, seven bits a byte from the lowest on; the eighth bit says that the number goes on.
+    """Non-negative integers, seven bits per byte, lowest first; the eighth bit marks that more bytes follow.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The globe of the page in a notebook: sites in, lens, view and selection back."""
+"""The globe of the page in a notebook, with sites, lens, view and selection as traits."""
 
 from __future__ import annotations
 
@@ -20,37 +20,38 @@ with of_extra("jupyter"):
 
 
 class GlobeWidget(anywidget.AnyWidget):
-    """A globe through a conformal lens, to turn and to magnify with mouse, fingers and keys.
+    """An interactive globe through a conformal lens, controlled by mouse, touch and keyboard.
 
-    It works in JupyterLab and whatever else knows anywidget, without a network. What the reader does comes back: each
-    of `lens`, `view` and `selection` is a trait, which can be observed, and can be set.
+    It works in JupyterLab and any other host of anywidget, without a network. Interactions are reported back: `lens`,
+    `view` and `selection` are traits, which can be observed and set.
 
     Parameters
     ----------
     lonlat : (n, 2) array_like, optional
         Longitude and latitude of sites in degrees; their Voronoi cells are drawn.
     focus : (2,) array_like, optional
-        Longitude and latitude of the focus of the lens in degrees; by default the middle of the view.
+        Longitude and latitude of the focus of the lens in degrees; by default the centre of the view.
     magnification : float
-        Of the lens at its focus, above 0; 1 is a plain globe.
+        Magnification of the lens at its focus, above 0; 1 is an undistorted globe.
     view : (2,) array_like
-        Longitude and latitude of the middle of the view in degrees.
+        Longitude and latitude of the centre of the view in degrees.
 
     Attributes
     ----------
     sites : bytes
-        Longitude and latitude in turn, little-endian doubles; `lonlat` is their array.
+        Alternating longitudes and latitudes as little-endian doubles; `lonlat` is the array.
     lens : dict
         `focus`, (lon, lat) in degrees, and `magnification`: ``fisheye(**widget.lens)`` is the map.
     view : dict
-        `lon` and `lat` of the middle of the view and `roll`, degrees: ``View(**widget.view)`` is the view of drawings.
+        `lon` and `lat` of the centre of the view and `roll`, in degrees; ``View(**widget.view)`` is the view for
+        drawings.
     selection : list of int
-        Numbers of the selected sites.
+        Indices of the selected sites.
 
     Raises
     ------
     ValueError
-        For a latitude outside [−90, 90] or a magnification of 0 or less.
+        If a latitude is outside [−90, 90], or the magnification is not positive.
 
     Examples
     --------
@@ -146,5 +147,5 @@ def _entries(given: Mapping[str, Any], names: tuple[str, ...], what: str) -> Map
 
 @cache
 def _module() -> str:
-    """The script, with all that it carries."""
+    """The script with its contents."""
     return module("110m")

@@ -163,7 +163,7 @@ def test_what_moves():
         ("a.gif", ["--fly=1"], "--fly is '1', but must be LON,LAT"),
         ("a.gif", ["--fly=1,95"], "outside [-90, 90]"),
         ("a.gif", ["--focus=0,0", "--fly=180,0"], "opposite"),
-        ("a.gif", ["--projection", "hemispheres"], "--projection hemispheres stands still"),
+        ("a.gif", ["--projection", "hemispheres"], "--projection hemispheres cannot move"),
         ("a.gif", ["--seconds", 0], "seconds is 0"),
         ("a.gif", ["--fps", 0], "fps is 0"),
         ("a.gif", ["--fps", 200], "at most 50 frames a second"),
@@ -185,7 +185,7 @@ def test_a_frame_that_fails_is_told_and_an_interrupted_film_goes_on(folder, run,
     monkeypatch.setattr(Film, "save", failing(FrameError("frame 3 could not be drawn")))
     assert run("globe", "-o", "a.gif", "--spin", code=2) == "error: frame 3 could not be drawn\n"
     monkeypatch.setattr(Film, "save", failing(KeyboardInterrupt()))
-    assert "goes on with the frames that are missing" in run("globe", "-o", "a.gif", "--spin", code=130)
+    assert "the same command draws the missing frames" in run("globe", "-o", "a.gif", "--spin", code=130)
     said = run("globe", "-o", "-", "--format", "gif", "--spin", code=130)
     assert said == "interrupted; nothing was written\n"
 
@@ -331,7 +331,10 @@ def test_styles_pixels_and_paper(folder, run):
         (["--style=bright"], "--style is 'bright'; give column, slide, dark or a file .toml"),
         (["--style=slide", "--style=column"], "both set the size of the page"),
         (["--style=none.toml"], "none.toml: No such file or directory"),
-        (["--layer=a.geojson,colour=red"], "--layer a.geojson,colour=red: colour is not known; give color, width"),
+        (
+            ["--layer=a.geojson,colour=red"],
+            "--layer a.geojson,colour=red: colour is unknown; the keys are color, width",
+        ),
     ],
 )
 def test_wrong_looks(folder, options, message, run):

@@ -52,7 +52,7 @@ def test_faces_are_six_files_that_are_not_replaced_unasked(room, run):
     assert len(list(room.glob("c_*.png"))) == 6
     assert not (room / "c.png").exists()
     (room / "c_up.png").unlink()
-    assert "c_right.png: is there already" in run(*options, code=2)
+    assert "c_right.png: already exists" in run(*options, code=2)
     assert not (room / "c_up.png").exists()
     run(*options, "--overwrite")
     assert (room / "c_up.png").exists()
@@ -71,14 +71,14 @@ def test_stdout_is_a_jpeg_unless_said_otherwise(room, run, capfdbinary):
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["room.png", "-o", "room.png", "--overwrite"], "room.png: is read, so it cannot be written"),
+        (["room.png", "-o", "room.png", "--overwrite"], "room.png: is an input, so it cannot be overwritten"),
         (["room.png", "-o", "out.gif"], "out.gif: cannot write gif"),
         (["room.png", "-o", "out.png", "--width", 33], "--width is 33, but"),
         (["room.png", "-o", "out.png", "--width", 40000], "--width is 40000, which makes"),
         (["room.png", "-o", "out.png", "--magnify", 0], "--magnify is 0"),
         (["room.png", "-o", "out.png", "--focus=1"], "--focus is '1', but must be LON,LAT"),
         (["room.png", "-o", "out.png", "--to", "planet", "--angular-radius", 170], "--angular-radius"),
-        (["room.png", "-o", "out.png", "--faces"], "--faces are those of a cube"),
+        (["room.png", "-o", "out.png", "--faces"], "--faces requires --to cubemap, but"),
         (["room.png", "-o", "-", "--to", "cubemap", "--faces"], "six files"),
         (["cities.csv", "-o", "out.png"], "cities.csv is not a picture"),
         (["nowhere.png", "-o", "out.png"], "nowhere.png"),

@@ -82,7 +82,7 @@ def test_an_input_is_never_written_and_a_file_not_unasked(own, run, command):
     out = own / f"out.{ending}"
     out.write_text("mine", encoding="utf-8")
     message = run(*EVERY[command], "-o", out.name, code=2)
-    assert message == f"error: {out.name}: is there already; replace it with --overwrite, or choose another name\n"
+    assert message == f"error: {out.name}: already exists; replace it with --overwrite, or choose another name\n"
     assert out.read_text(encoding="utf-8") == "mine"
     run(*EVERY[command], "-o", out.name, "--overwrite")
     assert out.read_text(encoding="utf-8") != "mine"
@@ -92,7 +92,7 @@ def test_an_input_is_never_written_and_a_file_not_unasked(own, run, command):
     options = [str(own / "cities.csv") if option == "cities.csv" else option for option in options]
     if "cities.csv" in EVERY[command]:
         message = run(*options, "-o", f"link/same.{ending}", "--overwrite", code=2)
-        assert "is read, so it cannot be written" in message
+        assert "is an input, so it cannot be overwritten" in message
 
 
 @pytest.mark.parametrize("command", WRITING)

@@ -50,7 +50,7 @@ def test_columns_and_missing_places(folder, run):
 
 def test_a_page_is_not_replaced_unasked(folder, run):
     (folder / "cities.html").write_text("mine", encoding="utf-8")
-    assert "is there already; replace it with --overwrite" in run("web", "cities.csv", code=2)
+    assert "already exists; replace it with --overwrite" in run("web", "cities.csv", code=2)
     assert (folder / "cities.html").read_text(encoding="utf-8") == "mine"
     run("web", "cities.csv", "--overwrite", "--resolution", "110m")
     assert (folder / "cities.html").stat().st_size > 100_000

@@ -92,8 +92,8 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
     ("text", "message"),
     [
         ("a = ", "mine.toml: is not TOML"),
-        ("colour = 1", "mine.toml: colour is no key of styles; give base, background, fills, lines, dots, labels"),
-        ("lines.coast.widht = 1", "mine.toml: lines.coast.widht is no key of styles; give color, width"),
+        ("colour = 1", "mine.toml: colour is not a key of styles; give base, background, fills, lines, dots, labels"),
+        ("lines.coast.widht = 1", "mine.toml: lines.coast.widht is not a key of styles; give color, width"),
         ("lines.coast.width = -1", "mine.toml: lines.coast.width is -1"),
         ("lines.coast.width = '1 ell'", "mine.toml: lines.coast.width is '1 ell'; give a length with a unit"),
         ("lines.coast.width = true", "mine.toml: lines.coast.width"),
