@@ -60,6 +60,8 @@ EXTRAS: Final[Mapping[str, Extra]] = {
     "grid": Extra("UGRID", {"xarray": "xarray", "netCDF4": "netCDF4"}),
     "raster": Extra("GeoTIFF", {"rasterio": "rasterio"}),
     "jupyter": Extra("the globe in notebooks", {"anywidget": "anywidget", "traitlets": "traitlets"}),
+    "partitioned": Extra("stereodel.partitioned: triangulations beyond memory, of Parquet", {"pyarrow": "pyarrow"}),
+    "dask": Extra("the same on a cluster", {"distributed": "distributed"}, ("partitioned",)),
     "mesh": Extra("GLB, PLY, VTP", {"trimesh": "trimesh", "pyvista": "pyvista"}),
 }
 """By name, as in pyproject.toml, where the least versions stand; tests compare the two. ``all`` is all of them."""

@@ -326,3 +326,6 @@ GROUND_PIXEL: Final = 2.0**-10
 
 A point, 1/72 inch, is four times as large on a globe 17 cm across.
 """
+
+AREA_SUM_ERROR: Final = 2e-12
+"""How far the areas of all cells of a sphere may add up to another area, in terms of it: what each cell may be off."""

@@ -20,6 +20,7 @@ import stereodel.graphs
 import stereodel.interpolation
 import stereodel.io
 import stereodel.mpl
+import stereodel.partitioned
 import stereodel.relaxation
 import stereodel.render
 import stereodel.spatial
@@ -42,6 +43,7 @@ PACKAGES = [
     stereodel.interpolation,
     stereodel.io,
     stereodel.mpl,
+    stereodel.partitioned,
     stereodel.relaxation,
     stereodel.render,
     stereodel.spatial,
@@ -109,6 +111,7 @@ def test_reference_lists_exactly_the_public_names():
     assert reference("stereodel.data") == set(stereodel.data.__all__)
     assert reference("stereodel.conformal") == set(stereodel.conformal.__all__) - set(PUBLIC)
     assert reference("stereodel.graphs") == set(stereodel.graphs.__all__)
+    assert reference("stereodel.partitioned") == set(stereodel.partitioned.__all__)
     assert reference("stereodel.relaxation") == set(stereodel.relaxation.__all__)
     assert reference("stereodel.interpolation") == set(stereodel.interpolation.__all__)
     assert reference("stereodel.xarray") == set(stereodel.xarray.__all__)

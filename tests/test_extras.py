@@ -86,6 +86,8 @@ DOORS = {
     "from stereodel.io import *; write('a.tif', Grid([0], [0], {'z': [[1]]}))": ["raster"],
     "from stereodel.web import GlobeWidget; GlobeWidget(lonlat=[(10, 48)])": ["jupyter"],
     "from stereodel.io import Grid; Grid([0], [0]).to_xarray()": ["grid"],
+    "from stereodel.partitioned import triangulate; triangulate([], 'out')": ["partitioned"],
+    "from stereodel.cli.partitions import distributed; distributed()": ["cli", "dask"],
     "from stereodel.interpolation import contours; from stereodel.io import to_geodataframe; "
     "to_geodataframe(contours(MESH, POINTS[:, 0], 0.1))": ["geo"],
 }

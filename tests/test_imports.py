@@ -43,6 +43,7 @@ MAY_IMPORT = {
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
     "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
+    "partitioned": KERNEL | {"__init__", "_files", "curves", "io", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "__main__": {"_extras", "cli"},
     "drawing": MATHEMATICS | {"curves"},
@@ -53,7 +54,7 @@ MAY_IMPORT = {
     "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"}
-    | {"web"},
+    | {"partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

@@ -19,6 +19,7 @@ WIDTHS = {
     "fig08_hemisphere": 480,
     "fig02_plane": 480,
     "globe_new_york": 1200,
+    "earth_partitions": 1200,
 }
 """Pixels across by figure."""
 

@@ -127,8 +127,8 @@ def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
     'a.csv: row 2: size is missing; leave such rows out with --skip-missing'
     """
     names = "|".join(options)
-    advised = rf"(?<=with )(?P<advised>{names})\b(?:=True|=)?"
-    wrong = rf"(?:^|(?<=: )|(?<=and ))(?P<wrong>{names})(?:\[[\d, ]*\])?(?= (?:is|are|must|and)\b)"
+    advised = rf"(?<=with )(?P<advised>{names})\b(?:=True|=False|=)?"
+    wrong = rf"(?:^|(?<=: )|(?<=and ))(?P<wrong>{names})(?:\[[\d, ]*\])?(?= (?:is|are|has|must|and)\b)"
 
     def option(found: re.Match[str]) -> str:
         of_a_row = re.search(r"row \d+: $", message[: found.start()])

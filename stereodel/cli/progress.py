@@ -53,6 +53,29 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
         yield shown
 
 
+@contextmanager
+def counts() -> Iterator[Callable[[str, int, int], None]]:
+    """Show how many tasks of each pass of the work are done, which is told by the name of the pass."""
+    stop_if_interrupted()
+    if not sys.stderr.isatty():
+        yield lambda name, done, of: stop_if_interrupted()
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        tasks = {}
+
+        def shown(name: str, done: int, of: int) -> None:
+            stop_if_interrupted()
+            if name not in tasks:
+                tasks[name] = progress.add_task(name, total=of)
+            progress.update(tasks[name], total=of, completed=done)
+
+        yield shown
+
+
 def in_pieces(size: int, what: str) -> Iterator[slice]:
     """Slices that make up `size` rows, with a progress bar."""
     with bar(what) as shown:

@@ -28,9 +28,19 @@ class AreaUnit(StrEnum):
 
 
 def command(
-    points: options.Points,
-    out: options.Out,
-    area_unit: Annotated[AreaUnit, typer.Option(help="Unit of the areas.")] = AreaUnit.km2,
+    points: Annotated[
+        list[str],
+        typer.Argument(metavar="POINTS...", help="Table of points: .csv, .gpkg …, - is stdin; for a folder .parquet."),
+    ],
+    out: Annotated[
+        str,
+        typer.Option(
+            "--out", "-o", metavar="FILE|FOLDER/", help="File, whose extension is the format, or folder; - is stdout."
+        ),
+    ],
+    area_unit: Annotated[
+        AreaUnit | None, typer.Option(help="Unit of the areas, km2 by default; in a folder they are sr.")
+    ] = None,
     max_segment: options.MaxSegment = 1.0,
     clip: Annotated[
         str | None,
@@ -47,28 +57,63 @@ def command(
     latitude: options.LatitudeKind = options.Latitude.authalic,
     format: options.Format = None,
     overwrite: options.Overwrite = False,
+    partition: Annotated[
+        int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition, for a folder; 500000 by default.")
+    ] = None,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="Scheduler of Dask whose workers compute, for a folder.")
+    ] = None,
+    shapes: Annotated[bool, typer.Option("--shapes", help="Write the shapes of the cells too, for a folder.")] = False,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option(metavar="COLUMN", help="Column to write beside the results, repeatable; for a folder."),
+    ] = None,
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
 
     A table has the columns of the points and the area; map formats have the cell's shape and the point's row too. Of
     points at one place the first has the cell, the others none and the area 0. With --clip a cell is what lies on land,
     or in the polygons of a file.
+
+    A folder, which ends in / or is there, is for more points than memory holds: Parquet files, folders of them or a
+    HATS catalogue. It gets rows/ with the area, the number of neighbours, the nearest point and its distance, in as
+    many files and rows as the points have. An interrupted command goes on where it stopped.
     """
+    from stereodel.cli.partitions import Work, is_folder
+
+    if is_folder(out):
+        work = Work(points, out, lon, lat, plane, latitude.value, partition, shapes, keep or [], overwrite)
+        of_files = {
+            "--clip": clip,
+            "--layer-name": layer_name,
+            "--crs": crs,
+            "--skip-missing": skip_missing,
+            "--format": format,
+            "--area-unit km2": area_unit is AreaUnit.km2,
+        }
+        options.refuse(of_files, f"results in a file, not in the folder {out}")
+        work.run(scheduler)
+        return
+    of_folders = {"--partition": partition, "--scheduler": scheduler, "--shapes": shapes, "--keep": keep}
+    options.refuse(of_folders, f"results in a folder, such as --out cells/, not in {out}")
+    if len(points) > 1:
+        raise ValueError(f"results of {len(points)} files need a folder, such as --out cells/, not {out}")
     from stereodel import PlanarVoronoi, SphericalVoronoi
     from stereodel.cli.destinations import MESHES, TABLES, Destination
     from stereodel.cli.progress import say, stage
     from stereodel.cli.sources import read
 
-    destination = Destination.of(out, format, TABLES + MESHES, points, clip, overwrite=overwrite)
+    name = points[0]
+    destination = Destination.of(out, format, TABLES + MESHES, name, clip, overwrite=overwrite)
     if destination.kind in MESHES:
         options.refuse({"--clip": clip}, f"{', '.join(TABLES)}, and {out} holds whole cells")
     if plane is not None:
         options.refuse({"--clip": clip}, "cells of the sphere, not of a plane")
-    table = read(points, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
+    table = read(name, lon=lon, lat=lat, plane=plane, layer=layer_name, crs=crs, skip_missing=skip_missing)
     with stage(f"cells of {len(table)} points"):
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
-    destination.write(lambda path: _save(path, diagram, table, area_unit, clip, max_segment, latitude))
+    destination.write(lambda path: _save(path, diagram, table, area_unit or AreaUnit.km2, clip, max_segment, latitude))
     say(f"{out}: cells of {len(table)} points")
 
 

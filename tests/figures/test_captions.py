@@ -41,6 +41,7 @@ OTHERS = (
     *CLAIMS,
     "earth_airports",
     "earth_cities",
+    "earth_partitions",
     "globe_europe",
     "globe_new_york",
     "sky_stars",
@@ -204,6 +205,9 @@ def truth_of_others(name):
             return [len(areas), np.count_nonzero(areas == 0), areas.max(), module["NAMED"]]
         case "earth_cities":
             return [len(module["geometry"]()["density"]), len(data.cities().population)]
+        case "earth_partitions":
+            g = geometry(name)
+            return [len(g[key]) for key in ("points", "rooms", "own", "alone", "planes", "boxes", "last")]
         case "globe_europe" | "globe_new_york":
             (letters,) = {len(code) for code in data.airports().iata.tolist() if code}
             radius = np.radians(module["geometry"]().get("radius", 0)) * earth.MEAN_RADIUS_KM

@@ -1,0 +1,96 @@
+"""Executors: who computes the tasks of a pass, where the caller names nobody, and results as they come."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
+from types import TracebackType
+from typing import Any, Final, Self, TypeVar
+
+from stereodel._threads import thread_count
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+ATTEMPTS: Final = 3
+"""How often in a row, with no task done between, processes are replaced when the system ended one of them."""
+
+
+class Here(Executor):
+    """Computes each task at once, in the process and thread that submits it."""
+
+    def submit(self, function: Callable[..., T], /, *arguments: Any, **named: Any) -> Future[T]:
+        """The result, or the error, of a call."""
+        future: Future[T] = Future()
+        try:
+            future.set_result(function(*arguments, **named))
+        except Exception as error:
+            future.set_exception(error)
+        return future
+
+
+class Crew:
+    """An executor of the caller, or processes of this machine, one for each processor, which end with the run.
+
+    Parameters
+    ----------
+    executor : concurrent.futures.Executor, optional
+        What has its `submit`.
+    tasks : int
+        Of the largest pass; where there is one, it is computed here.
+    """
+
+    def __init__(self, executor: Executor | None, tasks: int) -> None:
+        self._own = executor is None
+        self._count = max(1, min(tasks, thread_count(-1, 0)))
+        self._executor = self._started() if executor is None else executor
+
+    def _started(self) -> Executor:
+        if self._count == 1:
+            return Here()
+        # A process that was copied from one with threads may stop for ever: none is, on any system.
+        kind = "spawn" if os.name == "nt" else "forkserver"
+        return ProcessPoolExecutor(self._count, mp_context=multiprocessing.get_context(kind))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._own:
+            self._executor.shutdown(wait=True, cancel_futures=True)
+
+    def results(self, function: Callable[[T], R], tasks: Iterable[T]) -> Iterator[R]:
+        """Results of a function as they are done, in any order.
+
+        Processes of our own that the system ended are replaced, and their tasks done again. After an error of a task
+        those that wait are not begun.
+        """
+        left, attempts = set(tasks), ATTEMPTS
+        while left:
+            try:
+                for task, result in self._once(function, sorted(left)):  # type: ignore[type-var]
+                    left.remove(task)
+                    attempts = ATTEMPTS
+                    yield result
+            except BrokenExecutor:
+                attempts -= 1
+                if not self._own or not attempts:
+                    raise
+                self._executor.shutdown(wait=True, cancel_futures=True)
+                self._executor = self._started()
+
+    def _once(self, function: Callable[[T], R], tasks: Iterable[T]) -> Iterator[tuple[T, R]]:
+        if isinstance(self._executor, Here):  # no task before its turn
+            yield from ((task, function(task)) for task in tasks)
+            return
+        futures = {self._executor.submit(function, task): task for task in tasks}
+        try:
+            for future in as_completed(futures):
+                yield futures[future], future.result()
+        finally:
+            for future in futures:
+                future.cancel()

@@ -1,0 +1,236 @@
+"""Places: how a row of a table says where its point is, and columns of Arrow as points."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+import numpy as np
+
+from stereodel._arrays import Bytes, FloatArray, Indices, as_directions, as_points
+from stereodel._extras import optional
+from stereodel.io.columns import find_lonlat, listed
+from stereodel.io.tables import numbers, table_of, transformed
+from stereodel.sphere import lonlat_to_xyz
+from stereodel.sphere.latitudes import Latitude
+
+Surface = Literal["sphere", "plane"]
+SURFACES: Final[tuple[Surface, ...]] = ("sphere", "plane")
+
+Form = Literal["lonlat", "xyz", "xy", "wkb", "point"]
+"""Columns of degrees, of a direction, of the plane; one of geometries, in binary or as pairs of numbers."""
+
+DEGREES: Final = ("EPSG:4326", "OGC:CRS84")
+"""Coordinate systems of geometries that are longitude and latitude in degrees as they stand."""
+
+WKB_POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("place", "<f8", 2)])
+"""A point as well-known binary, least byte first: 21 bytes, and more where it has a height."""
+
+WKB_KINDS: Final = (1, 1001, 2001, 3001)
+"""Of points: with two coordinates, with height, measure, both."""
+
+
+@dataclass(frozen=True)
+class Places:
+    """Which columns say where a row's point is.
+
+    Parameters
+    ----------
+    form : {"lonlat", "xyz", "xy", "wkb", "point"}
+        Degrees, directions, the plane; geometries of GeoParquet as binary or as pairs of numbers.
+    names : tuple of str
+        Of the columns: two, three, or one of geometries.
+    surface : {"sphere", "plane"}
+    latitude : {"spherical", "geodetic", "authalic"}
+        Kind of latitude on the sphere, as in `lonlat_to_xyz`.
+    crs : str, optional
+        Coordinate system of geometries that are no degrees, as PROJ takes it; sphere only.
+    """
+
+    form: Form
+    names: tuple[str, ...]
+    surface: Surface
+    latitude: Latitude
+    crs: str | None = None
+
+    @property
+    def width(self) -> int:
+        """Coordinates of a point: three on the sphere, two in the plane."""
+        return 3 if self.surface == "sphere" else 2
+
+    def points(self, table: Any, first: int = 0) -> FloatArray:
+        """Points of the rows of a table of Arrow: unit vectors or directions (n, 3), or places of the plane (n, 2).
+
+        Parameters
+        ----------
+        table : pyarrow.Table
+            With the columns `names`, at least.
+        first : int
+            Rows of the file before it.
+
+        Raises
+        ------
+        ValueError
+            Naming the first row that is no point, the first of the file being 1, and its value.
+        """
+        columns = [self._plain(table[name]) for name in self.names]
+        try:
+            return self._points(columns)
+        except ValueError:
+            self._refuse(columns, np.arange(first + 1, first + 1 + table.num_rows))
+            raise
+
+    def _plain(self, column: Any) -> Any:
+        """A column without chunks; one of numbers as an array, without a copy where it is of doubles without gaps."""
+        whole = column.combine_chunks() if hasattr(column, "chunks") else column
+        return whole if self.form in ("wkb", "point") else whole.to_numpy(zero_copy_only=False)
+
+    def _points(self, columns: Sequence[Any]) -> FloatArray:
+        if self.form in ("wkb", "point"):
+            places = wkb_places(columns[0]) if self.form == "wkb" else _pairs(columns[0])
+        else:
+            places = np.empty((len(columns[0]), len(columns)))
+            for axis, column in enumerate(columns):
+                places[:, axis] = column
+        if self.surface == "plane":
+            return as_points(places, 2, "points")
+        if self.form == "xyz":
+            return as_directions(places, "points", points=True)
+        if self.crs is not None:
+            places = transformed(places, self.crs, np.arange(1, len(places) + 1))
+        return lonlat_to_xyz(places, latitude=self.latitude, workers=1)
+
+    def _refuse(self, columns: Sequence[Any], rows: Indices) -> None:
+        """Say which row is wrong; nothing if all are right, one by one."""
+        if self.form in ("wkb", "point"):
+            places = wkb_places(columns[0], rows) if self.form == "wkb" else _pairs(columns[0])
+            columns = list(places.T)
+        if self.surface == "sphere" and self.form != "xyz":
+            table_of(columns[0], columns[1], {}, rows, crs=self.crs)
+            return
+        names = self.names if len(self.names) == len(columns) else ("x", "y")
+        values = [numbers(column, name, rows) for column, name in zip(columns, names, strict=True)]
+        zero = np.flatnonzero(~np.any(values, axis=0))
+        if self.form == "xyz" and len(zero):
+            raise ValueError(f"row {rows[zero[0]]}: is the zero vector, which has no direction")
+
+
+def find_places(
+    schema: Any, columns: Sequence[str] | None, surface: Surface, latitude: Latitude, *, geometry: bool = True
+) -> Places:
+    """Which columns of a file are places: those that the caller names, else what the file says, else by their names.
+
+    Parameters
+    ----------
+    schema : pyarrow.Schema
+        Of the first file.
+    columns : sequence of str or None
+        Names that the caller gives: (longitude, latitude) or (x, y, z) on the sphere, (x, y) in the plane; one name is
+        that of a column of geometries.
+    surface, latitude
+        As in `Places`.
+    geometry : bool
+        Whether the geometries of a GeoParquet file count where no names are given.
+
+    Raises
+    ------
+    ValueError
+        Listing the columns, where a name is not among them, or none or several look like longitude and latitude.
+    """
+    names, geo = list(schema.names), _geo(schema)
+    if columns is None and geo and geometry:
+        return _of_geometries(schema, geo, geo["primary_column"], surface, latitude)
+    given = _guessed(names, surface) if columns is None else tuple(columns)
+    missing = [name for name in given if name not in names]
+    if missing:
+        raise ValueError(f"columns has {missing[0]!r}, which is not one of the columns {listed(names)}")
+    if len(given) == 1 and given[0] in geo.get("columns", {}):
+        return _of_geometries(schema, geo, given[0], surface, latitude)
+    forms: dict[tuple[Surface, int], Form] = {("sphere", 2): "lonlat", ("sphere", 3): "xyz", ("plane", 2): "xy"}
+    if (surface, len(given)) not in forms:
+        wanted = "(longitude, latitude) or (x, y, z)" if surface == "sphere" else "(x, y)"
+        raise ValueError(f"columns has {len(given)} names, but on the {surface} a place has {wanted}")
+    return Places(forms[surface, len(given)], given, surface, latitude)
+
+
+def _guessed(names: Sequence[str], surface: Surface) -> tuple[str, ...]:
+    lower = {name.strip().lower(): name for name in names}
+    if surface == "plane":
+        if not {"x", "y"} <= lower.keys():
+            raise ValueError(f"no columns are named x and y; name two with columns=, the columns are {listed(names)}")
+        return lower["x"], lower["y"]
+    if {"x", "y", "z"} <= lower.keys():
+        others = [name for name in names if name.strip().lower() not in ("x", "y", "z")]
+        try:
+            return find_lonlat(others)
+        except ValueError:
+            return lower["x"], lower["y"], lower["z"]
+    return find_lonlat(names)
+
+
+def _geo(schema: Any) -> Mapping[str, Any]:
+    """What GeoParquet says in the metadata of a file; empty for plain Parquet."""
+    text = (schema.metadata or {}).get(b"geo")
+    return json.loads(text) if text else {}
+
+
+def _of_geometries(schema: Any, geo: Mapping[str, Any], name: str, surface: Surface, latitude: Latitude) -> Places:
+    told = geo["columns"][name]
+    encoding = str(told.get("encoding", "WKB")).lower()
+    if encoding not in ("wkb", "point"):
+        raise ValueError(f"the geometries {name!r} are {told['encoding']}, but points are needed; take e.g. centroids")
+    crs = _crs_of(told) if surface == "sphere" else None
+    return Places("wkb" if encoding == "wkb" else "point", (name,), surface, latitude, crs)
+
+
+def _crs_of(told: Mapping[str, Any]) -> str | None:
+    """A coordinate system other than degrees; GeoParquet's default is OGC:CRS84."""
+    crs = told.get("crs")
+    if crs is None:
+        return None
+    known = crs.get("id", {})
+    return None if f"{known.get('authority')}:{known.get('code')}" in DEGREES else json.dumps(crs)
+
+
+def wkb_places(column: Any, rows: Indices | None = None) -> FloatArray:
+    """Coordinates (n, 2) of points in well-known binary.
+
+    Raises
+    ------
+    ValueError
+        For a row without a geometry, or with another than a point.
+
+    Examples
+    --------
+    >>> import pyarrow, struct
+    >>> wkb_places(pyarrow.array([struct.pack("<BIdd", 1, 1, 8.5, 47.4)])).tolist()
+    [[8.5, 47.4]]
+    """
+    numbered = np.arange(1, len(column) + 1) if rows is None else rows
+    if column.null_count:
+        row = numbered[np.flatnonzero(column.is_null().to_numpy(zero_copy_only=False))[0]]
+        raise ValueError(f"row {row}: a Point is needed, not no geometry; leave such rows out")
+    if not len(column):
+        return np.empty((0, 2))
+    pyarrow = optional("pyarrow", "partitioned")
+    plain = column.cast(pyarrow.large_binary())
+    _, offsets, values = plain.buffers()
+    starts = np.frombuffer(offsets, np.int64)[plain.offset : plain.offset + len(plain) + 1]
+    content: Bytes = np.frombuffer(values, np.uint8)
+    short = np.diff(starts) < WKB_POINT.itemsize
+    if short.any():
+        raise ValueError(f"row {numbered[np.flatnonzero(short)[0]]}: a Point is needed, not another geometry")
+    cells = content[starts[:-1, None] + np.arange(WKB_POINT.itemsize)].view(WKB_POINT).ravel()
+    wrong = (cells["order"] != 1) | ~np.isin(cells["kind"], WKB_KINDS)
+    if wrong.any():
+        raise ValueError(f"row {numbered[np.flatnonzero(wrong)[0]]}: a Point is needed, not another geometry")
+    return np.ascontiguousarray(cells["place"])
+
+
+def _pairs(column: Any) -> FloatArray:
+    """Coordinates of points that are stored as structures or lists of two numbers."""
+    if hasattr(column, "field") and column.type.num_fields >= 2:
+        return np.column_stack([column.field(axis).to_numpy(zero_copy_only=False) for axis in ("x", "y")])
+    return np.asarray(column.flatten().to_numpy(zero_copy_only=False)).reshape(len(column), -1)[:, :2]

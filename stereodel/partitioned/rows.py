@@ -1,0 +1,113 @@
+"""Rows: what is told of points, in files that have the rows of the input's files, in their order."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._extras import optional
+from stereodel._files import replacing
+from stereodel.partitioned.plan import Piece, Plan
+from stereodel.partitioned.shards import load, save
+from stereodel.partitioned.solve import ROWS, metadata
+from stereodel.partitioned.sources import opened, slices
+from stereodel.partitioned.store import Store
+
+
+def gather(store: Store, parts: Sequence[int]) -> None:
+    """Write where each share of the input begins in the cells of each partition, (parts, shares + 1)."""
+    starts = [store.load("cells", part, "starts") for part in parts]
+    save(store.scratch / "cells" / "starts.npy", np.stack(starts))
+    save(store.scratch / "cells" / "parts.npy", np.array(parts))
+
+
+def align(store: Store, output: int) -> dict[str, Any]:
+    """The files of some shares of the input."""
+    plan = store.plan
+    shares = plan.outputs[output]
+    if len(shares) > 1:
+        _write(store, plan.shares[shares[0]][0].file, shares)
+    else:
+        columns, first = _columns(store, shares[0]), 0
+        for piece in plan.shares[shares[0]]:
+            rows = slice(first, first + piece.last - piece.first)
+            first = rows.stop
+            write_file(store, piece.file, [(piece, {name: column[rows] for name, column in columns.items()})])
+    return store.keep("align", output, {}, {})
+
+
+def _write(store: Store, file: int, shares: Sequence[int]) -> None:
+    """The file of a large file, share by share."""
+    plan = store.plan
+    write_file(store, file, ((plan.shares[share][0], _columns(store, share)) for share in shares))
+
+
+def _columns(store: Store, share: int) -> dict[str, npt.NDArray[Any]]:
+    """What is told of the points of a share, in their order."""
+    plan = store.plan
+    first, last = plan.share_firsts[share : share + 2].tolist()
+    columns = {name: np.empty(last - first, dtype=ROWS[name]) for name in plan.rows}
+    if "kept" in columns:
+        columns["kept"][:] = np.arange(first, last)
+    starts, parts = (load(store.scratch / "cells" / f"{name}.npy") for name in ("starts", "parts"))
+    for part, (low, high) in zip(parts.tolist(), starts[:, share : share + 2].tolist(), strict=True):
+        if low == high:
+            continue
+        cells = store.load_rows("cells", part, "rows", low, high)
+        at = cells["number"].astype(np.intp) - first
+        for name in plan.told:
+            columns[name][at] = cells[name]
+        if "kept" in columns:
+            pairs = store.load("cells", part, "pairs")
+            low, high = np.searchsorted(pairs[:, 0], [first, last])
+            columns["kept"][pairs[low:high, 0] - first] = pairs[low:high, 1]
+    return columns
+
+
+def write_file(store: Store, file: int, lots: Any) -> None:
+    """A file of rows, from pieces of the input's file and columns for each, in order; without a piece it has no rows.
+
+    Parameters
+    ----------
+    store : Store
+    file : int
+        Number of the input's file.
+    lots : iterable of (Piece, dict)
+    """
+    plan = store.plan
+    path = store.results / "rows" / plan.files[file].name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    schema = _schema(store, file)
+    with (
+        replacing(path) as temporary,
+        optional("pyarrow.parquet", "partitioned").ParquetWriter(
+            temporary, schema, compression="none", use_dictionary=list(plan.carried)
+        ) as out,
+    ):
+        for piece, columns in lots:
+            out.write_table(_table(plan, piece, columns, schema))
+
+
+def _schema(store: Store, file: int) -> Any:
+    """Columns that are carried along from the input, as they are there, then those of the rows."""
+    pyarrow = optional("pyarrow", "partitioned")
+    plan = store.plan
+    carried: list[Any] = []
+    if plan.carried:
+        with opened(plan.files[file].path) as content:
+            carried = [content.schema_arrow.field(name) for name in plan.carried]
+    own = [pyarrow.field(name, pyarrow.from_numpy_dtype(ROWS[name])) for name in plan.rows]
+    return pyarrow.schema([*carried, *own], metadata=metadata(store))
+
+
+def _table(plan: Plan, piece: Piece, columns: dict[str, npt.NDArray[Any]], schema: Any) -> Any:
+    pyarrow = optional("pyarrow", "partitioned")
+    arrays = {name: pyarrow.array(column) for name, column in columns.items()}
+    if plan.carried:
+        found = [table for _, table in slices(plan.files[piece.file], plan.carried, piece.first, piece.last)]
+        table = pyarrow.concat_tables(found).combine_chunks()
+        arrays |= {name: table[name] for name in plan.carried}
+    return pyarrow.table([arrays[name] for name in schema.names], schema=schema)

@@ -1,0 +1,155 @@
+"""`stereodel voronoi` into a folder: points in partitions."""
+
+import io
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from stereodel import SphericalVoronoi
+from stereodel.cli import partitions
+from stereodel.cli.progress import counts
+from stereodel.partitioned import Run
+from tests.cli.test_progress import terminal
+
+
+@pytest.fixture
+def points(folder):
+    """Two files of points and one of the plane; the places of the first two."""
+    rng = np.random.default_rng(8)
+    (folder / "points").mkdir()
+    lonlat = np.column_stack([rng.uniform(-180, 180, 300), rng.uniform(-80, 80, 300)])
+    for number, rows in enumerate((slice(0, 200), slice(200, 300))):
+        lon, lat = lonlat[rows].T
+        pq.write_table(pa.table({"lon": lon, "lat": lat, "id": lon.argsort()}), folder / "points" / f"{number}.parquet")
+    pq.write_table(pa.table({"east": rng.normal(size=60), "north": rng.normal(size=60)}), folder / "plane.parquet")
+    return lonlat
+
+
+FILES = ["points/0.parquet", "points/1.parquet"]
+
+
+@pytest.mark.parametrize("given", [FILES, ["points"], ["points/*.parquet"]])
+def test_areas_are_those_of_all_points(folder, points, run, given):
+    assert run("voronoi", *given, "-o", "cells/", "--partition", 100) == ""
+    table = Run(folder / "cells").rows().to_table()
+    assert table.column_names == ["area", "degree", "nearest", "distance", "kept"]
+    assert table["area"].to_pylist() == SphericalVoronoi.from_lonlat(points, latitude="authalic").areas().tolist()
+    assert sorted(path.name for path in (folder / "cells").iterdir() ) == [
+        ".lock", "files.parquet", "plan.json", "rows", "run.json"
+    ]  # fmt: skip
+
+
+def test_options_of_a_folder(folder, points, run):
+    run("voronoi", *FILES, "-o", "cells/", "--keep", "id", "--shapes", "--latitude", "spherical", "--area-unit", "sr")
+    found = Run(folder / "cells")
+    assert found.rows().schema.names[0] == "id"
+    assert found.cells().count_rows() == 300
+    run("voronoi", "plane.parquet", "--plane", "east", "north", "-o", "plane/")
+    assert Run(folder / "plane").statistics["triangles"] > 60
+    run("voronoi", *FILES, "--lon", "lon", "--lat", "lat", "-o", "named/")
+
+
+SAID = [
+    ([*FILES, "-o", "a.csv"], "results of 2 files need a folder, such as --out cells/, not a.csv"),
+    ([FILES[0], "-o", "a.csv", "--partition", 5], "--partition is for results in a folder, such as --out cells/, not"),
+    (
+        [FILES[0], "-o", "a.csv", "--keep", "id"],
+        "--keep is for results in a folder, such as --out cells/, not in a.csv",
+    ),
+    ([FILES[0], "-o", "a/", "--clip", "land"], "--clip is for results in a file, not in the folder a/"),
+    ([FILES[0], "-o", "a/", "--area-unit", "km2"], "--area-unit km2 is for results in a file, not in the folder a/"),
+    (["-", "-o", "a/"], "results in the folder a/ are of files, not of stdin"),
+    ([FILES[0], "-o", "a/", "--lon", "lon"], "--lon and --lat are given together where results are in a folder"),
+    (
+        [FILES[0], "-o", "a/", "--lon", "x", "--lat", "y"],
+        "--lon has 'x', which is not one of the columns 'lon'",
+    ),
+    ([FILES[0], "-o", "a/", "--keep", "x"], "--keep has 'x', which is not one of the columns 'lon', 'lat', 'id'"),
+    (["none.parquet", "-o", "a/"], "none.parquet is no file, folder or pattern of Parquet files"),
+    (["cities.csv", "-o", "a/"], "cities.csv is not a Parquet file"),
+    ([*FILES, "-o", "points/"], "lies in out, the folder of results; take another folder"),
+]
+
+
+@pytest.mark.parametrize(("arguments", "said"), SAID, ids=[" ".join(map(str, row[0])) for row in SAID])
+def test_what_is_wrong_is_said_in_one_line(folder, points, run, arguments, said):
+    line = run("voronoi", *arguments, code=2)
+    assert line.startswith("error: ")
+    assert said in line
+    assert line.count("\n") == 1
+    assert not (folder / "a.csv").exists()
+    assert not (folder / "a" / "rows").exists()
+
+
+def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
+    run("voronoi", FILES[0], "-o", "cells/")
+    message = run("voronoi", FILES[1], "-o", "cells/", code=2)
+    assert "has a run of other files or arguments" in message
+    assert message.endswith("take another folder, or begin anew with --overwrite\n")
+    run("voronoi", FILES[1], "-o", "cells/", "--overwrite")
+    assert Run(folder / "cells").statistics["points"] == 100
+
+
+def test_no_points(folder, run):
+    pq.write_table(pa.table({"lon": pa.array([], pa.float64()), "lat": pa.array([], pa.float64())}), "none.parquet")
+    assert run("voronoi", "none.parquet", "-o", "cells/", code=1) == "none.parquet: there are no points\n"
+
+
+def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):
+    """The same command goes on, with what was solved."""
+    from stereodel.partitioned import run as running
+
+    whole = running._Passes._aligned
+    monkeypatch.setattr(running._Passes, "_aligned", lambda self: (_ for _ in ()).throw(KeyboardInterrupt))
+    message = run("voronoi", *FILES, "-o", "cells/", "--partition", 100, code=130)
+    assert message == "interrupted; what is done is kept, and the same command goes on from there\n"
+    monkeypatch.setattr(running._Passes, "_aligned", whole)
+    solved = []
+    monkeypatch.setattr(running, "solve", lambda *arguments, **options: solved.append(arguments))
+    run("voronoi", *FILES, "-o", "cells/", "--partition", 100)
+    assert solved == []
+    assert Run(folder / "cells").statistics["points"] == 300
+
+
+def test_a_scheduler_of_dask(folder, points, run, monkeypatch):
+    """The address is Dask's; what no scheduler answers at is one line."""
+    asked = []
+
+    class Client:
+        def __init__(self, address, **options):
+            asked.append(address)
+            if address != "tcp://here:1":
+                raise OSError("Timed out trying to connect")
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *error):
+            asked.append("closed")
+
+        def get_executor(self, **options):
+            assert options == {"pure": False, "retries": 0}
+            from stereodel.partitioned.executors import Here
+
+            return Here()
+
+    monkeypatch.setattr(partitions, "distributed", lambda: type("distributed", (), {"Client": Client}))
+    run("voronoi", *FILES, "-o", "cells/", "--scheduler", "tcp://here:1")
+    assert asked == ["tcp://here:1", "closed"]
+    message = run("voronoi", *FILES, "-o", "other/", "--scheduler", "tcp://there:1", code=2)
+    assert message.startswith("error: --scheduler is 'tcp://there:1', where none answers: Timed out")
+
+
+def test_passes_are_counted_on_a_terminal(monkeypatch):
+    stream = terminal(monkeypatch)
+    with counts() as told:
+        told("solve", 0, 12)
+        told("solve", 12, 12)
+    assert "solve" in stream.getvalue()
+    assert "12/12" in stream.getvalue()
+    monkeypatch.setattr("sys.stderr", silent := io.StringIO())
+    with counts() as told:
+        told("solve", 1, 12)
+    assert silent.getvalue() == ""

@@ -1,0 +1,48 @@
+"""The picture of the partitions: what its two rounds find is what all airports have together."""
+
+import numpy as np
+import pytest
+
+from stereodel.triangulation import SphericalDelaunay
+from tests.figures.scripts import geometry, script
+
+
+@pytest.fixture(scope="module")
+def g():
+    return geometry("earth_partitions")
+
+
+def turned(triangles):
+    """Triangles with their lowest corner first, in order."""
+    first = np.argmin(triangles, axis=1)[:, None]
+    rows = np.take_along_axis(triangles, (np.arange(3) + first) % 3, axis=1)
+    return np.unique(rows, axis=0).tolist()
+
+
+def test_triangles_are_those_of_all_airports_about_its_own(g):
+    whole = SphericalDelaunay(g["points"]).simplices
+    assert turned(g["triangles"]) == turned(whole[np.isin(whole, g["own"]).any(axis=1)])
+
+
+def test_every_bubble_drawn_meets_a_box_and_every_box_a_bubble(g):
+    """By points of the boxes' parts of the sphere, close together: a bubble that the boxes' balls let by has none."""
+    meet = script("earth_partitions")["meet"](g["planes"], g["boxes"])
+    assert meet.any(axis=1).all()
+    assert meet.any(axis=0).all()
+    inside = g["points"][g["new"]] @ g["planes"][:, :3].T >= g["planes"][:, 3]
+    assert 0 < inside.any(axis=0).sum() < len(g["planes"])  # that a box is met does not say that a point is
+
+
+def test_outlines_bound_what_is_in_a_box(g):
+    """The middle of an arc is on one face; a little to its left is inside the box, and to its right outside."""
+    outline = script("earth_partitions")["outline"]
+    for box in (*g["rooms"], *g["boxes"]):
+        arcs = outline(box)
+        assert arcs
+        for arc in arcs:
+            before, middle, after = arc.sample(3)
+            way = np.cross(middle, after - before)
+            for side, expected in ((1e-7, True), (-1e-7, False)):
+                at = middle + side * way / np.linalg.norm(way)
+                at /= np.linalg.norm(at)
+                assert ((box[0] <= at) & (at <= box[1])).all() == expected

@@ -1,0 +1,92 @@
+"""What partitions say, and what one triangulation in memory says of the same points."""
+
+from functools import partial
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from stereodel import (
+    PlanarDelaunay,
+    PlanarVoronoi,
+    SphericalDelaunay,
+    SphericalVoronoi,
+    angular_distance,
+    lonlat_to_xyz,
+)
+from stereodel.partitioned import triangulate
+from stereodel.partitioned.executors import Here
+
+serially = partial(triangulate, executor=Here())
+"""In this process, which is fastest for few points."""
+
+
+def write_points(folder, columns, rows, files=5, **options):
+    """Rows in files, one after the other; a number of files, or where each of them ends."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for k, piece in enumerate(np.array_split(rows, files)):
+        table = pa.table({name: np.ascontiguousarray(piece[:, axis]) for axis, name in enumerate(columns)})
+        pq.write_table(table, folder / f"{k:03}.parquet", **options)
+    return folder
+
+
+def surface_of(columns):
+    return "plane" if tuple(columns) == ("x", "y") else "sphere"
+
+
+def mesh_of(columns, rows):
+    if surface_of(columns) == "plane":
+        return PlanarDelaunay(rows)
+    return SphericalDelaunay(rows if len(columns) == 3 else lonlat_to_xyz(rows))
+
+
+def in_memory(columns, rows):
+    """Sorted triangles with `closing`, and what is told of each point."""
+    mesh = mesh_of(columns, rows)
+    own, size = np.arange(len(mesh.points)), len(mesh.points)
+    if isinstance(mesh, PlanarDelaunay):
+        diagram, closing = PlanarVoronoi(mesh), np.zeros(len(mesh.simplices), bool)
+    else:
+        diagram, closing = SphericalVoronoi(mesh), mesh.closing
+    kept, nearest, distance = own.copy(), np.full(size, -1), np.full(size, np.inf)
+    kept[mesh.duplicates[:, 0]] = mesh.duplicates[:, 1]
+    if size > 1:
+        found = mesh.nearest(mesh.points, k=2)
+        nearest = np.where(found[:, 0] == own, found[:, 1], found[:, 0])
+        a, b = mesh.points, mesh.points[nearest]
+        distance = np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(angular_distance(a, b))
+    told = {
+        "area": diagram.areas(),
+        "degree": np.diff(diagram.region_offsets),
+        "nearest": nearest,
+        "kept": kept,
+        "distance": distance,
+    }
+    return ordered(np.column_stack([mesh.simplices, closing])), told
+
+
+def ordered(faces):
+    return faces[np.lexsort(faces.T[::-1])]
+
+
+def of_run(run):
+    """The same of a run."""
+    table = run.triangles().to_table()
+    faces = np.column_stack([table[name].to_numpy() for name in ("a", "b", "c", "closing")])
+    rows = run.rows().to_table()
+    return ordered(faces), {name: rows[name].to_numpy() for name in rows.column_names}
+
+
+def differences(run, truth):
+    """Names of what differs from the answer in memory, by a bit; distances have no equal there."""
+    (faces, told), (right, values) = of_run(run), truth
+    wrong = [] if np.array_equal(faces, right) else ["triangles"]
+    wrong += [name for name in values if name != "distance" and not np.array_equal(told[name], values[name])]
+    # Angles of points in double-double are right to 2^-98; those of the same direction are 0 exactly in partitions.
+    near = np.allclose(
+        told["distance"],
+        values["distance"],
+        rtol=1e-13,
+        atol=2.0**-98 if run.statistics["surface"] == "sphere" else 0.0,
+    )
+    return wrong if near else [*wrong, "distance"]

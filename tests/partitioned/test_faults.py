@@ -1,0 +1,323 @@
+"""What goes wrong: told once and clearly, with nothing half; what was interrupted goes on."""
+
+import multiprocessing
+import os
+import resource
+import signal
+import subprocess
+import sys
+from concurrent.futures import Executor, Future
+from pathlib import Path
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from stereodel.partitioned import Run, plan, triangulate
+from stereodel.partitioned.executors import ATTEMPTS, Crew, Here
+from stereodel.partitioned.lock import locked
+from stereodel.partitioned.run import PASSES
+from tests.partitioned.answers import differences, in_memory, serially, write_points
+from tests.partitioned.sets import LONLAT, XYZ, rows_of
+
+
+@pytest.fixture
+def points(tmp_path, monkeypatch):
+    """Points in files, in so many tasks that each pass has several; and the answer in memory."""
+    monkeypatch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
+    columns, rows = rows_of("uniform", 600)
+    return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
+
+
+class Failing(Executor):
+    """Computes tasks at once, but for one of a pass: the one that is begun so many tasks from now fails."""
+
+    def __init__(self, name):
+        self.name, self.left, self.done = name, 0, []
+
+    def submit(self, function, /, *arguments):
+        future = Future()
+        name = function.func.__name__
+        self.left -= name == self.name
+        if name == self.name and self.left == 0:
+            self.done.append(f"{name} failed")
+            future.set_exception(ConnectionError("the worker is gone"))
+            return future
+        self.done.append(name)
+        return Here().submit(function, *arguments)
+
+
+@pytest.mark.parametrize("name", ["sample", "spread", "collect", "solve", "align"])
+def test_a_task_that_fails_thrice(tmp_path, points, name):
+    """The error is the task's own; each run begins where the last one stopped; what was done is not done again."""
+    folder, truth = points
+    executor = Failing(name)
+    for count in (3, 1, 1):  # the others of the pass were done in the first run
+        executor.left = count
+        with pytest.raises(ConnectionError, match="the worker is gone"):
+            triangulate(folder, tmp_path / "out", partition=60, executor=executor)
+        with pytest.raises(FileNotFoundError, match="no run ended there"):
+            Run(tmp_path / "out")
+    run = triangulate(folder, tmp_path / "out", partition=60, executor=executor)
+    assert differences(run, truth) == []
+    assert executor.done.count(f"{name} failed") == 3
+    once = {other: executor.done.count(other) for other in ("sample", "spread", "collect", "solve", "align")}
+    assert set(once.values()) <= {5, 10}
+
+
+def killed_once(marker, name, function, task):
+    """What the function returns; the first process that calls it for that pass is ended by the system."""
+    if function.func.__name__ == name and not marker.exists():
+        marker.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return function(task)
+
+
+@pytest.mark.parametrize("name", ["sample", "spread", "collect", "solve", "align"])
+def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
+    """The processes of our own are replaced, and what the dead one did is done again."""
+    from functools import partial
+
+    folder, truth = points
+    marker = tmp_path / "killed"
+    once = Crew._once
+    monkeypatch.setattr(
+        Crew,
+        "_once",
+        lambda self, function, tasks: once(self, partial(killed_once, marker, name, function), tasks),
+    )
+    run = triangulate(folder, tmp_path / "out", partition=100)
+    assert marker.exists()
+    assert differences(run, truth) == []
+
+
+def killed(task):
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_processes_that_die_again_and_again():
+    from concurrent.futures.process import BrokenProcessPool
+
+    with Crew(None, 2) as crew, pytest.raises(BrokenProcessPool):
+        list(crew.results(killed, range(2)))
+    assert ATTEMPTS == 3
+
+
+def test_a_driver_that_is_killed_leaves_no_lock(tmp_path, points):
+    """The system takes the lock away, and the next run goes on."""
+    folder, truth = points
+    code = f"""
+import os, signal, sys
+from stereodel.partitioned import triangulate
+from stereodel.partitioned.executors import Here
+def progress(name, done, of):
+    if (name, done) == ("solve", 3):
+        os.kill(os.getpid(), signal.SIGKILL)
+from stereodel.partitioned import plan
+plan.LEAST_SHARE = 1
+triangulate({str(folder)!r}, {str(tmp_path / "out")!r}, partition=60, executor=Here(), progress=progress)
+"""
+    ran = subprocess.run([sys.executable, "-c", code], check=False)
+    assert ran.returncode == -signal.SIGKILL
+    begun = []
+    run = serially(folder, tmp_path / "out", partition=60, progress=lambda *told: begun.append(told))
+    assert differences(run, truth) == []
+    assert begun[0] == ("solve", 3, 10)
+
+
+def test_two_runs_on_one_folder(tmp_path, points):
+    folder, _ = points
+    (tmp_path / "out").mkdir()
+    with locked(tmp_path / "out"), pytest.raises(RuntimeError, match="another run writes to"):
+        serially(folder, tmp_path / "out")
+    assert serially(folder, tmp_path / "out").statistics["points"] == 600
+
+
+def limited(function, size, *arguments):
+    """An error of a function in a process whose files may not be larger, as if the disk were full."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+    try:
+        function(*arguments)
+    except OSError as error:
+        return type(error).__name__, error.errno, str(error)
+    return None
+
+
+def of_limited(source, out):
+    plan.LEAST_SHARE = 1
+    serially(source, out, partition=60)
+
+
+@pytest.mark.parametrize("size", [300, 2000, 5000])
+def test_a_full_disk(tmp_path, points, size):
+    """An OSError; nothing is half written; with room again the run goes on."""
+    folder, truth = points
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        name, number, _ = pool.apply(limited, (of_limited, size, folder, tmp_path / "out"))
+    assert name == "OSError"
+    assert number == 27  # EFBIG, where a full disk has ENOSPC
+    assert not [path for path in (tmp_path / "out").rglob("*") if path.name.endswith(".tmp")]
+    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
+
+
+def interrupted(folder, out, name, done):
+    """A run that ends when so many tasks of a pass are done."""
+
+    def progress(*told):
+        if told[:2] == (name, done):
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        serially(folder, out, partition=60, progress=progress)
+
+
+@pytest.mark.parametrize("name", PASSES)
+def test_a_run_that_was_interrupted_goes_on(tmp_path, points, name):
+    folder, truth = points
+    interrupted(folder, tmp_path / "out", name, 4)
+    begun = {}
+    run = serially(folder, tmp_path / "out", partition=60, progress=lambda name, done, of: begun.setdefault(name, done))
+    assert begun[name] >= 4
+    assert list(begun) == list(PASSES)[PASSES.index(name) :]
+    assert differences(run, truth) == []
+
+
+def test_a_run_that_ended_is_not_run_again(tmp_path, points):
+    folder, _ = points
+    first = serially(folder, tmp_path / "out")
+    times = {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")}
+    calls = []
+    again = serially(folder, tmp_path / "out", progress=lambda *told: calls.append(told))
+    assert (again.statistics, calls) == (first.statistics, [])
+    assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
+
+
+@pytest.mark.parametrize("room", ["spread", "points", "cells"])
+def test_a_shard_that_was_cut_short(tmp_path, points, room):
+    """It is made again while what it was made of is there; else the error says what to do."""
+    folder, truth = points
+    name = {"spread": "spread", "points": "collect", "cells": "solve"}[room]
+    interrupted(folder, tmp_path / "out", name, 4)
+    shards = [path for path in (tmp_path / "out" / "scratch" / room).glob("*.npy") if path.stat().st_size > 200]
+    os.truncate(sorted(shards)[0], 100)
+    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
+
+
+def test_a_shard_that_was_cut_short_after_its_sources_were_deleted(tmp_path, points):
+    folder, truth = points
+    interrupted(folder, tmp_path / "out", "solve", 1)
+    for path in (tmp_path / "out" / "scratch" / "points").glob("*.points.npy"):
+        os.truncate(path, 100)
+    with pytest.raises(ValueError, match=r"points\.npy was cut short after it was written; begin anew with resume"):
+        serially(folder, tmp_path / "out", partition=60)
+    assert differences(serially(folder, tmp_path / "out", partition=60, resume=False), truth) == []
+
+
+def test_other_arguments_are_noticed(tmp_path, points):
+    folder, truth = points
+    interrupted(folder, tmp_path / "out", "solve", 1)
+    for other, message in [
+        ({"partition": 61}, r"partition was 60, and is 61"),
+        ({"partition": 60, "rows": ("area",)}, r"rows was \('area', 'degree', .*\), and is \('area',\)"),
+        ({"partition": 60, "triangles": False}, "triangles was True, and is False"),
+    ]:
+        with pytest.raises(ValueError, match=f"has a run of other files or arguments: {message}; take another folder"):
+            serially(folder, tmp_path / "out", **other)
+    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
+
+
+def test_a_changed_file_is_noticed(tmp_path, points):
+    folder, _ = points
+    interrupted(folder, tmp_path / "out", "solve", 1)
+    os.utime(folder / "002.parquet", ns=(1, 1))
+    with pytest.raises(ValueError, match=r"002\.parquet has changed since"):
+        serially(folder, tmp_path / "out", partition=60)
+    (folder / "002.parquet").rename(folder / "009.parquet")
+    with pytest.raises(ValueError, match=r"002\.parquet is missing"):
+        serially(folder, tmp_path / "out", partition=60)
+
+
+def test_a_file_that_is_new_is_noticed(tmp_path, points):
+    folder, _ = points
+    interrupted(folder, tmp_path / "out", "solve", 1)
+    (folder / "009.parquet").write_bytes((folder / "001.parquet").read_bytes())
+    with pytest.raises(ValueError, match=r"009\.parquet was not there"):
+        serially(folder, tmp_path / "out", partition=60)
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "message"),
+    [
+        ("lat", np.nan, r"003\.parquet: row 7: the latitude is missing"),
+        ("lon", np.inf, r"003\.parquet: row 7: the longitude is inf, but must be finite"),
+        ("lat", 95.5, r"003\.parquet: row 7: latitude 95\.5 is outside \[-90, 90\]"),
+        ("lat", None, r"003\.parquet: row 7: the latitude is missing"),
+    ],
+)
+@pytest.mark.parametrize("partition", [30, 10_000])
+def test_a_row_that_is_no_point(tmp_path, column, value, message, partition):
+    """By file, row and value, whether the sample, the spreading or the partition meets it first."""
+    _, rows = rows_of("airports", 300)
+    folder = write_points(tmp_path / "points", LONLAT, rows)
+    table = pq.read_table(folder / "003.parquet")
+    values = table[column].to_pylist()
+    values[6] = value
+    table = table.set_column(table.column_names.index(column), column, pa.array(values, pa.float64()))
+    pq.write_table(table, folder / "003.parquet", row_group_size=5)
+    with pytest.raises(ValueError, match=message):
+        serially(folder, tmp_path / "out", partition=partition)
+    assert not list((tmp_path / "out").rglob("rows/*"))
+
+
+def test_a_zero_vector(tmp_path):
+    folder = write_points(tmp_path / "points", XYZ, np.array([[1.0, 0, 0], [0, 0, 0], [0, 1, 0]]), 1)
+    with pytest.raises(ValueError, match=r"000\.parquet: row 2: is the zero vector, which has no direction"):
+        serially(folder, tmp_path / "out")
+
+
+def test_more_points_at_once_than_the_limit(tmp_path):
+    """The pole of a circle has a star of all points, which no partition helps."""
+    columns, rows = rows_of("great circle and a pole", 2000)
+    folder = write_points(tmp_path / "points", columns, rows)
+    with pytest.raises(
+        MemoryError, match=r"partition \d+: .*star.* points at once, more than limit=200; give a higher"
+    ):
+        serially(folder, tmp_path / "out", partition=50, limit=200)
+    run = serially(folder, tmp_path / "out", partition=50)  # the limit is no part of the plan
+    assert differences(run, in_memory(columns, rows)) == []
+
+
+@pytest.mark.parametrize(("name", "curve"), [("great circle", "great circle"), ("plane: line", "line")])
+def test_points_of_one_circle_or_line_beyond_the_limit(tmp_path, name, curve):
+    columns, rows = rows_of(name, 300)
+    folder = write_points(tmp_path / "points", columns, rows)
+    asked = {"surface": "plane" if curve == "line" else "sphere", "partition": 50}
+    with pytest.raises(MemoryError, match=f"all 300 points lie on one {curve}: there are no triangles.*limit=200"):
+        serially(folder, tmp_path / "out", limit=200, **asked)
+    assert differences(serially(folder, tmp_path / "out", **asked), in_memory(columns, rows)) == []
+
+
+def test_results_are_not_among_the_points(tmp_path, points):
+    folder, _ = points
+    (folder / "002.parquet").rename(folder / "a.parquet")
+    with pytest.raises(ValueError, match=r"lies in out, the folder of results"):
+        serially(folder, folder)
+
+
+def test_a_folder_of_something_else_is_left_alone(tmp_path, points):
+    folder, _ = points
+    (tmp_path / "out" / "rows").mkdir(parents=True)
+    (tmp_path / "out" / "rows" / "mine.txt").write_text("mine")
+    for resume in (True, False):
+        with pytest.raises(ValueError, match="has 'rows', which is not of a run; take another folder"):
+            serially(folder, tmp_path / "out", resume=resume)
+    assert Path(tmp_path / "out" / "rows" / "mine.txt").read_text() == "mine"
+
+
+def test_inputs_stay_as_they_are(tmp_path, points):
+    folder, _ = points
+    before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()}
+    serially(folder, tmp_path / "out", partition=60)
+    assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()} == before

@@ -1,0 +1,280 @@
+"""HATS: catalogues that LSDB writes are read pixel by pixel, and LSDB reads and joins the second one."""
+
+import shutil
+import warnings
+from contextlib import contextmanager
+
+import numpy as np
+import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from stereodel import SphericalVoronoi
+from stereodel.partitioned import triangulate
+from stereodel.partitioned.executors import Here
+from stereodel.partitioned.hats import Catalogue, HatsSource, Pixel, hats_source, is_catalogue
+from stereodel.partitioned.sources import read
+from stereodel.sphere import lonlat_to_xyz
+
+ROWS = 3000
+
+
+@contextmanager
+def quiet():
+    """LSDB and its libraries warn of one another."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        yield
+
+
+@pytest.fixture(scope="module")
+def lsdb():
+    """Imported where it is needed: it takes seconds."""
+    with quiet():
+        import dask
+        import lsdb
+    with dask.config.set(scheduler="synchronous"):
+        yield lsdb
+
+
+@pytest.fixture(scope="module")
+def table():
+    """Points that are dense about one place, so that pixels are of several orders."""
+    rng = np.random.default_rng(17)
+    lon = np.concatenate([rng.uniform(0, 360, ROWS // 2), rng.normal(130, 4, ROWS // 2)]) % 360
+    sines = np.concatenate([rng.uniform(-1, 1, ROWS // 2), np.sin(np.radians(rng.normal(-20, 4, ROWS // 2)))])
+    identifiers = rng.permutation(ROWS) * 7 + 2**60
+    return pd.DataFrame({"source_id": identifiers, "ra": lon, "dec": np.degrees(np.arcsin(sines))})
+
+
+@pytest.fixture(scope="module")
+def collection(lsdb, table, tmp_path_factory):
+    """A collection as LSDB writes it: the catalogue and its margin."""
+    folder = tmp_path_factory.mktemp("hats") / "sky"
+    with quiet():
+        catalogue = lsdb.from_dataframe(
+            table,
+            ra_column="ra",
+            dec_column="dec",
+            catalog_name="sky",
+            lowest_order=0,
+            highest_order=4,
+            partition_rows=700,
+            moc_max_order=4,
+            margin_threshold=3600.0,
+        )
+        catalogue.write_catalog(folder, catalog_name="sky")
+    return folder
+
+
+@pytest.fixture
+def copied(collection, tmp_path):
+    """The catalogue alone, where it can be changed."""
+    return shutil.copytree(collection / "sky", tmp_path / "sky")
+
+
+def source_of(folder, columns=None):
+    return hats_source(folder, columns, "sphere", "spherical")
+
+
+def identified(source):
+    """The same with the column that identifies rows carried along."""
+    return HatsSource(
+        source.files, source.places, source.compact, (*source.carried, "source_id"), catalogue=source.catalogue
+    )
+
+
+def rows_of(source, folder):
+    """Write files of rows as they are written for any source: the carried columns, then results; here row numbers."""
+    first = 0
+    for file in source.files:
+        carried = pq.ParquetFile(file.path).read(columns=list(source.carried)).select(list(source.carried))
+        result = pa.array(np.arange(first, first + file.rows))
+        first += file.rows
+        (folder / file.name).parent.mkdir(parents=True, exist_ok=True)
+        pq.write_table(carried.append_column("row", result), folder / file.name)
+    source.finish(folder)
+
+
+@pytest.fixture
+def opened(lsdb):
+    """A function: what LSDB makes of a folder."""
+
+    def opened(folder):
+        with quiet():
+            return lsdb.open_catalog(folder)
+
+    return opened
+
+
+def computed(catalogue):
+    with quiet():
+        return pd.DataFrame(catalogue.compute(progress_bar=False))
+
+
+def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened, table):
+    source = source_of(collection)
+    assert source.compact
+    assert source.places.names == ("ra", "dec")
+    assert len({pixel.order for pixel in source.catalogue.pixels}) > 2
+    pixels = opened(collection).get_healpix_pixels()
+    assert [(pixel.order, pixel.number) for pixel in source.catalogue.pixels] == [(p.order, p.pixel) for p in pixels]
+    found, expected = [], []
+    for file, pixel in zip(source.files, source.catalogue.pixels, strict=True):
+        assert file.name == pixel.path(".parquet").as_posix()
+        found += read(file, source.places, 0, file.rows)
+        expected.append(pq.ParquetFile(file.path).read(columns=["source_id"])["source_id"].to_numpy())
+    by_id = table.set_index("source_id").loc[np.concatenate(expected)]
+    assert np.array_equal(np.concatenate(found), lonlat_to_xyz(by_id[["ra", "dec"]].to_numpy()))
+    assert sum(file.rows for file in source.files) == ROWS
+
+
+def test_the_margin_of_a_collection_is_not_read(collection):
+    margin = next(path for path in collection.iterdir() if path.name.startswith("sky_"))
+    with pytest.raises(ValueError, match=r"is a catalogue of type 'margin', not of points"):
+        source_of(margin)
+    assert all("sky/dataset" in file.path for file in source_of(collection).files)
+
+
+def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, tmp_path):
+    source = identified(source_of(collection))
+    rows_of(source, tmp_path / "rows")
+    first, second = opened(collection), opened(tmp_path / "rows")
+    assert second.get_healpix_pixels() == first.get_healpix_pixels()
+    assert second.name == "sky_voronoi"
+    assert len(second) == ROWS
+    with quiet():
+        joined = first.join(second, "source_id", "source_id", suffixes=("", "_2"), suffix_method="overlapping_columns")
+        extended = first.load_extension(tmp_path / "sky_voronoi.properties")
+    assert joined.get_healpix_pixels() == first.get_healpix_pixels()
+    numbers = np.concatenate([pq.ParquetFile(file.path).read()["source_id"].to_numpy() for file in source.files])
+    for found in (computed(joined), computed(extended)):
+        assert len(found) == ROWS
+        assert numbers[found["row"].to_numpy()].tolist() == found["source_id"].tolist()
+    assert list(extended.columns) == ["source_id", "ra", "dec", "row"]
+
+
+def test_cells_of_a_catalogue_are_those_of_all_its_points(collection, opened, table, tmp_path):
+    """From the folder to the joined catalogue: its pixels are the partitions, and LSDB finds each star's own cell."""
+    told = []
+    run = triangulate(
+        collection, tmp_path / "out", keep=["source_id"], executor=Here(), progress=lambda name, *_: told.append(name)
+    )
+    assert run.statistics["compact"]
+    assert "spread" not in told
+    with quiet():
+        joined = opened(collection).load_extension(tmp_path / "out" / "sky_voronoi.properties")
+    found = computed(joined).set_index("source_id").loc[table["source_id"]]
+    diagram = SphericalVoronoi.from_lonlat(table[["ra", "dec"]].to_numpy())
+    assert found["area"].tolist() == pytest.approx(diagram.areas().tolist(), rel=1e-11)
+    assert found["degree"].tolist() == np.diff(diagram.region_offsets).tolist()
+    assert list(joined.columns) == ["source_id", "ra", "dec", "area", "degree", "nearest", "distance", "kept"]
+
+
+def test_the_second_catalogue_is_one_for_hats(collection, tmp_path):
+    """Its own check of files against each other, and the sky map of the first."""
+    from hats.io.validation import is_valid_catalog
+
+    rows_of(source_of(collection), tmp_path / "rows")
+    with quiet():
+        assert is_valid_catalog(tmp_path / "rows", strict=True)
+    assert (tmp_path / "rows" / "skymap.fits").read_bytes() == (collection / "sky" / "skymap.fits").read_bytes()
+    assert not (tmp_path / "sky_voronoi.properties").exists()  # nothing identifies rows
+    again = source_of(tmp_path / "rows")
+    assert again.catalogue.pixels == source_of(collection).catalogue.pixels
+
+
+def test_the_older_name_of_the_properties_and_a_list_that_is_missing(copied):
+    expected = source_of(copied)
+    (copied / "hats.properties").unlink()
+    (copied / "partition_info.csv").unlink()
+    found = source_of(copied)
+    assert found.catalogue.pixels == expected.catalogue.pixels
+    assert found.files == expected.files
+
+
+def test_pixels_that_are_folders_of_files(copied, opened, tmp_path):
+    whole = source_of(copied)
+    for file in whole.files:
+        table, path = pq.ParquetFile(file.path).read(), copied / file.name
+        path.unlink()
+        folder = path.with_suffix("")
+        folder.mkdir()
+        pq.write_table(table.slice(0, 10), folder / "part0.parquet")
+        pq.write_table(table.slice(10), folder / "part1.parquet")
+        (folder / "_SUCCESS").touch()
+    properties = copied / "hats.properties"
+    properties.write_text(properties.read_text().replace("npix_suffix=.parquet", "npix_suffix=/"))
+    source = identified(source_of(copied))
+    assert len(source.files) == 2 * len(whole.files)
+    assert source.files[1].name == whole.files[0].name.removesuffix(".parquet") + "/part1.parquet"
+    rows_of(source, tmp_path / "rows")
+    found = computed(opened(tmp_path / "rows"))
+    assert sorted(found["row"]) == list(range(ROWS))
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("#HATS catalog\n! another\n\nhats_col_ra=RA\nhats_col_dec : DEC \n", {}),
+        ("hats_col_ra RA\nhats_col_dec=\\\n   DEC\n", {}),
+        (
+            "  hats_col_ra = RA\nhats_col_dec=DEC\nbib_reference_url=https\\://a.b/c\\=d\n",
+            {"bib_reference_url": "https://a.b/c=d"},
+        ),
+        ("hats_col_ra=RA\r\nhats_col_dec=DEC\r\nobs_title=a = b\r\n", {"obs_title": "a = b"}),
+    ],
+)
+def test_properties_as_java_writes_them(tmp_path, text, expected):
+    (tmp_path / "hats.properties").write_bytes(text.encode())
+    catalogue = Catalogue.read(tmp_path)
+    assert catalogue.properties == {"hats_col_ra": "RA", "hats_col_dec": "DEC"} | expected
+    assert catalogue.pixels == ()
+
+
+def test_pixels_share_folders_of_ten_thousand():
+    assert Pixel(8, 123_456).path("/").as_posix() == "dataset/Norder=8/Dir=120000/Npix=123456"
+    for pixel in (Pixel(0, 0), Pixel(8, 123_456), Pixel(29, 12 * 4**29 - 1)):
+        assert Pixel.of_path(pixel.path(".snappy.parquet")) == pixel
+
+
+def test_what_is_a_catalogue(collection, tmp_path):
+    assert is_catalogue(str(collection))
+    assert is_catalogue(collection / "sky")
+    assert not is_catalogue(tmp_path)
+    assert not is_catalogue([collection])
+    with pytest.raises(ValueError, match=r"there is no hats\.properties, so it is no HATS catalogue"):
+        source_of(tmp_path)
+
+
+WRONG = {
+    "hats_nrows is 5, but its files hold 3000 rows": ("hats.properties", f"hats_nrows={ROWS}", "hats_nrows=5"),
+    "hats_col_dec is missing": ("hats.properties", "hats_col_dec=dec\n", ""),
+    "columns has 'de', which is not one of": ("hats.properties", "hats_col_dec=dec\n", "hats_col_dec=de\n"),
+    "line 2: Norder and Npix must be whole numbers": ("partition_info.csv", "Npix\n", "Npix\n0,x\n"),
+    "there is no such file, but partition_info.csv has": ("partition_info.csv", "Npix\n", "Npix\n1,47\n"),
+}
+
+
+@pytest.mark.parametrize("message", WRONG)
+def test_what_is_wrong_with_a_catalogue(copied, message):
+    name, old, new = WRONG[message]
+    text = (copied / name).read_text()
+    assert old in text
+    (copied / name).write_text(text.replace(old, new))
+    with pytest.raises((ValueError, FileNotFoundError), match=message):
+        source_of(copied)
+
+
+def test_a_collection_without_its_primary(collection, tmp_path):
+    shutil.copy(collection / "collection.properties", tmp_path)
+    with pytest.raises(ValueError, match="hats_primary_table_url is 'sky', no catalogue beside it"):
+        source_of(tmp_path)
+
+
+def test_what_a_catalogue_cannot_be(collection):
+    with pytest.raises(ValueError, match="source is a list of 1, but a HATS catalogue is one folder"):
+        source_of([collection])
+    with pytest.raises(ValueError, match="surface is 'plane', but a HATS catalogue is on the sphere"):
+        hats_source(collection, None, "plane", "spherical")
