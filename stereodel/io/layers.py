@@ -109,26 +109,36 @@ class Layer:
         found = {int.from_bytes(cell[1:5], "little") for cell in self.binary.tolist() if cell is not None}
         return [KINDS.get(kind % 1000, "GeometryCollection") + (" Z" if kind > 1000 else "") for kind in sorted(found)]
 
-    def several(self) -> Layer:
-        """The same layer, all multi-part if any geometry is, for formats that allow one geometry type only."""
-        if not any(kind.startswith("Multi") for kind in self.kinds):
-            return self
-        cells = [cell and ONE.get(int.from_bytes(cell[1:5], "little"), b"") + cell for cell in self.binary.tolist()]
-        binary = np.empty(len(cells), dtype=object)
-        binary[:] = cells
-        return replace(self, binary=binary)
+    @property
+    def has_several(self) -> bool:
+        """Whether some geometry is multi-part, so that formats that allow one geometry type only need all to be."""
+        return any(kind.startswith("Multi") for kind in self.kinds)
 
-    def batches(self, progress: Progress | None = None) -> tuple[Any, Iterator[Any]]:
-        """Schema and Arrow record batches of the rows, with the geometries as binary in the last column."""
+    def batches(self, progress: Progress | None = None, *, several: bool = False) -> tuple[Any, Iterator[Any]]:
+        """Schema and Arrow record batches of the rows, with the geometries as binary in the last column.
+
+        With `several`, single-part geometries are written as multi-part ones, block by block.
+        """
         arrow = optional("pyarrow", "geo")
         whole = replace(self, columns={name: arrow_column(values) for name, values in self.columns.items()})
         fields = [arrow.field(name, values.type) for name, values in whole.columns.items()]
         known = {"ARROW:extension:name": "geoarrow.wkb", "ARROW:extension:metadata": "{}"}
         schema = arrow.schema([*fields, arrow.field(self.name, arrow.binary(), metadata=known)])
         return schema, (
-            arrow.record_batch([*block.columns.values(), arrow.array(block.binary, arrow.binary())], schema=schema)
+            arrow.record_batch(
+                [
+                    *block.columns.values(),
+                    arrow.array(_of_several(block.binary) if several else block.binary, arrow.binary()),
+                ],
+                schema=schema,
+            )
             for block in whole.blocks(progress)
         )
+
+
+def _of_several(binary: Packed) -> list[bytes | None]:
+    """Single-part geometries as multi-part ones."""
+    return [cell and ONE.get(int.from_bytes(cell[1:5], "little"), b"") + cell for cell in binary.tolist()]
 
 
 def arrow_column(values: Any) -> Any:

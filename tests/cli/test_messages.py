@@ -51,6 +51,8 @@ SAID = [
         "csv",
         "gappy.csv: row 1: size is missing; leave such rows out with --skip-missing",
     ),
+    ([*AT, CITIES, "--box=0,0,9,9", "--centers"], "csv", "--box and --centers are for a --grid, and there is none"),
+    ([*GRID, 5, "--at-lon", "x"], "csv", "--at-lon is for the table --at, and there is none"),
     ([*GRID, 0], "csv", "--grid is 0.0, outside (0, 180]"),
     ([*GRID, 7], "csv", "--grid is 7, but 180 must be a whole multiple of it"),
     ([*GRID, 0.00001], "csv", "--grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the"),

@@ -6,6 +6,7 @@ import io
 import geopandas
 import numpy as np
 import pandas as pd
+import pyogrio
 import pytest
 import shapely
 
@@ -82,15 +83,23 @@ def test_geometries_beside_others_are_text(tmp_path):
     assert geopandas.read_file(tmp_path / "a.gpkg")["other"].tolist() == [point.wkt for point in POINTS]
 
 
-def test_one_kind_of_geometry_in_a_layer():
+def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path):
+    """Block by block, also in blocks of geometries of one part alone."""
+    monkeypatch.setattr(module, "ROWS", 1)
     lines = np.array([shapely.LineString([(0, 0), (1, 1)]), shapely.MultiLineString([[(0, 0), (1, 0)]]), None])
     layer = Layer({}, module.packed(np.array([*lines[:2], shapely.LineString()])))
     assert layer.kinds == ["LineString", "MultiLineString"]
-    several = layer.several()
-    assert several.kinds == ["MultiLineString"]
-    assert module.unpacked(several.binary)[0].equals(shapely.MultiLineString([lines[0]]))
-    assert several.binary[2] is None
-    assert layer.take(slice(0, 1)).several().kinds == ["LineString"]
+    assert layer.has_several
+    assert not layer.take(slice(0, 1)).has_several
+    _, batches = layer.batches(several=True)
+    binary = np.array([batch.column(0)[0].as_py() for batch in batches], dtype=object)
+    assert binary[2] is None
+    assert [line.wkt for line in module.unpacked(binary[:2])] == [
+        "MULTILINESTRING ((0 0, 1 1))",
+        "MULTILINESTRING ((0 0, 1 0))",
+    ]
+    write(tmp_path / "a.fgb", Layer({"n": np.arange(2)}, layer.binary[:2], "EPSG:4326"))
+    assert pyogrio.read_info(tmp_path / "a.fgb")["geometry_type"] == "MultiLineString"
 
 
 def test_what_arrow_has_no_type_for_is_text():
