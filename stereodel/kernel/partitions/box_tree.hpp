@@ -1,7 +1,8 @@
 // The folder `partitions`: what a triangulation in parts asks of points that it has not read.
 // Reading order: box_tree (what is known of them), blocks (where the boxes come from); bubble_form (a bubble as a
-// quadratic function, and its error), bubble_digits (the same beyond doubles), open_bubbles (which triangles are final),
-// open_targets (and which interpolations); site_ids and final_cells: what is told of points whose triangles are.
+// quadratic function, and its error), bubble_digits (the same beyond doubles), open_bubbles (which triangles are
+// final), open_targets (and which interpolations); site_ids and final_cells: what is told of points whose triangles
+// are.
 //
 // Points come in blocks, each in a box with sides along the axes. A triangle of the points at hand is one of all points
 // if no box of a block that was not read touches its closed bubble: that is empty of all other points then, and so is

@@ -6,8 +6,8 @@
 
 namespace stereodel::partitions {
 
-// By the given points: a triangle a b c, counterclockwise; an edge a b of the plane's hull, everything beyond it, if c is
-// null; the disc around a through b.
+// By the given points: a triangle a b c, counterclockwise; an edge a b of the plane's hull, everything beyond it, if c
+// is null; the disc around a through b.
 struct Bubble {
     const double *a, *b, *c;
     bool is_disc = false;

@@ -12,12 +12,12 @@
 // of G.T are at most P = lb lc M^2 and Q = lb lc (lb + lc) M in the plane, and ROOT_TWO (1 + u) times that on the
 // sphere: by Cauchy, as of the minors |n_i C_j| + |n_j C_i| <= sqrt(2) |n||C|, also as a vector. So roundings count
 //     ROUNDING u (P + Q),
-// in which the counts of D, G and of f at a corner of the box are added by the compiler. A least value inside the box is
-// taken at -G/(2D), rounded: a place off by u of itself, where f is level, so that it counts in second order.
+// in which the counts of D, G and of f at a corner of the box are added by the compiler. A least value inside the box
+// is taken at -G/(2D), rounded: a place off by u of itself, where f is level, so that it counts in second order.
 //
-// On the sphere vectors are `UnitVector`s, off by 2^-100 each in length 2^-101 in each component: B, C and T are off by
-// less than ABSENT = 2^-99 beside their roundings (two: Difference), and the high part of a stands for n, which is one
-// more. A form of differences that are off by h moves by at most h (L S + 3 lb lc M) <= (4/3) h L S with
+// On the sphere vectors are `UnitVector`s, off by 2^-101 in each component, by less than 2^-100 in all: so B, C and T
+// are off by less than ABSENT = 2^-99 beside their roundings (two: Difference), and the high part of a stands for n,
+// which is one more. A form of differences that are off by h moves by at most h (L S + 3 lb lc M) <= (4/3) h L S with
 // L = lb + lc + M, S = lb lc + lc M + M lb (see ray_stages.hpp); it is given twice as much, for terms of second order,
 // which the lengths, 2 ABSENT longer than computed, cover too.
 //

@@ -9,9 +9,9 @@
 
 namespace stereodel::partitions {
 
-// `is_open`: of each bubble whether it may touch a block with unread points; never false where it does. `depth`: of each
-// block with unread points how deep an open bubble reaches into it, as a rough length, 0 if none does: that of the first
-// bubble that does.
+// `is_open`: of each bubble whether it may touch a block with unread points; never false where it does. `depth`: of
+// each block with unread points how deep an open bubble reaches into it, as a rough length, 0 if none does: that of the
+// first bubble that does.
 struct Openness {
     bool* is_open;
     double* depth;

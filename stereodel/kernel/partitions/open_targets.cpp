@@ -85,8 +85,8 @@ class FacesOfTargets {
         }
     }
 
-    // Beyond the hull's edge nothing but its half-plane counts: the rest of the bubble of the edge and the target lies in
-    // those of triangles that go.
+    // Beyond the hull's edge nothing but its half-plane counts: the rest of the bubble of the edge and the target lies
+    // in those of triangles that go.
     void ask_conflicts(Index first) {
         const Index* const c = triangles_.corners(first);
         front_.clear();

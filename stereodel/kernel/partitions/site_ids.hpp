@@ -1,5 +1,5 @@
-// The sites of a triangulation of some of all points by their ids: where points are equal, the lowest one counts, though
-// the triangulation kept the first row.
+// The sites of a triangulation of some of all points by their ids: where points are equal, the lowest one counts,
+// though the triangulation kept the first row.
 #pragma once
 
 #include <algorithm>

@@ -271,9 +271,9 @@ void bind_space(nb::module_& space) {
               "diagonal. lows, highs, first: of box_tree; unread: of unread_counts.");
     space.def("open_bubbles", open_bubbles<Width>, "points"_a, "faces"_a, "lows"_a, "highs"_a, "first"_a, "unread"_a,
               "wanted"_a = nb::none(),
-              "Whether each triangle's closed bubble may touch an unread block, never false where it does; and for each "
-              "block how deep an open bubble reaches into it, 0 if none does. Triangles are counterclockwise; in the "
-              "plane (u, v, -1) is an edge of the hull that has all points on its left. wanted: which points' "
+              "Whether each triangle's closed bubble may touch an unread block, never false where it does; and for "
+              "each block how deep an open bubble reaches into it, 0 if none does. Triangles are counterclockwise; in "
+              "the plane (u, v, -1) is an edge of the hull that has all points on its left. wanted: which points' "
               "triangles matter.");
     space.def("open_discs", open_discs<Width>, "centers"_a, "rims"_a, "lows"_a, "highs"_a, "first"_a, "unread"_a,
               "The same for the closed discs around centers through the points beside them.");
