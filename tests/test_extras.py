@@ -202,7 +202,11 @@ def test_every_door_names_the_extra_that_opens_it(environment, tmp_path):
         assert asked_for(message) == DOORS[statement][0], statement
 
 
-@pytest.mark.parametrize("extra", EXTRAS)
+def test_every_extra_opens_a_door():
+    assert {extra for asked in DOORS.values() for extra in asked} == set(EXTRAS)
+
+
+@pytest.mark.parametrize("extra", sorted({asked[0] for asked in DOORS.values()}))
 def test_an_extra_brings_enough(environment, tmp_path, extra):
     """Who does what a message says gets on, with what that extra brings and nothing else."""
     (tmp_path / "file.jpg").symlink_to(PACKAGE / "data" / "blue_marble.jpg")

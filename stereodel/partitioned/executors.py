@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
 from types import TracebackType
@@ -52,7 +53,12 @@ class Crew:
             return Here()
         # A process that was copied from one with threads may stop for ever: none is, on any system.
         kind = "spawn" if os.name == "nt" else "forkserver"
-        return ProcessPoolExecutor(self._count, mp_context=multiprocessing.get_context(kind))
+        return ProcessPoolExecutor(
+            self._count,
+            mp_context=multiprocessing.get_context(kind),
+            initializer=signal.signal,  # an interruption is the caller's: tasks end, and none is begun
+            initargs=(signal.SIGINT, signal.SIG_IGN),
+        )
 
     def __enter__(self) -> Self:
         return self

@@ -9,7 +9,7 @@ from stereodel.partitioned import run as running
 from tests.partitioned.answers import differences, in_memory, serially, surface_of, write_points
 from tests.partitioned.sets import LONLAT, SETS, XY, XYZ, rows_of
 
-SIZE = 800
+SIZE = 500
 
 
 @pytest.fixture(scope="module")
