@@ -66,8 +66,9 @@ def main(archive: str, wheel: str) -> int:
     tracked = {name for name in listing.stdout.split("\0") if name}
     with tarfile.open(archive) as source, zipfile.ZipFile(wheel) as built:
         members = {member.name.partition("/")[2] for member in source.getmembers() if member.isfile()}
-        found = archive_problems(members, tracked) + wheel_problems(set(built.namelist()), tracked)
-    print(f"{len(members)} files in {archive}, {len(built.namelist())} in {wheel}")
+        packed = {member.filename for member in built.infolist() if not member.is_dir()}
+        found = archive_problems(members, tracked) + wheel_problems(packed, tracked)
+    print(f"{len(members)} files in {archive}, {len(packed)} in {wheel}")
     print(*found, sep="\n", end="\n" if found else "", file=sys.stderr)
     return 1 if found else 0
 

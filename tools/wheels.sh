@@ -42,8 +42,9 @@ build() { # VERSION MACHINE
     fi
     local defines=()
     while read -r define; do defines+=("-Ccmake.define.$define"); done < <(zig_cmake "$2-linux-gnu.2.17")
-    # One folder a machine, so that the kernel proper is compiled once for all Pythons; paths of the last one must go.
-    rm -f "$work/cmake-$2/CMakeCache.txt"
+    # One folder a machine, so that the kernel proper is compiled once for all Pythons. Paths of the last one must go, and
+    # the backend's note of them, for whose sake it would remove what was compiled.
+    rm -f "$work/cmake-$2"/{CMakeCache.txt,.skbuild-info.json}
     # The name of the wheel takes the machine from this variable, which stands for the one that CPython sees.
     quietly env PATH="$tools/bin:$PATH" _PYTHON_HOST_PLATFORM="linux-$2" python -m pip --disable-pip-version-check wheel \
         --no-deps --no-build-isolation --wheel-dir "$work/raw/$2" -Cbuild-dir="$work/cmake-$2" "${defines[@]}" "$work/source"
