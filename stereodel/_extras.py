@@ -83,7 +83,7 @@ def distributions(extra: str) -> dict[str, str]:
 def installing(extra: str) -> str:
     """The command that brings an extra into this environment, as it was made: by `make` in a checkout, or by pip.
 
-    In a checkout pip is told its folder; elsewhere the name alone is known, not the index, wheel or folder that it came
+    In a checkout pip gets its folder; elsewhere the name alone is known, not the index, wheel or folder that it came
     from, and the libraries themselves serve whatever that was.
     """
     checkout = Path(__file__).resolve().parent.parent

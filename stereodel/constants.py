@@ -292,7 +292,7 @@ Where a lens magnifies a billion times, a long edge through its focus is then a 
 """
 
 MOST_PLACES: Final = 2**30
-"""Of a grid; one value at each takes 8 GB."""
+"""Largest number of nodes of a grid; one value at each takes 8 GB."""
 
 GRID_ROUNDING: Final = 1e-9
 """Fraction of a step by which the last line of a grid may miss the border of its box because of rounding."""

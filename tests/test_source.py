@@ -186,6 +186,7 @@ EDITED = [
     "interpolation",
     "io",
     "mpl",
+    "partitioned",
     "predicates",
     "projections",
     "relaxation",

@@ -66,7 +66,7 @@ class Work:
             raise ValueError("--lon and --lat are given together where results are in a folder")
 
     def run(self, scheduler: str | None) -> None:
-        """Compute; what goes wrong is told in the words of the command line."""
+        """Compute; errors are reported in the words of the command line."""
         from stereodel.partitioned.run import PARTITION, triangulate
 
         columns = self.plane or (self.lon and self.lat and (self.lon, self.lat)) or None

@@ -55,7 +55,7 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
 
 @contextmanager
 def counts() -> Iterator[Callable[[str, int, int], None]]:
-    """Show how many tasks of each pass of the work are done, which is told by the name of the pass."""
+    """Show how many tasks of each pass of the work are done, by the name of the pass."""
     stop_if_interrupted()
     if not sys.stderr.isatty():
         yield lambda name, done, of: stop_if_interrupted()

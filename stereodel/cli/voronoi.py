@@ -71,9 +71,9 @@ def command(
 ) -> None:
     """Write the Voronoi cell of each point, the region nearer to it than to any other, with its area.
 
-    A table has the columns of the points and the area; map formats have the cell's shape and the point's row too. Of
-    points at one place the first has the cell, the others none and the area 0. With --clip a cell is what lies on land,
-    or in the polygons of a file.
+    A table has the columns of the points and the area; map formats also hold the cell's shape and the point's row. Of
+    several points at one place the first gets the cell, the others no cell and area 0. With --clip, cells are clipped
+    to land or to the polygons of a file.
 
     A folder, which ends in / or is there, is for more points than memory holds: Parquet files, folders of them or a
     HATS catalogue. It gets rows/ with the area, the number of neighbours, the nearest point and its distance, in as

@@ -125,7 +125,7 @@ class Arcs:
 
 
 def great_axes(start: FloatArray, end: FloatArray) -> FloatArray:
-    """Of the great circles through unit vectors (n, 3), from `start` counterclockwise; zero where they are one line."""
+    """Normals of the great circles through unit vectors (n, 3), counterclockwise from `start`; zero if collinear."""
     # a × b = (a − b) × (a + b) / 2, whose first factor is exact for close points.
     axis = crossed(start - end, start + end)
     length = np.sqrt(np.sum(axis**2, axis=1, keepdims=True))
@@ -133,7 +133,7 @@ def great_axes(start: FloatArray, end: FloatArray) -> FloatArray:
 
 
 def great(start: FloatArray, end: FloatArray, normal: FloatArray | None = None) -> Arcs:
-    """The shorter great-circle arcs between unit vectors (n, 3); `normal` tells which, where ends may be opposite."""
+    """The shorter great-circle arcs between unit vectors (n, 3); `normal` decides where ends may be antipodal."""
     axis = great_axes(start, end)
     if normal is not None:
         far = (np.sum(start * end, axis=1) < 0) & normal.any(axis=1)

@@ -106,7 +106,7 @@ class Samples(Sequence[Shot]):
 
 @dataclass(frozen=True, eq=False)
 class GlobePages:
-    """Draws a globe, with its title above it, in the middle of a page of any shape."""
+    """Draws a globe, with its title above it, centred on a page of any aspect ratio."""
 
     globe: Globe
     width: int

@@ -271,7 +271,7 @@ _MP4_ENCODER = _Encoder(
         ("scale", "out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact"),
         ("format", "yuv420p"),
     ],
-    # The eye sees no loss at a rate factor of 17 or 18. No version and no date in the file. Without x264's tree of
+    # At a rate factor of 17 or 18 no loss is visible. The file holds no version and no date. Without x264's tree of
     # macroblocks, whose fast code gives other bits each time; that also makes files smaller and takes less time.
     options={
         "crf": "17",

@@ -25,7 +25,7 @@ def voronoi_sides(diagram: PlanarVoronoi | SphericalVoronoi) -> Ragged:
     if not len(diagram.vertices):
         order = np.argsort(cell, kind="stable")
     else:
-        # Both lists, corners by cell and sides by the corner they start at, sorted by (cell, corner) are one list.
+        # Sorted by (cell, corner), the corners of cells and the sides by starting corner are the same list.
         base = len(diagram.vertices) + 1
         corners = np.repeat(np.arange(count), np.diff(diagram.region_offsets)) * base + diagram.region_indices + 1
         order = np.empty_like(cell)

@@ -213,9 +213,9 @@ class _File:
         return _content(self._source)
 
     def frame(self) -> Any:
-        """The frame in a file of GDAL's formats, which it knows by their ending and beside others of their name."""
+        """The frame in a file of a GDAL format; by path, as GDAL needs the extension and any companion files."""
         if self._path is not None:
-            with self._path.open("rb"):  # the system says best what cannot be read
+            with self._path.open("rb"):  # the system's own message says best why it cannot be read
                 return read_frame(self._path, layer=self._layer)
         with TemporaryDirectory() as folder:
             named = Path(folder, f"points{_ending(self.content)}")

@@ -1,8 +1,8 @@
 """Rings on the map that are seen to be simple without a geometry of each: nearly all of a large diagram.
 
-A ring is star-shaped where it goes once round the mean of its points and always forward, as seen from there: its rays
-to all points of it differ, so that it meets itself nowhere, and it runs counterclockwise. Both are told by signs, the
-first with a bound on its rounding; what is not sure is left to GEOS.
+A ring is star-shaped if it winds once around the mean of its points, always forward as seen from there: its rays
+to all points of it differ, so that it meets itself nowhere, and it runs counterclockwise. Both follow from signs, the
+first with a bound on its rounding error; uncertain cases are left to GEOS.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from stereodel.constants import STAR_ROUNDING
 from stereodel.curves.ragged import Ragged
 
 HEAD: Final = np.frombuffer(bytes([1, 3, 0, 0, 0, 1, 0, 0, 0]), dtype=np.uint8)
-"""Of a polygon of one ring as well-known binary, before the number of its points."""
+"""Header of a polygon with one ring as well-known binary, before the number of its points."""
 
 
 def star_shaped(rings: Ragged, slack: float) -> tuple[BoolArray, FloatArray]:

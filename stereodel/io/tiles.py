@@ -35,9 +35,9 @@ BLOCK = 20_000
 WORLD = 360.0 * 180.0
 """Area of the map, square degrees."""
 SHORT = 0.48
-"""Half the length of chords that belong to arcs of up to 57°, which are 5 % longer than they."""
+"""Half the length of chords of arcs of up to 57°, which are 5 % longer than their chords."""
 LONGER = 1.1
-"""How much longer those arcs are at most, with room for rounding."""
+"""Bound on the ratio of those arcs to their chords, with a margin for rounding."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,15 +71,15 @@ class Net:
 
 @dataclass(frozen=True, eq=False)
 class Sides:
-    """The arcs of a net as they are on the map."""
+    """The arcs of a net on the map."""
 
     border: Antimeridian
     pieces: Pieces
-    """Cut at the border. Of these clipping asks for no more than which of them meet."""
+    """The arcs cut at the border, with only what clipping needs: which of them meet."""
     samples: Ragged
-    """Points of the pieces (k, 5) that bring their longitude and latitude."""
+    """Sample points of the pieces (k, 5): unit vectors followed by longitude and latitude."""
     inland: BoolArray
-    """(e,): which arcs surely keep off the border, of one piece each."""
+    """(e,): which arcs certainly do not meet the border; each has one piece."""
 
 
 def sphere_lines(arcs: Arcs, max_segment: float, latitude: Latitude, lines: Ragged | None = None) -> Geometries:
@@ -176,7 +176,7 @@ def _prepared_block(
 ) -> tuple[tuple[Indices, BoolArray, BoolArray, BoolArray, Indices], FloatArray]:
     """The pieces of a block of arcs: edge, whether each opens, shuts and follows the border, size; and the points.
 
-    Which of the arcs keep off the border is written to `inland`.
+    Which of the arcs do not meet the border is written to `inland`.
     """
     inland[block], straight = _simple(net, max_segment, block)
     bent, ends = np.flatnonzero(~straight), net.ends[block]
@@ -193,7 +193,7 @@ def _prepared_block(
         values[place[same], 3:] = lonlat[vertex[same]]
         unknown[place[same]] = False
     values[unknown] = _with_lonlat(samples.values[unknown], border.latitude)
-    # With those that are their ends and nothing else, which are one piece each, in the order of the arcs.
+    # Add the arcs that consist of their endpoints only, one piece each, in the order of the arcs.
     chords, corners = np.flatnonzero(straight), ends[straight].ravel()
     order = np.argsort(np.concatenate([edge, chords]), kind="stable")
     points = clip.together(
@@ -208,19 +208,19 @@ def _prepared_block(
 
 
 def _simple(net: Net, max_segment: float, block: slice) -> tuple[BoolArray, BoolArray]:
-    """Which of some arcs surely keep off the border of the map, and which of these surely are a chord on it.
+    """Which of some arcs certainly do not meet the border of the map, and which of these are certainly a chord on it.
 
-    Of a large diagram that are nearly all, and of the others all is asked.
+    In a large diagram that is nearly all of them; the others are processed in full.
     """
     start, end = net.vertices[net.ends[block]].transpose(1, 0, 2)
     half = _lengths(end - start) / 2
-    # No point of an arc is farther from its start than its end is; twice that leaves rounding no say.
+    # No point of an arc is farther from its start than its end is; twice that leaves room for rounding.
     inland = np.maximum(np.abs(start[:, 1]), start[:, 0]) > 2 * np.maximum(2 * half, AT_POLE)
     # Coordinates that count as zero are made zero where arcs are cut.
     moved = (np.abs(start) <= AT_POLE).any(axis=1) | (np.abs(end) <= AT_POLE).any(axis=1)
     some = np.flatnonzero(inland & ~moved & (half < SHORT))
     middle, half = unit(start[some] + end[some]), half[some]
-    # In longitude an arc is as long as at its least distance from the axis, at most.
+    # The longitude range of an arc is at most that of its length at its least distance from the axis.
     straight = 2 * LONGER * half <= np.radians(max_segment) * _least_reach(middle, half)
     if net.sites is not None and net.site is not None:
         sites, stray = net.sites[net.site[block][some]], _most_straying(middle, half)
@@ -265,12 +265,12 @@ def _clear_of_sites(samples: Ragged, pieces: Pieces, border: Antimeridian, sites
 
 
 def _feet(sites: FloatArray, axes: FloatArray) -> FloatArray:
-    """How far sites are from the planes of great circles."""
+    """Distances of sites from the planes of great circles."""
     return np.abs(np.sum(sites * axes, axis=1))
 
 
 def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: FloatArray | float = 0.0) -> FloatArray:
-    """How far chords may stray, degrees; `foot` is how far the site is from the arc's plane, if that is known.
+    """Largest deviation of chords in degrees; `foot` is the distance of the site from the arc's plane, if known.
 
     A site is at least as far from an arc as from its plane, and as from its midpoint less half the chord.
     """
@@ -279,12 +279,12 @@ def _allowed(sites: FloatArray, middle: FloatArray, half: FloatArray, foot: Floa
 
 
 def _lengths(vectors: FloatArray) -> FloatArray:
-    """Of vectors (n, 3): what is compared, not drawn."""
+    """Lengths of vectors (n, 3), for comparisons."""
     return np.sqrt(np.einsum("ij,ij->i", vectors, vectors))
 
 
 def _least_reach(middle: FloatArray, half: FloatArray) -> FloatArray:
-    """How near to the axis short arcs come at most; 0 for long ones and those about a pole."""
+    """Lower bounds on the distances of short arcs from the axis; 0 for long ones and those around a pole."""
     reach = np.hypot(middle[:, 0], middle[:, 1])
     least = reach - LONGER * half
     return np.where((half < SHORT) & (2 * least > reach), least, 0.0)
@@ -333,7 +333,7 @@ def _drawn(
 
 
 def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolArray]:
-    """First the faces that keep off the border and whose rings are seen to be simple; of the others all is asked."""
+    """First the faces that do not meet the border and whose rings are simple; the others are clipped in full."""
     result, large = np.full(len(faces), None, dtype=object), np.zeros(len(faces), dtype=bool)
     wrong = np.zeros(len(faces), dtype=bool)
     inland = np.bincount(faces.row, ~sides.inland[np.maximum(faces.values, ~faces.values)], minlength=len(faces)) == 0
@@ -350,7 +350,7 @@ def _drawn_block(faces: Ragged, sides: Sides) -> tuple[Packed, BoolArray, BoolAr
 
 
 def _rings(faces: Ragged, sides: Sides) -> Ragged:
-    """Longitudes and latitudes around faces that keep off the border."""
+    """Longitudes and latitudes around faces that do not meet the border."""
     back = faces.values < 0
     piece = sides.pieces.of_edge[np.maximum(faces.values, ~faces.values)]
     first, last = sides.samples.offsets[piece], sides.samples.offsets[piece + 1] - 1

@@ -25,7 +25,7 @@ def cells_of(stars: Round, index: Index, places: Places) -> Layer:
     On the sphere they are cut at ±180° and led around the poles, as by `stereodel.io.to_geodataframe`; in the plane
     they are cut to the rectangle of all points with a tenth of its longer side around it.
     """
-    # In the order of numbers the cells of several partitions have the same corners to the last bit.
+    # In the order of numbers the cells of several partitions have bitwise the same corners.
     order = np.argsort(stars.numbers)
     points, numbers = stars.mesh.points[order], stars.numbers[order]
     if points.shape[1] == 2:

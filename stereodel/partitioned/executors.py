@@ -40,7 +40,7 @@ class Crew:
     executor : concurrent.futures.Executor, optional
         What has its `submit`.
     tasks : int
-        Of the largest pass; where there is one, it is computed here.
+        Number of tasks of the largest pass; a single task is computed in this process.
     """
 
     def __init__(self, executor: Executor | None, tasks: int) -> None:
@@ -51,7 +51,7 @@ class Crew:
     def _started(self) -> Executor:
         if self._count == 1:
             return Here()
-        # A process that was copied from one with threads may stop for ever: none is, on any system.
+        # A process that was copied from one with threads may hang forever: none is copied so, on any system.
         kind = "spawn" if os.name == "nt" else "forkserver"
         return ProcessPoolExecutor(
             self._count,

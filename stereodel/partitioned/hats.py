@@ -196,7 +196,7 @@ class HatsSource(Source):
 
     @property
     def name(self) -> str:
-        """Of the second catalogue."""
+        """Name of the second catalogue."""
         return f"{self.catalogue.name}_voronoi"
 
     def finish(self, folder: Path) -> None:
@@ -254,7 +254,7 @@ def hats_source(given: Given, columns: Sequence[str] | None, surface: Surface, l
     Raises
     ------
     ValueError
-        For what is no catalogue of points, or holds another number of rows than it says; for the plane.
+        If the folder is not a catalogue of points, has another number of rows than it states, or is for the plane.
     FileNotFoundError
         For a pixel without its file.
     """

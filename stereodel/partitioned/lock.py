@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Final
 
 NAME: Final = ".lock"
-"""Of the file in the folder, which stays there: another run may be about to open it."""
+"""Name of the file in the folder, which stays there: another run may be about to open it."""
 
 
 @contextmanager

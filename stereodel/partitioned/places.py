@@ -23,7 +23,7 @@ Form = Literal["lonlat", "xyz", "xy", "wkb", "point"]
 """Columns of degrees, of a direction, of the plane; one of geometries, in binary or as pairs of numbers."""
 
 DEGREES: Final = ("EPSG:4326", "OGC:CRS84")
-"""Coordinate systems of geometries that are longitude and latitude in degrees as they stand."""
+"""Coordinate systems of geometries that are longitude and latitude in degrees without transformation."""
 
 WKB_POINT: Final = np.dtype([("order", "u1"), ("kind", "<u4"), ("place", "<f8", 2)])
 """A point as well-known binary, least byte first: 21 bytes, and more where it has a height."""
@@ -41,12 +41,12 @@ class Places:
     form : {"lonlat", "xyz", "xy", "wkb", "point"}
         Degrees, directions, the plane; geometries of GeoParquet as binary or as pairs of numbers.
     names : tuple of str
-        Of the columns: two, three, or one of geometries.
+        Names of the columns: two, three, or one of geometries.
     surface : {"sphere", "plane"}
     latitude : {"spherical", "geodetic", "authalic"}
         Kind of latitude on the sphere, as in `lonlat_to_xyz`.
     crs : str, optional
-        Coordinate system of geometries that are no degrees, as PROJ takes it; sphere only.
+        Coordinate system of geometries that are not in degrees, in any form that PROJ accepts; sphere only.
     """
 
     form: Form
@@ -73,7 +73,7 @@ class Places:
         Raises
         ------
         ValueError
-            Naming the first row that is no point, the first of the file being 1, and its value.
+            If a row is not a point; the message gives the first such row, counted from 1, and its value.
         """
         columns = [self._plain(table[name]) for name in self.names]
         try:
@@ -125,7 +125,7 @@ def find_places(
     Parameters
     ----------
     schema : pyarrow.Schema
-        Of the first file.
+        Schema of the first file.
     columns : sequence of str or None
         Names that the caller gives: (longitude, latitude) or (x, y, z) on the sphere, (x, y) in the plane; one name is
         that of a column of geometries.

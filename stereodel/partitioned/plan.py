@@ -19,7 +19,7 @@ from stereodel.partitioned.shards import load_json, save_json
 from stereodel.partitioned.sources import PointFile, Source
 
 NAME: Final = "plan.json"
-"""Of the file in the folder of results."""
+"""Name of the file in the folder of results."""
 
 BLOCK: Final = 256
 """Points of a block at most."""
@@ -55,7 +55,7 @@ class Plan:
     Parameters
     ----------
     version : str
-        Of the library.
+        Version of the library.
     files : tuple of PointFile
     places : Places
     carried : tuple of str
@@ -143,7 +143,7 @@ class Plan:
 
     @property
     def told(self) -> tuple[str, ...]:
-        """Columns for every point; which ones are kept in place of others is told of duplicates alone."""
+        """Columns for every point; which ones are kept in place of others is given for duplicates only."""
         return tuple(name for name in self.rows if name != "kept")
 
     @cached_property

@@ -48,9 +48,9 @@ class Round:
     Attributes
     ----------
     mesh : SphericalDelaunay or PlanarDelaunay
-        Of what was read.
+        Triangulation of the points read.
     numbers : (n,) array of int64
-        Of its points.
+        Numbers of its points.
     final : (n,) array of bool
         Own points whose stars are final in this round, and in none before; of duplicates all together.
     """

@@ -1,4 +1,4 @@
-"""Rows: what is told of points, in files that have the rows of the input's files, in their order."""
+"""Rows: results for points, in files with the rows of the input's files, in their order."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def _write(store: Store, file: int, shares: Sequence[int]) -> None:
 
 
 def _columns(store: Store, share: int) -> dict[str, npt.NDArray[Any]]:
-    """What is told of the points of a share, in their order."""
+    """Results for the points of a share, in their order."""
     plan = store.plan
     first, last = plan.share_firsts[share : share + 2].tolist()
     columns = {name: np.empty(last - first, dtype=ROWS[name]) for name in plan.rows}

@@ -38,7 +38,7 @@ Row = Literal["area", "degree", "nearest", "distance", "kept"]
 Progress = Callable[[str, int, int], None]
 
 PASSES: Final = ("sample", "spread", "collect", "solve", "align")
-"""Of a run, in order; where the files are compact, nothing is spread."""
+"""Passes of a run, in order; if the files are compact, nothing is spread."""
 
 PARTITION: Final = 500_000
 """Points of a partition by default: some 0.3 GB for each worker."""
@@ -47,10 +47,10 @@ LIMIT: Final = 8_000_000
 """Points that a worker may read at once by default: some 4 GB."""
 
 REPORT: Final = "run.json"
-"""Of the file that says what a run did; it is there when all else is."""
+"""Name of the file that describes a run; it is written last."""
 
 FILES: Final = "files.parquet"
-"""Of the file that says which rows of all are those of which file."""
+"""Name of the file that maps rows to files."""
 
 RESULTS: Final = ("rows", "triangles", "cells", FILES, REPORT, NAME)
 """What a run leaves in its folder."""
@@ -99,7 +99,7 @@ class Run:
         return list(load_json(self.folder / REPORT)["partitions"])
 
     def rows(self) -> Any:
-        """What is told of the points, in their order: a dataset of pyarrow, with a file for each file of the input."""
+        """Results for the points, in their order: a dataset of pyarrow, with a file for each file of the input."""
         files = [file.name for file in Plan.load(self.folder).files]
         return _dataset([self.folder / "rows" / name for name in files])
 
@@ -159,10 +159,10 @@ def triangulate(
     kind : {"auto", "parquet", "hats"}
         What the source is; by default that is found out.
     rows : sequence of {"area", "degree", "nearest", "distance", "kept"}
-        What is told of each point: the area of its Voronoi cell (steradians; in the plane infinite for unbounded
-        ones), the number of its sides, the number of the nearest other point (the lowest one of several, -1 if
-        there is none) and its distance (radians on the sphere), and the point that is kept in its place: itself,
-        but for duplicates the lowest number of equal points. Areas and degrees of other duplicates are 0.
+        Results for each point: the area of its Voronoi cell (steradians; in the plane infinite for unbounded ones), the
+        number of its sides, the number of the nearest other point (the lowest one of several, -1 if there is none) and
+        its distance (radians on the sphere), and the point that is kept in its place: itself, or for duplicates the
+        lowest number of equal points. Areas and degrees of other duplicates are 0.
     keep : sequence of str
         Columns of the input that stand before those of the rows, such as one that identifies points. Rows of a HATS
         catalogue keep its spatial index and its coordinates in any case.
@@ -201,7 +201,7 @@ def triangulate(
     Raises
     ------
     ValueError
-        For a row that is no point, naming file, row and value; for columns that are not there; where a run in `out` was
+        If a row is not a point, naming file, row and value; for columns that are not there; where a run in `out` was
         begun with other files or arguments.
     MemoryError
         Where a star has more points than `limit`, naming partition and point.
@@ -215,7 +215,7 @@ def triangulate(
     Notes
     -----
     Triangles, areas, degrees and nearest points are those of `stereodel.SphericalDelaunay` or
-    `stereodel.PlanarDelaunay` of all points, to the last bit, ties and duplicates included, for any partitions,
+    `stereodel.PlanarDelaunay` of all points, bitwise, ties and duplicates included, for any partitions,
     executor and number of workers. At the end the number of triangles is compared with Euler's formula, and the sum of
     areas with that of the sphere.
 

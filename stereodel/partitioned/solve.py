@@ -1,4 +1,4 @@
-"""Solving a partition: triangles whose lowest point is its own, and what is told of its points."""
+"""Solving a partition: triangles whose lowest point is its own, and the results for its points."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def solve(store: Store, part: int, limit: int) -> dict[str, Any]:
 Columns = dict[str, npt.NDArray[Any]]
 
 Told = tuple[Columns, LongArray, BoolArray, int]
-"""Of a round: what is told of the final points, their triangles, which of them are closing, edges of the hull."""
+"""Result of a round: results for the final points, their triangles, which of them are closing, edges of the hull."""
 
 
 def _told(store: Store, stars: Round) -> Told:

@@ -85,7 +85,7 @@ class Source:
 
 
 def opened(path: str | os.PathLike[str]) -> Any:
-    """A file of Parquet; what it lacks for one is told with its name."""
+    """A file of Parquet; errors give its name."""
     pyarrow = optional("pyarrow", "partitioned")
     try:
         return optional("pyarrow.parquet", "partitioned").ParquetFile(path, memory_map=True)
@@ -99,7 +99,7 @@ def read(file: PointFile, places: Places, first: int, last: int) -> Iterator[Flo
     Raises
     ------
     ValueError
-        Naming the file, the row (the first is 1) and the value, where it is no point; for missing columns.
+        If a row is not a point, naming the file, the row (counted from 1) and the value; if columns are missing.
     """
     with _named(file):
         for low, table in slices(file, places.names, first, last):

@@ -1,6 +1,6 @@
 """From files to partitions: a sample for the k-d tree, shares of rows spread over its leaves, blocks of each leaf.
 
-Where the files are compact, they are partitions as they stand: nothing is spread.
+Where the files are compact, they are partitions already: nothing is spread.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ scratch:   splits.*.npy                     the k-d tree
            spread/<share>.*.npy             points of a share of the input in the order of partitions
            points/<part>.*.npy              points of a partition in blocks, their numbers, and the blocks
            index/*.npy                      boxes of all blocks, one point of each
-           cells/<part>.*.npy               what is told of the points of a partition, in the order of numbers
+           cells/<part>.*.npy               results for the points of a partition, in the order of numbers
            done/<pass>/<task>.json          what a task said when it was done, and the files that it wrote
 """
 

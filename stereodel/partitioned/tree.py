@@ -26,7 +26,7 @@ class Splits:
     Parameters
     ----------
     axis : (leaves - 1,) array of int32
-        Of each inner node.
+        Axis of each inner node.
     value : (leaves - 1,) array
         Points up to it go to the first child.
     """
