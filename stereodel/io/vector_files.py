@@ -25,7 +25,7 @@ RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", "kml": "LIBKML"}
 
 SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}
-"""Of a kind of geometry, that of several parts."""
+"""The multi-part kind of each single-part kind of geometry."""
 
 OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
 """Of formats: FlatGeobuf is sorted by place, for its index, in memory, where that takes two thirds of the time."""
