@@ -30,8 +30,8 @@ NAMES = [
 YEAR = r"(?:1[89]\d\d|20[0-2]\d)"
 TITLE = re.compile(rf'"([A-Z][^"]{{9,170}})"[^"]{{0,110}}?\b({YEAR})\b')
 AUTHOR = re.compile(rf"\b([A-Z][a-zé]+)(?:,| et al\.,?)? \(?({YEAR})\b")
-NO_AUTHORS = {"Data", "Geometry", "System", "Vis"}
-"""Last words before a year of what is no author: of titles, of books and of conferences."""
+NO_AUTHORS = {"Data", "Geometry", "October", "System", "Vis"}
+"""Last words before a year of what is no author: of titles, of books, of conferences and of dates."""
 
 
 def table_rows(text):

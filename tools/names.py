@@ -30,6 +30,7 @@ PACKAGES: Final = (
     "stereodel.triangulation",
     "stereodel.interpolation",
     "stereodel.graphs",
+    "stereodel.partitioned",
     "stereodel.relaxation",
     "stereodel.predicates",
     "stereodel.projections",

@@ -55,4 +55,4 @@ def title_height(title: str, size: float = TITLE_SIZE) -> float:
     if not title:
         return 0.0
     (_, low), (_, high) = label_box(Label(title, (0.0, 0.0), (0.0, GAP), "center", "bottom", size), 1.0)
-    return high - low + 2 * GAP
+    return float(high - low) + 2 * GAP

@@ -27,6 +27,12 @@ DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", 
 SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}
 """The multi-part kind of each single-part kind of geometry."""
 
+FGB_MAGIC: Final = b"fgb\x03fgb\x01"
+FGB_NODE: Final = 40
+"""Bytes of a node of the index: a box of four doubles and a place among the features."""
+FGB_CHILDREN: Final = 16
+"""Children of a node of the index, as GDAL writes it."""
+
 OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
 """Of formats: FlatGeobuf is sorted by place, for its index, in memory, where that takes two thirds of the time."""
 
@@ -84,11 +90,10 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
             crs=None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_wkt("WKT1_GDAL"),
             **OPTIONS.get(kind, {}),
         )
-    # GDAL does not always report a full disk.
-    if kind == "kml":
-        path.write_bytes(memory.getbuffer())
-    if (kind == "shp" and not _is_whole(path)) or (kind == "gpkg" and len(layer) and not _is_indexed(path)):
-        raise OSError(errno.EIO, "the file could not be written to its end")
+        if kind == "kml":  # in memory first: GDAL does not report a full disk
+            path.write_bytes(memory.getbuffer())
+        if len(layer) and kind in WHOLE and not WHOLE[kind](path):
+            raise OSError(errno.EIO, "the file could not be written to its end")
     for warning in said:  # shapefiles shorten names to ten characters; a plane needs no coordinate system
         found = LAUNDERED.search(str(warning.message))
         if found:
@@ -96,7 +101,7 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
             warnings.warn(text, RenamedColumnWarning, stacklevel=2)
 
 
-def _is_whole(path: Path) -> bool:
+def _whole_shapefile(path: Path) -> bool:
     """Whether the files of a shapefile have the lengths in their headers, two of which count 16-bit words."""
     heads = {}
     for part in (path, path.with_suffix(".shx"), path.with_suffix(".dbf")):
@@ -109,11 +114,39 @@ def _is_whole(path: Path) -> bool:
     )
 
 
-def _is_indexed(path: Path) -> bool:
+def _whole_geopackage(path: Path) -> bool:
     """Whether a GeoPackage has its spatial index, which is written last."""
     with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as base:
         found = base.execute("SELECT COUNT(*) FROM gpkg_extensions WHERE extension_name = 'gpkg_rtree_index'")
         return bool(found.fetchone()[0])
+
+
+def _whole_flatgeobuf(path: Path) -> bool:
+    """Whether a FlatGeobuf file ends with its last feature, whose place is in the last leaf of its index."""
+    pyogrio = optional("pyogrio", "geo")
+    try:
+        level = nodes = pyogrio.read_info(path, force_feature_count=True)["features"]
+    except (IndexError, RuntimeError):  # not even a header
+        return False
+    if level == 0:
+        return True
+    while True:  # at least one level above the leaves
+        level = -(-level // FGB_CHILDREN)
+        nodes += level
+        if level == 1:
+            break
+    with path.open("rb") as file:
+        file.seek(len(FGB_MAGIC))
+        index = file.tell() + 4 + int.from_bytes(file.read(4), "little")
+        file.seek(index + FGB_NODE * nodes - 8)
+        last = index + FGB_NODE * nodes + int.from_bytes(file.read(8), "little")
+        file.seek(last)
+        size = int.from_bytes(file.read(4), "little")
+    return size > 0 and path.stat().st_size == last + 4 + size
+
+
+WHOLE: Final = {"shp": _whole_shapefile, "gpkg": _whole_geopackage, "fgb": _whole_flatgeobuf}
+"""Formats that GDAL may leave unfinished on a full disk without reporting it, and whether a file is finished."""
 
 
 def plain_column(values: Any) -> Any:

@@ -123,15 +123,20 @@ def test_powers():
 
 
 def test_the_page_is_written_from_the_results(monkeypatch, tmp_path):
-    (tmp_path / "images").mkdir()
-    page = tmp_path / "benchmarks.md"
+    docs = tmp_path / "docs"
+    (docs / "images").mkdir(parents=True)
+    page = docs / "benchmarks.md"
+    paper = tmp_path / "paper" / "paper.md"
+    paper.parent.mkdir()
+    paper.write_bytes((ROOT / "paper" / "paper.md").read_bytes())
     text = (ROOT / "docs" / "benchmarks.md").read_text(encoding="utf-8")
     page.write_text(
         re.sub(r"(<!-- measured: [^>]*-->\n).*?(<!-- end)", r"\1\2", text, flags=re.DOTALL), encoding="utf-8"
     )
-    monkeypatch.setattr(pages, "DOCS", tmp_path)
+    monkeypatch.setattr(pages, "DOCS", docs)
     benchmark_page.write(json.loads((ROOT / "benchmarks" / "results.json").read_text(encoding="utf-8")))
     written = page.read_text(encoding="utf-8")
     assert not re.search(r"<!-- measured: [^>]*-->\n<!-- end", written)
     assert "| stereodel, one thread |" in written
-    assert {path.name for path in (tmp_path / "images").iterdir()} == set(re.findall(r"\{image\} images/(\S+)", text))
+    assert paper.read_bytes() == (ROOT / "paper" / "paper.md").read_bytes()
+    assert {path.name for path in (docs / "images").iterdir()} == set(re.findall(r"\{image\} images/(\S+)", text))

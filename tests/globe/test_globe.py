@@ -146,7 +146,7 @@ def test_panels_have_titles_and_rows():
     assert len(discs) == 3
     assert discs[0][1] > discs[2][1]
     assert all(left < x < right and bottom < y < top for x, y in discs)
-    with pytest.raises(ValueError, match="contents must have a panel"):
+    with pytest.raises(ValueError, match="contents must have at least one panel"):
         panels([])
 
 

@@ -8,14 +8,15 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import lonlat_to_xyz
+from stereodel.partitioned.kinds import source_of
 from stereodel.partitioned.places import Places, find_places, wkb_places
-from stereodel.partitioned.sources import paths_of, read, some, source_of
+from stereodel.partitioned.sources import paths_of, read, some
 from tests.partitioned.answers import differences, in_memory, serially, write_points
 from tests.partitioned.sets import LONLAT, XYZ, rows_of
 
 
 def of(path, columns=None, surface="sphere", latitude="spherical"):
-    return source_of(path, "auto", columns, surface, latitude)
+    return source_of(path, "auto", columns, surface, latitude, ())
 
 
 def points_of(source):
@@ -178,4 +179,4 @@ def test_geoparquet_is_triangulated(tmp_path):
 
 def test_other_kinds_are_refused(tmp_path):
     with pytest.raises(ValueError, match="kind is 'csv', but must be one of"):
-        source_of(tmp_path, "csv", None, "sphere", "spherical")
+        source_of(tmp_path, "csv", None, "sphere", "spherical", ())

@@ -122,6 +122,7 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     broken = tmp_path / "broken.csv"
     broken.write_text("x,y\n1,2\n3,four\n")
     page.page.locator(f"{ROOM} input[type=file]").set_input_files(broken)
+    message.filter(has_text="broken.csv").wait_for()
     assert message.inner_text().startswith("broken.csv, row 2: the y 'four' is not a number. Nothing has changed.")
     assert said(page, "sum").startswith("6 facets")
 
