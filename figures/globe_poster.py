@@ -91,7 +91,7 @@ def draw(g: dict) -> Page:
         globe.add_points(list(place.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
         globe.add_labels(list(place.values()), place, offset=offset, size=6.2, color=CREAM, halo=0.9)
     seas = [rf"$\mathit{{{name.replace(' ', chr(92) + ' ')}}}$" for name in SEAS]
-    globe.add_labels(list(SEAS.values()), seas, offset=(0.0, 0.0), size=7.0, color=CREAM, halo=0.0)
+    globe.add_labels(list(SEAS.values()), seas, offset=(0.0, 0.0), size=7.0, color=CREAM, halo=0.0, formulas=True)
     lens = fisheye(FOCUS, magnification=MAGNIFICATION)
     return framed(with_scale(globe.page(lens), lens))
 

@@ -24,6 +24,7 @@ MAY_IMPORT = {
     "_docs": set(),
     "_files": set(),
     "_extras": set(),
+    "_interrupts": set(),
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel"},
     "_arrays": BASE,
@@ -45,7 +46,7 @@ MAY_IMPORT = {
     "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
     "partitioned": KERNEL | {"__init__", "_files", "curves", "io", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
-    "__main__": {"_extras", "cli"},
+    "__main__": {"_extras", "_interrupts", "cli"},
     "drawing": MATHEMATICS | {"curves"},
     "render": MATHEMATICS | {"_files", "_kernel", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
@@ -54,7 +55,7 @@ MAY_IMPORT = {
     "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"}
-    | {"partitioned", "web"},
+    | {"_interrupts", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

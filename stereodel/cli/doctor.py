@@ -14,6 +14,7 @@ import typer
 
 import stereodel
 from stereodel._extras import EXTRAS, distributions, installing
+from stereodel.cli.failures import stop_if_interrupted
 
 if TYPE_CHECKING:
     from stereodel.render import gl
@@ -39,6 +40,7 @@ def command() -> None:
     found = tried()
     chosen, reason, problem = _choice(found)
     rendering = _rendering(found, chosen, reason)
+    stop_if_interrupted()
     for title, rows in (("Versions", _versions()), ("Extras", _extras()), ("Rendering", rendering)):
         typer.echo(f"{title}\n{_table(rows)}\n")
     if problem:

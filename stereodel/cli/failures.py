@@ -13,12 +13,11 @@ from typing import Final, NoReturn
 
 import typer
 
+from stereodel._interrupts import INTERRUPTED, leave
 from stereodel.io.columns import RenamedColumnWarning
 
 NOTHING_TO_DO: Final = 1
 WRONG_INPUT: Final = 2
-INTERRUPTED: Final = 128 + 2
-"""Exit code of a program that SIGINT ended, by the convention of shells."""
 BROKEN_PIPE: Final = 1
 """Exit code after a closed pipe, as in rich and Python's documentation."""
 
@@ -71,9 +70,13 @@ class NothingToDoError(Exception):
 def told_plainly() -> Iterator[None]:
     """Turn errors that a user can fix into a message and an exit code; others pass with their traceback.
 
-    Renamed columns are reported on stderr as well.
+    Renamed columns are reported on stderr as well. In a process of the command, an interruption is an exception within
+    the context; after it, when what was written is written, it is ignored.
     """
+    own_process = signal.getsignal(signal.SIGINT) is leave
     try:
+        if own_process:
+            signal.signal(signal.SIGINT, interrupt)
         with warnings.catch_warnings():
             warnings.simplefilter("always", RenamedColumnWarning)
             show = warnings.showwarning
@@ -95,11 +98,17 @@ def told_plainly() -> Iterator[None]:
     except MemoryError:
         typer.echo("error: not enough memory for so many points", err=True)
         raise typer.Exit(WRONG_INPUT) from None
-    except (OSError, ValueError, ImportError) as error:
+    except Exception as error:
+        # Libraries turn an interruption into exceptions of their own: OSError in imports, TypeError in NumPy's strings.
         if _signals:
             raise _interrupted() from None
+        if not isinstance(error, (OSError, ValueError, ImportError)):
+            raise
         typer.echo(f"error: {in_options(_in_one_line(error))}", err=True)
         raise typer.Exit(WRONG_INPUT) from None
+    finally:
+        if own_process:
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def _interrupted(reason: str = "") -> typer.Exit:

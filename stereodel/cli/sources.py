@@ -31,7 +31,10 @@ SECOND: Final = {"lon": "lon", "lat": "lat", "layer": "layer-name", "crs": "crs"
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Points and the other columns of their table.
+    """Points and the other columns of their table, as the commands read them.
+
+    A `stereodel.io.PointTable` is what the library reads and writes: checked degrees, without a source. Here places may
+    be in the plane, and messages and results need the names of the file and of the axes.
 
     Attributes
     ----------

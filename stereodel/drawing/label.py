@@ -28,23 +28,24 @@ def placed_label(label: Label, offset: tuple[float, float]) -> Label:
 
 
 def within_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> Label:
-    """A label moved to the other side of its place if it would leave a disc of the page; without halo if it still does.
+    """A label moved to another side of its place if it would leave a disc of the page; without halo if all sides do.
 
-    A halo outside the disc would interrupt the line around it.
+    The opposite side is tried first, then those at right angles. A halo outside the disc would interrupt the line
+    around it.
     """
-    if in_disc(label, center, radius, points_per_unit):
-        return label
-    other = placed_label(label, (-label.offset[0], -label.offset[1]))
-    return other if in_disc(other, center, radius, points_per_unit) else replace(label, halo=0.0)
+    right, up = label.offset
+    turned = (placed_label(label, offset) for offset in ((-right, -up), (-up, right), (up, -right)))
+    inside = (each for each in (label, *turned) if in_disc(each, center, radius, points_per_unit))
+    return next(inside, replace(label, halo=0.0))
 
 
 def in_disc(label: Label, center: tuple[float, float], radius: float, points_per_unit: float) -> bool:
-    """Whether a label lies within a disc of the page, with its halo."""
-    low, high = label_box(label, points_per_unit) + halo_reach(label)
+    """Whether a label lies within a disc of the page, with its halo, which is round about the corners of its box."""
+    low, high = label_box(label, points_per_unit)
     reach = np.maximum(
         np.abs(low - points_per_unit * np.array(center)), np.abs(high - points_per_unit * np.array(center))
     )
-    return float(np.hypot(*reach)) <= points_per_unit * radius
+    return float(np.hypot(*reach)) + label.halo <= points_per_unit * radius
 
 
 def with_room(items: Iterable[Item], extent: tuple[float, float, float, float], points_per_unit: float) -> list[Item]:

@@ -185,6 +185,8 @@ class Label:
     halo: float = 0.0
     """Width in points of a line around the letters."""
     halo_color: Color = (1.0, 1.0, 1.0, 1.0)
+    on_ground: bool = False
+    """Whether the halo takes the colour of the ground below, see `stereodel.drawing.ground`."""
     font: tuple[str, ...] = ()
     """Font families or files, see `stereodel.drawing.fonts.as_font`; STIX supplies missing characters."""
     formulas: bool = True

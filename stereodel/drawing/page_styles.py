@@ -9,6 +9,7 @@ from typing import Any, Final
 
 from stereodel.drawing.dark import dark_page
 from stereodel.drawing.fonts import FontLike, as_font, in_font
+from stereodel.drawing.ground import haloed
 from stereodel.drawing.media import COLUMN, SLIDE, page_for
 from stereodel.drawing.page import Page
 from stereodel.drawing.style_files import PageStyle
@@ -61,6 +62,8 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
     grows; in the picture it moves aside where it would overlap other text, and labels that do not fit are omitted, as
     on maps.
 
+    Halos of a globe's labels without a colour of their own have that of the ground in the new style.
+
     Examples
     --------
     >>> from stereodel.drawing import Sketch
@@ -70,12 +73,16 @@ def styled(page: Page, *styles: Style, font: FontLike | None = None) -> Page:
     ([33.87, 19.05], 0.07)
     """
     page = in_font(page, as_font(font))
-    for style in as_styles(styles):
+    return haloed(_in_styles(page, as_styles(styles))) if styles else page
+
+
+def _in_styles(page: Page, styles: Sequence[str]) -> Page:
+    for style in styles:
         if style in STYLES:
             page = STYLES[style](page)
         else:
             own = PageStyle.of_file(style)
-            page = own(styled(page, *own.base))
+            page = own(_in_styles(page, as_styles(own.base)))
     return page
 
 

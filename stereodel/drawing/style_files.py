@@ -109,7 +109,7 @@ class PageStyle:
             case Dots():
                 return replace(item, **self.dots.get(item.name, {}))
             case Label():
-                return replace(item, **self.labels)
+                return replace(item, **self.labels, on_ground=item.on_ground and "halo_color" not in self.labels)
             case Fill() if item.name in self.fills:
                 return replace(item, color=self.fills[item.name])
             case Polygons() if item.name in self.fills and len(item.by_color[0]) == 1:

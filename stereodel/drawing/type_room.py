@@ -1,8 +1,8 @@
 """Placing labels again on a page whose picture has been scaled relative to its type.
 
 Labels above and below the picture are broken into lines and moved away from it, and the page grows. Labels in the
-picture move aside as little as possible where they would overlap other labels, or lines that they were clear of; labels
-without room are left out, as on maps.
+picture move aside as little as possible where they would overlap other labels, or lines or dots that they were clear
+of; labels without room are left out, as on maps.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import Any, Final
 import numpy as np
 
 from stereodel._arrays import FloatArray
-from stereodel.drawing.label import GAP, label_box
+from stereodel.drawing.label import GAP, halo_reach, label_box
 from stereodel.drawing.page import Beziers, Dots, Fill, Item, Label, Page, Picture, Polygons, Polylines, Stroke
 
 Box = tuple[float, float, float, float]
@@ -57,10 +57,18 @@ WORD_OR_FORMULA: Final = re.compile(r"(?:\$[^$]*\$|\S)+")
 """Unbreakable parts: formulas may contain spaces."""
 
 
-def clear_labels(page: Page) -> list[bool]:
-    """For each label of a page, whether no line crosses it."""
-    setter = _Setter(page.points_per_unit, page.extent[:2], _chords(page.items, page.points_per_unit))
-    return [not setter.crossed(label) for label in page.labels]
+@dataclass(frozen=True)
+class Clear:
+    """What a label is clear of: lines, and dots, which unlike lines may not lie under its halo either."""
+
+    lines: bool
+    dots: bool
+
+
+def clear_labels(page: Page) -> list[Clear]:
+    """For each label of a page, what it is clear of."""
+    setter = _Setter.of_picture(page.items, page.points_per_unit, page.extent[:2])
+    return [Clear(not setter.crossed(label), not setter.dotted(label)) for label in page.labels]
 
 
 def set_anew(
@@ -68,7 +76,7 @@ def set_anew(
     extent: Box,
     points_per_unit: float,
     room: tuple[float, float],
-    clear: Sequence[bool],
+    clear: Sequence[Clear],
 ) -> tuple[tuple[Item, ...], Box]:
     """Items whose labels have room, and the extent that they need.
 
@@ -81,13 +89,13 @@ def set_anew(
         Scale of the page.
     room : (float, float)
         Left and right limits for labels, in page units.
-    clear : sequence of bool
-        For each label, whether to keep it clear of lines if possible.
+    clear : sequence of Clear
+        For each label, what to keep it clear of if possible.
     """
     unit = points_per_unit
     picture = [item for item in items if not isinstance(item, Label)]
     labels = [item for item in items if isinstance(item, Label)]
-    ink, setter = _ink(picture, extent), _Setter(unit, room, _chords(picture, unit))
+    ink, setter = _ink(picture, extent), _Setter.of_picture(picture, unit, room)
     kept = setter.within(
         [(label, free) for label, free in zip(labels, clear, strict=True) if ink[2] <= label.anchor[1] <= ink[3]]
     )
@@ -105,11 +113,21 @@ def set_anew(
 
 @dataclass(frozen=True)
 class _Setter:
-    """Places labels at a scale, between two limits in page units, with lines given by their chords (n, 2, 2)."""
+    """Places labels at a scale, between two limits in page units.
+
+    Lines are given by their chords (n, 2, 2), dots by boxes (m, 2, 2) in points.
+    """
 
     unit: float
     room: tuple[float, float]
     chords: FloatArray
+    dots: FloatArray
+
+    @classmethod
+    def of_picture(cls, items: Iterable[Item], unit: float, room: tuple[float, float]) -> _Setter:
+        """For the lines and dots among some items."""
+        picture = list(items)
+        return cls(unit, room, _chords(picture), _dots(picture, unit))
 
     def box(self, label: Label) -> FloatArray:
         """Lower left and upper right corner of a label as rotated, in points."""
@@ -132,17 +150,25 @@ class _Setter:
         reach = np.abs(along[:, ::-1]) @ ((high - low) / 2)
         return bool((np.abs(along[:, 0] * to[:, 1] - along[:, 1] * to[:, 0]) < reach).any())
 
-    def within(self, labels: Iterable[tuple[Label, bool]]) -> list[Label]:
+    def dotted(self, label: Label) -> bool:
+        """Whether a dot lies under a label, or partly under its halo."""
+        low, high = self.box(label) + halo_reach(label)
+        return bool(((self.dots[:, 0] < high) & (self.dots[:, 1] > low)).all(axis=1).any())
+
+    def kept_clear(self, label: Label, clear: Clear) -> bool:
+        """Whether a label is clear of what it is to be clear of."""
+        return not (clear.dots and self.dotted(label)) and not (clear.lines and self.crossed(label))
+
+    def within(self, labels: Iterable[tuple[Label, Clear]]) -> list[Label]:
         """Labels in the picture, in place or moved aside so that none overlap, without those that have no room.
 
-        The flag of each label says whether to keep it clear of lines; this is waived if there is room only on a line.
+        What each is to be kept clear of is waived if there is no such room.
         """
         kept: list[Label] = []
-        for label, free in labels:
+        for label, clear in labels:
             boxes = self.boxes(kept)
             tried = [place for place in map(self._held, _places(label)) if not _meet(self.box(place)[None], boxes)]
-            uncrossed = (place for place in tried if not self.crossed(place))
-            kept += [next(uncrossed, tried[0]) if free else tried[0]] if tried else []
+            kept += [next((place for place in tried if self.kept_clear(place, clear)), tried[0])] if tried else []
         return kept
 
     def beyond(self, labels: Sequence[Label], way: float, edge: float, taken: FloatArray) -> list[Label]:
@@ -230,8 +256,8 @@ def _meet(boxes: FloatArray, others: FloatArray) -> bool:
     return bool(((a[..., 0, :] < b[..., 1, :] + GAP) & (b[..., 0, :] < a[..., 1, :] + GAP)).all(axis=-1).any())
 
 
-def _chords(items: Iterable[Item], unit: float) -> FloatArray:
-    """Chords (n, 2, 2) of all lines, and two diameters of each dot."""
+def _chords(items: Iterable[Item]) -> FloatArray:
+    """Chords (n, 2, 2) of all lines."""
     runs = []
     for item in items:
         if isinstance(item, Stroke):
@@ -240,9 +266,15 @@ def _chords(items: Iterable[Item], unit: float) -> FloatArray:
         elif isinstance(item, Polylines):
             chords = np.stack([item.points[:-1], item.points[1:]], axis=1)
             runs.append(np.delete(chords, item.offsets[1:-1] - 1, axis=0))
-        elif isinstance(item, Dots):
-            runs += [item.centers[:, None] + item.radius / unit * np.array([[-x, -y], [x, y]]) for x, y in np.eye(2)]
     return np.concatenate([np.zeros((0, 2, 2)), *runs])
+
+
+def _dots(items: Iterable[Item], unit: float) -> FloatArray:
+    """Lower left and upper right corners (n, 2, 2) of the boxes of all dots, in points."""
+    dots = [item for item in items if isinstance(item, Dots)]
+    corner = np.array([[-1.0], [1.0]])
+    boxes = [unit * item.centers[:, None] + (item.radius + item.rim_width / 2) * corner for item in dots]
+    return np.concatenate([np.zeros((0, 2, 2)), *boxes])
 
 
 def _ink(picture: Sequence[Item], extent: Box) -> Box:

@@ -47,7 +47,6 @@ from stereodel.drawing.title import with_title
 from stereodel.drawing.view import MapView
 from stereodel.globe import features
 from stereodel.globe.chart import Chart
-from stereodel.globe.ground import haloed
 from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Outside, Points, Rim
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
@@ -279,7 +278,7 @@ class Globe:
         xyz = self._xyz(places, "places")
         paper, ink = WHITE if halo_color is None else as_color(halo_color, "halo_color"), as_color(color)
         bare = Label("", (0.0, 0.0), size=size, color=ink, halo=halo, halo_color=paper, formulas=formulas)
-        bare = replace(bare, font=self.font if font is None else as_font(font))
+        bare = replace(bare, on_ground=halo_color is None, font=self.font if font is None else as_font(font))
         labels = tuple(placed_label(replace(bare, text=text), offset) for text in texts)
         if len(labels) != len(xyz):
             raise ValueError(f"texts has {len(labels)} entries, but there are {len(xyz)} places")
@@ -289,7 +288,7 @@ class Globe:
             order = np.argsort(-np.where(np.isnan(numbers), -np.inf, numbers), kind="stable")
             xyz, labels = xyz[order], tuple(labels[k] for k in order.tolist())
         distance = float(np.hypot(*offset)) if movable else None
-        self.add(Names(xyz, labels, on_ground=halo_color is None, distance=distance))
+        self.add(Names(xyz, labels, distance))
 
     def add_cells(
         self,
@@ -419,9 +418,7 @@ class Globe:
         items: list[Item] = []
         for layer in (*self.layers, self.limb):
             if isinstance(layer, Names):
-                labels = layer.beside(chart, items)
-                on_ground = layer.on_ground
-                items += [haloed(label, items, chart.unit) if on_ground and label.halo else label for label in labels]
+                items += layer.beside(chart, items)
             else:
                 items += layer.lay(chart)
         return tuple(items)

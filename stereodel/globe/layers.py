@@ -171,8 +171,6 @@ class Names:
 
     xyz: FloatArray
     labels: tuple[Label, ...]
-    on_ground: bool = False
-    """Whether halos take the colour of the ground below, which `Globe.items` determines."""
     distance: float | None = None
     """Distance in points of a movable label from its place; None for labels that are fixed."""
 

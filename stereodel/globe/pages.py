@@ -9,6 +9,7 @@ from typing import Protocol
 from stereodel._arrays import as_count, as_scalar
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.fonts import FontLike, as_font, in_font
+from stereodel.drawing.ground import haloed
 from stereodel.drawing.label import with_room
 from stereodel.drawing.page import Item, Label, Page
 from stereodel.drawing.style import BLACK, PRINT_WIDTH
@@ -127,4 +128,4 @@ def panels(
         if panel.title:
             items.append(Label(panel.title, (at[0], at[1] + pitch / 2), (0.0, 3.0), "center", "baseline", color=BLACK))
     extent = (0.0, across * pitch, 0.0, rows * (pitch + head))
-    return in_font(Page(extent, tuple(items), width=size, views=tuple(views)), as_font(font))
+    return haloed(in_font(Page(extent, tuple(items), width=size, views=tuple(views)), as_font(font)))

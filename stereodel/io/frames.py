@@ -135,6 +135,8 @@ def layer_of(
     progress: Progress | None = None,
 ) -> Layer:
     """The rows of `to_geodataframe` for writing to files, without creating a Shapely geometry for each."""
+    # The parameters are written out in both functions: the documentation, type checkers and, for options of `write`,
+    # error messages read them from the signatures, and options passed on as a mapping would be a third list.
     as_scalar(max_segment, "max_segment", low=0.0, high=LARGEST_SEGMENT, open_low=True)
     if isinstance(mesh, list):
         if what is not None or columns or bounds is not None or clip is not None:

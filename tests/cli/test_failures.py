@@ -1,6 +1,7 @@
 """How commands end: exit codes, one line on stderr, and silence where a reader has gone."""
 
 import os
+import signal
 import subprocess
 import sys
 
@@ -8,7 +9,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from stereodel.cli import app
+from stereodel.cli import app, failures
 from stereodel.cli.application import Commands
 
 COMMANDS = [command.name for command in app.registered_commands]
@@ -48,6 +49,18 @@ def test_failures_are_one_line(error, code, line):
 def test_a_mistake_of_ours_keeps_its_traceback():
     ran = ending(ZeroDivisionError("ours"))
     assert isinstance(ran.exception, ZeroDivisionError)
+
+
+@pytest.mark.parametrize("error", [OSError("lost"), TypeError("result array type does not match"), typer.Exit(0)])
+def test_an_interruption_that_a_library_turned_into_another_exception(error, monkeypatch):
+    """NumPy's strings make TypeErrors of it, imports OSErrors."""
+    own = signal.getsignal(signal.SIGINT)
+    monkeypatch.setattr(failures, "_signals", [signal.SIGINT])
+    try:
+        ran = ending(error)
+    finally:
+        signal.signal(signal.SIGINT, own)
+    assert (ran.exit_code, ran.stderr) == (130, "interrupted; nothing was written\n")
 
 
 def command_line(*arguments):

@@ -23,6 +23,7 @@ EVERY = {
     "interpolate": ["interpolate", "many.csv", "--value", "v", "--grid", "0.25", "--method", "natural", "-o", "out.nc"],
     "contour": ["contour", "many.csv", "--value", "v", "--interval", "0.01", "-o", "out.geojson"],
     "nearest": ["nearest", "many.csv", "--of", "many.csv", "-k", "9", "-o", "out.fgb"],
+    "doctor": ["doctor"],
     "globe": ["globe", "many.csv", "--size", "3000", "-o", "out.svg"],
 }
 
@@ -57,6 +58,23 @@ def interrupted(folder, arguments, seconds):
 def test_every_command(many, command, seconds):
     ended = interrupted(many, EVERY[command], seconds)
     assert ended is not None
+
+
+PARSING = """
+from stereodel.cli.application import Commands
+WHOLE = Commands.make_context
+def make_context(self, *arguments, **options):
+    os.kill(os.getpid(), signal.SIGINT)
+    return WHOLE(self, *arguments, **options)
+Commands.make_context = make_context
+"""
+
+
+def test_while_arguments_are_parsed(folder):
+    """Typer itself would end without a message."""
+    program = PROGRAM.replace('os.write(1, b"x")', PARSING)
+    ran = subprocess.run([sys.executable, "-c", program, "doctor"], cwd=folder, capture_output=True, check=False)
+    assert (ran.returncode, ran.stdout, ran.stderr) == (130, b"", b"interrupted; nothing was written\n")
 
 
 def test_temporary_folders_go_too(many, monkeypatch, tmp_path):

@@ -157,6 +157,31 @@ def test_type_that_is_clear_of_lines_stays_so():
     assert kept.offset == (0.0, 0.0)
 
 
+@pytest.mark.parametrize("style", ["column", "slide"])
+@pytest.mark.parametrize("halo", [0.0, 1.5])
+def test_dots_stay_clear_of_type_and_its_halo(style, halo):
+    """A dot that a word is just clear of, beside a line that crosses the word: the line may stay, the dot may not."""
+    word = Label("a word", (0.0, 0.0), halo=halo)
+    (_, low), (right, _) = label_box(word, 17 * CM / 4)
+    rim = 0.5
+    radius = 4.0
+    at = np.array([right + halo + radius + rim / 2 + 0.05, low]) / (17 * CM / 4)
+
+    def line():
+        return Sketch().add_segment((0.0, -1.0), (0.0, 1.0), name="axis")
+
+    dotted = line().add_points([at], name="dot", style=DotStyle(BLACK, radius, rim_width=rim))
+    shown = styled(dotted.add_items([word]).page((-2.0, 2.0, -1.0, 1.0), width=17 * CM), style)
+    (dot,) = [item for item in shown.items if isinstance(item, Dots)]
+    label, unit = shown.labels[0], shown.points_per_unit
+    box = label_box(label, unit) + label.halo * np.array([[-1.0], [1.0]])
+    away = np.abs(unit * dot.centers[0] - box.mean(axis=0)) - (box[1] - box[0]) / 2
+    assert away.max() >= dot.radius + dot.rim_width / 2
+    assert label.offset != (0.0, 0.0)
+    under = line().add_points([(0.02, 0.0)], name="points").add_items([word])
+    assert styled(under.page((-2.0, 2.0, -1.0, 1.0), width=17 * CM), style).labels[0].offset == (0.0, 0.0)
+
+
 def test_type_turned_is_held_by_its_turned_box():
     upright = Label("a long word upright", (-1.95, 0.0), rotation=90.0)
     column = styled(page(upright), "column")

@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from stereodel import fisheye
-from stereodel.drawing import Fill, Label, Polygons, View
+from stereodel.drawing import Fill, Label, Polygons, View, styled
+from stereodel.drawing.dark import GROUND, dark_color
+from stereodel.drawing.ground import legible, painted
 from stereodel.drawing.label import label_box, within_disc
 from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster
-from stereodel.globe.ground import legible, painted
 
 LENS = fisheye((10.0, 50.0), magnification=3.0)
 
@@ -72,6 +73,47 @@ def test_a_halo_is_tinted_as_the_ground(place, name):
     assert label.halo_color == pytest.approx((*MAP_FILLS[name][:3], HALO_OPACITY), abs=1e-3)
 
 
+@pytest.mark.parametrize("explicit", [False, True])
+def test_a_halo_is_tinted_as_the_ground_of_the_style(tmp_path, explicit):
+    """Whether the style is given with the page, or applied to it later, or comes with another."""
+    file = tmp_path / "mine.toml"
+    file.write_text("[fills]\nball = '#ffe0a0'" + ("\n[labels]\nhalo_color = 'lime'" if explicit else ""))
+    globe = Globe()
+    globe.add_labels([(0.0, 0.0), (0.0, 40.0)], ["here", "there"])
+    globe.add_labels([(0.0, -40.0)], ["own"], halo_color=(0.0, 0.0, 1.0, 0.5))
+    view = View(0, 0)
+    plain = globe.page(view=view)
+    for page in (globe.page(view=view, style=file), styled(plain, file), styled(plain, "slide", file)):
+        assert len(page.labels) == 3
+        for label in page.labels:
+            own = label.text == "own"
+            wanted = (
+                (0.0, 1.0, 0.0, 1.0)
+                if explicit
+                else (0.0, 0.0, 1.0, 0.5)
+                if own
+                else (1.0, 0xE0 / 255, 0xA0 / 255, HALO_OPACITY)
+            )
+            assert label.halo_color == pytest.approx(wanted, abs=1e-3)
+
+
+def test_a_halo_on_a_dark_page_is_as_dark_as_its_ground():
+    globe = Globe()
+    globe.add_labels([(0.0, 0.0)], ["here"])
+    (label,) = styled(globe.page(view=View(0, 0)), "dark").labels
+    assert label.halo_color == pytest.approx((*dark_color(MAP_FILLS["ocean"])[:3], HALO_OPACITY), abs=1e-3)
+    # Outside the disc the ground is the background.
+    assert painted([], np.zeros((1, 2)), GROUND)[0] == pytest.approx(GROUND[:3])
+
+
+def test_labels_are_above_what_is_added_after_them():
+    globe = Globe()
+    globe.add_labels([(0.0, 0.0)], ["here"])
+    globe.add_polygons([[[(-60, -60), (60, -60), (60, 60), (-60, 60)]]], color="#ffe0a0", outline=None)
+    (label,) = globe.page(view=View(0, 0)).labels
+    assert label.halo_color == pytest.approx((1.0, 0xE0 / 255, 0xA0 / 255, HALO_OPACITY), abs=1e-3)
+
+
 def test_a_halo_is_as_light_or_dark_as_reading_needs():
     for ink in ((0, 0, 0, 1.0), (1.0, 1.0, 1.0, 1.0), (0.4, 0.1, 0.1, 1.0)):
         for ground in np.random.default_rng(1).uniform(size=(50, 3)):
@@ -87,7 +129,10 @@ def test_names_turn_to_where_the_disc_has_room():
     assert (turned.align, turned.offset, turned.halo) == ("right", (-4.0, 0.0), 1.0)
     assert np.hypot(*np.abs(label_box(turned, unit)).max(axis=0)) < unit
     assert within_disc(replace(label, anchor=(0.0, 0.0)), (0.0, 0.0), 1.0, unit).align == "left"
-    # Without room on either side a halo would cut the limb.
+    # Near the top of the disc there is room below the place alone.
+    top = within_disc(replace(label, anchor=(0.0, 0.94)), (0.0, 0.0), 1.0, unit)
+    assert (top.align, top.valign, top.offset, top.halo) == ("center", "top", (0.0, -4.0), 1.0)
+    # Without room on any side a halo would cut the limb.
     assert within_disc(label, (0.0, 0.0), 0.2, unit).halo == 0
 
 

@@ -1,4 +1,4 @@
-"""The ground under the labels of a map: its colour in the layers below, which tints the halos of the labels."""
+"""The ground under the labels of a page: its colour, which tints the halos of labels that are on it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from stereodel.constants import GROUND_PIXEL
 from stereodel.drawing.colorimetry import contrast
 from stereodel.drawing.colors import Color
 from stereodel.drawing.label import label_box
-from stereodel.drawing.page import Beziers, Fill, Item, Label, Picture, Polygons
+from stereodel.drawing.page import Beziers, Fill, Item, Label, Page, Picture, Polygons
 from stereodel.drawing.style import BLACK, HALO_OPACITY, WHITE
 
 ACROSS: Final = 9
@@ -26,11 +26,28 @@ LEGIBLE: Final = 7.0
 BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
 
-def haloed(label: Label, below: Sequence[Item], unit: float) -> Label:
-    """The label with a halo in the most frequent colour of the ground below it; `unit` is points per page unit."""
+def haloed(page: Page) -> Page:
+    """A page on which the halos of labels that are `on_ground` have the most frequent colour of the ground below them.
+
+    Labels are above everything else, so that all other items are the ground. Styles change its colours: halos are
+    determined again when a page has been styled.
+    """
+    if not any(label.on_ground and label.halo for label in page.labels):
+        return page
+    ground = [item for item in page.items if not isinstance(item, Label)]
+
+    def tinted(item: Item) -> Item:
+        return _tinted(item, page, ground) if isinstance(item, Label) and item.on_ground and item.halo else item
+
+    return replace(page, items=tuple(map(tinted, page.items)))
+
+
+def _tinted(label: Label, page: Page, ground: Sequence[Item]) -> Label:
+    unit = page.points_per_unit
     (left, bottom), (right, top) = label_box(label, unit) / unit
     places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
-    colors, counts = np.unique(painted(below, places.reshape(-1, 2)).round(3), axis=0, return_counts=True)
+    found = painted(ground, places.reshape(-1, 2), page.background).round(3)
+    colors, counts = np.unique(found, axis=0, return_counts=True)
     red, green, blue = legible(colors[counts.argmax()], label.color).tolist()
     return replace(label, halo_color=(red, green, blue, HALO_OPACITY))
 
@@ -45,9 +62,10 @@ def legible(ground: FloatArray, ink: Color) -> FloatArray:
     return mixed
 
 
-def painted(items: Sequence[Item], places: FloatArray) -> FloatArray:
+def painted(items: Sequence[Item], places: FloatArray, background: Color = WHITE) -> FloatArray:
     """Colours, sRGB (n, 3), of regions and images at places of a page (n, 2), without lines and shading."""
     colors = np.tile(np.array(WHITE[:3]), (len(places), 1))
+    _lay(colors, np.tile(np.array(background), (len(places), 1)))
     for item in items:
         match item:
             case Fill():
