@@ -44,7 +44,7 @@ MAY_IMPORT = {
     "graphs": KERNEL | {"sphere", "triangulation"},
     "relaxation": KERNEL | {"curves", "sphere", "triangulation"},
     "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
-    "partitioned": KERNEL | {"__init__", "_files", "curves", "io", "sphere", "triangulation"},
+    "partitioned": KERNEL | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
     "__main__": {"_extras", "_interrupts", "cli"},
     "drawing": MATHEMATICS | {"curves"},

@@ -67,7 +67,8 @@ class Work:
 
     def run(self, scheduler: str | None) -> None:
         """Compute; errors are reported in the words of the command line."""
-        from stereodel.partitioned.run import PARTITION, triangulate
+        from stereodel.partitioned import triangulate
+        from stereodel.partitioned.passes import PARTITION
 
         columns = self.plane or (self.lon and self.lat and (self.lon, self.lat)) or None
         names = {"columns": "--plane" if self.plane else "--lon", "keep": "--keep", "resume": "--overwrite"}

@@ -34,7 +34,7 @@ FGB_CHILDREN: Final = 16
 """Children of a node of the index, as GDAL writes it."""
 
 OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
-"""Of formats: FlatGeobuf is sorted by place, for its index, in memory, where that takes two thirds of the time."""
+"""Options of GDAL by format. FlatGeobuf sorts features for its index: in memory that takes two thirds of the time."""
 
 LETTERS: Final = 200
 """Characters of GDAL's messages that an error message repeats."""

@@ -4,5 +4,6 @@ Files of points in, files of triangles and of rows for the points out; the extra
 """
 
 from stereodel.partitioned.run import Run, triangulate
+from stereodel.partitioned.targets import Answers
 
-__all__ = ["Run", "triangulate"]
+__all__ = ["Answers", "Run", "triangulate"]

@@ -33,6 +33,10 @@ class Index:
     points : (blocks, width) array
     numbers : (blocks,) array
         One point of each block.
+    sizes : (blocks,) array of int64
+        Number of its points.
+    largest : int
+        The most of them.
     """
 
     lows: FloatArray
@@ -47,8 +51,9 @@ class Index:
     def __init__(self, store: Store) -> None:
         self._store = store
         for name in COLUMNS:
-            setattr(self, name, load(store.scratch / "index" / f"{name}.npy"))
+            setattr(self, name, load(store.room("blocks") / f"{name}.npy"))
         self.sizes: LongArray = self.last - self.first
+        self.largest = int(self.sizes.max(initial=0))
         self.space: Space = space_of(self.points)
 
     @staticmethod
@@ -62,7 +67,7 @@ class Index:
         part = np.repeat(np.array(parts, dtype=np.int32), [len(part) for part in found])
         columns = (lows, highs, levels, part, *(blocks[name] for name in ("first", "last", "point", "number")))
         for name, column in zip(COLUMNS, columns, strict=True):
-            save(store.scratch / "index" / f"{name}.npy", np.ascontiguousarray(column))
+            save(store.room("blocks") / f"{name}.npy", np.ascontiguousarray(column))
 
     def __len__(self) -> int:
         return len(self.part)

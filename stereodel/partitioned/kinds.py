@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import Final
 
@@ -10,7 +10,6 @@ from stereodel._arrays import as_choice
 from stereodel.io.columns import listed
 from stereodel.partitioned.hats import hats_source, is_catalogue
 from stereodel.partitioned.places import Surface
-from stereodel.partitioned.solve import ROWS
 from stereodel.partitioned.sources import Given, Source, opened, parquet_source
 from stereodel.sphere.latitudes import Latitude
 
@@ -19,9 +18,15 @@ KINDS: Final = {"parquet": parquet_source, "hats": hats_source}
 
 
 def source_of(
-    given: Given, kind: str, columns: Sequence[str] | None, surface: Surface, latitude: Latitude, keep: Sequence[str]
+    given: Given,
+    kind: str,
+    columns: Sequence[str] | None,
+    surface: Surface,
+    latitude: Latitude,
+    keep: Sequence[str],
+    results: Collection[str],
 ) -> Source:
-    """The source that is given, of a kind or of the one that it looks like, with columns that are carried along.
+    """The source that is given, of a kind or of the one that it looks like, with columns carried along beside results.
 
     Raises
     ------
@@ -37,6 +42,6 @@ def source_of(
     for name in carried:
         if name not in there:
             raise ValueError(f"keep has {name!r}, which is not one of the columns {listed(list(there))}")
-        if name in ROWS:
+        if name in results:
             raise ValueError(f"column {name!r} cannot be kept: results have that name; rename it in the files")
     return replace(found, carried=carried)

@@ -49,6 +49,34 @@ class Piece(NamedTuple):
 
 
 @dataclass(frozen=True)
+class Question:
+    """What is asked at targets, of the points of a run that ended.
+
+    Parameters
+    ----------
+    run : str
+        Its folder, absolute.
+    digest : str
+        Digest of its plan.
+    method : {"nearest", "linear", "natural"}
+        Nearest points, or how values are interpolated.
+    k : int or None
+        Number of nearest points; None: the nearest one, without an axis of its own.
+    values : tuple of str
+        Columns of the points' files that are interpolated.
+    flat : bool
+        Whether the points have no triangles, so that there are no values between them.
+    """
+
+    run: str
+    digest: str
+    method: str
+    k: int | None = None
+    values: tuple[str, ...] = ()
+    flat: bool = False
+
+
+@dataclass(frozen=True)
 class Plan:
     """What a run does; the same of equal files and arguments, so that one that was interrupted goes on.
 
@@ -72,6 +100,10 @@ class Plan:
         Whether they are written.
     compact : bool or None
         Whether files are partitions; None: that is measured.
+    index : bool
+        Whether points stay in their partitions, for targets.
+    question : Question, optional
+        What is asked at the points, if they are targets.
     """
 
     version: str
@@ -85,6 +117,8 @@ class Plan:
     triangles: bool
     cells: bool
     compact: bool | None
+    index: bool = False
+    question: Question | None = None
 
     @classmethod
     def of(cls, source: Source, *, partition: int, **asked: Any) -> Plan:
@@ -185,6 +219,8 @@ class Plan:
             "cells",
             "carried",
             "compact",
+            "index",
+            "question",
             "block",
             "share",
         ):
@@ -199,7 +235,13 @@ def _loaded(path: Path, modified: int, node: int) -> Plan:
     files = tuple(PointFile(**file) for file in told.pop("files"))
     places = told.pop("places")
     places = Places(**places | {"names": tuple(places["names"])})
-    return Plan(files=files, places=places, **told | {name: tuple(told[name]) for name in ("carried", "rows")})
+    question = told.pop("question")
+    return Plan(
+        files=files,
+        places=places,
+        question=question and Question(**question | {"values": tuple(question["values"])}),
+        **told | {name: tuple(told[name]) for name in ("carried", "rows")},
+    )
 
 
 def _cut(files: Sequence[PointFile], size: int) -> tuple[tuple[Piece, ...], ...]:

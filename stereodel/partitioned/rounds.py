@@ -40,6 +40,17 @@ class Reading:
     read: int = 0
     largest: int = 0
 
+    def add(self, count: int) -> None:
+        """Note a round with so many points."""
+        self.rounds += 1
+        self.read += count
+        self.largest = max(self.largest, count)
+
+
+def triangulation(points: FloatArray) -> SphericalDelaunay | PlanarDelaunay:
+    """Of points of the plane (n, 2), or of directions (n, 3), in the worker's own thread."""
+    return PlanarDelaunay(points, workers=1) if points.shape[1] == 2 else SphericalDelaunay(points, workers=1)
+
 
 @dataclass(frozen=True, eq=False)
 class Round:
@@ -134,11 +145,8 @@ class Rounds:
                 "give a higher limit, or smaller partitions"
             )
         points, numbers, block = self.index.read(np.flatnonzero(read), np.flatnonzero(alone))
-        self.reading.rounds += 1
-        self.reading.read += count
-        self.reading.largest = max(self.reading.largest, count)
-        kind = PlanarDelaunay if points.shape[1] == 2 else SphericalDelaunay
-        return kind(points, workers=1), numbers, block
+        self.reading.add(count)
+        return triangulation(points), numbers, block
 
     def _open(
         self, mesh: SphericalDelaunay | PlanarDelaunay, wanted: BoolArray, unread: BoolArray

@@ -12,7 +12,7 @@ from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.partitioned.plan import Piece, Plan
 from stereodel.partitioned.shards import load, save
-from stereodel.partitioned.solve import ROWS, metadata
+from stereodel.partitioned.solve import metadata, row_kinds
 from stereodel.partitioned.sources import opened, slices
 from stereodel.partitioned.store import Store
 
@@ -49,7 +49,7 @@ def _columns(store: Store, share: int) -> dict[str, npt.NDArray[Any]]:
     """Results for the points of a share, in their order."""
     plan = store.plan
     first, last = plan.share_firsts[share : share + 2].tolist()
-    columns = {name: np.empty(last - first, dtype=ROWS[name]) for name in plan.rows}
+    columns = {name: np.empty(last - first, dtype=kind) for name, kind in row_kinds(plan).items()}
     if "kept" in columns:
         columns["kept"][:] = np.arange(first, last)
     starts, parts = (load(store.scratch / "cells" / f"{name}.npy") for name in ("starts", "parts"))
@@ -99,13 +99,27 @@ def _schema(store: Store, file: int) -> Any:
     if plan.carried:
         with opened(plan.files[file].path) as content:
             carried = [content.schema_arrow.field(name) for name in plan.carried]
-    own = [pyarrow.field(name, pyarrow.from_numpy_dtype(ROWS[name])) for name in plan.rows]
+    own = [pyarrow.field(name, _type(kind)) for name, kind in row_kinds(plan).items()]
     return pyarrow.schema([*carried, *own], metadata=metadata(store))
+
+
+def _type(kind: np.dtype[Any]) -> Any:
+    """A type of Arrow."""
+    pyarrow = optional("pyarrow", "partitioned")
+    one = pyarrow.from_numpy_dtype(kind.base)
+    return pyarrow.list_(one, *kind.shape) if kind.shape else one
+
+
+def _array(column: npt.NDArray[Any]) -> Any:
+    """A column of Arrow; rows with several numbers are lists of a fixed size."""
+    pyarrow = optional("pyarrow", "partitioned")
+    flat = pyarrow.array(column.ravel())
+    return flat if column.ndim == 1 else pyarrow.FixedSizeListArray.from_arrays(flat, column.shape[1])
 
 
 def _table(plan: Plan, piece: Piece, columns: dict[str, npt.NDArray[Any]], schema: Any) -> Any:
     pyarrow = optional("pyarrow", "partitioned")
-    arrays = {name: pyarrow.array(column) for name, column in columns.items()}
+    arrays = {name: _array(column) for name, column in columns.items()}
     if plan.carried:
         found = [table for _, table in slices(plan.files[piece.file], plan.carried, piece.first, piece.last)]
         table = pyarrow.concat_tables(found).combine_chunks()

@@ -3,61 +3,44 @@
 from __future__ import annotations
 
 import os
-import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import Any, Final, Literal
 
 import numpy as np
 
 import stereodel
 from stereodel._arrays import as_choice, as_count
+from stereodel._docs import shared
 from stereodel._extras import of_extra, optional
 from stereodel.constants import AREA_SUM_ERROR
 from stereodel.partitioned import rows as rows_of
-from stereodel.partitioned import spread
-from stereodel.partitioned.executors import Crew
+from stereodel.partitioned import targets as targets_of
 from stereodel.partitioned.flat import is_flat
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.kinds import source_of
-from stereodel.partitioned.lock import locked
+from stereodel.partitioned.passes import LIMIT, PARTITION, Means, Passes, Progress, Results, dataset
 from stereodel.partitioned.places import SURFACES, Surface
-from stereodel.partitioned.plan import NAME, Plan
-from stereodel.partitioned.shards import load_json, save, save_json
+from stereodel.partitioned.plan import Plan
+from stereodel.partitioned.shards import load_json, save_json
 from stereodel.partitioned.solve import ROWS, solve, solve_flat, write_table
-from stereodel.partitioned.sources import Given, Source
+from stereodel.partitioned.sources import Given
 from stereodel.partitioned.store import Store
-from stereodel.partitioned.tree import Splits, is_compact
+from stereodel.partitioned.targets import Answers
 from stereodel.sphere.latitudes import KINDS as LATITUDES
 from stereodel.sphere.latitudes import Latitude
 
+Method = Literal["linear", "natural"]
 Row = Literal["area", "degree", "nearest", "distance", "kept"]
-Progress = Callable[[str, int, int], None]
 
 PASSES: Final = ("sample", "spread", "collect", "solve", "align")
-"""Passes of a run, in order; if the files are compact, nothing is spread."""
-
-PARTITION: Final = 500_000
-"""Points of a partition by default: some 0.3 GB for each worker."""
-
-LIMIT: Final = 8_000_000
-"""Points that a worker may read at once by default: some 4 GB."""
-
-REPORT: Final = "run.json"
-"""Name of the file that describes a run; it is written last."""
-
-FILES: Final = "files.parquet"
-"""Name of the file that maps rows to files."""
-
-RESULTS: Final = ("rows", "triangles", "cells", FILES, REPORT, NAME)
-"""What a run leaves in its folder."""
+"""Passes of a triangulation, in order; if the files are compact, nothing is spread."""
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(Results):
     """What a triangulation in partitions left in a folder; nothing is loaded until it is asked for.
 
     Parameters
@@ -81,28 +64,6 @@ class Run:
         If no run ended there.
     """
 
-    folder: Path
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "folder", Path(self.folder))
-        if not (self.folder / REPORT).is_file():
-            raise FileNotFoundError(f"{self.folder} has no {REPORT}: no run ended there")
-
-    @property
-    def statistics(self) -> dict[str, Any]:
-        """Numbers of the whole run."""
-        return dict(load_json(self.folder / REPORT)["statistics"])
-
-    @property
-    def partitions(self) -> list[dict[str, Any]]:
-        """Numbers of each partition."""
-        return list(load_json(self.folder / REPORT)["partitions"])
-
-    def rows(self) -> Any:
-        """Results for the points, in their order: a dataset of pyarrow, with a file for each file of the input."""
-        files = [file.name for file in Plan.load(self.folder).files]
-        return _dataset([self.folder / "rows" / name for name in files])
-
     def triangles(self) -> Any:
         """Triangles by the numbers of their points: a dataset of pyarrow with a, b, c, closing."""
         return self._of_partitions("triangles")
@@ -111,12 +72,122 @@ class Run:
         """Cells, if they were asked for: a dataset of pyarrow with point, area and geometry, well-known binary."""
         return self._of_partitions("cells")
 
+    @shared(**targets_of.FAMILY)
+    def nearest(
+        self,
+        targets: Given,
+        out: str | os.PathLike[str],
+        *,
+        k: int | None = None,
+        columns: Sequence[str] | None = None,
+        kind: str = "auto",
+        keep: Sequence[str] = (),
+        partition: int = PARTITION,
+        limit: int = LIMIT,
+        executor: Executor | None = None,
+        scratch: str | os.PathLike[str] | None = None,
+        resume: bool = True,
+        progress: Progress | None = None,
+    ) -> Answers:
+        """Nearest points at targets in files, exactly as `SphericalDelaunay.nearest` of all points at once.
+
+        Parameters
+        ----------
+        {targets}
+        k : int, optional
+            Number of points, 1 to the number of all points; by default only the nearest, without lists.
+        {options}
+
+        Returns
+        -------
+        {returns}
+            Their columns are ``nearest``, the number of the nearest point, and ``distance`` (radians on the sphere);
+            with `k` lists of so many in the order of distances, equally near ones in the order of their numbers.
+
+        Raises
+        ------
+        {raises}
+
+        Examples
+        --------
+        >>> import tempfile, pyarrow, pyarrow.parquet
+        >>> from stereodel.partitioned import triangulate
+        >>> octahedron = {"lon": [0.0, 90, 180, -90, 0, 0], "lat": [0.0, 0, 0, 0, 90, -90]}
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     pyarrow.parquet.write_table(pyarrow.table(octahedron), f"{folder}/points.parquet")
+        ...     pyarrow.parquet.write_table(pyarrow.table({"lon": [20.0], "lat": [80.0]}), f"{folder}/targets.parquet")
+        ...     run = triangulate(f"{folder}/points.parquet", f"{folder}/out", index=True)
+        ...     found = run.nearest(f"{folder}/targets.parquet", f"{folder}/nearest", k=3)
+        ...     print(found.rows().to_table()["nearest"].to_pylist())
+        [[4, 0, 1]]
+        """
+        means = Means(out, limit, executor, scratch, resume, progress)
+        return targets_of.nearest(self.folder, targets, k, columns, kind, keep, partition, means)
+
+    @shared(**targets_of.FAMILY)
+    def interpolate(
+        self,
+        targets: Given,
+        out: str | os.PathLike[str],
+        values: str | Sequence[str],
+        *,
+        method: Method = "linear",
+        columns: Sequence[str] | None = None,
+        kind: str = "auto",
+        keep: Sequence[str] = (),
+        partition: int = PARTITION,
+        limit: int = LIMIT,
+        executor: Executor | None = None,
+        scratch: str | os.PathLike[str] | None = None,
+        resume: bool = True,
+        progress: Progress | None = None,
+    ) -> Answers:
+        """Values at targets in files, as by the interpolators of all points at once.
+
+        Parameters
+        ----------
+        {targets}
+        values : str or sequence of str
+            Columns of the files of points, which must be there as they were; NaN or null where missing.
+        method : {"linear", "natural"}
+            `LinearInterpolator` or `NaturalNeighborInterpolator`.
+        {options}
+
+        Returns
+        -------
+        {returns}
+            Their columns have the names of the values; NaN outside all triangles, and where a missing value takes part.
+
+        Raises
+        ------
+        {raises}
+
+        Notes
+        -----
+        Values are those in memory, bitwise. One case is apart: at a target exactly on an edge or at a point, linear
+        values are those of one of the triangles there, in memory the one of lowest index, here perhaps another. On
+        an edge the two differ by rounding alone, at a point not at all, but one may be NaN where a value is missing.
+
+        Beside the targets, `scratch` takes 8 bytes a point and column.
+
+        Examples
+        --------
+        >>> import tempfile, pyarrow, pyarrow.parquet
+        >>> from stereodel.partitioned import triangulate
+        >>> square = {"x": [0.0, 4, 0, 4], "y": [0.0, 0, 4, 4], "height": [0.0, 4, 8, 12]}
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     pyarrow.parquet.write_table(pyarrow.table(square), f"{folder}/points.parquet")
+        ...     pyarrow.parquet.write_table(pyarrow.table({"x": [1.0, 5], "y": [2.0, 0]}), f"{folder}/targets.parquet")
+        ...     run = triangulate(f"{folder}/points.parquet", f"{folder}/out", surface="plane", index=True)
+        ...     found = run.interpolate(f"{folder}/targets.parquet", f"{folder}/heights", "height")
+        ...     print(found.rows().to_table()["height"].to_pylist())
+        [5.0, nan]
+        """
+        means = Means(out, limit, executor, scratch, resume, progress)
+        return targets_of.interpolate(self.folder, targets, values, method, columns, kind, keep, partition, means)
+
     def _of_partitions(self, name: str) -> Any:
-        return _dataset(sorted((self.folder / name).glob("*.parquet"), key=lambda path: int(path.stem)))
-
-
-def _dataset(paths: Sequence[Path]) -> Any:
-    return optional("pyarrow.dataset", "partitioned").dataset([str(path) for path in paths], format="parquet")
+        return dataset(sorted((self.folder / name).glob("*.parquet"), key=lambda path: int(path.stem)))
 
 
 @of_extra("partitioned")
@@ -132,6 +203,7 @@ def triangulate(
     keep: Sequence[str] = (),
     triangles: bool = True,
     cells: bool = False,
+    index: bool = False,
     partition: int = PARTITION,
     limit: int = LIMIT,
     executor: Executor | None = None,
@@ -171,6 +243,8 @@ def triangulate(
     cells : bool
         Whether cells are written as polygons in GeoParquet, which takes the extra ``geo``; as those of
         `stereodel.io.to_geodataframe`.
+    index : bool
+        Whether the points are kept in their partitions, for `Run.nearest` and `Run.interpolate`: at most 35 bytes each.
     partition : int
         Points of a partition, about. Half a million to a million are right; more take more memory, fewer read more
         points beside their own.
@@ -242,7 +316,7 @@ def triangulate(
     as_choice(latitude, LATITUDES, "latitude")
     for name in rows:
         as_choice(name, tuple(ROWS), "rows")
-    found = source_of(source, kind, columns, surface, latitude, keep)
+    found = source_of(source, kind, columns, surface, latitude, keep, ROWS)
     plan = Plan.of(
         found,
         version=stereodel.__version__,
@@ -250,124 +324,25 @@ def triangulate(
         rows=tuple(name for name in ROWS if name in rows),
         triangles=bool(triangles),
         cells=bool(cells),
+        index=bool(index),
     )
-    folder = Path(out).absolute()
-    _refuse_within(folder, found)
-    folder.mkdir(parents=True, exist_ok=True)
-    store = Store(folder, Path(scratch).absolute() / plan.digest[:16] if scratch is not None else folder / "scratch")
-    with locked(folder):
-        _begin(store, plan, resume)
-        if not (folder / REPORT).exists():
-            with Crew(executor, max(len(plan.parts), len(plan.shares))) as crew:
-                _Passes(store, crew, as_count(limit, "limit"), progress).run(found)
-    return Run(folder)
+    means = Means(out, limit, executor, scratch, resume, progress)
+    return Run(means.run(_Triangulating, found, plan))
 
 
-def _refuse_within(folder: Path, source: Source) -> None:
-    for file in source.files:
-        if Path(file.path).is_relative_to(folder):
-            raise ValueError(f"{file.path} lies in out, the folder of results; take another folder")
+class _Triangulating(Passes):
+    """Triangles, cells and results for all points."""
 
-
-def _begin(store: Store, plan: Plan, resume: bool) -> None:
-    """Note what is to be done, or find that it was noted before."""
-    if not resume and (store.results / NAME).exists():
-        shutil.rmtree(store.scratch, ignore_errors=True)
-        for name in RESULTS:
-            path = store.results / name
-            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    if (store.results / NAME).exists():
-        other = Plan.load(store.results).differs(plan)
-        if other:
-            raise ValueError(
-                f"{store.results} has a run of other files or arguments: {other}; take another folder, or begin anew "
-                "with resume=False"
-            )
-        return
-    there = [name for name in RESULTS if (store.results / name).exists()]
-    if there:
-        raise ValueError(f"{store.results} has {there[0]!r}, which is not of a run; take another folder")
-    plan.save(store.results)
-
-
-@dataclass(frozen=True)
-class _Passes:
-    """The passes of a run, one after another; those that were done before are not done again."""
-
-    store: Store
-    crew: Crew
-    limit: int
-    progress: Progress | None
-
-    def run(self, source: Source) -> None:
-        """All of them, and the report."""
+    def results(self, parts: list[int]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+        """What is asked of all points."""
         store, plan = self.store, self.store.plan
-        compact, parts = self._collected() if plan.size else (True, [])
         told = self._solved(parts) if parts else []
-        report = _report(plan, told) | {"compact": compact}
+        report = _report(plan, told)
         _check(plan, report)
-        if plan.rows:
-            self._aligned()
         if plan.triangles and not told:
             none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
             write_table(store, store.results / "triangles" / "0.parquet", none)
-        _write_files(store)
-        source.finish(store.results / "rows")
-        save_json(store.results / REPORT, {"statistics": report, "partitions": [_shown(each) for each in told]})
-        shutil.rmtree(store.scratch, ignore_errors=True)
-
-    def _pass(self, name: str, function: Callable[[int], dict[str, Any]], tasks: Sequence[int]) -> list[dict[str, Any]]:
-        """What the tasks of a pass say, in order; noted at the end, as what they wrote may be deleted then."""
-        note = self.store.scratch / "done" / f"{name}.json"
-        if note.exists():
-            return list(load_json(note)["told"])
-        told = {task: done for task in tasks if (done := self.store.done(name, task)) is not None}
-        self._tell(name, len(told), len(tasks))
-        for result in self.crew.results(function, [task for task in tasks if task not in told]):
-            told[result["task"]] = result
-            self._tell(name, len(told), len(tasks))
-        found = [told[task] for task in tasks]
-        save_json(note, {"told": found})
-        return found
-
-    def _tell(self, name: str, done: int, of: int) -> None:
-        if self.progress is not None:
-            self.progress(name, done, of)
-
-    def _collected(self) -> tuple[bool, list[int]]:
-        """Points in partitions: whether those are files, and which of them have points."""
-        store, plan = self.store, self.store.plan
-        layout = store.scratch / "layout.json"
-        if not layout.exists():
-            save_json(layout, {"compact": self._laid_out()})
-        compact = bool(load_json(layout)["compact"])
-        if compact:
-            told = self._pass("collect", partial(spread.take, store), range(len(plan.parts)))
-        else:
-            if not (store.scratch / "done" / "collect.json").exists():
-                self._pass("spread", partial(spread.spread, store), range(len(plan.shares)))
-                spread.gather(store)
-            told = self._pass("collect", partial(spread.collect, store), range(spread.splits_of(store).leaves))
-            store.drop("spread")
-        return compact, [each["task"] for each in told if each["points"]]
-
-    def _laid_out(self) -> bool:
-        """Whether files are compact; if not, the tree is written."""
-        store, plan = self.store, self.store.plan
-        count = len(plan.parts)
-        if plan.compact or count == 1:
-            return True
-        self._pass("sample", partial(spread.sample, store), range(count))
-        samples = [np.asarray(store.load("sample", part, "points")) for part in range(count)]
-        points = np.concatenate(samples)
-        labels = np.repeat(np.arange(count, dtype=np.int32), [len(each) for each in samples])
-        compact = plan.compact is None and is_compact(points, labels)
-        if not compact:
-            splits = Splits.of(points, -(-plan.size // plan.partition))
-            for name in ("axis", "value"):
-                save(store.scratch / f"splits.{name}.npy", getattr(splits, name))
-        store.drop("sample")
-        return compact
+        return report, told
 
     def _solved(self, parts: list[int]) -> list[dict[str, Any]]:
         """What there is to say of each partition."""
@@ -376,15 +351,16 @@ class _Passes:
         if note.exists():
             told = list(load_json(note)["told"])
         elif self._is_flat(parts):
-            self._tell("solve", 0, 1)
+            self.tell("solve", 0, 1)
             told = [solve_flat(store, self.limit, parts)]
-            self._tell("solve", 1, 1)
+            self.tell("solve", 1, 1)
             save_json(note, {"told": told})
         else:
-            told = self._pass("solve", partial(solve, store, limit=self.limit), parts)
+            told = self.do("solve", partial(solve, store, limit=self.limit), parts)
         if store.plan.rows and not (store.scratch / "done" / "align.json").exists():
             rows_of.gather(store, [each["task"] for each in told])
-        store.drop("points", "index")
+        if not store.plan.index:
+            store.drop("points", "blocks")
         return told
 
     def _is_flat(self, parts: list[int]) -> bool:
@@ -395,24 +371,12 @@ class _Passes:
             save_json(store.scratch / "done" / "index.json", {"flat": is_flat(_lots(store, parts))})
         return bool(load_json(store.scratch / "done" / "index.json")["flat"])
 
-    def _aligned(self) -> None:
-        store, plan = self.store, self.store.plan
-        self._pass("align", partial(rows_of.align, store), range(len(plan.outputs)))
-        for number, file in enumerate(plan.files):
-            if not file.rows:
-                rows_of.write_file(store, number, [])
-        store.drop("cells")
-
 
 def _lots(store: Store, parts: Sequence[int]) -> Any:
     """Points: one of each block, then those of all partitions."""
     yield np.array(Index(store).points)
     for part in parts:
         yield np.asarray(store.load("points", part, "points"))
-
-
-def _shown(told: dict[str, Any]) -> dict[str, Any]:
-    return {"part": told["task"]} | {name: value for name, value in told.items() if name not in ("files", "task")}
 
 
 def _report(plan: Plan, told: Sequence[dict[str, Any]]) -> dict[str, Any]:
@@ -448,19 +412,3 @@ def _check(plan: Plan, report: dict[str, Any]) -> None:
     whole = 4 * np.pi
     if plan.places.surface == "sphere" and plan.size and abs(report["area"] - whole) > AREA_SUM_ERROR * whole:
         raise RuntimeError(f"the areas of all cells add up to {report['area']}, but the sphere's is {whole}")
-
-
-def _write_files(store: Store) -> None:
-    """Which numbers the points of each file have."""
-    plan = store.plan
-    columns = {
-        "path": [file.path for file in plan.files],
-        "rows_file": [file.name for file in plan.files],
-        "first": plan.firsts[:-1],
-        "rows": np.array([file.rows for file in plan.files], dtype=np.int64),
-        "size": np.array([file.size for file in plan.files], dtype=np.int64),
-        "modified": np.array([file.modified for file in plan.files], dtype=np.int64),
-    }
-    pyarrow = optional("pyarrow", "partitioned")
-    texts = {name: pyarrow.array(columns[name], pyarrow.string()) for name in ("path", "rows_file")}
-    write_table(store, store.results / FILES, columns | texts)

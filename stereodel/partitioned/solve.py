@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Final
 
@@ -18,7 +19,7 @@ from stereodel._spaces import space_of
 from stereodel.partitioned.cells import cells_of, write_cells
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.plan import Plan
-from stereodel.partitioned.rounds import Round, Rounds
+from stereodel.partitioned.rounds import Round, Rounds, triangulation
 from stereodel.partitioned.store import Store
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
@@ -49,10 +50,9 @@ def solve(store: Store, part: int, limit: int) -> dict[str, Any]:
     told = write(store, part, found)
     if shapes:
         write_cells(store, part, shapes)
-    reading = {"rounds": rounds.reading.rounds, "read": rounds.reading.read, "largest": rounds.reading.largest}
     seconds = {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
     shards = told.pop("shards")
-    return store.keep("solve", part, told | reading | seconds, shards)
+    return store.keep("solve", part, told | asdict(rounds.reading) | seconds, shards)
 
 
 Columns = dict[str, npt.NDArray[Any]]
@@ -138,7 +138,17 @@ def write(store: Store, part: int, found: Sequence[Told]) -> dict[str, Any]:
 
 def row_type(plan: Plan) -> np.dtype[np.void]:
     """What is handed on of a point: its number, and what is asked; the kept ones of duplicates are a list apart."""
-    return np.dtype([("number", plan.number_type), *((name, ROWS[name]) for name in plan.told)])
+    kinds = row_kinds(plan)
+    return np.dtype([("number", plan.number_type), *((name, kinds[name]) for name in plan.told)])
+
+
+def row_kinds(plan: Plan) -> dict[str, np.dtype[Any]]:
+    """What stands in the columns of rows: numbers, or a fixed number of them."""
+    question = plan.question
+    if question is not None and question.method != "nearest":
+        return {name: np.dtype(np.float64) for name in plan.rows}
+    shape = () if question is None or question.k is None else (question.k,)
+    return {name: np.dtype((ROWS[name], shape)) for name in plan.rows}
 
 
 def write_table(store: Store, path: Path, columns: dict[str, Any]) -> None:
@@ -177,7 +187,7 @@ def solve_flat(store: Store, limit: int, parts: Sequence[int]) -> dict[str, Any]
     numbers = np.concatenate([store.load("points", part, "numbers") for part in parts]).astype(np.int64)
     order = np.argsort(numbers)
     points = np.concatenate([store.load("points", part, "points") for part in parts])[order]
-    mesh = PlanarDelaunay(points, workers=1) if points.shape[1] == 2 else SphericalDelaunay(points, workers=1)
+    mesh = triangulation(points)
     told = write(store, parts[0], [_flat(mesh, numbers[order])])
     if plan.cells:
         stars = Round(mesh, numbers[order], np.ones(len(order), dtype=np.bool_))

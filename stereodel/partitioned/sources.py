@@ -48,6 +48,14 @@ class PointFile:
     size: int
     modified: int
 
+    def is_unchanged(self) -> bool:
+        """Whether the file is there as it was, by its size and time stamp."""
+        try:
+            state = os.stat(self.path)
+        except FileNotFoundError:
+            return False
+        return (state.st_size, state.st_mtime_ns) == (self.size, self.modified)
+
     @classmethod
     def of(cls, path: Path, name: str) -> PointFile:
         """A file as it is now; its last pages alone are read."""
@@ -101,14 +109,14 @@ def read(file: PointFile, places: Places, first: int, last: int) -> Iterator[Flo
     ValueError
         If a row is not a point, naming the file, the row (counted from 1) and the value; if columns are missing.
     """
-    with _named(file):
+    with named(file):
         for low, table in slices(file, places.names, first, last):
             yield places.points(table, low)
 
 
 def some(file: PointFile, places: Places, first: int, last: int, count: int, groups: int) -> Iterator[FloatArray]:
     """About `count` points of rows `first` to `last` of a file, evenly spread over at most so many row groups."""
-    with _named(file), opened(file.path) as content:
+    with named(file), opened(file.path) as content:
         found = list(_groups(content, first, last))
         most = min(groups, len(found))
         for group, begin, end in (found[(2 * k + 1) * len(found) // (2 * most)] for k in range(most)):
@@ -148,7 +156,7 @@ def _columns(content: Any, group: int, names: Sequence[str]) -> Any:
 
 
 @contextmanager
-def _named(file: PointFile) -> Iterator[None]:
+def named(file: PointFile) -> Iterator[None]:
     """Say of which file a message is."""
     try:
         yield

@@ -1,11 +1,12 @@
 """Where a run keeps what its tasks hand on: names of files in the folder of results and in that of scratch.
 
-results:   plan.json, files.parquet, rows/…, triangles/<part>.parquet, run.json
+results:   plan.json, files.parquet, rows/…, triangles/<part>.parquet, run.json; if the index is kept, points and blocks
 scratch:   splits.*.npy                     the k-d tree
            spread/<share>.*.npy             points of a share of the input in the order of partitions
            points/<part>.*.npy              points of a partition in blocks, their numbers, and the blocks
-           index/*.npy                      boxes of all blocks, one point of each
+           blocks/*.npy                     boxes of all blocks, one point of each
            cells/<part>.*.npy               results for the points of a partition, in the order of numbers
+           values/<share>.values.npy        columns of the points that are interpolated, in the order of numbers
            done/<pass>/<task>.json          what a task said when it was done, and the files that it wrote
 """
 
@@ -16,12 +17,18 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 import numpy.typing as npt
 
 from stereodel.partitioned.plan import Plan
 from stereodel.partitioned.shards import load, load_json, load_rows, save, save_json
+
+KEPT: Final = "index"
+"""Folder of results that has the rooms of the index if it is kept."""
+
+INDEX: Final = ("points", "blocks")
+"""Rooms that answers at targets need."""
 
 
 @dataclass(frozen=True)
@@ -42,16 +49,20 @@ class Store:
         """What the run does."""
         return Plan.load(self.results)
 
+    def room(self, name: str) -> Path:
+        """The folder of what one pass hands on."""
+        return (self.results / KEPT if self.plan.index and name in INDEX else self.scratch) / name
+
     def shard(self, room: str, number: int, name: str) -> Path:
         """The file of an array that a task hands on."""
-        return self.scratch / room / f"{number}.{name}.npy"
+        return self.room(room) / f"{number}.{name}.npy"
 
     def save(self, room: str, number: int, arrays: Mapping[str, npt.NDArray[Any]]) -> dict[str, int]:
         """Write arrays; how large their files are by name."""
         for name, array in arrays.items():
             save(self.shard(room, number, name), array)
         paths = [self.shard(room, number, name) for name in arrays]
-        return {path.relative_to(self.scratch).as_posix(): path.stat().st_size for path in paths}
+        return {f"{room}/{path.name}": path.stat().st_size for path in paths}
 
     def load(self, room: str, number: int, name: str) -> npt.NDArray[Any]:
         """An array, mapped."""
@@ -64,7 +75,7 @@ class Store:
     def drop(self, *rooms: str) -> None:
         """Delete what was handed on and is used."""
         for room in rooms:
-            shutil.rmtree(self.scratch / room, ignore_errors=True)
+            shutil.rmtree(self.room(room), ignore_errors=True)
 
     def done(self, name: str, task: int) -> dict[str, Any] | None:
         """What a task of a pass said; None if it was not done, or what it wrote is not there as it was."""
@@ -75,7 +86,8 @@ class Store:
         return told if all(self._is_whole(file, size) for file, size in told["files"].items()) else None
 
     def _is_whole(self, file: str, size: int) -> bool:
-        path = self.scratch / file
+        room, name = file.split("/")
+        path = self.room(room) / name
         return path.exists() and path.stat().st_size == size
 
     def keep(self, name: str, task: int, told: dict[str, Any], files: Mapping[str, int]) -> dict[str, Any]:

@@ -100,12 +100,13 @@ def test_no_points(folder, run):
 def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):
     """The same command goes on, with what was solved."""
     from stereodel.partitioned import run as running
+    from stereodel.partitioned.passes import Passes
 
-    whole = running._Passes._aligned
-    monkeypatch.setattr(running._Passes, "_aligned", lambda self: (_ for _ in ()).throw(KeyboardInterrupt))
+    whole = Passes._aligned
+    monkeypatch.setattr(Passes, "_aligned", lambda self: (_ for _ in ()).throw(KeyboardInterrupt))
     message = run("voronoi", *FILES, "-o", "cells/", "--partition", 100, code=130)
     assert message == "interrupted; what is done is kept, and the same command goes on from there\n"
-    monkeypatch.setattr(running._Passes, "_aligned", whole)
+    monkeypatch.setattr(Passes, "_aligned", whole)
     solved = []
     monkeypatch.setattr(running, "solve", lambda *arguments, **options: solved.append(arguments))
     run("voronoi", *FILES, "-o", "cells/", "--partition", 100)

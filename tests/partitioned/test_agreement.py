@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from stereodel.partitioned import passes
 from stereodel.partitioned import run as running
 from tests.partitioned.answers import differences, in_memory, serially, surface_of, write_points
 from tests.partitioned.sets import LONLAT, SETS, XY, XYZ, rows_of
@@ -71,7 +72,7 @@ def test_any_split_gives_the_same(tmp_path_factory, name, cuts, partition, block
         patch.setattr("stereodel.partitioned.plan.BLOCK", block)
         patch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
         patch.setattr("stereodel.partitioned.plan.LARGEST_SHARE", share)
-        patch.setattr(running, "is_compact", lambda *_: compact)
+        patch.setattr(passes, "is_compact", lambda *_: compact)
         check(
             tmp_path_factory.mktemp("split"),
             columns,

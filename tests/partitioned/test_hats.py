@@ -11,6 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import SphericalVoronoi
+from stereodel.interpolation import NaturalNeighborInterpolator
 from stereodel.partitioned import triangulate
 from stereodel.partitioned.executors import Here
 from stereodel.partitioned.hats import Catalogue, HatsSource, Pixel, hats_source, is_catalogue
@@ -246,6 +247,23 @@ def test_what_is_a_catalogue(collection, tmp_path):
     assert not is_catalogue([collection])
     with pytest.raises(ValueError, match=r"there is no hats\.properties, so it is no HATS catalogue"):
         source_of(tmp_path)
+
+
+def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
+    """Answers are a second catalogue, row by row, that LSDB reads."""
+    lonlat = np.random.default_rng(3).uniform([-180, -90], [180, 90], (500, 2))
+    heights = lonlat[:, 1] ** 2
+    columns = {"lon": lonlat[:, 0], "lat": lonlat[:, 1], "height": heights}
+    pq.write_table(pa.table(columns), tmp_path / "points.parquet")
+    same = {"executor": Here(), "partition": 200}
+    run = triangulate(tmp_path / "points.parquet", tmp_path / "out", index=True, **same)
+    found = run.interpolate(collection, tmp_path / "heights", "height", method="natural", keep=["source_id"], **same)
+    with quiet():
+        told = opened(tmp_path / "heights" / "rows").compute().set_index("source_id")["height"]
+    function = NaturalNeighborInterpolator.from_lonlat(lonlat, heights)
+    expected = function(lonlat=table[["ra", "dec"]].to_numpy())
+    assert np.array_equal(told.loc[table["source_id"]].to_numpy(), expected)
+    assert found.statistics["compact"]
 
 
 WRONG = {

@@ -16,7 +16,7 @@ from tests.partitioned.sets import LONLAT, XYZ, rows_of
 
 
 def of(path, columns=None, surface="sphere", latitude="spherical"):
-    return source_of(path, "auto", columns, surface, latitude, ())
+    return source_of(path, "auto", columns, surface, latitude, (), ())
 
 
 def points_of(source):
@@ -179,4 +179,4 @@ def test_geoparquet_is_triangulated(tmp_path):
 
 def test_other_kinds_are_refused(tmp_path):
     with pytest.raises(ValueError, match="kind is 'csv', but must be one of"):
-        source_of(tmp_path, "csv", None, "sphere", "spherical", ())
+        source_of(tmp_path, "csv", None, "sphere", "spherical", (), ())

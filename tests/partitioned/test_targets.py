@@ -1,0 +1,285 @@
+"""Answers at targets are those of all points in memory, to the last bit, however points and targets are split."""
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stereodel import angular_distance, lonlat_to_xyz
+from stereodel._spaces import space_of
+from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
+from stereodel.partitioned import Answers
+from stereodel.partitioned.executors import Here
+from tests.partitioned.answers import mesh_of, serially, surface_of, write_points
+from tests.partitioned.sets import LONLAT, XY, XYZ, rows_of
+
+SIZE = 200
+KINDS = {"linear": LinearInterpolator, "natural": NaturalNeighborInterpolator}
+FEW = [
+    "uniform",
+    "gaia-like",
+    "graticule",
+    "hemisphere",
+    "30 % duplicates",
+    "1 m and 8 far",
+    "integer directions",
+    "lengths 2^-1000 to 2^1000",
+    "great circle",
+    "great circle and a pole",
+    "1e-200 apart",
+    "one point",
+    "4 points",
+    "plane: lattice",
+    "plane: line",
+    "plane: line and one",
+    "plane: 1e-60 and 1e60",
+    "plane: duplicates",
+    "plane: thin strip",
+]
+
+
+@pytest.fixture
+def rng():
+    return np.random.default_rng(20261123)
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch):
+    """Blocks and lots of few points, of which some are far: so that rounds, and halves of lots, are many."""
+    few = {"plan.BLOCK": 8, "answers.ROOM": 150, "answers.SKELETON": 16, "answers.LEAST_BUDGET": 8}
+    for name, value in few.items():
+        monkeypatch.setattr(f"stereodel.partitioned.{name}", value)
+
+
+def targets_of(columns, rows, rng, count=20):
+    """Near points, at points, between two of them, and far from all."""
+    points = lonlat_to_xyz(rows) if columns == LONLAT else rows
+    if len(columns) > 2 or columns == LONLAT:
+        points = points / np.abs(points).max(axis=1)[:, None]
+    some, others = points[rng.integers(0, len(points), (2, count // 4))]
+    size = np.abs(some - others).max(axis=1)[:, None] * 10.0 ** rng.uniform(-3, -1, (len(some), 1))
+    far = rng.normal(size=some.shape) * np.abs(points).max()
+    found = np.concatenate([some + size * rng.normal(size=some.shape), some, (some + others) / 2, far])
+    return rng.permutation(found[np.abs(found).max(axis=1) > 0])
+
+
+def write(folder, columns, rows, values, files=3):
+    return write_points(folder, (*columns, "value", "other"), np.column_stack([rows, values]), files)
+
+
+def run_of(folder, columns, rows, values, parts, **options):
+    write(folder / "points", columns, rows, values)
+    size = max(1, -(-len(rows) // parts))
+    return serially(
+        folder / "points",
+        folder / "out",
+        columns=columns,
+        surface=surface_of(columns),
+        rows=(),
+        triangles=False,
+        index=True,
+        partition=size,
+        **options,
+    )
+
+
+def asked(run, targets, folder, parts=3, **options):
+    """Answers at targets, nearest and by both methods, from one folder of files."""
+    columns = XY if targets.shape[1] == 2 else XYZ
+    write_points(folder / "targets", columns, targets, 3)
+    same = {"executor": Here(), "partition": max(1, len(targets) // parts), **options}
+    k = min(7, run.statistics["points"])
+    return {
+        "nearest": run.nearest(folder / "targets", folder / "nearest", k=k, **same),
+        "linear": run.interpolate(folder / "targets", folder / "linear", ["value", "other"], **same),
+        "natural": run.interpolate(
+            folder / "targets", folder / "natural", ["value", "other"], method="natural", **same
+        ),
+    }
+
+
+def differences(found, mesh, values, targets):
+    """Names of what differs from the answer in memory by a bit."""
+    nearest, k = found["nearest"].rows().to_table(), min(7, len(mesh.points))
+    right = mesh.nearest(targets, k=k)
+    near, plane = mesh.points[right], targets.shape[1] == 2
+    between = targets[:, None]
+    away = np.hypot(*np.moveaxis(between - near, -1, 0)) if plane else np.radians(angular_distance(between, near))
+    wrong = [] if np.array_equal(np.array(nearest["nearest"].to_pylist()), right) else ["nearest"]
+    wrong += [] if np.array_equal(np.array(nearest["distance"].to_pylist()), away) else ["distance"]
+    at_edge = on_edges(mesh, targets)
+    for method, kind in KINDS.items():
+        table, right = found[method].rows().to_table(), kind(mesh, values)(targets)
+        answer = np.column_stack([table[name].to_numpy() for name in ("value", "other")])
+        equal = (answer == right) | (np.isnan(answer) & np.isnan(right))
+        if method == "linear":  # of several triangles, another one may answer
+            equal |= at_edge & (np.isclose(answer, right, rtol=1e-12, atol=1e-12) | np.isnan(answer - right))
+        wrong += [] if equal.all() else [method]
+    return wrong
+
+
+def on_edges(mesh, targets):
+    """Whether each target lies on an edge of a triangle, or at a point, exactly; (m, 1)."""
+    inside = np.asarray(mesh.find_simplex(targets))
+    if not len(mesh.simplices):
+        return np.zeros((len(targets), 1), bool)
+    corners, space = mesh.points[mesh.simplices[inside]], space_of(mesh.points)
+    signs = [space.turn(corners[:, k].copy(), corners[:, k - 1].copy(), targets) for k in range(3)]
+    return ((inside >= 0) & ~np.all(signs, axis=0))[:, None]
+
+
+def check(folder, columns, rows, parts, rng, lots=3, **options):
+    values, targets = rng.normal(size=(len(rows), 2)), targets_of(columns, rows, rng)
+    values[::29] = np.nan
+    run = run_of(folder, columns, rows, values, parts)
+    found = asked(run, targets, folder, lots, **options)
+    assert differences(found, mesh_of(columns, rows), values, targets) == []
+    assert not any((each.folder / "scratch").exists() for each in found.values())
+    return found
+
+
+@pytest.mark.parametrize("name", FEW)
+def test_every_set(tmp_path, name, rng):
+    columns, rows = rows_of(name, SIZE)
+    check(tmp_path, columns, rows, 5, rng)
+
+
+@settings(max_examples=4)
+@given(
+    name=st.sampled_from(["uniform", "30 % duplicates", "integer directions", "plane: lattice", "plane: thin strip"]),
+    parts=st.integers(1, 12),
+    lots=st.integers(1, 8),
+    block=st.sampled_from([1, 7, 64]),
+    room=st.sampled_from([1, 100, 10_000]),
+    seed=st.integers(0, 2**32 - 1),
+)
+def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, room, seed):
+    columns, rows = rows_of(name, 120)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("stereodel.partitioned.plan.BLOCK", block)
+        patch.setattr("stereodel.partitioned.answers.ROOM", room)
+        patch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 10)
+        check(tmp_path_factory.mktemp("split"), columns, rows, parts, np.random.default_rng(seed), lots=lots)
+
+
+def test_processes_of_this_machine(tmp_path, rng):
+    columns, rows = rows_of("30 % duplicates", 600)
+    run = run_of(tmp_path, columns, rows, np.zeros((len(rows), 2)), 4)
+    targets = write_points(tmp_path / "targets", XYZ, rows[::3], 4)
+    found = run.nearest(targets, tmp_path / "nearest", k=3, partition=50)
+    assert found.statistics["partitions"] == 4
+    answer = np.array(found.rows().to_table()["nearest"].to_pylist())
+    assert np.array_equal(answer, mesh_of(columns, rows).nearest(rows[::3], k=3))
+
+
+@pytest.fixture
+def octahedron(tmp_path):
+    rows = np.concatenate([np.eye(3), -np.eye(3)])
+    return run_of(tmp_path / "octahedron", XYZ, rows, np.arange(12.0).reshape(6, 2), 2)
+
+
+def test_the_nearest_point_alone_with_columns_that_are_kept(tmp_path, octahedron):
+    """Numbers without lists; rows of an empty file, too; places by longitude and latitude."""
+    folder = tmp_path / "targets"
+    (folder / "deep").mkdir(parents=True)
+    table = pa.table({"lon": [1.0, 91.0], "lat": [2.0, -3.0], "name": ["a", "b"]})
+    pq.write_table(table.slice(0, 0), folder / "a.parquet")
+    pq.write_table(table, folder / "deep" / "b.parquet")
+    found = octahedron.nearest(folder, tmp_path / "out", keep=["name"], executor=Here())
+    told = found.rows().to_table()
+    assert told.column_names == ["name", "nearest", "distance"]
+    assert told["name"].to_pylist() == ["a", "b"]
+    assert told["nearest"].to_pylist() == [0, 1]
+    assert pq.read_metadata(tmp_path / "out" / "rows" / "a.parquet").num_rows == 0
+    assert pq.read_metadata(tmp_path / "out" / "rows" / "deep" / "b.parquet").num_rows == 2
+    assert found.statistics["targets"] == 2
+    assert Answers(tmp_path / "out").rows().to_table() == told
+
+
+def test_no_target_and_no_point(tmp_path, octahedron):
+    write_points(tmp_path / "none", XYZ, np.empty((0, 3)), 1)
+    write_points(tmp_path / "one", XYZ, np.ones((1, 3)), 1)
+    assert octahedron.nearest(tmp_path / "none", tmp_path / "a", k=2).rows().to_table().num_rows == 0
+    assert octahedron.interpolate(tmp_path / "none", tmp_path / "b", "value").rows().to_table().num_rows == 0
+    empty = run_of(tmp_path / "empty", XYZ, np.empty((0, 3)), np.empty((0, 2)), 1)
+    assert np.isnan(empty.interpolate(tmp_path / "one", tmp_path / "c", "value").rows().to_table()["value"][0].as_py())
+    with pytest.raises(ValueError, match="nearest needs at least one point; this run has none"):
+        empty.nearest(tmp_path / "one", tmp_path / "d")
+
+
+def test_what_cannot_be_asked(tmp_path, octahedron):
+    targets = write_points(tmp_path / "targets", XYZ, np.array([[1.0, 2, 3], [np.nan, 1, 1]]), 1)
+    right = write_points(tmp_path / "right", XYZ, np.ones((1, 3)), 1)
+    out = tmp_path / "out"
+    with pytest.raises(ValueError, match=r"000\.parquet: row 2: the x is missing"):
+        octahedron.nearest(targets, out, executor=Here())
+    with pytest.raises(ValueError, match="k is 7, but must be at most 6"):
+        octahedron.nearest(right, out, k=7)
+    with pytest.raises(ValueError, match="method is 'smooth', but must be one of 'linear', 'natural'"):
+        octahedron.interpolate(right, out, "value", method="smooth")
+    with pytest.raises(ValueError, match="values has 'height', which is not one of the columns"):
+        octahedron.interpolate(right, out, "height")
+    with pytest.raises(ValueError, match="values is empty"):
+        octahedron.interpolate(right, out, [])
+    with pytest.raises(ValueError, match="column 'x' cannot be kept"):
+        octahedron.interpolate(right, out, "x", keep=["x"])
+    with pytest.raises(MemoryError, match=r"000\.parquet: row 1: this target may need 3 points.* limit=1"):
+        octahedron.nearest(right, tmp_path / "small", limit=1)
+    points = tmp_path / "octahedron" / "points" / "000.parquet"
+    write_points(points.parent, XYZ, np.ones((1, 3)), 1)
+    with pytest.raises(ValueError, match=r"000\.parquet is not there as the run read it"):
+        octahedron.interpolate(right, tmp_path / "other", "value")
+    plain = serially(right, tmp_path / "plain")
+    with pytest.raises(FileNotFoundError, match="triangulate them with index=True"):
+        plain.nearest(right, tmp_path / "other")
+
+
+def test_other_questions_in_a_folder_are_noticed(tmp_path, octahedron):
+    right = write_points(tmp_path / "right", XYZ, np.ones((1, 3)), 1)
+    first = octahedron.nearest(right, tmp_path / "out", k=2).rows().to_table()
+    assert octahedron.nearest(right, tmp_path / "out", k=2).rows().to_table() == first
+    with pytest.raises(ValueError, match="a run of other files or arguments: question was"):
+        octahedron.nearest(right, tmp_path / "out", k=3)
+    assert octahedron.nearest(right, tmp_path / "out", k=3, resume=False).rows().to_table() != first
+
+
+def test_a_value_that_is_not_a_number(tmp_path):
+    rows, right = np.eye(3), write_points(tmp_path / "right", XYZ, np.ones((1, 3)), 1)
+    run = run_of(tmp_path, XYZ, rows, np.array([[0.0, 1], [2, np.inf], [1, 1]]), 1)
+    with pytest.raises(ValueError, match=r"001\.parquet: row 1: the other is inf"):
+        run.interpolate(right, tmp_path / "values", "other", executor=Here())
+
+
+def test_a_run_that_was_interrupted_goes_on(tmp_path, octahedron):
+    targets = write_points(tmp_path / "targets", XYZ, np.ones((4, 3)), 2)
+    calls = []
+
+    def stop(name, done, of):
+        calls.append(name)
+        if name == "answer" and done:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        octahedron.interpolate(targets, tmp_path / "out", "value", partition=2, executor=Here(), progress=stop)
+    found = octahedron.interpolate(
+        targets, tmp_path / "out", "value", partition=2, executor=Here(), progress=lambda name, *_: calls.append(name)
+    )
+    assert calls.count("values") == 2
+    assert found.rows().to_table()["value"].to_pylist() == pytest.approx([2.0] * 4)
+
+
+@pytest.mark.parametrize(("name", "told"), [("open_discs", "nearest"), ("open_targets", "linear")])
+def test_it_takes_each_question(tmp_path, name, told, rng, monkeypatch):
+    """Answers that are never open are wrong: so the sets above can tell."""
+    columns, rows = rows_of("uniform", SIZE)
+    values, targets = rng.normal(size=(len(rows), 2)), targets_of(columns, rows, rng)
+    run = run_of(tmp_path, columns, rows, values, 5)
+    place = 3 if told == "linear" else 0  # of the targets among the arguments
+
+    def closed(*given, **_):
+        return np.zeros(len(given[place]), bool), np.zeros(given[-2][1])
+
+    monkeypatch.setattr(space_of(rows), name, closed)
+    assert told in differences(asked(run, targets, tmp_path), mesh_of(columns, rows), values, targets)
