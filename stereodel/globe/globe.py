@@ -267,8 +267,8 @@ class Globe:
         """Write labels with halos at places as for `add_points`, shifted by `offset` points; the first have priority.
 
         With `rank`, numbers (n,), labels with larger numbers have priority. A label that would overlap one of higher
-        priority is left out, and so is one whose place is not visible; a label that would leave the disc moves to the
-        other side of its place if there is room. A `movable` label may be on any side of its place where there is room,
+        priority is left out, and so is one whose place is not visible; a label that would leave the disc moves to
+        another side of its place with room. A `movable` label may be on any side of its place where there is room,
         at the distance given by `offset`; see `stereodel.drawing.label_placement`. Without `halo_color`, halos have the
         colour of the ground below them, at 80 % opacity.
 
