@@ -1,12 +1,12 @@
 """Triangulations in partitions beside the same in memory: seconds of wall and processors, peak memory, disk.
 
-    python -m benchmarks.partitioned FOLDER [--sizes 1e6 1e7] [--partition 5e5] [--workers 2]
+    python -m benchmarks.partitioned FOLDER [--sizes 1e6 1e7] [--partition 6.5e5] [--workers 2]
 
 FOLDER takes the points, the results and the scratch: 100 bytes a point beside the triangles. Of each size uniform
 points and points like those of Gaia, as longitude and latitude in Parquet; up to --in-memory points the same is done in
 memory: read, triangulated, diagram, nearest points, written. From three sizes or more the seconds of 1e9 points are
 extrapolated: by a straight line through the largest three, with what it misses of them. Writes
-benchmarks/partitioned.json.
+benchmarks/partitioned.json, and the tables of docs/partitioned.md.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ from __future__ import annotations
 import argparse
 import json
 import multiprocessing
+import os
 import resource
 import shutil
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, Self
 
@@ -28,6 +30,7 @@ import psutil
 import pyarrow as pa
 import pyarrow.parquet as pq
 
+from benchmarks import pages
 from benchmarks.__main__ import machine, save
 from stereodel import SphericalDelaunay, SphericalVoronoi, lonlat_to_xyz
 from stereodel.partitioned import triangulate
@@ -124,13 +127,12 @@ class Watch(threading.Thread):
 
 
 def size_of(folder: Path) -> int:
-    """Bytes of the files of a folder, some of which may be gone meanwhile."""
+    """Bytes of the files of a folder; files and folders may vanish meanwhile."""
     total = 0
-    for path in folder.rglob("*") if folder.exists() else ():
-        try:
-            total += path.stat().st_size
-        except FileNotFoundError:
-            continue
+    for place, _, names in os.walk(folder):
+        for name in names:
+            with suppress(FileNotFoundError):
+                total += (Path(place) / name).stat().st_size
     return total
 
 
@@ -220,13 +222,47 @@ def extrapolated(rows: list[dict[str, Any]], size: float = BILLION) -> dict[str,
     return {"size": size, "cpu": float(slope * size + start), "misses": float(misses)}
 
 
+def table(rows: list[dict[str, Any]]) -> str:
+    """A row for each set of points."""
+    head = ["points", "sky", "seconds", "processor: µs a point", "of that in memory", "MB a worker"]
+    head += ["scratch: bytes a point", "read beyond the own"]
+    body = []
+    for row in sorted(rows, key=lambda each: (each["size"], each["sky"])):
+        found, ratio = row["partitions"], row.get("cpu_ratio")
+        body.append(
+            [
+                f"{row['size']:,}".replace(",", " "),
+                row["sky"],
+                f"{found['wall']:.0f}",
+                f"{found['cpu_us_a_point']:.1f}",
+                "–" if ratio is None else f"{100 * ratio:.0f} %",
+                f"{found['own_mb']:.0f}",
+                f"{found['scratch_a_point']:.0f}",
+                f"{100 * found['beyond']:.1f} %",
+            ]
+        )
+    return pages.table(head, body, "rlrrrrrr")
+
+
+def billion(results: dict[str, Any]) -> str:
+    """The sentence on the points that nobody waited for."""
+    found = results["billion"]
+    if found is None:
+        return ""
+    minutes, misses = found["cpu"] / 60 / 2, 100 * found["misses"]
+    return (
+        f"A straight line through the largest three sets of uniform points, which misses them by {misses:.0f} % at most, "
+        f"leads to {minutes:.0f} minutes for 10⁹ points on two processors. That was not run."
+    )
+
+
 def main() -> int:
     """Measure, and save after each set."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.partitioned")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--sizes", type=float, nargs="+", default=[1e6, 1e7])
     parser.add_argument("--skies", nargs="+", choices=list(SKIES), default=list(SKIES))
-    parser.add_argument("--partition", type=float, default=5e5)
+    parser.add_argument("--partition", type=float, default=6.5e5)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--in-memory", type=float, default=2e7, help="up to so many points also in memory")
     parser.add_argument("--results", type=Path, default=RESULTS)
@@ -248,6 +284,8 @@ def main() -> int:
             results["rows"] = sorted([*others, row], key=lambda each: (each["sky"], each["size"]))
             results["billion"] = extrapolated(results["rows"])
             save(results, options.results)
+            if options.results == RESULTS:
+                pages.fill("partitioned.md", {"partitions": table(results["rows"]), "billion": billion(results)})
             print(json.dumps(row), flush=True)
             shutil.rmtree(folder)
     return 0

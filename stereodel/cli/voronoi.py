@@ -58,7 +58,7 @@ def command(
     format: options.Format = None,
     overwrite: options.Overwrite = False,
     partition: Annotated[
-        int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition, for a folder; 500000 by default.")
+        int | None, typer.Option(metavar="COUNT", min=1, help="Points of a partition, for a folder; 650000 by default.")
     ] = None,
     scheduler: Annotated[
         str | None, typer.Option(metavar="ADDRESS", help="Scheduler of Dask whose workers compute, for a folder.")

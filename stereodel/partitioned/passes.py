@@ -28,7 +28,7 @@ from stereodel.partitioned.tree import Splits, is_compact
 
 Progress = Callable[[str, int, int], None]
 
-PARTITION: Final = 500_000
+PARTITION: Final = 650_000
 """Points of a partition by default: some 0.3 GB for each worker."""
 
 LIMIT: Final = 8_000_000
