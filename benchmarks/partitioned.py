@@ -251,8 +251,8 @@ def billion(results: dict[str, Any]) -> str:
         return ""
     minutes, misses = found["cpu"] / 60 / 2, 100 * found["misses"]
     return (
-        f"A straight line through the largest three sets of uniform points, which misses them by {misses:.0f} % at most, "
-        f"leads to {minutes:.0f} minutes for 10⁹ points on two processors. That was not run."
+        f"A straight line through the largest three sets of uniform points, which misses them by {misses:.0f} % at "
+        f"most, leads to {minutes:.0f} minutes for 10⁹ points on two processors. That was not run."
     )
 
 
