@@ -139,6 +139,8 @@ def write(store: Store, part: int, found: Sequence[Told]) -> dict[str, Any]:
 def row_type(plan: Plan) -> np.dtype[np.void]:
     """What is handed on of a point: its number, and what is asked; the kept ones of duplicates are a list apart."""
     kinds = row_kinds(plan)
+    if plan.question is None and "nearest" in kinds and plan.size <= np.iinfo(np.int32).max:
+        kinds["nearest"] = np.dtype(np.int32)  # a number of a point or -1
     return np.dtype([("number", plan.number_type), *((name, kinds[name]) for name in plan.told)])
 
 
