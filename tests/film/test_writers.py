@@ -231,7 +231,7 @@ def test_a_full_disk_is_an_error(tmp_path, ending):
         FORMATS[full.suffix].write(REEL, full, np.full(5, 0.1))
 
 
-@pytest.mark.parametrize("ending", ["gif", "apng", "mp4"])
+@pytest.mark.parametrize("ending", ["gif", "mp4", pytest.param("apng", marks=pytest.mark.large)])
 def test_a_film_of_any_length_needs_the_memory_of_some_frames(tmp_path, ending):
     """What FFmpeg holds is seen from outside only: peaks of processes that write ten times as many frames."""
     code = """

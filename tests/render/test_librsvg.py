@@ -71,4 +71,4 @@ def test_librsvg_writes_titles_and_labels(tmp_path, name):
     (rows, columns), (our_rows, our_columns) = np.nonzero(their_ink), np.nonzero(our_ink)
     assert abs(rows.min() - our_rows.min()) < 8
     assert abs(rows.max() - our_rows.max()) < 8
-    assert abs(columns.mean() - our_columns.mean()) < 12
+    assert abs(columns.mean() - our_columns.mean()) < 20  # the label of 130 pixels may be a quarter longer or shorter

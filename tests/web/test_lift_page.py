@@ -114,6 +114,7 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     file.write_text("east,north,height\n0,0,1\n4,0,2\n4,3,3\n0,3,4\n2,1,5\n")
     page.page.locator(f"{ROOM} input[type=file]").set_input_files(file)
     message = page.page.locator("#messages")
+    message.filter(has_text="plane.csv").wait_for()  # what reads files is compiled when the first is opened
     assert "Which columns of plane.csv?" in message.inner_text()
     message.get_by_role("button", name="Open").click()
     page.rest()
