@@ -10,7 +10,7 @@ def test_a_format_is_measured_in_a_process_of_its_own(kind):
     row = measure(kind, 100)
     assert row["seconds"] > 0
     assert row["busy"] > 0
-    assert 30e6 < row["peak"] < 1e9
+    assert 30e6 < row["peak"] < 4e9  # sanitizers take two
     head, rule, line = table([row]).splitlines()
     assert line.startswith(f"| {FORMATS[kind]} | ")
     assert head.count("|") == rule.count("|") == line.count("|")
