@@ -130,13 +130,12 @@ class _Place:
         try:
             return future.result()
         except BrokenProcessPool:
-            codes = []
-            for process in self._context.started:
-                process.join()
-                codes.append(process.exitcode)
-            self.end()
+            # The executor's thread joins the process. If this thread did so too, the one that came second could find
+            # the process gone and its exit code not yet stored.
+            self._executor.shutdown()
+            code = self._context.started[-1].exitcode
             self._start()
-            return Done(error=f"its process ended with code {codes[-1]}")
+            return Done(error=f"its process ended with code {code}")
 
     def end(self) -> None:
         """Terminate the process."""

@@ -5,6 +5,7 @@ import pickle
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -81,6 +82,21 @@ def test_an_error_is_that_of_its_task_alone(double, wrong, message):
     assert found[1].error == message
     assert (found[1].trace != "") == message.startswith(("KeyError", "Own"))
     assert [found[k].result[0] for k in (0, 2, 3, 4)] == [2, 4, 6, 8]
+
+
+def test_an_exit_code_is_known_to_the_thread_that_did_not_ask_for_it(double, monkeypatch):
+    """The system tells it once. Here the executor's thread asks first, and stores it late."""
+    ask = os.waitpid
+
+    def slow(*args):
+        here = threading.current_thread() is threading.main_thread()
+        time.sleep(0.2 * here)
+        pid, status = ask(*args)
+        time.sleep(0.6 * (pid != 0 and not here))
+        return pid, status
+
+    monkeypatch.setattr(os, "waitpid", slow)
+    assert [done.error for _, done in in_processes(double, ["killed"], jobs=1)] == ["its process ended with code -9"]
 
 
 def test_an_iterator_that_is_closed_ends_what_runs(double):
