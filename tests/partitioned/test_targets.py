@@ -4,7 +4,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from stereodel import angular_distance, lonlat_to_xyz
@@ -155,6 +155,7 @@ def test_every_set(tmp_path, name, rng):
     room=st.sampled_from([1, 100, 10_000]),
     seed=st.integers(0, 2**32 - 1),
 )
+@example(name="integer directions", parts=1, lots=1, block=1, room=1, seed=409927)  # halfway between two points
 def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, room, seed):
     columns, rows = rows_of(name, 120)
     with pytest.MonkeyPatch.context() as patch:

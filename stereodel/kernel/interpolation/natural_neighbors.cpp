@@ -86,7 +86,7 @@ class Interpolation {
         const std::size_t on = end.side[0] == 0 ? 0 : end.side[1] == 0 ? 1 : 2;
         const Index across = end.on_line() ? triangles_.neighbors(end.triangle)[on] : end.triangle;
         // The query does not see a closing triangle across: that is on the near side of the centre.
-        const Index first = triangles_.may_enter(across) ? std::min(across, end.triangle) : end.triangle;
+        const Index first = triangles_.may_enter(across) ? lower(across, end.triangle) : end.triangle;
         around_.fit(farthest(first));
         if (across >= 0) {
             take_conflicts(first);
@@ -95,6 +95,12 @@ class Interpolation {
         if (across < 0 || !(total_ > 0.0) || !std::isfinite(total_)) {
             take_triangle(end.triangle);
         }
+    }
+
+    // By the corners, not by the number of a triangle: among some of the points, sums are rounded as among all.
+    Index lower(Index s, Index t) const {
+        const Index *const c = triangles_.corners(s), *const d = triangles_.corners(t);
+        return std::lexicographical_compare(c, c + 3, d, d + 3) ? s : t;
     }
 
     Index farthest(Index t) const {
