@@ -58,12 +58,13 @@ def command(
     if open_it and target == "-":
         raise ValueError("--open needs a file; name one with --out")
     destination = Destination.of(target, None, ("html",), points, overwrite=overwrite)
-    lonlat, name = None, ""
+    lonlat, names, name = None, None, ""
     if points is not None:
         table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
         lonlat, name = table.places, Path(table.name).name
+        names = next((column.tolist() for key, column in table.columns.items() if key.strip().lower() == "name"), None)
     with stage(f"writing {target}"):
-        destination.write(lambda path: web(path, lonlat=lonlat, name=name, resolution=resolution.value))
+        destination.write(lambda path: web(path, lonlat=lonlat, names=names, name=name, resolution=resolution.value))
     say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points"))
     if open_it:
         _show(target)

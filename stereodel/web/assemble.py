@@ -13,6 +13,7 @@ import hashlib
 import json
 import os
 import re
+from collections.abc import Sequence
 from importlib import resources
 from pathlib import Path
 from typing import Final
@@ -43,6 +44,7 @@ def web(
     path: str | os.PathLike[str],
     *,
     lonlat: npt.ArrayLike | None = None,
+    names: Sequence[str] | None = None,
     name: str = "points",
     resolution: str = "50m",
 ) -> Path:
@@ -56,6 +58,8 @@ def web(
         File to write, .html; an existing file is replaced.
     lonlat : (n, 2) array_like, optional
         Longitude and latitude in degrees of initial points, at most a million, stored exactly.
+    names : sequence of str, optional
+        Names of the points, one each, for the tables of the page.
     name : str
         Name of these points on the page, such as that of their file.
     resolution : {"50m", "110m"}
@@ -69,7 +73,8 @@ def web(
     Raises
     ------
     ValueError
-        If a latitude is outside [−90, 90], there are more than a million points, or the resolution is unknown.
+        If a latitude is outside [−90, 90], there are more than a million points, or not as many names as points, or the
+        resolution is unknown.
 
     Examples
     --------
@@ -80,7 +85,7 @@ def web(
     cities.html True
     """
     as_choice(resolution, tuple(RESOLUTIONS), "resolution")
-    given = None if lonlat is None else Given(as_lonlat(lonlat).reshape(-1, 2), name)
+    given = None if lonlat is None else Given(as_lonlat(lonlat).reshape(-1, 2), name, names)
     text = html(resolution, given)
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
@@ -47,12 +48,17 @@ class Given:
         Degrees.
     name : str
         Name of the points on the page, such as that of their file.
+    names : sequence of str, optional
+        Names of the points.
     """
 
     lonlat: FloatArray
     name: str
+    names: Sequence[str] | None = None
 
     def __post_init__(self) -> None:
+        if self.names is not None and len(self.names) != len(self.lonlat):
+            raise ValueError(f"names has {len(self.names)} entries, but there are {len(self.lonlat)} points")
         if len(self.lonlat) > MOST_POINTS:
             raise ValueError(
                 f"{self.name} has {len(self.lonlat)} points, but a page takes up to {MOST_POINTS}; "
@@ -120,4 +126,6 @@ def contents(resolution: str, given: Given | None = None, *, sets: bool = True) 
     if given is not None:
         blocks["given-name"] = packed(json.dumps(given.name).encode())
         blocks["given"] = packed_doubles(given.lonlat)
+        if given.names is not None:
+            blocks["given-names"] = packed(json.dumps([str(name) for name in given.names]).encode())
     return blocks

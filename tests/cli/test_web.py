@@ -20,7 +20,8 @@ def opened(monkeypatch):
 
 def test_the_command_writes_what_the_function_writes(folder, run):
     run("web", "cities.csv", "-o", "page.html", "--resolution", "110m")
-    web("same.html", lonlat=LONLAT, name="cities.csv", resolution="110m")
+    names = ["Quito", "Lagos", "Ulm", "Kyoto", "Perth"]
+    web("same.html", lonlat=LONLAT, names=names, name="cities.csv", resolution="110m")
     assert (folder / "page.html").read_bytes() == (folder / "same.html").read_bytes()
 
 

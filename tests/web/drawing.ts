@@ -46,6 +46,14 @@ function unit4(q: number[]): number[] {
 
 type Piece = { at: (t: number) => [number, number]; from: number; to: number; isLine: boolean };
 
+/** The angle that a canvas goes along an ellipse: the way that the flag says, all round where that is a turn or more. */
+function sweep(from: number, to: number, counterclockwise: boolean): number {
+  const turn = 2 * Math.PI;
+  const sign = counterclockwise ? -1 : 1;
+  const ahead = sign * (to - from);
+  return sign * (ahead >= 0 ? Math.min(ahead, turn) : turn - (-ahead % turn));
+}
+
 /** What is laid into it, as pieces with a parameter. */
 class Recorder implements Path {
   readonly pieces: Piece[] = [];
@@ -67,15 +75,25 @@ class Recorder implements Path {
     this.#isEmpty = false;
   }
 
-  ellipse(x: number, y: number, rx: number, ry: number, turn: number, from: number, to: number): void {
+  ellipse(
+    x: number,
+    y: number,
+    rx: number,
+    ry: number,
+    turn: number,
+    from: number,
+    to: number,
+    counterclockwise = false,
+  ): void {
     const at = (t: number): [number, number] => {
       const [u, v] = [rx * Math.cos(t), ry * Math.sin(t)];
       return [x + u * Math.cos(turn) - v * Math.sin(turn), y + u * Math.sin(turn) + v * Math.cos(turn)];
     };
     if (this.#isEmpty) this.moveTo(...at(from));
     else if (Math.hypot(at(from)[0] - this.#last[0], at(from)[1] - this.#last[1]) > 0) this.lineTo(...at(from));
-    this.pieces.push({ at, from, to, isLine: false });
-    this.#last = at(to);
+    const end = from + sweep(from, to, counterclockwise);
+    this.pieces.push({ at, from, to: end, isLine: false });
+    this.#last = at(end);
   }
 
   closePath(): void {
@@ -330,4 +348,23 @@ export function svg(): string {
   pen.draw("bubble", (path) => traceCap(path, DISC, circle));
   pen.label("*P*, behind <&>", 10, 20, { ink: "ink", halo: "halo", size: 14 });
   return pen.text("A bubble");
+}
+
+/** Arcs of random circles as SVG has them, each with points that a canvas draws of the same trace. */
+export function svgArcs(count: number): { d: string; points: [number, number][] }[] {
+  const colours = new Proxy({}, { get: () => "rgba(1, 2, 3, 1)" }) as never;
+  return Array.from({ length: count }, () => {
+    const map = lenses.seenThrough(MoebiusMap.fisheye(direction(), 10 ** (2 * random())), view());
+    const images = map.apply(Float64Array.from(circlePoints(direction(), 5 + 80 * random()).flat()));
+    const trace = (path: Path): void => traceArc(path, DISC, images, 0, 1, 2);
+    const path = new Recorder();
+    trace(path);
+    const pen = new SvgPen(620, 580, colours, 1);
+    pen.draw("bubble-open", trace);
+    const d = /<path [^>]* d="([^"]*)"/.exec(pen.text(""))?.[1] ?? "";
+    const points = path.pieces.flatMap(({ at, from, to }) =>
+      [0, 0.2, 0.5, 0.8, 1].map((t) => at(from + t * (to - from))),
+    );
+    return { d, points };
+  });
 }

@@ -143,4 +143,6 @@ def test_wrong_arguments_and_nothing_written(built, tmp_path):
         web(file, resolution="10m")
     with pytest.raises(ValueError, match=r"lonlat\[0, 1\] is latitude 91"):
         web(file, lonlat=[(0, 91)])
+    with pytest.raises(ValueError, match="names has 1 entries, but there are 2 points"):
+        web(file, lonlat=[(0, 1), (2, 3)], names=["one"])
     assert not file.exists()

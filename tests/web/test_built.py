@@ -13,6 +13,10 @@ LARGEST = 140_000
 """Bytes of the module packed, as servers send it."""
 
 
+def test_the_tracked_files_are_made_of_the_sources():
+    assert web_hashes.out_of_date() == []
+
+
 def test_size():
     assert len(gzip.compress(MODULE.read_bytes(), 9, mtime=0)) <= LARGEST
 

@@ -1,6 +1,7 @@
 """The drawing core of the page in Node, on its own kernel: true arcs, fills from all sides, the grabbed point."""
 
 import json
+import re
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
@@ -54,6 +55,42 @@ def test_caps_fill_right_from_any_side(drawing):
 
 def test_the_grabbed_point_stays_under_the_pointer(drawing):
     assert drawing("grabbed(500)") == {name: pytest.approx(0, abs=1e-3) for name in ("free", "north", "wheel", "out")}
+
+
+def along(d):
+    """Points (n, 2) along the arcs and lines of a path of SVG, as its specification has them (appendix B.2.4)."""
+    points, at = [], np.zeros(2)
+    for letter, text in re.findall(r"([MLA])([^MLAZ]*)", d):
+        numbers = np.array(text.split(), dtype=float)
+        end = numbers[-2:]
+        share = np.linspace(0, 1, 400)[:, np.newaxis]
+        if letter == "L":
+            points.append(at + share * (end - at))
+        elif letter == "A":
+            radii, turn, (large, sweep) = numbers[:2], np.radians(numbers[2]), numbers[3:5]
+            axes = np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+            half = axes @ (at - end) / 2 / radii  # half the chord, where the ellipse is a circle of radius 1
+            height = np.sqrt(max(0.0, 1 / (half @ half) - 1)) * (-1 if large == sweep else 1)
+            middle = height * np.array([half[1], -half[0]])
+            first, last = (np.arctan2(*side[::-1]) for side in (half - middle, -half - middle))
+            way = (last - first) % (2 * np.pi) - (0 if sweep else 2 * np.pi)
+            angles = first + share * way
+            circle = middle + np.hstack([np.cos(angles), np.sin(angles)])
+            points.append(circle * radii @ axes + (at + end) / 2)
+        at = end
+    return np.vstack(points)
+
+
+def test_arcs_of_svg_are_those_of_the_canvas(drawing):
+    worst = []
+    for arc in drawing("svgArcs(400)"):
+        if not arc["points"]:
+            continue
+        drawn = along(arc["d"])
+        away = np.linalg.norm(np.array(arc["points"])[:, np.newaxis] - drawn, axis=-1).min(axis=1)
+        worst.append(away.max())
+    assert len(worst) > 200
+    assert max(worst) < 2.5  # pixels: between the points along an arc
 
 
 def test_svg_is_well_formed(drawing):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from stereodel import SphereCircle, bubble_to_bubble, fisheye, lonlat_to_xyz
+from stereodel import SphereCircle, SphericalVoronoi, bubble_to_bubble, fisheye, lonlat_to_xyz
 from stereodel.drawing import View
 
 MARGIN = 7.0
@@ -260,6 +260,36 @@ def test_the_readers_places_have_cells(globe, tmp_path, rng):
     with globe.page.page.expect_download() as download:
         globe.page.page.click("button[data-export=geojson]")
     assert download.value.path().read_text().count('"Polygon"') > 900
+
+
+def test_the_readers_places_stand_in_a_table(globe, tmp_path):
+    file = tmp_path / "towns.csv"
+    lonlat = np.array([(10, 48.4), (-78.5, -0.2), (3.4, 6.5)])
+    file.write_text("name,lon,lat\n" + "".join(f"{n},{x},{y}\n" for n, (x, y) in zip("ABC", lonlat, strict=True)))
+    page = globe.page
+    assert not page.page.locator("#room-globe .sites").is_visible()
+    page.page.set_input_files("#room-globe input[type=file]", str(file))
+    page.page.wait_for_timeout(200)
+    page.rest()
+    assert page.page.inner_text("#room-globe [data-out=places]") == "The 3 places of towns.csv"
+    rows = page.page.locator("#room-globe .sites tbody tr[data-site]")
+    cells = [text.split("\t") for text in rows.all_inner_texts()]
+    assert [row[1] for row in cells] == ["A", "B", "C"]
+    areas = SphericalVoronoi.from_lonlat(lonlat).areas(radius=6371.0088)
+    assert [int("".join(c for c in row[4] if c.isdigit())) for row in cells] == np.rint(areas).astype(int).tolist()
+
+    # The row that has the focus is held in the drawing; its number brings it to the middle, and the lens to it.
+    before = page.picture("#globe-plate").astype(int)
+    rows.nth(2).get_by_role("button").focus()
+    page.rest()
+    x, y = globe.seen_at(lonlat[2]) - globe.middle + page.picture("#globe-plate").shape[0] / 2
+    window = np.s_[int(y) - 4 : int(y) + 5, int(x) - 4 : int(x) + 5]
+    changed = page.picture("#globe-plate").astype(int) - before
+    assert np.abs(changed[window]).max() > 100
+    assert (np.abs(changed).max(axis=-1) > 30).sum() < 100
+    rows.nth(1).get_by_role("button").click()
+    page.page.wait_for_timeout(600)
+    assert globe.numbers("focuslon", "focuslat", "viewlon", "viewlat") == pytest.approx((-78.5, -0.2, -78.5, -0.2))
 
 
 def test_a_panorama_is_seen_through_the_lens(globe, tmp_path):

@@ -1,5 +1,6 @@
 """The Lift room in a browser: the slider, P and Q, what is drawn and said of it."""
 
+import itertools
 import re
 
 import numpy as np
@@ -136,3 +137,44 @@ def test_the_python_lines_run(room, tmp_path, monkeypatch, capsys):
     exec(page.page.locator("#python").inner_text(), {})
     assert [path.name for path in tmp_path.iterdir()] == ["lift.svg"]
     assert float(capsys.readouterr().out) == pytest.approx(86.1, abs=0.05)
+
+
+def test_lengths_are_written_to_four_digits_of_the_sheet(room, tmp_path):
+    file = tmp_path / "grid.csv"
+    file.write_text("x,y\n4500000.1,5300000\n4500100,5299999.96\n-4500.25,5400000\n")
+    page = room("lift")
+    page.page.set_input_files(f"{ROOM} input[type=file]", str(file))
+    page.rest()
+    cells = page.page.locator(f"{ROOM} .sites tr[data-site] td").all_inner_texts()
+    assert [cells[k].replace("\u202f", " ") for k in (0, 1, 6)] == ["4 500 000", "5 300 000", "\u22124500"]
+    assert "In the sheet 4 505 610, which is 1.000" in said(page, "separation").replace("\u202f", " ")
+
+
+@pytest.mark.parametrize("width", [1280, 800, 390])
+def test_marks_of_the_ruler_keep_clear_of_each_other(room, width):
+    page = room("lift", width=width, height=900)
+    shown = set()
+    for other in range(1, 48):
+        page.page.fill(f"{ROOM} input[name=q]", str(other))
+        marks = page.page.evaluate(
+            "(room) => [...document.querySelectorAll(`${room} .bounds .mark-at`)]"
+            ".filter((each) => each.textContent && getComputedStyle(each).visibility === 'visible')"
+            ".map((each) => { const box = each.getBoundingClientRect(); return [box.left, box.right]; })",
+            ROOM,
+        )
+        shown.add(len(marks))
+        marks.sort()
+        assert all(left[1] < right[0] for left, right in itertools.pairwise(marks)), (other, marks)
+    assert shown == {2, 4}  # bounds that lie close share a mark
+
+
+def test_one_site_is_no_pair(room, tmp_path):
+    file = tmp_path / "one.csv"
+    file.write_text("x,y\n1,2\n")
+    page = room("lift")
+    page.page.set_input_files(f"{ROOM} input[type=file]", str(file))
+    page.rest()
+    assert said(page, "separation") == "Two sites are needed."
+    assert [page.page.input_value(f"{ROOM} input[name={letter}]") for letter in "pq"] == ["", ""]
+    assert said(page, "count") == "The site"
+    assert page.page.locator(PLATE).get_attribute("aria-label") == "Sheet with 1 site, and ball"

@@ -177,6 +177,16 @@ def test_a_notebook_from_the_first_run_to_the_next_time(notebook, folder, lab, b
     first.press("Escape")
     assert came_back(folder, "selection", 1 * patience) == "[]"
 
+    # The hand turns the globe: what it holds stays under the pointer.
+    (folder / "view.txt").unlink()
+    x, y = notebook.middle(".stereodel-globe canvas")
+    notebook.drag((x, y), (x + 40, y))
+    assert came_back(folder, "view", 1 * patience)
+    (folder / "lens.txt").unlink()
+    page.mouse.dblclick(x, y)
+    assert "focus" in came_back(folder, "lens", 1 * patience)
+    assert not (folder / "selection.txt").exists() or (folder / "selection.txt").read_text() == "[]"
+
     # Set from Python: the picture follows.
     before = page.evaluate(PIXELS)
     page.evaluate("jupyterapp.shell.currentWidget.content.activeCellIndex = 1")

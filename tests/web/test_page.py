@@ -9,10 +9,12 @@ import zlib
 import numpy as np
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from PIL import Image
 
 from stereodel.io import read_points
 from stereodel.web import assemble, web
 from stereodel.web.contents import built
+from tools.browser import ink
 
 ROOMS = {"sphere": "#sphere-ball", "lift": "#lift-plate", "globe": "#globe-plate"}
 """Rooms, and their first drawing."""
@@ -243,13 +245,18 @@ def test_a_file_that_is_dropped_is_drawn(room, name):
 
 def test_a_page_opens_with_the_points_that_it_was_made_for(visit, tmp_path):
     lonlat = [(-78.5, -0.2), (3.4, 6.5), (10.0, 48.4), (135.8, 35.0), (115.9, -32.0)]
-    file = web(tmp_path / "cities.html", lonlat=lonlat, name="cities.csv", resolution="110m")
+    names = ["Quito", "Lagos", "Ulm", "Kyoto", "Perth"]
+    file = web(tmp_path / "cities.html", lonlat=lonlat, names=names, name="cities.csv", resolution="110m")
     page = visit(file)
     page.until("document.documentElement.dataset.ready")
     page.rest()
     table = page.page.locator("#room-sphere .sites").inner_text()
     assert "135.8" in table
     assert "48.4" in table
+    assert page.page.locator("#room-sphere td.name").all_inner_texts() == names
+    page.page.click(".rooms a[href='#globe']")
+    page.rest()
+    assert page.page.locator("#room-globe td.name").all_inner_texts() == names
 
 
 # Exports
@@ -314,6 +321,22 @@ def test_a_drawing_is_taken_along(room, name, kind):
     assert content[:8] == b"\x89PNG\r\n\x1a\n" if kind == "png" else b"</svg>" in content
 
 
+@pytest.mark.parametrize("name", ["sphere", "lift"])
+def test_svg_and_png_are_the_same_picture(room, visit, tmp_path, name):
+    page = room(name)
+    page.page.fill("input[name=png-scale]", "1")
+    for kind in ("svg", "png"):
+        with page.page.expect_download() as download:
+            page.page.click(f"[data-export={kind}]")
+        download.value.save_as(tmp_path / f"room.{kind}")
+    with Image.open(tmp_path / "room.png") as image:
+        png = np.asarray(image.convert("RGB")).astype(int)
+    drawn = visit(tmp_path / "room.svg", width=png.shape[1], height=png.shape[0]).picture().astype(int)
+    assert drawn.shape == png.shape
+    assert ink(png) > 0.05
+    assert (np.abs(drawn - png).max(axis=-1) > 48).mean() < 0.005
+
+
 def test_cells_are_taken_along_as_geojson(room):
     page = room("sphere")
     with page.page.expect_download() as download:
@@ -342,3 +365,17 @@ def test_dark_is_dark(room, name):
     light, dark = (room(name, colours=colours).picture() for colours in ("light", "dark"))
     assert np.median(light) > 200
     assert np.median(dark) < 60
+
+
+@pytest.mark.parametrize("touch", [False, True])
+@pytest.mark.parametrize("name", ["sphere", "lift"])
+def test_tables_show_whole_rows(room, name, touch):
+    page = room(name, touch=touch, width=390 if touch else 1280)
+    height, head, row = page.page.evaluate(
+        "(room) => ['.sites', 'thead', 'tr[data-site]'].map((selector, k) => { const each ="
+        " document.querySelector(`${room} ${selector}`); return k ? each.getBoundingClientRect().height :"
+        " each.clientHeight; })",
+        f"#room-{name}",
+    )
+    rows = (height - head) / row
+    assert rows == pytest.approx(7, abs=0.05)

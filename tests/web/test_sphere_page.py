@@ -301,6 +301,90 @@ def test_the_python_lines_run(room, tmp_path, monkeypatch):
     assert (names["triangle"] + 1).tolist() == [7, 22, 41]
 
 
+def opened(page, file):
+    """Open a file of the reader's in the room."""
+    page.page.set_input_files(f"{ROOM} input[type=file]", str(file))
+    page.page.wait_for_timeout(100)
+    page.rest()
+
+
+@pytest.fixture
+def named(room, tmp_path):
+    """The room with four sites of a file that names them."""
+    file = tmp_path / "towns.csv"
+    file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")
+    page = room("sphere")
+    opened(page, file)
+    return page
+
+
+def names(page):
+    return page.page.locator(f"{ROOM} td.name").all_inner_texts()
+
+
+def test_names_of_the_readers_sites_stand_in_the_table_and_are_said(named):
+    assert names(named) == ["Ulm", "Quito", "<b>Lagos</b>", "Perth"]
+    named.page.locator(BALL).press(".")
+    named.page.wait_for_timeout(800)
+    said_last = named.page.locator("#status").inner_text()
+    assert said_last == "Site 1, Ulm, 48.4°\u202fN, 10.0°\u202fE, 3 neighbours"
+
+
+def test_names_follow_the_hand_and_undo_leads_back_to_the_file(named):
+    ball = named.page.locator(BALL)
+    for key in (".", "Delete", "n"):  # the first one goes, another one comes
+        ball.press(key)
+    assert names(named) == ["Quito", "<b>Lagos</b>", "Perth", ""]
+    named.page.locator(".foot summary").click()
+    named.page.wait_for_timeout(500)
+    lines = named.page.locator("#python").inner_text()
+    assert "np.array([" in lines  # not the file, which holds other sites
+    assert "read_points" not in lines
+    for _ in range(2):
+        named.page.locator(f"{ROOM} [data-do=undo]").click()
+    assert names(named) == ["Ulm", "Quito", "<b>Lagos</b>", "Perth"]
+    assert named.page.locator(f"{ROOM} select[name=set] option:checked").inner_text() == "towns.csv"
+    named.page.wait_for_timeout(500)
+    assert 'read_points("towns.csv")' in named.page.locator("#python").inner_text()
+
+
+def test_undo_gives_back_the_set_of_the_list(room):
+    page = room("sphere")
+    page.page.locator(BALL).press("n")
+    assert "sites" in link(page)
+    page.page.locator(BALL).press("Control+z")
+    assert link(page)["set"] == "gap"
+    assert page.page.locator(f"{ROOM} [data-do=undo]").is_disabled()
+
+
+def test_the_bubble_goes_and_comes_with_its_switch(room):
+    page = room("sphere")
+    shares = []
+    for _ in range(3):
+        shares.append([is_accent(page.picture(canvas)).mean() for canvas in (BALL, PLANE)])
+        page.page.locator(f"{ROOM} [name=bubble]").click()
+        page.rest()
+    assert max(shares[1]) < 0.001 < min(shares[0])  # what is left is the handle of the pole
+    assert shares[2] == shares[0]
+    page.page.locator(f"{ROOM} [name=bubble]").click()
+    assert said(page, "sentence").startswith("The circle round")
+
+
+def test_sites_that_lie_close_are_dark(room, tmp_path, rng):
+    file = tmp_path / "close.csv"
+    near = rng.normal(scale=0.2, size=(80, 2))
+    np.savetxt(file, np.vstack([near, [[0, 120], [40, -120], [-40, -120]]]), "%.5f", delimiter=",", header="lat,lon")
+    file.write_text(file.read_text().removeprefix("# "))
+    page = room("sphere")
+    opened(page, file)
+    for name in ("triangles", "cells", "bubble", "seeing"):
+        page.page.locator(f"{ROOM} [name={name}]").uncheck()
+    page.rest()
+    picture = page.picture(BALL)
+    y, x = (size // 2 for size in picture.shape[:2])
+    assert picture[y - 1 : y + 2, x - 1 : x + 2].max() < 90  # rims of paper would be white here
+
+
 def test_a_failure_is_told_and_the_room_is_drawn_again(visit, page_file):
     page = visit(f"{page_file.as_uri()}#sphere", complaints=["no clip"])
     page.until("document.documentElement.dataset.ready")

@@ -174,7 +174,7 @@ def test_the_first_picture_says_what_is_true():
 
 
 def test_sets_are_places_of_the_sphere_with_facets(node):
-    sets = ask(node, "sphereSets({ gap: given }).map((set) => [set.name, [...set.make()]])", GAP.ravel().tolist())
+    sets = ask(node, "sphereSets({ gap: given }, null).map((set) => [set.name, [...set.make()]])", GAP.ravel().tolist())
     assert [name for name, _ in sets] == ["gap", "everywhere", "hemisphere", "dodecahedron"]
     for name, places in sets:
         lonlat = np.reshape(places, (-1, 2))

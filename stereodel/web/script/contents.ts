@@ -21,6 +21,7 @@ export interface Given {
   readonly name: string;
   /** Longitude and latitude in turn, degrees, to the bit. */
   readonly lonlat: Float64Array;
+  readonly names: readonly string[] | null;
 }
 
 /** Sets of points that the page may have: as they are called in `stereodel.data`, and those that rooms begin with. */
@@ -73,13 +74,18 @@ export class Contents {
     const name = await this.#bytes("given-name");
     const bytes = await this.#bytes("given");
     if (name === null || bytes === null) return null;
-    return { name: String(JSON.parse(new TextDecoder().decode(name))), lonlat: doubles(bytes) };
+    const names = await this.#bytes("given-names");
+    return { name: String(json(name)), lonlat: doubles(bytes), names: names && (json(names) as string[]) };
   }
 
   async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {
     const text = this.#blocks(name);
     return text === null ? null : inflated(text);
   }
+}
+
+function json(bytes: Uint8Array): unknown {
+  return JSON.parse(new TextDecoder().decode(bytes));
 }
 
 async function inflated(text: string): Promise<Uint8Array<ArrayBuffer>> {

@@ -252,9 +252,8 @@ async function makersOf(contents: Contents): Promise<Makers> {
   const sheet = await contents.set("sheet");
   const given = await contents.given();
   const lift = new LaterScript<LiftRoomMaker>(contents, "lift");
-  if (given !== null) stored["given"] = given.lonlat;
   return {
-    sphere: (host) => sphereRoom(host, stored, given?.name),
+    sphere: (host) => sphereRoom(host, stored, given),
     lift: async (host) => (await lift.get())(host, sheet),
     globe: globeRoom,
   };

@@ -8,9 +8,17 @@ import { traceDisc } from "./drawing/pen.ts";
 import type { Pen } from "./drawing/pen.ts";
 import { Plate } from "./drawing/plate.ts";
 import { lonlatToXyz, MoebiusMap, SphericalDelaunay, SphericalVoronoi } from "./kernel/api.ts";
+import { placeOf } from "./rooms/lines.ts";
 import { directionOf, lonLatOf, row } from "./rooms/space.ts";
 import type { Vector } from "./rooms/space.ts";
+import { arrowed, grabBall } from "./view/ball_hand.ts";
+import type { Turnable } from "./view/ball_hand.ts";
+import { distance, follow } from "./view/hand.ts";
+import type { Gestures, Place } from "./view/hand.ts";
+import { seenThrough, sourceOf } from "./view/lens.ts";
+import { Motion } from "./view/motion.ts";
 import { pointUnder, View } from "./view/view.ts";
+import { latitude, longitude } from "./words.ts";
 
 /** The lens: a fisheye, by the arguments of `stereodel.fisheye`. */
 export interface Lens {
@@ -34,16 +42,6 @@ const STEP = 1.25;
 /** The strongest lens by hand. */
 const STRONGEST = 1e6;
 
-/** Degrees by which arrows turn the globe, alone and with Shift. */
-const COARSE = 5;
-const FINE = 1;
-
-/** How near to a site a click must be, pixels of the screen. */
-const NEAR = 12;
-
-/** Pixels by which a pointer may move in a click. */
-const STILL = 4;
-
 /** Sites beyond which cells are left out while the globe moves. */
 const MANY_SITES = 10_000;
 
@@ -60,8 +58,8 @@ export class NotebookGlobe {
   readonly #changed: Changed;
   readonly #ground: readonly Layer[];
   readonly #themes: MutationObserver; // notebooks change colours by attributes of the body
-  readonly #ends = new AbortController();
-  readonly #fingers = new Map<number, [number, number]>();
+  readonly #motion = new Motion();
+  readonly #release: () => void;
   #cells: Layer | null = null;
   #dots: Layer | null = null;
   #sites: Float64Array = new Float64Array(0);
@@ -70,8 +68,6 @@ export class NotebookGlobe {
   #view = View.above(0, 0);
   #selection: readonly number[] = [];
   #walked = -1;
-  #held: Vector | null = null;
-  #moved = 0;
 
   constructor(place: HTMLElement, land: Rings | null, changed: Changed) {
     this.#changed = changed;
@@ -89,7 +85,11 @@ export class NotebookGlobe {
     this.#plate = new Plate(this.#canvas, (pen, isMoving) => this.#paint(pen, isMoving), undefined, this.#root);
     this.#themes = new MutationObserver(() => this.#plate.redraw("colours"));
     this.#themes.observe(document.body, { attributes: true });
-    this.#listen();
+    this.#release = follow(this.#plate, this.#gestures());
+    this.#canvas.addEventListener("pointerdown", (event) => {
+      event.preventDefault(); // the notebook would take the focus
+      this.#canvas.focus({ preventScroll: true });
+    });
   }
 
   /** Sites by longitude and latitude in turn, degrees. */
@@ -122,7 +122,8 @@ export class NotebookGlobe {
   }
 
   dispose(): void {
-    this.#ends.abort();
+    this.#motion.stop();
+    this.#release();
     this.#themes.disconnect();
     this.#plate.dispose();
     this.#root.remove();
@@ -130,17 +131,16 @@ export class NotebookGlobe {
 
   /** From the Earth to the axes of the view. */
   get #map(): MoebiusMap {
-    const { left, magnification, right } = this.#lens;
-    return new MoebiusMap(this.#view.rotation.after(left), magnification, right);
+    return seenThrough(this.#lens, this.#view);
   }
 
   #show(): void {
     const magnification = this.#lens.magnification;
     const [lon, lat] = this.#view.middle;
     const text =
-      `Seen from ${places(lat, "N", "S")}, ${places(lon, "E", "W")}` +
-      (magnification === 1 ? "" : `; ${magnification.toPrecision(3)} times at ${places(this.#focus[1], "N", "S")}, `) +
-      (magnification === 1 ? "" : places(this.#focus[0], "E", "W")) +
+      `Seen from ${latitude(lat)}, ${longitude(lon)}` +
+      (magnification === 1 ? "" : `; ${magnification.toPrecision(3)} times at ${latitude(this.#focus[1])}, `) +
+      (magnification === 1 ? "" : longitude(this.#focus[0])) +
       (this.#sites.length === 0 ? "" : `; ${this.#sites.length / 3} ${this.#sites.length === 3 ? "site" : "sites"}`) +
       (this.#selection.length === 0 ? "" : `, selected: ${this.#selection.slice(0, 5).join(", ")}`);
     this.#canvas.setAttribute("aria-label", text);
@@ -169,76 +169,43 @@ export class NotebookGlobe {
 
   // Hands
 
-  #listen(): void {
-    const canvas = this.#canvas;
-    const { signal } = this.#ends;
-    canvas.addEventListener("pointerdown", (event) => this.#press(event), { signal });
-    canvas.addEventListener("pointermove", (event) => this.#drag(event), { signal });
-    canvas.addEventListener("pointerup", (event) => this.#release(event), { signal });
-    canvas.addEventListener("pointercancel", (event) => this.#fingers.delete(event.pointerId), { signal });
-    canvas.addEventListener("dblclick", (event) => this.#focusAt(this.#under(event)), { signal });
-    canvas.addEventListener("keydown", (event) => this.#key(event), { signal });
-    canvas.addEventListener(
-      "wheel",
-      (event) => {
-        if (document.activeElement !== canvas) return; // the notebook scrolls
-        event.preventDefault();
-        this.#magnify(Math.exp(-event.deltaY / 500));
+  #gestures(): Gestures {
+    const plate = this.#plate;
+    return {
+      take: (at) => grabBall(this.#turnable(false), this.#motion, at),
+      click: (at, reach) => this.#selectNear(at, reach),
+      doubleClick: (at, reach) => {
+        this.#selectNear(at, reach); // back to what it was before the first of the two
+        this.#focusAt(pointUnder(plate.disc, at));
       },
-      { passive: false, signal },
-    );
+      pinch: (_, spread) => {
+        const { magnification } = this.#lens;
+        return { move: (_, now) => this.#magnify(((now / spread) * magnification) / this.#lens.magnification) };
+      },
+      wheel: (_, factor) => this.#magnify(factor),
+      key: (event) => this.#key(event),
+    };
   }
 
-  #under(event: MouseEvent): Vector {
-    return pointUnder(this.#plate.disc, this.#plate.placeOf(event));
+  /** What turns; by keys the step is that of a globe with north up. */
+  #turnable(isNorthUp: boolean): Turnable {
+    const globe = this;
+    return {
+      isNorthUp,
+      get disc() {
+        return globe.#plate.disc;
+      },
+      get view() {
+        return globe.#view;
+      },
+      turn: (view) => this.#turn(view),
+    };
   }
 
-  #press(event: PointerEvent): void {
-    this.#canvas.setPointerCapture(event.pointerId);
-    this.#canvas.focus({ preventScroll: true });
-    this.#fingers.set(event.pointerId, [event.clientX, event.clientY]);
-    this.#held = this.#under(event);
-    this.#moved = 0;
-    event.preventDefault();
-  }
-
-  #drag(event: PointerEvent): void {
-    const before = this.#fingers.get(event.pointerId);
-    if (before === undefined || this.#held === null) return;
-    const spread = this.#spread;
-    this.#fingers.set(event.pointerId, [event.clientX, event.clientY]);
-    this.#moved += Math.hypot(event.clientX - before[0], event.clientY - before[1]);
-    if (this.#fingers.size === 2) {
-      if (spread > 0) this.#magnify(this.#spread / spread);
-      return;
-    }
-    if (this.#moved < STILL) return;
-    const to = this.#under(event);
-    this.#turn(this.#view.dragged(this.#held, to));
-    this.#held = to;
-  }
-
-  /** The distance of two fingers, pixels; 0 where there are not two. */
-  get #spread(): number {
-    const [a, b] = [...this.#fingers.values()];
-    return this.#fingers.size === 2 ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 0;
-  }
-
-  #release(event: PointerEvent): void {
-    const isClick = this.#fingers.size === 1 && this.#moved < STILL;
-    this.#fingers.delete(event.pointerId);
-    this.#held = null;
-    if (isClick) this.#selectNear(this.#plate.placeOf(event));
-  }
-
-  #key(event: KeyboardEvent): void {
-    if (event.altKey || event.ctrlKey || event.metaKey) return;
-    const step = event.shiftKey ? FINE : COARSE;
+  #key(event: KeyboardEvent): boolean {
+    if (event.ctrlKey) return false;
+    const view = arrowed(this.#turnable(true), event);
     const acts: Record<string, () => void> = {
-      ArrowLeft: () => this.#turn(this.#view.stepped(-step, 0, true)),
-      ArrowRight: () => this.#turn(this.#view.stepped(step, 0, true)),
-      ArrowUp: () => this.#turn(this.#view.stepped(0, step, true)),
-      ArrowDown: () => this.#turn(this.#view.stepped(0, -step, true)),
       "+": () => this.#magnify(STEP),
       "-": () => this.#magnify(1 / STEP),
       "0": () => this.#magnify(1 / this.#lens.magnification),
@@ -248,11 +215,12 @@ export class NotebookGlobe {
       Enter: () => this.#toggle(this.#walked),
       Escape: () => this.#select([]),
     };
-    const act = acts[event.key];
-    if (act === undefined) return;
-    event.preventDefault();
+    const act = view === null ? acts[event.key] : () => this.#turn(view);
+    if (act === undefined) return false;
     event.stopPropagation(); // the notebook has keys of its own
+    this.#motion.stop();
     act();
+    return true;
   }
 
   #turn(view: View): void {
@@ -272,7 +240,7 @@ export class NotebookGlobe {
 
   /** Moves the focus to what is seen at a point of the view. */
   #focusAt(point: Vector): void {
-    const [lon, lat] = lonLatOf(row(this.#map.inverse().apply(point), 0)).map(rounded);
+    const [lon, lat] = lonLatOf(sourceOf(this.#map, point)).map(rounded);
     const focus = [lon, lat] as const;
     this.showLens({ focus, magnification: this.#lens.magnification });
     this.#changed("lens", { focus, magnification: this.#lens.magnification });
@@ -280,16 +248,17 @@ export class NotebookGlobe {
 
   // Sites
 
-  #selectNear(place: readonly [number, number]): void {
-    const { x, y, r } = this.#plate.disc;
+  /** Selects the nearest of the sites in sight, or no longer. */
+  #selectNear(at: Place, reach: number): void {
+    const { disc } = this.#plate;
     const images = this.#map.apply(this.#sites);
-    let [nearest, distance] = [-1, NEAR];
+    let [nearest, least] = [-1, reach];
     for (let k = 0; 3 * k < images.length; ++k) {
-      if (images[3 * k + 2] < 0) continue;
-      const apart = Math.hypot(x + r * images[3 * k] - place[0], y - r * images[3 * k + 1] - place[1]);
-      if (apart < distance) [nearest, distance] = [k, apart];
+      const image = row(images, k);
+      const apart = distance(placeOf(disc, image), at);
+      if (image[2] >= 0 && apart < least) [nearest, least] = [k, apart];
     }
-    if (nearest >= 0) this.#toggle(nearest);
+    this.#toggle(nearest);
   }
 
   #toggle(number: number): void {
@@ -316,9 +285,4 @@ export class NotebookGlobe {
 /** Degrees without the last digits of arithmetic: to 0.1 mm on the Earth. */
 function rounded(degrees: number): number {
   return Math.round(degrees * 1e9) / 1e9 + 0;
-}
-
-/** A coordinate in words. */
-function places(degrees: number, positive: string, negative: string): string {
-  return `${Math.abs(degrees).toFixed(1)}° ${degrees < 0 ? negative : positive}`;
 }

@@ -1,26 +1,32 @@
 /** Sets of sites to begin with: those that come with the page, and those that are made here. */
 
+import type { Given } from "./contents.ts";
+
 /** A set: its name in links, its words in the list, its places (n, 2). */
 export interface SiteSet {
   readonly name: string;
   readonly words: string;
   readonly make: () => Float64Array;
+  /** Of the sites, where they have any. */
+  readonly names?: readonly string[] | null;
 }
 
 /** Decimals of a degree to which places that are made here are rounded: links stay short. */
 const DECIMALS = 3;
 
-/** Longitudes and latitudes in turn by the names of sets; "given" are those that the page was made for. */
+/** Longitudes and latitudes in turn by the names of sets. */
 export type Stored = Readonly<Record<string, Float64Array>>;
 
 /** The sets of the sphere: those that the page was made for and carries, and those that are made here. */
-export function sphereSets(stored: Stored, givenName = "Given sites"): SiteSet[] {
+export function sphereSets(stored: Stored, given: Given | null): SiteSet[] {
   const kept = (name: string, words: string): SiteSet[] => {
     const places = stored[name];
     return places === undefined || places.length === 0 ? [] : [{ name, words, make: () => places }];
   };
   return [
-    ...kept("given", givenName),
+    ...(given === null || given.lonlat.length === 0
+      ? []
+      : [{ name: "given", words: given.name, names: given.names, make: () => given.lonlat }]),
     ...kept("gap", "Scattered, with a gap round P"),
     { name: "everywhere", words: "Scattered everywhere", make: () => scatteredOnSphere(72, 90) },
     { name: "hemisphere", words: "In one hemisphere", make: () => scatteredOnSphere(40, 75) },

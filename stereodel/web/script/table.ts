@@ -5,16 +5,26 @@
 
 import { make } from "./dom.ts";
 
+/** What a site is called where nothing else is said. */
+const SITE = "Site";
+
+/** The head of the column of names. */
+const NAME = "Name";
+
 /** Rows above and below the visible ones. */
 const AROUND = 12;
 
 /** What the table shows of the sites. */
 export interface Rows {
   readonly count: number;
+  /** What a site is called, with a capital. */
+  readonly noun?: string;
   /** Heads of the columns behind the site's number. */
   readonly heads: readonly string[];
   /** Cells of a site, one a head. */
   cells(site: number): readonly string[];
+  /** Of the sites, where their file has such a column. */
+  readonly names?: readonly string[] | null;
   /** What stands behind the number of a site: a letter, or nothing. */
   mark?(site: number): string;
 }
@@ -60,9 +70,10 @@ export class SiteTable {
   /** Shows other sites. */
   show(rows: Rows): void {
     this.#rows = rows;
+    this.#table.hidden = rows.count === 0;
     this.#table.setAttribute("aria-rowcount", String(rows.count + 1));
-    const heads = ["Site", ...rows.heads].map((head) => {
-      const cell = make("th");
+    const heads = [rows.noun ?? SITE, ...(rows.names ? [NAME] : []), ...rows.heads].map((head) => {
+      const cell = make("th", head === NAME ? "name" : "");
       cell.scope = "col";
       cell.append(...head.split(/\*([^*]+)\*/).map((part, k) => (k % 2 === 1 ? make("i", "", part) : part)));
       return cell;
@@ -110,16 +121,18 @@ export class SiteTable {
     const focused = anew ? null : siteOf(document.activeElement);
     const rows: HTMLElement[] = [];
     for (let site = begin; site < end; ++site) rows.push(this.#row(site));
-    const width = 1 + this.#rows.heads.length;
+    const width = this.#head.querySelectorAll("th").length;
     this.#body.replaceChildren(gap(begin * height, width), ...rows, gap((this.#rows.count - end) * height, width));
     if (focused !== null)
       this.#body.querySelector<HTMLElement>(`tr[data-site="${focused}"] button`)?.focus({ preventScroll: true });
   }
 
   #row(site: number): HTMLElement {
+    const { noun = SITE, names } = this.#rows;
+    const name = names?.[site];
     const button = make("button", "", String(site + 1));
     button.type = "button";
-    button.setAttribute("aria-label", `Site ${site + 1}`);
+    button.setAttribute("aria-label", `${noun} ${site + 1}${name ? `, ${name}` : ""}`);
     const head = make("th", "", button);
     head.scope = "row";
     const mark = this.#rows.mark?.(site);
@@ -128,6 +141,7 @@ export class SiteTable {
       "tr",
       this.#held.has(site) ? "on" : "",
       head,
+      ...(name === undefined ? [] : [make("td", "name", name)]),
       ...this.#rows.cells(site).map((cell) => make("td", "", cell)),
     );
     row.dataset["site"] = String(site);

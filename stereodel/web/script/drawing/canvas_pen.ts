@@ -86,14 +86,20 @@ export class CanvasPen implements Pen {
   dots(name: DotName, places: ArrayLike<number>): void {
     const { radius: r, fill, rim, rimWidth } = styles.DOTS[name];
     const context = this.#context;
-    context.fillStyle = this.#colours[fill];
     if (places.length > 2 * MANY_DOTS) {
+      context.fillStyle = this.#colours[fill];
       for (let k = 0; k < places.length; k += 2) context.fillRect(places[k] - r / 2, places[k + 1] - r / 2, r, r);
       return;
     }
-    this.#line({ stroke: rim, width: rimWidth });
-    context.lineWidth = rimWidth;
-    // Some at a time: a call for each dot takes longer than the dots.
+    // First all rims: where dots lie close, none is hidden by the rim of another.
+    this.#discs(places, r + rimWidth / 2, this.#colours[rim]);
+    this.#discs(places, r - rimWidth / 2, this.#colours[fill]);
+  }
+
+  /** Discs about places; some at a time, as a call for each takes longer than the discs. */
+  #discs(places: ArrayLike<number>, r: number, colour: string): void {
+    const context = this.#context;
+    context.fillStyle = colour;
     for (let begin = 0; begin < places.length; begin += 2 * MOST_ARCS) {
       context.beginPath();
       for (let k = begin; k < Math.min(places.length, begin + 2 * MOST_ARCS); k += 2) {
@@ -101,7 +107,6 @@ export class CanvasPen implements Pen {
         context.arc(places[k], places[k + 1], r, 0, 2 * Math.PI);
       }
       context.fill();
-      context.stroke();
     }
   }
 

@@ -90,16 +90,17 @@ export class SvgPen implements Pen {
   dots(name: DotName, places: ArrayLike<number>): void {
     if (places.length === 0) return;
     const { radius, fill, rim, rimWidth } = DOTS[name];
-    const looks = [
-      paint("fill", this.#colours[fill]),
-      paint("stroke", this.#colours[rim]),
-      `stroke-width="${rimWidth}"`,
-    ];
-    this.#group(`class="${name}" ${looks.join(" ")}`, () => {
-      for (let k = 0; k < places.length; k += 2) {
-        this.#parts.push(`<circle cx="${number(places[k])}" cy="${number(places[k + 1])}" r="${radius}"/>`);
-      }
-    });
+    const r = number(radius - rimWidth / 2);
+    const id = `dots-${this.#definitions.length}`;
+    const dots: string[] = [];
+    for (let k = 0; k < places.length; k += 2) {
+      dots.push(`<circle cx="${number(places[k])}" cy="${number(places[k + 1])}" r="${r}"/>`);
+    }
+    this.#definitions.push(`<g id="${id}">${dots.join("")}</g>`);
+    // First all rims: where dots lie close, none is hidden by the rim of another.
+    const rims = `fill="none" ${paint("stroke", this.#colours[rim])} stroke-width="${number(2 * rimWidth)}"`;
+    this.#parts.push(`<use class="${name}-rim" href="#${id}" ${rims}/>`);
+    this.#parts.push(`<use class="${name}" href="#${id}" ${paint("fill", this.#colours[fill])}/>`);
   }
 
   label(text: string, x: number, y: number, style: LabelStyle): void {

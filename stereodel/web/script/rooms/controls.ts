@@ -19,13 +19,53 @@ export class NumberField {
     });
   }
 
-  /** Shows a number, unless it is being typed. */
-  set value(value: number) {
-    if (document.activeElement !== this.#input) this.#input.value = value.toFixed(this.#decimals);
+  /** Shows a number, or that there is none, unless one is being typed. */
+  set value(value: number | null) {
+    if (document.activeElement !== this.#input) this.#input.value = value?.toFixed(this.#decimals) ?? "";
   }
 
   set max(value: number) {
     this.#input.max = String(value);
+  }
+}
+
+/** Two fields of a place, longitude and latitude in degrees. */
+export class PlaceFields {
+  readonly #fields: readonly [NumberField, NumberField];
+
+  /** @param name Of the fields, before `-lon` and `-lat`. @param typed gets each valid place. */
+  constructor(root: ParentNode, name: string, typed: (place: readonly [number, number]) => void) {
+    const names = [`${name}-lon`, `${name}-lat`] as const;
+    const act = (): void => {
+      const [lon, lat] = names.map((part) => field(root, part).valueAsNumber);
+      if (Number.isFinite(lon) && Number.isFinite(lat)) typed([lon, lat]);
+    };
+    this.#fields = [new NumberField(root, names[0], 1, act), new NumberField(root, names[1], 1, act)];
+  }
+
+  set value([lon, lat]: readonly [number, number]) {
+    [this.#fields[0].value, this.#fields[1].value] = [lon, lat];
+  }
+}
+
+/** One of some words: a group of radio buttons. */
+export class Choice<T extends string> {
+  readonly #inputs: readonly HTMLInputElement[];
+  readonly #words: readonly T[];
+
+  constructor(root: ParentNode, name: string, words: readonly T[], changed: () => void) {
+    this.#inputs = [...root.querySelectorAll<HTMLInputElement>(`input[name=${name}]`)];
+    this.#words = words;
+    for (const input of this.#inputs) input.addEventListener("change", changed);
+  }
+
+  get value(): T {
+    const chosen = this.#inputs.find((input) => input.checked)?.value;
+    return this.#words.find((word) => word === chosen) ?? this.#words[0];
+  }
+
+  set value(word: T) {
+    for (const input of this.#inputs) input.checked = input.value === word;
   }
 }
 

@@ -8,8 +8,10 @@ import { MOST_SITES, packPlaces } from "../link.ts";
 import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
 import type { Room, RoomHost } from "../room.ts";
+import { SiteTable } from "../table.ts";
 import { capToCap, lensMap, MOST, scaleAt } from "../view/lens.ts";
-import { latitude, longitude, scale } from "../words.ts";
+import { View } from "../view/view.ts";
+import { counted, latitude, longitude, scale } from "../words.ts";
 import { tellNamed } from "./controls.ts";
 import { BubbleGlobe } from "./globe_bubbles.ts";
 import { FisheyeGlobe } from "./globe_fisheye.ts";
@@ -39,6 +41,7 @@ interface Parts {
   readonly globe: FisheyeGlobe;
   readonly views: FiveViews;
   readonly bubbles: readonly BubbleGlobe[];
+  readonly table: SiteTable;
 }
 
 class GlobeRoom implements Room {
@@ -75,6 +78,13 @@ class GlobeRoom implements Room {
         new BubbleGlobe(canvas("globe-before"), "before", host),
         new BubbleGlobe(canvas("globe-after"), "after", host),
       ],
+      table: new SiteTable(find(section, ".sites"), {
+        chosen: (place) => this.#host.guarded(() => this.#center(place)),
+        pointed: (place) => {
+          this.#scene.lit = place;
+          this.#redraw("state");
+        },
+      }),
     };
     this.#listen(section);
     this.#write();
@@ -119,9 +129,9 @@ class GlobeRoom implements Room {
         this.#host.changed(true);
       });
     }
-    return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat }) => {
+    return exchange.openPoints(file, "lonlat", messages, ({ places: lonlat, names }) => {
       guarded(() => {
-        this.#show({ name: file.name, lonlat }, false);
+        this.#show({ name: file.name, lonlat, names }, false);
         this.#set({ drawn: { ...this.#state.drawn, cells: true } }, "state", true);
       });
     });
@@ -166,6 +176,29 @@ class GlobeRoom implements Room {
     this.#scene.show(places);
     this.#isGiven = isGiven;
     this.#input("cells").disabled = false;
+    const { section, table } = this.#parts!;
+    const { lonlat, names } = places;
+    const count = lonlat.length / 2;
+    find(section, "[data-show=places]").hidden = false;
+    find(section, "[data-out=places]").textContent = placesWords(count, places.name);
+    table.show({
+      count,
+      noun: "Place",
+      names: names ?? null,
+      heads: ["Latitude", "Longitude", "Cell, km²"],
+      cells: (place) => [latitude(lonlat[2 * place + 1]), longitude(lonlat[2 * place]), area(this.#scene.area(place))],
+    });
+  }
+
+  /** Brings a place to the middle, and the lens to it. */
+  #center(place: number): void {
+    const [lon, lat] = this.#scene.places!.lonlat.subarray(2 * place);
+    const direction = directionOf(lon, lat);
+    if (this.#state.lens === "bubble") this.#set({ from: { ...this.#state.from, center: direction } }, "state");
+    else {
+      const lens = { ...this.#state.sight.lens, focus: direction };
+      this.#parts!.globe.fly({ lens, view: View.above(lon, lat) });
+    }
   }
 
   /** Another state: the drawings, the words, the controls and the link follow. */
@@ -361,6 +394,17 @@ function magnificationWords({ sight }: GlobeState): string {
 function placeWords(direction: Vector): string {
   const [lon, lat] = lonLatOf(direction);
   return `${latitude(lat)} ${longitude(lon)}`;
+}
+
+/** How many places there are, and of which file. */
+function placesWords(count: number, name: string): string {
+  if (count === 0) return `No places in ${name}`;
+  return count === 1 ? `The place of ${name}` : `The ${counted(count)} places of ${name}`;
+}
+
+/** Square kilometres: whole ones, or three digits of what is smaller. */
+function area(size: number): string {
+  return size >= 100 ? counted(Math.round(size)) : size.toPrecision(3);
 }
 
 function opposite([x, y, z]: Vector): Vector {

@@ -42,19 +42,26 @@ export interface Drawn {
 
 /** The reader's own places. */
 export interface Places {
+  /** Of the file. */
   readonly name: string;
   readonly lonlat: Float64Array;
+  /** Of the places, where their file has such a column. */
+  readonly names?: readonly string[] | null;
 }
 
 export class GlobeScene {
   places: Places | null = null;
   picture: Painted | null = null;
+  /** The place whose row the pointer or the focus is on. */
+  lit: number | null = null;
   readonly #graticule = arcLayer("graticule", graticuleArcs(STEP));
   readonly #tissot = capLayer("tissot", equalCircles());
   #coarse: Layer | null = null;
   #fine: Layer | null = null;
   #cells: Layer | null = null;
   #dots: Layer | null = null;
+  #voronoi: SphericalVoronoi | null = null;
+  #areas: Float64Array | null = null;
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
@@ -66,8 +73,14 @@ export class GlobeScene {
   /** Shows the reader's places, or none. */
   show(places: Places | null): void {
     this.places = places;
-    this.#cells = null;
+    this.#cells = this.#voronoi = this.#areas = this.lit = null;
     this.#dots = places === null ? null : dotLayer("site", lonlatToXyz(places.lonlat));
+  }
+
+  /** The area of a place's cell, square kilometres. */
+  area(place: number): number {
+    this.#areas ??= this.#diagram()?.areas(EARTH) ?? null;
+    return this.#areas?.[place] ?? 0;
   }
 
   /** Draws a globe; `map` takes the Earth to the axes of the view. */
@@ -86,13 +99,22 @@ export class GlobeScene {
     const count = (this.places?.lonlat.length ?? 0) / 2;
     if (drawn.cells && !(isMoving && count > MANY_PLACES)) layers.push(this.#ridges());
     layers.push(this.#dots);
+    if (this.places !== null && this.lit !== null) {
+      layers.push(dotLayer("held", lonlatToXyz(this.places.lonlat.subarray(2 * this.lit, 2 * this.lit + 2))));
+    }
     return layers.filter((layer) => layer !== null);
   }
 
-  /** Sides of the places' cells, which are computed when they are first drawn. */
-  #ridges(): Layer | null {
+  /** The places' cells, which are computed when they are first asked for. */
+  #diagram(): SphericalVoronoi | null {
     if (this.places === null) return null;
-    return (this.#cells ??= arcLayer("voronoi", ridgeArcs(SphericalVoronoi.fromLonlat(this.places.lonlat))));
+    return (this.#voronoi ??= SphericalVoronoi.fromLonlat(this.places.lonlat));
+  }
+
+  /** Sides of the places' cells. */
+  #ridges(): Layer | null {
+    const diagram = this.#diagram();
+    return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", ridgeArcs(diagram)));
   }
 }
 

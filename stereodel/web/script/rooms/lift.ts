@@ -5,22 +5,23 @@ import { Plate } from "../drawing/plate.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Sheet } from "../drawing/sheet.ts";
 import type { Exchange } from "../exchange.ts";
-import { MOST_SITES, packPlaces, writeNumber } from "../link.ts";
+import { writeNumber } from "../link.ts";
 import type { LinkValues } from "../link.ts";
 import type { Room, RoomHost } from "../room.ts";
 import type { SiteSet } from "../sets.ts";
-import { SiteTable } from "../table.ts";
 import { distance, follow } from "../view/hand.ts";
 import type { Gestures, Hold, Place as Point } from "../view/hand.ts";
 import { View } from "../view/view.ts";
 import { counted, fixed, wrap } from "../words.ts";
-import { listSets, NumberField, showSet, Switches, tellNamed } from "./controls.ts";
+import { NumberField } from "./controls.ts";
 import { drawLift, onPicture, sitePlace, standOf } from "./lift_drawing.ts";
 import type { LiftScene } from "./lift_drawing.ts";
 import type { Sheet as BentSheet } from "./lift_sheet.ts";
 import { SHEET_SIDES, sheetSets } from "./lift_sets.ts";
 import { LiftSites } from "./lift_sites.ts";
-import { length, ofBend, ofBounds, ofFacets, ofPair, separation, withoutTriangles } from "./lift_words.ts";
+import { measured, ofBend, ofBounds, ofFacets, ofPair, separation, withoutTriangles } from "./lift_words.ts";
+import { SiteControls } from "./site_controls.ts";
+import type { NamedSites } from "./site_controls.ts";
 
 const SWITCHES = ["triangles", "cells", "rays", "seeing"] as const;
 
@@ -47,23 +48,18 @@ class LiftRoom implements Room {
   readonly #sets: readonly SiteSet[];
   #section!: HTMLElement;
   #plate!: Plate;
-  #table!: SiteTable;
-  #switches!: Switches;
-  #select!: HTMLSelectElement;
+  #controls!: SiteControls;
   #viewFields!: { height: NumberField; side: NumberField };
   #pairFields!: { p: NumberField; q: NumberField };
   #release = (): void => {};
 
   #sites = new LiftSites(new Float64Array(0));
-  #set = "sheet";
-  #file: string | null = null;
   #corner = HEMISPHERE;
   #height = HEIGHT;
   #side = SIDE;
   #p: number | null = null;
   #q: number | null = null;
   #next: "p" | "q" = "p";
-  #lit: number | null = null;
 
   constructor(host: RoomHost, sets: readonly SiteSet[]) {
     this.#host = host;
@@ -74,18 +70,12 @@ class LiftRoom implements Room {
     this.#section = section;
     const canvas = find<HTMLCanvasElement>(section, "#lift-plate");
     this.#plate = new Plate(canvas, (pen, moving) => drawLift(pen, this.#scene(moving), moving), this.#host.guarded);
-    this.#table = new SiteTable(find(section, ".sites"), {
+    this.#controls = new SiteControls(section, this.#host, this.#sets, "plane", SWITCHES, {
+      begin: (named) => this.#take(named),
       chosen: (site) => this.#pick(site),
-      pointed: (site) => {
-        this.#lit = site;
-        this.redraw();
-      },
+      pointed: () => this.redraw(),
+      switched: () => this.redraw(),
     });
-    this.#switches = new Switches(section, SWITCHES, () => {
-      this.redraw();
-      this.#host.changed();
-    });
-    this.#select = listSets(section, this.#sets, (set) => this.#host.guarded(() => this.#begin(set)));
     const turn = (): void => {
       this.#turn(field(section, "view-side").valueAsNumber, field(section, "view-height").valueAsNumber);
     };
@@ -105,17 +95,12 @@ class LiftRoom implements Room {
   // State
 
   state(): Record<string, string> {
-    const state: Record<string, string> = {};
-    const { places } = this.#sites;
-    if (this.#set !== "own") state["set"] = this.#set;
-    else if (places.length <= 2 * MOST_SITES) state["sites"] = packPlaces(places);
-    else state["file"] = this.#file ?? "sites";
+    const state = this.#controls.toValues();
     if (this.#corner !== HEMISPHERE) state["bend"] = writeNumber(this.#corner, 2);
     if (this.#height !== HEIGHT) state["height"] = writeNumber(this.#height, 2);
     if (this.#side !== SIDE) state["side"] = writeNumber(this.#side, 2);
     if (this.#p !== null) state["p"] = String(this.#p + 1);
     if (this.#q !== null) state["q"] = String(this.#q + 1);
-    if (this.#switches.turned) state["turned"] = this.#switches.turned;
     return state;
   }
 
@@ -123,42 +108,33 @@ class LiftRoom implements Room {
     const corner = values.number("bend", 0, HEMISPHERE, HEMISPHERE);
     const height = values.number("height", 0, 90, HEIGHT);
     const side = values.number("side", -360, 360, SIDE);
-    const name = values.word("set", [...this.#sets.map((set) => set.name), "own"], "sheet");
-    const own = values.places("sites");
-    const set = this.#sets.find((set) => set.name === name) ?? this.#sets[0];
-    const places = own ?? set.make();
-    const count = places.length / 2;
+    const named = this.#controls.fromValues(values);
+    const count = named.places.length / 2;
     const [p, q] = [values.whole("p", 1, count, 0), values.whole("q", 1, count, 0)];
-    [this.#corner, this.#height, this.#side, this.#file] = [corner, height, side, null];
-    this.#switches.turned = values.text("turned", "");
-    this.#take(places, own === null ? set.name : "own");
+    [this.#corner, this.#height, this.#side] = [corner, height, side];
+    this.#controls.restore(values);
+    this.#take(named);
     if (p > 0) this.#p = p - 1;
     if (q > 0) this.#q = q - 1;
     this.#update();
-    tellNamed(this.#host.messages, values, "file");
   }
 
-  #begin(set: SiteSet): void {
-    this.#file = null;
-    this.#take(set.make(), set.name);
-    this.#host.changed(true);
-  }
-
-  /** Other sites; P and Q are those of the first picture, or the first and the last site. */
-  #take(places: Float64Array, set: string): void {
-    this.#sites = new LiftSites(places, SHEET_SIDES[set]);
-    this.#set = set;
+  /** Shows sites; P and Q are those of the first picture, or the first and the last site. */
+  #take(named: NamedSites): void {
+    const isFirst = named.set === this.#sets[0].name;
+    this.#sites = new LiftSites(named.places, SHEET_SIDES[named.set]);
     const { count } = this.#sites;
-    this.#p = count < 2 ? null : set === "sheet" ? PAIR.p : 0;
-    this.#q = count < 2 ? null : set === "sheet" ? PAIR.q : count - 1;
-    showSet(this.#select, set, set === "own" ? (this.#file ?? "Your own sites") : null);
-    find(this.#section, "[data-out=count]").textContent = count === 1 ? "The site" : `The ${counted(count)} sites`;
-    this.#plate.canvas.setAttribute("aria-label", `Sheet with ${counted(count)} sites and ball`);
+    this.#p = count < 2 ? null : isFirst ? PAIR.p : 0;
+    this.#q = count < 2 ? null : isFirst ? PAIR.q : count - 1;
+    this.#plate.canvas.setAttribute(
+      "aria-label",
+      `Sheet with ${counted(count)} ${count === 1 ? "site" : "sites"}, and ball`,
+    );
     for (const letter of ["p", "q"] as const) {
       this.#pairFields[letter].max = Math.max(1, count);
       field(this.#section, letter).disabled = count < 2;
     }
-    this.#update();
+    this.#update("state", named);
   }
 
   // Drawing and words
@@ -173,7 +149,7 @@ class LiftRoom implements Room {
 
   #scene(isMoving: boolean): LiftScene {
     const { count } = this.#sites;
-    const isOn = (name: string): boolean => this.#switches.isOn(name);
+    const isOn = (name: string): boolean => this.#controls.isOn(name);
     const dotsAlone = isMoving && count > VERY_MANY;
     return {
       sites: this.#sites,
@@ -188,15 +164,15 @@ class LiftRoom implements Room {
       },
       p: this.#p,
       q: this.#q,
-      lit: this.#lit,
+      lit: this.#controls.lit,
     };
   }
 
   /** Everything that is said and drawn, after the state has changed. */
-  #update(reason: Reason = "state"): void {
+  #update(reason: Reason = "state", named = this.#controls.named): void {
     this.#showBend();
     this.#showPair();
-    this.#showTable();
+    this.#showSites(named);
     const alone = withoutTriangles(this.#sites);
     const { simplices } = this.#sites.delaunay;
     const sum = find(this.#section, "[data-out=sum]");
@@ -225,6 +201,7 @@ class LiftRoom implements Room {
     if (p === null || q === null) {
       say(find(bounds, "[data-out=separation]"), "Two sites are needed.");
       say(find(bounds, "[data-out=promise]"), "");
+      this.#pairFields.p.value = this.#pairFields.q.value = null;
       return;
     }
     const now = separation(this.#sites, this.#bent, p, q);
@@ -238,18 +215,20 @@ class LiftRoom implements Room {
     const span = find(bounds, ".span");
     span.style.setProperty("--from", at(now.low));
     span.style.setProperty("--to", at(now.high));
-    for (const [mark, value] of [
-      [".low", now.low],
-      [".high", now.high],
-    ] as const) {
-      find(bounds, mark).textContent = `${fixed(value, 1)}°`;
-      find(bounds, mark).style.setProperty("--at", at(value));
-    }
-    // Marks that would stand in each other's way: the bounds come first.
-    const ends = bounds.querySelectorAll<HTMLElement>(".first, .last");
-    ends[0].classList.toggle("bare", isEnd && now.low < CLOSE);
-    ends[1].classList.toggle("bare", isEnd && now.high > 180 - CLOSE);
-    bounds.classList.toggle("narrow", now.high - now.low < CLOSE);
+    // Bounds whose marks would stand in each other's way share one.
+    const isNarrow = now.high - now.low < CLOSE;
+    const [low, high] = [`${fixed(now.low, 1)}°`, `${fixed(now.high, 1)}°`];
+    const mark = (name: string, words: string, value: number): void => {
+      find(bounds, name).textContent = words;
+      find(bounds, name).style.setProperty("--at", at(value));
+    };
+    mark(".low", isNarrow ? `${low} to ${high}` : low, isNarrow ? (now.low + now.high) / 2 : now.low);
+    mark(".high", isNarrow ? "" : high, now.high);
+    // The bounds come before the ends of the ruler.
+    const isWide = isNarrow ? 2 : 1;
+    find(bounds, ".first").classList.toggle("bare", isEnd && now.low < isWide * CLOSE);
+    find(bounds, ".last").classList.toggle("bare", isEnd && now.high > 180 - isWide * CLOSE);
+    bounds.classList.toggle("narrow", isNarrow);
     const label = now.angle === null ? "No separation in the plane" : `Separation ${fixed(now.angle, 1)}°`;
     find(bounds, "[data-out=scale]").setAttribute(
       "aria-label",
@@ -259,20 +238,20 @@ class LiftRoom implements Room {
     this.#pairFields.q.value = q + 1;
   }
 
-  #showTable(): void {
+  /** What the sites are called, and the table, whose scales change with the sheet. */
+  #showSites(named: NamedSites): void {
     const { places, count } = this.#sites;
     const sheet = this.#bent;
-    this.#table.show({
+    this.#controls.show(named, {
       count,
       heads: ["*x*", "*y*", "Scale"],
       cells: (site) => {
         const [x, y] = [places[2 * site], places[2 * site + 1]];
-        const written = (value: number): string => (value < 0 ? `\u2212${length(-value)}` : length(value));
-        return [written(x), written(y), fixed(sheet.scale(x, y), 3)];
+        return [measured(x, sheet.diagonal), measured(y, sheet.diagonal), fixed(sheet.scale(x, y), 3)];
       },
       mark: (site) => (site === this.#p ? "P" : site === this.#q ? "Q" : ""),
     });
-    this.#table.hold([this.#p, this.#q].filter((site) => site !== null) as number[]);
+    this.#controls.table.hold([this.#p, this.#q].filter((site) => site !== null) as number[]);
   }
 
   // What can be done
@@ -401,13 +380,7 @@ class LiftRoom implements Room {
   // Files and what can be taken along
 
   open(file: File, exchange: Exchange): Promise<void> {
-    return exchange.openPoints(file, "plane", this.#host.messages, (points) => {
-      this.#host.guarded(() => {
-        this.#file = points.file;
-        this.#take(points.places, "own");
-        this.#host.changed(true);
-      });
-    });
+    return this.#controls.open(file, exchange);
   }
 
   sheet(): Sheet {
@@ -424,9 +397,10 @@ class LiftRoom implements Room {
   }
 
   python(exchange: Exchange): string {
+    const { set, file } = this.#controls.named;
     const shown = {
-      sides: SHEET_SIDES[this.#set],
-      file: this.#file,
+      sides: SHEET_SIDES[set],
+      file,
       height: this.#height,
       side: this.#side,
       p: this.#p,

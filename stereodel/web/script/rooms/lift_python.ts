@@ -2,9 +2,7 @@
 
 import type { Sheet } from "./lift_sheet.ts";
 import type { LiftSites } from "./lift_sites.ts";
-
-/** Sites beyond which the lines name a file in place of the places. */
-const MOST_WRITTEN = 200;
+import { MOST_WRITTEN, placesPython } from "./python_places.ts";
 
 /** What the picture shows beside the sites; degrees. */
 export interface Shown {
@@ -39,21 +37,10 @@ export function liftPython(sites: LiftSites, sheet: Sheet, shown: Shown): string
     "",
     read
       ? `points = np.loadtxt(${file}, delimiter=",", skiprows=1)  # the columns x and y`
-      : `points = np.array(${places(sites.places)})`,
+      : `points = ${placesPython(sites.places)}`,
     sides === undefined ? "lift = RectangleLift.fit(points)" : `lift = RectangleLift(${sides.join(", ")})`,
     "sheet = PlanarDelaunay(points)",
     ...(sheet.isFlat ? flat : ball),
     "",
   ].join("\n");
-}
-
-function places(values: Float64Array): string {
-  const rows = Array.from({ length: values.length / 2 }, (_, k) => `[${values[2 * k]}, ${values[2 * k + 1]}]`);
-  const lines: string[] = [];
-  for (const row of rows) {
-    const last = lines[lines.length - 1];
-    if (last !== undefined && last.length + row.length < 84) lines[lines.length - 1] = `${last} ${row},`;
-    else lines.push(`    ${row},`);
-  }
-  return lines.length === 0 ? "[]" : `[\n${lines.join("\n")}\n]`;
 }

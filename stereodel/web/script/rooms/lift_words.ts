@@ -1,6 +1,6 @@
 /** What the Lift room says: sentences whose numbers change. */
 
-import { fixed, several } from "../words.ts";
+import { counted, fixed, several } from "../words.ts";
 import { separationBounds } from "./lift_sheet.ts";
 import type { Sheet } from "./lift_sheet.ts";
 import type { LiftSites } from "./lift_sites.ts";
@@ -12,6 +12,7 @@ const SPACED = "\u2002";
 export interface Separation {
   /** In the plane, in its unit and in diagonals. */
   readonly distance: number;
+  readonly diagonal: number;
   readonly fraction: number;
   /** On the ball, degrees; null in the plane. */
   readonly angle: number | null;
@@ -26,12 +27,12 @@ export function separation(sites: LiftSites, sheet: Sheet, p: number, q: number)
   const distance = sites.distance(p, q);
   const fraction = Math.min(1, distance / sheet.diagonal);
   const between = sheet.isFlat ? null : angle(sheet.direction(px, py), sheet.direction(qx, qy));
-  return { distance, fraction, angle: between, ...separationBounds(fraction) };
+  return { distance, diagonal: sheet.diagonal, fraction, angle: between, ...separationBounds(fraction) };
 }
 
 /** The distances of a pair in the sheet and on the ball. */
-export function ofPair({ distance, fraction, angle }: Separation, corner: number): string {
-  const inSheet = `In the sheet _${length(distance)}_, which is _${fixed(fraction, 3)}_ of the diagonal.`;
+export function ofPair({ distance, diagonal, fraction, angle }: Separation, corner: number): string {
+  const inSheet = `In the sheet _${measured(distance, diagonal)}_, which is _${fixed(fraction, 3)}_ of the diagonal.`;
   if (angle === null) return `${inSheet} Bend it for an angle.`;
   const on = `_${fixed(angle, 1)}°_`;
   return corner === 90
@@ -47,9 +48,17 @@ export function ofBounds({ low, high, promised }: Separation): string {
   );
 }
 
-/** A length in the plane's unit: three decimals, or as many digits as small and large sheets need. */
-export function length(value: number): string {
-  return value === 0 || (value >= 0.01 && value < 1e6) ? fixed(value, 3) : value.toPrecision(4);
+/** Digits behind the point beyond which a sheet is too small to be written without a power of ten. */
+const MOST_DECIMALS = 12;
+
+/** A length or a coordinate in the plane's unit: four digits of the sheet's diagonal, whole numbers in groups of three. */
+export function measured(value: number, diagonal: number): string {
+  const size = diagonal || Math.abs(value) || 1;
+  const decimals = Math.max(0, 3 - Math.floor(Math.log10(size)));
+  if (decimals > MOST_DECIMALS || Math.abs(value) >= 1e15) return value.toPrecision(4).replace(/-/g, "\u2212");
+  const [whole, rest] = fixed(Math.abs(value), decimals).split(".");
+  const text = rest === undefined ? counted(Number(whole)) : `${counted(Number(whole))}.${rest}`;
+  return value < 0 && /[1-9]/.test(text) ? `\u2212${text}` : text;
 }
 
 /** Facets on the ball = triangles of the sheet + facets that see the pole. */

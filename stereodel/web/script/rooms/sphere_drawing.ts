@@ -11,6 +11,7 @@ import { MoebiusMap } from "../kernel/api.ts";
 import type { View } from "../view/view.ts";
 import type { Insertion } from "./insertion.ts";
 import { placeOf, traceGreat, tracePolygon, traceSides } from "./lines.ts";
+import type { PlaneFrame } from "./plane_frame.ts";
 import type { Vector } from "./space.ts";
 import type { Bubble, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
@@ -43,8 +44,6 @@ export interface SphereScene {
   readonly held: readonly number[];
   /** The step of the insertion that is looked at; "done" for the picture of all sites. */
   readonly step: Step | "done";
-  /** Half the side of the plane's frame, ball radii. */
-  readonly reach: number;
 }
 
 const BALL_LABEL: LabelStyle = { ink: "accent-text", halo: "ball", size: 15 };
@@ -177,29 +176,21 @@ function drawPole(pen: Pen, disc: Disc, { view, twin }: SphereScene): void {
   pen.label(text, x + (left ? -11 : 11), y + 5, { ...BALL_LABEL, align: left ? "right" : "left" });
 }
 
-/** Draws the plane into a square frame with its upper left corner at x, y. */
-export function drawPlane(pen: Pen, frame: { x: number; y: number; size: number }, scene: SphereScene): void {
-  const { sites, twin, reach } = scene;
-  const scale = frame.size / 2 / reach;
-  const place = ([u, v]: readonly [number, number]): [number, number] => [
-    frame.x + frame.size / 2 + scale * u,
-    frame.y + frame.size / 2 - scale * v,
-  ];
-  const flat = (k: number): [number, number] => place(twin.forward(sites.site(k)));
+/** Draws the plane into its frame. */
+export function drawPlane(pen: Pen, frame: PlaneFrame, scene: SphereScene): void {
+  const { sites, twin } = scene;
+  const flat = (k: number): [number, number] => frame.place(twin.forward(sites.site(k)));
   pen.clipped(
     (path) => traceFrame(path, frame),
     () => {
-      if (scene.step === "done") drawWholePlane(pen, frame, scene, place, flat);
+      if (scene.step === "done") drawWholePlane(pen, frame, scene, flat);
       else drawPlaneStep(pen, scene, scene.step, flat);
     },
   );
   pen.draw("frame", (path) => traceFrame(path, frame));
 }
 
-type Place = (uv: readonly [number, number]) => [number, number];
-type Frame = { readonly x: number; readonly y: number; readonly size: number };
-
-function traceFrame(path: Path, { x, y, size }: Frame): void {
+function traceFrame(path: Path, { x, y, size }: PlaneFrame): void {
   polygon(path, [
     [x, y],
     [x + size, y],
@@ -213,13 +204,7 @@ function polygon(path: Path, points: readonly (readonly [number, number])[]): vo
   if (points.length > 0) path.closePath();
 }
 
-function drawWholePlane(
-  pen: Pen,
-  frame: Frame,
-  scene: SphereScene,
-  place: Place,
-  flat: (k: number) => [number, number],
-): void {
+function drawWholePlane(pen: Pen, frame: PlaneFrame, scene: SphereScene, flat: (k: number) => [number, number]): void {
   const { sites, twin, seeing, shown, bubble, held } = scene;
   const outline = sites.outline(seeing).map(flat);
   if (shown.seeing && outline.length > 0) {
@@ -234,16 +219,16 @@ function drawWholePlane(
       eachPlaneEdge(sites.delaunay.simplices, seeing, (a, b) => line(path, flat(a), flat(b)));
     });
   }
-  if (shown.cells) pen.draw("voronoi", (path) => planeRidges(path, scene, place));
+  if (shown.cells) pen.draw("voronoi", (path) => planeRidges(path, frame, scene));
   if (shown.seeing) pen.draw("hull", (path) => polygon(path, outline));
-  if (bubble !== null) drawPlaneBubble(pen, frame, bubble, twin, place, flat);
+  if (bubble !== null) drawPlaneBubble(pen, frame, bubble, twin, flat);
   const places: number[] = [];
   for (let k = 0; k < sites.count; ++k) places.push(...flat(k));
   pen.dots("site", places);
   pen.dots("held", [...(bubble?.sites ?? []), ...held].flatMap(flat));
   if (bubble === null) return;
   const image = twin.circle(bubble.center, bubble.cosine);
-  if (image.kind === "line" || (image.radius * frame.size) / 2 / scene.reach < LEAST_CIRCLE) return;
+  if (image.kind === "line" || image.radius * frame.scale < LEAST_CIRCLE) return;
   for (const site of bubble.sites) {
     const [u, v] = twin.forward(sites.site(site));
     const out: [number, number] = [u - image.middle[0], v - image.middle[1]];
@@ -263,10 +248,9 @@ function counterclockwise(ring: readonly (readonly [number, number])[]): (readon
 
 function drawPlaneBubble(
   pen: Pen,
-  frame: Frame,
+  frame: PlaneFrame,
   bubble: Bubble,
   twin: Twin,
-  place: Place,
   flat: (k: number) => [number, number],
 ): void {
   const image = twin.circle(bubble.center, bubble.cosine);
@@ -274,11 +258,13 @@ function drawPlaneBubble(
     const [a, b] = image.normal;
     const size = a * a + b * b;
     const [u, v] = [(a * image.offset) / size, (b * image.offset) / size];
-    pen.draw("bubble-open", (path) => line(path, place([u - 1e3 * b, v + 1e3 * a]), place([u + 1e3 * b, v - 1e3 * a])));
+    pen.draw("bubble-open", (path) =>
+      line(path, frame.place([u - 1e3 * b, v + 1e3 * a]), frame.place([u + 1e3 * b, v - 1e3 * a])),
+    );
     return;
   }
-  const [x, y] = place(image.middle);
-  const r = Math.abs(place([image.middle[0] + image.radius, 0])[0] - x);
+  const [x, y] = frame.place(image.middle);
+  const r = image.radius * frame.scale;
   const ring = (path: Path): void => {
     path.moveTo(x + r, y);
     path.ellipse(x, y, r, r, 0, 2 * Math.PI, 0, true);
@@ -293,7 +279,7 @@ function drawPlaneBubble(
 }
 
 /** Ridges between the triangles of the plane, and rays where one has no neighbour: the centres are those of its circles. */
-function planeRidges(path: Path, { sites, twin, seeing, reach }: SphereScene, place: Place): void {
+function planeRidges(path: Path, frame: PlaneFrame, { sites, twin, seeing }: SphereScene): void {
   const { simplices, neighbors } = sites.delaunay;
   const middles = new Map<number, readonly [number, number]>();
   const middle = (facet: number): readonly [number, number] => {
@@ -311,15 +297,15 @@ function planeRidges(path: Path, { sites, twin, seeing, reach }: SphereScene, pl
     const beyond = neighbors[at];
     if (seeing[facet] || (!seeing[beyond] && beyond < facet)) continue;
     if (!seeing[beyond]) {
-      line(path, place(middle(facet)), place(middle(beyond)));
+      line(path, frame.place(middle(facet)), frame.place(middle(beyond)));
       continue;
     }
     // The side opposite the corner runs counterclockwise: outward is to its right.
     const [a, b] = [1, 2].map((k) => twin.forward(sites.site(simplices[3 * facet + ((at + k) % 3)])));
     const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
     const [u, v] = middle(facet);
-    const far = (4 * reach + Math.hypot(u, v)) / length;
-    line(path, place([u, v]), place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
+    const far = (4 * frame.reach + Math.hypot(u, v)) / length;
+    line(path, frame.place([u, v]), frame.place([u + far * (b[1] - a[1]), v - far * (b[0] - a[0])]));
   }
 }
 

@@ -1,10 +1,8 @@
 /** The Python lines that make the picture of the Sphere room. */
 
 import { writeNumber } from "../link.ts";
+import { MOST_WRITTEN, placesPython } from "./python_places.ts";
 import type { SphereSites } from "./sphere_sites.ts";
-
-/** Sites beyond which the lines name a file in place of the places. */
-const MOST_WRITTEN = 200;
 
 /** What the picture shows beside the sites; degrees. */
 export interface Shown {
@@ -27,7 +25,9 @@ export function spherePython(sites: SphereSites, { file, pole, view, aim }: Show
     "from stereodel.sphere import SphereCircle",
     "from stereodel.triangulation.theorem import planar_part",
     "",
-    read ? `lonlat = read_points(${JSON.stringify(file ?? "sites.csv")}).lonlat` : `lonlat = ${places(sites.lonlat)}`,
+    read
+      ? `lonlat = read_points(${JSON.stringify(file ?? "sites.csv")}).lonlat`
+      : `lonlat = ${placesPython(sites.lonlat)}`,
     "delaunay = SphericalDelaunay.from_lonlat(lonlat)",
     "voronoi = SphericalVoronoi(delaunay)",
     "",
@@ -59,16 +59,4 @@ export function spherePython(sites: SphereSites, { file, pole, view, aim }: Show
 
 function pair([lon, lat]: readonly [number, number]): string {
   return `(${writeNumber(lon, 4)}, ${writeNumber(lat, 4)})`;
-}
-
-/** Places as a list of Python, in lines of at most 88 letters. */
-function places(lonlat: Float64Array): string {
-  const rows = Array.from({ length: lonlat.length / 2 }, (_, k) => `[${lonlat[2 * k]}, ${lonlat[2 * k + 1]}]`);
-  const lines: string[] = [];
-  for (const row of rows) {
-    const last = lines[lines.length - 1];
-    if (last !== undefined && last.length + row.length < 84) lines[lines.length - 1] = `${last} ${row},`;
-    else lines.push(`    ${row},`);
-  }
-  return lines.length === 0 ? "np.zeros((0, 2))" : `[\n${lines.join("\n")}\n]`;
 }

@@ -1,6 +1,6 @@
 /** What the Sphere room says: sentences whose numbers change. */
 
-import { fixed, several } from "../words.ts";
+import { fixed, latitude, longitude, several } from "../words.ts";
 import type { Insertion } from "./insertion.ts";
 import type { Bubble, SphereSites } from "./sphere_sites.ts";
 import type { Twin } from "./twin.ts";
@@ -77,4 +77,10 @@ export function ofDuplicates(sites: SphereSites): string {
   const first = `Site _${duplicates[0] + 1}_ lies exactly on site _${duplicates[1] + 1}_ and counts once.`;
   const others = duplicates.length / 2 - 1;
   return others > 0 ? `${first} There ${others === 1 ? "is" : "are"} ${several(others, "more such site")}.` : first;
+}
+
+/** A site for those who do not see it: its number, its name, its place, how many neighbours it has. */
+export function ofSite({ lonlat, neighborCounts }: SphereSites, site: number, name?: string): string {
+  const place = `${latitude(lonlat[2 * site + 1])}, ${longitude(lonlat[2 * site])}`;
+  return `Site ${site + 1}${name ? `, ${name}` : ""}, ${place}, ${neighborCounts[site]} neighbours`;
 }

@@ -23,7 +23,8 @@ export interface Gestures {
   /** The pointer without a press, or that it is gone. */
   hover?(at: Place | null): void;
   click?(at: Place, reach: number): void;
-  doubleClick?(at: Place): void;
+  /** Instead of the second click. */
+  doubleClick?(at: Place, reach: number): void;
   /** The first finger's hold is let go. */
   pinch?(middle: Place, spread: number): Pinch;
   /** The wheel, while the drawing has the focus: factors above 1 magnify. */
@@ -152,7 +153,7 @@ class Hand {
     const { doubleClick } = this.#gestures;
     if (doubleClick && last && time - last.time < DOUBLE.time && distance(last.at, finger.at) < DOUBLE.distance) {
       this.#lastClick = null;
-      doubleClick(finger.at);
+      doubleClick(finger.at, reachOf(finger.touch));
       return;
     }
     this.#lastClick = { at: finger.at, time };

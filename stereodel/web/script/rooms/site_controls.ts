@@ -1,0 +1,152 @@
+/** What the rooms of sites have in common: the list of sets, the switches, the table, and what a link calls the sites. */
+
+import { find } from "../dom.ts";
+import type { Exchange } from "../exchange.ts";
+import { MOST_SITES, packPlaces } from "../link.ts";
+import type { LinkValues } from "../link.ts";
+import type { RoomHost } from "../room.ts";
+import type { SiteSet } from "../sets.ts";
+import { SiteTable } from "../table.ts";
+import type { Rows } from "../table.ts";
+import { counted } from "../words.ts";
+import { listSets, showSet, Switches, tellNamed } from "./controls.ts";
+
+/** The name of sites that are no set of the list: opened, or changed by hand. */
+const OWN = "own";
+
+/** Sites, the set that they are, and the file that they were read from. */
+export interface NamedSites {
+  /** Pairs of coordinates, (n, 2) flat. */
+  readonly places: Float64Array;
+  /** Of the sites, where their file has such a column. */
+  readonly names: readonly string[] | null;
+  readonly set: string;
+  readonly file: string | null;
+}
+
+/** Sites of no file, of a link or changed by hand. */
+export function ownSites(places: Float64Array, names: readonly string[] | null = null): NamedSites {
+  return { places, names, set: OWN, file: null };
+}
+
+function ofSet(set: SiteSet): NamedSites {
+  return { places: set.make(), names: set.names ?? null, set: set.name, file: null };
+}
+
+/** What the room does about its sites. */
+export interface SiteActions {
+  /** Other sites are there: a set of the list, or a file. */
+  begin(named: NamedSites): void;
+  /** The number of a site was pressed. */
+  chosen(site: number): void;
+  /** The pointer or the focus is on another row. */
+  pointed(): void;
+  /** Something is drawn, or no longer. */
+  switched(): void;
+}
+
+export class SiteControls {
+  readonly table: SiteTable;
+  readonly #section: HTMLElement;
+  readonly #host: RoomHost;
+  readonly #sets: readonly SiteSet[];
+  readonly #kind: "lonlat" | "plane";
+  readonly #switches: Switches;
+  readonly #select: HTMLSelectElement;
+  readonly #actions: SiteActions;
+  #named = ownSites(new Float64Array(0));
+  #lit: number | null = null;
+
+  /** @param kind What the coordinates of the sites are. @param switches Names of what can be left out of the drawing. */
+  constructor(
+    section: HTMLElement,
+    host: RoomHost,
+    sets: readonly SiteSet[],
+    kind: "lonlat" | "plane",
+    switches: readonly string[],
+    actions: SiteActions,
+  ) {
+    [this.#section, this.#host, this.#sets, this.#kind, this.#actions] = [section, host, sets, kind, actions];
+    this.table = new SiteTable(find(section, ".sites"), {
+      chosen: (site) => actions.chosen(site),
+      pointed: (site) => {
+        this.#lit = site;
+        actions.pointed();
+      },
+    });
+    this.#switches = new Switches(section, switches, () => {
+      actions.switched();
+      host.changed();
+    });
+    this.#select = listSets(section, sets, (set) => this.#begin(ofSet(set)));
+  }
+
+  /** What the sites are called. */
+  get named(): NamedSites {
+    return this.#named;
+  }
+
+  /** The site whose row the pointer or the focus is on. */
+  get lit(): number | null {
+    return this.#lit;
+  }
+
+  /** Whether something is drawn. */
+  isOn(name: string): boolean {
+    return this.#switches.isOn(name);
+  }
+
+  /** What a link says of the sites and of the switches. */
+  toValues(): Record<string, string> {
+    const { places, set, file } = this.#named;
+    const { turned } = this.#switches;
+    const sites: Record<string, string> =
+      set !== OWN
+        ? { set }
+        : places.length <= 2 * MOST_SITES
+          ? { sites: packPlaces(places) }
+          : { file: file ?? "sites" };
+    return turned === "" ? sites : { ...sites, turned };
+  }
+
+  /**
+   * The sites of a link; nothing is shown yet.
+   *
+   * @throws LinkError where they cannot be read.
+   */
+  fromValues(values: LinkValues): NamedSites {
+    const name = values.word("set", [...this.#sets.map((set) => set.name), OWN], this.#sets[0].name);
+    const places = this.#kind === "plane" ? values.places("sites") : values.lonlat("sites");
+    if (places !== null) return ownSites(places);
+    return ofSet(this.#sets.find((set) => set.name === name) ?? this.#sets[0]);
+  }
+
+  /** Turns the switches as a link says, and tells what it names and does not hold. */
+  restore(values: LinkValues): void {
+    this.#switches.turned = values.text("turned", "");
+    tellNamed(this.#host.messages, values, "file");
+  }
+
+  /** Shows what the sites are called, how many there are, and the table. */
+  show(named: NamedSites, rows: Omit<Rows, "names">): void {
+    this.#named = named;
+    showSet(this.#select, named.set, named.set === OWN ? (named.file ?? "Your own sites") : null);
+    const { count } = rows;
+    find(this.#section, "[data-out=count]").textContent =
+      count === 0 ? "No sites" : count === 1 ? "The site" : `The ${counted(count)} sites`;
+    this.table.show({ ...rows, names: named.names });
+  }
+
+  open(file: File, exchange: Exchange): Promise<void> {
+    return exchange.openPoints(file, this.#kind, this.#host.messages, (points) =>
+      this.#begin({ ...ownSites(points.places, points.names), file: points.file }),
+    );
+  }
+
+  #begin(named: NamedSites): void {
+    this.#host.guarded(() => {
+      this.#actions.begin(named);
+      this.#host.changed(true);
+    });
+  }
+}

@@ -1,0 +1,102 @@
+/** The state of the Sphere room but for its sites, and how a link tells it. */
+
+import { lonlatToXyz } from "../kernel/api.ts";
+import { writeNumber } from "../link.ts";
+import type { LinkValues } from "../link.ts";
+import { wrap } from "../words.ts";
+import { lonLatOf, row } from "./space.ts";
+import type { Vector } from "./space.ts";
+
+/** Longitude and latitude, degrees. */
+export type Place = readonly [number, number];
+
+export const CLICKS = ["keep", "add", "remove"] as const;
+
+/** What a click does. */
+export type Click = (typeof CLICKS)[number];
+
+/** How the room begins: degrees. */
+export const POLE: Place = [-150, 53.1];
+export const VIEW: Place = [0, 0];
+const AIM: Place = [-9.94, 3.49];
+
+/** Decimals of a degree to which the view is held: what they leave out is invisible, so a link shows the same pixels. */
+const VIEW_DECIMALS = 4;
+
+/** Decimals of a degree to which the hand moves things. */
+const HAND_DECIMALS = 3;
+
+export interface SphereState {
+  readonly pole: Place;
+  readonly view: Place;
+  /** Where the pointer was last, and whether the bubble there is kept. */
+  readonly aim: Vector;
+  readonly isPinned: boolean;
+  /** Sites that are inserted; null for all of them, drawn as what they are in the end. */
+  readonly step: number | null;
+  readonly click: Click;
+}
+
+/** The values of a link; what is as in the beginning is left out. */
+export function toValues({ pole, view, aim, isPinned, step, click }: SphereState): Record<string, string> {
+  const values: Record<string, string> = {};
+  const put = (name: string, value: Place, otherwise: Place): void => {
+    if (value[0] === otherwise[0] && value[1] === otherwise[1]) return;
+    values[`${name}-lon`] = writeNumber(value[0], VIEW_DECIMALS);
+    values[`${name}-lat`] = writeNumber(value[1], VIEW_DECIMALS);
+  };
+  put("pole", pole, POLE);
+  put("view", view, VIEW);
+  if (isPinned) {
+    put("aim", handPlace(aim), AIM);
+    values["pin"] = "1";
+  }
+  if (step !== null) values["step"] = String(step);
+  if (click !== "keep") values["click"] = click;
+  return values;
+}
+
+/**
+ * The state that a link tells of `count` sites.
+ *
+ * @throws LinkError where it cannot be read.
+ */
+export function fromValues(values: LinkValues, count: number): SphereState {
+  const place = (name: string, otherwise: Place): Place => [
+    values.number(`${name}-lon`, -360, 360, otherwise[0]),
+    values.number(`${name}-lat`, -90, 90, otherwise[1]),
+  ];
+  const step = values.whole("step", 1, count, 0);
+  return {
+    pole: place("pole", POLE),
+    view: place("view", VIEW),
+    aim: directionAt(place("aim", AIM)),
+    isPinned: values.has("pin"),
+    step: step === 0 || step === count ? null : step,
+    click: values.word("click", CLICKS, "keep"),
+  };
+}
+
+/** The direction of a place, as the kernel and Python have it. */
+export function directionAt([lon, lat]: Place): Vector {
+  return row(lonlatToXyz([lon, lat]), 0);
+}
+
+/** The place of a direction, as the hand sets it. */
+export function handPlace(direction: Vector): Place {
+  return rounded(lonLatOf(direction), HAND_DECIMALS);
+}
+
+/** A place that something is moved to, as the hand sets it. */
+export function setPlace([lon, lat]: Place): Place {
+  return rounded([wrap(lon), lat], HAND_DECIMALS);
+}
+
+/** A view as a link holds it. */
+export function viewPlace([lon, lat]: Place): Place {
+  return rounded([wrap(lon), lat], VIEW_DECIMALS);
+}
+
+function rounded([lon, lat]: Place, decimals: number): Place {
+  return [Number(lon.toFixed(decimals)), Number(lat.toFixed(decimals))];
+}
