@@ -4,6 +4,12 @@
 
 Needs what `make web` installs; the peers are among the libraries of stereodel/web/script. Writes
 benchmarks/web_kernel.json and the tables in docs/javascript.md.
+
+What each side gives. The module: triangles and their neighbours; cells as offsets, vertices and the sites beyond, the
+vertices as unit vectors, where exactly cocircular triangles share one; all in flat arrays that are copied out of the
+module. d3-geo-voronoi makes everything in one call: triangles, edges, neighbours, centres, polygons, mesh and hull as
+arrays of arrays in degrees; edges and hull are more than a third of it. `polygons()` adds polygons as GeoJSON. Only
+`geoDelaunay` of the module, asked for all of it, gives the same arrays.
 """
 
 from __future__ import annotations
@@ -99,11 +105,11 @@ def ratios(rows: list[Row]) -> Row:
     return {
         "web : native, sphere": last["sphere"] / last["native sphere"],
         "web : native, cells": last["cells"] / last["native cells"],
-        "d3-geo-voronoi : web, triangles alone": last["d3, theirs"] / last["sphere"],
-        "d3-geo-voronoi : web, triangles and cells": last["d3, theirs"] / last["both"],
-        "d3-geo-voronoi : web, polygons of all cells from longitude and latitude": last["d3, polygons"]
+        "d3-geo-voronoi, all : web, triangles and their neighbours": last["d3, theirs"] / last["sphere"],
+        "d3-geo-voronoi, all : web, triangles and cells with their neighbours": last["d3, theirs"] / last["both"],
+        "d3-geo-voronoi, all and `polygons()` : web, cells from longitude and latitude": last["d3, polygons"]
         / last["polygons"],
-        "d3-geo-voronoi : web, everything as `geoDelaunay` has it": last["d3, theirs"] / last["d3, ours"],
+        "d3-geo-voronoi, all : web, all as `geoDelaunay` has it": last["d3, theirs"] / last["d3, ours"],
         "delaunator : web, plane": last["delaunator"] / last["plane"],
     }
 

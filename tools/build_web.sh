@@ -18,7 +18,7 @@ quietly() { "$@" >"$work/log" 2>&1 || { cat "$work/log" >&2; exit 1; }; }
 source tools/zig_environment.sh
 echo "Building the kernel for the web with zig $("$zig" version)" >&2
 rm -f "$work/cmake/CMakeCache.txt"
-# A third fewer bytes for a tenth more time. Zig takes -Oz for -Os: hence the word for clang itself.
+# For few bytes, but for what CMakeLists.txt names. Zig takes -Oz for -Os: hence the word for clang itself.
 mapfile -t defines < <(zig_cmake wasm32-wasi)
 quietly cmake -S . -B "$work/cmake" -G Ninja "${defines[@]/#/-D}" \
     -DCMAKE_CXX_FLAGS_RELEASE="-Os -Xclang -Oz -DNDEBUG" -DSTEREODEL_DEVELOPMENT=ON -DSTEREODEL_MODULE=OFF \

@@ -14,9 +14,10 @@
 namespace stereodel {
 
 // Asks for memory that will be used soon; any address will do. GCC takes a function that does nothing else for one
-// without effect and drops the call: hence the empty statement, which counts as an effect.
+// without effect and drops the call: hence the empty statement, which counts as an effect. WebAssembly has no such
+// instruction.
 inline void prefetch(const void* address) {
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__wasm__)
     __builtin_prefetch(address);
     __asm__ volatile("");
 #else

@@ -112,10 +112,10 @@ def test_side_of_a_plane(spread, change):
         vectors = change(normalised(vectors))
         rays = [[ray(v) for v in array.tolist()] for array in vectors]
         truth = np.array([bubble_ray(*row) for row in zip(*rays, strict=True)])
-        signs = probe.bubble_plane_filter(*vectors)
+        signs = probe.bubble_plane(*vectors)
         assert ((signs == truth) | (signs == OPEN)).all()
     if spread >= 1e-6:
-        assert (probe.bubble_plane_filter(*change(normalised(cluster(spread)))) == OPEN).mean() < 0.1
+        assert (probe.bubble_plane(*change(normalised(cluster(spread)))) == OPEN).mean() < 0.1
 
 
 @pytest.mark.parametrize("spread", [2.0**-17.5, 2.0**-16, 2.0**-12, 2.0**-5])

@@ -180,6 +180,9 @@ def test_wrong_arrays_are_refused():
         _kernel.sphere.voronoi(np.eye(3), np.array([[0, 1, 3]], dtype=np.int32), np.full((1, 3), -1, dtype=np.int32))
     with pytest.raises(ValueError, match="same length"):
         _kernel.sphere.voronoi(np.eye(3), np.array([[0, 1, 2]], dtype=np.int32), np.zeros((0, 3), dtype=np.int32))
+    apart = np.full((8, 3), -1, dtype=np.int32)  # as if each triangle were alone
+    with pytest.raises(ValueError, match="neighbors do not fit the simplices"):
+        _kernel.sphere.voronoi(diagram.points, SphericalDelaunay(diagram.points).simplices, apart)
     rows = np.array([[0, 1, 2], [0, 2, 1]], dtype=np.int32)
     for place in ([0, 0], [0, 2], [0], [-1, 0]):
         with pytest.raises(ValueError, match=r"a second time|out of range|must be a permutation"):

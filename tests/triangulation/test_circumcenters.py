@@ -27,6 +27,19 @@ def cross(p, q):
 # The sphere ----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("count", [1, 31, 32, 33, 64, 70])
+def test_rows_have_the_centres_that_they_have_alone(count):
+    # They are taken by blocks; some are needles, which a block leaves to other arithmetic.
+    rng = np.random.default_rng(count)
+    points = rng.normal(size=(3 * count, 3))
+    points[3::15] = points[4::15] * (1 + rng.random((len(points[4::15]), 1)))
+    points[3::15, 0] *= 1 + 1e-13
+    rows, place = np.arange(3 * count, dtype=np.int32).reshape(-1, 3), rng.permutation(count).astype(np.int32)
+    alone = np.array([normal_of(points[row]) for row in rows])
+    np.testing.assert_array_equal(_kernel.sphere.circumcenters(points, rows), alone)
+    np.testing.assert_array_equal(_kernel.sphere.circumcenters(points, rows, place)[place], alone)
+
+
 def unit(vector):
     length = mp.sqrt(mp.fsum(x * x for x in vector))
     return [x / length for x in vector]

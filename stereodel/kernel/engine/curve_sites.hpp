@@ -124,8 +124,7 @@ class CurveSites {
             poll();
             return compare(a, b);
         };
-        const auto number = [this](Index a) { return source_[a]; };
-        const std::size_t kept = stereodel::sort_and_drop(order, polling, number, duplicates);
+        const std::size_t kept = stereodel::sort_and_drop(order, Comparison(polling), source_, duplicates);
         reorder(low, high, [&](Index k) { return order[static_cast<std::size_t>(k)]; });
         return static_cast<Index>(kept);
     }

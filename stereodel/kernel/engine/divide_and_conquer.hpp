@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "engine/edges.hpp"
 #include "threads.hpp"
@@ -158,7 +159,14 @@ class DivideAndConquer {
     // Three points on a line: the middle one is joined to both others.
     Index path(FreeBlocks& free, Index low) {
         Index order[3] = {low, low + 1, low + 2};
-        std::sort(order, order + 3, [this](Index a, Index b) { return sites_.before(a, b, Axis::x); });
+        const auto sort_two = [this](Index& a, Index& b) {
+            if (sites_.before(b, a, Axis::x)) {
+                std::swap(a, b);
+            }
+        };
+        sort_two(order[0], order[1]);
+        sort_two(order[1], order[2]);
+        sort_two(order[0], order[1]);
         const Index first = edges_.make(free, order[0], order[1]), second = edges_.make(free, order[1], order[2]);
         edges_.insert_after(second, first ^ 1);
         return first;

@@ -52,7 +52,7 @@ Triangulation flat(Rays& rays, Index count, Stop stop) {
         return rays.compare(a, b);
     };
     Triangulation result;
-    const std::size_t distinct = sort_and_drop(order, compare, [](Index a) { return a; }, result.duplicates);
+    const std::size_t distinct = sort_and_drop(order, Comparison(compare), nullptr, result.duplicates);
     std::sort(result.duplicates.begin(), result.duplicates.end());
     result.dimension = static_cast<int>(std::min<std::size_t>(distinct, 2)) - 1;
     return result;

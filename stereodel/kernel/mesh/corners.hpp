@@ -7,6 +7,14 @@
 
 namespace stereodel::mesh {
 
+// The places after and before one, counterclockwise: by a choice, which costs less than a remainder.
+inline std::size_t place_after(std::size_t place) {
+    return place == 2 ? 0 : place + 1;
+}
+inline std::size_t place_before(std::size_t place) {
+    return place == 0 ? 2 : place - 1;
+}
+
 // Place of a vertex that is one of the corners. By branches: who walks around the vertex goes on with a guess before
 // the corners have come from memory.
 inline std::size_t place_of(const Index* corner, Index vertex) {

@@ -106,7 +106,7 @@ std::vector<Index> different_ones(std::size_t count, Stop stop, Compare&& compar
         return compare(a, b);
     };
     Pairs duplicates;
-    order.resize(sort_and_drop(order, patiently, [](Index k) { return k; }, duplicates));
+    order.resize(sort_and_drop(order, Comparison(patiently), nullptr, duplicates));
     return order;
 }
 

@@ -156,7 +156,7 @@ Pair volume(const Edge& db, const Edge& dc, const Edge& dp) {
     return result;
 }
 
-// The side of the plane, as in `bubble_plane_filter`, with the lengths: a third of the work of the curvature form, but
+// The side of the plane, as of a `BubblePlane`, with the lengths: a third of the work of the curvature form, but
 // open where points are very close. Of vectors of length one as they stand.
 //
 // The first line of the proof in ray_stages.hpp, divided by |a|, is

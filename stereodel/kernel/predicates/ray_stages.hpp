@@ -104,21 +104,35 @@ inline Estimate bubble_estimate(const double* a, const double* b, const double* 
     return curvature_form(a, db, dc, dp, BUBBLE_ROUNDING * UNIT_ROUNDOFF, plane::FLOOR);
 }
 
-// The same test as the side of the plane of a, b, c on which p lies: a third of the work, less sharp. It is open where
-// points are 2^-22 or so apart.
+// The same test as the side of the plane of a, b, c on which p lies: a third of the work, less sharp, and half of that
+// is done once for all p. It is open where points are 2^-22 or so apart.
 //
 // The three differences from a have lengths of at most 2.01 and are off by their roundings, u of that, and by the
 // lengths of the vectors, 2^-49 twice: by less than e = 1.1 * 2^-48. With S the sum of their squares this moves the
 // determinant by at most e (|b||c| + |c||p| + |p||b|) + e^2 (|b| + |c| + |p|) + e^3 <= 1.5 e S + 2.5 e^3, since
 // e |b| <= (e^2 + |b|^2)/2. Each of its six terms is rounded five times: at most 5.01u ROOT_TWO |b||c||p| <= 7.3u S.
 // Together less than 1.9 * 2^-48 S + 2^-141, and what underflow loses is far below the constant.
-inline Sign bubble_plane_filter(const double* a, const double* b, const double* c, const double* p) {
-    const double db[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const double dc[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    const double dp[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
-    const double squares = dot_form(db, db) + dot_form(dc, dc) + dot_form(dp, dp);
-    return decide(determinant_form(dp, db, dc), 0x1p-47 * squares + 0x1p-140);
-}
+class BubblePlane {
+  public:
+    BubblePlane() = default;
+    BubblePlane(const double* a, const double* b, const double* c) {
+        const double u[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+        const double v[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        normal_[0] = u[1] * v[2] - u[2] * v[1];
+        normal_[1] = u[2] * v[0] - u[0] * v[2];
+        normal_[2] = u[0] * v[1] - u[1] * v[0];
+        squares_ = dot_form(u, u) + dot_form(v, v);
+    }
+
+    // The test of a, b, c and p, a being the first corner.
+    Sign side(const double* a, const double* p) const {
+        const double d[3] = {p[0] - a[0], p[1] - a[1], p[2] - a[2]};
+        return decide(dot_form(d, normal_), 0x1p-47 * (squares_ + dot_form(d, d)) + 0x1p-140);
+    }
+
+  private:
+    double normal_[3], squares_;
+};
 
 // Of normalised directions.
 Estimate bubble_estimate(const Direction& a, const Direction& b, const Direction& c, const Direction& p);

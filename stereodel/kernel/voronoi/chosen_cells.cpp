@@ -201,7 +201,7 @@ ChosenCells chosen_cells_sphere(const double* points, std::size_t sites, const I
                                 Stop stop) {
     const bool unit = all_unit(points, sites);
     return chosen_cells(sites, simplices, neighbors, triangles, ids, chosen, count, stop,
-                        [&] { return SphereView{Rays(points, unit)}; });
+                        [&] { return SphereView(Rays(points, unit)); });
 }
 
 }  // namespace stereodel::voronoi

@@ -1,30 +1,13 @@
 #include "voronoi/circumcenters.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <stdexcept>
 
-#include "arithmetic/ball.hpp"
-#include "arithmetic/integer_quotients.hpp"
 #include "memory.hpp"
-#include "predicates/plane_forms.hpp"
-#include "predicates/ray_integers.hpp"
+#include "voronoi/careful_circumcenters.hpp"
 #include "voronoi/unit_vectors.hpp"
 
 namespace stereodel::voronoi {
-
-namespace plane = predicates::plane;
-using arithmetic::Ball;
-using arithmetic::BigInteger;
-using arithmetic::EVERY_EXPONENT;
-using arithmetic::IntegerRoot;
-using arithmetic::integer_root;
-using arithmetic::lowest_exponent;
-using arithmetic::round_quotient;
-using arithmetic::round_unit;
-
 namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 13;
@@ -60,165 +43,109 @@ bool planar_center(const double* a, const double* b, const double* c, double* ce
     return true;
 }
 
-// Of three sides in cyclic order, side k from corner k: the corner opposite to the longest. Differences from there are
-// the shorter sides, so that nothing cancels in their product but for flatness.
-template <class Side, class IsShorter>
-std::size_t opposite_to_longest(const Side* sides, IsShorter&& is_shorter) {
-    std::size_t longest = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-        if (is_shorter(sides[longest], sides[k])) {
-            longest = k;
+// Corners of some rows as unit vectors, coordinates apart, so that compilers put rows side by side into registers.
+struct CornerBlock {
+    static constexpr std::size_t size = 32;
+
+    double high[3][3][size], low[3][3][size];  // corner, coordinate, row
+
+    void put(std::size_t corner, std::size_t row, const UnitVector& unit) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            high[corner][i][row] = unit.hi[i];
+            low[corner][i][row] = unit.lo[i];
         }
     }
-    return (longest + 2) % 3;
-}
 
-// The same in ball arithmetic: for triangles of any size, and for those that are flat since their coordinates are of
-// very different size.
-bool careful_planar_center(const double* const* corners, double* center) {
-    struct Side {
-        Ball x, y, square;
-
-        Side(const double* from, const double* to)
-            : x(Ball(to[0]) - Ball(from[0])), y(Ball(to[1]) - Ball(from[1])),
-              square(plane::square_form(x, y)) {}
-    };
-    const Side sides[3] = {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}};
-    const std::size_t base = opposite_to_longest(
-        sides, [](const Side& p, const Side& q) { return is_shorter(p.square, q.square); });
-    const Side &d = sides[base], &e = sides[(base + 2) % 3];  // e is the way back
-    const Ball half = plane::cross_form(e.x, e.y, d.x, d.y), divisor = half + half;
-    const Ball x = Ball(corners[base][0]) - (e.y * d.square + d.y * e.square) / divisor;
-    const Ball y = Ball(corners[base][1]) + (d.x * e.square + e.x * d.square) / divisor;
-    return x.round(center[0]) && y.round(center[1]);
-}
-
-// The same by integers, one quotient for each coordinate, rounded once.
-void exact_planar_center(const double* a, const double* b, const double* c, double* center) {
-    int exponent = EVERY_EXPONENT;
-    for (const double* corner : {a, b, c}) {
-        exponent = std::min({exponent, lowest_exponent(corner[0]), lowest_exponent(corner[1])});
+    UnitVector unit(std::size_t corner, std::size_t row) const {
+        const auto &h = high[corner], &l = low[corner];
+        return {{h[0][row], h[1][row], h[2][row]}, {l[0][row], l[1][row], l[2][row]}};
     }
-    const auto integer = [exponent](double x) { return BigInteger::from_double(x, exponent); };
-    const BigInteger x = integer(a[0]), y = integer(a[1]);
-    const BigInteger d[2] = {integer(b[0]) - x, integer(b[1]) - y}, e[2] = {integer(c[0]) - x, integer(c[1]) - y};
-    const BigInteger dd = plane::square_form(d[0], d[1]), ee = plane::square_form(e[0], e[1]);
-    const BigInteger divisor = plane::cross_form(d[0], d[1], e[0], e[1]).shifted(1);
-    if (divisor.sign() == 0) {
-        throw std::invalid_argument("triangles: three corners on one line have no circumcentre");
-    }
-    center[0] = round_quotient(x * divisor + (e[1] * dd - d[1] * ee), divisor, exponent);
-    center[1] = round_quotient(y * divisor + (d[0] * ee - e[0] * dd), divisor, exponent);
-}
+};
+
+// The centre in each coordinate, and what is positive where it holds.
+struct CenterBlock {
+    double center[3][CornerBlock::size], margin[CornerBlock::size];
+};
 
 // d x e of unit vectors' differences. They are off by 2^-100 each, the product by sqrt(3) 2^-100 (|d| + |e|) and some
 // 2^-99 |d||e|: at 2^-44 (|d| + |e|), less than 2^-55 of it. Low parts of the product are below 4u |d||e|: of a product
 // above 2^-22 (|d| + |e|)^2, and so 2^-20 |d||e|, less than 2^-31. Needles are left open.
-bool spherical_center(const UnitVector& a, const UnitVector& b, const UnitVector& c, double* center) {
-    const PairedEdge d(a, b), e(a, c);
-    Pair normal[3];
-    for (int k = 0; k < 3; ++k) {
-        const int i = (k + 1) % 3, j = (k + 2) % 3;
-        normal[k] = d.v[i] * e.v[j] - d.v[j] * e.v[i];
-    }
-    const double sides = std::sqrt(length_squared(d.v)) + std::sqrt(length_squared(e.v)), sides2 = sides * sides;
-    if (!(length_squared(normal) > std::max(0x1p-88 * sides2, 0x1p-44 * sides2 * sides2))) {
-        return false;
-    }
-    round_unit(normal, center);
-    return true;
-}
-
-// The same with differences of relative accuracy. The product of two of length up to 2 is off by less than 2^-95 of the
-// larger loss, and by less than 2^-54 of itself if it is 2^41 times as long. Below 2^-900 the underflow of a
-// `Direction`, 2^-1070, would count.
-bool normal_of_edges(const RayEdge& d, const RayEdge& e, double* center) {
-    DoubleDouble product[3];
-    cross(d.v, e.v, product);
-    const Pair normal[3] = {
-        {product[0].hi, product[0].lo}, {product[1].hi, product[1].lo}, {product[2].hi, product[2].lo}};
-    if (!(std::sqrt(length_squared(normal)) > 0x1p-41 * std::max(d.loss, e.loss)) ||
-        std::min(d.exponent, e.exponent) < -900) {
-        return false;
-    }
-    round_unit(normal, center);
-    return true;
-}
-
-// For corners of which two or all are close together. Two long sides are nearly parallel where the third is short: that
-// one must be one of the two.
-bool close_center(const double* a, const double* b, const double* c, double* center) {
-    const Ray ra(a), rb(b), rc(c);
-    const RayEdge ab(ra, rb), ca(rc, ra);
-    if (normal_of_edges(ca, ab, center)) {
-        return true;
-    }
-    const RayEdge bc(rb, rc);
-    return ab.exponent < ca.exponent ? normal_of_edges(ab, bc, center) : normal_of_edges(bc, ca, center);
-}
-
-// |a| b x c + |b| c x a + |c| a x b, for integer vectors a, b, c along the directions.
-struct IntegerNormal {
-    std::array<BigInteger, 3> squares;                  // |a|^2, ...
-    std::array<std::array<BigInteger, 3>, 3> products;  // b x c, ...
-
-    IntegerNormal(const double* a, const double* b, const double* c) {
-        const rays::IntegerRay rays[3] = {rays::IntegerRay(a), rays::IntegerRay(b), rays::IntegerRay(c)};
-        for (std::size_t k = 0; k < 3; ++k) {
-            const BigInteger *p = rays[(k + 1) % 3].v, *q = rays[(k + 2) % 3].v;
-            squares[k] = rays[k].squared();
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::size_t j = (i + 1) % 3, l = (i + 2) % 3;
-                products[k][i] = p[j] * q[l] - p[l] * q[j];
-            }
-            const auto is_zero = [](const BigInteger& x) { return x.sign() == 0; };
-            if (std::all_of(products[k].begin(), products[k].end(), is_zero) && rays::dot_form(p, q).sign() > 0) {
-                throw std::invalid_argument("triangles: two corners of the same direction have no circumcentre");
-            }
+STEREODEL_FLATTEN void spherical_centers(const CornerBlock& corners, CenterBlock& centers) {
+    for (std::size_t row = 0; row < CornerBlock::size; ++row) {
+        const UnitVector a = corners.unit(0, row);
+        const PairedEdge d(a, corners.unit(1, row)), e(a, corners.unit(2, row));
+        Pair normal[3];
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            normal[k] = d.v[i] * e.v[j] - d.v[j] * e.v[i];
         }
-    }
-
-    // A multiple of the normal, from lengths of so many bits. Each is off by less than 1, its term by less than the
-    // product. Whether every component is known to 2^-66 of itself, or to 2^-1150 of the longest: no subnormal that is.
-    // One without products is zero, whatever the lengths are.
-    bool sum(std::size_t bits, BigInteger* normal) const {
-        std::array<IntegerRoot, 3> lengths;
-        std::ptrdiff_t lowest = PTRDIFF_MAX;
-        for (std::size_t k = 0; k < 3; ++k) {
-            lengths[k] = integer_root(squares[k], bits);
-            lowest = std::min(lowest, lengths[k].exponent);
-        }
-        std::size_t error[3] = {}, longest = 0;  // bits
+        const double sides = std::sqrt(length_squared(d.v)) + std::sqrt(length_squared(e.v)), sides2 = sides * sides;
+        double center[3];
+        round_unit(normal, center);
         for (std::size_t i = 0; i < 3; ++i) {
-            normal[i] = {};
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto shift = static_cast<std::size_t>(lengths[k].exponent - lowest);
-                normal[i] = normal[i] + (lengths[k].root * products[k][i]).shifted(shift);
-                error[i] = std::max(error[i], products[k][i].sign() == 0 ? 0 : products[k][i].bit_length() + shift + 2);
-            }
-            longest = std::max(longest, normal[i].bit_length());
+            centers.center[i][row] = center[i];
         }
-        for (std::size_t i = 0; i < 3; ++i) {
-            const std::size_t length = normal[i].bit_length();
-            if (error[i] != 0 && length < error[i] + 67 && longest < std::max(length, error[i]) + 1152) {
-                return false;
-            }
-        }
-        return true;
+        centers.margin[row] = length_squared(normal) - std::max(0x1p-88 * sides2, 0x1p-44 * sides2 * sides2);
     }
+}
+
+class SphericalCenters {
+  public:
+    static constexpr std::size_t most = CornerBlock::size;
+
+    SphericalCenters(const double* points, const UnitVector* units, const TriangleRows& rows, double* centers,
+                     Stop stop)
+        : points_(points), units_(units), rows_(rows), centers_(centers), stop_(stop) {}
+
+    // Some rows from one on, at most a block.
+    void take(std::size_t first, std::size_t count) {
+        for (std::size_t k = 0; k < most; ++k) {
+            const std::size_t row = first + std::min(k, count - 1);  // the last one fills the block
+            fetch_ahead(row);
+            for (std::size_t place = 0; place < 3; ++place) {
+                corners_.put(place, k, units_[corner(row, place)]);
+            }
+        }
+        spherical_centers(corners_, found_);
+        for (std::size_t k = 0; k < count; ++k) {
+            double* const center = centers_ + 3 * rows_.to(first + k);
+            if (found_.margin[k] > 0) {
+                for (std::size_t i = 0; i < 3; ++i) {
+                    center[i] = found_.center[i][k];
+                }
+            } else {
+                const double* const corners[3] = {point(first + k, 0), point(first + k, 1), point(first + k, 2)};
+                careful_center_sphere(corners, stop_, center);
+            }
+        }
+    }
+
+  private:
+    std::size_t corner(std::size_t row, std::size_t place) const {
+        return static_cast<std::size_t>(rows_.corners[3 * row + place]);
+    }
+
+    void fetch_ahead(std::size_t row) const {
+        if (constexpr std::size_t ahead = 16; row + ahead < rows_.count) {
+            for (std::size_t place = 0; place < 3; ++place) {
+                const UnitVector& unit = units_[corner(row + ahead, place)];
+                prefetch(&unit);
+                prefetch(unit.lo + 2);
+            }
+            prefetch(centers_ + 3 * rows_.to(row + ahead));
+        }
+    }
+
+    const double* point(std::size_t row, std::size_t place) const { return points_ + 3 * corner(row, place); }
+
+    const double* points_;
+    const UnitVector* units_;
+    TriangleRows rows_;
+    double* centers_;
+    Stop stop_;
+    CornerBlock corners_;
+    CenterBlock found_;
 };
-
-// The same by integers. Three different directions are not on one line, so that some number of bits suffices.
-void exact_normal(const double* a, const double* b, const double* c, Stop stop, double* center) {
-    const IntegerNormal integers(a, b, c);
-    BigInteger normal[3];
-    std::size_t bits = 128;
-    while (!integers.sum(bits, normal)) {
-        check(stop);
-        bits *= 2;
-    }
-    round_unit(normal, center);
-}
 
 // Calls center(k) for all rows, on several threads.
 template <class Center>
@@ -235,9 +162,8 @@ void circumcenters_plane(const double* points, const TriangleRows& rows, double*
         const Index* t = rows.corners + 3 * k;
         const double* const corners[3] = {at(t[0]), at(t[1]), at(t[2])};
         double* const center = centers + 2 * rows.to(k);
-        if (!planar_center(corners[0], corners[1], corners[2], center) && !careful_planar_center(corners, center)) {
-            check(stop);
-            exact_planar_center(corners[0], corners[1], corners[2], center);
+        if (!planar_center(corners[0], corners[1], corners[2], center)) {
+            careful_center_plane(corners, stop, center);
         }
     });
 }
@@ -247,23 +173,11 @@ void circumcenters_sphere(const double* points, std::size_t size, const Triangle
     Crew crew(useful_workers(workers, rows.count));
     Buffer<UnitVector> units(size);
     for_all(size, crew, stop, [&](std::size_t k) { units[k] = unit_vector(points + 3 * k); });
-    const auto at = [points](Index a) { return points + 3 * static_cast<std::ptrdiff_t>(a); };
-    const auto unit = [&](Index a) -> const UnitVector& { return units[static_cast<std::size_t>(a)]; };
-    for_rows(rows.count, crew, stop, [&](std::size_t k) {
-        const Index* t = rows.corners + 3 * k;
-        if (constexpr std::size_t ahead = 16; k + ahead < rows.count) {
-            for (std::size_t place = 0; place < 3; ++place) {
-                const UnitVector& corner = unit(t[3 * ahead + place]);
-                prefetch(&corner);
-                prefetch(corner.lo + 2);
-            }
-            prefetch(centers + 3 * rows.to(k + ahead));
-        }
-        double* const center = centers + 3 * rows.to(k);
-        if (!spherical_center(unit(t[0]), unit(t[1]), unit(t[2]), center) &&
-            !close_center(at(t[0]), at(t[1]), at(t[2]), center)) {
+    in_grains(rows.count, grain, crew, [&](std::size_t begin, std::size_t end) {
+        SphericalCenters task(points, units.data(), rows, centers, stop);
+        for (; begin < end; begin += SphericalCenters::most) {
             check(stop);
-            exact_normal(at(t[0]), at(t[1]), at(t[2]), stop, center);
+            task.take(begin, std::min(SphericalCenters::most, end - begin));
         }
     });
 }

@@ -1,8 +1,8 @@
 #include "voronoi/diagram_parts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
-#include <tuple>
 #include <vector>
 
 #include "input_checks.hpp"
@@ -14,11 +14,7 @@ using Size = std::size_t;
 
 constexpr Size grain = Size{1} << 13;
 
-struct Ridge {
-    Index other, start, end;
-
-    bool operator<(const Ridge& b) const { return std::tie(other, start) < std::tie(b.other, b.start); }
-};
+using Ridge = std::array<Index, 3>;  // the other site, the first vertex and the last
 
 // The ridges between a site and higher ones.
 void collect(const Cells& cells, Size site, std::vector<Ridge>& ridges) {
@@ -110,11 +106,11 @@ Ridges ridges_of(const Cells& cells, int workers, Stop stop) {
             collect(cells, site, room);
             Index* sites = ridges.sites.data() + 2 * first[site];
             Index* vertices = ridges.vertices.data() + 2 * first[site];
-            for (const Ridge& ridge : room) {
+            for (const auto& [other, from, to] : room) {
                 *sites++ = static_cast<Index>(site);
-                *sites++ = ridge.other;
-                *vertices++ = ridge.start;
-                *vertices++ = ridge.end;
+                *sites++ = other;
+                *vertices++ = from;
+                *vertices++ = to;
             }
         });
     });

@@ -16,6 +16,8 @@
 
 namespace stereodel::voronoi {
 
+using mesh::place_after;
+using mesh::place_before;
 using mesh::place_of_least;
 using mesh::place_opposite;
 
@@ -25,12 +27,15 @@ struct HalfEdge {
     std::size_t place;
 };
 
-// The same in four bytes.
+// The same in four bytes, or that there is none.
 class PackedEdge {
   public:
     PackedEdge() = default;
     PackedEdge(HalfEdge e) : bits_(static_cast<std::uint32_t>(e.t) << 2 | static_cast<std::uint32_t>(e.place)) {}
     operator HalfEdge() const { return {static_cast<Index>(bits_ >> 2), bits_ & 3}; }
+
+    static PackedEdge none() { return HalfEdge{-1, 3}; }
+    bool is_none() const { return (bits_ & 3) == 3; }
 
   private:
     std::uint32_t bits_;
@@ -47,11 +52,11 @@ class DualTriangles {
     std::array<Index, 3> corners_from_lowest(Index t) const {
         const Index* const corner = corners(t);
         const std::size_t k = place_of_least(corner);
-        return {corner[k], corner[(k + 1) % 3], corner[(k + 2) % 3]};
+        return {corner[k], corner[place_after(k)], corner[place_before(k)]};
     }
     Index neighbor(HalfEdge e) const { return neighbors_[3 * static_cast<std::size_t>(e.t) + e.place]; }
-    Index origin(HalfEdge e) const { return corners(e.t)[(e.place + 1) % 3]; }
-    Index target(HalfEdge e) const { return corners(e.t)[(e.place + 2) % 3]; }
+    Index origin(HalfEdge e) const { return corners(e.t)[place_after(e.place)]; }
+    Index target(HalfEdge e) const { return corners(e.t)[place_before(e.place)]; }
 
     // The same edge of the triangle beyond, which there is; after `find_ties`.
     HalfEdge twin(HalfEdge e) const { return twins_[3 * static_cast<std::size_t>(e.t) + e.place]; }
@@ -67,12 +72,13 @@ class DualTriangles {
     Index root(Index t) const { return root_.size() == 0 ? t : root_[static_cast<std::size_t>(t)]; }
 
     // Find the twins of all edges, and ask for each edge inside, once: view.is_tied(dual, e, twin), with a view of the
-    // points for each thread; view.fetch(site) comes some time before.
+    // points for each thread; view.fetch(site) and view.prepare(dual, begin, end), for a range of triangles, come some
+    // time before.
     template <class MakeView>
     void find_ties(Crew& crew, Stop stop, MakeView&& make_view) {
         constexpr std::size_t grain = std::size_t{1} << 14;
         twins_ = Buffer<PackedEdge>(3 * count_);
-        std::fill_n(twins_.data(), twins_.size(), PackedEdge({0, 0}));  // neighbours that do not fit lead nowhere else
+        std::fill_n(twins_.data(), twins_.size(), PackedEdge::none());  // at the border, and neighbours that do not fit
         std::vector<std::vector<HalfEdge>> found((count_ + grain - 1) / grain);
         in_grains(count_, grain, crew, [&](std::size_t begin, std::size_t end) {
             auto view = make_view();
@@ -106,27 +112,28 @@ class DualTriangles {
 
     // The next untied edge around the polygon of a vertex, counterclockwise; `e` is one.
     HalfEdge next_side(HalfEdge e) const {
-        e.place = (e.place + 1) % 3;
+        e.place = place_after(e.place);
         while (is_tied(e)) {
             e = twin(e);
-            e.place = (e.place + 1) % 3;
+            e.place = place_after(e.place);
         }
         return e;
     }
 
     // Calls visit(edge) for the edges that lead to a corner from the one before it, in the triangles around the corner,
     // counterclockwise from `start` on: the edge opposite corner place + 1 if `place` is that of the corner. Returns
-    // whether the triangles go all round.
+    // whether the triangles go all round; after `find_ties`.
     template <class Visit>
     bool around(Index start, std::size_t place, Visit&& visit) const {
-        HalfEdge e{start, (place + 1) % 3};
+        HalfEdge e{start, place_after(place)};
         for (;;) {
             visit(e);
-            if (neighbor(e) < 0) {
+            const PackedEdge beyond = twins_[3 * static_cast<std::size_t>(e.t) + e.place];  // leaves the corner
+            if (beyond.is_none()) {
                 return false;
             }
-            e = twin(e);  // leaves the corner
-            e.place = e.place == 0 ? 2 : e.place - 1;
+            e = beyond;
+            e.place = place_before(e.place);
             if (e.t == start) {
                 return true;
             }
@@ -140,6 +147,7 @@ class DualTriangles {
     // processor could guess: they are collected without a branch, and what follows is one loop over them.
     template <class View>
     void find_ties(std::size_t begin, std::size_t end, View& view, std::vector<HalfEdge>& found) {
+        view.prepare(*this, begin, end);
         std::array<PackedEdge, 3 * block_ + 1> edges;
         std::size_t size = 0;
         for (std::size_t t = begin; t < end; ++t) {

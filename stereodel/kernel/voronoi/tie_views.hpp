@@ -1,6 +1,9 @@
 // Which edges of a triangulation are tied: views of the points for one thread, as `DualTriangles::find_ties` asks them.
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "memory.hpp"
 #include "predicates/plane_predicates.hpp"
 #include "predicates/ray_predicates.hpp"
@@ -16,6 +19,7 @@ struct PlaneView {
     PlanePoints points;
 
     void fetch(Index site) const { prefetch(points.at(site)); }
+    void prepare(const DualTriangles&, std::size_t, std::size_t) {}
 
     bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
         const Index* c = dual.corners(e.t);
@@ -25,23 +29,38 @@ struct PlaneView {
 
 // Points all on one small circle form a flat polygon with two sides: across its rim the corners lie on one circle, too,
 // but the triangles face different ways.
-struct SphereView {
-    Rays rays;
+class SphereView {
+  public:
+    explicit SphereView(const Rays& rays) : rays_(rays) {}
 
     void fetch(Index site) const {
-        prefetch(rays.at(site));
-        prefetch(rays.at(site) + 2);  // it may begin at the end of a cache line
+        prefetch(rays_.at(site));
+        prefetch(rays_.at(site) + 2);  // it may begin at the end of a cache line
+    }
+
+    void prepare(const DualTriangles& dual, std::size_t begin, std::size_t end) {
+        first_ = begin;
+        planes_.resize(rays_.unit() ? end - begin : 0);
+        for (std::size_t k = 0; k < planes_.size(); ++k) {
+            const Index* c = dual.corners(static_cast<Index>(begin + k));
+            planes_[k] = rays::BubblePlane(rays_.at(c[0]), rays_.at(c[1]), rays_.at(c[2]));
+        }
     }
 
     bool is_tied(const DualTriangles& dual, HalfEdge e, HalfEdge twin) {
         const Index *c = dual.corners(e.t), *d = dual.corners(twin.t), beyond = d[twin.place];
-        if (rays.unit() &&
-            rays::bubble_plane_filter(rays.at(c[0]), rays.at(c[1]), rays.at(c[2]), rays.at(beyond)) != OPEN) {
+        if (rays_.unit() &&
+            planes_[static_cast<std::size_t>(e.t) - first_].side(rays_.at(c[0]), rays_.at(beyond)) != OPEN) {
             return false;
         }
-        return rays.bubble(c[0], c[1], c[2], beyond) == 0 &&
-               rays.turn(c[0], c[1], c[2]) == rays.turn(d[0], d[1], d[2]);
+        return rays_.bubble(c[0], c[1], c[2], beyond) == 0 &&
+               rays_.turn(c[0], c[1], c[2]) == rays_.turn(d[0], d[1], d[2]);
     }
+
+  private:
+    Rays rays_;
+    std::size_t first_ = 0;
+    std::vector<rays::BubblePlane> planes_;  // of the triangles from that one on
 };
 
 }  // namespace stereodel::voronoi

@@ -33,7 +33,7 @@ Diagram voronoi_sphere(const double* points, std::size_t sites, const Index* sim
                        std::size_t count, int workers, Stop stop) {
     const bool unit = all_unit(points, sites);
     return voronoi(sites, simplices, neighbors, count, workers, stop,
-                   [&] { return SphereView{Rays(points, unit)}; });
+                   [&] { return SphereView(Rays(points, unit)); });
 }
 
 }  // namespace stereodel::voronoi

@@ -1,8 +1,8 @@
 // The folder `voronoi`: the dual diagram, its vertices, areas and centroids.
 // Reading order: voronoi, dual, tie_views, voronoi_cells, chosen_cells (of some sites), diagram_parts (ridges,
-// polygons), polygon_diagonals (back to triangles); unit_vectors, circumcenters; cell_integrals, right_triangles,
-// plane_cells, sphere_cell and sphere_cells in doubles,
-// cell_ridges and ball_cells beyond; great_circles and flat_diagrams, where there are no triangles.
+// polygons), polygon_diagonals (back to triangles); unit_vectors, circumcenters and careful_circumcenters beyond;
+// cell_integrals, right_triangles, plane_cells, sphere_cell and sphere_cells in doubles, cell_ridges and ball_cells
+// beyond; great_circles and flat_diagrams, where there are no triangles.
 //
 // Voronoi diagrams from Delaunay triangulations, in linear time, and the way back.
 //

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -14,56 +15,180 @@ using Size = std::size_t;
 
 Size at(Index k) { return static_cast<Size>(k); }
 
-// The lowest site of a vertex, and its key among those with the same one: the two next sites, and whether the three are
-// clockwise.
-struct LowestSites {
-    Index first;
-    std::uint64_t key;
-
-    LowestSites(Index a, Index b, Index c, bool clockwise)
-        : first(a), key(std::uint64_t{at(b)} << 33 | std::uint64_t{at(c)} << 1 | std::uint64_t{clockwise}) {}
-};
-
-LowestSites of_triangle(const Index* corner) {
-    const Size k = place_of_least(corner);
-    const Index b = corner[(k + 1) % 3], c = corner[(k + 2) % 3];
-    return {corner[k], std::min(b, c), std::max(b, c), c < b};
+// Vertices with the same lowest site stand in the order of these: of the two next sites, given counterclockwise after
+// it, and whether the lower of the two comes later.
+std::uint64_t vertex_key(Index b, Index c) {
+    return std::uint64_t{at(std::min(b, c))} << 33 | std::uint64_t{at(std::max(b, c))} << 1 | std::uint64_t{c < b};
 }
 
-LowestSites of_polygon(const std::vector<Index>& polygon) {
-    std::vector<Size> place(polygon.size());
-    for (Size k = 0; k < place.size(); ++k) {
-        place[k] = k;
+// Of sites counterclockwise from the lowest.
+std::uint64_t vertex_key(const std::vector<Index>& polygon) {
+    Size lower = 1, higher = 2;
+    if (polygon[higher] < polygon[lower]) {
+        std::swap(lower, higher);
     }
-    std::partial_sort(place.begin(), place.begin() + 3, place.end(),
-                      [&](Size a, Size b) { return polygon[a] < polygon[b]; });
-    const auto turn = [&](Size k) { return (place[k] + polygon.size() - place[0]) % polygon.size(); };
-    return {polygon[place[0]], polygon[place[1]], polygon[place[2]], turn(2) < turn(1)};
+    for (Size k = 3; k < polygon.size(); ++k) {
+        if (polygon[k] < polygon[lower]) {
+            higher = std::exchange(lower, k);
+        } else if (polygon[k] < polygon[higher]) {
+            higher = k;
+        }
+    }
+    return vertex_key(polygon[std::min(lower, higher)], polygon[std::max(lower, higher)]);
 }
+
+// Where to begin to turn around a site: at the border, if it lies there, else in a triangle of its lowest vertex. That
+// vertex, from 1 on, and 3 t + place are one number, of which the lowest is kept: no branch that would be guessed wrong
+// in half of the cells.
+class Start {
+  public:
+    // In the first pass, before vertices have numbers.
+    void meet_unnumbered(std::uint32_t corner, bool at_border) {
+        bits_ = at_border ? corner : is_unmet() ? MET : bits_;
+    }
+    void meet(std::uint32_t corner, Index vertex) {
+        bits_ = std::min(bits_, (std::uint64_t{at(vertex)} + 1) << 32 | corner);
+    }
+
+    bool is_unmet() const { return bits_ == UNMET; }
+    bool is_at_border() const { return bits_ >> 32 == 0; }
+    Index triangle() const { return static_cast<Index>(static_cast<std::uint32_t>(bits_) / 3); }
+    Size place() const { return static_cast<std::uint32_t>(bits_) % 3; }
+
+  private:
+    static constexpr std::uint64_t UNMET = ~std::uint64_t{0}, MET = UNMET - 1;
+
+    std::uint64_t bits_ = UNMET;
+};
 
 class CellBuilder {
   public:
     CellBuilder(const DualTriangles& dual, Size sites, Crew& crew, Stop stop)
-        : dual_(dual), sites_(sites), crew_(crew), stop_(stop), polygons_(dual, stop) {}
+        : dual_(dual), crew_(crew), stop_(stop), polygons_(dual, stop), sites_(sites) {
+        std::fill_n(sites_.data(), sites, Site{});
+    }
 
     Diagram build() {
-        // Neither can be divided; they can go side by side.
-        crew_.run(2, [this](Size task) { task == 0 ? list_vertices() : count_entries(); });
+        find_lowest();
+        count();
+        list_vertices();
         number_vertices();
-        diagram_.vertices = Buffer<Index>(entries_);
-        diagram_.neighbors = Buffer<Index>(entries_);
-        in_grains(order_size_, grain, crew_, [&](Size begin, Size end) {
-            std::vector<Entry> room;
-            for_range(begin, end, stop_, [&](Size k) {
-                fetch_ahead(k);
-                write_cell(diagram_.order[k], room);
-            });
-        });
+        if (dual_.has_ties()) {
+            list_sites();
+            rank_triangles();
+        }
+        name_triangles();
+        find_starts();
+        write_cells();
         return std::move(diagram_);
     }
 
   private:
     static constexpr Size grain = Size{1} << 13;
+
+    struct Site {
+        Start start;
+        Index entries = 0;   // its untied edges, and one for infinity
+        Index list_end = 0;  // of the vertices of which it is the lowest site: first how many they are
+    };
+
+    // The lowest sites of vertices that several triangles share; roots come before the others.
+    void find_lowest() {
+        if (!dual_.has_ties()) {
+            return;
+        }
+        lowest_ = Buffer<Index>(dual_.count());
+        for_range(0, dual_.count(), stop_, [&](Size k) {
+            const Index t = static_cast<Index>(k), root = dual_.root(t), lowest = lowest_corner(t);
+            lowest_[at(root)] = root == t ? lowest : std::min(lowest, lowest_[at(root)]);
+        });
+    }
+
+    Index lowest_corner(Index t) const { return dual_.corners(t)[place_of_least(dual_.corners(t))]; }
+    Index lowest_site(Index root) const { return dual_.has_ties() ? lowest_[at(root)] : lowest_corner(root); }
+
+    void count() {
+        diagram_.order = Buffer<Index>(sites_.size() + 1);
+        Size size = 0;
+        for_triangles([&](Index t, std::uint32_t corner) {
+            for (Size place = 0; place < 3; ++place) {
+                const Index number = dual_.corners(t)[place];
+                Site& site = sites_[at(number)];
+                const bool at_border = dual_.neighbor({t, place_before(place)}) < 0;
+                diagram_.order[size] = number;
+                size += Size{site.start.is_unmet()};
+                site.start.meet_unnumbered(corner + static_cast<std::uint32_t>(place), at_border);
+                site.entries += Index{!dual_.is_tied({t, place_after(place)})} + Index{at_border};
+            }
+            if (dual_.root(t) == t) {
+                ++sites_[at(lowest_site(t))].list_end;
+            }
+        });
+        diagram_.order = Buffer<Index>(std::move(diagram_.order), size);
+    }
+
+    // Calls visit(t, 3 t) for all triangles. Sites come in any order, triangles along a curve.
+    template <class Visit>
+    void for_triangles(Visit&& visit) {
+        for_range(0, dual_.count(), stop_, [&](Size k) {
+            dual_.for_corners_ahead(k, 16, [this](Index site) { prefetch(sites_.data() + site); });
+            visit(static_cast<Index>(k), static_cast<std::uint32_t>(3 * k));
+        });
+    }
+
+    // The roots in one list for each lowest site, the lists one after the other.
+    void list_vertices() {
+        diagram_.offsets = Buffer<std::int64_t>(sites_.size() + 1);
+        std::int64_t entries = 0;
+        Index vertices = 0;
+        for (Size k = 0; k < sites_.size(); ++k) {
+            diagram_.offsets[k] = entries;
+            entries += sites_[k].entries;
+            vertices += std::exchange(sites_[k].list_end, vertices);
+        }
+        diagram_.offsets[sites_.size()] = entries;
+        roots_ = Buffer<Index>(at(vertices));
+        for_triangles([&](Index t, std::uint32_t) {
+            if (dual_.root(t) == t) {
+                roots_[at(sites_[at(lowest_site(t))].list_end++)] = t;
+            }
+        });
+    }
+
+    Index list_begin(Index site) const { return site == 0 ? 0 : sites_[at(site) - 1].list_end; }
+
+    using Keys = std::vector<std::pair<std::uint64_t, Index>>;  // of vertices, and their roots
+
+    // In the order of the keys in each list. Sites come in the order of the triangles, whose corners are near then.
+    void number_vertices() {
+        number_ = Buffer<Index>(dual_.count());
+        in_grains(diagram_.order.size(), grain, crew_, [&](Size first, Size last) {
+            std::vector<Index> polygon;
+            Keys keys;
+            for_range(first, last, stop_, [&](Size k) {
+                if (constexpr Size ahead = 16; k + ahead < diagram_.order.size()) {
+                    prefetch(roots_.data() + list_begin(diagram_.order[k + ahead]));
+                }
+                const Index site = diagram_.order[k], begin = list_begin(site);
+                keys.clear();
+                for (Index place = begin; place < sites_[at(site)].list_end; ++place) {
+                    const Index root = roots_[at(place)];
+                    keys.emplace_back(key_of(root, polygon), root);
+                }
+                number_list(keys, begin);
+            });
+        });
+    }
+
+    std::uint64_t key_of(Index root, std::vector<Index>& polygon) const {
+        if (dual_.is_triangle(root)) {
+            const Index* const corner = dual_.corners(root);
+            const Size k = place_of_least(corner);
+            return vertex_key(corner[place_after(k)], corner[place_before(k)]);
+        }
+        polygon_of(root, polygon);
+        return vertex_key(polygon);
+    }
 
     // The sites around the vertex of a root, counterclockwise from the lowest.
     void polygon_of(Index root, std::vector<Index>& polygon) const {
@@ -71,92 +196,26 @@ class CellBuilder {
         std::rotate(polygon.begin(), std::min_element(polygon.begin(), polygon.end()), polygon.end());
     }
 
-    LowestSites lowest_sites(Index root, std::vector<Index>& polygon) const {
-        if (dual_.is_triangle(root)) {
-            return of_triangle(dual_.corners(root));
-        }
-        polygon_of(root, polygon);
-        return of_polygon(polygon);
-    }
-
-    // The roots in one list for each lowest site, the lists one after the other; list_end_[site] is where one ends.
-    void list_vertices() {
-        std::vector<Index> polygon;
-        list_end_ = Buffer<Index>(sites_ + 1);
-        Index* const end = list_end_.data();
-        std::fill_n(end, sites_ + 1, 0);
-        number_ = Buffer<Index>(dual_.count());  // until vertices have their numbers: the lowest site
-        Size vertices = 0;
-        for_range(0, dual_.count(), stop_, [&](Size k) {
-            const Index t = static_cast<Index>(k);
-            dual_.for_corners_ahead(k, 16, [end](Index site) { prefetch(end + site); });
-            number_[k] = -1;
-            if (dual_.root(t) == t) {
-                number_[k] = lowest_sites(t, polygon).first;
-                ++end[at(number_[k]) + 1];
-                ++vertices;
-            }
-        });
-        for (Size site = 0; site < sites_; ++site) {
-            end[site + 1] += end[site];
-        }
-        roots_ = Buffer<Index>(vertices);
-        for_range(0, dual_.count(), stop_, [&](Size k) {
-            if (number_[k] >= 0) {
-                roots_[at(end[at(number_[k])]++)] = static_cast<Index>(k);
-            }
-        });
-    }
-
-    // In the order of the keys in each list. Sites come in the order of the triangles, whose corners are near then.
-    void number_vertices() {
-        in_grains(order_size_, grain, crew_, [&](Size first, Size last) {
-            std::vector<Index> polygon;
-            std::vector<std::pair<std::uint64_t, Index>> list;
-            for_range(first, last, stop_, [&](Size k) {
-                if (constexpr Size ahead = 16; k + ahead < order_size_) {
-                    prefetch(roots_.data() + list_begin(diagram_.order[k + ahead]));
-                }
-                const Index site = diagram_.order[k];
-                const Index begin = list_begin(site);
-                list.clear();
-                for (Index place = begin; place < list_end_[at(site)]; ++place) {
-                    const Index root = roots_[at(place)];
-                    list.emplace_back(lowest_sites(root, polygon).key, root);
-                }
-                number_list(list, begin);
-            });
-        });
-        const Size vertices = roots_.size();
-        roots_ = {};
-        if (dual_.has_ties()) {
-            list_sites(vertices);
-            rank_triangles();
-        }
-        name_triangles();
-    }
-
-    Index list_begin(Index site) const { return site == 0 ? 0 : list_end_[at(site) - 1]; }
-
     // Numbers from `first` on. The place in a short list is counted, which takes no branches.
-    void number_list(std::vector<std::pair<std::uint64_t, Index>>& list, Index first) {
-        if (constexpr Size few = 8; list.size() > few) {
-            std::sort(list.begin(), list.end());
-            for (const auto& item : list) {
+    void number_list(Keys& keys, Index first) {
+        if (constexpr Size few = 8; keys.size() > few) {
+            std::sort(keys.begin(), keys.end());
+            for (const auto& item : keys) {
                 number_[at(item.second)] = first++;
             }
             return;
         }
-        for (const auto& item : list) {
+        for (const auto& item : keys) {
             Index number = first;
-            for (const auto& other : list) {
+            for (const auto& other : keys) {
                 number += Index{other.first < item.first};
             }
             number_[at(item.second)] = number;
         }
     }
 
-    void list_sites(Size vertices) {
+    void list_sites() {
+        const Size vertices = roots_.size();
         diagram_.vertex_sites = Buffer<Index>(3 * vertices);
         diagram_.row_vertex = Buffer<Index>(vertices);
         Index* sites = diagram_.vertex_sites.data();
@@ -235,7 +294,7 @@ class CellBuilder {
             const HalfEdge door = doors.back();
             doors.pop_back();
             if (members.size() == dual_.count()) {
-                throw std::invalid_argument("neighbors do not fit the simplices");
+                throw misfit();
             }
             members.push_back({dual_.corners_from_lowest(door.t), door.t});
             look_around(door.t, door.place);
@@ -253,93 +312,71 @@ class CellBuilder {
         });
     }
 
-    // A site's entries: its untied edges, and one for infinity. Where to begin to turn around it: at the border, if it
-    // lies there, else in its lowest triangle.
-    void count_entries() {
-        start_ = Buffer<Index>(sites_);
-        std::fill_n(start_.data(), sites_, -1);
-        diagram_.offsets = Buffer<std::int64_t>(sites_ + 1);
-        std::int64_t* const count = diagram_.offsets.data();
-        std::fill_n(count, sites_ + 1, 0);
-        diagram_.order = Buffer<Index>(sites_ + 1);
-        for_range(0, dual_.count(), stop_, [&](Size k) {
-            const Index t = static_cast<Index>(k);
-            dual_.for_corners_ahead(k, 16, [&](Index site) {
-                prefetch(start_.data() + site);
-                prefetch(count + site);
-            });
+    void find_starts() {
+        for_triangles([&](Index t, std::uint32_t corner) {
             for (Size place = 0; place < 3; ++place) {
-                const Size site = at(dual_.corners(t)[place]);
-                const bool at_border = dual_.neighbor({t, (place + 2) % 3}) < 0, is_first = start_[site] < 0;
-                count[site + 1] += std::int64_t{!dual_.is_tied({t, (place + 1) % 3})} + std::int64_t{at_border};
-                diagram_.order[order_size_] = static_cast<Index>(site);
-                order_size_ += Size{is_first};
-                start_[site] = (at_border | is_first) ? static_cast<Index>(3 * k + place) : start_[site];
+                sites_[at(dual_.corners(t)[place])].start.meet(corner + static_cast<std::uint32_t>(place),
+                                                               diagram_.simplex_vertex[at(t)]);
             }
         });
-        for (Size site = 0; site < sites_; ++site) {
-            count[site + 1] += count[site];
-        }
-        entries_ = static_cast<Size>(count[sites_]);
-        diagram_.order = Buffer<Index>(std::move(diagram_.order), order_size_);
+    }
+
+    void write_cells() {
+        diagram_.vertices = Buffer<Index>(static_cast<Size>(diagram_.offsets[sites_.size()]));
+        diagram_.neighbors = Buffer<Index>(diagram_.vertices.size());
+        in_grains(diagram_.order.size(), grain, crew_, [&](Size begin, Size end) {
+            for_range(begin, end, stop_, [&](Size k) {
+                fetch_ahead(k);
+                write_cell(at(diagram_.order[k]));
+            });
+        });
     }
 
     void fetch_ahead(Size k) const {
-        if (constexpr Size far = 16, near = 8; k + far < order_size_) {
+        if (constexpr Size far = 16, near = 8; k + far < diagram_.order.size()) {
             const Size soon = at(diagram_.order[k + far]), next = at(diagram_.order[k + near]);
-            prefetch(start_.data() + soon);
+            prefetch(sites_.data() + soon);
             prefetch(diagram_.offsets.data() + soon);
             prefetch(diagram_.vertices.data() + diagram_.offsets[next]);
             prefetch(diagram_.neighbors.data() + diagram_.offsets[next]);
         }
     }
 
-    struct Entry {
-        Index vertex, neighbor;
-    };
-
-    void write_cell(Index site, std::vector<Entry>& entries) {
-        const Index start = start_[at(site)], t = start / 3;
-        const Size offset = static_cast<Size>(diagram_.offsets[at(site)]);
-        const Size most = static_cast<Size>(diagram_.offsets[at(site) + 1]) - offset;
-        if (entries.size() < most) {
-            entries.resize(2 * most);
-        }
-        Size size = 0;
-        // Vertex and place in one number: no branch that would be guessed wrong in half of the cells.
-        std::int64_t least = std::numeric_limits<std::int64_t>::max();
+    void write_cell(Size site) {
+        const Start start = sites_[site].start;
+        Size place = static_cast<Size>(diagram_.offsets[site]);
+        const Size end = static_cast<Size>(diagram_.offsets[site + 1]);
         const auto add = [&](Index vertex, Index neighbor) {
-            least = std::min(least, vertex * (std::int64_t{1} << 32) + static_cast<std::int64_t>(size));
-            if (size == most) {
-                throw std::invalid_argument("neighbors do not fit the simplices");
+            if (place == end) {
+                throw misfit();
             }
-            entries[size++] = {vertex, neighbor};
+            diagram_.vertices[place] = vertex;
+            diagram_.neighbors[place++] = neighbor;
         };
-        const bool closed = dual_.around(t, at(start) % 3, [&](HalfEdge e) {
+        if (start.is_at_border()) {
+            add(-1, dual_.corners(start.triangle())[place_after(start.place())]);
+        }
+        dual_.around(start.triangle(), start.place(), [&](HalfEdge e) {
             if (!dual_.is_tied(e)) {
                 add(diagram_.simplex_vertex[at(e.t)], dual_.origin(e));
             }
         });
-        if (!closed) {
-            add(-1, dual_.corners(t)[(at(start) % 3 + 1) % 3]);
-        }
-        const Size lowest = static_cast<Size>(least & 0xFFFFFFFF);
-        for (Size k = 0; k < size; ++k) {
-            const Entry entry = entries[lowest + k < size ? lowest + k : lowest + k - size];
-            diagram_.vertices[offset + k] = entry.vertex;
-            diagram_.neighbors[offset + k] = entry.neighbor;
+        if (place != end) {
+            throw misfit();
         }
     }
 
+    static std::invalid_argument misfit() { return std::invalid_argument("neighbors do not fit the simplices"); }
+
     const DualTriangles& dual_;
-    Size sites_, entries_ = 0, order_size_ = 0;
     Crew& crew_;
     Stop stop_;
     TiedPolygons polygons_;
-    Diagram diagram_;
-    Buffer<Index> roots_, list_end_;
+    Buffer<Site> sites_;
+    Buffer<Index> lowest_;  // of each root, if there are ties
+    Buffer<Index> roots_;   // of the vertices
     Buffer<Index> number_;  // of each root: its vertex
-    Buffer<Index> start_;   // of each site: 3 t + place
+    Diagram diagram_;
 };
 
 }  // namespace

@@ -239,7 +239,7 @@ Signs bubble_plane_rows(const SpaceArray& a, const SpaceArray& b, const SpaceArr
         throw std::invalid_argument("vectors must have length one");
     }
     return over_rows(common_rows(a, b, c, p), [&](std::size_t k) {
-        return rays::bubble_plane_filter(row(a, k), row(b, k), row(c, k), row(p, k));
+        return rays::BubblePlane(row(a, k), row(b, k), row(c, k)).side(row(a, k), row(p, k));
     });
 }
 
@@ -345,7 +345,7 @@ void bind_plane(nb::module_& m) {
 void bind_rays(nb::module_& m) {
     const auto unknown = nb::none();
     m.def("bubble", &bubble_rows, "a"_a, "b"_a, "c"_a, "p"_a, "unit"_a = unknown, "stage"_a = "all");
-    m.def("bubble_plane_filter", &bubble_plane_rows, "a"_a, "b"_a, "c"_a, "p"_a);
+    m.def("bubble_plane", &bubble_plane_rows, "a"_a, "b"_a, "c"_a, "p"_a);
     m.def("in_bubble", &in_bubble_rows, "a"_a, "b"_a, "c"_a, "p"_a, "unit"_a = unknown, "first"_a = -1);
     m.def("bubble_numbered", &bubble_numbered, "vectors"_a, "numbers"_a, "displaced"_a, "unit"_a = unknown);
     m.def("turn", &turn_rows, "a"_a, "b"_a, "c"_a, "unit"_a = unknown, "stage"_a = "all");

@@ -1,0 +1,28 @@
+#include "duplicates.hpp"
+
+#include <algorithm>
+
+namespace stereodel {
+
+std::size_t sort_and_drop(std::vector<Index>& points, const Comparison& compare, const Index* number,
+                          Pairs& duplicates) {
+    const auto number_of = [number](Index point) { return number == nullptr ? point : number[point]; };
+    std::sort(points.begin(), points.end(), [&](Index a, Index b) {
+        const int sign = a == b ? 0 : compare(a, b);
+        return sign != 0 ? sign < 0 : number_of(a) < number_of(b);
+    });
+    std::vector<Index> dropped;
+    std::size_t kept = 0;
+    for (const Index point : points) {
+        if (kept > 0 && compare(points[kept - 1], point) == 0) {
+            duplicates.emplace_back(number_of(point), number_of(points[kept - 1]));
+            dropped.push_back(point);
+        } else {
+            points[kept++] = point;
+        }
+    }
+    std::copy(dropped.begin(), dropped.end(), points.begin() + static_cast<std::ptrdiff_t>(kept));
+    return kept;
+}
+
+}  // namespace stereodel
