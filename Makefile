@@ -14,7 +14,7 @@ FUZZ_SECONDS := 60
 BIN := $(VENV)/bin
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser librsvg figures poster animations test test-large test-pythons sanitize fuzz check \
+.PHONY: help install system opengl browser librsvg figures poster animations test test-large test-source test-pythons sanitize fuzz check \
 	lint web built stub bench dist source check-archives wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
@@ -61,6 +61,9 @@ test: $(VENV)/installed-test system ## all tests, then the image tests once more
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
 
+test-source: $(VENV)/installed-test opengl librsvg ## the tests from the unpacked source archive, as distributions run them
+	tools/test_source.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
+
 sanitize: $(VENV)/installed-test opengl ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
 	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
@@ -68,7 +71,7 @@ sanitize: $(VENV)/installed-test opengl ## the tests, then random bytes, on a ke
 fuzz: $(VENV)/installed-kernel ## feed random bytes to the kernel for FUZZ_SECONDS
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
-check: lint built docs ## format, lint, types, tracked text, the kernel's one-definition rule, the page's built files, documentation
+check: lint built docs ## format, lint, types, tracked text, the kernel's one-definition rule, workflows, the page's built files, documentation
 
 lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/ruff format --check .
@@ -78,6 +81,7 @@ lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/python tools/tracked_text.py
 	tools/one_definition.sh $(VENV)
 	PATH=$(CURDIR)/$(BIN):$$PATH npm --prefix stereodel/web/script --silent run check
+	$(BIN)/zizmor --offline --quiet --strict-collection .github
 
 web: $(VENV)/installed-web ## build the interactive page's kernel and scripts into stereodel/web/built
 	@tools/build_web.sh $(VENV)
@@ -99,9 +103,8 @@ dist: $(VENV)/installed-wheels opengl ## source archive, wheel and npm archive i
 source: $(VENV)/installed-wheels ## the source archive into dist/
 	@tools/source_archive.sh $(VENV) dist
 
-check-archives: $(VENV)/installed-wheels ## check the texts of the archives in dist/, and the wheels of several Pythons for their interface
-	$(BIN)/twine check --strict dist/*
-	$(BIN)/abi3audit --strict --report dist/*-abi3-*.whl
+check-archives: $(VENV)/installed-wheels ## check the archives in dist/: their texts, and the interface of wheels for several Pythons
+	tools/check_archives.sh $(VENV)
 
 MACHINES := x86_64 aarch64
 wheels: $(VENV)/installed-wheels ## source archive and wheels for Linux on MACHINES into dist/, by zig, checked and tried on each Python found

@@ -3,7 +3,7 @@
     python -m benchmarks.compilers WHEEL
 
 WHEEL is one for this Python: `make wheels` makes it. Both are measured in processes of their own, in turn, on one
-thread; what is compared are the least times of each, which a busy machine disturbs least. Writes
+thread; what is compared are the least times of the processor, which a busy machine disturbs least. Writes
 benchmarks/compilers.json; 1 if the wheel's kernel answers otherwise or takes more than `LIMIT` as long.
 """
 
@@ -35,9 +35,9 @@ rng = np.random.default_rng(0)
 xyz, xy = rng.normal(size=(int(sys.argv[1]), 3)), rng.random((int(sys.argv[1]), 2))
 found = {"file": stereodel.__file__}
 def timed(name, work):
-    begin = time.perf_counter()
+    begin = time.process_time()
     result = work()
-    found[name] = time.perf_counter() - begin
+    found[name] = time.process_time() - begin
     return result
 sphere = timed("triangulation, sphere", lambda: SphericalDelaunay(xyz, workers=1))
 plane = timed("triangulation, plane", lambda: PlanarDelaunay(xy, workers=1))

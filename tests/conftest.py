@@ -37,7 +37,12 @@ def no_other_fonts(monkeypatch):
 STORED = Path(__file__).resolve().parent / "images" / "baselines"
 """Pictures of the image tests; the source archive has none."""
 
+REPOSITORY = Path(__file__).resolve().parent.parent / ".git"
+"""What git tracks is read as text; the source archive has no repository."""
+
 collect_ignore = []
+if not REPOSITORY.exists():
+    collect_ignore += ["test_tracked_text.py"]
 if not STORED.is_dir():
     collect_ignore += [f"images/test_{name}.py" for name in ("figures", "mutations", "renderer_mutations")]
 
@@ -50,6 +55,9 @@ def pytest_terminal_summary(terminalreporter):
     if os.environ.get(WEB_SWITCH) == "off":
         terminalreporter.section("switched off")
         terminalreporter.line(f"The tests of the interactive page were left out, because {WEB_SWITCH}=off.")
+    if not REPOSITORY.exists():
+        terminalreporter.section("no repository")
+        terminalreporter.line("The text of tracked files was not checked: there is no repository that tracks any.")
     if not STORED.is_dir():
         terminalreporter.section("no stored pictures")
         terminalreporter.line(

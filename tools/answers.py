@@ -113,7 +113,7 @@ def main(arguments: list[str]) -> int:
     wrong = differences(found, json.loads(STORED.read_text(encoding="utf-8")), to_the_bit=library == "glibc")
     free = getattr(sys, "_is_gil_enabled", lambda: True)() is False
     python = f"Python {platform.python_version()}{' without its lock' if free else ''}, {platform.machine()}"
-    where = f"stereodel {stereodel.__version__} on {python}, {library or platform.system()}"
+    where = f"stereodel {stereodel.__version__} on {python}, {library or platform.system()}, NumPy {np.__version__}"
     print(f"{where}: {f'{len(found)} sets answered as stored' if not wrong else 'OTHER ANSWERS'}")
     print(*wrong, sep="\n", end="\n" if wrong else "", file=sys.stderr)
     return 1 if wrong else 0

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Usage: tools/dist.sh VENV
 # Source archive and wheel into dist/, the wheel built from the archive by the machine's own compiler, and the archive for
-# npm. Each is made twice: the same sources must give the same bytes. Then the wheel is tried in a new environment
-# (tools/try_wheel.sh), and the npm archive in an empty folder.
+# npm. Each is made twice, the wheel in two folders: the same sources must give the same bytes. Then the wheel is tried in
+# a new environment (tools/try_wheel.sh), and the npm archive in an empty folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,15 +13,14 @@ source tools/source_date.sh
 
 rm -rf dist
 archive=$(tools/source_archive.sh "$venv" dist)
-wheel() { # FOLDER; from sources in one place, as compilers put their names into what they make
-    rm -rf "$work/source"
-    mkdir "$work/source"
-    tar -xzf "$archive" -C "$work/source" --strip-components=1
-    PATH=$venv/bin:$PATH python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation --wheel-dir "$1" "$work/source"
+wheel() { # FOLDER SOURCES; unpacked into a folder of that name
+    mkdir -p "$work/$2"
+    tar -xzf "$archive" -C "$work/$2" --strip-components=1
+    PATH=$venv/bin:$PATH python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation --wheel-dir "$1" "$work/$2"
 }
 same() { cmp "$1" "$2" || { echo "tools/dist.sh: ${1##*/} is not the same when it is made again" >&2; exit 1; }; }
-wheel dist
-wheel "$work/again"
+wheel dist sources
+wheel "$work/again" elsewhere/the-same
 tools/npm_archive.sh "$venv" dist
 tools/npm_archive.sh "$venv" "$work/again"
 for made in "$work"/again/*; do same "dist/${made##*/}" "$made"; done

@@ -9,6 +9,7 @@ mkdir -p "$2"
 folder=$(cd "$2" && pwd)
 again=$(mktemp -d)
 trap 'rm -rf "$again"' EXIT
+source tools/source_date.sh
 archive() { "$venv/bin/python" -c 'import sys; from scikit_build_core.build import build_sdist; build_sdist(sys.argv[1])' "$1" >/dev/null; }
 archive "$folder"
 archive "$again"

@@ -28,6 +28,7 @@ install() {
         --find-links "${wheel%/*}" "$1"
 }
 refused() { if bare "$@" >said 2>&1; then die "$* should fail"; fi; }
+advice() { bare python -c 'import sys; from stereodel._extras import installing; print(installing(sys.argv[1]))' "$1"; } # EXTRA
 expect() { grep -qF -- "$2" "$1" || { cat "$1" >&2; die "no $2 in the above"; }; } # FILE WORDS
 cd "$work"
 printf 'name,lon,lat\nQuito,-78.5,-0.2\nUlm,10.0,48.4\nKyoto,135.8,35.0\nPerth,115.9,-32.0\n' >cities.csv
@@ -41,20 +42,38 @@ megabytes=$(find "$site" -type f ! -name '*.pyc' ! -path '*/pip/*' ! -path '*/se
 echo "NumPy and stereodel alone: $megabytes MB"
 bare python "$root/tools/answers.py"
 bare python -W error "$root/tools/free_threads.py"
+bare python -W error - <<'PYTHON'
+import importlib
+import pkgutil
+
+import stereodel
+from stereodel._extras import EXTRAS, MissingExtraError, installing
+
+advice = []
+names = [module.name for module in pkgutil.walk_packages(stereodel.__path__, "stereodel.")]
+for name in names:
+    try:
+        importlib.import_module(name)
+    except MissingExtraError as error:
+        advice.append(str(error).partition("it comes with: ")[2])
+assert set(advice) <= set(map(installing, EXTRAS)), advice
+print(f"{len(names) - len(advice)} modules work on NumPy alone, {len(advice)} name an extra")
+PYTHON
+[[ $(advice cli) == "pip install typer rich" ]] || die "$(advice cli): not for an environment without a checkout"
 refused stereodel --help
-expect said "pip install 'stereodel[cli]'"
+expect said "$(advice cli)"
 
 # The extras of what is installed: pip asks no index for stereodel itself.
 install 'stereodel[cli]'
 bare stereodel --version
 bare stereodel voronoi cities.csv -o cells.csv
 expect cells.csv Kyoto
-for picture in svg png; do
-    refused stereodel globe cities.csv -o globe.$picture
-    expect said "pip install 'stereodel["
-done
+refused stereodel globe cities.csv -o globe.svg
+expect said "$(advice draw)"
+refused stereodel globe cities.csv -o globe.png
+expect said "$(advice render)"
 refused stereodel doctor
-expect said "pip install 'stereodel[render]'"
+expect said "$(advice render)"
 
 install 'stereodel[all]'
 bare stereodel doctor >said || cat said # the machine may have no OpenGL

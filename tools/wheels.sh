@@ -3,7 +3,8 @@
 # The source archive and wheels for Linux into dist/, compiled by zig for glibc 2.17 (manylinux2014): for each MACHINE,
 # x86_64 and aarch64 unless others are named, one for Python 3.12 and all later ones; for x86_64 besides one for 3.11 and
 # one for each Python without the interpreter's lock that is found. Their names, interfaces and texts are checked, and
-# each Python found answers from its wheel as is stored (tools/answers.py). Says what could not be tried.
+# each Python found answers from its wheel as is stored (tools/answers.py), one of them with the oldest NumPy allowed
+# besides. Says what could not be tried.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -12,6 +13,7 @@ machines=("${@:2}")
 if [[ ${#machines[@]} == 0 ]]; then machines=(x86_64 aarch64); fi
 with_lock=(3.12 3.13 3.14 3.15)
 without_lock=(3.13t 3.14t 3.15t)
+oldest_numpy=$(sed -nE 's/^dependencies = \["numpy>=([0-9.]+)"\]$/\1/p' pyproject.toml)
 PATH=$venv/bin:$PATH # its cmake, ninja and checks come first
 source tools/zig_environment.sh
 source tools/source_date.sh
@@ -67,13 +69,9 @@ for machine in "${machines[@]}"; do
 done
 
 echo "Checking" >&2
-quietly twine check --strict dist/*
+quietly tools/check_archives.sh "$venv"
 for wheel in dist/*.whl; do
-    case $wheel in
-        *-cp312-abi3-manylinux*) quietly abi3audit --strict --report "$wheel" ;;
-        *-cp311-cp311-manylinux* | *-cp3??-cp3??t-manylinux*) ;;
-        *) echo "tools/wheels.sh: $wheel is neither cp312-abi3 nor of one Python, or not for manylinux" >&2; exit 1 ;;
-    esac
+    [[ $wheel == *-manylinux* ]] || { echo "tools/wheels.sh: $wheel is not for manylinux" >&2; exit 1; }
     "$venv/bin/python" tools/archives.py "$archive" "$wheel"
 done
 
@@ -89,6 +87,10 @@ if [[ " ${machines[*]} " == *" $(uname -m) "* ]]; then
         quietly install "$work/try-$version" --no-index --no-deps --find-links dist stereodel
         "$work/try-$version/bin/python" -W error tools/answers.py
         "$work/try-$version/bin/python" -W error tools/free_threads.py
+        if [[ $version == 3.12 ]]; then # the last for which there are wheels of that NumPy
+            quietly "$work/try-$version/bin/python" -m pip -q install --only-binary :all: "numpy==$oldest_numpy"
+            "$work/try-$version/bin/python" -W error tools/answers.py
+        fi
         [[ $version == 3.11 ]] || tried=$((tried + 1))
     done
     if ((tried < 2)); then said+=("the wheel of Python 3.12 was tried on fewer than two"); fi

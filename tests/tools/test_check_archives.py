@@ -1,0 +1,67 @@
+"""What the check of archives lets through, and which wheels it has audited."""
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+SCRIPT = Path(__file__).resolve().parents[2] / "tools" / "check_archives.sh"
+OF_ALL = ["cp312-abi3-manylinux2014_x86_64", "cp312-abi3-win_amd64", "cp312-abi3-macosx_11_0_arm64"]
+OF_ONE = ["cp311-cp311-linux_x86_64", "cp314-cp314t-musllinux_1_2_x86_64", "cp312-abi3-pyodide_2026_0_wasm32"]
+
+
+@pytest.fixture
+def check(tmp_path):
+    """Run the script on files of these names; what it said, and what it called."""
+    (tmp_path / "tools").mkdir()
+    shutil.copy(SCRIPT, tmp_path / "tools")
+    programs = tmp_path / "venv" / "bin"
+    programs.mkdir(parents=True)
+    for name in ("twine", "abi3audit"):
+        program = programs / name
+        program.write_text(f'#!/bin/sh\necho {name} "$@" >>"{tmp_path}/called"\ncase "$*" in *wrong*) exit 1 ;; esac\n')
+        program.chmod(0o755)
+
+    def run(*names):
+        (tmp_path / "dist").mkdir()
+        for name in names:
+            (tmp_path / "dist" / name).touch()
+        line = [tmp_path / "tools" / SCRIPT.name, "venv"]
+        ran = subprocess.run(
+            line, cwd=tmp_path, env={**os.environ, "HOME": str(tmp_path)}, capture_output=True, text=True, check=False
+        )
+        called = tmp_path / "called"
+        return ran, called.read_text(encoding="utf-8").splitlines() if called.exists() else []
+
+    return run
+
+
+def test_texts_of_all_and_the_interface_of_those_for_several_pythons(check):
+    wheels = sorted(f"stereodel-1-{tag}.whl" for tag in OF_ALL + OF_ONE)
+    ran, (texts, *audited) = check("stereodel-1.tar.gz", "stereodel-1.tgz", *wheels)
+    assert ran.returncode == 0
+    assert texts == " ".join(["twine check --strict dist/stereodel-1.tar.gz", *(f"dist/{name}" for name in wheels)])
+    assert audited == sorted(f"abi3audit --strict --report dist/stereodel-1-{tag}.whl" for tag in OF_ALL)
+
+
+@pytest.mark.parametrize("tag", ["cp312-cp312-manylinux2014_x86_64", "cp313-abi3-win_amd64", "py3-none-any"])
+def test_a_wheel_of_another_kind_is_named(check, tag):
+    """As one without the stable interface, which a build tool may leave out without a word."""
+    ran, _ = check("stereodel-1.tar.gz", f"stereodel-1-{tag}.whl")
+    assert ran.returncode == 1
+    assert f"dist/stereodel-1-{tag}.whl is neither for Python 3.12 and all later ones nor" in ran.stderr
+
+
+@pytest.mark.parametrize("name", ["wrong-1.tar.gz", "wrong-1-cp312-abi3-win_amd64.whl"])
+def test_what_the_programs_refuse_is_refused(check, name):
+    ran, _ = check(name, "stereodel-1-cp311-cp311-linux_x86_64.whl")
+    assert ran.returncode == 1
+
+
+def test_no_wheel_is_an_error(check):
+    ran, called = check("stereodel-1.tar.gz")
+    assert ran.returncode == 1
+    assert "there is no wheel in dist/" in ran.stderr
+    assert called == []
