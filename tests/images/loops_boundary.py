@@ -1,8 +1,5 @@
 """What bounds polygons of a page, and whether a path in a vector file is that."""
 
-from collections import Counter
-from itertools import pairwise
-
 import numpy as np
 
 from stereodel.constants import FINEST_POINTS
@@ -48,14 +45,19 @@ THIN = FINEST_POINTS / 20
 
 def union_boundary(loops):
     """What bounds regions that share their sides: those that one loop alone has, end to end."""
-    sides = Counter((tuple(a), tuple(b)) for loop in loops for a, b in pairwise(loop))
-    left = {a: b for a, b in sides if a != b and (b, a) not in sides}
+    places = [loop @ (1.0, 1.0j) for loop in loops]
+    sides = np.concatenate([np.stack([place[:-1], place[1:]], axis=1) for place in places])
+    ends, numbers = np.unique(sides, return_inverse=True)
+    begin, end = numbers.reshape(-1, 2).T
+    there, back = begin * len(ends) + end, end * len(ends) + begin
+    alone = (begin != end) & ~np.isin(back, there)
+    left = dict(zip(begin[alone].tolist(), end[alone].tolist(), strict=True))
     runs = []
     while left:
         run = [next(iter(left))]
         while run[-1] in left:
             run.append(left.pop(run[-1]))
-        runs.append(np.array(run))
+        runs.append(np.stack([ends[run].real, ends[run].imag], axis=1))
     return LoopsBoundary(runs)
 
 

@@ -41,15 +41,22 @@ class Expected:
     """(mark) → what is wrong, or nothing; in place of the comparison of paths."""
 
 
-def differences(page, sheet, pictures=()):
+def differences(page, sheet, wanted):
     """What is wrong with what a file shows and tells, a line each; the type comes last and is not looked at.
+
+    Parameters
+    ----------
+    page : Page
+    sheet
+        What was read of the file.
+    wanted : list of Expected
+        `expected` of the page.
 
     Returns
     -------
     list of str, list of Mark
         The second are the marks of the type.
     """
-    wanted = list(_merged(expected(page, pictures)))
     whole = (page.width, page.height)
     wrong = [] if np.allclose(sheet.size, whole, rtol=0.0, atol=PLACE) else [f"size {sheet.size}, expected {whole}"]
     for what in ("title", "description"):
@@ -65,6 +72,10 @@ def differences(page, sheet, pictures=()):
 
 def expected(page, pictures=()):
     """The marks of a page but for its type, in order."""
+    return list(_merged(_marks(page, pictures)))
+
+
+def _marks(page, pictures):
     yield Expected("ground", Mark("fill", levels_of(page.background), _rectangle(page.width, page.height)))
     rest = iter(pictures)
     place = _Place(page)

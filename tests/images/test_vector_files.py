@@ -9,7 +9,7 @@ from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polyg
 from stereodel.render.save import region_pictures
 from stereodel.render.vector import save_vector
 from tests.images.marks import path_of
-from tests.images.page_marks import differences
+from tests.images.page_marks import differences, expected
 from tests.images.read_pdf import read_pdf
 from tests.images.read_svg import read_svg
 from tests.images.scripts import by_script, cases
@@ -23,10 +23,11 @@ READERS = {"svg": read_svg, "pdf": read_pdf}
 def wrong_in_files(page, ink, folder):
     """What is wrong with the files of a page, a line each."""
     drawn = region_pictures(page, SIZE)
+    wanted = expected(page, drawn)
     wrong, sheets, type_marks = [], {}, {}
     for kind, read in READERS.items():
         sheets[kind] = read(save_vector(page, folder / f"page.{kind}", pictures=drawn))
-        found, type_marks[kind] = differences(page, sheets[kind], drawn)
+        found, type_marks[kind] = differences(page, sheets[kind], wanted)
         wrong += [f"{kind}: {what}" for what in found]
     return wrong or type_differences(page, ink, sheets, type_marks)
 
@@ -245,7 +246,7 @@ def as_it_is(tmp_path_factory):
     sheets, type_marks = {}, {}
     for kind, read in READERS.items():
         sheets[kind] = read(save_vector(page, folder / f"a.{kind}", pictures=pictures(page)))
-        wrong, type_marks[kind] = differences(page, sheets[kind], pictures(page))
+        wrong, type_marks[kind] = differences(page, sheets[kind], expected(page, pictures(page)))
         assert wrong == []
     ink = ink_boxes(page)
     assert type_differences(page, ink, sheets, type_marks) == []
@@ -260,7 +261,7 @@ def test_a_file_of_another_page_is_told_apart(kind, change, as_it_is, tmp_path):
     other = CHANGES[change](page)
     file = save_vector(other, tmp_path / f"b.{kind}", pictures=pictures(other))
     sheet = READERS[kind](file)
-    wrong, marks = differences(page, sheet, pictures(page))
+    wrong, marks = differences(page, sheet, expected(page, pictures(page)))
     assert wrong or type_differences(page, ink, {**sheets, kind: sheet}, {**type_marks, kind: marks})
 
 
