@@ -56,7 +56,7 @@ animations: $(VENV)/installed-animations opengl ## draw every animation that is 
 
 test: $(VENV)/installed-test system ## all tests, then the image tests once more on EGL
 	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
-	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests
+	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests/images
 
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)

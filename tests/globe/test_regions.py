@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, fisheye, lonlat_to_xyz, xyz_to_lonlat
@@ -111,6 +111,7 @@ def test_holes_are_left_out():
 
 
 @given(focus=places, size=st.floats(-2, 4).map(lambda e: 10.0**e), view=views)
+@settings(max_examples=40)
 def test_the_world_but_a_hole_is_what_the_hole_is_not(focus, size, view):
     world, hole = BOXES["the world"][0], BOXES["plain"][0]
     lens = fisheye(focus, magnification=size)
