@@ -32,9 +32,10 @@ class RoundCells:
         self.ridges = self._diagram.ridge_points
         self._start, end = np.moveaxis(self._diagram.vertices[self._diagram.ridge_vertices], 1, 0)
         self._normals = _normals(sites[self.ridges[:, 0]], sites[self.ridges[:, 1]])
-        # The angle from start to end about the normal, from 0 up to a whole turn.
+        # The angle from start to end about the normal: at most half a turn, as the whole ridge of two sites is in two
+        # parts. A tiny one, or one of half a turn, may be rounded to the other side.
         side = np.einsum("ri,ri->r", self._normals, np.cross(self._start, end))
-        self._angles = np.mod(np.arctan2(side, np.einsum("ri,ri->r", self._start, end)), 2 * np.pi)
+        self._angles = np.arctan2(np.abs(side), np.einsum("ri,ri->r", self._start, end))
 
     def areas(self) -> FloatArray:
         """Solid angles (n,)."""
