@@ -53,6 +53,8 @@ def test_interruption_leaves_nothing(folder):
     os.mkfifo(folder / "asking.csv")
     with start("nearest", "cities.csv", "--of", "asking.csv", "-o", "out.csv") as waiting:
         with opened_for_writing(folder / "asking.csv", waiting):
+            # It comes out of opening, and goes on to read. A signal between the two would wait for what is read.
+            time.sleep(0.5)
             waiting.send_signal(signal.SIGINT)
             assert waiting.communicate(timeout=60)[1] == b"interrupted; nothing was written\n"
         assert waiting.returncode == 130

@@ -35,7 +35,7 @@ const run = (code) => {
 (async () => {
   const module = await WebAssembly.compile(await inflate("block-kernel"));
   const name = document.getElementById("block-given-name");
-  window.said = {
+  window.report = {
     end,
     module: module instanceof WebAssembly.Module,
     name: name && JSON.parse(new TextDecoder().decode(await inflate("block-given-name"))),
@@ -81,8 +81,8 @@ def built(monkeypatch):
 def test_a_page_runs_by_itself(built, visit, tmp_path):
     file = web(tmp_path / "page.html", lonlat=[(10, 48.4)], name='</script><script>alert("x")</script>')
     page = visit(file, complaints=REFUSED)
-    page.until("window.said")
-    assert page.page.evaluate("said") == {
+    page.until("window.report")
+    assert page.page.evaluate("report") == {
         "end": "</script><!--<script>",
         "module": True,
         "name": '</script><script>alert("x")</script>',
@@ -105,9 +105,9 @@ def test_no_other_script_or_style_comes_in(built, visit, tmp_path):
     )
     (tmp_path / "other.js").write_text("window.came_in = 3;")
     page = visit(web(tmp_path / "page.html"), complaints=REFUSED)
-    page.until("window.said")
+    page.until("window.report")
     assert page.page.evaluate("window.came_in ?? 0") == 0
-    assert page.page.evaluate("said.colour") == "rgb(1, 2, 3)"
+    assert page.page.evaluate("report.colour") == "rgb(1, 2, 3)"
 
 
 def test_the_same_page_every_time(built):
