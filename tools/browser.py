@@ -179,6 +179,7 @@ class Visit:
         )
         self._context.add_init_script(WATCH)
         self.page: Page = self._context.new_page()
+        self.page.set_default_timeout(90_000)  # a machine whose processors are all busy may take long for a picture
         self._clock: CDPSession | None = None
         self.requests: list[str] = []
         self.complaints: list[str] = []
