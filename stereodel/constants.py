@@ -329,3 +329,18 @@ A point, 1/72 inch, is four times as large on a globe 17 cm across.
 
 AREA_SUM_ERROR: Final = 2e-12
 """How far the areas of all cells of a sphere may add up to another area, in terms of it: what each cell may be off."""
+
+UNPACKED_SIZE: Final = 2**20
+"""Bytes to which any packed file may unpack, however small it is: that of a million bytes reads in a second."""
+
+UNPACKED_RATIO: Final = 50
+"""How many times its size a packed file may unpack to; tables of measurements pack to a half or a thirtieth.
+
+Repetition alone packs to a thousandth (gzip) or a millionth (bzip2): a kilobyte would fill the memory.
+"""
+
+MOST_MEMBERS: Final = 10_000
+"""Members that a zip archive may have; spreadsheets and zipped shapefiles have a dozen."""
+
+MOST_COLUMNS: Final = 2**15
+"""Columns that a table of text may have: each takes 30 µs, however few its rows are. Databases hold fewer."""

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
 from stereodel._extras import optional
 from stereodel._files import replacing, said_of
-from stereodel.cli.failures import stop_if_interrupted
+from stereodel._interrupts import stop_if_interrupted
 from stereodel.cli.options import Latitude
 from stereodel.cli.progress import bar, stage
 from stereodel.cli.sources import Columns

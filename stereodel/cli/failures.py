@@ -9,14 +9,15 @@ import sys
 import warnings
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import Final, NoReturn
+from typing import Final
 
 import typer
 
-from stereodel._interrupts import INTERRUPTED, leave
-from stereodel.io.columns import RenamedColumnWarning
+from stereodel._interrupts import INTERRUPTED, interrupt, leave, signals
+from stereodel.io.columns import DataWarning
 
 NOTHING_TO_DO: Final = 1
+MISSING: Final = 1
 WRONG_INPUT: Final = 2
 BROKEN_PIPE: Final = 1
 """Exit code after a closed pipe, as in rich and Python's documentation."""
@@ -44,24 +45,6 @@ OPTIONS: Final = {
 """Arguments of the library that messages name, and the corresponding options."""
 
 
-_signals: list[int] = []
-
-
-def interrupt(number: int, frame: object) -> NoReturn:
-    """Handler of SIGINT while a command runs: Python's default, and the interruption is recorded.
-
-    An interrupted import of a library may raise another exception, which is then treated as an interruption.
-    """
-    _signals.append(number)
-    raise KeyboardInterrupt
-
-
-def stop_if_interrupted() -> None:
-    """Interrupt again if an interruption was lost: some libraries swallow exceptions while they are imported."""
-    if _signals:
-        raise KeyboardInterrupt
-
-
 class NothingToDoError(Exception):
     """The input is valid, but there is nothing to write."""
 
@@ -70,7 +53,7 @@ class NothingToDoError(Exception):
 def told_plainly() -> Iterator[None]:
     """Turn errors that a user can fix into a message and an exit code; others pass with their traceback.
 
-    Renamed columns are reported on stderr as well. In a process of the command, an interruption is an exception within
+    Warnings about data are notes on stderr. In a process of the command, an interruption is an exception within
     the context; after it, when what was written is written, it is ignored.
     """
     own_process = signal.getsignal(signal.SIGINT) is leave
@@ -78,11 +61,11 @@ def told_plainly() -> Iterator[None]:
         if own_process:
             signal.signal(signal.SIGINT, interrupt)
         with warnings.catch_warnings():
-            warnings.simplefilter("always", RenamedColumnWarning)
+            warnings.simplefilter("always", DataWarning)
             show = warnings.showwarning
             warnings.showwarning = lambda message, category, *where: (
                 typer.echo(f"note: {message}", err=True)
-                if issubclass(category, RenamedColumnWarning)
+                if issubclass(category, DataWarning)
                 else show(message, category, *where)
             )
             yield
@@ -91,7 +74,8 @@ def told_plainly() -> Iterator[None]:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise typer.Exit(BROKEN_PIPE) from None
     except KeyboardInterrupt as reason:
-        raise _interrupted(str(reason)) from None
+        said = "" if reason.__cause__ else str(reason)  # a codec tells its own name, of another interruption
+        raise _interrupted(said) from None
     except NothingToDoError as reason:
         typer.echo(str(reason), err=True)
         raise typer.Exit(NOTHING_TO_DO) from None
@@ -100,12 +84,12 @@ def told_plainly() -> Iterator[None]:
         raise typer.Exit(WRONG_INPUT) from None
     except Exception as error:
         # Libraries turn an interruption into exceptions of their own: OSError in imports, TypeError in NumPy's strings.
-        if _signals:
+        if signals:
             raise _interrupted() from None
         if not isinstance(error, (OSError, ValueError, ImportError)):
             raise
         typer.echo(f"error: {in_options(_in_one_line(error))}", err=True)
-        raise typer.Exit(WRONG_INPUT) from None
+        raise typer.Exit(MISSING if isinstance(error, ImportError) else WRONG_INPUT) from None
     finally:
         if own_process:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -113,7 +97,7 @@ def told_plainly() -> Iterator[None]:
 
 def _interrupted(reason: str = "") -> typer.Exit:
     """Report an interruption and return the exit; further interruptions are ignored."""
-    if _signals:
+    if signals:
         signal.signal(signal.SIGINT, signal.SIG_IGN)
     typer.echo(reason or "interrupted; nothing was written", err=True)
     return typer.Exit(INTERRUPTED)
@@ -122,8 +106,6 @@ def _interrupted(reason: str = "") -> typer.Exit:
 def in_options(message: str, options: Mapping[str, str] = OPTIONS) -> str:
     """A message with options in place of arguments. Names of columns, which follow a row number, are left unchanged.
 
-    Examples
-    --------
     >>> in_options("no column looks like the latitude; say which with lat=, the columns are 'a', 'b'")
     "no column looks like the latitude; say which with --lat, the columns are 'a', 'b'"
     >>> in_options("max_segment is 0.0, but must be above 0")

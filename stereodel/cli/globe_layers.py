@@ -12,13 +12,14 @@ import numpy as np
 
 from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.cli.options import Latitude, box_of, refuse
-from stereodel.cli.sources import Table, naming
+from stereodel.cli.sources import Table
 from stereodel.data import blue_marble
 from stereodel.drawing.colors import as_color
 from stereodel.drawing.fonts import as_font
 from stereodel.drawing.lengths import as_length
 from stereodel.drawing.style import DOTS, LINES, MAP_DOT, MAP_LINES, DotStyle, LineStyle
 from stereodel.globe import Globe, Raster
+from stereodel.io.reading import naming
 
 CROWDED = 500  # number of points above which lines and dots become finer, so that cells stay visible
 FINEST = 0.2  # smallest factor for the usual widths

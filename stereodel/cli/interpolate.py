@@ -109,7 +109,8 @@ def command(
         lon=at_lon,
         lat=at_lat,
         layer=at_layer_name,
-        crs=at_crs or (crs if plane else None),
+        crs=at_crs,
+        first_crs=crs,
         plane=plane,
         skip_missing=skip_missing,
     )

@@ -75,7 +75,8 @@ def command(
         lon=of_lon,
         lat=of_lat,
         layer=of_layer_name,
-        crs=of_crs or (crs if plane else None),
+        crs=of_crs,
+        first_crs=crs,
         plane=plane,
         skip_missing=skip_missing,
     )

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Collection, Iterator
-from contextlib import contextmanager
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Final
 
@@ -17,9 +16,9 @@ from stereodel.cli.options import Latitude
 from stereodel.cli.progress import bar
 from stereodel.io import read_points
 from stereodel.io.columns import beside
-from stereodel.io.reading import read_plane_points
+from stereodel.io.reading import naming, read_plane_points
 from stereodel.io.tables import known_crs
-from stereodel.io.text import doubles
+from stereodel.io.text import doubles, why_not
 
 Columns = dict[str, Column]
 
@@ -35,29 +34,18 @@ class Table:
 
     A `stereodel.io.PointTable` is what the library reads and writes: checked degrees, without a source. Here places may
     be in the plane, and messages and results need the names of the file and of the axes.
-
-    Attributes
-    ----------
-    name : str
-        Name of the file, as shown in messages.
-    places : (n, 2) array
-        Longitude and latitude in degrees, or plane coordinates.
-    axes : tuple of str
-        Names of the two coordinate columns.
-    columns : dict
-        The other columns by name, (n,) each.
-    rows : (n,) array of int
-        Number of each point's row in the table, from 1.
-    crs : str, optional
-        Coordinate reference system of plane coordinates, if known; degrees are EPSG:4326.
     """
 
     name: str
     places: FloatArray
+    """(n, 2): longitude and latitude in degrees, or plane coordinates."""
     axes: tuple[str, str]
     columns: Columns
+    """The other columns by name, (n,) each."""
     rows: Indices
+    """(n,): number of each point's row in the table, from 1."""
     crs: str | None = "EPSG:4326"
+    """That of plane coordinates, if known."""
 
     def __len__(self) -> int:
         return len(self.places)
@@ -86,7 +74,8 @@ class Table:
         values, wrong = doubles(column)
         if wrong.any():
             row = np.flatnonzero(wrong)[0]
-            raise ValueError(f"{self.name}: row {self.rows[row]}: {name} is {column.tolist()[row]!r}, not a number")
+            said = str(column.tolist()[row]).strip()
+            raise ValueError(f"{self.name}: row {self.rows[row]}: the {name} {said!r} {why_not(said)}")
         return values
 
     def values(self, names: list[str], *, skip_missing: bool) -> tuple[FloatArray, Table]:
@@ -131,7 +120,7 @@ def read(
     """The table in a file, or on stdin if `name` is "-"; raises NothingToDoError for a table without points."""
     shown = "stdin" if name == "-" else name
     source = sys.stdin.buffer if name == "-" else name
-    with bar(f"reading {shown}") as told, naming(shown):
+    with bar(f"reading {shown}") as told, naming(shown if name == "-" else None):
         if plane is not None:
             places, columns, rows = read_plane_points(
                 source, *plane, layer=layer, skip_missing=skip_missing, progress=told
@@ -155,23 +144,16 @@ def read_second(
     lat: str | None,
     layer: str | None,
     crs: str | None,
+    first_crs: str | None,
     plane: tuple[str, str] | None,
     skip_missing: bool,
 ) -> Table:
-    """The table that an option such as ``--at`` names, with options of its own: ``--at-lon`` and so on."""
+    """The table that an option such as ``--at`` names, with options of its own: ``--at-lon`` and so on.
+
+    In a plane both tables have the columns that ``--plane`` names, and the coordinate system of the first one where the
+    second has none of its own.
+    """
     own = {key: f"{option}-{ending}" for key, ending in SECOND.items()}
+    crs = crs or (first_crs if plane else None)
     with naming_options(**own):
         return read(name, lon=lon, lat=lat, plane=plane, layer=layer, crs=crs, skip_missing=skip_missing)
-
-
-@contextmanager
-def naming(name: str) -> Iterator[None]:
-    """Prefix errors with the name of the file."""
-    try:
-        yield
-    except ValueError as error:
-        raise ValueError(f"{name}: {error}") from error
-    except OSError as error:
-        if error.errno is not None:
-            raise
-        raise ValueError(f"{name}: {error}") from error  # Arrow raises it for damaged files

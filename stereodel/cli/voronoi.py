@@ -114,7 +114,7 @@ def command(
         places = table.points(latitude)
         diagram = PlanarVoronoi(places) if table.planar else SphericalVoronoi(places)
     destination.write(lambda path: _save(path, diagram, table, area_unit or AreaUnit.km2, clip, max_segment, latitude))
-    say(f"{out}: cells of {len(table)} points")
+    say(f"{out}: cells of {len(table)} points" + ("" if table.planar else f", with {latitude.value} latitudes"))
 
 
 def _save(
@@ -131,9 +131,9 @@ def _save(
 
     from stereodel.cli.destinations import MESHES, save_csv, save_layer, save_mesh
     from stereodel.cli.progress import bar
-    from stereodel.cli.sources import naming
     from stereodel.earth import AUTHALIC_RADIUS_KM
     from stereodel.io.frames import layer_of
+    from stereodel.io.reading import naming
 
     kind = path.suffix.lower().removeprefix(".")
     name = "area" if table.planar else f"area_{unit.value}"

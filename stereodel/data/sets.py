@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cache
-from types import MappingProxyType
 from typing import Any, Final
 
 import numpy as np
@@ -59,7 +58,7 @@ class Stars:
     """(n,): B − V, magnitudes; blue stars are below 0, red ones above 1."""
 
 
-def sources() -> dict[str, MappingProxyType[str, Any]]:
+def sources() -> dict[str, dict[str, Any]]:
     """Where each set is from: name → source, licence, package and version, number of rows, file and its SHA-256.
 
     Examples
@@ -67,7 +66,7 @@ def sources() -> dict[str, MappingProxyType[str, Any]]:
     >>> sources()["stars"]["rows"], sources()["cities"]["licence"]
     (117955, 'CC BY 4.0')
     """
-    return {name: MappingProxyType(entry) for name, entry in stored.table().items()}
+    return {name: dict(entry) for name, entry in stored.table().items()}
 
 
 @cache

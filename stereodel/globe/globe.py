@@ -22,13 +22,14 @@ from stereodel._arrays import (
     as_steps,
     as_values,
 )
+from stereodel._extras import of_extra
 from stereodel.conformal import MoebiusMap
 from stereodel.drawing.colors import ColorLike, as_color, as_colors
 from stereodel.drawing.fonts import FontLike, as_font
 from stereodel.drawing.label import placed_label
 from stereodel.drawing.legend import LegendEntry, with_legend
 from stereodel.drawing.lengths import LengthLike, as_length
-from stereodel.drawing.page import Item, Label, Page
+from stereodel.drawing.page import Item, Label, Page, picture_extra
 from stereodel.drawing.page_styles import Style, styled
 from stereodel.drawing.scales import ColorScale, category_colors, usual_scale
 from stereodel.drawing.style import (
@@ -52,7 +53,8 @@ from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
 from stereodel.globe.regions import Rings, SphereRegions
-from stereodel.io.shapes import Shapes, shapes_of
+from stereodel.io.reading import shapes_of
+from stereodel.io.shapes import Shapes
 from stereodel.render.sizes import LARGEST_SIZE
 from stereodel.sphere import SphereCircle, lonlat_to_xyz
 from stereodel.sphere.latitudes import KINDS, Latitude
@@ -373,7 +375,8 @@ class Globe:
         Parameters
         ----------
         source : path-like, mapping, or object with __geo_interface__
-            A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or Shapely geometry.
+            A GeoJSON file or object; any other file that GeoPandas reads; a GeoDataFrame or Shapely geometry. What
+            names another coordinate system (GeoJSON by a member ``crs``) is transformed to degrees.
         color : color-like
             Colour of polygons.
         column : str, optional
@@ -503,10 +506,11 @@ class Globe:
             raise ValueError("size and dpi both say how many pixels a picture has; give one of them")
         pixels, wide = as_count(SIZE if size is None else size, "size", high=LARGEST_SIZE), as_length(width, "width")
         pixel = wide / pixels if dpi is None else 72 / as_scalar(dpi, "dpi", low=0.0, open_low=True)
-        page = self.page(lens, view, width=wide, tolerance=min(0.02, 0.2 * pixel), style=style, legend=legend)
-        if dpi is not None:
-            pixels = max(1, round(page.width / 72 * dpi))
-        return page.save(path, size=pixels, transparent=transparent)
+        with of_extra(picture_extra(Path(path).suffix)):
+            page = self.page(lens, view, width=wide, tolerance=min(0.02, 0.2 * pixel), style=style, legend=legend)
+            if dpi is not None:
+                pixels = max(1, round(page.width / 72 * dpi))
+            return page.save(path, size=pixels, transparent=transparent)
 
     def _xyz(self, places: npt.ArrayLike, name: str) -> FloatArray:
         """Unit vectors from places in degrees, (n, 2), or directions, (n, 3); a single place may be one-dimensional."""

@@ -102,13 +102,16 @@ def read_photo(path: str | os.PathLike[str]) -> Photo:
     with open(name, "rb") as file, warnings.catch_warnings():
         warnings.simplefilter("ignore", Image.DecompressionBombWarning)
         try:
-            with Image.open(file, formats=FORMATS) as image:
-                _check_size(name, image.size)
-                return _photo(name, image)
+            opened = Image.open(file, formats=FORMATS)
         except UnidentifiedImageError as error:
             raise ValueError(f"{name} is not a picture of a kind that is read: {', '.join(FORMATS)}") from error
         except Image.DecompressionBombError as error:
             raise ValueError(f"{name} has too many pixels: at most {MOST_TEXELS} are read; make it smaller") from error
+        except DAMAGED as error:
+            raise ValueError(f"{name} is damaged or cut off: {error}") from error
+        with opened as image:
+            _check_size(name, image.size)
+            return _photo(name, image)
 
 
 def check_photo(name: str, size: tuple[int, int], *, opaque: bool) -> None:

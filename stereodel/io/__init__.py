@@ -4,7 +4,7 @@ Other libraries are imported only when a function needs them; the extras ``draw`
 install them.
 """
 
-from stereodel.io.columns import RenamedColumnWarning
+from stereodel.io.columns import DataWarning, RenamedColumnWarning
 from stereodel.io.frames import to_geodataframe
 from stereodel.io.geojson import to_geojson
 from stereodel.io.grids import Grid
@@ -16,6 +16,7 @@ from stereodel.io.warping import warp
 from stereodel.io.writing import write
 
 __all__ = [
+    "DataWarning",
     "Grid",
     "PointTable",
     "RenamedColumnWarning",

@@ -11,7 +11,7 @@ from stereodel import data
 from stereodel._arrays import FloatArray, Geometries, Packed
 from stereodel.io.layers import ROWS, is_there, packed, unpacked
 from stereodel.io.on_map import repaired, shapely
-from stereodel.io.shapes import shapes_of
+from stereodel.io.reading import shapes_of
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -52,10 +52,7 @@ def clipped(binary: Packed, clip: Any, latitude: Latitude) -> tuple[Packed, Floa
 class Mask:
     """The polygons to which others are clipped.
 
-    Parameters
-    ----------
-    clip
-        "land", or a source for `shapes_of`; in degrees, either cut at ±180° or continued beyond.
+    clip: "land", or a source for `shapes_of`; in degrees, either cut at ±180° or continued beyond.
     """
 
     def __init__(self, clip: Any) -> None:

@@ -21,20 +21,10 @@ NAMES = {
 
 
 def find_lonlat(names: Sequence[str], lon: str | None = None, lat: str | None = None) -> tuple[str, str]:
-    """Names of the columns of longitude and latitude.
+    """Names of the columns of longitude and latitude; ValueError lists the columns if none or more than one matches.
 
-    Parameters
-    ----------
-    names : sequence of str
-    lon, lat : str, optional
-        The names, if known. Otherwise they are guessed, ignoring case: a name that is one of the words lon, lng, long,
-        longitude, lat, latitude is preferred to one that contains such a word (``decimalLongitude``, ``lat_deg``), and
-        that to ``x`` and ``y``.
-
-    Raises
-    ------
-    ValueError
-        If no column or more than one matches; the message lists the columns.
+    Names that are not given are guessed, ignoring case: one that is a word of `NAMES` is preferred to one that contains
+    such a word (``decimalLongitude``, ``lat_deg``), and that to ``x`` and ``y``.
     """
     found = [_find(names, kind, given) for kind, given in (("lon", lon), ("lat", lat))]
     if found[0] == found[1]:
@@ -51,23 +41,19 @@ def has_lonlat(names: Sequence[str]) -> bool:
     return True
 
 
-class RenamedColumnWarning(UserWarning):
+class DataWarning(UserWarning):
+    """Data are read or written as they are, but may not be what was meant."""
+
+
+class RenamedColumnWarning(DataWarning):
     """A column is written under another name because its own is taken."""
 
 
 def beside(taken: Iterable[str], columns: Mapping[str, T], *, any_case: bool = False) -> dict[str, T]:
     """Columns under names that are not taken; a warning lists those that were renamed.
 
-    A name that is taken, ignoring case, gets the first free number appended: ``lon`` becomes ``lon_1``.
-
-    Parameters
-    ----------
-    taken : iterable of str
-        Names already in use, such as those of the coordinates.
-    columns : mapping
-        The columns of the input.
-    any_case : bool
-        Whether the names of `columns` must also differ from each other in more than case, as databases require.
+    A name that is taken, ignoring case, gets the first free number appended: ``lon`` becomes ``lon_1``. With `any_case`
+    the names of `columns` also differ from each other in more than case, as databases require.
 
     Examples
     --------
@@ -125,7 +111,7 @@ def _find(names: Sequence[str], kind: str, given: str | None) -> str:
     plain = {name: name.strip().lower() for name in names}
     for matching in (
         [name for name in names if plain[name] in sure],
-        [name for name in names if sure & words(name)],
+        [name for name in names if any(map(plain[name].__contains__, sure)) and sure & words(name)],
         [name for name in names if plain[name] in unsure],
     ):
         if len(matching) == 1:

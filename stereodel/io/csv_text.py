@@ -5,17 +5,21 @@ from __future__ import annotations
 import csv
 import io
 import re
+import warnings
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import islice
-from typing import TextIO
+from typing import Any, TextIO
 
 import numpy as np
 
 from stereodel._arrays import Column, Indices
-from stereodel.io.columns import has_lonlat
+from stereodel.constants import MOST_COLUMNS
+from stereodel.io.cells import as_text, check_held, plain_cells
+from stereodel.io.columns import DataWarning, has_lonlat, listed
 from stereodel.io.layers import Progress
-from stereodel.io.text import EXACT_INTEGERS, NUMBER, objects, texts, typed
+from stereodel.io.text import EXACT_INTEGERS, NUMBER, decimal_mark, objects, texts, typed, why_not
 
 SEPARATORS = ",;\t|"
 LOOKED_AT = 50
@@ -36,9 +40,26 @@ class TextTable:
     rows: Indices
     comma: bool
 
-    def typed(self, *, without: Collection[str] = ()) -> dict[str, Column]:
-        """The columns, except `without`; a column whose values are all numbers becomes numeric."""
-        return {name: typed(values, comma=self.comma) for name, values in self.columns.items() if name not in without}
+    def typed(self, *, degrees: Collection[str] = ()) -> dict[str, Column]:
+        """The columns; one whose values are all numbers becomes numeric, except `degrees`, whose marks are decimal.
+
+        Numbers whose marks may separate thousands stay text, with a warning, if the table has another decimal mark, or
+        if their mark is a comma and no other number has it.
+        """
+        result = dict(self.columns)
+        marks = {name: decimal_mark(result[name]) for name in degrees}
+        for name in [name for name in result if name not in marks]:
+            result[name] = typed(self.columns[name], comma=self.comma)
+            if result[name].dtype.kind == "f":
+                marks[name] = decimal_mark(self.columns[name])
+        decimal = {mark for name, (mark, sure) in marks.items() if sure or name in degrees} - {""}
+        for name in [name for name, (mark, sure) in marks.items() if mark and not sure and name not in degrees]:
+            mark = marks[name][0]
+            if decimal - {mark} or (mark == "," and not decimal):
+                result[name] = self.columns[name]
+                cell = next(cell.strip() for cell in result[name].tolist() if mark in cell)
+                warnings.warn(f"column {name!r} is kept as text: {cell!r} {why_not(cell)}", DataWarning, stacklevel=2)
+        return result
 
 
 def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | None = None) -> TextTable:
@@ -52,6 +73,8 @@ def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | 
     first = next(rows, None)
     if first is None:
         raise ValueError("the table is empty: there is not even a line with the names of the columns")
+    if len(first) > MOST_COLUMNS:
+        raise ValueError(f"the first line has {len(first)} columns; {MOST_COLUMNS} are the most that are read")
     names, data = _header(first, wanted)
     # In blocks: a million lists at once would keep the garbage collector busy.
     blocks, before = [_columns(data, len(names), 0)], len(data)
@@ -128,29 +151,41 @@ def _header(row: list[str], wanted: Collection[str]) -> tuple[list[str], Rows]:
     numbers = sum(NUMBER.fullmatch(field) is not None for field in first)
     if 2 * numbers > sum(map(bool, first)) and not (set(wanted) & set(first) or has_lonlat(first)):
         return (["lon", "lat"] if len(first) == 2 else [f"column_{k}" for k in range(1, len(first) + 1)]), [row]
-    repeated = sorted({name for name in first if name and first.count(name) > 1})
+    repeated = sorted(name for name, times in Counter(first).items() if name and times > 1)
     if repeated:
-        raise ValueError(f"there are several columns with the name {', '.join(map(repr, repeated))}")
+        raise ValueError(f"there are several columns with the name {listed(repeated)}")
     return first, []
 
 
 def write_csv(columns: Mapping[str, Column], stream: TextIO) -> None:
     """Write columns under a header line; numbers have as many digits as needed to read the same values back.
 
-    Missing numbers are empty fields; a column of doubles that are all integers is written as integers.
+    Missing and infinite numbers are empty fields; a column of doubles that are all integers is written as integers.
     """
-    writer = csv.writer(stream, lineterminator="\n")
+    check_held(columns, "csv")
+    writer = csv.writer(_Lines(stream))
     writer.writerow(columns)
-    writer.writerows(zip(*(_cells(np.asarray(values)).tolist() for values in columns.values()), strict=True))
+    writer.writerows(zip(*(_fields(np.asarray(values)) for values in columns.values()), strict=True))
 
 
-def _cells(values: Column) -> Column:
-    """The text of a column's fields."""
+class _Lines:
+    """Lines of a writer that quotes carriage returns, since its own lines end with one, without these."""
+
+    def __init__(self, stream: TextIO) -> None:
+        self._stream = stream
+
+    def write(self, line: str) -> None:
+        self._stream.write(f"{line[:-2]}\n")
+
+
+def _fields(values: Column) -> list[Any]:
+    """What stands in a column's fields."""
     if values.dtype.kind != "f":
-        return values
+        return [as_text(cell) for cell in plain_cells(values)] if values.dtype.kind not in "biu" else values.tolist()
     known = np.isfinite(values.astype(np.float64))
     numbers = values[known].astype(np.float64)
     whole = (np.abs(numbers) < EXACT_INTEGERS).all() and (numbers == np.round(numbers)).all()
+    signed = (np.signbit(numbers) & (numbers == 0)).any()  # the integer 0 has no sign
     cells = objects([None] * len(values))
-    cells[known] = list(map(int, numbers.tolist())) if whole else numbers.tolist()
-    return cells
+    cells[known] = list(map(int, numbers.tolist())) if whole and not signed else numbers.tolist()
+    return cells.tolist()

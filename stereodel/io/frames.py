@@ -75,7 +75,7 @@ def to_geodataframe(
     Raises
     ------
     ImportError
-        Without GeoPandas (``pip install stereodel[geo]``).
+        Without GeoPandas (the extra ``geo``).
     TypeError, ValueError
         If `mesh` is of another type, an option is out of range, or a column has the wrong length.
 

@@ -3,19 +3,90 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
-from stereodel._arrays import as_count
+from stereodel._arrays import Column, as_count
 from stereodel._extras import optional
+from stereodel.io.cells import check_held, plain_cells
 from stereodel.io.layers import Layer, Progress
+from stereodel.io.self_contained import check_crs
+from stereodel.io.text import column
 
 HEAD: Final = '{"type":"FeatureCollection","features":['
 TAIL: Final = "]}"
+
+KINDS: Final = ("Point", "MultiPoint", "LineString", "LinearRing", "MultiLineString", "Polygon", "MultiPolygon")
+"""Types of geometries with coordinates; a LinearRing is a closed line of Shapely."""
+
+
+@dataclass(frozen=True, eq=False)
+class Features:
+    """Features that were read: properties and geometry of each, and the coordinate system, None for degrees."""
+
+    properties: list[Mapping[str, Any]]
+    geometries: list[Any]
+    crs: str | None
+
+    @classmethod
+    def of(cls, content: Any) -> Features:
+        """The features of a GeoJSON object: a collection, a feature or a geometry; ValueError names the row."""
+        kind = kind_of(content)
+        if kind in KINDS or kind == "GeometryCollection":
+            rows: Any = [{"geometry": content}]
+        elif kind == "Feature":
+            rows = [content]
+        elif isinstance(content, Mapping) and (kind == "FeatureCollection" or (kind is None and "features" in content)):
+            rows = content.get("features")
+        else:
+            raise ValueError(f"this is not GeoJSON: its type is {kind!r}, neither feature nor geometry; see RFC 7946")
+        if not isinstance(rows, list | tuple):
+            raise ValueError("this is a FeatureCollection without a list of features")
+        for row, feature in enumerate(rows, 1):
+            known = isinstance(feature, Mapping) and feature.get("type", "Feature") == "Feature"
+            if not known or not isinstance(feature.get("properties") or {}, Mapping):
+                raise ValueError(f"row {row}: is not a GeoJSON Feature with properties by name; see RFC 7946")
+        every = _crs_of(content)
+        systems = {every if row.get("crs") is None else _crs_of(row) for row in rows} or {every}
+        return cls([row.get("properties") or {} for row in rows], [row.get("geometry") for row in rows], one(systems))
+
+    def columns(self) -> dict[str, Column]:
+        """The properties as columns, None where a feature lacks one."""
+        cells: dict[str, dict[int, Any]] = {}
+        for row, properties in enumerate(self.properties):
+            for name, value in properties.items():
+                cells.setdefault(name, {})[row] = value
+        rows = range(len(self.properties))
+        return {name: column(map(values.get, rows)) for name, values in cells.items()}
+
+
+def one(systems: set[str | None]) -> str | None:
+    """The only coordinate system of features."""
+    if len(systems) > 1:
+        names = ", ".join(sorted(name or "degrees" for name in systems))
+        raise ValueError(f"there are several coordinate systems, {names}; give features of one")
+    return systems.pop() if systems else None
+
+
+def kind_of(content: Any) -> Any:
+    """The member ``type`` of a GeoJSON object; None for what is none."""
+    return content.get("type") if isinstance(content, Mapping) else None
+
+
+def _crs_of(content: Mapping[str, Any]) -> str | None:
+    """The coordinate system that an object names in the manner of GeoJSON before RFC 7946; None for degrees."""
+    crs = content.get("crs")
+    if crs is None:
+        return None
+    name = (crs.get("properties") or {}).get("name") if isinstance(crs, Mapping) else None
+    if not isinstance(name, str):
+        raise ValueError(f"the member crs of the file is {crs!r}, which names no coordinate system")
+    check_crs(name)
+    return None if name.upper().endswith(("CRS84", "EPSG::4326", "EPSG:4326")) else name
 
 
 def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = False) -> str:
@@ -36,8 +107,8 @@ def to_geojson(frame: Any, *, decimals: int | None = None, sequence: bool = Fals
     Returns
     -------
     str
-        Outer rings are counterclockwise, non-finite properties (NaN, infinity) are null, and there is no member
-        ``crs``. Polygons of `to_geodataframe` are already cut at ±180°.
+        Outer rings are counterclockwise, non-finite properties (NaN, infinity), also those in lists and mappings, are
+        null, and there is no member ``crs``. Polygons of `to_geodataframe` are already cut at ±180°.
 
     Notes
     -----
@@ -61,6 +132,7 @@ def write_geojson(
     layer: Layer, path: Path, *, decimals: int | None = None, sequence: bool = False, progress: Progress | None = None
 ) -> None:
     """Write the rows of a map in the format of `to_geojson`, block by block."""
+    check_held(layer.columns, path.suffix[1:])
     between = "\n" if sequence else ",\n"
     with path.open("w", encoding="utf-8", newline="") as file:
         file.write("" if sequence else HEAD)
@@ -80,15 +152,8 @@ def features(frame: Any, decimals: int | None) -> Iterator[str]:
         digits = as_count(decimals, "decimals", low=0)
         geometry = shapely.transform(geometry, lambda coordinates: np.round(coordinates, digits))
     names = [name for name in frame.columns if name != frame.geometry.name]
-    rows = zip(*(_values(frame[name].to_numpy()) for name in names), strict=True) if names else iter([()] * len(frame))
-    compact = json.JSONEncoder(ensure_ascii=False, separators=(",", ":"), default=str).encode
+    rows = zip(*(plain_cells(frame[name]) for name in names), strict=True) if names else iter([()] * len(frame))
+    compact = json.JSONEncoder(ensure_ascii=False, allow_nan=False, separators=(",", ":")).encode
     for row, text in zip(rows, shapely.to_geojson(geometry), strict=True):
         properties = compact(dict(zip(names, row, strict=True)))
         yield f'{{"type":"Feature","properties":{properties},"geometry":{text or "null"}}}'
-
-
-def _values(column: npt.NDArray[Any]) -> list[Any]:
-    """Values with None for NaN and infinity, which JSON lacks."""
-    if column.dtype.kind == "f":
-        return [value if np.isfinite(value) else None for value in column.tolist()]
-    return [None if value is None or value != value else value for value in column.tolist()]

@@ -89,6 +89,9 @@ class Grid:
             object.__setattr__(self, name, value)
         object.__setattr__(self, "values", MappingProxyType(values))
 
+    def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled or copied
+        return type(self), (self.lon, self.lat, dict(self.values), self.units, self.centers)
+
     @classmethod
     def regular(cls, spacing: float, bounds: npt.ArrayLike | None = None, *, centers: bool = False) -> Grid:
         """A grid without values, for the whole Earth or part of it.
@@ -148,7 +151,10 @@ class Grid:
         'm'
         """
         coordinates, variables = self._described()
-        return optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
+        dataset = optional("xarray", "grid").Dataset(variables, coordinates, {"Conventions": "CF-1.8"})
+        for variable in dataset.variables.values():  # in files, values can be missing, and nothing else
+            variable.encoding["_FillValue"] = np.nan if "grid_mapping" in variable.attrs else None
+        return dataset
 
     def _described(self) -> tuple[dict[str, Any], dict[str, Any]]:
         """Coordinates and variables as (dimensions, values, attributes)."""
@@ -180,27 +186,6 @@ def _check_places(spacing: float, columns: int, rows: int) -> None:
         raise ValueError(
             f"spacing is {spacing:g}, which makes a grid of {columns} × {rows} places; {MOST_PLACES} are the most"
         )
-
-
-def write_netcdf(grid: Grid, path: Path) -> None:
-    """Write a grid as NetCDF in the classic format, which every reader supports."""
-    coordinates, variables = grid._described()
-    with optional("scipy.io", "scipy").netcdf_file(path, "w", version=2) as file:
-        file.Conventions = "CF-1.8"
-        sizes = {"lat": len(grid.lat), "lon": len(grid.lon), **({"bnds": 2} if grid.centers else {})}
-        for name, size in sizes.items():
-            file.createDimension(name, size)
-        for name, (dimensions, values, attributes) in (coordinates | variables).items():
-            kind = "i4" if not dimensions else "f8"
-            variable = file.createVariable(name, kind, dimensions)
-            if dimensions:
-                variable[:] = values
-            else:
-                variable.data[()] = values
-            if name not in coordinates and len(dimensions) == 2 and "bnds" not in dimensions:
-                variable._FillValue = np.nan
-            for key, value in attributes.items():
-                setattr(variable, key, value)
 
 
 def write_geotiff(grid: Grid, path: Path) -> None:

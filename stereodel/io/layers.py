@@ -15,6 +15,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, Geometries, Indices, Packed
 from stereodel._extras import optional
+from stereodel.io.cells import as_text, plain_cells
 from stereodel.io.columns import beside, index_columns
 
 Progress = Callable[[float], object]
@@ -52,16 +53,10 @@ def is_there(binary: Packed) -> BoolArray:
 class Layer:
     """Rows of a map.
 
-    Attributes
-    ----------
-    columns : mapping of str to (n,) array
-        Arrays of NumPy, pandas or Arrow.
-    binary : (n,) array of bytes
-        Geometries as well-known binary; None where a row has none.
-    crs
-        Coordinate reference system in any form that pyproj accepts; None if unknown.
-    name : str
-        Name of the geometry column.
+    columns: arrays of NumPy, pandas or Arrow, by name.
+    binary: geometries as well-known binary, (n,); None where a row has none.
+    crs: coordinate reference system in any form that pyproj accepts; None if unknown.
+    name: name of the geometry column.
     """
 
     columns: Mapping[str, Any]
@@ -144,11 +139,12 @@ def _of_several(binary: Packed) -> list[bytes | None]:
 def arrow_column(values: Any) -> Any:
     """The column as an Arrow array; values without an Arrow type, such as integers of any size, become text."""
     arrow = optional("pyarrow", "geo")
+    if isinstance(values, np.ndarray) and values.dtype.kind == "U":
+        values = values.astype(object)  # text of a fixed width would end at its first zero
     try:
         column = arrow.array(values, from_pandas=True)
     except (arrow.ArrowInvalid, arrow.ArrowTypeError, arrow.ArrowNotImplementedError, OverflowError):
-        cells = np.asarray(values, dtype=object).tolist()
-        column = arrow.array([None if cell is None or cell != cell else str(cell) for cell in cells], arrow.string())
+        column = arrow.array([as_text(cell) for cell in plain_cells(values)], arrow.string())
     if isinstance(column, arrow.ChunkedArray):
         column = column.combine_chunks()
     return column.cast(arrow.string()) if arrow.types.is_null(column.type) else column

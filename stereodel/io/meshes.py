@@ -95,7 +95,7 @@ def to_polydata(mesh: Mesh, *, what: str | None = None) -> Any:
     Raises
     ------
     ImportError
-        Without PyVista (``pip install stereodel[mesh]``).
+        Without PyVista (the extra ``mesh``).
 
     Examples
     --------

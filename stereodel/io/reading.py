@@ -1,14 +1,11 @@
-"""Reading tables of points: detection of the format, and a reader for each."""
+"""Reading tables of points, and shapes: detection of the format, and a reader for each."""
 
 from __future__ import annotations
 
-import bz2
-import gzip
-import io
 import json
 import os
-import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,15 +18,19 @@ from stereodel._arrays import Column, FloatArray, Indices, as_choice
 from stereodel._extras import optional
 from stereodel.io.columns import beside, find_lonlat, index_columns, listed
 from stereodel.io.csv_text import split_columns
+from stereodel.io.geojson import Features, kind_of
+from stereodel.io.geoparquet import read_parquet
 from stereodel.io.layers import Progress
-from stereodel.io.shapes import MULTIPOINT, POINT
+from stereodel.io.packed import unpacked
+from stereodel.io.shapes import MULTIPOINT, POINT, Shapes, of_features, of_geometries, of_items
 from stereodel.io.tables import PointTable, located, table_of
 from stereodel.io.text import column, texts
-from stereodel.io.vector_files import read_frame
+from stereodel.io.vector_files import read_frame, told
 
 Source = str | os.PathLike[str] | BinaryIO | TextIO
 Format = Literal["csv", "geojson", "parquet", "vector"]
 TEXT: Final = (".csv", ".tsv", ".txt")
+PACKED: Final = (".gz", ".bz2")
 ENDINGS: dict[str, Format] = {
     **dict.fromkeys(TEXT, "csv"),
     **dict.fromkeys((".geojson", ".json", ".geojsonl", ".geojsons"), "geojson"),
@@ -60,10 +61,10 @@ class Asked:
     skip_missing: bool = False
     progress: Progress | None = None
 
-    def table(self, columns: dict[str, Column], rows: Indices, others: dict[str, Column] | None = None) -> PointTable:
-        """A table with coordinates in two of its columns; `others` are the columns to keep, if not the same."""
+    def table(self, columns: dict[str, Column], rows: Indices) -> PointTable:
+        """A table with coordinates in two of its columns."""
         where = find_lonlat(list(columns), self.lon, self.lat)
-        kept = {name: values for name, values in (others or columns).items() if name not in where}
+        kept = {name: values for name, values in columns.items() if name not in where}
         lon, lat = (columns[name] for name in where)
         return table_of(lon, lat, kept, rows, crs=self.crs, skip_missing=self.skip_missing)
 
@@ -92,7 +93,7 @@ def read_points(
         By default taken from the extension of the path, else from the first bytes. "vector" is any format that GDAL
         reads: GeoPackage, Shapefile (also zipped), FlatGeobuf, KML, GPX, spreadsheets (.xlsx, .ods).
     layer : str, optional
-        Name of the layer, where a file has several; of a file of GDAL's formats alone.
+        Name of the layer or sheet, where a file has several with rows; of a file of GDAL's formats alone.
     crs : str, optional
         Coordinate reference system of the columns `lon` and `lat` (easting first), such as "EPSG:25832"; by default
         they are in degrees. Files with geometries state their own.
@@ -109,12 +110,12 @@ def read_points(
     Raises
     ------
     ValueError
-        If a coordinate is missing or not a number, or a latitude is outside [−90, 90] (the message gives the row,
-        counted from 1 for the first row of data); if no column or several may be longitude or latitude (the message
-        lists the columns); or if a geometry is not a point.
+        If the file is damaged; if a coordinate is missing or not a number, or a latitude is outside [−90, 90] (the
+        message gives the row, counted from 1 for the first row of data); if no column or several may be longitude or
+        latitude (the message lists the columns); or if a geometry is not a point.
     ImportError
-        If libraries for formats other than CSV and GeoJSON, or for coordinate systems, are missing (``pip install
-        stereodel[geo]``).
+        If libraries for formats other than CSV and GeoJSON, or for coordinate systems, are missing (the extra
+        ``geo``).
     OSError
         If the file cannot be read.
 
@@ -124,8 +125,11 @@ def read_points(
     semicolons, tabs, vertical bars or blanks; decimal commas are accepted with any separator but the comma; the first
     line is a header unless most of its fields are numbers; leading lines that begin with # are comments. A column
     becomes numeric if all its values are numbers whose digits a double can hold and none has a leading zero followed by
-    digits. Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326;
-    without one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
+    digits. Where each point or comma in a column may separate thousands (128.928, 1,234), the other numbers of the
+    table decide: if theirs is the same decimal mark, and no other, it is decimal, and so is a point if they have none;
+    else the column stays text, with a `DataWarning`. Marks in degrees are decimal. Geometries in another coordinate
+    system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without one they are taken as longitude and
+    latitude in degrees. A MultiPoint with one point counts as a point.
 
     Examples
     --------
@@ -140,8 +144,50 @@ def read_points(
     ValueError: row 2: latitude 95.2 is outside [-90, 90]; is it the longitude, or not in degrees?
     """
     asked = Asked(lon, lat, layer, crs, skip_missing, progress)
-    file = _File(source, format, layer)
-    return _of_frame(file.frame(), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
+    with naming(source):
+        file = _File(source, format, layer)
+        return _of_frame(file.frame(), asked) if file.kind == "vector" else READERS[file.kind](file.content, asked)
+
+
+def shapes_of(source: Any) -> Shapes:
+    """The shapes of a file, of GeoJSON, of a frame, or of geometries: one feature for each row.
+
+    source: a GeoJSON file (also a sequence, or compressed) or object, any other file that GeoPandas reads, a frame, a
+    geometry or a sequence of them, or anything with ``__geo_interface__``. Coordinates in another system (of GeoJSON,
+    by a member ``crs``) are transformed; without one they are in degrees. Null and empty geometries have no shapes.
+
+    >>> square = {"type": "Polygon", "coordinates": [[[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]]}
+    >>> shapes = shapes_of({"type": "Feature", "properties": {"people": 3}, "geometry": square})
+    >>> len(shapes.rings), shapes.rings.values[1].tolist(), shapes.column("people").tolist()
+    (1, [10.0, 0.0], [3.0])
+    """
+    if isinstance(source, str | os.PathLike):
+        return _shapes_of_file(Path(source))
+    if isinstance(source, Mapping):
+        return of_features(Features.of(source))
+    if hasattr(source, "to_crs"):
+        degrees = source if source.crs is None else source.to_crs("EPSG:4326")
+        others = degrees.drop(columns=degrees.geometry.name).to_dict("records") if hasattr(degrees, "columns") else None
+        return of_geometries(np.asarray(degrees.geometry, dtype=object), others)
+    if hasattr(source, "geom_type"):
+        return of_geometries(np.array([source], dtype=object))
+    if isinstance(getattr(source, "__geo_interface__", None), Mapping):
+        return of_features(Features.of(source.__geo_interface__))
+    if isinstance(source, Iterable) and not isinstance(source, bytes):
+        return of_items(list(source))
+    raise TypeError(f"source must be a file, GeoJSON, a GeoDataFrame or geometries, got {type(source).__name__}")
+
+
+def _shapes_of_file(path: Path) -> Shapes:
+    path.stat()  # the system's own message says best that there is none
+    with naming(path):
+        file = _File(path, None if path.suffix.lower() in (*ENDINGS, *PACKED) else "vector")
+        if file.kind == "geojson":
+            return of_features(Features.of(_json(_text(file.content))))
+        frame = read_parquet(file.content) if file.kind == "parquet" else file.frame("give a file with one")
+        if not hasattr(frame, "to_crs"):
+            raise ValueError("the file is a table without geometries")
+        return shapes_of(frame)
 
 
 def read_plane_points(
@@ -155,38 +201,44 @@ def read_plane_points(
 ) -> tuple[FloatArray, dict[str, Column], Indices]:
     r"""Points of the plane from two columns of a table: (n, 2), the other columns, and row numbers.
 
-    Raises
-    ------
-    ValueError
-        If the source is GeoJSON, a column does not exist, or a row (named in the message) lacks finite numbers.
+    ValueError for GeoJSON, a column that does not exist, and a row (named in the message) without finite numbers.
 
-    Examples
-    --------
     >>> import io
     >>> text = "site,east,north\nA,3500,5400\nB,3600,5410"
     >>> points, others, rows = read_plane_points(io.StringIO(text), "east", "north")
     >>> points.tolist(), others["site"].tolist()
     ([[3500.0, 5400.0], [3600.0, 5410.0]], ['A', 'B'])
     """
-    file = _File(source, layer=layer)
-    if file.kind == "csv":
-        text = split_columns(_text(file.content), (x, y), progress)
-        table, rows, others = text.columns, text.rows, text.typed(without=(x, y))
-    elif file.kind == "parquet":
-        read = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(file.content))
-        table = {name: _of_arrow(read[name]) for name in read.column_names if name != "geometry"}
-        rows, others = np.arange(1, read.num_rows + 1), table
-    elif file.kind == "vector":
-        frame = file.frame()
-        table = _columns_of(frame)
-        rows, others = np.arange(1, len(frame) + 1), table
-    else:
-        raise ValueError("columns of a plane are those of tables, not of GeoJSON")
-    missing = [name for name in (x, y) if name not in table]
-    if missing:
-        raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(list(table))}")
-    kept = {name: values for name, values in others.items() if name not in (x, y)}
-    return located([(name, table[name]) for name in (x, y)], kept, rows, skip_missing=skip_missing)
+    with naming(source):
+        file = _File(source, layer=layer)
+        if file.kind == "csv":
+            text = split_columns(_text(file.content), (x, y), progress)
+            table, rows = text.typed(), text.rows
+        elif file.kind == "parquet":
+            read = read_parquet(file.content)
+            table = {name: _of_arrow(read[name]) for name in read.column_names if name != "geometry"}
+            rows = np.arange(1, read.num_rows + 1)
+        elif file.kind == "vector":
+            frame = file.frame()
+            table, rows = _columns_of(frame), np.arange(1, len(frame) + 1)
+        else:
+            raise ValueError("columns of a plane are those of tables, not of GeoJSON")
+        missing = [name for name in (x, y) if name not in table]
+        if missing:
+            raise ValueError(f"there is no column {missing[0]!r}; the columns are {listed(list(table))}")
+        kept = {name: values for name, values in table.items() if name not in (x, y)}
+        return located([(name, table[name]) for name in (x, y)], kept, rows, skip_missing=skip_missing)
+
+
+@contextmanager
+def naming(source: Any) -> Iterator[None]:
+    """Begin errors with the name of the file."""
+    try:
+        yield
+    except ValueError as error:
+        if not isinstance(source, str | os.PathLike):
+            raise
+        raise ValueError(f"{os.fspath(source)}: {error}") from error
 
 
 class _File:
@@ -202,7 +254,7 @@ class _File:
     def _found(self) -> Format:
         """The format from the extension of the path, ignoring that of compression, else from the first bytes."""
         endings = [ending.lower() for ending in self._path.suffixes[-2:]] if self._path is not None else []
-        for ending in (endings[-1:], endings[:1] if endings[-1:] in ([".gz"], [".bz2"]) else []):
+        for ending in (endings[-1:], endings[:1] if endings[-1:] and endings[-1] in PACKED else []):
             if ending and ending[0] in ENDINGS:
                 return ENDINGS[ending[0]]
         return ENDINGS[_ending(self.content)]
@@ -212,15 +264,17 @@ class _File:
         """The decompressed bytes."""
         return _content(self._source)
 
-    def frame(self) -> Any:
+    def frame(self, choice: str = "say which with layer=") -> Any:
         """The frame in a file of a GDAL format; by path, as GDAL needs the extension and any companion files."""
-        if self._path is not None:
-            with self._path.open("rb"):  # the system's own message says best why it cannot be read
-                return read_frame(self._path, layer=self._layer)
+        if self._path is not None and self._path.suffix.lower() not in PACKED:
+            if not self._path.is_dir():  # as some formats are
+                self._path.open("rb").close()  # the system's own message says best why it cannot be read
+            return read_frame(self._path, layer=self._layer, choice=choice)
         with TemporaryDirectory() as folder:
-            named = Path(folder, f"points{_ending(self.content)}")
+            within = Path(self._path.stem).suffix if self._path is not None else ""
+            named = Path(folder, f"points{within or _ending(self.content)}")
             named.write_bytes(self.content)
-            return read_frame(named, layer=self._layer)
+            return read_frame(named, layer=self._layer, choice=choice)
 
 
 def _ending(content: bytes) -> str:
@@ -229,20 +283,14 @@ def _ending(content: bytes) -> str:
     found = next((ending for mark, ending in BEGINNINGS.items() if start.startswith(mark)), ".csv")
     if found == ".zip" and b"xl/workbook.xml" in content:
         return ".xlsx"
+    if found == ".zip" and b"opendocument.spreadsheet" in content[:100]:
+        return ".ods"
     return ".gpx" if found == ".kml" and b"<gpx" in content[:1000] else found
 
 
 def _content(source: Source) -> bytes:
     content = Path(source).read_bytes() if isinstance(source, str | os.PathLike) else source.read()
-    if isinstance(content, str):
-        return content.encode()
-    try:
-        for mark, unpack in ((b"\x1f\x8b", gzip.decompress), (b"BZh", bz2.decompress)):
-            if content.startswith(mark):
-                return unpack(content)
-        return content
-    except (EOFError, zlib.error, gzip.BadGzipFile, ValueError, OSError) as error:
-        raise ValueError(f"the compressed file is damaged: {error}") from error
+    return content.encode() if isinstance(content, str) else unpacked(content)
 
 
 def _text(content: bytes) -> str:
@@ -256,24 +304,20 @@ def _text(content: bytes) -> str:
 
 def _read_csv(content: bytes, asked: Asked) -> PointTable:
     table = split_columns(_text(content), [name for name in (asked.lon, asked.lat) if name is not None], asked.progress)
-    where = find_lonlat(list(table.columns), asked.lon, asked.lat)
-    return asked.table(table.columns, table.rows, table.typed(without=where))
+    degrees = find_lonlat(list(table.columns), asked.lon, asked.lat) if asked.crs is None else ()
+    return asked.table(table.typed(degrees=degrees), table.rows)
 
 
 def _read_geojson(content: bytes, asked: Asked) -> PointTable:
     collection = _json(_text(content))
-    features = collection.get("features") if isinstance(collection, dict) else None
-    if not isinstance(features, list):
+    alone = kind_of(collection) == "Feature"  # as a sequence of one
+    if not alone and not (isinstance(collection, dict) and isinstance(collection.get("features"), list)):
         raise ValueError("the file is not a GeoJSON FeatureCollection of points")
-    for row, feature in enumerate(features, 1):
-        if not isinstance(feature, dict) or not isinstance(feature.get("properties") or {}, dict):
-            raise ValueError(f"row {row}: is not a GeoJSON Feature with properties by name; see RFC 7946")
-    rows = np.arange(1, len(features) + 1)
-    places = [_position(feature.get("geometry"), row, asked) for row, feature in enumerate(features, 1)]
-    names = dict.fromkeys(name for feature in features for name in feature.get("properties") or {})
-    columns = {name: column((feature.get("properties") or {}).get(name) for feature in features) for name in names}
+    features = Features.of(collection)
+    rows = np.arange(1, len(features.geometries) + 1)
+    places = [_position(geometry, row, asked) for row, geometry in enumerate(features.geometries, 1)]
     lon, lat = (column(place[k] for place in places) for k in (0, 1))
-    return table_of(lon, lat, columns, rows, crs=_crs_of(collection), skip_missing=asked.skip_missing)
+    return table_of(lon, lat, features.columns(), rows, crs=features.crs, skip_missing=asked.skip_missing)
 
 
 def _json(text: str) -> Any:
@@ -292,17 +336,6 @@ def _json(text: str) -> Any:
             raise ValueError(f"the file is not JSON: {error}") from error
 
 
-def _crs_of(collection: dict[str, Any]) -> str | None:
-    """The coordinate system named by a collection in the manner of GeoJSON before RFC 7946; None for degrees."""
-    crs = collection.get("crs")
-    if crs is None:
-        return None
-    name = (crs.get("properties") or {}).get("name") if isinstance(crs, dict) else None
-    if not isinstance(name, str):
-        raise ValueError(f"the member crs of the file is {crs!r}, which names no coordinate system")
-    return None if name.upper().endswith(("CRS84", "EPSG::4326", "EPSG:4326")) else name
-
-
 def _position(geometry: Any, row: int, asked: Asked) -> tuple[Any, Any]:
     nothing = (None, None)
     if geometry is None and asked.skip_missing:
@@ -315,7 +348,7 @@ def _position(geometry: Any, row: int, asked: Asked) -> tuple[Any, Any]:
         raise ValueError(f"row {row}: a Point is needed, not {kind}{_advice(kind)}")
     if not coordinates:
         return nothing
-    if not isinstance(coordinates, list | tuple) or len(coordinates) < 2:
+    if not isinstance(coordinates, list) or len(coordinates) < 2 or str in map(type, coordinates[:2]):
         raise ValueError(f"row {row}: a Point has two or three coordinates, not {coordinates!r}")
     return coordinates[0], coordinates[1]
 
@@ -325,9 +358,9 @@ def _advice(kind: Any) -> str:
 
 
 def _read_parquet(content: bytes, asked: Asked) -> PointTable:
-    table = optional("pyarrow.parquet", "geo").read_table(io.BytesIO(content))
-    if b"geo" in (table.schema.metadata or {}):
-        return _of_frame(optional("geopandas", "geo").read_parquet(io.BytesIO(content)), asked)
+    table = read_parquet(content)
+    if hasattr(table, "geometry"):
+        return _of_frame(table, asked)
     columns = {name: _of_arrow(table[name]) for name in table.column_names}
     return asked.table(columns, np.arange(1, table.num_rows + 1))
 
@@ -335,7 +368,8 @@ def _read_parquet(content: bytes, asked: Asked) -> PointTable:
 def _of_arrow(values: Any) -> Column:
     """An Arrow column as an array; integers with missing values do not become doubles if that would round them."""
     whole = optional("pyarrow", "geo").types.is_integer(values.type)
-    return column(values.to_pylist()) if whole and values.null_count else _plain(values.to_numpy())
+    with told():
+        return column(values.to_pylist()) if whole and values.null_count else _plain(values.to_numpy())
 
 
 def from_geodataframe(frame: Any) -> PointTable:

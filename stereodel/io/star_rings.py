@@ -22,12 +22,8 @@ HEAD: Final = np.frombuffer(bytes([1, 3, 0, 0, 0, 1, 0, 0, 0]), dtype=np.uint8)
 def star_shaped(rings: Ragged, slack: float) -> tuple[BoolArray, FloatArray]:
     """Which rings are surely simple and counterclockwise, with the area in them where they are.
 
-    Parameters
-    ----------
-    rings : Ragged of (k, 2)
-        On the map; none is empty, and the first point does not come again at the end.
-    slack : float
-        A ring with an area of less than that times its length, however little, is not sure.
+    Rings are on the map, none is empty, and the first point does not come again at the end. A ring with an area of less
+    than `slack` times its length, however little, is not sure.
     """
     first, sizes = rings.offsets[:-1], rings.sizes
     center = np.add.reduceat(rings.values, first) / sizes[:, None]

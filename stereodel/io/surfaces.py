@@ -17,23 +17,11 @@ from stereodel.triangulation import SphericalVoronoi
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Polygons of nodes, counterclockwise.
+    """Polygons of nodes, counterclockwise: triangles, or `cells`."""
 
-    Attributes
-    ----------
-    nodes : (n, 2) or (n, 3) array
-        Points of the plane, unit vectors of the sphere.
-    polygons : Ragged of int
-        The nodes of each polygon.
-    number : (f,) array of int
-        Index of each cell's point, or of each triangle.
-    cells : bool
-        Whether the polygons are cells.
-    """
-
-    nodes: FloatArray
-    polygons: Ragged
-    number: Indices
+    nodes: FloatArray  # (n, 2) of the plane, or (n, 3), unit vectors
+    polygons: Ragged  # the nodes of each
+    number: Indices  # (f,): index of each cell's point, or of each triangle
     cells: bool
 
     @property

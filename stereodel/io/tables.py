@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices, as_lonlat, as_points, read_only
 from stereodel._extras import optional
-from stereodel.io.text import doubles
+from stereodel.io.text import doubles, why_not
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,6 +63,9 @@ class PointTable:
     def __len__(self) -> int:
         return len(self.lonlat)
 
+    def __reduce__(self) -> tuple[Any, ...]:  # a read-only mapping cannot be pickled or copied
+        return type(self), (self.lonlat, dict(self.columns), self.rows)
+
 
 def table_of(
     lon: Column,
@@ -73,48 +76,46 @@ def table_of(
     crs: str | None = None,
     skip_missing: bool = False,
 ) -> PointTable:
-    """A table from two columns of coordinates, as numbers or text; errors give the row number.
+    """A table from two columns of coordinates, as numbers or text, in degrees or in `crs`, easting first.
 
-    Parameters
-    ----------
-    lon, lat : (n,) arrays
-        Longitude and latitude, or coordinates in `crs`, easting first.
-    columns, rows
-        As for `PointTable`.
-    crs : str, optional
-        Coordinate reference system of the columns, which are transformed to EPSG:4326.
-    skip_missing : bool
-        Whether to leave out rows without a place.
-
-    Raises
-    ------
-    ValueError
-        If a longitude or latitude is missing, not a number, or out of range; the message gives the first such row.
+    ValueError gives the first row that lacks a place, or has none on the Earth; `skip_missing` leaves out the former.
     """
     names = ("longitude", "latitude") if crs is None else ("easting", "northing")
     pair = list(zip(names, (lon, lat), strict=True))
-    lonlat, columns, rows = located(pair, columns, rows, skip_missing=skip_missing)
-    if crs is not None:
-        lonlat = transformed(lonlat, crs, rows)
+    lonlat, columns, rows = located(pair, columns, rows, skip_missing=skip_missing, decimal=crs is None)
+    return PointTable(degrees(lonlat, crs, rows), columns, rows)
+
+
+def located(
+    pair: Sequence[tuple[str, Column]],
+    columns: Mapping[str, Column],
+    rows: Indices,
+    *,
+    skip_missing: bool,
+    decimal: bool = False,
+) -> tuple[FloatArray, dict[str, Column], Indices]:
+    """Two columns of coordinates, each with its name for messages, as places (n, 2), and the other columns.
+
+    With `skip_missing`, rows without a place are left out; for `decimal`, see `doubles`.
+    """
+    places = np.column_stack([numbers(values, name, rows, gaps=skip_missing, decimal=decimal) for name, values in pair])
+    there = ~np.isnan(places).any(axis=1)
+    return places[there], {name: np.asarray(values)[there] for name, values in columns.items()}, rows[there]
+
+
+def degrees(places: FloatArray, crs: str | None, rows: Indices) -> FloatArray:
+    """Places in degrees, transformed if `crs` is given; ValueError names the first row with a wrong one."""
+    lonlat = places if crs is None else transformed(places, crs, rows)
+    endless = np.flatnonzero(~np.isfinite(lonlat).all(axis=1))
+    if len(endless):
+        raise ValueError(f"row {rows[endless[0]]}: a coordinate is not finite{_more(endless)}")
     outside = np.flatnonzero(np.abs(lonlat[:, 1]) > 90.0)
     if len(outside):
         raise ValueError(
             f"row {rows[outside[0]]}: latitude {lonlat[outside[0], 1]} is outside [-90, 90]{_more(outside)}; "
             "is it the longitude, or not in degrees?"
         )
-    return PointTable(lonlat, columns, rows)
-
-
-def located(
-    pair: Sequence[tuple[str, Column]], columns: Mapping[str, Column], rows: Indices, *, skip_missing: bool
-) -> tuple[FloatArray, dict[str, Column], Indices]:
-    """Two columns of coordinates, each with its name for messages, as places (n, 2), and the other columns.
-
-    With `skip_missing`, rows without a place are left out.
-    """
-    places = np.column_stack([numbers(values, name, rows, gaps=skip_missing) for name, values in pair])
-    there = ~np.isnan(places).any(axis=1)
-    return places[there], {name: np.asarray(values)[there] for name, values in columns.items()}, rows[there]
+    return lonlat
 
 
 def known_crs(crs: str) -> Any:
@@ -137,17 +138,17 @@ def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
     return lonlat
 
 
-def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False) -> FloatArray:
+def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False, decimal: bool = False) -> FloatArray:
     """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row."""
     array = np.asarray(values)
     if array.dtype.kind in "iuf":
         result = array.astype(np.float64)
     else:
-        result, wrong = doubles(array)
+        result, wrong = doubles(array, decimal=decimal)
         if wrong.any():
             places = np.flatnonzero(wrong)
             said = str(array[places[0]]).strip()
-            raise ValueError(f"row {rows[places[0]]}: the {name} {said!r} is not a number{_more(places)}")
+            raise ValueError(f"row {rows[places[0]]}: the {name} {said!r} {why_not(said)}{_more(places)}")
     bad = np.flatnonzero(np.isinf(result) if gaps else ~np.isfinite(result))
     if len(bad):
         missing = bool(np.isnan(result[bad[0]]))

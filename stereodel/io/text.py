@@ -1,7 +1,10 @@
 """Columns of text: converted to numbers where no digit is lost, otherwise kept unchanged.
 
 A number is what people and programs write in tables: digits, a sign, a decimal point or comma, an exponent. Other
-notations that Python accepts, such as 1_000 or digits of other scripts, are text.
+notations that Python accepts, such as 1_000 or digits of other scripts, are text, and so are thousands with separators.
+
+Where a mark may be either, as in 128.928 and 1,234, other numbers decide: a mark is certainly decimal where it cannot
+separate thousands, as in 9,9934 or 0.125.
 """
 
 from __future__ import annotations
@@ -20,6 +23,9 @@ MISSING: Final = ("", "na", "n/a", "nan", "null", "none", "<na>", "-")
 
 NUMBER: Final = re.compile(r"[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)", re.IGNORECASE)
 
+GROUPED: Final = re.compile(r"[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}")
+"""A number whose mark may be decimal or separate thousands."""
+
 LONG: Final = 24
 """Length in characters above which text is stored as objects if few values are so long; doubles print no longer.
 
@@ -29,10 +35,19 @@ In NumPy's text arrays every row takes 4 bytes for each character of the longest
 SAFE_DIGITS: Final = 15
 """Number of decimal digits that a double always preserves."""
 
+TINY: Final = float(np.finfo(np.float64).tiny)
+"""Below it, doubles have fewer digits."""
+
 EXACT_INTEGERS: Final = 2.0**53
 """Up to this number doubles represent every integer."""
 
 _LETTERS: Final = np.frombuffer("0123456789+-.,eE\0".encode("utf-32-le"), dtype=np.uint32)
+
+LETTERS: Final = frozenset("0123456789+-.,eE")
+"""What finite numbers are written with."""
+
+CODE: Final = re.compile(r"^[-+]?0[0-9]", re.MULTILINE)
+"""A value that starts, after an optional sign, with a zero and another digit."""
 
 
 def texts(values: Iterable[str]) -> Column:
@@ -76,13 +91,7 @@ def typed(values: Column, *, comma: bool = False) -> Column:
     """A column of text as integers, or as floats with NaN for missing values, if all its values are numbers.
 
     The column stays text if a number has more digits than a double can hold, or starts with a zero and another digit,
-    as codes do.
-
-    Parameters
-    ----------
-    values : (n,) array of text
-    comma : bool
-        Whether a comma is a decimal separator.
+    as codes do. `comma` says whether a comma may be a decimal mark.
 
     Examples
     --------
@@ -93,39 +102,70 @@ def typed(values: Column, *, comma: bool = False) -> Column:
     """
     if values.dtype.kind != "U":
         return values
-    text = np.char.strip(values.astype(np.str_, copy=False))
-    missing = np.isin(np.char.lower(text), MISSING)
-    known = text[~missing]
-    if not len(known):
-        return np.full(len(text), np.nan) if len(text) and (text == "").all() else values
-    points = _letters(known)
-    if not np.isin(points, _LETTERS).all() or _has_codes(points):
+    text = [cell.strip() for cell in values.tolist()]
+    known = [cell for cell in text if cell.lower() not in MISSING]
+    if not known:
+        return np.full(len(text), np.nan) if len(text) and not any(text) else values
+    joined = "\n".join(known)
+    if not LETTERS.issuperset(joined.replace("\n", "")) or CODE.search(joined):
         return values
-    if (points == ord(",")).any():
-        if not comma or (points == ord(".")).any():
+    if "," in joined:
+        if not comma or "." in joined:
             return values
-        known = np.char.replace(known, ",", ".")
+        known = [cell.replace(",", ".") for cell in known]
     try:
-        if not missing.any():
-            return known.astype(np.int64)
+        if len(known) == len(text):
+            return np.array(list(map(int, known)), dtype=np.int64)
     except (ValueError, OverflowError):
         pass
     try:
-        numbers = known.astype(np.float64)
+        numbers = np.array(list(map(float, known)))
     except ValueError:
         return values
     if not _all_held(known, numbers):
         return values
     result = np.full(len(text), np.nan)
-    result[~missing] = numbers
+    result[[cell.lower() not in MISSING for cell in text]] = numbers
     return result
 
 
-def doubles(values: Column) -> tuple[FloatArray, BoolArray]:
+def decimal_mark(values: Column) -> tuple[str, bool]:
+    """The decimal mark of numbers that are given as text, "" if there is none, and whether it is sure to be one."""
+    mark = ""
+    for cell in values.tolist():
+        found = "." if "." in cell else "," if "," in cell else ""
+        if found and not GROUPED.fullmatch(cell.strip()):
+            return found, True
+        mark = mark or found
+    return mark, False
+
+
+def why_not(cell: str) -> str:
+    """Why text is not taken for a number, as the end of a message."""
+    if not GROUPED.fullmatch(cell):
+        return "is not a number"
+    digits = cell.replace(",", ".")
+    return f"may be {digits} or {digits.replace('.', '')}; write thousands without a separator"
+
+
+def doubles(values: Column, *, decimal: bool = False) -> tuple[FloatArray, BoolArray]:
     """Text and numbers as the nearest doubles, NaN where a value is missing; and a mask of values that are not numbers.
 
-    A comma is a decimal separator.
+    Points and commas are decimal marks. Unless `decimal` says that all are, one that may separate thousands makes its
+    number wrong, if the other numbers of the column do not have the same mark, and no other.
     """
+    result, wrong = _doubles(values)
+    if decimal or values.dtype.kind not in "UO":
+        return result, wrong
+    numbers = [str(cell).strip() for cell in values[~wrong].tolist()]
+    unsure = np.array([GROUPED.fullmatch(cell) is not None for cell in numbers], dtype=np.bool_)
+    marks = {mark for cell, doubt in zip(numbers, unsure, strict=True) for mark in ".," if not doubt and mark in cell}
+    unsure &= np.array([marks != {"." if "." in cell else ","} for cell in numbers], dtype=np.bool_)
+    wrong[~wrong] = unsure
+    return np.where(wrong, np.nan, result), wrong
+
+
+def _doubles(values: Column) -> tuple[FloatArray, BoolArray]:
     if values.dtype.kind == "U":
         text = np.char.strip(values.astype(np.str_, copy=False))
         try:
@@ -150,23 +190,12 @@ def _letters(text: Texts) -> Codes:
     return np.ascontiguousarray(text).view(np.uint32).reshape(len(text), -1)
 
 
-def _has_codes(points: Codes) -> bool:
-    """Whether any value starts, after an optional sign, with a zero and another digit."""
-    padded = np.pad(points, ((0, 0), (0, 2)))
-    signed = np.isin(padded[:, 0], [ord("+"), ord("-")])
-    first, second = (np.where(signed, padded[:, k + 1], padded[:, k]) for k in (0, 1))
-    return bool(((first == ord("0")) & (second >= ord("0")) & (second <= ord("9"))).any())
-
-
-def _all_held(text: Texts, numbers: FloatArray) -> bool:
+def _all_held(text: list[str], numbers: FloatArray) -> bool:
     """Whether the doubles preserve all digits of the text from which they were read."""
     if not np.isfinite(numbers).all():
         return False
-    points = _letters(text)
-    digits = np.count_nonzero((points >= ord("0")) & (points <= ord("9")), axis=1)
-    unsure = (digits > SAFE_DIGITS) | (np.abs(numbers) < np.finfo(np.float64).tiny)
-    for cell, number in zip(text[unsure].tolist(), numbers[unsure].tolist(), strict=True):
-        printed = repr(number)
-        if cell != printed and Decimal(cell) != Decimal(printed):
+    for cell, number in zip(text, numbers.tolist(), strict=True):
+        unsure = (len(cell) > SAFE_DIGITS or abs(number) < TINY) and cell != repr(number)
+        if unsure and Decimal(cell) != Decimal(repr(number)):
             return False
     return True

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from stereodel._arrays import FloatArray, IntArray
+from stereodel._arrays import BoolArray, FloatArray, IntArray
 from stereodel._extras import optional
 from stereodel.io.diagrams import Mesh, diagram_of, is_spherical
 from stereodel.io.surfaces import Surface, surface_of
@@ -42,7 +42,7 @@ def to_ugrid(mesh: Mesh, *, what: str | None = None, latitude: Latitude | None =
     Raises
     ------
     ImportError
-        If xarray is missing (``pip install stereodel[grid]``).
+        If xarray is missing (the extra ``grid``).
 
     Notes
     -----
@@ -146,7 +146,8 @@ def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
     Raises
     ------
     ValueError
-        If there is no such mesh, or its variables are missing.
+        If there is no such mesh, its variables are missing, or a face has fewer than three nodes or one that is not
+        there.
 
     Examples
     --------
@@ -166,8 +167,23 @@ def from_ugrid(dataset: Any) -> tuple[FloatArray, IntArray]:
     fill = {links.attrs.get("_FillValue"), links.encoding.get("_FillValue")} - {None}
     missing = np.isnan(rows) | np.isin(rows, list(fill))
     start = int(links.attrs.get("start_index", 0))
-    faces = np.where(missing, FILL, np.where(missing, 0, rows).astype(np.int64) - start).astype(np.int32)
-    return _coordinates(dataset, str(topology.get("node_coordinates", "")).split()), faces
+    nodes = _coordinates(dataset, str(topology.get("node_coordinates", "")).split())
+    _check_faces(rows, missing, start, len(nodes))
+    return nodes, np.where(missing, FILL, np.where(missing, 0, rows).astype(np.int64) - start).astype(np.int32)
+
+
+def _check_faces(rows: FloatArray, missing: BoolArray, start: int, count: int) -> None:
+    """Raise ValueError for a face with a node that is not there, or with fewer than three."""
+    wrong = np.argwhere(~missing & ((rows < start) | (rows >= start + count) | (rows != np.floor(rows))))
+    if len(wrong):
+        face, corner = wrong[0].tolist()
+        raise ValueError(
+            f"face {face} names node {rows[face, corner]:.15g}, but the nodes are {start} to {start + count - 1}; its "
+            "attributes start_index and _FillValue say where counting starts and which number stands for none"
+        )
+    few = np.flatnonzero((~missing).sum(axis=1) < 3)
+    if len(few):
+        raise ValueError(f"face {few[0]} has {(~missing[few[0]]).sum()} nodes, but a face has at least three")
 
 
 def _coordinates(dataset: Any, names: list[str]) -> FloatArray:

@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import errno
-import os
 import re
-import sqlite3
 import warnings
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from textwrap import shorten
 from typing import Any, Final
+from xml.parsers import expat
 
 from stereodel._extras import optional
-from stereodel.io.columns import RenamedColumnWarning, beside, listed
-from stereodel.io.layers import Layer, Progress, arrow_column
+from stereodel.io.cells import as_text, check_held, plain
+from stereodel.io.columns import DataWarning, RenamedColumnWarning, beside, listed
+from stereodel.io.layers import Layer, Progress, arrow_column, is_there
+from stereodel.io.self_contained import check_crs, self_contained
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Column names that a format reserves."""
@@ -27,46 +28,106 @@ DRIVERS: Final = {"gpkg": "GPKG", "fgb": "FlatGeobuf", "shp": "ESRI Shapefile", 
 SEVERAL: Final = {kind: f"Multi{kind}" for kind in ("Point", "LineString", "Polygon")}
 """The multi-part kind of each single-part kind of geometry."""
 
-FGB_MAGIC: Final = b"fgb\x03fgb\x01"
-FGB_NODE: Final = 40
-"""Bytes of a node of the index: a box of four doubles and a place among the features."""
-FGB_CHILDREN: Final = 16
-"""Children of a node of the index, as GDAL writes it."""
-
 OPTIONS: Final = {"fgb": {"TEMPORARY_DIR": "/vsimem/"}}
 """Options of GDAL by format. FlatGeobuf sorts features for its index: in memory that takes two thirds of the time."""
 
+INDEXED: Final = (".gpkg", ".fgb")
+"""Formats with a spatial index, which GDAL writes last or first."""
+
 LETTERS: Final = 200
 """Characters of GDAL's messages that an error message repeats."""
+
+LOST: Final = re.compile(
+    r"truncated|skipp(?:ed|ing)|discard|corrupt|damaged|\blost\b|ignored|cannot be (?:read|parsed)|invalid coord",
+    re.IGNORECASE,
+)
+"""Words in GDAL's warnings for data that are in the file and that it does not read unchanged."""
+
+SHAPES: Final = b"\x00\x00\x27\x0a"
+"""First bytes of the ``.shp`` of a shapefile; its length in words of 16 bits is in bytes 24 to 27."""
 
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
 
 
-def read_frame(source: str | os.PathLike[str] | bytes, *, layer: str | None = None) -> Any:
-    """A layer of a file, or of its bytes, as a GeoDataFrame; `layer` selects one of several.
+def read_frame(path: Path, *, layer: str | None, choice: str) -> Any:
+    """A layer of a file as a GeoDataFrame, or as a DataFrame if it has no geometries; `layer` selects one of several.
 
-    Raises
-    ------
-    ValueError
-        If the file is damaged or its format unknown to GDAL, `layer` does not exist, or it is not given and there are
-        several.
+    ValueError if the file is damaged, its format is not read or refers to other files, or `layer` does not exist, or is
+    needed: `choice` then says what to do.
     """
-    pyogrio = optional("pyogrio", "geo")
+    optional("pyogrio", "geo")
     optional("geopandas", "geo")
-    with told(), warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # GDAL's guesses, in its own words
-        layers = pyogrio.list_layers(source)
-        if not len(layers):
-            raise ValueError("the file is damaged: there is no layer in it")
-        names = [name for name, kind in layers if kind is not None]
-        if layer is not None and layer not in names:
-            raise ValueError(f"layer is {layer!r}, which is not one of {listed(names)}")
-        if layer is None and len(names) > 1:
-            raise ValueError(f"there are several layers, {listed(names)}; say which with layer=")
+    with self_contained(path) as source:
+        _check_whole(source)
+        return in_degrees(_read_frame(source, layer, choice))
+
+
+def in_degrees(frame: Any) -> Any:
+    """A frame of a file in longitude and latitude, where it states something else; ValueError if it is damaged."""
+    crs = getattr(frame, "crs", None)
+    check_crs(crs)
+    with told():
+        for name in frame.columns:
+            frame[name].to_numpy()  # text is looked at here for the first time, by Arrow
+        return frame if crs is None else frame.to_crs("EPSG:4326")
+
+
+def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
+    pyogrio = optional("pyogrio", "geo")
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always", RuntimeWarning)
+        chosen = _chosen(path, layer, choice)
         # Integers with missing values stay integers, which doubles may not represent.
         objects = {"integer_object_nulls": True}
-        return pyogrio.read_dataframe(source, layer=layer, use_arrow=True, arrow_to_pandas_kwargs=objects)
+        with told():
+            frame = pyogrio.read_dataframe(path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects)
+            rows = pyogrio.read_info(path, layer=chosen)["features"]  # -1 where GDAL has to read all to know
+    if len(frame) < rows:
+        raise ValueError(f"the file is damaged: {len(frame)} of its {rows} rows can be read")
+    own = [
+        str(each.message).replace(str(path), path.name) for each in said if issubclass(each.category, RuntimeWarning)
+    ]
+    for words in dict.fromkeys(shorten(each, LETTERS, placeholder=" …") for each in own):
+        if LOST.search(words):
+            raise ValueError(f"the file cannot be read without loss; GDAL says: {words}")
+        warnings.warn(f"GDAL says of the file: {words}", DataWarning, stacklevel=2)
+    return frame
+
+
+def _chosen(path: Path, layer: str | None, choice: str) -> str:
+    """The name of the layer to read: of those with geometries, if there are any, the only one that has rows."""
+    pyogrio = optional("pyogrio", "geo")
+    with told():
+        layers = pyogrio.list_layers(path)
+    if not len(layers):
+        raise ValueError("the file is damaged: there is no layer in it")
+    every = [str(name) for name, _ in layers]
+    if layer is not None and layer not in every:
+        raise ValueError(f"layer is {layer!r}, which is not one of {listed(every)}")
+    names = [layer] if layer else [str(name) for name, kind in layers if kind is not None] or every
+    if len(names) > 1:  # GPX always has five
+        with told():
+            counts = [pyogrio.read_info(path, layer=name, force_feature_count=True)["features"] for name in names]
+        names = [name for name, count in zip(names, counts, strict=True) if count] or names[:1]
+    if len(names) > 1:
+        raise ValueError(f"there are several layers, {listed(names)}; {choice}")
+    return names[0]
+
+
+def _check_whole(path: Path) -> None:
+    """ValueError for files that GDAL reads in silence as far as they go: XML, and shapefiles with a cut ``.shp``."""
+    for part in path.glob("*.shp") if path.is_dir() else [path]:
+        with part.open("rb") as file:
+            head = file.read(28)
+            file.seek(0)
+            if head.startswith(SHAPES) and part.stat().st_size < 2 * int.from_bytes(head[24:28], "big"):
+                raise ValueError("the file is damaged: it is shorter than its header says")
+            if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
+                try:
+                    expat.ParserCreate().ParseFile(file)
+                except expat.ExpatError as error:
+                    raise ValueError(f"the file is damaged: {error}") from error
 
 
 def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | None = None) -> None:
@@ -74,7 +135,8 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
     pyogrio, arrow = optional("pyogrio", "geo"), optional("pyarrow", "geo")
     kind = path.suffix[1:].lower()
     named = beside([layer.name, *RESERVED[kind]], layer.columns, any_case=True)
-    whole = replace(layer, columns={name: plain_column(values) for name, values in named.items()})
+    check_held(named, kind)
+    whole = replace(layer, columns={name: plain_column(values, kind) for name, values in named.items()})
     kinds = sorted({SEVERAL.get(found, found) for found in layer.kinds}) if layer.has_several else layer.kinds
     schema, batches = whole.batches(progress, several=layer.has_several)
     memory = BytesIO()
@@ -92,7 +154,7 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
         )
         if kind == "kml":  # in memory first: GDAL does not report a full disk
             path.write_bytes(memory.getbuffer())
-        if len(layer) and kind in WHOLE and not WHOLE[kind](path):
+        elif len(layer) and not _is_whole(path, layer):
             raise OSError(errno.EIO, "the file could not be written to its end")
     for warning in said:  # shapefiles shorten names to ten characters; a plane needs no coordinate system
         found = LAUNDERED.search(str(warning.message))
@@ -101,76 +163,58 @@ def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | Non
             warnings.warn(text, RenamedColumnWarning, stacklevel=2)
 
 
-def _whole_shapefile(path: Path) -> bool:
-    """Whether the files of a shapefile have the lengths in their headers, two of which count 16-bit words."""
-    heads = {}
-    for part in (path, path.with_suffix(".shx"), path.with_suffix(".dbf")):
-        with part.open("rb") as file:
-            heads[part] = file.read(28)
-    *shapes, table = heads
-    rows, begin, width = (int.from_bytes(heads[table][a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
-    return len(heads[table]) == 28 <= begin + rows * width <= table.stat().st_size and all(
-        part.stat().st_size == 2 * int.from_bytes(heads[part][24:28], "big") for part in shapes
-    )
-
-
-def _whole_geopackage(path: Path) -> bool:
-    """Whether a GeoPackage has its spatial index, which is written last."""
-    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)) as base:
-        found = base.execute("SELECT COUNT(*) FROM gpkg_extensions WHERE extension_name = 'gpkg_rtree_index'")
-        return bool(found.fetchone()[0])
-
-
-def _whole_flatgeobuf(path: Path) -> bool:
-    """Whether a FlatGeobuf file ends with its last feature, whose place is in the last leaf of its index."""
-    pyogrio = optional("pyogrio", "geo")
+def _is_whole(path: Path, layer: Layer) -> bool:
+    """Whether all of a layer, and its index, can be read back: on a full disk GDAL may end in silence."""
+    pyogrio, rows, geometries = optional("pyogrio", "geo"), 0, 0
     try:
-        level = nodes = pyogrio.read_info(path, force_feature_count=True)["features"]
-    except (IndexError, RuntimeError):  # not even a header
+        if path.suffix in INDEXED and not pyogrio.read_info(path)["capabilities"]["fast_spatial_filter"]:
+            return False
+        with pyogrio.open_arrow(path, use_pyarrow=True) as (found, batches):
+            fields = len(found["fields"])
+            for batch in batches:
+                rows += batch.num_rows
+                geometries += batch.num_rows - batch.column(batch.num_columns - 1).null_count
+    except (IndexError, OSError, RuntimeError):  # not even a header, a cut row, no layer
         return False
-    if level == 0:
-        return True
-    while True:  # at least one level above the leaves
-        level = -(-level // FGB_CHILDREN)
-        nodes += level
-        if level == 1:
-            break
-    with path.open("rb") as file:
-        file.seek(len(FGB_MAGIC))
-        index = file.tell() + 4 + int.from_bytes(file.read(4), "little")
-        file.seek(index + FGB_NODE * nodes - 8)
-        last = index + FGB_NODE * nodes + int.from_bytes(file.read(8), "little")
-        file.seek(last)
-        size = int.from_bytes(file.read(4), "little")
-    return size > 0 and path.stat().st_size == last + 4 + size
+    there = int(is_there(layer.binary).sum())
+    return rows == len(layer) and geometries == there and fields >= len(layer.columns)
 
 
-WHOLE: Final = {"shp": _whole_shapefile, "gpkg": _whole_geopackage, "fgb": _whole_flatgeobuf}
-"""Formats that GDAL may leave unfinished on a full disk without reporting it, and whether a file is finished."""
-
-
-def plain_column(values: Any) -> Any:
-    """An Arrow column of a type that GDAL supports."""
+def plain_column(values: Any, kind: str) -> Any:
+    """An Arrow column of a type that GDAL supports in a format; lists and mappings become text, as JSON."""
     arrow = optional("pyarrow", "geo")
     column = arrow_column(values)
     if arrow.types.is_dictionary(column.type):
         column = column.dictionary_decode()
-    if arrow.types.is_uint64(column.type):
-        largest = arrow.compute.max(column).as_py()
-        return column.cast(arrow.int64() if largest is None or largest < 2**63 else arrow.string())
+    if arrow.types.is_nested(column.type):
+        return arrow.array([as_text(plain(cell)) for cell in column.to_pylist()], arrow.string())
+    if arrow.types.is_uint64(column.type) or (kind == "shp" and arrow.types.is_int64(column.type)):
+        ends = arrow.compute.min_max(column).as_py().values()
+        bound = 2**53 if kind == "shp" else 2**63  # a shapefile's numbers of 19 digits are doubles
+        fits = all(end is None or -bound <= end < bound for end in ends)
+        return column.cast(arrow.int64() if fits else arrow.string())
     if arrow.types.is_duration(column.type):
         return arrow.array([None if cell is None else str(cell) for cell in column.to_pylist()], arrow.string())
+    if kind == "kml" and arrow.types.is_float32(column.type):
+        return column.cast(arrow.float64())  # GDAL writes too few digits of a float
     return column.cast(arrow.float32()) if arrow.types.is_float16(column.type) else column
 
 
 @contextmanager
 def told(*, writing: bool = False) -> Iterator[None]:
-    """Raise GDAL's errors as ValueError or OSError, without the internal file names."""
+    """Raise what a library says of a file as ValueError, or OSError when writing, in one line and without inner names.
+
+    Damaged files bring out exceptions of any type, those of Arrow, PROJ and GEOS among them.
+    """
     try:
         yield
-    except RuntimeError as error:  # the only common base class of pyogrio's errors
+    except (ImportError, MemoryError):
+        raise
+    except Exception as error:
+        if (writing and not isinstance(error, RuntimeError)) or getattr(error, "errno", None) is not None:
+            raise
         said = re.sub(r"; It might help to specify.*", "", str(error), flags=re.DOTALL)
-        said = shorten(said, LETTERS, placeholder=" …")
+        said = shorten(said, LETTERS, placeholder=" …") or type(error).__name__
         if writing:
             raise OSError(errno.EIO, f"the file cannot be written: {said}") from error
         raise ValueError(f"the file cannot be read: {said}") from error

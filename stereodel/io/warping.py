@@ -37,7 +37,7 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     ValueError
         If a latitude is outside [−90, 90], or `tolerance` outside (0, 45].
     ImportError
-        If Shapely is missing (``pip install stereodel[geo]``).
+        If Shapely is missing (the extra ``geo``).
 
     Notes
     -----

@@ -23,11 +23,12 @@ from stereodel.io.diagrams import Columns, Mesh, diagram_of, is_spherical, point
 from stereodel.io.frames import layer_of
 from stereodel.io.geojson import write_geojson
 from stereodel.io.geoparquet import write_parquet
-from stereodel.io.grids import Grid, write_geotiff, write_grid_table, write_netcdf
+from stereodel.io.grids import Grid, write_geotiff, write_grid_table
 from stereodel.io.layers import Layer, Progress, packed
 from stereodel.io.meshes import to_polydata, to_trimesh
 from stereodel.io.reading import from_geodataframe
 from stereodel.io.tables import PointTable
+from stereodel.io.text import objects
 from stereodel.io.ugrid import to_ugrid
 from stereodel.io.vector_files import DRIVERS, write_layer
 from stereodel.sphere import xyz_to_lonlat
@@ -136,7 +137,8 @@ def _layer(thing: Any, options: dict[str, Any]) -> Layer:
         return thing
     if isinstance(thing, PointTable):
         places = packed(optional("shapely", "geo").points(thing.lonlat))
-        return Layer(beside(["geometry"], thing.columns), places, "EPSG:4326")
+        rows = {name: objects(values.tolist()) if values.ndim > 1 else values for name, values in thing.columns.items()}
+        return Layer(beside(["geometry"], rows), places, "EPSG:4326")
     if not hasattr(thing, "geometry"):
         raise TypeError(f"thing must be a mesh, a PointTable or a GeoDataFrame, not {type(thing).__name__}")
     return Layer.of_frame(thing)
@@ -214,14 +216,14 @@ def _write_tif(thing: Any, path: Path, options: dict[str, Any], progress: Progre
 
 
 def _write_nc(thing: Any, path: Path, options: dict[str, Any], progress: Progress | None) -> None:
+    optional("netCDF4", "grid")
     if isinstance(thing, Grid):
         _no_options(options)
-        write_netcdf(thing, path)
-        return
-    optional("netCDF4", "grid")
-    dataset = to_ugrid(thing, **options)
+        dataset, form = thing.to_xarray(), "NETCDF3_64BIT"  # the classic format, which every reader supports
+    else:
+        dataset, form = to_ugrid(thing, **options), "NETCDF4"
     try:
-        dataset.to_netcdf(path, engine="netcdf4")
+        dataset.to_netcdf(path, engine="netcdf4", format=form)
     except RuntimeError as error:  # HDF5's errors about files
         raise OSError(errno.EIO, f"the file cannot be written: {error}") from error
 

@@ -294,7 +294,7 @@ class FisheyeAxes(GlobePlots):
         Parameters
         ----------
         geometries : geometry, sequence of geometries, GeoSeries, GeoDataFrame, GeoJSON, or the path of a file
-            Longitude and latitude in degrees; frames in another coordinate system are transformed. Anything with
+            Longitude and latitude in degrees; what names another coordinate system is transformed. Anything with
             ``__geo_interface__`` is accepted.
         edges : {"straight", "great circle"}
             How vertices are joined; by default straight, as in GeoJSON, shapefiles and cartopy's PlateCarree.

@@ -8,14 +8,14 @@ import numpy as np
 from matplotlib.path import Path
 
 from stereodel._arrays import FloatArray
-from stereodel.io.shapes import shapes_of
+from stereodel.io.reading import shapes_of
 from stereodel.mpl.transforms import compounds
 
 
 def paths_of(geometries: Any) -> tuple[list[Path], FloatArray]:
     """A path for each polygon and line in the order of their features, rings closed; and all points, (n, 2).
 
-    `geometries` is any source for `stereodel.io.shapes.shapes_of`.
+    `geometries` is any source for `stereodel.io.reading.shapes_of`.
     """
     shapes = shapes_of(geometries)
     polygons = compounds(shapes.rings, shapes.ring_polygon, len(shapes.polygon_feature), closed=True)

@@ -1,5 +1,6 @@
 """How commands end: exit codes, one line on stderr, and silence where a reader has gone."""
 
+import codecs
 import os
 import signal
 import subprocess
@@ -9,10 +10,23 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
-from stereodel.cli import app, failures
+from stereodel._interrupts import signals
+from stereodel.cli import app
 from stereodel.cli.application import Commands
 
 COMMANDS = [command.name for command in app.registered_commands]
+
+
+def of_a_codec():
+    """An interruption while text was decoded."""
+
+    def interrupted(*given):
+        raise KeyboardInterrupt
+
+    codecs.register(lambda name: codecs.CodecInfo(interrupted, interrupted) if name == "interrupted" else None)
+    with pytest.raises(KeyboardInterrupt) as raised:
+        codecs.decode(b"", "interrupted")
+    return raised.value
 
 
 def ending(error):
@@ -36,9 +50,11 @@ def ending(error):
         (ValueError("row 17: latitude 95.2\nis outside"), 2, "error: row 17: latitude 95.2 is outside"),
         (FileNotFoundError(2, "No such file or directory", "a.csv"), 2, "error: a.csv: No such file or directory"),
         (OSError("no space"), 2, "error: no space"),
-        (ModuleNotFoundError("pip install stereodel[geo]"), 2, "error: pip install stereodel[geo]"),
+        (ModuleNotFoundError("no shapely"), 1, "error: no shapely"),
         (MemoryError(), 2, "error: not enough memory for so many points"),
         (KeyboardInterrupt(), 130, "interrupted; nothing was written"),
+        (KeyboardInterrupt("frames are kept"), 130, "frames are kept"),
+        (of_a_codec(), 130, "interrupted; nothing was written"),
     ],
 )
 def test_failures_are_one_line(error, code, line):
@@ -52,13 +68,14 @@ def test_a_mistake_of_ours_keeps_its_traceback():
 
 
 @pytest.mark.parametrize("error", [OSError("lost"), TypeError("result array type does not match"), typer.Exit(0)])
-def test_an_interruption_that_a_library_turned_into_another_exception(error, monkeypatch):
+def test_an_interruption_that_a_library_turned_into_another_exception(error):
     """NumPy's strings make TypeErrors of it, imports OSErrors."""
     own = signal.getsignal(signal.SIGINT)
-    monkeypatch.setattr(failures, "_signals", [signal.SIGINT])
+    signals.append(signal.SIGINT)
     try:
         ran = ending(error)
     finally:
+        signals.clear()
         signal.signal(signal.SIGINT, own)
     assert (ran.exit_code, ran.stderr) == (130, "interrupted; nothing was written\n")
 

@@ -220,9 +220,9 @@ def test_pdf_to_stdout(folder):
         (["--texture", "square.png", "--texture-box", "1,2,3"], "--texture-box is '1,2,3', but must be W,S,E,N"),
         (["--texture-box", "1,2,3,4"], "--texture-box is for a --texture, and there is none"),
         (["--layer", "missing.geojson"], "missing.geojson: No such file or directory"),
-        (["--layer", "broken.geojson"], "broken.geojson is not JSON"),
-        (["--layer", "odd.geojson"], "odd.geojson is not GeoJSON"),
-        (["--layer", "far.geojson"], "latitude 100.0, outside [-90, 90]"),
+        (["--layer", "broken.geojson"], "broken.geojson: the file is not JSON"),
+        (["--layer", "odd.geojson"], "odd.geojson: this is not GeoJSON"),
+        (["--layer", "far.geojson"], "far.geojson: row 1: latitude 100.0 is outside [-90, 90]"),
         (["--layer", "broken.gpkg"], "broken.gpkg"),
     ],
 )

@@ -1,6 +1,8 @@
 """`stereodel interpolate` at points and on grids."""
 
 import numpy as np
+import pandas as pd
+import pyogrio
 import pytest
 from scipy.io import netcdf_file
 
@@ -84,4 +86,13 @@ def test_wrong_options(values, options, message, run):
 
 def test_words_are_no_values(folder, run):
     message = run("interpolate", "cities.csv", "--value", "name", "--grid", 90, "-o", "-", code=2)
-    assert "cities.csv: row 1: name is 'Quito', not a number" in message
+    assert "cities.csv: row 1: the name 'Quito' is not a number" in message
+    table = pd.DataFrame(
+        {"lon": ["9,9934", "9,5"], "lat": ["48,4011", "48,1"], "pop": ["128.928", "27.000"], "id": [1, 2]}
+    )
+    table.to_csv(folder / "pop.csv", sep=";", index=False)
+    pyogrio.write_dataframe(table, folder / "pop.xlsx", driver="XLSX")  # cells of text
+    for name, notes in (("pop.csv", 1), ("pop.xlsx", 0)):
+        message = run("interpolate", name, "--value", "pop", "--grid", 90, "-o", "-", code=2)
+        assert f"error: {name}: row 1: the pop '128.928' may be 128.928 or 128928" in message
+        assert message.count("note: column 'pop' is kept as text") == notes

@@ -112,7 +112,7 @@ def test_every_option_that_a_message_may_name_exists():
     "message",
     [
         "a.csv: row 3: lat is missing",
-        "a.csv: row 3: seconds is 'x', not a number",
+        "a.csv: row 3: the seconds 'x' is not a number",
         "the layer is empty",
         "size of x.webp is 17000 pixels",
     ],

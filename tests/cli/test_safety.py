@@ -120,6 +120,27 @@ def test_coordinate_systems_and_layers(own, run, rows):
 
 
 @pytest.mark.parametrize(
+    "command",
+    [
+        ["voronoi", "cut.gml", "-o", "-"],
+        ["nearest", "cities.csv", "--of", "cut.gml", "-o", "-"],
+        ["interpolate", "cities.csv", "--value", "people", "--at", "cut.gml", "-o", "-"],
+        ["voronoi", "cities.csv", "--clip", "cut.gml", "-o", "cells.geojson"],
+        ["globe", "--layer", "cut.gml", "--no-land", "--no-coastlines", "-o", "globe.svg"],
+    ],
+)
+def test_a_cut_file_is_named_at_every_door(own, run, command):
+    points = geopandas.GeoDataFrame(
+        {"name": ["a"] * 9}, geometry=geopandas.points_from_xy([10] * 9, [48] * 9), crs=4326
+    )
+    points.to_file("whole.gml", driver="GML")
+    (own / "cut.gml").write_bytes((own / "whole.gml").read_bytes()[:1500])
+    before = sorted(own.iterdir())
+    assert "error: cut.gml: the file is damaged: unclosed token: line 20" in run(*command, code=2)
+    assert sorted(own.iterdir()) == before
+
+
+@pytest.mark.parametrize(
     ("name", "content"),
     [
         ("a.gpkg", b"SQLite format 3\0aaaa"),

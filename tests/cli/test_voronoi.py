@@ -65,7 +65,8 @@ def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
     parts = rows(run("voronoi", "cities.csv", "--clip", "land", "-o", "-"))
     run("voronoi", "cities.csv", "--clip", "land", "-o", "land.gpkg")
     cells = geopandas.read_file(folder / "land.gpkg")
-    assert [float(row["area_km2"]) for row in parts] == cells["area_km2"].tolist()
+    # Two runs: sums of NumPy 2.0 depend on where in memory the values lie.
+    assert [float(row["area_km2"]) for row in parts] == pytest.approx(cells["area_km2"].tolist(), rel=1e-14)
     assert all(0 < float(part["area_km2"]) < float(row["area_km2"]) for part, row in zip(parts, whole, strict=True))
     assert cells["area_km2"].sum() == pytest.approx(1.47e8, rel=0.01)
     square = {"type": "Polygon", "coordinates": [[[9, 47], [11, 47], [11, 49], [9, 49], [9, 47]]]}

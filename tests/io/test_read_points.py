@@ -3,14 +3,16 @@
 import gzip
 import io
 import json
+import warnings
 
 import geopandas
 import numpy as np
 import pandas as pd
 import pytest
 
-from stereodel.io import PointTable, read_points
+from stereodel.io import DataWarning, PointTable, read_points
 from stereodel.io.columns import find_lonlat
+from stereodel.io.reading import read_plane_points
 
 CITIES = [("Quito", -78.5, -0.2, 1763000), ("Ulm", 10.0, 48.4, 129000), ("Perth", 115.9, -32.0, 2309000)]
 LONLAT = [[lon, lat] for _, lon, lat, _ in CITIES]
@@ -61,6 +63,46 @@ def test_columns_become_what_all_their_values_are():
     }
     assert columns["code"].tolist() == ["007", "010"]
     assert np.isnan(columns["gaps"][0])
+
+
+@pytest.mark.parametrize(
+    ("header", "row", "values"),
+    [
+        ("lon;lat;pop;mm", "9,9934;48,4011;128.928;118,69", ["128.928", 118.69]),
+        ("lon;lat;pop", "9,123;48,456;128.928", ["128.928"]),  # degrees have no thousands
+        ("lon;lat;pop", "9;48;-128.928", [-128.928]),  # nothing speaks for the comma
+        ("lon\tlat\tpop", "9.123\t48.456\t128.928", [128.928]),
+        ("lon;lat;pop", "9.5;48.25;1,234", ["1,234"]),
+        ("lon;lat;pop", "9,5;48,25;1,234", [1.234]),
+        ("lon;lat;pop", "9;48;1,234", ["1,234"]),
+        ("lon;lat;pop;mm", "9;48;0,234;1,234", [0.234, 1.234]),
+        ("lon;lat;pop;mm;kg", "9,5;48;1.234;0.5;1,234", ["1.234", 0.5, "1,234"]),
+        ('lon,lat,"pop"', '"9,5","48,25",1.234', ["1.234"]),
+        ("lon;lat;pop;day", "9;48;1.234;24.12.2000", [1.234, "24.12.2000"]),
+    ],
+)
+def test_marks_that_may_separate_thousands_are_read_as_those_of_the_other_numbers(header, row, values):
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        table = read_points(io.StringIO(f"{header}\n{row}\n{row}"))
+    assert [column.tolist() for column in table.columns.values()] == [[value] * 2 for value in values]
+    kept = [value for value in values if isinstance(value, str) and value != "24.12.2000"]
+    assert [str(each.message).split("kept as text: ")[1].split(" may be ")[0] for each in said] == list(map(repr, kept))
+
+
+def test_a_place_in_metres_has_no_doubtful_marks():
+    text = "east;north;rain\n567.890;54321;2,5\n"
+    for read in (
+        lambda: read_points(io.StringIO(text), lon="east", lat="north", crs="EPSG:3857"),
+        lambda: read_plane_points(io.StringIO(text), "east", "north"),
+    ):
+        with (
+            pytest.warns(DataWarning, match="'east' is kept as text"),
+            pytest.raises(ValueError, match=r"row 1: the east\w* '567.890' may be 567.890 or 567890; write thousands"),
+        ):
+            read()
+    points, *_ = read_plane_points(io.StringIO(text.replace("2,5", "2.5")), "east", "north")
+    assert points.tolist() == [[567.890, 54321]]
 
 
 def test_no_names_of_columns():
@@ -205,6 +247,8 @@ def test_wrong_features(geometry, message):
             r"row 2: a Point has two or three coordinates, not \[1\]",
         ),
         ({"geometry": {"type": "Point", "coordinates": "ab"}}, "row 2: a Point has two or three coord"),
+        ({"geometry": {"type": "Point", "coordinates": ["1", "2"]}}, r"row 2: a Point has two .*, not \['1', '2'\]"),
+        ({"type": "Point", "coordinates": [1, 2]}, "row 2: is not a GeoJSON Feature"),
     ],
 )
 def test_what_is_no_feature_is_named(feature, message):

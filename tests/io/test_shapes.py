@@ -1,5 +1,6 @@
 """The taker of shapes: GeoJSON, frames, geometries; the same from each; what is none of them is refused in words."""
 
+import gzip
 import json
 
 import geopandas
@@ -7,7 +8,11 @@ import numpy as np
 import pytest
 import shapely
 
-from stereodel.io.shapes import shapes_of
+from stereodel import SphericalVoronoi, lonlat_to_xyz
+from stereodel.globe import Globe
+from stereodel.io import read_points, to_geodataframe
+from stereodel.io.reading import shapes_of
+from stereodel.mpl.geometries import paths_of
 
 RING = [[0, 0], [10, 0], [10, 10], [0, 0]]
 
@@ -81,6 +86,51 @@ def test_other_coordinates_are_transformed(tmp_path):
     assert shapes.column("a").tolist() == [1]
 
 
+MERCATOR = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}
+FAR = [1113194.9079327357, 6446275.841017158]  # 10° E, 50° N
+
+
+@pytest.fixture
+def in_metres():
+    """A square about 10° E, 50° N, and its middle, in coordinates of EPSG:3857 that are degrees as well."""
+    corners = [[FAR[0] + x, FAR[1] + y] for x, y in ((-9e5, -9e5), (9e5, -9e5), (9e5, 9e5), (-9e5, 9e5), (-9e5, -9e5))]
+    square = feature({"type": "Polygon", "coordinates": [corners]})
+    return [square, feature({"type": "Point", "coordinates": FAR})]
+
+
+def test_the_member_crs_counts_at_every_door(tmp_path, in_metres):
+    collection = {"type": "FeatureCollection", "crs": MERCATOR, "features": in_metres}
+    text = json.dumps(collection)
+    (tmp_path / "a.geojson").write_text(text)
+    (tmp_path / "a.json.gz").write_bytes(gzip.compress(text.encode()))
+    lines = [{**each, "crs": MERCATOR} for each in in_metres]
+    (tmp_path / "a.geojsonl").write_text("\n".join(map(json.dumps, lines)))
+
+    class Other:
+        __geo_interface__ = collection
+
+    sources = [collection, lines, [collection], Other(), *sorted(tmp_path.iterdir())]
+    assert len(sources) == 7
+    for source in sources:
+        shapes = shapes_of(source)
+        np.testing.assert_allclose(shapes.points, [[10, 50]], atol=1e-9)
+        assert 44 < shapes.rings.values[:, 1].min() < shapes.rings.values[:, 1].max() < 56
+    for source in tmp_path.iterdir():
+        with pytest.raises(ValueError, match="row 1: a Point is needed, not Polygon"):
+            read_points(source)
+    (tmp_path / "b.geojsonl").write_text(json.dumps(lines[1]))
+    np.testing.assert_allclose(read_points(tmp_path / "b.geojsonl").lonlat, [[10, 50]], atol=1e-9)
+    for source in ([lines[1], in_metres[1]], {"type": "FeatureCollection", "features": [lines[1], in_metres[1]]}):
+        with pytest.raises(ValueError, match="several coordinate systems, degrees, urn:ogc:def:crs:EPSG::3857"):
+            shapes_of(source)
+    globe = Globe()
+    globe.add_layer(collection)
+    np.testing.assert_allclose(globe.layers[-1].xyz, lonlat_to_xyz([[10, 50]]), atol=1e-12)
+    cells = to_geodataframe(SphericalVoronoi.from_lonlat([[0, 45], [20, 45], [180, -45]]), clip=collection)
+    assert cells.total_bounds[3] < 56
+    assert min(path.vertices[:, 1].min() for path in paths_of(collection)[0]) > 44
+
+
 def test_nested_collections_and_closed_lines():
     line = shapely.LinearRing(RING)
     nested = shapely.GeometryCollection([shapely.GeometryCollection([line, shapely.MultiPoint([(1, 2), (3, 4)])])])
@@ -110,13 +160,17 @@ def test_nothing(source):
         ("[1, 2]", "is not GeoJSON"),
         ('{"type": "Topology"}', "is not GeoJSON: its type is 'Topology'"),
         ('{"type": "FeatureCollection"}', "without a list of features"),
-        ('{"type": "FeatureCollection", "features": [{"type": "Point"}]}', "feature 0 is not of type Feature"),
+        ('{"type": "FeatureCollection", "features": [{"type": "Point"}]}', "row 1: is not a GeoJSON Feature"),
         ('{"type": "Feature", "geometry": {"type": "Circle", "coordinates": [1, 2]}}', "of type 'Circle'"),
         ('{"type": "Polygon"}', "Polygon without coordinates"),
         ('{"type": "Polygon", "coordinates": [[[1, 2], [3, 4], [1, 2]]]}', "a ring of 2 points; a ring needs three"),
         ('{"type": "LineString", "coordinates": [[1, 2], [3]]}', "are not two or three numbers"),
         ('{"type": "LineString", "coordinates": [[1, 2], ["a", 4]]}', "are not two or three numbers"),
-        ('{"type": "LineString", "coordinates": [[1, 2], [3, 95]]}', r"bad.geojson: LineString.* latitude 95"),
+        ('{"type": "LineString", "coordinates": [["1", "2"], ["3", "4"]]}', "row 1: .* are not two or three numbers"),
+        ('{"type": "Point", "coordinates": [true, 4]}', "are not two or three numbers"),
+        ('{"type": "Point", "coordinates": [1e999, 4]}', "not finite"),
+        ('{"type": "Point", "crs": 3, "coordinates": [1, 4]}', "the member crs of the file is 3"),
+        ('{"type": "LineString", "coordinates": [[1, 2], [3, 95]]}', r"bad.geojson: row 1: latitude 95"),
         ('{"type": "Point", "coordinates": [NaN, 2]}', "NaN|nan|finite"),
     ],
 )

@@ -232,6 +232,25 @@ def test_datasets_that_are_no_mesh():
         from_ugrid(dataset)
 
 
+@pytest.mark.parametrize(
+    ("entries", "message"),
+    [
+        ((0, 10**6), "face 1 names node 1000000, but the nodes are 0 to 59"),
+        ((0, 60), "face 1 names node 60, "),
+        ((0, -2), "face 1 names node -2, .* _FillValue"),
+        ((slice(None), -1), "face 1 has 0 nodes, but a face has at least three"),
+        ((0, 1.5), "face 1 names node 1.5, "),
+    ],
+)
+def test_faces_of_a_mesh_name_its_nodes(entries, message):
+    dataset = to_ugrid(SphericalDelaunay(SPHERE))
+    nodes = dataset["face_node_connectivity"].astype(np.float64)
+    nodes[1, entries[0]] = entries[1]
+    dataset = dataset.assign(face_node_connectivity=nodes)
+    with pytest.raises(ValueError, match=message):
+        from_ugrid(dataset)
+
+
 @pytest.mark.parametrize("ending", ["glb", "ply"])
 def test_globe_comes_back(tmp_path, ending):
     write(tmp_path / f"globe.{ending}", SphericalDelaunay(SPHERE))

@@ -1,0 +1,195 @@
+"""Files that GDAL is given: of a known format, and without a reference to other files or to hosts.
+
+GDAL goes by content, not by name, and knows formats that are nothing but references, such as virtual ones and services.
+So the format is recognised here first, and every other is refused.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, contextmanager, nullcontext
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from threading import Lock
+from typing import Any, Final
+from zipfile import ZipFile
+
+from stereodel._extras import optional
+from stereodel.constants import MOST_COLUMNS, UNPACKED_RATIO
+from stereodel.io.columns import listed
+from stereodel.io.packed import ZIP, extract, pack_anew
+
+HEAD: Final = 1 << 20
+"""Bytes from which a format is recognised; GDAL looks at fewer."""
+
+REFERRING: Final = re.compile(rb"<OGR\w*DataSource|gdal_streamed_alg", re.IGNORECASE)
+"""Marks of formats of GDAL that are references, by which it knows them wherever they stand in the head."""
+
+ROOT: Final = re.compile(
+    rb"(?>\s+|<\?.*?\?>|<!--.*?-->|<!DOCTYPE[^\[>]*+(?:\[.*?\])?\s*>)*+<(?:[\w.-]+:)?([\w.-]+)", re.DOTALL
+)
+"""The name of the first element of an XML file, without its prefix."""
+
+BINARY: Final = {b"SQLite format 3\0": "sqlite", b"fgb": "fgb", b"\x00\x00\x27\x0a": "shp", ZIP: "zip"}
+"""First bytes of the binary formats."""
+
+MAIN: Final = (".shp", ".gpkg", ".sqlite", ".fgb", ".kml", ".gml", ".gpx")
+"""Endings of the files in a zip archive that are read."""
+
+BESIDE: Final = (".shx", ".dbf", ".prj", ".cpg")
+"""Endings of the other files of a shapefile."""
+
+NAMED: Final = (".xlsx", ".ods", ".kmz")
+"""Endings of formats that are zip archives themselves."""
+
+CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")
+"""The column in the name of a cell of a spreadsheet."""
+
+SCHEMAS: Final = "GML_DOWNLOAD_SCHEMA"
+
+INDEX: Final = re.compile(
+    r'CREATE VIRTUAL TABLE (?:"[^"]*"|\w+) USING "?(?:rtree|fts\d)"?\s*\(.*', re.DOTALL | re.IGNORECASE
+)
+"""Virtual tables of SQLite that are indices. Others of GDAL and SpatiaLite are files and hosts."""
+
+GRID: Final = re.compile(
+    rb'(?:PARAMETERFILE\["[^"]{0,255}",\s*"|PROJ4_GRIDS",\s*"|grids=|\+init=)[^"\s]{0,255}[/\\~]', re.IGNORECASE
+)
+"""A file somewhere else, by its path, in the text of a coordinate system."""
+
+INCLUDED: Final = re.compile(rb"<[\w.:-]*(?:include|redefine)\b")
+"""What makes one schema of XML part of another."""
+
+MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND sql LIKE '%RECURSIVE%'"
+"""Tables whose rows are not stored: virtual ones, and views that may have no end."""
+
+STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_ref_sys')"
+"""Tables of coordinate systems."""
+
+_settings = Lock()
+
+
+@contextmanager
+def self_contained(path: Path) -> Iterator[Path]:
+    """Where GDAL reads a file, if its format is known and refers to nothing; else ValueError."""
+    with TemporaryDirectory() as folder:
+        inner = Path(folder)
+        if path.is_dir():
+            kind = _kind_of_folder(path)
+        elif (kind := _kind_of(path)) == "zip":
+            path, kind = _of_archive(path, inner)
+        elif path.suffix.lower() in NAMED:
+            # GDAL takes the ending for the format, or the format for damaged.
+            raise ValueError(f"the file is not what its name ends in, {path.suffix}; rename it")
+        if "!" in str(path.absolute()):
+            raise ValueError("the path has an exclamation mark, which stands for archives in GDAL; rename it")
+        with _without_schemas() if kind == "gml" else nullcontext():
+            yield path.absolute()
+
+
+def check_crs(crs: Any) -> None:
+    """A ValueError if a coordinate system that stands in a file names another file by its path."""
+    text = crs if isinstance(crs, str | bytes) else "" if crs is None else crs.to_wkt()
+    if GRID.search(text if isinstance(text, bytes) else text.encode("utf-8", "replace")):
+        raise ValueError("the coordinate system of the file names another file by its path, which is not opened")
+
+
+def _kind_of(path: Path) -> str:
+    """The format of a file, by its first bytes."""
+    with path.open("rb") as file:
+        head = file.read(HEAD)
+    root = ROOT.match(head.removeprefix(b"\xef\xbb\xbf"))
+    kind = next((kind for mark, kind in BINARY.items() if head.startswith(mark)), root and _kind_of_root(root[1], head))
+    if kind is None or REFERRING.search(head):
+        raise ValueError("the file is damaged, or of a format that is not read; write it as GeoPackage, say")
+    if kind == "sqlite":
+        _check_tables(path)
+    elif kind in ("shp", "fgb", "gml"):
+        beside = path.with_suffix(".prj")
+        check_crs(beside.read_bytes()[:HEAD] if kind == "shp" and beside.is_file() else head)
+    schema = path.with_suffix(".xsd")
+    if kind == "gml" and schema.is_file() and INCLUDED.search(schema.read_bytes()):
+        raise ValueError(f"the schema beside it, {schema.name}, includes another file, which is not opened")
+    return kind
+
+
+def _kind_of_root(name: bytes, head: bytes) -> str | None:
+    """The format of an XML file by the name of its root."""
+    if name in (b"kml", b"gpx"):
+        return name.decode()
+    return "gml" if name == b"FeatureCollection" or b"opengis.net/gml" in head else None
+
+
+def _kind_of_folder(path: Path) -> str:
+    """The format of a folder: a file geodatabase, or shapefiles."""
+    if path.suffix.lower() != ".gdb" and not any(path.glob("*.shp")):
+        raise ValueError("the folder is of a format that is not read: neither a file geodatabase nor shapefiles")
+    for part in path.glob("*.prj"):
+        check_crs(part.read_bytes()[:HEAD])
+    return "folder"
+
+
+def _check_tables(path: Path) -> None:
+    """A ValueError for a database with a table that is kept elsewhere."""
+    try:
+        with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+            tables = base.execute(f"SELECT name, sql FROM sqlite_master WHERE {MADE}").fetchall()
+            for (name,) in base.execute(f"SELECT name FROM sqlite_master WHERE {STORED}").fetchall():
+                check_crs(" ".join(map(str, base.execute(f"SELECT * FROM {name}").fetchall())))
+    except (sqlite3.Error, UnicodeError) as error:
+        raise ValueError(f"the database is damaged: {error}") from error
+    for name, sql in tables:
+        if not INDEX.fullmatch(sql):
+            raise ValueError(f"the table {name!r} is not stored in the file, but made, and could be any other file")
+
+
+def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
+    """A zip archive as what GDAL reads: a copy without packing, or the one file that is in it, and its format."""
+    if path.suffix.lower() in NAMED:
+        pack_anew(path, copy := folder / f"{path.stem}{path.suffix.lower()}")
+        _check_cells(copy)
+        return copy, "zip"
+    found = [file for file in extract(path, folder, (*MAIN, *BESIDE)) if file.suffix.lower() in MAIN]
+    kinds = {_kind_of(file) for file in found}
+    if not found:
+        raise ValueError(f"the archive holds no file that is read; such files end in {', '.join(MAIN)}")
+    if len(found) > 1 and (kinds != {"shp"} or len({file.parent for file in found}) > 1):
+        raise ValueError(
+            f"the archive holds several files, {listed([file.name for file in found])}; unpack one of them"
+        )
+    if "zip" in kinds:
+        raise ValueError("the archive holds another archive; unpack it first")
+    return (found[0] if len(found) == 1 else found[0].parent), kinds.pop()
+
+
+def _check_cells(path: Path) -> None:
+    """A ValueError for a spreadsheet (.xlsx) with far more empty cells than others: GDAL makes room for all of them."""
+    with ZipFile(path) as archive:
+        for name in archive.namelist():
+            if "worksheets/" in name:
+                sheet = archive.read(name)
+                cells = CELL.findall(sheet)
+                width = max(map(_number, set(cells)), default=0)
+                if b"\0" in sheet or width * sheet.count(b"<row") > UNPACKED_RATIO * len(cells) + MOST_COLUMNS:
+                    raise ValueError("the spreadsheet is nearly empty, with cells far apart; save it as CSV")
+
+
+def _number(letters: bytes) -> int:
+    """The number of a spreadsheet's column, 1 for A."""
+    return functools.reduce(lambda number, letter: 26 * number + letter - 64, letters.upper(), 0)
+
+
+@contextmanager
+def _without_schemas() -> Iterator[None]:
+    """Keep GDAL from asking the host that GML names for its schema. Its settings are those of the whole process."""
+    pyogrio = optional("pyogrio", "geo")
+    with _settings:
+        before = pyogrio.get_gdal_config_option(SCHEMAS)
+        pyogrio.set_gdal_config_options({SCHEMAS: "NO"})
+        try:
+            yield
+        finally:
+            pyogrio.set_gdal_config_options({SCHEMAS: before})

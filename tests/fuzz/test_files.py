@@ -1,0 +1,72 @@
+"""Changed files: a few at every run, more in the thorough one; and what was found by them, made by hand."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import geopandas
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+import shapely
+
+from stereodel.io import read_points
+from stereodel.io.reading import shapes_of
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+@pytest.mark.parametrize(("count", "seed"), [(69, 5), pytest.param(2000, 7, marks=pytest.mark.thorough, id="thorough")])
+def test_changed_files_are_read_or_refused_in_one_line(count, seed):
+    """In a process of its own, as a crash would end it."""
+    command = [sys.executable, "-m", "tests.fuzz.files", str(count), str(seed)]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert f"{count} changed files" in ran.stdout
+
+
+def cut_text(folder):
+    """A shapefile whose text is cut inside a letter, as writers do that count bytes."""
+    frame = geopandas.GeoDataFrame({"a": ["Zoë"]}, geometry=[shapely.Point(1, 2)], crs=4326)
+    frame.to_file(folder / "a.shp", encoding="utf-8")
+    table = folder / "a.dbf"
+    table.write_bytes(table.read_bytes().replace("Zoë".encode(), b"Zo\xc3\x20"))
+    return folder / "a.shp"
+
+
+def unknown_crs(folder):
+    frame = geopandas.GeoDataFrame({"a": [1]}, geometry=[shapely.Point(1, 2)], crs=4326)
+    frame.to_parquet(folder / "a.parquet")
+    table = pq.read_table(folder / "a.parquet")
+    damaged = table.schema.metadata[b"geo"].replace(b'"type": "GeographicCRS"', b'"type": "GeogrxphicCRS"')
+    assert damaged != table.schema.metadata[b"geo"]
+    pq.write_table(table.replace_schema_metadata({b"geo": damaged}), folder / "a.parquet")
+    return folder / "a.parquet"
+
+
+def not_of_the_earth(folder):
+    frame = geopandas.GeoDataFrame({"a": [1]}, geometry=[shapely.Point(1, 2)], crs=4326)
+    frame.to_file(folder / "a.shp")
+    prj = folder / "a.prj"
+    prj.write_text(prj.read_text().replace("6378137", "1737400"))
+    return folder / "a.shp"
+
+
+def without_metadata_of_columns(folder):
+    schema = pa.schema([("lon", pa.float64())], metadata={b"geo": b'{"columns": 5}'})
+    pq.write_table(pa.table({"lon": [1.0]}, schema=schema), folder / "a.parquet")
+    return folder / "a.parquet"
+
+
+def no_footer(folder):
+    (folder / "a.parquet").write_bytes(b"PAR1" + bytes(50) + b"PAR1")
+    return folder / "a.parquet"
+
+
+@pytest.mark.parametrize("make", [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer])
+def test_what_libraries_raise_for_damage_is_one_line_that_names_the_file(make, tmp_path):
+    path = make(tmp_path)
+    with pytest.raises(ValueError, match=rf"\A{path}: .+\Z"):
+        read_points(path)
+    with pytest.raises(ValueError, match=r"\A.+\Z"):
+        shapes_of(path)

@@ -1,0 +1,162 @@
+"""Files of GDAL's formats: cut files are errors or all rows, layers are found, and GDAL's words are heard."""
+
+import gzip
+import resource
+import signal
+import sqlite3
+import warnings
+from contextlib import closing
+
+import geopandas
+import numpy as np
+import pandas as pd
+import pyogrio
+import pytest
+
+from stereodel.io import DataWarning, PointTable, read_points, write
+from stereodel.io.reading import shapes_of
+
+ROWS = 60
+CUTS = (0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.99, 0.999)
+DRIVERS = {
+    ".gml": "GML",
+    ".fgb": "FlatGeobuf",
+    ".gpkg": "GPKG",
+    ".shp": "ESRI Shapefile",
+    ".shp.zip": "ESRI Shapefile",
+    ".kml": "LIBKML",
+    ".kmz": "LIBKML",
+    ".gpx": "GPX",
+    ".geojson": "GeoJSON",
+    ".parquet": None,
+    ".xlsx": "XLSX",
+    ".ods": "ODS",
+}
+TABLES_ALONE = (".xlsx", ".ods")
+TABLE = pd.DataFrame(
+    {"name": [f"näme {k}" for k in range(ROWS)], "lon": np.arange(ROWS) * 3.0, "lat": np.linspace(-80, 80, ROWS)}
+)
+
+
+def frame(areas=False):
+    geometry = geopandas.GeoSeries.from_xy(TABLE["lon"], TABLE["lat"])
+    return geopandas.GeoDataFrame(TABLE[["name"]], geometry=geometry.buffer(0.2) if areas else geometry, crs=4326)
+
+
+def written(path, ending, areas=False):
+    """The file and those that belong to it."""
+    if ending in TABLES_ALONE:
+        pyogrio.write_dataframe(TABLE, path, driver=DRIVERS[ending])
+    elif ending == ".parquet":
+        frame(areas).to_parquet(path)
+    else:
+        frame(areas).to_file(path, driver=DRIVERS[ending], layer="waypoints" if ending == ".gpx" else None)
+    return sorted(path.parent.glob(f"{path.name.split('.')[0]}.*"))
+
+
+def rows_of(path, areas):
+    return len(shapes_of(path).polygon_feature) if areas else len(read_points(path))
+
+
+@pytest.mark.parametrize(
+    ("ending", "areas"), [(e, a) for e in DRIVERS for a in (False, True) if not (a and e in (*TABLES_ALONE, ".gpx"))]
+)
+def test_a_cut_file_is_an_error_or_has_all_rows(tmp_path, ending, areas):
+    path = tmp_path / f"whole{ending}"
+    files = [part for part in written(path, ending, areas) if part.suffix not in (".cpg", ".prj", ".xsd")]
+    assert rows_of(path, areas) == ROWS
+    for part in files:
+        content, refused = part.read_bytes(), 0
+        for share in CUTS:
+            part.write_bytes(content[: int(len(content) * share)])
+            for made in tmp_path.glob("*.gfs"):
+                made.unlink()
+            try:
+                assert rows_of(path, areas) == ROWS, share
+            except (ValueError, OSError):
+                refused += 1
+        assert refused > len(CUTS) / 2
+        part.write_bytes(content)
+
+
+def test_what_is_cut_is_named(tmp_path):
+    for ending in (".gml", ".fgb", ".gml.gz"):
+        plain = ".".join(ending.split(".")[:2])
+        written(tmp_path / f"whole{plain}", plain)
+        cut = (tmp_path / f"whole{plain}").read_bytes()[: 4000 if plain == ".gml" else 2500]
+        path = tmp_path / f"cut{ending}"
+        path.write_bytes(gzip.compress(cut) if ending.endswith(".gz") else cut)
+        with pytest.raises(ValueError, match=r"damaged: (unclosed token|no element found|0 of its 60 rows)"):
+            read_points(path)
+        with path.open("rb") as stream, pytest.raises(ValueError, match="damaged: "):
+            read_points(stream)
+        with pytest.raises(ValueError, match=f"^{path.name}: .*damaged: "):
+            shapes_of(path)
+
+
+def test_sheets_and_layers_are_chosen_by_name(tmp_path):
+    for ending, driver in ((".xlsx", "XLSX"), (".ods", "ODS"), (".gpkg", "GPKG")):
+        path = tmp_path / f"two{ending}"
+        pyogrio.write_dataframe(TABLE, path, layer="first", driver=driver)
+        pyogrio.write_dataframe(TABLE.head(3), path, layer="Flughäfen", driver=driver, append=True)
+        assert len(read_points(path, layer="Flughäfen")) == 3
+        for reader, choice in ((read_points, "say which with layer="), (shapes_of, "give a file with one")):
+            with pytest.raises(ValueError, match=f"there are several layers, 'first', 'Flughäfen'; {choice}"):
+                reader(path)
+        with pytest.raises(ValueError, match="layer is 'x', which is not one of 'first', 'Flughäfen'"):
+            read_points(path, layer="x")
+    frame().to_file(path, layer="places")  # tables beside them, such as styles, leave it the only one of the map
+    assert len(read_points(path)) == ROWS
+    assert len(read_points(path, layer="Flughäfen")) == 3
+
+
+def test_layers_without_rows_are_left_out(tmp_path):
+    frame().to_file(tmp_path / "waypoints.gpx", driver="GPX", layer="waypoints")
+    assert read_points(tmp_path / "waypoints.gpx").lonlat.tolist() == TABLE[["lon", "lat"]].to_numpy().tolist()
+    pyogrio.write_dataframe(TABLE.head(0), tmp_path / "sheets.xlsx", layer="notes", driver="XLSX")
+    pyogrio.write_dataframe(TABLE, tmp_path / "sheets.xlsx", layer="data", driver="XLSX", append=True)
+    assert len(read_points(tmp_path / "sheets.xlsx")) == ROWS
+
+
+def test_words_of_gdal_are_errors_where_data_are_lost_and_heard_elsewhere(tmp_path, monkeypatch):
+    written(tmp_path / "new.gpkg", ".gpkg")
+    with closing(sqlite3.connect(tmp_path / "new.gpkg")) as base:
+        base.execute("PRAGMA user_version=990000")
+    with pytest.warns(DataWarning, match=r"GDAL says of the file: .* on 'new.gpkg' may only be partially supported"):
+        assert len(read_points(tmp_path / "new.gpkg")) == ROWS
+    read = pyogrio.read_dataframe
+
+    def losing(*arguments, **options):
+        warnings.warn("Value '1e400' of field 3 has been truncated to 24 characters.", RuntimeWarning, stacklevel=2)
+        return read(*arguments, **options)
+
+    written(tmp_path / "all.fgb", ".fgb")
+    monkeypatch.setattr(pyogrio, "read_dataframe", losing)
+    for reader in (read_points, shapes_of):
+        with pytest.raises(ValueError, match="cannot be read without loss; GDAL says: Value '1e400' of field 3"):
+            reader(tmp_path / "all.fgb")
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("ending", [".gpkg", ".fgb", ".shp", ".kml"])
+def test_on_a_small_disk_a_file_is_written_whole_or_not_at_all(tmp_path, ending):
+    table = PointTable(TABLE[["lon", "lat"]].to_numpy(), {"name": TABLE["name"].to_numpy(dtype=str)})
+    write(tmp_path / f"whole{ending}", table)
+    size = max(part.stat().st_size for part in tmp_path.iterdir())
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before, refused = signal.signal(signal.SIGXFSZ, signal.SIG_IGN), 0
+    for room in np.linspace(0.01, 1.01, 60) * size:
+        for part in tmp_path.glob("cut.*"):
+            part.unlink()
+        try:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (int(room), hard))
+            write(tmp_path / f"cut{ending}", table)
+        except OSError:
+            refused += 1
+        finally:
+            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        if (tmp_path / f"cut{ending}").exists():
+            found = read_points(tmp_path / f"cut{ending}")
+            np.testing.assert_allclose(sorted(found.lonlat.tolist()), table.lonlat, atol=1e-9)
+    signal.signal(signal.SIGXFSZ, before)
+    assert 50 < refused < 60
