@@ -336,9 +336,10 @@ def _ways_on_sphere(one: FloatArray, other: FloatArray) -> FloatArray:
 def _step_in_plane(points: FloatArray, polygon: FloatArray, density: Density | None, workers: int | None) -> Step:
     triangles, site = flat_cells(points, polygon, workers)
     nodes, weights = flat_nodes(triangles, MIDPOINTS if density is None else RADON)
-    weights = weights * _values(density, nodes + points[site][:, None])
+    values, scale = _values(density, nodes + points[site][:, None], site, len(points))
+    weights = weights * values
     mass, moments = _sums(nodes, weights, site, len(points))
-    energy = float((weights * (nodes**2).sum(axis=-1)).sum())
+    energy = _total(weights * (nodes**2).sum(axis=-1), scale)
     return Step(energy, points + moments / np.where(mass > 0, mass, 1.0)[:, None])
 
 
@@ -351,9 +352,10 @@ def _step_on_sphere(points: FloatArray, density: Density | None, workers: int | 
         return Step(energy, _where_pulled(points, mass, moments, cells.centroids()))
     triangles, site = cells.triangles()
     nodes, weights = spherical_nodes(triangles, RADON)
-    weights = weights * _values(density, nodes)
+    values, scale = _values(density, nodes, site, len(points))
+    weights = weights * values
     mass, moments = _sums(nodes, weights, site, len(points))
-    energy = float((weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1)).sum())
+    energy = _total(weights * ((nodes - points[site][:, None]) ** 2).sum(axis=-1), scale)
     lengths = np.linalg.norm(moments, axis=1, keepdims=True)
     return Step(energy, _where_pulled(points, mass, moments, moments / np.where(lengths > 0, lengths, 1.0)))
 
@@ -372,13 +374,28 @@ def _sums(nodes: FloatArray, weights: FloatArray, site: AnyIndices, count: int) 
     return mass, np.column_stack([np.bincount(site, column, count) for column in first.T])
 
 
-def _values(density: Density | None, nodes: FloatArray) -> FloatArray:
+def _total(energies: FloatArray, scale: FloatArray) -> float:
+    """The sum of energies (t, k) of triangles times their scales (t,); 0 or infinite beyond the ends of doubles."""
+    largest = scale.max(initial=0.0)
+    with np.errstate(over="ignore", under="ignore"):
+        return float((energies * (scale / (largest or 1.0))[:, None]).sum() * largest)
+
+
+def _values(density: Density | None, nodes: FloatArray, site: AnyIndices, count: int) -> tuple[FloatArray, FloatArray]:
+    """Densities (t, k) over the scale of their cell, a power of two near its largest; and the scales (t,).
+
+    A centroid does not depend on the scale, but products of densities near the ends of doubles would be 0 or infinite.
+    """
     if density is None:
-        return np.ones(nodes.shape[:2])
+        return np.ones(nodes.shape[:2]), np.ones(len(nodes))
     flat = nodes.reshape(-1, nodes.shape[-1])
     values = as_weights(density(flat), "density(points)")
     if values.shape != (len(flat),):
         raise ValueError(
             f"density(points) must return a number for each point, shape {(len(flat),)}, got {values.shape}"
         )
-    return values.reshape(nodes.shape[:2])
+    values = values.reshape(nodes.shape[:2])
+    largest = np.zeros(count)
+    np.maximum.at(largest, site, values.max(axis=1))
+    scale = np.ldexp(0.5, np.frexp(largest)[1])[site]
+    return values / scale[:, None], scale

@@ -17,14 +17,7 @@ _OCTANTS = np.array([np.diag(s) if s.prod() > 0 else np.diag(s)[::-1] for s in _
 
 
 class RoundCells:
-    """The cells of unit vectors, ridge by ridge.
-
-    Attributes
-    ----------
-    sites : (n, 3) array
-    ridges : (r, 2) array
-        Sites on the left and on the right of each ridge.
-    """
+    """The cells of unit vectors `sites` (n, 3), by `ridges` (r, 2): the sites on the left and right of each."""
 
     def __init__(self, sites: FloatArray, workers: int | None) -> None:
         self._diagram = SphericalVoronoi(sites, workers=workers)

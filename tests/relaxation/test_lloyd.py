@@ -152,12 +152,27 @@ def test_density_on_the_sphere():
 
 @pytest.mark.parametrize("bounds", [None, (0, 0, 1, 1)])
 def test_constant_density_is_that_of_none(bounds):
+    """Of any size, from the smallest of doubles to the largest."""
     rng = np.random.default_rng(5)
     points = rng.random((60, 2)) if bounds else rng.normal(size=(60, 3))
     one = lloyd(points, steps=4, bounds=bounds)
-    other = lloyd(points, steps=4, bounds=bounds, density=lambda places: np.full(len(places), 3.0))
-    assert other.points == pytest.approx(one.points, abs=1e-6)
-    assert other.energies == pytest.approx(3 * one.energies, rel=1e-6)
+    for size in (5e-324, 1e-320, 1e-165, 3.0, 1e155, 1e308):
+        other = lloyd(points, steps=4, bounds=bounds, density=lambda places, size=size: np.full(len(places), size))
+        assert other.points == pytest.approx(one.points, abs=1e-6), size
+        assert other.energies == pytest.approx(size * one.energies, rel=1e-6, abs=1e-321), size
+
+
+@pytest.mark.parametrize("bounds", [None, (-2, -2, 2, 2)])
+def test_densities_of_different_size_move_every_point(bounds):
+    """Each cell has the centroid of its own density, however small that is beside the others'."""
+    rng = np.random.default_rng(7)
+    points = rng.normal(size=(40, 3)) / 3 if bounds is None else rng.random((40, 2))
+    steep = [
+        lloyd(points, steps=1, bounds=bounds, density=lambda x, a=a: a * 10 ** (300 * x[:, 0].clip(-1, 1)))
+        for a in (1, 1e5)
+    ]
+    assert steep[0].points == pytest.approx(steep[1].points, abs=1e-9)
+    assert np.isfinite(steep[0].points).all()
 
 
 def test_points_gather_where_the_density_is_large():
