@@ -11,10 +11,13 @@ STYLE :=
 JOBS := auto
 PYTEST_ARGS :=
 FUZZ_SECONDS := 60
+FUZZ_FILES := 2000
+FUZZ_SEED :=
 BIN := $(VENV)/bin
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser librsvg figures poster animations test test-large test-source test-pythons sanitize fuzz check \
+.PHONY: help install system opengl browser librsvg figures poster animations test test-thorough test-large test-source test-pythons \
+	test-lowest sanitize fuzz fuzz-files check \
 	lint web built stub bench dist source check-archives wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
@@ -56,7 +59,10 @@ animations: $(VENV)/installed-animations opengl ## draw every animation that is 
 
 test: $(VENV)/installed-test system ## all tests, then the image tests once more on EGL
 	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
-	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m images $(PYTEST_ARGS) tests/images
+	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m 'images and not thorough' $(PYTEST_ARGS) tests/images
+
+test-thorough: $(VENV)/installed-test system ## the tests that `make test` leaves out because they take long
+	$(BIN)/python -m pytest -n $(JOBS) -m thorough $(PYTEST_ARGS)
 
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
@@ -70,6 +76,9 @@ sanitize: $(VENV)/installed-test opengl ## the tests, then random bytes, on a ke
 
 fuzz: $(VENV)/installed-kernel ## feed random bytes to the kernel for FUZZ_SECONDS
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
+
+fuzz-files: $(VENV)/installed-test ## give FUZZ_FILES changed files of all formats to the readers; those that fail are kept in build/fuzz/files
+	$(BIN)/python -m tests.fuzz.files $(FUZZ_FILES) $(FUZZ_SEED)
 
 check: lint built docs ## format, lint, types, tracked text, the kernel's one-definition rule, workflows, the page's built files, documentation
 
@@ -135,6 +144,9 @@ docs: $(VENV)/installed-docs opengl ## build the documentation into docs/_build/
 
 test-pythons: system ## run the tests on the other Python versions found here
 	@tools/test_pythons.sh 3.12 3.13
+
+test-lowest: system ## the tests of the command, of files and of stereodel.spatial with the least versions of all libraries at once
+	@tools/test_lowest.sh -n $(JOBS) $(PYTEST_ARGS)
 
 clean: ## remove what was built; the environments stay
 	rm -rf build dist docs/_build docs/gallery docs/api/generated docs/sg_execution_times.rst .pytest_cache .mypy_cache .ruff_cache

@@ -7,91 +7,97 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Final
 
 
 @dataclass(frozen=True)
-class Extra:
-    """Libraries that come together because one kind of work needs them all.
+class Library:
+    """A distribution, the least version that works, and the module that is imported where it has another name."""
 
-    Parameters
-    ----------
-    purpose : str
-        What works with them.
-    brings : mapping
-        Module that is imported, by the name of its distribution.
-    includes : tuple of str
-        Other extras that come along.
-    """
+    name: str
+    least: str
+    imported: str = ""
+
+    @property
+    def module(self) -> str:
+        """The module that is imported."""
+        return self.imported or self.name
+
+
+@dataclass(frozen=True)
+class Extra:
+    """Libraries that come together because one kind of work, `purpose`, needs them all, after those of `includes`."""
 
     purpose: str
-    brings: Mapping[str, str]
+    brings: tuple[Library, ...]
     includes: tuple[str, ...] = ()
 
 
+TRIMESH: Final = Library("trimesh", "4.4")
+PYARROW: Final = Library("pyarrow", "16")
+RICH: Final = Library("rich", "13.7")
+
 EXTRAS: Final[Mapping[str, Extra]] = {
-    "cli": Extra("the command line", {"typer": "typer", "rich": "rich"}),
+    "cli": Extra("the command line", (Library("typer", "0.16"), RICH)),
     "draw": Extra(
         "SVG, PDF, pictures of the plane, matplotlib axes",
-        {"matplotlib": "matplotlib", "pillow": "PIL", "mapbox_earcut": "mapbox_earcut"},
+        (Library("matplotlib", "3.9"), Library("pillow", "11.1", "PIL"), Library("mapbox_earcut", "1.0.3")),
     ),
     "render": Extra(
         "globes as PNG, scenes as GLB",
-        {"pyrender2": "pyrender", "PyOpenGL": "OpenGL", "trimesh": "trimesh"},
+        (Library("pyrender2", "0.2.2", "pyrender"), Library("PyOpenGL", "3.1.9", "OpenGL"), TRIMESH),
         ("draw",),
     ),
-    "film": Extra(
-        "moving pictures",
-        {"av": "av", "imageio": "imageio", "rich": "rich"},
-        ("render",),
-    ),
-    "scipy": Extra("stereodel.spatial, grids as NetCDF", {"scipy": "scipy"}),
+    "film": Extra("moving pictures", (Library("av", "15"), Library("imageio", "2.34"), RICH), ("render",)),
+    "scipy": Extra("stereodel.spatial, sparse matrices", (Library("scipy", "1.15"),)),
     "geo": Extra(
         "GeoJSON of shapes, Parquet, GDAL's formats, coordinate systems, GeoDataFrames",
-        {
-            "shapely": "shapely",
-            "geopandas": "geopandas",
-            "pyogrio": "pyogrio",
-            "pyproj": "pyproj",
-            "pyarrow": "pyarrow",
-        },
+        (
+            Library("shapely", "2.1"),
+            Library("geopandas", "1.0"),
+            Library("pyogrio", "0.12"),
+            Library("pyproj", "3.6"),
+            PYARROW,
+        ),
     ),
-    "grid": Extra("UGRID", {"xarray": "xarray", "netCDF4": "netCDF4"}),
-    "raster": Extra("GeoTIFF", {"rasterio": "rasterio"}),
-    "jupyter": Extra("the globe in notebooks", {"anywidget": "anywidget", "traitlets": "traitlets"}),
-    "partitioned": Extra("stereodel.partitioned: triangulations beyond memory, of Parquet", {"pyarrow": "pyarrow"}),
-    "dask": Extra("the same on a cluster", {"distributed": "distributed"}, ("partitioned",)),
-    "mesh": Extra("GLB, PLY, VTP", {"trimesh": "trimesh", "pyvista": "pyvista"}),
+    "grid": Extra("xarray, NetCDF, UGRID", (Library("xarray", "2024.7"), Library("netCDF4", "1.7.1.post1"))),
+    "raster": Extra("GeoTIFF", (Library("rasterio", "1.4"),)),
+    "jupyter": Extra("the globe in notebooks", (Library("anywidget", "0.9.18"), Library("traitlets", "5.9"))),
+    "partitioned": Extra("stereodel.partitioned: triangulations beyond memory, of Parquet", (PYARROW,)),
+    "dask": Extra("the same on a cluster", (Library("distributed", "2025.3"),), ("partitioned",)),
+    "mesh": Extra("GLB, PLY, VTP", (TRIMESH, Library("pyvista", "0.44.2"))),
 }
-"""By name, as in pyproject.toml, where the least versions stand; tests compare the two. ``all`` is all of them."""
+"""By name, as in pyproject.toml; tests compare the two. ``all`` is all of them."""
 
 
 class MissingExtraError(ModuleNotFoundError):
     """A library that an extra brings is missing; the message says how to get it."""
 
 
-def distributions(extra: str) -> dict[str, str]:
-    """All that an extra brings: modules by distribution, those of the extras that come along first."""
-    return {
-        name: module
-        for brought in (*map(distributions, EXTRAS[extra].includes), EXTRAS[extra].brings)
-        for name, module in brought.items()
-    }
+def libraries(extra: str) -> list[Library]:
+    """All that an extra brings, those of the extras that come along first."""
+    return [*(each for name in EXTRAS[extra].includes for each in libraries(name)), *EXTRAS[extra].brings]
+
+
+def lacking(extra: str) -> list[Library]:
+    """What is not installed of all that an extra brings."""
+    return [library for library in libraries(extra) if find_spec(library.module) is None]
 
 
 def installing(extra: str) -> str:
     """The command that brings an extra into this environment, as it was made: by `make` in a checkout, or by pip.
 
     In a checkout pip gets its folder; elsewhere the name alone is known, not the index, wheel or folder that it came
-    from, and the libraries themselves serve whatever that was.
+    from, and the libraries that are missing serve whatever that was.
     """
     checkout = Path(__file__).resolve().parent.parent
     if (checkout / "Makefile").is_file():
         if any(Path(sys.prefix).glob("installed-*")):
             return f"make -C {checkout} install"
         return f"pip install '{checkout}[{extra}]'"
-    return f"pip install {' '.join(distributions(extra))}"
+    return " ".join(["pip install", *(f'"{each.name}>={each.least}"' for each in lacking(extra))])
 
 
 @contextmanager
@@ -106,15 +112,15 @@ def of_extra(extra: str) -> Iterator[None]:
     ...     raise ModuleNotFoundError("No module named 'shapely'", name="shapely")
     Traceback (most recent call last):
         ...
-    stereodel._extras.MissingExtraError: shapely is not installed; it comes with: ...
+    stereodel._extras.MissingExtraError: shapely is not installed; it comes with the extra 'geo': ...
     """
     try:
         yield
     except ModuleNotFoundError as error:
-        for name, module in distributions(extra).items():
-            if error.name == module:
-                message = f"{name} is not installed; it comes with: {installing(extra)}"
-                raise MissingExtraError(message, name=module) from error
+        for library in libraries(extra):
+            if error.name == library.module:
+                message = f"{library.name} is not installed; it comes with the extra '{extra}': {installing(extra)}"
+                raise MissingExtraError(message, name=error.name) from error
         raise
 
 

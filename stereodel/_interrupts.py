@@ -1,4 +1,4 @@
-"""Interruptions before a command runs. Nothing heavy is imported here, as the module precedes the libraries."""
+"""Interruptions of the command. Nothing heavy is imported here, as the module precedes the libraries."""
 
 from __future__ import annotations
 
@@ -17,3 +17,22 @@ def leave(number: int, frame: Any) -> NoReturn:
     """
     os.write(2, b"interrupted; nothing was written\n")
     os._exit(INTERRUPTED)
+
+
+signals: list[int] = []
+"""Interruptions while a command ran, whatever became of their exceptions."""
+
+
+def interrupt(number: int, frame: Any) -> NoReturn:
+    """Handler of SIGINT while a command runs: Python's default, and the interruption is recorded.
+
+    An interrupted import of a library may raise another exception, which is then treated as an interruption.
+    """
+    signals.append(number)
+    raise KeyboardInterrupt
+
+
+def stop_if_interrupted() -> None:
+    """Interrupt again if an interruption was lost: some libraries swallow exceptions while they are imported."""
+    if signals:
+        raise KeyboardInterrupt

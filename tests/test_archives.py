@@ -1,8 +1,18 @@
 """The check of `make dist`: what must be in the source archive and in the wheel, and what must not."""
 
 import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
 import zipfile
+from importlib.metadata import distribution
 from pathlib import Path
+
+import nanobind
+import pytest
+from markdown_it import MarkdownIt
 
 ROOT = Path(__file__).resolve().parent.parent
 TRACKED = {
@@ -22,13 +32,22 @@ WHEEL = {
     "stereodel/py.typed",
     "stereodel/web/built/page.js",
     "stereodel-1.dist-info/METADATA",
+    "stereodel-1.dist-info/licenses/LICENSE",
+    "stereodel-1.dist-info/licenses/NOTICES.md",
+    "stereodel-1.dist-info/licenses/stereodel/data/README.md",
 }
 KERNEL = "stereodel/_kernel.cpython-311-x86_64-linux-gnu.so"
 PROBE = "stereodel/_kernel_probe.cpython-311-x86_64-linux-gnu.so"
 
-spec = importlib.util.spec_from_file_location("archives", ROOT / "tools" / "archives.py")
-archives = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(archives)
+
+def tool(name):
+    spec = importlib.util.spec_from_file_location(name, ROOT / "tools" / f"{name}.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+archives, readme_metadata = tool("archives"), tool("readme_metadata")
 
 
 def test_archive():
@@ -48,6 +67,8 @@ def test_wheel():
     assert archives.wheel_problems(whole | {source}, TRACKED) == [f"not in the package: {source}"]
     script = "stereodel/web/script/main.ts"
     assert archives.wheel_problems(whole | {script}, TRACKED) == [f"not in the package: {script}"]
+    notice = "stereodel-1.dist-info/licenses/NOTICES.md"
+    assert archives.wheel_problems(whole - {notice}, TRACKED) == ["no licence in the wheel: NOTICES.md"]
     page = "stereodel/web/built/page.js"
     assert archives.wheel_problems(whole - {page}, TRACKED) == [f"not in the wheel: {page}"]
 
@@ -67,3 +88,73 @@ def test_sizes_by_part(tmp_path, capsys):
         packed.writestr("stereodel/earth.py", "")
     assert archives.report_sizes([str(wheel)]) == 0
     assert capsys.readouterr().out == "s.whl: 2.00 MB; kernel 2.00\n"
+
+
+# Notices
+
+
+def test_what_is_compiled_in_has_its_notice():
+    notices = (ROOT / "NOTICES.md").read_text(encoding="utf-8")
+    of_nanobind = distribution("nanobind").read_text("licenses/LICENSE")
+    assert of_nanobind.strip() in notices
+    headers = list(Path(nanobind.__file__).parent.glob("ext/*/include/**/*.h"))
+    rights = {line for path in headers for line in re.findall(r"Copyright.*", path.read_text(encoding="utf-8"))}
+    assert rights  # what nanobind brings along
+    assert [line for line in rights if line not in notices] == []
+
+
+# The README in the metadata
+
+WHERE = "https://example.invalid/stereodel"
+ADDRESS = f'[project.urls]\nSource = "{WHERE}"\n\n'
+
+
+def long_description(folder, *, address="", publication=""):
+    """What the build backend makes of the README, with these lines in pyproject.toml; or its error."""
+    for name in ("LICENSE", "NOTICES.md", "README.md", "stereodel/__init__.py", "stereodel/data/README.md", "tools"):
+        target = folder / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        (shutil.copytree if (ROOT / name).is_dir() else shutil.copy)(ROOT / name, target)
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8").partition("[project.scripts]")
+    (folder / "pyproject.toml").write_text(address.join([project[0], project[1] + project[2]]), encoding="utf-8")
+    build = "from scikit_build_core.build import prepare_metadata_for_build_wheel as prepare; prepare('made')"
+    ran = subprocess.run(
+        [sys.executable, "-c", build],
+        cwd=folder,
+        env=os.environ | {"STEREODEL_PUBLICATION": publication},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    made = list(folder.glob("made/*.dist-info/METADATA"))
+    return made[0].read_text(encoding="utf-8").partition("\n\n")[2] if ran.returncode == 0 else ran.stderr
+
+
+def links(text):
+    """Addresses of pictures and links, as a page shows them."""
+    return re.findall(r'\b(?:src|href)="([^"]*)"', MarkdownIt().render(text))
+
+
+def test_an_index_shows_pictures_and_links_of_the_readme(tmp_path):
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    found = links(long_description(tmp_path, address=ADDRESS, publication="1"))
+    assert len(found) == len(links(readme)) > 25
+    pattern = rf"{re.escape(WHERE)}/(raw|blob)/v\d+\.\d+\.\d+/(.+)"
+    for link, path in zip(found, links(readme), strict=True):
+        kind, absolute = re.fullmatch(pattern, link).groups()
+        assert absolute == path
+        assert (ROOT / path).is_file()
+        assert (kind == "raw") == path.endswith((".png", ".webp"))
+
+
+def test_without_an_address_the_readme_is_that_of_the_repository(tmp_path):
+    assert long_description(tmp_path).strip() == (ROOT / "README.md").read_text(encoding="utf-8").strip()
+
+
+def test_a_build_for_publication_without_an_address_fails(tmp_path):
+    assert "pyproject.toml has no Source in project.urls" in long_description(tmp_path, publication="1")
+
+
+@pytest.mark.parametrize("text", ["`[a](b.md)`", "```\n[a](b.md)\n```", "[a](https://b.invalid)", "[a](#b)"])
+def test_code_and_whole_addresses_are_left_as_they_are(text):
+    assert readme_metadata.absolute(text, WHERE, "v1") == text

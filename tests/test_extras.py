@@ -20,7 +20,7 @@ from packaging.utils import canonicalize_name
 
 import stereodel
 from stereodel import _extras
-from stereodel._extras import EXTRAS, MissingExtraError, distributions, installing, of_extra
+from stereodel._extras import EXTRAS, MissingExtraError, installing, libraries, of_extra
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = Path(stereodel.__file__).parent
@@ -42,6 +42,8 @@ LENS = fisheye((0, 0), magnification=2)
 RINGS = [[[0, 0], [10, 0], [0, 10], [0, 0]]]
 TABLE = io.StringIO("lon,lat\\n1,2\\n3,4\\n")
 """
+
+GLOBE = "from stereodel.globe import Globe; g = Globe(); g.add_land(); g.add_labels([(0, 0)], ['a']);"
 
 DOORS = {
     "from stereodel.cli import app": ["cli"],
@@ -65,6 +67,14 @@ DOORS = {
     "from stereodel.globe import Globe; g = Globe(); g.add_land(); g.add_coastlines(); g.save('a.svg')": ["draw"],
     "from stereodel.globe import Globe; g = Globe(); g.add_coastlines(); g.save('a.png', size=200)": ["render"],
     "from stereodel.globe import Globe; Globe().add_raster('file.jpg')": ["draw"],
+    # Pages that are made first: what makes them comes with what draws them.
+    f"{GLOBE} g.save('a.png', size=200)": ["render"],
+    f"{GLOBE} g.save('a.pdf')": ["draw"],
+    f"{GLOBE} from stereodel.render import Figure; Figure('a', dict, lambda _: g.page()).pixels(size=200)": ["render"],
+    f"{GLOBE} from stereodel.render import Figure; Figure('a', dict, lambda _: g.page()).save('.', size=200)": [
+        "render"
+    ],
+    f"{GLOBE} from stereodel.film import *; Film.of_globe(g, Spin(seconds=1), size=(64, 64)).picture(0)": ["render"],
     "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.gif', progress=False)": ["film"],
     "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.png', progress=False)": ["film"],
     "from stereodel.film import Film; Film.of_pictures(PICTURES, seconds=0.5).save('a.webp', progress=False)": ["film"],
@@ -82,11 +92,12 @@ DOORS = {
     "from stereodel.io import write; write('a.nc', MESH)": ["grid"],
     "from stereodel.io import write; write('a.glb', MESH)": ["mesh"],
     "from stereodel.io import to_polydata; to_polydata(MESH)": ["mesh"],
-    "from stereodel.io import *; write('a.nc', Grid([0], [0], {'z': [[1]]}))": ["scipy"],
+    "from stereodel.io import *; write('a.nc', Grid([0], [0], {'z': [[1]]}))": ["grid"],
     "from stereodel.io import *; write('a.tif', Grid([0], [0], {'z': [[1]]}))": ["raster"],
     "from stereodel.web import GlobeWidget; GlobeWidget(lonlat=[(10, 48)])": ["jupyter"],
     "from stereodel.io import Grid; Grid([0], [0]).to_xarray()": ["grid"],
     "from stereodel.partitioned import triangulate; triangulate([], 'out')": ["partitioned"],
+    "from stereodel.partitioned import triangulate; triangulate([], 'out', cells=True)": ["geo"],
     "from stereodel.cli.partitions import distributed; distributed()": ["cli", "dask"],
     "from stereodel.interpolation import contours; from stereodel.io import to_geodataframe; "
     "to_geodataframe(contours(MESH, POINTS[:, 0], 0.1))": ["geo"],
@@ -134,7 +145,7 @@ def environment(tmp_path_factory):
             folder = tmp_path_factory.mktemp("-".join(("numpy", *extras)))
             venv.create(folder, symlinks=True)
             (site,) = folder.glob("lib/python*/site-packages")
-            for wanted in needed(["numpy", *(name for extra in extras for name in distributions(extra))]):
+            for wanted in needed(["numpy", *(each.name for extra in extras for each in libraries(extra))]):
                 for top in {file.parts[0] for file in wanted.files} - {"..", "__pycache__"}:
                     (site / top).symlink_to(wanted.locate_file(top))
             (site / "stereodel").symlink_to(PACKAGE)
@@ -173,9 +184,10 @@ def said(python, statements, cwd):
 
 def asked_for(message):
     """The extra that a message names."""
-    asked = re.fullmatch(r"(\S+) is not installed; it comes with: pip install '.+\[(\w+)\]'", message)
+    asked = re.fullmatch(r"(\S+) is not installed; it comes with the extra '(\w+)': pip install '.+\[(\w+)\]'", message)
     assert asked, message
-    assert asked[1] in distributions(asked[2])
+    assert asked[2] == asked[3]
+    assert asked[1] in {each.name for each in libraries(asked[2])}
     return asked[2]
 
 
@@ -241,16 +253,29 @@ def test_numpy_alone_computes(environment, tmp_path):
     assert ran.returncode == 0, ran.stderr
 
 
-def test_the_command_without_its_libraries_says_how_to_get_them(environment, tmp_path):
-    ran = run(environment(), "-m", "stereodel", "--help", cwd=tmp_path)
-    assert (ran.returncode, ran.stdout) == (1, "")
-    assert asked_for(ran.stderr.strip().removeprefix("error: ")) == "cli"
+def test_the_command_without_its_libraries_lists_what_there_is(environment, tmp_path):
+    from stereodel.cli import app
+
+    python = environment()
+    for arguments in ([], ["-h"], ["--help"]):
+        ran = run(python, "-m", "stereodel", *arguments, cwd=tmp_path)
+        assert (ran.returncode, ran.stderr) == (0, "")
+        *listed, missing = ran.stdout.splitlines()
+        rows = {line.split()[0] for line in listed if line.startswith("  ")}
+        assert rows == {command.name for command in app.registered_commands}
+        assert asked_for(missing.partition(": ")[2]) == "cli"
+    ran = run(python, "-m", "stereodel", "--version", cwd=tmp_path)
+    assert (ran.returncode, ran.stdout) == (0, f"stereodel {stereodel.__version__}\n")
+    for arguments in (["voronoi", "cities.csv"], ["voronoi", "--help"], ["--verse"]):
+        ran = run(python, "-m", "stereodel", *arguments, cwd=tmp_path)
+        assert (ran.returncode, ran.stdout) == (1, "")
+        assert asked_for(ran.stderr.strip().removeprefix("error: ")) == "cli"
 
 
 def test_the_command_on_the_least(environment, tmp_path):
     python = environment("cli")
     (tmp_path / "cities.csv").write_text(
-        "name,lon,lat\nQuito,-78.5,-0.2\nUlm,10,48.4\nKyoto,135.8,35\nPerth,115.9,-32\n"
+        "name,lon,lat,v\nQuito,-78.5,-0.2,1\nUlm,10,48.4,2\nKyoto,135.8,35,3\nPerth,115.9,-32,4\n"
     )
     for arguments, output in ((["--help"], "doctor"), (["--version"], stereodel.__version__)):
         ran = run(python, "-m", "stereodel", *arguments, cwd=tmp_path)
@@ -258,27 +283,35 @@ def test_the_command_on_the_least(environment, tmp_path):
         assert output in ran.stdout
     ran = run(python, "-m", "stereodel", "voronoi", "cities.csv", "-o", "-", cwd=tmp_path)
     assert len(ran.stdout.splitlines()) == 5, ran.stderr
-    for arguments, extra in ((("voronoi", "cities.csv", "-o", "a.geojson"), "geo"), (("globe", "-o", "a.svg"), "draw")):
-        ran = run(python, "-m", "stereodel", *arguments, cwd=tmp_path)
-        assert (ran.returncode, ran.stdout) == (2, "")
+    for line, extra in (
+        ("voronoi cities.csv -o a.geojson", "geo"),
+        ("voronoi cities.csv -o a.vtp", "mesh"),
+        ("interpolate cities.csv --value v --grid 90 -o a.nc", "grid"),
+        ("globe -o a.svg", "draw"),
+        ("globe cities.csv --labels name -o a.png", "render"),
+    ):
+        ran = run(python, "-m", "stereodel", *line.split(), cwd=tmp_path)
+        assert (ran.returncode, ran.stdout) == (1, "")
         assert asked_for(ran.stderr.strip().removeprefix("error: ")) == extra
 
 
-def test_doctor_on_the_least_names_all_that_is_missing(environment, tmp_path):
-    ran = run(environment("cli"), "-m", "stereodel", "doctor", cwd=tmp_path)
+@pytest.mark.parametrize("extras", [(), ("cli",)])
+def test_doctor_on_the_least_names_all_that_is_missing(environment, tmp_path, extras):
+    ran = run(environment(*extras), "-m", "stereodel", "doctor", cwd=tmp_path)
     assert (ran.returncode, ran.stderr) == (1, "")
     for name in EXTRAS:
         (row,) = [line for line in ran.stdout.splitlines() if line.startswith(f"  {name} ")]
-        assert row.split()[1] == ("works" if name == "cli" else "lacks")
-        assert ("pip install" in row) == (name != "cli")
-        assert name == "cli" or all(brought in row for brought in distributions(name) if brought != "rich")
-    assert "Globes cannot be drawn as PNG: pyrender2 is not installed; it comes with: pip install" in ran.stdout
+        works = name in extras
+        assert row.split()[1] == ("works" if works else "lacks")
+        assert ("pip install" in row) == (not works)
+        assert all(each.name in row for each in libraries(name) if each.name != "rich" or works)
+    assert "Globes cannot be drawn as PNG: pyrender2 is not installed; it comes with the extra 'render'" in ran.stdout
 
 
 def test_the_outer_door_speaks():
     with pytest.raises(MissingExtraError) as raised, of_extra("render"), of_extra("draw"):
         raise ModuleNotFoundError(name="PIL")
-    assert str(raised.value) == f"pillow is not installed; it comes with: {installing('render')}"
+    assert str(raised.value) == f"pillow is not installed; it comes with the extra 'render': {installing('render')}"
 
 
 @pytest.mark.parametrize("name", ["networkx", "shapely.no_such_module", "stereodel.no_such_module"])
@@ -295,11 +328,15 @@ def test_an_environment_made_by_make_grows_by_make(monkeypatch, tmp_path):
     assert installing("geo") == f"make -C {PACKAGE.resolve().parent} install"
 
 
-def test_away_from_a_checkout_the_libraries_are_named(monkeypatch, tmp_path):
-    """The index, wheel or folder that the package came from is not known, and the libraries are the same."""
+def test_away_from_a_checkout_the_missing_libraries_are_named(monkeypatch, tmp_path):
+    """The index, wheel or folder that the package came from is not known: by its name a stranger's could come."""
     monkeypatch.setattr(_extras, "__file__", str(tmp_path / "site-packages" / "stereodel" / "_extras.py"))
-    assert installing("mesh") == "pip install trimesh pyvista"
-    assert installing("render") == "pip install matplotlib pillow mapbox_earcut pyrender2 PyOpenGL trimesh"
+    here, found = {"trimesh"}, _extras.find_spec
+    monkeypatch.setattr(_extras, "find_spec", lambda name: found(name) if name in here else None)
+    assert installing("scipy") == f'pip install "scipy>={EXTRAS["scipy"].brings[0].least}"'
+    assert re.findall(r'"(\w+)>=[\d.a-z]+"', installing("mesh")) == ["pyvista"]
+    names = ["matplotlib", "pillow", "mapbox_earcut", "pyrender2", "PyOpenGL"]
+    assert re.findall(r'"(\w+)>=[\d.a-z]+"', installing("render")) == names
 
 
 # Written down once
@@ -311,7 +348,8 @@ def test_pyproject_brings_what_the_code_asks_for():
     optional = {name: [Requirement(line) for line in lines] for name, lines in project["optional-dependencies"].items()}
     own = {name: [r for r in found if r.name == "stereodel"] for name, found in optional.items()}
     for name, extra in EXTRAS.items():
-        assert {r.name for r in optional[name]} - {"stereodel"} == set(extra.brings)
+        wanted = [f"{each.name}>={each.least}" for each in extra.brings]
+        assert [str(r) for r in optional[name] if r.name != "stereodel"] == wanted
         assert {e for r in own[name] for e in r.extras} == set(extra.includes)
     (everything,) = optional["all"]
     assert everything.extras | {"draw", "render"} == set(EXTRAS)  # both come with films
@@ -344,7 +382,7 @@ def foreign_imports(tree, extra=None):
 
 def known(folder):
     """Pairs of a file and its imports of a module that some extra brings."""
-    modules = {module for extra in EXTRAS for module in distributions(extra).values()}
+    modules = {each.module for extra in EXTRAS for each in libraries(extra)}
     for path in folder.rglob("*.py"):
         for module, extra in foreign_imports(ast.parse(path.read_text(encoding="utf-8"))):
             if module in modules:
@@ -358,11 +396,11 @@ def test_every_import_stands_behind_a_door():
         room = name.split("/")[0]
         # Whole packages have their door in `__init__`; gl.py opens its own before anything else there.
         extra = extra or ROOMS.get(f"stereodel.{room}") or ("render" if name == "render/gl.py" else None)
-        if extra is None or module not in distributions(extra).values():
+        if extra is None or module not in {each.module for each in libraries(extra)}:
             wrong.append(f"{name} imports {module} for {extra}")
     assert wrong == []
 
 
 def test_every_library_of_an_extra_is_used():
     used = {module for folder in (PACKAGE, ROOT / "tools") for _, module, _ in known(folder)}
-    assert {module for extra in EXTRAS for module in distributions(extra).values()} == used
+    assert {each.module for extra in EXTRAS for each in libraries(extra)} == used

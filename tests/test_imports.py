@@ -46,16 +46,17 @@ MAY_IMPORT = {
     "io": BASE | {"_files", "conformal", "curves", "data", "interpolation", "sphere", "triangulation"},
     "partitioned": KERNEL | {"__init__", "_files", "curves", "interpolation", "io", "sphere", "triangulation"},
     "__init__": MATHEMATICS,
-    "__main__": {"_extras", "_interrupts", "cli"},
+    "_doctor": {"__init__", "_extras", "_interrupts", "render"},
+    "__main__": {"__init__", "_doctor", "_extras", "_interrupts", "cli"},
     "drawing": MATHEMATICS | {"curves"},
     "render": MATHEMATICS | {"_files", "_kernel", "curves", "drawing"},
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
-    "web": BASE | {"_files", "curves", "data", "triangulation"},
+    "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
     "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
     "cli": MATHEMATICS
-    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io", "render"}
-    | {"_interrupts", "partitioned", "web"},
+    | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
+    | {"_doctor", "_interrupts", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}

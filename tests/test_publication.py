@@ -55,7 +55,7 @@ def test_the_recipe_needs_what_the_project_needs():
         needed = Requirement(line)
         assert f"- {needed.name} {needed.specifier}" in text
     assert f"- python {PROJECT['project']['requires-python']}" in text
-    for path in re.findall(r"- ((?:tools|tests|stereodel)/[\w./]+|LICENSE)$", text, re.MULTILINE):
+    for path in re.findall(r"- ((?:tools|tests|stereodel)/[\w./]+|[A-Z]+(?:\.md)?)$", text, re.MULTILINE):
         assert (ROOT / path).is_file()
 
 
@@ -201,17 +201,81 @@ def test_wheels_are_built_for_every_system_and_python():
     assert (ROOT / script).is_file()
 
 
+LEVELS = {"none": 0, "read": 1, "write": 2}
+
+
+def called_jobs(name):
+    """Each job of a workflow, and of those that it calls, with what the host lets it do at most and what it asks."""
+    content = workflow(name)
+    for job_name, job in content["jobs"].items():
+        asked = job.get("permissions", content["permissions"])
+        yield f"{name}.{job_name}", asked, job
+        if "uses" in job:
+            for nested_name, nested, nested_job in called_jobs(Path(job["uses"]).stem):
+                yield f"{name}.{job_name} → {nested_name}", nested, nested_job
+                levels = ("none", "read", "write")
+                beyond = [
+                    key for key, level in nested.items() if levels.index(level) > levels.index(asked.get(key, "none"))
+                ]
+                assert beyond == [], f"{nested_name} asks for {beyond}, which {name}.{job_name} does not have"
+
+
+@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
+def test_a_called_job_asks_for_no_more_than_its_caller_has(path):
+    """The host compares them when it reads the file, whatever `if:` says, and starts no job where they do not fit."""
+    assert len(list(called_jobs(path.stem))) >= len(workflow(path.stem)["jobs"])
+
+
+def test_every_called_workflow_may_be_called():
+    called = {
+        Path(job["uses"]).stem for path in WORKFLOWS for job in workflow(path.stem)["jobs"].values() if "uses" in job
+    }
+    assert called == {"tests", "wheels"}
+    assert all("workflow_call" in workflow(name)[True] for name in called)
+
+
 def test_only_the_job_that_publishes_may_prove_who_it_is():
-    jobs = workflow("wheels")["jobs"]
-    asking = {name for name, job in jobs.items() if "id-token" in job.get("permissions", {})}
-    assert asking == {"publish"}
+    asking = {name for path in WORKFLOWS for name, asked, _ in called_jobs(path.stem) if "id-token" in asked}
+    assert asking == {"documentation.deploy", "release.publish"}
+    jobs = workflow("release")["jobs"]
+    assert workflow("release")[True] == {"push": {"tags": ["v*"]}}
     assert jobs["publish"]["if"] == "startsWith(github.ref, 'refs/tags/v')"
     assert jobs["publish"]["steps"][-1]["with"] == {"attestations": True}
-    assert not re.search(r"secrets\.|password|token:", read(".github/workflows/wheels.yml").replace("id-token:", ""))
-    reached = {"publish"}
-    while more := {need for name in reached for need in wanted(jobs[name])} - reached:
-        reached |= more
-    assert reached == set(jobs)
+    assert not re.search(r"secrets\.|password|token:", read(".github/workflows/release.yml").replace("id-token:", ""))
+
+
+def test_publication_waits_for_the_tests_and_asks_for_texts_fit_for_it():
+    jobs = workflow("release")["jobs"]
+    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish"} == {"version", "tests", "wheels"}
+    assert jobs["wheels"]["with"] == {"publication": True}
+    assert workflow("wheels")["env"] == {"STEREODEL_PUBLICATION": "${{ inputs.publication && '1' || '' }}"}
+    # Of Linux the wheels are built in a container, which gets what is named.
+    assert "STEREODEL_PUBLICATION" in PROJECT["tool"]["cibuildwheel"]["linux"]["environment-pass"]
+    assert wanted(workflow("wheels")["jobs"]["check"]) == ["source", "wheels"]
+
+
+@pytest.mark.parametrize(
+    ("tag", "code"), [(f"v{stereodel.__version__}", 0), ("v0.0.9", 1), (stereodel.__version__, 1), ("", 1)]
+)
+def test_a_tag_that_is_not_the_version_stops_the_publication(tag, code):
+    line = workflow("release")["jobs"]["version"]["steps"][-1]["run"]
+    environment = os.environ | {"GITHUB_REF_NAME": tag}
+    ran = subprocess.run(["bash", "-ec", line], cwd=ROOT, env=environment, capture_output=True, text=True, check=False)
+    assert ran.returncode == code, ran.stderr
+    assert (stereodel.__version__ in ran.stderr) == bool(code)
+
+
+def test_each_version_of_the_documentation_waits_for_itself_alone():
+    """A group keeps one run that waits: of one group for all, a push after a tag would drop the tag's."""
+    assert "${{ github.ref }}" in workflow("documentation")["concurrency"]["group"]
+
+
+def test_the_least_versions_are_those_of_the_table():
+    printed = subprocess.run([sys.executable, ROOT / "tools" / "lowest.py"], capture_output=True, text=True, check=True)
+    lowest = dict(line.split("==") for line in printed.stdout.splitlines())
+    assert lowest.pop("numpy") == "2.0"
+    assert lowest == {each.name: each.least for extra in EXTRAS.values() for each in extra.brings}
+    assert "make test-lowest" in read(".github/workflows/weekly.yml")
 
 
 def test_the_nightly_build_is_weekly():

@@ -1,7 +1,7 @@
 """Check what the source archive and the wheel hold.
 
 The archive: every tracked file but stored pictures, without which its tests do. The wheel: the package with its stub,
-its compiled kernel and what was built for the interactive page, and no source of either.
+its compiled kernel, what was built for the interactive page and the licences, and no source of either.
 
     python tools/archives.py ARCHIVE WHEEL
     python tools/archives.py --sizes WHEEL…    say how large the parts of wheels are
@@ -12,6 +12,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import tarfile
+import tomllib
 import zipfile
 from pathlib import Path
 
@@ -28,6 +29,11 @@ def archive_problems(names: set[str], tracked: set[str]) -> list[str]:
     return missing + [f"not tracked: {name}" for name in sorted(names - wanted - {"PKG-INFO"})]
 
 
+def licence_files() -> list[str]:
+    """Licences and notices, which every copy must carry."""
+    return list(tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["license-files"])
+
+
 def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     """What the wheel lacks, and what does not belong there."""
     wanted = {name for name in tracked if name.startswith("stereodel/") and not name.startswith(NOT_IN_WHEEL)}
@@ -35,6 +41,8 @@ def wheel_problems(names: set[str], tracked: set[str]) -> list[str]:
     package = {name for name in names if name.startswith("stereodel/")}
     found = [f"not in the wheel: {name}" for name in sorted(wanted - names)]
     found += [f"not in the package: {name}" for name in sorted(package - wanted - kernels)]
+    carried = {name.partition(".dist-info/licenses/")[2] for name in names}
+    found += [f"no licence in the wheel: {name}" for name in licence_files() if name not in carried]
     return found if len(kernels) == 1 else [*found, f"one compiled kernel wanted, not {sorted(kernels)}"]
 
 

@@ -16,7 +16,7 @@ tools/node_modules.sh "$venv"
 "$script/node_modules/.bin/esbuild" "$script"/kernel/{index,inline,d3}.ts --bundle --splitting --format=esm --minify \
     --target=es2022 --charset=utf8 --loader:.wasm=binary --log-level=error --outdir="$work"
 "$script/node_modules/.bin/tsc" --project "$script/kernel" --outDir "$work/types"
-cp stereodel/web/built/stereodel.wasm LICENSE "$script/README.md" "$work"
+cp stereodel/web/built/stereodel.wasm LICENSE NOTICES.md "$script/README.md" "$work"
 # The package is the project's file without what those who work on it need.
 node - "$script/package.json" "$work/package.json" <<'JAVASCRIPT'
 const { readFileSync, writeFileSync } = require("node:fs");

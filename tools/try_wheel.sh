@@ -55,13 +55,18 @@ for name in names:
     try:
         importlib.import_module(name)
     except MissingExtraError as error:
-        advice.append(str(error).partition("it comes with: ")[2])
+        advice.append(str(error).partition("': ")[2])
 assert set(advice) <= set(map(installing, EXTRAS)), advice
 print(f"{len(names) - len(advice)} modules work on NumPy alone, {len(advice)} name an extra")
 PYTHON
-[[ $(advice cli) == "pip install typer rich" ]] || die "$(advice cli): not for an environment without a checkout"
-refused stereodel --help
+[[ $(advice cli) == 'pip install "typer>='*'" "rich>='*'"' ]] || die "$(advice cli): not for an environment without a checkout"
+bare stereodel --version
+bare stereodel --help >said
 expect said "$(advice cli)"
+refused stereodel voronoi cities.csv -o cells.csv
+expect said "$(advice cli)"
+refused stereodel doctor
+expect said "$(advice render)"
 
 # The extras of what is installed: pip asks no index for stereodel itself.
 install 'stereodel[cli]'

@@ -1,16 +1,18 @@
 """The command `stereodel`.
 
-Each command is a module with a function `command` and an `EXAMPLE`. Heavy imports wait until a command runs, so that
---help responds at once.
+Each command is a module with a function `command` and an `EXAMPLE`; the first line of its docstring says what it does.
+Heavy imports wait until a command runs, so that --help responds at once.
 """
 
 from stereodel._extras import of_extra
 
 with of_extra("cli"):
-    from stereodel.cli import contour, doctor, globe, interpolate, nearest, panorama, triangulate, voronoi, web
+    from stereodel import _doctor
+    from stereodel.cli import contour, globe, interpolate, nearest, panorama, triangulate, voronoi, web
     from stereodel.cli.application import Command, app
 
 __all__ = ["app"]
 
-for module in (triangulate, voronoi, interpolate, contour, nearest, globe, panorama, web, doctor):
-    app.command(module.__name__.rpartition(".")[2], cls=Command, epilog=f"Example: {module.EXAMPLE}")(module.command)
+for module in (triangulate, voronoi, interpolate, contour, nearest, globe, panorama, web, _doctor):
+    name = module.__name__.rpartition(".")[2].removeprefix("_")
+    app.command(name, cls=Command, epilog=f"Example: {module.EXAMPLE}")(module.command)

@@ -56,7 +56,7 @@ def _print_version(wanted: bool) -> None:
 
 
 @app.callback(
-    epilog="Exit codes: 0 done, 1 nothing to do or something is missing, 2 wrong usage or input, 130 interrupted."
+    epilog="Exit codes: 0 done, 1 nothing to do or a library is missing, 2 wrong usage or input, 130 interrupted."
 )
 def _options(
     version: Annotated[

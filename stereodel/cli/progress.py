@@ -5,50 +5,52 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import typer
 
-from stereodel.cli.failures import stop_if_interrupted
+from stereodel._interrupts import stop_if_interrupted
 
 PIECE = 100_000
 """Number of rows between two updates."""
 
 
 @contextmanager
+def _shown(*columns: str) -> Iterator[Any]:
+    """Rich's progress with columns of these kinds; None where stderr is no terminal."""
+    stop_if_interrupted()
+    if sys.stderr.isatty():
+        from rich import progress
+        from rich.console import Console
+
+        text = progress.TextColumn("{task.description}", markup=False)
+        found = [text if kind == "Text" else getattr(progress, f"{kind}Column")() for kind in columns]
+        with progress.Progress(*found, console=Console(stderr=True), transient=True) as shown:
+            yield shown
+    else:
+        yield None
+    stop_if_interrupted()
+
+
+@contextmanager
 def stage(what: str) -> Iterator[None]:
     """Show the current step and its elapsed time until it is done."""
-    stop_if_interrupted()
-    if not sys.stderr.isatty():
+    with _shown("Spinner", "Text", "TimeElapsed") as progress:
+        if progress:
+            progress.add_task(what, total=None)
         yield
-        stop_if_interrupted()
-        return
-    from rich.console import Console
-    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
-
-    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        progress.add_task(what, total=None)
-        yield
-    stop_if_interrupted()
 
 
 @contextmanager
 def bar(what: str) -> Iterator[Callable[[float], None]]:
     """Show a progress bar; yields a function that takes the fraction done, from 0 to 1."""
-    stop_if_interrupted()
-    if not sys.stderr.isatty():
-        yield lambda share: stop_if_interrupted()
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
-
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), TaskProgressColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=None)  # until the first fraction is known
+    with _shown("Text", "Bar", "TaskProgress", "TimeRemaining") as progress:
+        task = progress and progress.add_task(what, total=None)  # until the first fraction is known
 
         def shown(share: float) -> None:
             stop_if_interrupted()
-            progress.update(task, total=1.0, completed=share)
+            if progress:
+                progress.update(task, total=1.0, completed=share)
 
         yield shown
 
@@ -56,22 +58,15 @@ def bar(what: str) -> Iterator[Callable[[float], None]]:
 @contextmanager
 def counts() -> Iterator[Callable[[str, int, int], None]]:
     """Show how many tasks of each pass of the work are done, by the name of the pass."""
-    stop_if_interrupted()
-    if not sys.stderr.isatty():
-        yield lambda name, done, of: stop_if_interrupted()
-        return
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        tasks = {}
+    with _shown("Text", "Bar", "MofNComplete", "TimeElapsed") as progress:
+        tasks: dict[str, Any] = {}
 
         def shown(name: str, done: int, of: int) -> None:
             stop_if_interrupted()
-            if name not in tasks:
-                tasks[name] = progress.add_task(name, total=of)
-            progress.update(tasks[name], total=of, completed=done)
+            if progress:
+                if name not in tasks:
+                    tasks[name] = progress.add_task(name, total=of)
+                progress.update(tasks[name], total=of, completed=done)
 
         yield shown
 

@@ -9,9 +9,11 @@ import pytest
 from typer.testing import CliRunner
 
 import stereodel
+from stereodel import _doctor as doctor
+from stereodel import _extras
 from stereodel._extras import EXTRAS, installing
-from stereodel.cli import app, doctor
-from stereodel.render import gl, provenance
+from stereodel.cli import app
+from stereodel.render import gl
 
 run = CliRunner().invoke
 
@@ -41,7 +43,7 @@ def test_doctor_tells_what_draws(platform):
     for name, extra in EXTRAS.items():
         (row,) = [row for row in rows if row[:1] == [name]]
         assert row[1] == "works"
-        assert " ".join(row[2:]) == ", ".join(f"{brought} {version(brought)}" for brought in extra.brings)
+        assert " ".join(row[2:]) == ", ".join(f"{each.name} {version(each.name)}" for each in extra.brings)
     assert ran.stdout.splitlines()[-1] == "Ready: globes can be drawn."
 
 
@@ -94,10 +96,8 @@ def test_doctor_without_opengl_names_the_packages():
 
 def test_doctor_names_missing_libraries(monkeypatch):
     """What is not needed for globes is said and no failure."""
-    found = provenance.library_version
-    monkeypatch.setattr(
-        provenance, "library_version", lambda name: provenance.NOT_INSTALLED if name == "shapely" else found(name)
-    )
+    found = _extras.find_spec
+    monkeypatch.setattr(_extras, "find_spec", lambda name: None if name == "shapely" else found(name))
     monkeypatch.setattr(doctor, "tried", lambda: {name: gl.Description(name, "argument") for name in gl.PLATFORMS})
     ran = run(app, ["doctor"])
     assert ran.exit_code == 0

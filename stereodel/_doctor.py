@@ -10,11 +10,9 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import TYPE_CHECKING, Final
 
-import typer
-
 import stereodel
-from stereodel._extras import EXTRAS, distributions, installing
-from stereodel.cli.failures import stop_if_interrupted
+from stereodel._extras import EXTRAS, installing, lacking
+from stereodel._interrupts import stop_if_interrupted
 
 if TYPE_CHECKING:
     from stereodel.render import gl
@@ -42,15 +40,15 @@ def command() -> None:
     rendering = _rendering(found, chosen, reason)
     stop_if_interrupted()
     for title, rows in (("Versions", _versions()), ("Extras", _extras()), ("Rendering", rendering)):
-        typer.echo(f"{title}\n{_table(rows)}\n")
+        print(f"{title}\n{_table(rows)}\n")
     if problem:
-        typer.echo(f"Globes cannot be drawn as PNG: {problem}.")
+        print(f"Globes cannot be drawn as PNG: {problem}.")
         if draws := [name for name, what in found.items() if not what.problem]:
-            typer.echo(f"But {draws[0]} draws: set STEREODEL_GL={draws[0]}.")
-        elif not _missing("draw"):
-            typer.echo("Plane figures, SVG and PDF files and all computations work without OpenGL.")
-        raise typer.Exit(1)
-    typer.echo("Ready: globes can be drawn.")
+            print(f"But {draws[0]} draws: set STEREODEL_GL={draws[0]}.")
+        elif not lacking("draw"):
+            print("Plane figures, SVG and PDF files and all computations work without OpenGL.")
+        raise SystemExit(1)
+    print("Ready: globes can be drawn.")
 
 
 def tried() -> dict[str, gl.Description]:
@@ -107,18 +105,13 @@ def _extras() -> list[tuple[str, str, str]]:
 
     rows = []
     for name, extra in EXTRAS.items():
-        if missing := _missing(name):
-            rows.append((name, "lacks", f"{', '.join(missing)}, for {extra.purpose}: {installing(name)}"))
+        if missing := ", ".join(each.name for each in lacking(name)):
+            rows.append((name, "lacks", f"{missing}, for {extra.purpose}: {installing(name)}"))
         else:
-            rows.append((name, "works", ", ".join(f"{brought} {library_version(brought)}" for brought in extra.brings)))
+            rows.append(
+                (name, "works", ", ".join(f"{each.name} {library_version(each.name)}" for each in extra.brings))
+            )
     return rows
-
-
-def _missing(extra: str) -> list[str]:
-    """Distributions of an extra, and of the extras it includes, that are not installed."""
-    from stereodel.render.provenance import NOT_INSTALLED, library_version
-
-    return [name for name in distributions(extra) if library_version(name) == NOT_INSTALLED]
 
 
 def _rendering(found: Mapping[str, gl.Description], chosen: str, reason: str) -> list[tuple[str, str]]:
