@@ -35,39 +35,31 @@ SCENES: Final = ((1_000, "50m"), (10_000, "110m"))
 STEPS: Final = 60
 """Of the mouse in a turn."""
 
-TURN: Final = """({ x, y, steps }) => new Promise((turned) => {
-  const canvas = document.querySelector("#globe-plate");
-  const place = (turn) => ({ clientX: x + 120 * Math.sin(turn), clientY: y + 60 * Math.sin(2 * turn) });
+MOVE: Final = """({ plate, x, y, steps }) => new Promise((moved) => {
+  const canvas = document.querySelector(plate);
+  const place = (step) => %s;
   let begin = null;
   let step = 0;
   const move = (now) => {
     begin ??= now;
-    if (step === steps) return turned((now - begin) / 1000);
-    const at = place(2 * Math.PI * ++step / steps);
+    if (step === steps) return moved((now - begin) / 1000);
+    const [right, down] = place(++step);
+    const at = { clientX: x + right, clientY: y + down };
     canvas.dispatchEvent(new PointerEvent("pointermove", { pointerId: 1, pointerType: "mouse", ...at }));
     requestAnimationFrame(move);
   };
   requestAnimationFrame(move);
 })"""
-"""The seconds of a turn by the mouse that is down, a step a frame; a step from outside takes two or three frames."""
+"""The seconds of a way of the mouse that is down, a step a frame; a step from outside takes two or three frames."""
+
+TURN: Final = "[120 * Math.sin(2 * Math.PI * step / steps), 60 * Math.sin(4 * Math.PI * step / steps)]"
+"""The way, px, that turns a globe, and back."""
+
+DRAG: Final = "[40 * Math.sin(step / 8), 40 * (1 - Math.cos(step / 8))]"
+"""That of a site which is dragged, on a circle."""
 
 DRAGGED: Final = 9_000
 """Sites of the room Sphere, of which one is dragged: all are triangulated anew in every step."""
-
-DRAG: Final = """({ x, y, steps }) => new Promise((dragged) => {
-  const canvas = document.querySelector("#sphere-ball");
-  let begin = null;
-  let step = 0;
-  const move = (now) => {
-    begin ??= now;
-    if (step === steps) return dragged((now - begin) / 1000);
-    const at = { clientX: x + 40 * Math.sin(++step / 8), clientY: y + 40 * (1 - Math.cos(step / 8)) };
-    canvas.dispatchEvent(new PointerEvent("pointermove", { pointerId: 1, pointerType: "mouse", ...at }));
-    requestAnimationFrame(move);
-  };
-  requestAnimationFrame(move);
-})"""
-"""The seconds of a drag, a step a frame."""
 
 TIMES: Final = 5
 """That the page is opened."""
@@ -103,33 +95,31 @@ def seconds_until_ready(browser: Browser, page: Path) -> float:
 def frames(browser: Browser, page: Path) -> Row:
     """Frames a second while the globe turns, one a step, and the milliseconds for which one keeps the page busy."""
     visit = Visit(browser, f"{page.as_uri()}#globe")
-    visit.until("document.documentElement.dataset.ready")
-    visit.rest(seconds=60)
-    x, y = visit.middle("#globe-plate")
-    visit.page.mouse.move(x, y)
-    visit.page.mouse.down()
-    busy = visit.busy()
-    seconds = visit.page.evaluate(TURN, {"x": x, "y": y, "steps": STEPS})
-    found = {"frames a second": STEPS / seconds, "ms": 1000 * (visit.busy() - busy) / STEPS}
-    visit.page.mouse.up()
+    found = while_moved(visit, "#globe-plate", TURN)
     visit.close()
     return found
 
 
 def drag(browser: Browser, page: Path, count: int) -> Row:
-    """Frames a second while the first site, in the middle of the ball, is dragged."""
+    """The same while the first site, in the middle of the ball, is dragged."""
     visit = Visit(browser, f"{page.as_uri()}#v=1&room=sphere&set=given&turned=bubble")
+    found = while_moved(visit, "#sphere-ball", DRAG)
+    visit.until("location.hash.includes('file=')")  # the sites are the reader's own now: one has moved
+    visit.close()
+    return {"sites": count, **found}
+
+
+def while_moved(visit: Visit, plate: str, way: str) -> Row:
+    """Frames while the mouse, from the middle of a plate, goes a way that is written in JavaScript."""
     visit.until("document.documentElement.dataset.ready")
     visit.rest(seconds=60)
-    x, y = visit.middle("#sphere-ball")
+    x, y = visit.middle(plate)
     visit.page.mouse.move(x, y)
     visit.page.mouse.down()
     busy = visit.busy()
-    seconds = visit.page.evaluate(DRAG, {"x": x, "y": y, "steps": STEPS})
+    seconds = visit.page.evaluate(MOVE % way, {"plate": plate, "x": x, "y": y, "steps": STEPS})
+    found = {"frames a second": STEPS / seconds, "ms": 1000 * (visit.busy() - busy) / STEPS}
     visit.page.mouse.up()
-    visit.until("location.hash.includes('file=')")  # the sites are the reader's own now: one has moved
-    found = {"sites": count, "frames a second": STEPS / seconds, "ms": 1000 * (visit.busy() - busy) / STEPS}
-    visit.close()
     return found
 
 

@@ -41,12 +41,14 @@ def command(
     layer_name: options.LayerName = None,
     crs: options.Crs = None,
     skip_missing: options.SkipMissing = False,
+    latitude: options.LatitudeKind = options.Latitude.authalic,
     overwrite: options.Overwrite = False,
 ) -> None:
     """Write an interactive page with the sphere, the lift and the globe, for any browser.
 
     It is one file that needs no server or network and sends no data.
     """
+    from functools import partial
     from pathlib import Path
 
     from stereodel.cli.destinations import Destination
@@ -63,9 +65,10 @@ def command(
         table = read(points, lon=lon, lat=lat, layer=layer_name, crs=crs, skip_missing=skip_missing)
         lonlat, name = table.places, Path(table.name).name
         names = next((column.tolist() for key, column in table.columns.items() if key.strip().lower() == "name"), None)
+    given = partial(web, lonlat=lonlat, names=names, name=name)
     with stage(f"writing {target}"):
-        destination.write(lambda path: web(path, lonlat=lonlat, names=names, name=name, resolution=resolution.value))
-    say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points"))
+        destination.write(lambda path: given(path, resolution=resolution.value, latitude=latitude.value))
+    say(f"{target}: the page" + ("" if lonlat is None else f" with {len(lonlat)} points, {latitude.value} latitudes"))
     if open_it:
         _show(target)
 

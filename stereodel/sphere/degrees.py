@@ -15,19 +15,10 @@ from stereodel._double_double import DoubleDouble
 def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
     """Sine and cosine of angles in degrees.
 
-    Parameters
-    ----------
-    angle : ndarray of any shape
-        Any finite number of degrees.
+    angle: any finite number of degrees.
+    Returns sine, cosine, relative error below 2⁻¹⁰¹; exact at multiples of 90°, of one value at odd multiples of 45°,
+        and mirrored where the angles are.
 
-    Returns
-    -------
-    sine, cosine : DoubleDouble
-        Relative error below 2⁻¹⁰¹; exact at multiples of 90°, of one value at odd multiples of 45°, and mirrored where
-        the angles are.
-
-    Examples
-    --------
     >>> import numpy as np
     >>> sine, cosine = sin_cos_degrees(np.array([30.0, 180.0]))
     >>> print(sine.round(), cosine.round() + 0.0)

@@ -14,13 +14,9 @@ from stereodel.sphere.degrees import sin_cos_degrees
 def tangent_frame(point: npt.ArrayLike, name: str = "point") -> DoubleDouble:
     """Rows east, north, up at a point, shape (3, 3), errors below 2⁻⁹⁷.
 
-    Parameters
-    ----------
-    point : array_like, shape (2,) or (3,)
-        (lon, lat) in degrees, or a direction. At a pole the axes are the limit along the given longitude, and along
+    point: (lon, lat) in degrees, or a direction. At a pole the axes are the limit along the given longitude, and along
         longitude 0 for a direction: at the north pole north points toward lon + 180°, at the south pole toward lon.
-    name : str
-        What error messages call it.
+    name: what error messages call it.
     """
     values = as_direction_or_lonlat(point, name)
     if values.shape == (2,):

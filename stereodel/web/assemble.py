@@ -22,6 +22,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import as_choice, as_lonlat
 from stereodel._files import replacing
+from stereodel.sphere.latitudes import KINDS, Latitude
 from stereodel.web.contents import RESOLUTIONS, Given, built, contents
 from stereodel.web.packing import packed
 
@@ -47,6 +48,7 @@ def web(
     names: Sequence[str] | None = None,
     name: str = "points",
     resolution: str = "50m",
+    latitude: Latitude = "authalic",
 ) -> Path:
     """Write the interactive page with the sphere, the lift and the globe, for any browser.
 
@@ -64,6 +66,10 @@ def web(
         Name of these points on the page, such as that of their file.
     resolution : {"50m", "110m"}
         Land at 1 : 50 or 1 : 110 million. The latter makes the page 0.1 MB smaller.
+    latitude : {"spherical", "geodetic", "authalic"}, optional
+        As in `lonlat_to_xyz`, of these points and of files that are opened on the page: its cells and their areas are
+        those of `SphericalVoronoi.from_lonlat`. By default areas are those of the ellipsoid, as of ``stereodel
+        voronoi``.
 
     Returns
     -------
@@ -73,8 +79,8 @@ def web(
     Raises
     ------
     ValueError
-        If a latitude is outside [−90, 90], there are more than a million points, or not as many names as points, or the
-        resolution is unknown.
+        If a latitude is outside [−90, 90], there are more than a million points, or not as many names as points, or
+        `resolution` or `latitude` is unknown.
 
     Examples
     --------
@@ -86,19 +92,19 @@ def web(
     """
     as_choice(resolution, tuple(RESOLUTIONS), "resolution")
     given = None if lonlat is None else Given(as_lonlat(lonlat).reshape(-1, 2), name, names)
-    text = html(resolution, given)
+    text = html(resolution, given, as_choice(latitude, KINDS, "latitude"))
     with replacing(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
     return Path(path)
 
 
-def html(resolution: str, given: Given | None = None) -> str:
-    """The page as HTML, with land at a resolution and optional initial points."""
+def html(resolution: str, given: Given | None = None, latitude: Latitude = "authalic") -> str:
+    """The page as HTML, with land at a resolution, optional initial points, and the latitude of places."""
     script, style = (_inline(built(f"page.{kind}").decode("utf-8")) for kind in ("js", "css"))
     later = {name: built(f"{name}.js") for name in LATER}
     sources = [_source(code) for code in (script, *(code.decode("utf-8") for code in later.values()))]
     policy = POLICY.format(script=" ".join(sources), style=_source(style))
-    carried = contents(resolution, given) | {name: packed(code) for name, code in later.items()}
+    carried = contents(resolution, given, latitude=latitude) | {name: packed(code) for name, code in later.items()}
     blocks = (f'<script type="text/plain" id="block-{name}">{text}</script>' for name, text in carried.items())
     page = template()
     pieces = re.split("|".join((ENCODING, STYLE, SCRIPT)), page)
@@ -119,7 +125,7 @@ def template() -> str:
 
 def module(resolution: str) -> str:
     """The script of the widget, with its contents as a constant."""
-    return f"const CONTENTS = {json.dumps(contents(resolution, sets=False))};\n{built('widget.js').decode('utf-8')}"
+    return f"const CONTENTS = {json.dumps(contents(resolution, latitude=None))};\n{built('widget.js').decode('utf-8')}"
 
 
 def _inline(code: str) -> str:

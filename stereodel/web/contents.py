@@ -15,9 +15,9 @@ from stereodel._arrays import FloatArray, Indices
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import stitched
 from stereodel.data import airports, cities, land, stars
+from stereodel.sphere.latitudes import Latitude
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.web.packing import packed, packed_doubles, packed_places
-from stereodel.web.scattered import GAP, SHEET
 
 RESOLUTIONS: Final = {"50m": ("110m", "50m"), "110m": ("110m",)}
 """Land included for each resolution; the coarse one is drawn while the globe moves."""
@@ -40,17 +40,7 @@ BRIGHT_STAR: Final = 3.0
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """Points given by the reader.
-
-    Parameters
-    ----------
-    lonlat : (n, 2) array
-        Degrees.
-    name : str
-        Name of the points on the page, such as that of their file.
-    names : sequence of str, optional
-        Names of the points.
-    """
+    """Points given by the reader, in degrees: `name` of all, such as that of their file, and `names` of each."""
 
     lonlat: FloatArray
     name: str
@@ -102,14 +92,22 @@ def sites(name: str) -> str:
 
 def _places(name: str) -> FloatArray:
     """The sites that a room begins with, the largest cities, the airports nearest to them, or the brightest stars."""
-    if name == "gap":
-        return GAP
-    if name == "sheet":
-        return SHEET
+    if name in ("gap", "sheet"):
+        return scattered()[name]
     if name == "stars":
         return stars().lonlat[stars().magnitude <= BRIGHT_STAR]
     large = cities().lonlat[cities().population >= LARGE_CITY]
     return large if name == "cities" else airports().lonlat[_nearest(airports().lonlat, large)]
+
+
+def scattered() -> dict[str, FloatArray]:
+    """The sites that rooms begin with, drawn once and kept so that the first pictures stay.
+
+    "gap": 54 sites, each the farthest of 14 drawn, none within 68° of the first pole of projection; "sheet": 48 places
+    of a sheet of 3 by 2 about its middle, each the farthest of 12 drawn.
+    """
+    text = resources.files("stereodel.web").joinpath("scattered.json").read_text(encoding="utf-8")
+    return {name: np.array(rows) for name, rows in json.loads(text).items()}
 
 
 def _nearest(places: FloatArray, to: FloatArray) -> Indices:
@@ -117,15 +115,21 @@ def _nearest(places: FloatArray, to: FloatArray) -> Indices:
     return np.unique(SphericalDelaunay.from_lonlat(places).nearest(lonlat=to))
 
 
-def contents(resolution: str, given: Given | None = None, *, sets: bool = True) -> dict[str, str]:
-    """All contents by name, as read by `script/contents.ts`."""
+def _shown(name: object) -> str:
+    """A name as text: empty where it is missing, and with a mark for halves of letters."""
+    missing = name is None or name != name
+    return "" if missing else str(name).encode("utf-8", "replace").decode()
+
+
+def contents(resolution: str, given: Given | None = None, *, latitude: Latitude | None) -> dict[str, str]:
+    """All contents by name, as read by `script/contents.ts`; a widget has no sets and no latitude of places."""
     blocks = {"kernel": kernel()}
     blocks |= {f"land-{each}": land_rings(each) for each in RESOLUTIONS[resolution]}
-    if sets:
-        blocks |= {name: sites(name) for name in SITE_DIGITS}
+    if latitude is not None:
+        blocks |= {name: sites(name) for name in SITE_DIGITS} | {"latitude": packed(latitude.encode())}
     if given is not None:
         blocks["given-name"] = packed(json.dumps(given.name).encode())
         blocks["given"] = packed_doubles(given.lonlat)
         if given.names is not None:
-            blocks["given-names"] = packed(json.dumps([str(name) for name in given.names]).encode())
+            blocks["given-names"] = packed(json.dumps(list(map(_shown, given.names))).encode())
     return blocks

@@ -21,8 +21,6 @@ GOES_ON = 0x80
 def packed(content: bytes) -> str:
     """Bytes as text.
 
-    Examples
-    --------
     >>> packed(b"Ulm")
     'eNoLzckFAAJHAS8='
     """
@@ -30,20 +28,11 @@ def packed(content: bytes) -> str:
 
 
 def packed_places(places: Ragged, digits: int) -> str:
-    """Rows of longitude and latitude in degrees, rounded to `digits` decimals.
+    """Rows of longitude and latitude in degrees, rounded to `digits` decimals, as packed numbers of `varints`.
 
-    Parameters
-    ----------
-    places : Ragged
-        Values (n, 2).
-    digits : int
-
-    Returns
-    -------
-    str
-        Packed numbers of `varints`: digits, number of rows, size of each row, then the steps of all longitudes and of
-        all latitudes from one place to the next, in units of the last digit. A negative step s is written as −2s − 1,
-        any other as 2s. Integers divided by a power of ten give the doubles nearest to the decimals.
+    They are digits, number of rows, size of each row, then the steps of all longitudes and of all latitudes from one
+    place to the next, in units of the last digit. A negative step s is written as −2s − 1, any other as 2s. Integers
+    divided by a power of ten give the doubles nearest to the decimals.
     """
     units = np.rint(places.values * 10.0**digits).astype(np.int64)
     steps = np.diff(units, axis=0, prepend=np.zeros((1, 2), dtype=np.int64)).T.ravel()
@@ -63,8 +52,6 @@ def packed_doubles(values: FloatArray) -> str:
 def varints(numbers: npt.NDArray[np.int64]) -> Bytes:
     """Non-negative integers, seven bits per byte, lowest first; the eighth bit marks that more bytes follow.
 
-    Examples
-    --------
     >>> varints(np.array([5, 300])).tolist()
     [5, 172, 2]
     """

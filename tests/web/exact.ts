@@ -119,6 +119,14 @@ export function signs(name: string, rows: Float64Array[]): Promise<string> {
   return hash(predicates[name](...rows));
 }
 
+/** Unit vectors of longitude and latitude of the ellipsoid. */
+export function ellipsoid(lonlat: Float64Array): Promise<object> {
+  return hashed({
+    geodetic: lonlatToXyz(lonlat, "geodetic"),
+    authalic: lonlatToXyz(lonlat, "authalic"),
+  });
+}
+
 /** Maps made in the same ways, and what they make of directions. */
 export async function maps(
   lonlat: Float64Array,

@@ -1,5 +1,6 @@
 """The page as one file: what stands in it, what may run in it, and what it asks for."""
 
+import json
 import re
 
 import numpy as np
@@ -115,7 +116,7 @@ def test_the_same_page_every_time(built):
     given = contents.Given(np.array([(1.0, 2.0)]), "one")
     blocks = set(re.findall('id="block-([^"]+)"', assemble.html("50m", given)))
     land = {"land-110m", "land-50m"}
-    sets = {"airports", "cities", "stars", "gap", "sheet", "given", "given-name"}
+    sets = {"airports", "cities", "stars", "gap", "sheet", "given", "given-name", "latitude"}
     assert blocks == land | sets | {"kernel", "exchange", "lift"}
     assert "land-50m" not in assemble.html("110m")
 
@@ -135,6 +136,13 @@ def test_the_module_of_the_widget(built):
     text = assemble.module("110m")
     assert text.endswith("export default {};")
     assert set(re.findall('"([a-z0-9-]+)": "', text)) == {"kernel", "land-110m"}
+
+
+def test_names_that_are_missing_or_no_text(built):
+    names = ["Ulm", None, float("nan"), 5, "a\ud800b"]
+    given = contents.Given(np.zeros((5, 2)), "a", names)
+    shown = contents.packed(json.dumps(["Ulm", "", "", "5", "a?b"]).encode())
+    assert contents.contents("110m", given, sets=False)["given-names"] == shown
 
 
 def test_wrong_arguments_and_nothing_written(built, tmp_path):

@@ -7,11 +7,13 @@ import pytest
 
 from stereodel.curves.ragged import Ragged
 from stereodel.data import airports, cities, land, stars
-from stereodel.web.contents import MOST_POINTS, Given, land_rings, sites
+from stereodel.web.contents import MOST_POINTS, Given, land_rings, scattered, sites
 from stereodel.web.packing import packed, packed_doubles, packed_places, varints
-from stereodel.web.scattered import GAP, SHEET
 
 from .conftest import SCRIPT
+
+GAP = scattered()["gap"]
+SHEET = scattered()["sheet"]
 
 READ = f"""
 import {{ text }} from "node:stream/consumers";

@@ -4,6 +4,8 @@ import base64
 import gzip
 import json
 
+import pytest
+
 from stereodel.io import read_points
 from stereodel.io.reading import read_plane_points
 
@@ -69,6 +71,8 @@ def point(*coordinates):
 COLLECTIONS = {
     "point.geojson": geojson(point(10, 48.4, 500)),
     "feature.geojson": '{"type":"Feature"}',
+    "feature_alone.geojson": json.dumps({"type": "Feature", "geometry": {"type": "Point", "coordinates": [1, 2]}}),
+    "geometry_as_feature.geojson": '{"features":[{"type":"Point","coordinates":[1,2]}]}',
     "list.json": "[1,2]",
     "polygon.geojson": geojson({"type": "Polygon", "coordinates": []}),
     "no_geometry.geojson": geojson(point(1, 2), None),
@@ -167,6 +171,7 @@ def test_the_reader_is_asked_for_columns_that_do_not_say_what_they_are(node):
     assert chosen["places"] == [1, 0, 6, 9]
 
 
+@pytest.mark.filterwarnings("ignore:column .* is kept as text")
 def test_tables_of_a_plane_are_those_of_read_plane_points(node, tmp_path):
     named = {
         "x,y\n1,2\n3,4e9\n": ("x", "y"),
@@ -174,6 +179,17 @@ def test_tables_of_a_plane_are_those_of_read_plane_points(node, tmp_path):
         "x,y\n1,2\nb,3\n": ("x", "y"),
         "n,Y,X\n1,2,3\n4,5,6\n": ("X", "Y"),
         "1;2,5\n3;4\n": ("lon", "lat"),
+        "x;y\n567.890;1\n": ("x", "y"),
+        "x;y\n567,890;1\n567,891;1\n": ("x", "y"),
+        "x;y\n567,890;0,5\n": ("x", "y"),
+        "x;y\n567,890;0.5\n": ("x", "y"),
+        "x;y;z\n567.890;1;0,5\n": ("x", "y"),
+        "x;y;z\n567.890;1;007,5\n": ("x", "y"),
+        "x;y\n567.890;1\n0,5;1\n": ("x", "y"),
+        "x;y\n567.890;1\n0.5;1\nNA;1\n": ("x", "y"),
+        "x,y\n567.890,1\n": ("x", "y"),
+        'x,y\n"567,890",1\n': ("x", "y"),
+        'x,y\n"567,890",1\n"0,5",2\n': ("x", "y"),
     }
     found = on_page(node, {f"{k}.csv": text for k, text in enumerate(named)}, kind="plane")
     for k, (text, names) in enumerate(named.items()):

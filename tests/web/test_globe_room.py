@@ -1,16 +1,19 @@
 """The Globe room in a browser: what the hand does is what the library computes, and the drawing follows it."""
 
 import io
+import json
 import subprocess
 import sys
 from urllib.parse import parse_qs
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 from stereodel import SphereCircle, SphericalVoronoi, bubble_to_bubble, fisheye, lonlat_to_xyz
 from stereodel.drawing import View
+from stereodel.earth import AUTHALIC_RADIUS_KM
 
 MARGIN = 7.0
 """Of a globe's limb in its canvas, CSS pixels."""
@@ -275,8 +278,11 @@ def test_the_readers_places_stand_in_a_table(globe, tmp_path):
     rows = page.page.locator("#room-globe .sites tbody tr[data-site]")
     cells = [text.split("\t") for text in rows.all_inner_texts()]
     assert [row[1] for row in cells] == ["A", "B", "C"]
-    areas = SphericalVoronoi.from_lonlat(lonlat).areas(radius=6371.0088)
+    areas = SphericalVoronoi.from_lonlat(lonlat, latitude="authalic").areas(radius=AUTHALIC_RADIUS_KM)
     assert [int("".join(c for c in row[4] if c.isdigit())) for row in cells] == np.rint(areas).astype(int).tolist()
+    assert (
+        page.page.inner_text("#room-globe [data-out=latitude]") == "Areas are those of the ellipsoid WGS84 (authalic)."
+    )
 
     # The row that has the focus is held in the drawing; its number brings it to the middle, and the lens to it.
     before = page.picture("#globe-plate").astype(int)
@@ -290,6 +296,37 @@ def test_the_readers_places_stand_in_a_table(globe, tmp_path):
     rows.nth(1).get_by_role("button").click()
     page.page.wait_for_timeout(600)
     assert globe.numbers("focuslon", "focuslat", "viewlon", "viewlat") == pytest.approx((-78.5, -0.2, -78.5, -0.2))
+
+
+@pytest.mark.parametrize("kind", ["authalic", "geodetic", "spherical"])
+def test_a_page_and_the_command_agree_about_the_cells_of_a_table(visit, tmp_path, kind):
+    rng = np.random.default_rng(8)
+    lonlat = np.round(rng.uniform((-180, -90), (180, 90), (40, 2)), 2)
+    table, cells = tmp_path / "towns.csv", tmp_path / "cells.geojson"
+    np.savetxt(table, lonlat, "%.2f", delimiter=",", header="lon,lat", comments="")
+    asked = [] if kind == "authalic" else ["--latitude", kind]
+    for command in (["web", table, "-o", tmp_path / "towns.html"], ["voronoi", table, "-o", cells]):
+        subprocess.run([sys.executable, "-m", "stereodel", *command, *asked], check=True)
+    page = visit((tmp_path / "towns.html").as_uri() + "#globe", height=1400)
+    page.until("document.documentElement.dataset.ready")
+    page.rest()
+    rows = page.page.locator("#room-globe .sites tbody tr[data-site]").all_inner_texts()
+    shown = [int("".join(c for c in row.split("\t")[3] if c.isdigit())) for row in rows]
+    written = [feature["properties"]["area_km2"] for feature in json.loads(cells.read_text())["features"]]
+    assert len(shown) > 10
+    assert shown == np.rint(written[: len(shown)]).astype(int).tolist()
+
+    # The file of the page's own cells: the corners of both are the same, in the latitudes of the table.
+    with page.page.expect_download() as download:
+        page.page.click("button[data-export=geojson]")
+    theirs = json.loads(download.value.path().read_text())["features"]
+    compared = 0
+    for feature, ours in zip(theirs, shapely.from_geojson(cells.read_text()).geoms, strict=True):
+        shape = shapely.geometry.shape(feature["geometry"])
+        if np.abs(shape.bounds[1::2]).max() < 60:  # towards the poles its chords are longer on the map
+            assert shape.symmetric_difference(ours).area < 1e-3 * ours.area
+            compared += 1
+    assert compared > 5
 
 
 def test_a_panorama_is_seen_through_the_lens(globe, tmp_path):

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, Stereographic, angular_distance, incircle
-from stereodel.web.scattered import SHEET
+from stereodel.web.contents import scattered
 
 from .conftest import SCRIPT
+
+SHEET = scattered()["sheet"]
 
 WASM = SCRIPT.parent / "built" / "stereodel.wasm"
 

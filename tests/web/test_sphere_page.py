@@ -8,7 +8,9 @@ import pytest
 
 from stereodel import SphericalDelaunay, lonlat_to_xyz
 from stereodel.triangulation.theorem import planar_part
-from stereodel.web.scattered import GAP
+from stereodel.web.contents import scattered
+
+GAP = scattered()["gap"]
 
 ROOM = "#room-sphere"
 BALL = "#sphere-ball"

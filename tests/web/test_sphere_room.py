@@ -8,9 +8,11 @@ import pytest
 from stereodel import PlanarDelaunay, SphericalDelaunay, Stereographic, in_bubble, lonlat_to_xyz
 from stereodel.sphere import SphereCircle
 from stereodel.triangulation.theorem import merged_polygons, planar_part
-from stereodel.web.scattered import GAP
+from stereodel.web.contents import scattered
 
 from .conftest import SCRIPT
+
+GAP = scattered()["gap"]
 
 WASM = SCRIPT.parent / "built" / "stereodel.wasm"
 

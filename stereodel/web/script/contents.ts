@@ -4,6 +4,8 @@
  * Each is a text by name that `stereodel/web/packing.py` wrote: base64 of deflated bytes.
  */
 
+import type { Latitude } from "./kernel/api.ts";
+
 /** The text of a name, or null where the page does not have it. */
 export type Blocks = (name: string) => string | null;
 
@@ -76,6 +78,12 @@ export class Contents {
     if (name === null || bytes === null) return null;
     const names = await this.#bytes("given-names");
     return { name: String(json(name)), lonlat: doubles(bytes), names: names && (json(names) as string[]) };
+  }
+
+  /** What latitudes of places are on this page: those of the ellipsoid with equal areas, if it does not say. */
+  async latitude(): Promise<Latitude> {
+    const bytes = await this.#bytes("latitude");
+    return bytes === null ? "authalic" : (new TextDecoder().decode(bytes) as Latitude);
   }
 
   async #bytes(name: string): Promise<Uint8Array<ArrayBuffer> | null> {

@@ -9,7 +9,7 @@ import { findLonLat } from "./tables/columns.ts";
 import { splitColumns } from "./tables/csv.ts";
 import { ColumnsError, TableError } from "./tables/error.ts";
 import { geojsonPoints } from "./tables/geojson.ts";
-import { lonLatPlaces, places } from "./tables/numbers.ts";
+import { lonLatPlaces, planePlaces } from "./tables/numbers.ts";
 import { counted } from "./words.ts";
 
 /** Points that the page takes. */
@@ -79,14 +79,12 @@ function ofGeojson(text: string, kind: Kind): Omit<Points, "file"> {
 }
 
 function ofText(text: string, kind: Kind, chosen?: [string, string]): Omit<Points, "file"> {
-  const { columns } = splitColumns(text, chosen);
+  const table = splitColumns(text, chosen);
+  const columns = table.columns;
   const all = [...columns.keys()];
   const [first, second] = chosen ?? (kind === "lonlat" ? findLonLat(all) : findXY(all));
   const values = (name: string): string[] => columns.get(name) ?? [];
-  const found =
-    kind === "lonlat"
-      ? lonLatPlaces(values(first), values(second))
-      : places({ name: first, values: values(first) }, { name: second, values: values(second) });
+  const found = kind === "lonlat" ? lonLatPlaces(values(first), values(second)) : planePlaces(table, first, second);
   const named = all.find((name) => name.trim().toLowerCase() === "name");
   return { places: found, names: named === undefined ? null : values(named) };
 }

@@ -4,6 +4,8 @@
  */
 
 import { SphericalVoronoi } from "./kernel/api.ts";
+import type { Latitude } from "./kernel/api.ts";
+import { tableLatitude } from "./kernel/latitudes.ts";
 import { cross, dot, lonLatOf, row, unit } from "./rooms/space.ts";
 import type { Vector } from "./rooms/space.ts";
 import type { SphereSites } from "./rooms/sphere_sites.ts";
@@ -49,11 +51,11 @@ export function sitesGeojson(sites: SphereSites): string {
   return collection(features);
 }
 
-/** Cells of places, (n, 2) in degrees. */
-export function placesGeojson(lonlat: Float64Array): string {
-  const voronoi = SphericalVoronoi.fromLonlat(lonlat);
+/** Cells of places, (n, 2) in degrees with a kind of latitude. */
+export function placesGeojson(lonlat: Float64Array, kind: Latitude): string {
+  const voronoi = SphericalVoronoi.fromLonlat(lonlat, kind);
   const cells = Array.from({ length: lonlat.length / 2 }, (_, site) => {
-    const geometry = cellOf(voronoi, site);
+    const geometry = cellOf(voronoi, site, kind);
     const [longitude, latitude] = lonlat.subarray(2 * site, 2 * site + 2);
     return geometry === null ? [] : [feature({ site: site + 1, longitude, latitude }, geometry)];
   });
@@ -61,9 +63,9 @@ export function placesGeojson(lonlat: Float64Array): string {
 }
 
 /** The cell of a site, or null where it has no corners. */
-function cellOf(voronoi: SphericalVoronoi, site: number): Geometry | null {
+function cellOf(voronoi: SphericalVoronoi, site: number, kind: Latitude = "spherical"): Geometry | null {
   const corners = Array.from(voronoi.region(site), (vertex) => row(voronoi.vertices, vertex));
-  return corners.length < 3 ? null : sphericalPolygon(corners);
+  return corners.length < 3 ? null : sphericalPolygon(corners, kind);
 }
 
 /** A feature of given properties. */
@@ -95,9 +97,13 @@ export const WHOLE_SPHERE: Geometry = {
  * The region on the left of a ring of great-circle sides, at most a hemisphere.
  *
  * @param corners three or more, counterclockwise seen from outside.
+ * @param kind of the latitudes that are written.
  */
-export function sphericalPolygon(corners: readonly Vector[]): Geometry {
-  const ring = unwrapped(corners.flatMap((corner, k) => side(corner, corners[(k + 1) % corners.length])));
+export function sphericalPolygon(corners: readonly Vector[], kind: Latitude = "spherical"): Geometry {
+  const ring = unwrapped(
+    corners.flatMap((corner, k) => side(corner, corners[(k + 1) % corners.length])),
+    kind,
+  );
   const turn = Math.round((ring[ring.length - 1][0] - ring[0][0]) / 360);
   const closed = turn === 0 ? ring : aroundPole(ring, turn);
   const pieces = windows(closed).map((polygon): Polygon => [polygon.map(([lon, lat]) => [digits(lon), digits(lat)])]);
@@ -124,12 +130,12 @@ function side(a: Vector, b: Vector): Vector[] {
 }
 
 /** Longitudes and latitudes of a ring, closed, whose longitudes go on beyond ±180 instead of jumping. */
-function unwrapped(points: readonly Vector[]): Position[] {
+function unwrapped(points: readonly Vector[], kind: Latitude): Position[] {
   const ring: Position[] = [];
   for (const point of [...points, points[0]]) {
     const [lon, lat] = lonLatOf(point);
     const before = ring[ring.length - 1]?.[0] ?? lon;
-    ring.push([lon + 360 * Math.round((before - lon) / 360), lat]);
+    ring.push([lon + 360 * Math.round((before - lon) / 360), tableLatitude(lat, kind)]);
   }
   return ring;
 }

@@ -3,6 +3,7 @@
 export { KernelError } from "./instance.ts";
 export type { Numbers } from "./checks.ts";
 export { lonlatToXyz, xyzToLonlat } from "./coordinates.ts";
+export type { Latitude } from "./latitudes.ts";
 export { PlanarDelaunay } from "./planar_delaunay.ts";
 export { PlanarVoronoi } from "./planar_voronoi.ts";
 export { SphericalDelaunay } from "./spherical_delaunay.ts";

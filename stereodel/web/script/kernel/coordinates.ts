@@ -2,12 +2,17 @@
 
 import { asDirections, asLonlat, type Numbers } from "./checks.ts";
 import { kernel } from "./instance.ts";
+import { ellipsoidToXyz, type Latitude } from "./latitudes.ts";
 
 /**
  * Unit vectors of rows (longitude, latitude) in degrees: (cos lat cos lon, cos lat sin lon, sin lat), each component
  * rounded once.
+ *
+ * @param latitude "spherical" takes latitudes unchanged; the others take them as geodetic ones on WGS84, with the
+ * direction from the Earth's centre ("geodetic") or the point on the sphere of equal area ("authalic").
  */
-export function lonlatToXyz(lonlat: Numbers): Float64Array {
+export function lonlatToXyz(lonlat: Numbers, latitude: Latitude = "spherical"): Float64Array {
+  if (latitude !== "spherical") return ellipsoidToXyz(asLonlat(lonlat), latitude);
   return converted("lonlat_to_xyz", asLonlat(lonlat), 2, 3);
 }
 

@@ -4,6 +4,7 @@ import { asDirections, type Numbers } from "./checks.ts";
 import { lonlatToXyz } from "./coordinates.ts";
 import { Delaunay } from "./delaunay.ts";
 import { Kept, kernel } from "./instance.ts";
+import type { Latitude } from "./latitudes.ts";
 
 /**
  * Delaunay triangulation of directions: each triangle's bubble on the outer side of its plane is empty.
@@ -26,9 +27,9 @@ export class SphericalDelaunay extends Delaunay {
     this.build(points);
   }
 
-  /** The triangulation of points given by longitude and latitude in degrees on the sphere, row after row. */
-  static fromLonlat(lonlat: Numbers): SphericalDelaunay {
-    return new SphericalDelaunay(lonlatToXyz(lonlat));
+  /** The triangulation of points given by longitude and latitude in degrees, row after row; `latitude` as in `lonlatToXyz`. */
+  static fromLonlat(lonlat: Numbers, latitude: Latitude = "spherical"): SphericalDelaunay {
+    return new SphericalDelaunay(lonlatToXyz(lonlat, latitude));
   }
 
   /**

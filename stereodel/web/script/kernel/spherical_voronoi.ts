@@ -3,6 +3,7 @@
 import { asScalar, type Numbers } from "./checks.ts";
 import { lonlatToXyz } from "./coordinates.ts";
 import { kernel } from "./instance.ts";
+import type { Latitude } from "./latitudes.ts";
 import { SphericalDelaunay } from "./spherical_delaunay.ts";
 import { Diagram } from "./voronoi.ts";
 
@@ -26,9 +27,9 @@ export class SphericalVoronoi extends Diagram {
     if (this.vertices.length === 6) for (let k = 0; k < 3; ++k) this.vertices[3 + k] = 0 - this.vertices[k];
   }
 
-  /** The diagram of points given by longitude and latitude in degrees on the sphere, row after row. */
-  static fromLonlat(lonlat: Numbers): SphericalVoronoi {
-    return new SphericalVoronoi(lonlatToXyz(lonlat));
+  /** The diagram of points given by longitude and latitude in degrees, row after row; `latitude` as in `lonlatToXyz`. */
+  static fromLonlat(lonlat: Numbers, latitude: Latitude = "spherical"): SphericalVoronoi {
+    return new SphericalVoronoi(lonlatToXyz(lonlat, latitude));
   }
 
   /**

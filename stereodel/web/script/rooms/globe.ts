@@ -4,6 +4,7 @@ import { field, find, say } from "../dom.ts";
 import type { Reason } from "../drawing/plate.ts";
 import type { Sheet } from "../drawing/sheet.ts";
 import type { Exchange } from "../exchange.ts";
+import type { Latitude } from "../kernel/api.ts";
 import { MOST_SITES, packPlaces } from "../link.ts";
 import type { LinkValues } from "../link.ts";
 import type { Painted } from "../panorama.ts";
@@ -145,7 +146,7 @@ class GlobeRoom implements Room {
 
   geojson(exchange: Exchange): string | null {
     const { places } = this.#scene;
-    if (places !== null) return exchange.placesGeojson(places.lonlat);
+    if (places !== null) return exchange.placesGeojson(places.lonlat, this.#scene.latitude);
     this.#host.messages.show("", "There are no cells yet: open a file with places of your own.");
     return null;
   }
@@ -164,6 +165,7 @@ class GlobeRoom implements Room {
   /** Unpacks what the page carries; until then the globe is water. */
   async #load(): Promise<void> {
     await this.#scene.load(this.#host.contents);
+    if (this.#scene.places !== null) this.#show(this.#scene.places, this.#isGiven); // cells of the page's latitude
     const given = await this.#host.contents.given();
     if (given !== null && this.#scene.places === null) {
       this.#show(given, true);
@@ -181,6 +183,7 @@ class GlobeRoom implements Room {
     const count = lonlat.length / 2;
     find(section, "[data-show=places]").hidden = false;
     find(section, "[data-out=places]").textContent = placesWords(count, places.name);
+    find(section, "[data-out=latitude]").textContent = AREAS[this.#scene.latitude];
     table.show({
       count,
       noun: "Place",
@@ -385,6 +388,13 @@ class GlobeRoom implements Room {
   /** The lens that was announced last. */
   #said = BEGINNING.sight.lens;
 }
+
+/** What the areas of cells are, by the kind of latitude. */
+const AREAS: Record<Latitude, string> = {
+  spherical: "Areas with latitudes taken as those of a sphere (spherical).",
+  geodetic: "Areas on a sphere with the directions from the centre of the ellipsoid (geodetic).",
+  authalic: "Areas are those of the ellipsoid WGS84 (authalic).",
+};
 
 function magnificationWords({ sight }: GlobeState): string {
   const [lon, lat] = lonLatOf(sight.lens.focus);

@@ -8,13 +8,14 @@ import type { GlobeState } from "./globe_state.ts";
 import { lonLatOf } from "./space.ts";
 import type { Vector } from "./space.ts";
 
-export function globePython(state: GlobeState, { places, picture }: GlobeScene): string {
+export function globePython(state: GlobeState, { places, picture, latitude }: GlobeScene): string {
   const { drawn, lens } = state;
   const file = places?.name ?? null;
   const hasLand = drawn.land && picture === null;
   const isBubble = lens === "bubble";
   const names = isBubble ? "SphereCircle, bubble_to_bubble" : "fisheye";
   const withCells = file !== null;
+  const kind = latitude === "spherical" ? "" : `latitude="${latitude}"`;
   return [
     `from stereodel import ${withCells ? `SphericalVoronoi, ${names}`.split(", ").sort(byPython).join(", ") : names}`,
     "from stereodel.drawing import View",
@@ -22,13 +23,13 @@ export function globePython(state: GlobeState, { places, picture }: GlobeScene):
     ...(withCells ? ["from stereodel.io import read_points"] : []),
     "",
     ...(isBubble ? bubbleLines(state) : fisheyeLines(state)),
-    "globe = Globe()",
+    `globe = Globe(${withCells ? kind : ""})`,
     ...(picture === null ? [] : [`globe.add_raster(${JSON.stringify(picture.name)})`]),
     ...(hasLand ? ['globe.add_land(resolution="50m")'] : []),
     ...(drawn.graticule ? [`globe.add_graticule(${number(STEP)})`] : []),
     ...(hasLand ? ['globe.add_coastlines(resolution="50m")'] : []),
     ...(drawn.tissot ? [`globe.add_tissot(${number(STEP)}, ${CIRCLE_RADIUS.toFixed(4)})`] : []),
-    ...(withCells ? placeLines(file, drawn.cells) : []),
+    ...(withCells ? placeLines(file, drawn.cells, kind) : []),
     `globe.save("globe.svg", lens, ${viewText(isBubble ? state.after : state.sight.view)})`,
     "",
   ].join("\n");
@@ -52,10 +53,12 @@ function bubbleLines({ from, to }: GlobeState): string[] {
   ];
 }
 
-function placeLines(file: string, withCells: boolean): string[] {
+function placeLines(file: string, withCells: boolean, kind: string): string[] {
   return [
     `places = read_points(${JSON.stringify(file)}).lonlat`,
-    ...(withCells ? ["globe.add_cells(SphericalVoronoi.from_lonlat(places))"] : []),
+    ...(withCells
+      ? [`globe.add_cells(SphericalVoronoi.from_lonlat(${["places", kind].filter(Boolean).join(", ")}))`]
+      : []),
     "globe.add_points(places)",
   ];
 }

@@ -14,14 +14,18 @@ import type { Layer } from "../drawing/ball.ts";
 import type { Disc, Pen } from "../drawing/pen.ts";
 import type { Contents, Rings } from "../contents.ts";
 import { lonlatToXyz, SphericalVoronoi } from "../kernel/api.ts";
-import type { MoebiusMap } from "../kernel/api.ts";
+import type { Latitude, MoebiusMap } from "../kernel/api.ts";
+import { tableLatitude } from "../kernel/latitudes.ts";
 import type { Painted } from "../panorama.ts";
-import { directionOf } from "./space.ts";
+import { directionOf, lonLatOf, row } from "./space.ts";
 
 /** The radius of the equal circles on Earth, kilometres, and in degrees of a sphere with the Earth's mean radius. */
 export const CIRCLE_KILOMETRES = 150;
 const EARTH = 6371.0088;
 export const CIRCLE_RADIUS = ((CIRCLE_KILOMETRES / EARTH) * 180) / Math.PI;
+
+/** The radius of the sphere with the area of the ellipsoid, kilometres. */
+const OF_EQUAL_AREA = 6371.007180918474;
 
 /** Degrees between the lines of the graticule, and between the circles. */
 export const STEP = 10;
@@ -49,8 +53,10 @@ export interface Places {
   readonly names?: readonly string[] | null;
 }
 
+/** Places are drawn at their latitudes as they stand; their cells are those of the sphere that `latitude` names. */
 export class GlobeScene {
   places: Places | null = null;
+  latitude: Latitude = "authalic";
   picture: Painted | null = null;
   /** The place whose row the pointer or the focus is on. */
   lit: number | null = null;
@@ -65,6 +71,7 @@ export class GlobeScene {
 
   /** Unpacks the land that the page carries. */
   async load(contents: Contents): Promise<void> {
+    this.latitude = await contents.latitude();
     const [coarse, fine] = await Promise.all([contents.land("110m"), contents.land("50m")]);
     if (coarse !== null) this.#coarse = landLayer(coarse);
     if (fine !== null) this.#fine = landLayer(fine);
@@ -79,7 +86,7 @@ export class GlobeScene {
 
   /** The area of a place's cell, square kilometres. */
   area(place: number): number {
-    this.#areas ??= this.#diagram()?.areas(EARTH) ?? null;
+    this.#areas ??= this.#diagram()?.areas(OF_EQUAL_AREA) ?? null;
     return this.#areas?.[place] ?? 0;
   }
 
@@ -108,13 +115,24 @@ export class GlobeScene {
   /** The places' cells, which are computed when they are first asked for. */
   #diagram(): SphericalVoronoi | null {
     if (this.places === null) return null;
-    return (this.#voronoi ??= SphericalVoronoi.fromLonlat(this.places.lonlat));
+    return (this.#voronoi ??= SphericalVoronoi.fromLonlat(this.places.lonlat, this.latitude));
+  }
+
+  /** Points of the cells' sphere where the globe shows them: at the latitudes of a table. */
+  #drawn(xyz: Float64Array): Float64Array {
+    if (this.latitude === "spherical") return xyz;
+    const drawn = new Float64Array(xyz.length);
+    for (let k = 0; 3 * k < xyz.length; ++k) {
+      const [lon, lat] = lonLatOf(row(xyz, k));
+      drawn.set(directionOf(lon, tableLatitude(lat, this.latitude)), 3 * k);
+    }
+    return drawn;
   }
 
   /** Sides of the places' cells. */
   #ridges(): Layer | null {
     const diagram = this.#diagram();
-    return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", ridgeArcs(diagram)));
+    return diagram === null ? null : (this.#cells ??= arcLayer("voronoi", this.#drawn(ridgeArcs(diagram))));
   }
 }
 

@@ -20,6 +20,8 @@ const COMMENTS = /^(?:[ \t]*#[^\r\n]*(?:\r\n?|\n|$))+/;
 export interface TextTable {
   readonly columns: ReadonlyMap<string, string[]>;
   readonly length: number;
+  /** Whether a comma may be a decimal mark. */
+  readonly comma: boolean;
 }
 
 /**
@@ -30,7 +32,8 @@ export interface TextTable {
 export function splitColumns(given: string, wanted: readonly string[] = []): TextTable {
   const above = COMMENTS.exec(given)?.[0] ?? "";
   const text = given.slice(above.length);
-  const rows = dataRows(text, separatorOf(text), linesOf(above).length);
+  const separator = separatorOf(text);
+  const rows = dataRows(text, separator, linesOf(above).length);
   const first = rows.next();
   if (first.done) throw new TableError("the table is empty: there is not even a line with the names of the columns");
   const { names, data } = header(first.value, wanted);
@@ -52,7 +55,7 @@ export function splitColumns(given: string, wanted: readonly string[] = []): Tex
     const values = columns[k];
     if (name || values.some((value) => value !== "")) named.set(name || `column_${k + 1}`, values);
   });
-  return { columns: named, length: count };
+  return { columns: named, length: count, comma: separator !== "," };
 }
 
 function taken(rows: Iterator<string[]>, most: number): string[][] {

@@ -13,10 +13,12 @@ function isObject(value: unknown): value is Json {
 /** Places (n, 2) of a collection of points, and their names where features have a property `name`. */
 export function geojsonPoints(text: string): { lonlat: Float64Array; names: string[] | null } {
   const collection = document(text);
-  const features = isObject(collection) ? collection["features"] : undefined;
+  const alone = isObject(collection) && collection["type"] === "Feature";
+  const features = alone ? [collection] : isObject(collection) ? collection["features"] : undefined;
   if (!Array.isArray(features)) throw new TableError("the file is not a GeoJSON FeatureCollection of points");
   features.forEach((feature, k) => {
-    if (!isObject(feature) || !isObject(feature["properties"] || {})) {
+    const known = isObject(feature) && (!("type" in feature) || feature["type"] === "Feature");
+    if (!known || !isObject(feature["properties"] || {})) {
       throw new TableError(`row ${k + 1}: is not a GeoJSON Feature with properties by name; see RFC 7946`);
     }
   });
@@ -60,7 +62,8 @@ function position(geometry: unknown, row: number): [unknown, unknown] {
     throw new TableError(`row ${row}: a Point is needed, not ${typeof kind === "string" ? kind : repr(kind)}${advice}`);
   }
   if (isEmpty(coordinates)) return [null, null];
-  if (!Array.isArray(coordinates) || coordinates.length < 2) {
+  const isText = (value: unknown): boolean => typeof value === "string";
+  if (!Array.isArray(coordinates) || coordinates.length < 2 || coordinates.slice(0, 2).some(isText)) {
     throw new TableError(`row ${row}: a Point has two or three coordinates, not ${repr(coordinates)}`);
   }
   return [coordinates[0], coordinates[1]];

@@ -6,6 +6,12 @@ import { floatText, quoted, str } from "./python.ts";
 /** What people and programs write as a number. */
 export const NUMBER = /^[-+]?(?:(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eE][-+]?[0-9]+)?|inf|infinity)$/i;
 
+/** A number whose mark may be decimal or separate thousands. */
+const GROUPED = /^[-+]?[1-9][0-9]{0,2}[.,][0-9]{3}$/;
+
+/** A number that no column of numbers holds: a code that starts with a zero, or one without an end. */
+const NO_VALUE = /^[-+]?(?:0[0-9]|inf)/i;
+
 /** What stands for no value, in any case. */
 const MISSING = new Set(["", "na", "n/a", "nan", "null", "none", "<na>", "-"]);
 
@@ -39,6 +45,52 @@ export function lonLatPlaces(lon: readonly unknown[], lat: readonly unknown[]): 
     );
   }
   return result;
+}
+
+/** Two columns of a plane as places; a mark that may separate thousands is decimal where the other numbers say so. */
+export function planePlaces(
+  table: { readonly columns: ReadonlyMap<string, readonly string[]>; readonly comma: boolean },
+  first: string,
+  second: string,
+): Float64Array {
+  const found = new Map([...table.columns].map(([name, cells]) => [name, marksOf(cells, table.comma)]));
+  const decimal = new Set([...found.values()].flatMap(({ numeric, sure }) => (numeric ? [...sure] : [])));
+  for (const name of [first, second]) {
+    const { numeric, sure, unsure } = found.get(name)!;
+    const deciding = numeric && sure.size === 0 ? decimal : sure;
+    const wrong = unsure.filter(({ mark }) => {
+      const isDefault = numeric && deciding.size === 0 && mark === ".";
+      return !isDefault && !(deciding.size === 1 && deciding.has(mark));
+    });
+    if (wrong.length > 0) {
+      const { cell, row } = wrong[0];
+      const digits = cell.replace(",", ".");
+      throw new TableError(
+        `row ${row + 1}: the ${name} ${quoted(cell)} may be ${digits} or ${digits.replace(".", "")}; ` +
+          `write thousands without a separator${more(wrong.map((each) => each.row))}`,
+      );
+    }
+  }
+  const values = (name: string): NamedColumn => ({ name, values: table.columns.get(name)! });
+  return places(values(first), values(second));
+}
+
+/** Whether a column holds numbers alone, its marks that are surely decimal, and the numbers that have another. */
+function marksOf(values: readonly string[], comma: boolean) {
+  const sure = new Set<string>();
+  const unsure: { cell: string; mark: string; row: number }[] = [];
+  const cells = values.map((value) => value.trim());
+  const marks = new Set<string>();
+  let numeric = true;
+  cells.forEach((cell, row) => {
+    const mark = cell.includes(".") ? "." : cell.includes(",") ? "," : "";
+    if (!NUMBER.test(cell)) numeric &&= MISSING.has(cell.toLowerCase());
+    else if (GROUPED.test(cell)) unsure.push({ cell, mark, row });
+    else if (mark !== "") sure.add(mark);
+    if (NUMBER.test(cell) && NO_VALUE.test(cell)) numeric = false;
+    if (NUMBER.test(cell) && mark !== "") marks.add(mark);
+  });
+  return { numeric: numeric && marks.size < 2 && (comma || !marks.has(",")), sure, unsure };
 }
 
 function numbers({ name, values }: NamedColumn): Float64Array {

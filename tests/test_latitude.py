@@ -1,0 +1,73 @@
+"""`latitude` is one word with one default at each kind of door: Python, the commands, the page."""
+
+import inspect
+import typing
+
+import pytest
+import typer.main
+
+from stereodel.cli.application import app
+from stereodel.sphere.latitudes import KINDS, Latitude
+from tests.test_api import PACKAGES
+
+
+def doors():
+    """Public functions, classes and methods that take a latitude's kind."""
+    for package in PACKAGES:
+        for name in package.__all__:
+            value = getattr(package, name)
+            methods = [] if not inspect.isclass(value) else [each for each in vars(value) if each[0] != "_"]
+            for thing in (value, *(getattr(value, each) for each in methods)):
+                if callable(thing) and not (inspect.isclass(thing) and issubclass(thing, Exception)):
+                    try:
+                        parameters = inspect.signature(thing).parameters
+                    except ValueError:
+                        continue
+                    if "latitude" in parameters:
+                        yield (
+                            f"{package.__name__}.{getattr(thing, '__qualname__', name)}",
+                            thing,
+                            parameters["latitude"],
+                        )
+
+
+DOORS = {name: (thing, parameter) for name, thing, parameter in doors()}
+RESULTS = {"stereodel.interpolation.Contour", "stereodel.relaxation.Relaxation"}
+"""They have a latitude and are made by functions that take one."""
+
+
+@pytest.mark.parametrize("name", DOORS)
+def test_a_door_of_the_library(name):
+    """Spherical by default, or what is remembered and else spherical; authalic for the page, as for the commands."""
+    thing, parameter = DOORS[name]
+    assert parameter.default in ({"authalic"} if name == "stereodel.web.web" else {"spherical", None})
+    assert str(parameter.annotation).removesuffix(" | None") == "Latitude"
+    if name in RESULTS:
+        return
+    said = inspect.getdoc(thing)
+    kinds = 'latitude : {"spherical", "geodetic", "authalic"}'
+    assert (
+        "Parameters\n" not in said
+        or kinds in said
+        or any(words in said for words in ("As for `", "as in `", "are those of `"))
+    )
+
+
+def test_there_are_these_doors():
+    assert len(DOORS) >= 28
+    assert typing.get_args(Latitude) == KINDS
+
+
+def test_doors_of_the_commands():
+    """Every command that takes columns of longitude and latitude takes their kind, and all have the same default."""
+    takers = {}
+    for name, command in typer.main.get_command(app).commands.items():
+        options = {option: each for each in command.params for option in each.opts}
+        assert ("--lat" in options) == ("--latitude" in options), name
+        if "--latitude" in options:
+            takers[name] = options["--latitude"]
+    assert takers.keys() >= {"contour", "globe", "interpolate", "nearest", "triangulate", "voronoi", "web"}
+    for option in takers.values():
+        assert option.default == "authalic"
+        assert tuple(type(option.default)) == KINDS
+    assert len({option.help for option in takers.values()}) == 1
