@@ -12,12 +12,7 @@ _T = TypeVar("_T")
 
 
 def by_name(advice: str) -> Callable[[Callable[_P, _T]], Callable[_P, _T]]:
-    """Decorate a function whose options are often given by position.
-
-    Parameters
-    ----------
-    advice : str
-        What to write instead; the end of the message of a TypeError.
+    """Decorate a function whose options are often given by position; the message of a TypeError ends with `advice`.
 
     Examples
     --------

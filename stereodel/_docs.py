@@ -13,17 +13,7 @@ _LINE = re.compile(r"^( *)\{(\w+)\}$", re.MULTILINE)
 
 
 def shared(**parts: str) -> Callable[[_T], _T]:
-    """Decorate a class or function whose docstring leaves lines to be filled in.
-
-    Parameters
-    ----------
-    **parts : str
-        For each name the text that replaces the line ``{name}``, indented as that line is.
-
-    Raises
-    ------
-    KeyError
-        For a line whose name is not among them.
+    """Decorate a class or function: in its docstring a line ``{name}`` becomes the text of that name, indented alike.
 
     Examples
     --------

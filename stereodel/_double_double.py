@@ -48,13 +48,7 @@ def _split(a: FloatArray) -> tuple[FloatArray, FloatArray]:
 
 
 class DoubleDouble:
-    """An array of unevaluated sums hi + lo.
-
-    Parameters
-    ----------
-    hi, lo : array_like of float64, broadcastable
-        `lo` defaults to zero. Pairs are used unchanged: |lo| ≤ ½ ulp(hi) is the caller's responsibility.
-    """
+    """An array of unevaluated sums hi + lo, by default lo = 0; callers see to it that |lo| ≤ ½ ulp(hi)."""
 
     __array_ufunc__ = None  # so that `ndarray * DoubleDouble` comes to __rmul__
     __slots__ = ("hi", "lo")

@@ -31,8 +31,6 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
     lead to is replaced. Pipes, devices and other special files are not replaced but written to at the end. Errors of
     the system for the temporary file name the target.
 
-    Examples
-    --------
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     target = Path(folder, "note.txt")

@@ -10,7 +10,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stereodel._extras import optional
-from stereodel.cli.failures import NothingToDoError, naming_options, stop_if_interrupted
+from stereodel._interrupts import stop_if_interrupted
+from stereodel.cli.failures import NothingToDoError, naming_options
 from stereodel.cli.progress import counts, say
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def workers(scheduler: str | None) -> Iterator[Executor | None]:
     Raises
     ------
     ImportError
-        Without Dask (``pip install stereodel[dask]``).
+        Without Dask (the extra ``dask``).
     ValueError
         Where no scheduler answers.
     """

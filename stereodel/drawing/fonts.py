@@ -50,27 +50,12 @@ class MissingCharactersWarning(UserWarning):
 
 
 def as_font(font: FontLike | None, name: str = "font") -> tuple[str, ...]:
-    """Font families and files in the form stored in labels.
+    """Names of font families, or paths of .ttf, .otf, .ttc or .otc files, in the form stored in labels.
 
-    Parameters
-    ----------
-    font : str, path-like, or sequence of them, optional
-        Names of families, or paths of .ttf, .otf, .ttc or .otc files. Families that are not installed are skipped, as
-        in browsers, if at least one is installed.
-    name : str
-        Name of the argument, for messages.
+    Families that are not installed are skipped, as in browsers, if at least one is. Errors have the `name` of the
+    argument: FileNotFoundError if a file does not exist, TypeError if `font` is neither text nor path, ValueError if a
+    file is not a font or none of the families is installed.
 
-    Raises
-    ------
-    FileNotFoundError
-        If a font file does not exist.
-    TypeError
-        If `font` is neither text nor path.
-    ValueError
-        If a file is not a font, or none of the families is installed.
-
-    Examples
-    --------
     >>> as_font("DejaVu Serif"), as_font(["Nowhere", "DejaVu Sans"]), as_font(None)
     (('DejaVu Serif',), ('Nowhere', 'DejaVu Sans'), ())
     """
@@ -107,8 +92,6 @@ def families_of(label: Label) -> list[str]:
 def set_text(label: Label) -> tuple[str, bool]:
     r"""The text of a label as it is set, and whether there are formulas in it: an even number of dollar signs.
 
-    Examples
-    --------
     >>> set_text(Label("$x$", (0, 0))), set_text(Label("$5", (0, 0))), set_text(Label("$x$", (0, 0), formulas=False))
     (('$x$', True), ('$5', False), ('$x$', False))
     """

@@ -18,22 +18,10 @@ _LENGTH: Final = re.compile(r"\s*(?P<number>[\d.]+(?:e[+-]?\d+)?)\s*(?P<unit>[a-
 
 
 def as_length(value: LengthLike, name: str) -> float:
-    """A positive length in points.
+    """A positive length in points, from points or a number with one of the units pt, mm, cm and in.
 
-    Parameters
-    ----------
-    value : float or str
-        Points, or a number with one of the units pt, mm, cm and in.
-    name : str
-        Name of the argument, for messages.
+    ValueError with the `name` of the argument if the unit is unknown, or the length is not positive and finite.
 
-    Raises
-    ------
-    ValueError
-        If the unit is unknown, or the length is not positive and finite.
-
-    Examples
-    --------
     >>> as_length("1in", "width"), as_length("2.54 cm", "width"), as_length(72, "width")
     (72.0, 72.0, 72.0)
     """

@@ -324,7 +324,7 @@ class Page:
         True
         """
         # Imported on use, as matplotlib does with its backends: the rest of this package is independent of rendering.
-        with of_extra("render" if renderer == "gl" and Path(path).suffix.lower() == ".png" else "draw"):
+        with of_extra(picture_extra(Path(path).suffix, renderer)):
             from stereodel.render.save import save_page
 
             save_page(self, path, size=size, text=text, renderer=renderer, platform=platform, transparent=transparent)
@@ -362,7 +362,7 @@ class Page:
         >>> Page((0.0, 2.0, 0.0, 1.0), background=(1.0, 0.0, 0.0, 1.0)).pixels(size=40)[0, 0].tolist()
         [255, 0, 0]
         """
-        with of_extra("render" if renderer == "gl" else "draw"):
+        with of_extra(picture_extra(".png", renderer)):
             from stereodel.render.save import draw_page
 
             return draw_page(self, size=size, text=text, renderer=renderer, platform=platform)
@@ -377,6 +377,11 @@ class Page:
             prefix = f"{number:04d}_{type(item).__name__.lower()}_{item.name}"
             named.update({f"{prefix}_{key}": value for key, value in _arrays_of(item).items()})
         return named
+
+
+def picture_extra(kind: str, renderer: str = "gl") -> str:
+    """The extra that brings all that draws a page into a file of that extension."""
+    return "render" if renderer == "gl" and kind.lower() == ".png" else "draw"
 
 
 def _light(ball: Ball | None) -> dict[str, npt.NDArray[np.generic]]:

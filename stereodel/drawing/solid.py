@@ -89,7 +89,7 @@ class Solid:
         Raises
         ------
         ImportError
-            If trimesh is missing (``pip install stereodel[render]``).
+            If trimesh is missing (the extra ``render``).
         """
         with of_extra("render"):
             from stereodel.render.solid import to_trimesh

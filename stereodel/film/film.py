@@ -15,6 +15,7 @@ from typing import Any, Final, Generic, TypeVar, cast
 import numpy as np
 
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
+from stereodel._extras import of_extra
 from stereodel._files import replacing
 from stereodel._threads import thread_count
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
@@ -272,7 +273,7 @@ class Film(Generic[T]):
             If a frame cannot be drawn; the message gives its number.
         ValueError, TypeError, ImportError
             Before anything is drawn: if the extension is unknown, the format cannot hold the frames, `draw` or a shot
-            cannot be pickled, or the encoding library is missing (``pip install 'stereodel[film]'``).
+            cannot be pickled, or the encoding library is missing (the extra ``film``).
         OSError
             If the file or the folder cannot be written.
 
@@ -338,6 +339,7 @@ class _Camera(Generic[T]):
     text: bool
     platform: str | None
 
+    @of_extra("render")
     def picture(self, shot: T) -> Pixels:
         return self._pixels(self.draw(shot))
 

@@ -18,14 +18,9 @@ PAUSE: Final = 10.0
 def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], None]]:
     """A context with a function that counts one more of `total` steps and reports on standard error.
 
-    Parameters
-    ----------
-    what : str
-        Name of the activity, such as "drawing".
-    total : int
-        Number of steps.
-    shown : bool
-        Whether to report anything.
+    what: name of the activity, such as "drawing".
+    total: number of steps.
+    shown: whether to report anything.
     """
     if not shown or total == 0:
         yield lambda: None

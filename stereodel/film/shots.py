@@ -70,10 +70,7 @@ class Motion(Protocol):
 class Samples(Sequence[Shot]):
     """Shots of a motion at the times k / `rate`, evaluated on access.
 
-    Raises
-    ------
-    ValueError
-        If the motion is too short for one frame, or has more than `MOST_FRAMES`.
+    Raises ValueError if the motion is too short for one frame, or has more than `MOST_FRAMES`.
     """
 
     motion: Motion
@@ -361,8 +358,6 @@ class Morph:
 def eased(share: float) -> float:
     """Easing from 0 to 1 with zero speed at both ends: 3s² − 2s³.
 
-    Examples
-    --------
     >>> [eased(share) for share in (0.0, 0.25, 0.5, 1.0)]
     [0.0, 0.15625, 0.5, 1.0]
     """

@@ -50,16 +50,10 @@ Writer = Callable[[Reel, Path, FloatArray, str], None]
 class Format:
     """A file format: its writer and its limits.
 
-    Parameters
-    ----------
-    write : callable
-        Writes the file; called as ``write(reel, path, seconds, title)``.
-    largest : int
-        Largest width or height in pixels.
-    shortest : float
-        Shortest duration of a frame in seconds.
-    library : str
-        Module of the extra ``film`` that encodes.
+    write: writes the file; called as ``write(reel, path, seconds, title)``.
+    largest: largest width or height in pixels.
+    shortest: shortest duration of a frame in seconds.
+    library: module of the extra ``film`` that encodes.
     """
 
     write: Writer
@@ -104,13 +98,8 @@ def frames_of(reel: Reel) -> Iterator[Pixels]:
 def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
     """Durations of `count` frames in seconds, (count,), from one number for all or one for each.
 
-    Raises
-    ------
-    ValueError
-        If the number of entries is neither one nor `count`, or a duration is not positive.
+    Raises ValueError if the number of entries is neither one nor `count`, or a duration is not positive.
 
-    Examples
-    --------
     >>> frame_seconds(0.5, 3).tolist()
     [0.5, 0.5, 0.5]
     """
@@ -125,8 +114,6 @@ def frame_seconds(seconds: float | Sequence[float], count: int) -> FloatArray:
 def whole_ticks(seconds: FloatArray, per_second: int) -> list[int]:
     """Durations in whole clock ticks, such that the sum of the first n is rounded correctly for every n.
 
-    Examples
-    --------
     >>> whole_ticks(np.full(6, 1 / 30), 100)
     [3, 4, 3, 3, 4, 3]
     """
@@ -147,16 +134,10 @@ SAMPLED: Final = 24
 class _Encoder:
     """Settings of FFmpeg's libraries for a format.
 
-    Parameters
-    ----------
-    container, codec, pixels : str
-        FFmpeg's names of the file format, the encoder, and the encoder's pixel format.
-    filters : sequence of (str, str)
-        Filters applied to each frame before encoding: their names and options.
-    options, muxing : dict
-        Options of the encoder and of the file format.
-    threads : int
-        Number of the encoder's threads.
+    container, codec, pixels: FFmpeg's names of the file format, the encoder, and the encoder's pixel format.
+    filters: filters applied to each frame before encoding: their names and options.
+    options, muxing: options of the encoder and of the file format.
+    threads: number of the encoder's threads.
     """
 
     container: str
@@ -209,13 +190,8 @@ class _Encoder:
 class _Chain:
     """A chain of FFmpeg's filters: frames in, frames out.
 
-    Parameters
-    ----------
-    first : VideoFrame
-        A frame of the same size and pixel format as those to come.
-    filters : sequence of (str, str)
-    palette : VideoFrame, optional
-        Second input of the last filter, the output of `palettegen`.
+    first: a frame of the same size and pixel format as those to come.
+    palette: second input of the last filter, the output of `palettegen`.
     """
 
     def __init__(self, first: Any, filters: Sequence[tuple[str, str]], palette: Any = None) -> None:

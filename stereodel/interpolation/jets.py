@@ -14,11 +14,7 @@ from stereodel.interpolation.triangles import lengths
 class Jet:
     """An array of values with the derivatives of each.
 
-    Parameters
-    ----------
-    value : array
-    slope : array of shape (2, ...)
-        Derivatives by the two parameters; the rest of the shape broadcasts against that of `value`.
+    slope: derivatives by the two parameters; the rest of the shape broadcasts against that of `value`.
     """
 
     __array_ufunc__ = None  # so that `ndarray * Jet` calls __rmul__

@@ -42,11 +42,8 @@ def labels_of_one(values: Any) -> Labels | None:
 class Places:
     """Places whose two coordinates were given as DataArrays.
 
-    Parameters
-    ----------
-    pairs : (..., 2) array
-    labels : Labels
-        Labels of the leading shape.
+    pairs: (..., 2).
+    labels: labels of the leading shape.
     """
 
     pairs: FloatArray

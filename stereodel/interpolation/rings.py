@@ -33,12 +33,8 @@ class Adjacency:
 def rings_in_blocks(triangulation: Triangulation) -> Iterator[tuple[AnyIndices, AnyIndices, AnyIndices]]:
     """Points that have triangles, in blocks, with the neighbours of each and their neighbours.
 
-    Yields
-    ------
-    points : (b,) array
-    owners, others : (p,) arrays
-        Pairs of a place in `points`, in order, and a point of the two rings around the point there, each once. Edges of
-        triangles that close a set within a hemisphere do not count.
+    Yields points (b,), and pairs owners, others (p,): a place in `points`, in order, and a point of the two rings
+        around the point there, each once. Edges of triangles that close a set within a hemisphere do not count.
     """
     simplices = triangulation.simplices[open_triangles(triangulation)]
     size = len(triangulation.points)

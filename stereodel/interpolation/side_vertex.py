@@ -28,13 +28,8 @@ from stereodel.interpolation.triangles import LocatedQueries, cross3, dot
 def side_vertex(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
     """Values (m, k) at the queries.
 
-    Parameters
-    ----------
-    located : LocatedQueries
-    values : (m, 3, k) array
-        At the corners of each query's triangle.
-    gradients : (m, 3, d, k) array
-        Tangent there.
+    values: (m, 3, k), at the corners of each query's triangle.
+    gradients: (m, 3, d, k), tangent there.
     """
     weights = np.maximum(located.weights(), LEAST_WEIGHT)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
@@ -174,15 +169,9 @@ class _Corner:
     def _line(self, b: Number, share: Number, rests: Pair) -> tuple[Pair, Number, Number, Pair]:
         """The line from the corner to Q.
 
-        Returns
-        -------
-        parts
-            Fractions of its length before and behind the query.
-        length
-        divisor
-            Divisor of slopes along the vector from the corner to the chord, at the corner, and of `components`.
-        components
-            Components of the line's direction at Q, along the side and across.
+        Returns fractions of its length before and behind the query; divisor of slopes along the vector from the corner
+            to the chord, at the corner, and of `components`; components of the line's direction at Q, along the side
+            and across.
         """
         tangent = self.side.tangents[0]
         across = dot(self.to_start, self.side.normal)

@@ -52,12 +52,8 @@ def lengths(vectors: FloatArray) -> FloatArray:
 class LocatedQueries:
     """Queries, each with the triangle that contains it.
 
-    Parameters
-    ----------
-    sites : PrecisePoints
-    corners : (m, 3) array of int
-        Corners of each query's triangle, counterclockwise.
-    queries : (m, 2) or (m, 3) array
+    corners: (m, 3), corners of each query's triangle, counterclockwise.
+    queries: (m, 2).
     """
 
     def __init__(self, sites: PrecisePoints, corners: AnyIndices, queries: FloatArray) -> None:

@@ -154,7 +154,7 @@ class Weights:
         Raises
         ------
         ImportError
-            If SciPy is missing (``pip install stereodel[scipy]``).
+            If SciPy is missing (the extra ``scipy``).
         """
         sparse = optional("scipy.sparse", "scipy")
         parts = (self.data.copy(), self.columns.copy(), self.indptr.copy())

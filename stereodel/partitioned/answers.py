@@ -12,6 +12,7 @@ in the order that they have in memory.
 from __future__ import annotations
 
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Generator, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
@@ -120,7 +121,7 @@ def _asked(store: Store, targets: FloatArray, number: LongArray, limit: int, rea
 
 
 @dataclass
-class Asked:
+class Asked(ABC):
     """Targets, and the points that are read for them; a kind of question is a subclass with `certified`.
 
     Parameters
@@ -148,9 +149,9 @@ class Asked:
     limit: int
     reading: Reading
 
+    @abstractmethod
     def certified(self, mesh: Mesh, numbers: LongArray, targets: FloatArray, unread: BoolArray) -> Certified:
         """Answers of a triangulation of some points, whose numbers ascend."""
-        raise NotImplementedError
 
     def answers(self) -> Iterator[tuple[Indices, Columns]]:
         """Rows of targets, and their answers, until all have theirs."""

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, LongArray
-from stereodel._spaces import Space, space_of
+from stereodel._spaces import space_of
 from stereodel.partitioned.shards import load, save
 from stereodel.partitioned.store import Store
 
@@ -54,7 +54,7 @@ class Index:
             setattr(self, name, load(store.room("blocks") / f"{name}.npy"))
         self.sizes: LongArray = self.last - self.first
         self.largest = int(self.sizes.max(initial=0))
-        self.space: Space = space_of(self.points)
+        self.space = space_of(self.points)
 
     @staticmethod
     def build(store: Store, parts: list[int]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
@@ -140,7 +141,7 @@ def _begin(store: Store, plan: Plan, resume: bool) -> None:
 
 
 @dataclass(frozen=True)
-class Passes:
+class Passes(ABC):
     """The passes of a run, one after another; those that were done before are not done again.
 
     A kind of run is a subclass that says in `results` what is done with partitions.
@@ -164,9 +165,9 @@ class Passes:
         save_json(store.results / REPORT, {"statistics": report | {"compact": compact}, "partitions": partitions})
         shutil.rmtree(store.scratch, ignore_errors=True)
 
+    @abstractmethod
     def results(self, parts: list[int]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
         """Results of the partitions that have points: numbers of all of them, and what there is to say of each."""
-        raise NotImplementedError
 
     def do(self, name: str, function: Callable[[int], dict[str, Any]], tasks: Sequence[int]) -> list[dict[str, Any]]:
         """What the tasks of a pass say, in order; noted at the end, as what they wrote may be deleted then."""

@@ -14,7 +14,7 @@ import numpy as np
 import stereodel
 from stereodel._arrays import as_choice, as_count
 from stereodel._docs import shared
-from stereodel._extras import of_extra, optional
+from stereodel._extras import optional
 from stereodel.constants import AREA_SUM_ERROR
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import targets as targets_of
@@ -122,7 +122,8 @@ class Run(Results):
         [[4, 0, 1]]
         """
         means = Means(out, limit, executor, scratch, resume, progress)
-        return targets_of.nearest(self.folder, targets, k, columns, kind, keep, partition, means)
+        wanted = targets_of.Targets(targets, columns, kind, keep, partition)
+        return targets_of.nearest(self.folder, wanted, k, means)
 
     @shared(**targets_of.FAMILY)
     def interpolate(
@@ -184,13 +185,13 @@ class Run(Results):
         [5.0, nan]
         """
         means = Means(out, limit, executor, scratch, resume, progress)
-        return targets_of.interpolate(self.folder, targets, values, method, columns, kind, keep, partition, means)
+        wanted = targets_of.Targets(targets, columns, kind, keep, partition)
+        return targets_of.interpolate(self.folder, wanted, values, method, means)
 
     def _of_partitions(self, name: str) -> Any:
         return dataset(sorted((self.folder / name).glob("*.parquet"), key=lambda path: int(path.stem)))
 
 
-@of_extra("partitioned")
 def triangulate(
     source: Given,
     out: str | os.PathLike[str],
@@ -284,7 +285,7 @@ def triangulate(
     OSError
         Where files cannot be read or written.
     ImportError
-        Without pyarrow (``pip install stereodel[partitioned]``).
+        Without pyarrow (the extra ``partitioned``).
 
     Notes
     -----
@@ -308,10 +309,10 @@ def triangulate(
     ...     print(run.statistics["triangles"], run.rows().to_table()["degree"].to_pylist())
     8 [4, 4, 4, 4, 4, 4]
     """
-    optional("pyarrow", "partitioned")
     if cells:
-        for module in ("shapely", "pyproj"):
+        for module in ("pyarrow", "shapely", "pyproj"):
             optional(module, "geo")
+    optional("pyarrow", "partitioned")
     as_choice(surface, SURFACES, "surface")
     as_choice(latitude, LATITUDES, "latitude")
     for name in rows:

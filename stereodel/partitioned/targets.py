@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Final
+from typing import Any, Final, NamedTuple
 
 import stereodel
 from stereodel._arrays import as_choice, as_count
@@ -58,6 +58,16 @@ FAMILY: Final = {
 """Parts shared by the docstrings of questions."""
 
 
+class Targets(NamedTuple):
+    """Files of targets, and how they are read; as `source` and its options in `triangulate`."""
+
+    files: Given
+    columns: Sequence[str] | None
+    kind: str
+    keep: Sequence[str]
+    partition: int
+
+
 class Answers(Results):
     """What a run answered at targets, in a folder; nothing is loaded until it is asked for.
 
@@ -85,12 +95,8 @@ class Answers(Results):
 @of_extra("partitioned")
 def nearest(
     folder: Path,
-    targets: Given,
+    targets: Targets,
     k: int | None,
-    columns: Sequence[str] | None,
-    kind: str,
-    keep: Sequence[str],
-    partition: int,
     means: Means,
 ) -> Answers:
     """Nearest points at targets, of the run in a folder."""
@@ -99,19 +105,15 @@ def nearest(
         raise ValueError("nearest needs at least one point; this run has none")
     count = None if k is None else as_count(k, "k", high=plan.size)
     question = Question(str(folder.absolute()), plan.digest, "nearest", k=count)
-    return _answered(plan, question, NEAREST, targets, columns, kind, keep, partition, means)
+    return _answered(plan, question, NEAREST, targets, means)
 
 
 @of_extra("partitioned")
 def interpolate(
     folder: Path,
-    targets: Given,
+    targets: Targets,
     values: str | Sequence[str],
     method: str,
-    columns: Sequence[str] | None,
-    kind: str,
-    keep: Sequence[str],
-    partition: int,
     means: Means,
 ) -> Answers:
     """Values at targets, between the points of the run in a folder."""
@@ -131,7 +133,7 @@ def interpolate(
             )
     flat = not load_json(folder / REPORT)["statistics"]["triangles"]
     question = Question(str(folder.absolute()), plan.digest, chosen, values=names, flat=flat)
-    return _answered(plan, question, names, targets, columns, kind, keep, partition, means)
+    return _answered(plan, question, names, targets, means)
 
 
 def _points(folder: Path) -> Plan:
@@ -149,19 +151,17 @@ def _answered(
     points: Plan,
     question: Question,
     names: Sequence[str],
-    targets: Given,
-    columns: Sequence[str] | None,
-    kind: str,
-    keep: Sequence[str],
-    partition: int,
+    targets: Targets,
     means: Means,
 ) -> Answers:
     places = points.places
-    source = source_of(targets, kind, columns, places.surface, places.latitude, keep, names)
+    source = source_of(
+        targets.files, targets.kind, targets.columns, places.surface, places.latitude, targets.keep, names
+    )
     plan = Plan.of(
         source,
         version=stereodel.__version__,
-        partition=as_count(partition, "partition"),
+        partition=as_count(targets.partition, "partition"),
         rows=tuple(names),
         triangles=False,
         cells=False,

@@ -48,15 +48,8 @@ ROUGHNESS: Final = 0.65
 class Body:
     """Copies of a surface in one colour.
 
-    Parameters
-    ----------
-    name : str
-    color : Color
-    layer : Layer
-        Position in painter's order, for transparent bodies.
-    surface : Surface
-    places : (k, 4) array, optional
-        Centre and scale of each copy in the scene's space; by default one unscaled copy.
+    layer: position in painter's order, for transparent bodies.
+    places: (k, 4), centre and scale of each copy in the scene's space; by default one unscaled copy.
     """
 
     name: str

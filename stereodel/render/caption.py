@@ -54,8 +54,6 @@ def caption_of(script: Path) -> tuple[str, str]:
 def parted(docstring: str) -> tuple[str, str]:
     r"""Title and description of a docstring, as plain text.
 
-    Examples
-    --------
     >>> parted("Figure 1: A ball\n================\n\nRound, as\nballs are.\n\nChosen by us: its size.")
     ('Figure 1: A ball', 'Round, as balls are.\n\nChosen by us: its size.')
     """
@@ -68,13 +66,8 @@ def parted(docstring: str) -> tuple[str, str]:
 def captioned(page: Page) -> Page:
     """A page with its title and description below the picture; its width is unchanged, its height grows as needed.
 
-    Parameters
-    ----------
-    page : Page
-        Page to extend. Type has `LABEL_SIZE` points, and lines are broken by their measured widths.
+    page: the page to extend. Type has `LABEL_SIZE` points, and lines are broken by their measured widths.
 
-    Examples
-    --------
     >>> page = Page((0.0, 2.0, 0.0, 1.0), width=200.0, title="A title", description="A line " * 12)
     >>> taller = captioned(page)
     >>> taller.width, [label.text for label in taller.labels]

@@ -15,7 +15,8 @@ from types import MappingProxyType
 from typing import Any, Literal, Protocol
 
 from stereodel._arrays import Pixels, as_choice
-from stereodel.drawing.page import Page
+from stereodel._extras import of_extra
+from stereodel.drawing.page import Page, picture_extra
 from stereodel.drawing.page_styles import STYLES, StyledDraw, as_styles
 from stereodel.drawing.solid import Solid
 from stereodel.render.caption import caption_of, captioned, script_of
@@ -94,7 +95,8 @@ class Figure:
 
     def pixels(self, *, size: int | None = None, text: bool = True) -> Pixels:
         """The picture, (height, width, 3), rows from the top; `size` and `text` as for `Page.pixels`."""
-        return self.page().pixels(size=size, text=text, renderer=self.renderer)
+        with of_extra(picture_extra(".png", self.renderer)):
+            return self.page().pixels(size=size, text=text, renderer=self.renderer)
 
     def save(
         self,
@@ -130,21 +132,22 @@ class Figure:
         ValueError
             If `solid` is given without `in_space`.
         """
-        from stereodel.render.save import save_page
-
         begun = time.perf_counter()
         folder = Path(out)
         folder.mkdir(parents=True, exist_ok=True)
         files = [folder / f"{self.name}.{kind}" for kind in ("png", "svg", "pdf")]
-        geometry = self.geometry()
-        page = self._page(geometry)
-        shown = captioned(page) if caption and text else page
-        width, digest = save_page(shown, *files, size=size, text=text, renderer=self.renderer)
-        if self.in_space is not None or solid:
-            bodies = self._solid(geometry)
-            files.append(bodies.save(folder / f"{self.name}.glb"))
-            if solid:
-                files.append(bodies.save(folder / f"{self.name}_solid.png", size=size, text=text))
+        geometry, in_space = self.geometry(), solid or self.in_space is not None
+        with of_extra("render" if in_space else picture_extra(".png", self.renderer)):
+            from stereodel.render.save import save_page
+
+            page = self._page(geometry)
+            shown = captioned(page) if caption and text else page
+            width, digest = save_page(shown, *files, size=size, text=text, renderer=self.renderer)
+            if in_space:
+                bodies = self._solid(geometry)
+                files.append(bodies.save(folder / f"{self.name}.glb"))
+                if solid:
+                    files.append(bodies.save(folder / f"{self.name}_solid.png", size=size, text=text))
         return {
             "figure": self.name,
             "files": [file.name for file in files],
@@ -189,17 +192,10 @@ def run_script(
 ) -> None:
     """Write the files and report where; errors become a message and exit code 1.
 
-    Parameters
-    ----------
-    drawing : Drawing
-    argv : sequence of str or None
-        Arguments; by default those of the process.
-    source : callable
-        A function defined in the script; files go to `out` next to the script's folder by default.
-    kind, usual_size : str
-        Kind of files and default width, for the help.
-    flags : mapping of str to str, optional
-        Additional Boolean options of `Drawing.save`, with their help.
+    argv: arguments; by default those of the process.
+    source: a function defined in the script; files go to `out` next to the script's folder by default.
+    kind, usual_size: kind of files and default width, for the help.
+    flags: additional Boolean options of `Drawing.save`, with their help.
     """
     parser = argparse.ArgumentParser(description=f"Draw {drawing.name} as {kind}.")
     out = default_folder(source)

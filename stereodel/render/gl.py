@@ -111,22 +111,10 @@ class Description:
 def choose(platform: str | None = None) -> tuple[str, str]:
     """The platform to use and the reason.
 
-    Parameters
-    ----------
-    platform : {"osmesa", "egl"}, optional
-        Overrides the environment.
-
-    Returns
-    -------
-    tuple of str
-        "osmesa" or "egl"; "argument", the environment variable, or "found".
-
-    Raises
-    ------
-    ValueError
-        If `platform` is unknown.
-    OpenGLError
-        If the environment requests an unknown platform, or none can be opened.
+    platform: "osmesa" or "egl"; overrides the environment.
+    Returns the platform; and "argument", the name of the environment variable, or "found".
+    Raises ValueError if `platform` is unknown; OpenGLError if the environment requests an unknown platform, or none can
+        be opened.
     """
     if platform is not None:
         if platform not in PLATFORMS:
@@ -162,26 +150,12 @@ def draw(
     Colours are drawn as given, shaded only by `Triangles.balls`; those of a triangle's corners are interpolated
     linearly. Earlier items are covered or show through.
 
-    Parameters
-    ----------
-    triangles : Triangles
-    width, height : int
-        In pixels.
-    background : Color
-        Opaque; its opacity is ignored.
-    platform : {"osmesa", "egl"}, optional
-
-    Returns
-    -------
-    (height, width, 3) uint8 array
-        sRGB, rows from the top.
-
-    Raises
-    ------
-    OpenGLError
-        If there is no usable OpenGL, or this process already draws on another platform.
-    ValueError
-        If the picture has no pixels, or too many items for the depth buffer.
+    width, height: in pixels.
+    background: opaque; its opacity is ignored.
+    platform: "osmesa" or "egl"; by default as `choose` says.
+    Returns (height, width, 3) uint8, sRGB, rows from the top.
+    Raises OpenGLError if there is no usable OpenGL, or this process already draws on another platform; ValueError if
+        the picture has no pixels, or too many items for the depth buffer.
     """
     return np.concatenate(
         list(bands(lambda window: triangles, width, height, background=background, platform=platform))
@@ -199,19 +173,10 @@ def bands(
 ) -> Iterator[Pixels]:
     """Draw a picture from the top, `BAND` rows at a time, in the memory of a band and the triangles of a window.
 
-    Parameters
-    ----------
-    part : callable
-        Function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
-    width, height, background, platform
-        As for `draw`, which raises the same errors.
-    finish : callable, optional
-        Function of the pixels of a window that returns those to keep.
-
-    Yields
-    ------
-    (rows, width, 3) uint8 array
-        Or the result of `finish`.
+    part: function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
+    width, height, background, platform: as for `draw`, which raises the same errors.
+    finish: function of the pixels of a window that returns those to keep.
+    Yields (rows, width, 3) uint8, or the result of `finish`.
     """
     if min(width, height) < 1:
         raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
@@ -232,25 +197,14 @@ def space_bands(
 ) -> Iterator[Pixels]:
     """Draw bodies in space from the top, `BAND` rows at a time, with pyrender's own lighting and depth test.
 
-    Parameters
-    ----------
-    make : callable
-        Function of the module pyrender that returns a scene without a camera. Its meshes are drawn in the order of
+    make: function of the module pyrender that returns a scene without a camera. Its meshes are drawn in the order of
         their nodes' names, see `node_name`, which matters for transparent ones.
-    box : tuple of float
-        Left, right, bottom, top, and the smallest and largest z of the scene, which is viewed along −z from far away.
-    width, height : int
-        In pixels.
-    numbered : bool
-        Whether to draw each mesh, without lighting, in the colour of its number, from 1, in 24 bits, red first, on
-        black; without multisampling, so that each pixel shows the mesh at its centre.
-    platform, finish
-        As for `bands`, which raises the same errors.
-
-    Yields
-    ------
-    (rows, width, 3) uint8 array
-        Or the result of `finish`.
+    box: left, right, bottom, top, and the smallest and largest z of the scene, which is viewed along −z from far away.
+    width, height: in pixels.
+    numbered: whether to draw each mesh, without lighting, in the colour of its number, from 1, in 24 bits, red first,
+        on black; without multisampling, so that each pixel shows the mesh at its centre.
+    platform, finish: as for `bands`, which raises the same errors.
+    Yields (rows, width, 3) uint8, or the result of `finish`.
     """
     context = DOOR.context(platform)
     scene, camera = make(context.pyrender), None
@@ -304,8 +258,6 @@ def describe(platform: str | None = None) -> Description:
 
     A small test picture is drawn and compared with the expected pixels.
 
-    Examples
-    --------
     >>> describe("osmesa").platform
     'osmesa'
     """

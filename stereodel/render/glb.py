@@ -39,8 +39,6 @@ INDICES: Final = 34963
 def linear(color: Color) -> list[float]:
     """An sRGB colour in linear light (IEC 61966-2-1); opacity is unchanged.
 
-    Examples
-    --------
     >>> [round(part, 6) for part in linear((1.0, 0.5, 0.0, 0.25))]
     [1.0, 0.214041, 0.0, 0.25]
     """

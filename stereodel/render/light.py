@@ -41,16 +41,10 @@ RINGS, SPOKES = 25, 19
 class Gradient:
     """A radial gradient over the unit disc.
 
-    Parameters
-    ----------
-    focus, center : tuple of float
-        The point to which circles shrink, and the centre of the last circle; x right, y up.
-    radius : float
-        Radius of the last circle.
-    offsets : tuple of float
-        From 0 at the focus to 1 at the last circle.
-    brightness : tuple of float
-        Factors on a colour at the offsets; linear in between.
+    focus, center: the point to which circles shrink, and the centre of the last circle; x right, y up.
+    radius: radius of the last circle.
+    offsets: from 0 at the focus to 1 at the last circle.
+    brightness: factors on a colour at the offsets; linear in between.
     """
 
     focus: tuple[float, float]

@@ -42,13 +42,8 @@ def import_pyrender() -> Any:
 def mend_offscreen(offscreen: Any, opengl: Any, *, multisamples: bool) -> None:
     """Make an `OffscreenRenderer` sample each pixel four times, cache shaders, draw in order, and read only colours.
 
-    Parameters
-    ----------
-    offscreen : pyrender.OffscreenRenderer
-    opengl : module
-        OpenGL.GL.
-    multisamples : bool
-        Whether OpenGL can sample a pixel four times; otherwise it takes one sample, at the centre.
+    opengl: the module OpenGL.GL.
+    multisamples: whether OpenGL can sample a pixel four times; otherwise it takes one sample, at the centre.
     """
     if not multisamples:
         module: Any = sys.modules["pyrender.renderer"]
@@ -100,11 +95,7 @@ def _colors(renderer: Any, gl: Any) -> Pixels:
 def characters(text: str, font: Any) -> Iterator[tuple[Any, int, str, float, float]]:
     """Font, number and characters of each glyph of a line of type, and its place in units of the font's size.
 
-    Parameters
-    ----------
-    text : str
-    font : matplotlib.ft2font.FT2Font
-        With its fallback fonts.
+    font: with its fallback fonts.
     """
     with of_extra("draw"):
         from matplotlib import _text_helpers

@@ -24,12 +24,8 @@ LETTERS = {MOVE: "M", LINE: "l", CURVE: "c"}
 class Paper:
     """The map from page coordinates to a sheet, in points.
 
-    Parameters
-    ----------
-    corner : (2,) array
-        Page coordinates of the origin of the sheet.
-    scale : (2,) array
-        Points per page unit, right and along the sheet's second axis.
+    corner: (2,), page coordinates of the origin of the sheet.
+    scale: (2,), points per page unit, right and along the sheet's second axis.
     """
 
     corner: FloatArray
@@ -60,8 +56,6 @@ class Paper:
 def number(value: float) -> str:
     """A number to three decimals, as short as possible.
 
-    Examples
-    --------
     >>> [number(value) for value in (12.0, 0.25, -0.0004, 1 / 3, -1.5)]
     ['12', '.25', '0', '.333', '-1.5']
     """
@@ -76,8 +70,6 @@ def numbers(values: Iterable[float]) -> str:
 def exact(*values: float) -> str:
     """Numbers other than positions, to six decimals, separated by spaces; without exponents, which PDF lacks.
 
-    Examples
-    --------
     >>> exact(0.5, 1.0, 6.1e-17, 2 / 3, -10.0)
     '0.5 1 0 0.666667 -10'
     """
@@ -93,14 +85,8 @@ def _written(steps: int) -> str:
 def commands(outline: Outline, pattern: Mapping[int, str]) -> str:
     """An outline in points as path commands, without pieces of length zero and those drawn by closing.
 
-    Parameters
-    ----------
-    outline : Outline
-    pattern : mapping
-        Commands for `MOVE`, `LINE`, `CURVE` and `CLOSE`, with a placeholder for each number.
+    pattern: commands for `MOVE`, `LINE`, `CURVE` and `CLOSE`, with a placeholder for each number.
 
-    Examples
-    --------
     >>> square = np.array([(0, 0), (1, 0), (1, 0.0001), (1, 1), (0, 1), (0, 0), (0, 0)], dtype=float)
     >>> kinds = np.array([MOVE, LINE, LINE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)
     >>> commands(Outline(square, kinds), {MOVE: "M%s %s", LINE: "L%s %s", CLOSE: "Z"})
@@ -122,8 +108,6 @@ def runs(outline: Outline) -> list[str]:
 
     Positions are rounded before they are subtracted, so that errors do not accumulate.
 
-    Examples
-    --------
     >>> square = np.array([(10, 5), (11, 5), (11, 5.25), (10.5, 5.25), (10, 5)], dtype=float)
     >>> runs(Outline(square, np.array([MOVE, LINE, LINE, LINE, CLOSE], dtype=np.uint8)))
     ['M10 5l1 0l0 .25l-.5 0Z']

@@ -37,14 +37,8 @@ UPRIGHT: Final = 80
 def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
     """A page as the bytes of a PDF file.
 
-    Parameters
-    ----------
-    page : Page
-    pictures : sequence of (h, w, 3) uint8 arrays
-        An image of the whole page for each of `page.pictured`, clipped to its regions.
+    pictures: an image of the whole page for each of `page.pictured`, clipped to its regions.
 
-    Examples
-    --------
     >>> pdf(Page((0.0, 2.0, 0.0, 1.0), width=144.0))[:8]
     b'%PDF-1.4'
     """

@@ -24,21 +24,13 @@ MARGIN = 1.0
 class Triangles:
     """Coloured triangles in painter's order.
 
-    Parameters
-    ----------
-    points : (n, 2) array
-        Pixels from the lower left corner, x right, y up.
-    colors : (n, 4) array
-        sRGB and opacity in [0, 1].
-    slots : (n,) int array
-        Index of the item of each vertex; must not decrease along `faces`.
-    faces : (m, 3) int array
-        Either orientation.
-    textures : mapping of int to (height, width, 4) uint8 array
-        By index of an item, an image of the window with this item alone, sRGB and opacity, rows from the top; it
+    points: (n, 2), pixels from the lower left corner, x right, y up.
+    colors: (n, 4), sRGB and opacity in [0, 1].
+    slots: (n,), index of the item of each vertex; must not decrease along `faces`.
+    faces: (m, 3), either orientation.
+    textures: by index of an item, an image of the window with this item alone, sRGB and opacity, rows from the top; it
         multiplies the colours of the item's triangles pixel by pixel.
-    balls : mapping of int to tuple of float
-        By index of an item, the ball that shades it: centre x, y and radius along x and y, in pixels from the lower
+    balls: by index of an item, the ball that shades it: centre x, y and radius along x and y, in pixels from the lower
         left corner, see `stereodel.drawing.page.Ball`.
     """
 
@@ -84,13 +76,8 @@ class Piece:
 class Pieces:
     """The triangles of a picture in painter's order, piece by piece.
 
-    Parameters
-    ----------
-    numbered : iterable of (int, Piece)
-        Index of a piece's item, not decreasing, and the piece.
+    numbered: index of a piece's item, not decreasing, and the piece.
 
-    Examples
-    --------
     >>> corners = np.array([[[0.0, 0.0], [9.0, 0.0], [0.0, 9.0]], [[90.0, 90.0], [99.0, 90.0], [90.0, 99.0]]])
     >>> pieces = Pieces([(0, Piece(corners, np.ones((2, 3, 4))))])
     >>> len(pieces.within(Window(0, 0, 50, 50)).faces), len(pieces.within(Window(0, 0, 100, 100)).faces)

@@ -52,26 +52,13 @@ def png_chunks(
 ) -> Iterator[bytes]:
     """The chunks of a PNG file.
 
-    Parameters
-    ----------
-    rows : iterable of (k, width, channels) uint8 arrays
-        The picture from the top, any number of rows at a time.
-    width, height : int
-        In pixels.
-    page_width : float
-        Width in print in points, from which the resolution in the file follows.
-    texts : mapping, optional
-        Texts by the format's keywords: Title, Description. Empty texts are left out.
-    channels : {3, 4}
-        Red, green and blue, or those, not premultiplied, and opacity.
+    rows: the picture from the top, any number of rows at a time.
+    width, height: in pixels.
+    page_width: width in print in points, from which the resolution in the file follows.
+    texts: texts by the format's keywords: Title, Description. Empty texts are left out.
+    channels: 3 for red, green and blue; 4 for those, not premultiplied, and opacity.
+    Raises ValueError if rows have another width or type, or their number is not `height`.
 
-    Raises
-    ------
-    ValueError
-        If rows have another width or type, or their number is not `height`.
-
-    Examples
-    --------
     >>> import io
     >>> from PIL import Image
     >>> rows = ([[255, 0, 0], [0, 255, 0], [0, 0, 255]], [[0, 0, 0], [99, 99, 99], [255, 255, 255]])

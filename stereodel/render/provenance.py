@@ -27,7 +27,7 @@ LIBRARIES: Final = (
 )
 """Distributions whose version can change a picture."""
 
-NOT_DRAWN_WITH: Final = ("cli",)
+NOT_DRAWN_WITH: Final = ("cli", "_doctor.py", "__main__.py")
 """Modules and packages of the library that no picture depends on."""
 
 

@@ -103,8 +103,6 @@ class PixelDigest:
 def pixel_hash(picture: npt.NDArray[Any]) -> str:
     """SHA-256 of decoded pixels: shape, type and values in row order.
 
-    Examples
-    --------
     >>> pixel_hash(np.zeros((2, 3, 3), dtype=np.uint8))[:16]
     '541ff73e8d70c4c6'
     """

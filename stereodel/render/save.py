@@ -62,10 +62,7 @@ def save_page(
 ) -> tuple[int, str]:
     """Implementation of `Page.save`, for several files of one picture; images shared by them are drawn once.
 
-    Returns
-    -------
-    tuple of int and str
-        Width of the picture in pixels; hash of its pixels without text, empty where there is no opaque PNG.
+    Returns width of the picture in pixels; hash of its pixels without text, empty where there is no opaque PNG.
     """
     files = [(Path(path), Path(path).suffix.lower()) for path in paths]
     for target, kind in files:
@@ -120,8 +117,6 @@ def _write_see_through(page: Page, target: Path, width: int, renderer: Renderer,
 def unmixed(white: Pixels, black: Pixels) -> Pixels:
     """Pixels (..., 4), not premultiplied, from their composites on white and on black, (..., 3).
 
-    Examples
-    --------
     >>> half = unmixed(np.array([[255, 127, 127]], dtype=np.uint8), np.array([[128, 0, 0]], dtype=np.uint8))
     >>> half.tolist()
     [[255, 0, 0, 128]]

@@ -34,11 +34,9 @@ MOVE, LINE, CURVE, CLOSE = 1, 2, 4, 79
 class Outline:
     """Runs of straight lines and cubics.
 
-    Parameters
-    ----------
-    points : (n, 2) array
-    kinds : (n,) uint8 array
-        `MOVE` where a run begins, `LINE`, `CURVE` for two controls and an end; the point of a `CLOSE` means nothing.
+    points: (n, 2).
+    kinds: (n,) uint8, `MOVE` where a run begins, `LINE`, `CURVE` for two controls and an end; the point of a `CLOSE`
+        means nothing.
     """
 
     points: FloatArray
@@ -98,18 +96,9 @@ Shape = Filled | Drawn | Shown
 def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[Shape]:
     """The shapes of a page without its labels, in painter's order.
 
-    Parameters
-    ----------
-    page : Page
-    dpi : float
-        Pixels per inch of each `Picture`.
-    pictures : sequence of (h, w, 3) uint8 arrays
-        An image of the whole page for each of `page.pictured`.
-
-    Raises
-    ------
-    ValueError
-        If the number of pictures is wrong.
+    dpi: pixels per inch of each `Picture`.
+    pictures: an image of the whole page for each of `page.pictured`.
+    Raises ValueError if the number of pictures is wrong.
     """
     count = len(page.pictured)
     if len(pictures) != count:
@@ -125,7 +114,8 @@ def shapes(page: Page, dpi: float, pictures: Sequence[Pixels] = ()) -> Iterator[
                     (item.path, item.closed) for item in items if isinstance(item, Stroke) and has_length(item, scale)
                 ]
                 if runs:
-                    yield Drawn(outline(runs, scale), first.color, first.width, first.dash, first.cap, first.name)
+                    shut = CLOSE if first.cap == "butt" else LINE
+                    yield Drawn(outline(runs, scale, shut), first.color, first.width, first.dash, first.cap, first.name)
             case Polylines() as lines:
                 yield from _lines(lines, scale)
             case Polygons() as polygons if polygons.pictured:
@@ -159,8 +149,12 @@ def has_length(stroke: Stroke, points_per_unit: float) -> bool:
     return bool(np.ptp(stroke.path.reshape(-1, 2), axis=0).max() * points_per_unit > FINEST_PLACE)
 
 
-def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float) -> Outline:
-    """Runs of Bézier curves, each closed or open; pieces that are straight on paper become lines."""
+def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float, shut: int = CLOSE) -> Outline:
+    """Runs of Bézier curves, each closed, by a piece of the kind `shut`, or open; straight ones become lines.
+
+    Agg, and PDFium, which is built on it, hollow out closed lines that are smaller than they are wide. With round ends
+    a line back to the start is the same ink.
+    """
     # A piece deviates by at most three quarters of the deviation of its control points.
     bend = FINEST_PLACE / 4 / points_per_unit
     points: list[FloatArray] = []
@@ -175,7 +169,7 @@ def outline(runs: Iterable[tuple[Beziers, bool]], points_per_unit: float) -> Out
             kinds += [LINE] if straight else [CURVE] * 3
         if closed:
             points.append(path[:1, 0])
-            kinds.append(CLOSE)
+            kinds.append(shut)
     return Outline(np.concatenate([np.zeros((0, 2)), *points]), np.array(kinds, dtype=np.uint8))
 
 
@@ -189,11 +183,9 @@ def _lines(lines: Polylines, points_per_unit: float) -> Iterator[Shape]:
     extended = (high - low).max(axis=1) * points_per_unit > FINEST_PLACE
     alone, long = rows.values[rows.offsets[:-1][~extended]], rows.take(extended)
     if len(long):
-        starts, ends = long.offsets[:-1], long.offsets[1:] - 1
+        # Ends are round, so closed lines need not be closed: see `outline`.
         kinds = np.full(len(long.values), LINE, dtype=np.uint8)
-        kinds[starts] = MOVE
-        closed = (long.values[starts] == long.values[ends]).all(axis=1) & (ends - starts > 2)
-        kinds[ends[closed]] = CLOSE
+        kinds[long.offsets[:-1]] = MOVE
         yield Drawn(Outline(long.values, kinds), lines.color, lines.width, name=lines.name)
     if len(alone):
         yield _discs(alone, lines.width / 2, points_per_unit, lines.color, lines.name)

@@ -42,12 +42,9 @@ BISECTIONS: Final = 24
 class Surface:
     """Triangles that share corners.
 
-    Parameters
-    ----------
-    points : (n, 3) array
-    normals : (n, 3) array
-        Unit vectors outward.
-    faces : (m, 3) int array
+    points: (n, 3).
+    normals: (n, 3), unit vectors outward.
+    faces: (m, 3).
     """
 
     points: FloatArray
@@ -73,8 +70,6 @@ class Surface:
 def ball(level: int) -> Surface:
     """The unit ball: an icosahedron, its sides halved `level` times, corners on the sphere.
 
-    Examples
-    --------
     >>> len(ball(2).faces), round(ball(2).depth, 4)
     (320, 0.0178)
     """
@@ -97,17 +92,10 @@ def ball_level(error: float) -> int:
 def tube(curve: Curve, radius: float, error: float) -> Surface | None:
     """The points within `radius` of a curve, with round ends; None for a curve of length zero.
 
-    Parameters
-    ----------
-    curve : Segment or CircleArc
-        Before any view, so that both radii of an arc have the same length.
-    radius : float
-    error : float
-        Largest distance of the curve from its chords. Cross-sections have enough sides for the same accuracy, and at
+    curve: before any view, so that both radii of an arc have the same length.
+    error: largest distance of the curve from its chords. Cross-sections have enough sides for the same accuracy, and at
         least six.
 
-    Examples
-    --------
     >>> bar = tube(Segment.between([0, 0, 0], [0, 0, 5]), 0.1, 0.001)
     >>> bar.points[:, 2].min().round(9).tolist(), bar.points[:, 2].max().round(9).tolist()
     (-0.1, 5.1)
@@ -233,10 +221,7 @@ def patch(region: SphereRegion, level: int) -> Surface:
     The points of a ball of that level and those of the boundary are triangulated together, without points of the ball
     that would separate neighbours on the boundary. The region is what lies on the left of the boundary.
 
-    Raises
-    ------
-    ValueError
-        If the boundary crosses itself.
+    Raises ValueError if the boundary crosses itself.
     """
     arcs = [arc.scaled(1 / region.radius, np.zeros(3)) for arc in region.boundary]
     steps = [np.linspace(a.start, a.stop, _pieces(a.stop - a.start, _speed(a), CURVE_ERROR) + 1) for a in arcs]

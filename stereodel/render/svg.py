@@ -40,14 +40,8 @@ SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
     """A page as the text of an SVG file.
 
-    Parameters
-    ----------
-    page : Page
-    pictures : sequence of (h, w, 3) uint8 arrays
-        An image of the whole page for each of `page.pictured`, clipped to its regions.
+    pictures: an image of the whole page for each of `page.pictured`, clipped to its regions.
 
-    Examples
-    --------
     >>> text = svg(Page((0.0, 2.0, 0.0, 1.0), width=144.0, title="Nothing"))
     >>> print(text.split("viewBox=")[1].splitlines()[0])
     "0 0 144 72" role="img" aria-labelledby="title">

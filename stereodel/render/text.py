@@ -39,14 +39,8 @@ def labelled(rows: Iterable[Pixels], page: Page, width: int) -> Iterator[Pixels]
 class LabelLayer:
     """The labels of a page on a transparent background.
 
-    Parameters
-    ----------
-    page : Page
-    width_px : int
-        Width of the picture in pixels.
+    width_px: width of the picture in pixels.
 
-    Examples
-    --------
     >>> from stereodel.drawing import Label
     >>> page = Page((0.0, 2.0, 0.0, 2.0), (Label("high", (1.0, 1.9)),), width=100.0)
     >>> layer = LabelLayer(page, 100)

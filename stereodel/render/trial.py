@@ -49,8 +49,6 @@ def trial_pixels() -> Pixels:
 def trial_problem(picture: Pixels) -> str:
     """A description of errors in a rendered test picture; empty if there are none.
 
-    Examples
-    --------
     >>> trial_problem(trial_pixels())
     ''
     >>> trial_problem(trial_pixels()[::-1])

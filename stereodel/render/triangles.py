@@ -133,19 +133,10 @@ def flatten(path: Beziers, tolerance: float = FLATNESS) -> FloatArray:
     A cubic cut into n equal parts of its parameter is off by at most (3/4) M/n², M = max |Pᵢ − 2Pᵢ₊₁ + Pᵢ₊₂|
     (Wang's formula).
 
-    Parameters
-    ----------
-    path : (k, 4, 2) array
-    tolerance : float
-        In the units of `path`.
+    path: (k, 4, 2).
+    tolerance: in the units of `path`.
+    Returns (m, 2), first to last point, m ≥ 2; neighbours may coincide.
 
-    Returns
-    -------
-    (m, 2) array
-        First to last point, m ≥ 2; neighbours may coincide.
-
-    Examples
-    --------
     >>> line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
     >>> flatten(line).tolist()
     [[0.0, 0.0], [3.0, 0.0]]
@@ -169,22 +160,12 @@ def ribbon(
 ) -> Corners:
     """A polyline of constant width with round joins.
 
-    Parameters
-    ----------
-    points : (m, 2) array
-    width : float
-        In pixels, as `dash`.
-    closed : bool
-        Whether the end is joined to the start.
-    round_caps : bool
-        Whether ends, including those of dashes, are semicircles; otherwise they are cut straight.
-    dash : (float, float), optional
-        Length of dash and gap; the first dash begins at the first point.
-
-    Returns
-    -------
-    (n, 3, 2) array
-        Triangles, which overlap; a single point is a disc if caps are round, and nothing otherwise.
+    points: (m, 2).
+    width: in pixels, as `dash`.
+    closed: whether the end is joined to the start.
+    round_caps: whether ends, including those of dashes, are semicircles; otherwise they are cut straight.
+    dash: (float, float), length of dash and gap; the first dash begins at the first point.
+    Returns (n, 3, 2), triangles, which overlap; a single point is a disc if caps are round, and nothing otherwise.
     """
     if closed:
         points = np.concatenate([points, points[:1]])
@@ -201,21 +182,11 @@ def ribbon(
 def ribbons(points: FloatArray, offsets: Indices, width: float) -> Corners:
     """Polylines of one constant width, with round joins and ends.
 
-    Parameters
-    ----------
-    points : (n, 2) array
-        In pixels, as `width`.
-    offsets : (m + 1,) int array
-        Line i is ``points[offsets[i]:offsets[i + 1]]``, closed if its ends are equal; a single point is a disc.
-    width : float
+    points: (n, 2), in pixels, as `width`.
+    offsets: (m + 1,), line i is ``points[offsets[i]:offsets[i + 1]]``, closed if its ends are equal; a single point is
+        a disc.
+    Returns (k, 3, 2), triangles, which overlap.
 
-    Returns
-    -------
-    (k, 3, 2) array
-        Triangles, which overlap.
-
-    Examples
-    --------
     >>> square = np.array([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0], [0.0, 0.0]])
     >>> both = ribbons(np.concatenate([square, square + 20]), np.array([0, 5, 10]), 1.0)
     >>> len(both) == 2 * len(ribbon(square[:-1], 1.0, closed=True))

@@ -74,16 +74,9 @@ class Glyph:
 class Line:
     """A line of type: glyphs, and the bars of fractions and roots.
 
-    Parameters
-    ----------
-    glyphs : tuple of Glyph
-    bars : tuple of (x, y, width, height)
-    x, y : float
-        Start on the page, in points from the lower left corner.
-    rotation : float
-        Counterclockwise rotation about the start, in degrees.
-    words : str
-        The text, if letters join, stack or run from right to left, so that glyphs do not correspond to characters in
+    x, y: start on the page, in points from the lower left corner.
+    rotation: counterclockwise rotation about the start, in degrees.
+    words: the text, if letters join, stack or run from right to left, so that glyphs do not correspond to characters in
         order.
     """
 
@@ -252,11 +245,7 @@ class _Pen(BasePen):  # type: ignore[misc]
 class Subset:
     """The subset of a font used in a file, as a font.
 
-    Parameters
-    ----------
-    font : Face
-    glyphs : mapping
-        Characters of each glyph, by its index in the font.
+    glyphs: characters of each glyph, by its index in the font.
     """
 
     font: Face

@@ -19,25 +19,11 @@ from stereodel.render.svg import svg
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
     """Write a page as SVG or PDF, by the extension of `path`; `Page.save` provides the images that it needs.
 
-    Parameters
-    ----------
-    page : Page
-    path : path-like
-        File to write; an existing file is replaced once the new one is complete.
-    pictures : sequence of (h, w, 3) uint8 arrays
-        An image of the whole page for each of `page.pictured`, clipped to its regions.
-
-    Returns
-    -------
-    Path
-        The file.
-
-    Raises
-    ------
-    ValueError
-        If the extension is not .svg or .pdf, or the number of images is wrong.
-    OSError
-        If the file cannot be written.
+    path: file to write; an existing file is replaced once the new one is complete.
+    pictures: an image of the whole page for each of `page.pictured`, clipped to its regions.
+    Returns the file.
+    Raises ValueError if the extension is not .svg or .pdf, or the number of images is wrong; OSError if the file cannot
+        be written.
     """
     target = Path(path)
     match target.suffix.lower():

@@ -17,8 +17,6 @@ def xmp_packet(tree: str) -> bytes:
 def xmp_title(title: str) -> bytes:
     """XMP data with only a title.
 
-    Examples
-    --------
     >>> "<rdf:li xml:lang='x-default'>Land &amp; sea</rdf:li>" in xmp_title("Land & sea").decode()
     True
     """

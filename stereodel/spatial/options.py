@@ -15,14 +15,9 @@ KNOWN = WITHOUT_EFFECT | {"Qbb", "Qc", "Qz"}
 class Options:
     """What is left of Qhull's options.
 
-    Attributes
-    ----------
-    scaled : bool
-        "Qbb": the height of the paraboloid is scaled to the size of the coordinates.
-    at_infinity : bool
-        "Qz": there is a point at infinity, with an empty Voronoi region.
-    coplanar : bool
-        "Qc": points that are not vertices are listed.
+    scaled: "Qbb", the height of the paraboloid is scaled to the size of the coordinates.
+    at_infinity: "Qz", there is a point at infinity, with an empty Voronoi region.
+    coplanar: "Qc", points that are not vertices are listed.
     """
 
     scaled: bool
@@ -33,12 +28,8 @@ class Options:
 def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> Options:
     """The options of a constructor, or what is wrong with them.
 
-    Raises
-    ------
-    TypeError
-        If `qhull_options` is neither None nor a string.
-    ValueError
-        For furthest sites, options that are not `KNOWN`, and options that Qhull refuses in incremental mode.
+    Raises TypeError if `qhull_options` is neither None nor a string; ValueError for furthest sites, options that are
+        not `KNOWN`, and options that Qhull refuses in incremental mode.
     """
     if furthest_site:
         raise ValueError("furthest_site=True is not supported; use the class of scipy.spatial for furthest sites")

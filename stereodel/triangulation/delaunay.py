@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Any, ClassVar, Final, Self, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Self, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -22,13 +22,15 @@ from stereodel._arrays import (
 )
 from stereodel._calls import by_name
 from stereodel._docs import shared
-from stereodel._spaces import Mesh, Space, Triangulated
 from stereodel._threads import thread_count
 from stereodel.constants import REBUILD_INSERTING, REBUILD_REMOVING
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import BY_NAME, LONLAT, as_asked
 from stereodel.triangulation.topology import adjacency_of, boundary_of, edges_of, neighbors_of
 from stereodel.triangulation.versions import Versioned, kept
+
+if TYPE_CHECKING:
+    from stereodel._kernel.space import Mesh, Space
 
 _T = TypeVar("_T")
 
@@ -118,8 +120,8 @@ class Delaunay(Versioned, ABC):
         return version, result
 
     @kept
-    def _built(self) -> Triangulated:
-        """From the points alone."""
+    def _built(self) -> tuple[IntArray, IntArray | None, IntArray, int, dict[str, int]]:
+        """Simplices, neighbors or None, duplicates, dimension and inconclusive tests, from the points alone."""
         return self._space.triangulate(self.points, thread_count(self._workers, self._size), self._eager)
 
     def _from_mesh(self, read: Callable[[Mesh], _T]) -> _T | None:

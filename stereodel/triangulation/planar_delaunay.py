@@ -9,7 +9,6 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, as_points, as_vectors
 from stereodel._docs import shared
-from stereodel._spaces import Space
 from stereodel.triangulation.delaunay import FAMILY, Delaunay
 
 
@@ -72,7 +71,7 @@ class PlanarDelaunay(Delaunay):
     [1 2 4] -1
     """
 
-    _space: ClassVar[Space] = _kernel.plane
+    _space: ClassVar = _kernel.plane
 
     @staticmethod
     def _as_points(points: npt.ArrayLike, lonlat_door: str) -> FloatArray:

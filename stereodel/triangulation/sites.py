@@ -30,14 +30,9 @@ GHOST = -1
 class InsertionSites(ABC):
     """Points by number, with the signs that the engine needs.
 
-    Attributes
-    ----------
-    keys : list
-        One hashable value for each point, equal exactly for equal points.
-    pole : int
-        Vertex from which the surface is seen as a planar triangulation.
-    inconclusive : Counter
-        "filter": tests that floating point left open; "exact": exact ties, decided by displacement.
+    keys: one hashable value for each point, equal exactly for equal points.
+    pole: vertex from which the surface is seen as a planar triangulation.
+    inconclusive: counts of "filter", tests that floating point left open, and "exact", ties that displacement decided.
     """
 
     keys: list[Hashable]

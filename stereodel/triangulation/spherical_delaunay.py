@@ -10,7 +10,6 @@ from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, as_directions, locked
 from stereodel._calls import by_name
 from stereodel._docs import shared
-from stereodel._spaces import Space
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import IN_ROWS, LONLAT, as_sites, as_told
 from stereodel.triangulation.delaunay import FAMILY, Delaunay
@@ -89,7 +88,7 @@ class SphericalDelaunay(Delaunay):
     [False, True]
     """
 
-    _space: ClassVar[Space] = _kernel.sphere
+    _space: ClassVar = _kernel.sphere
 
     @classmethod
     @by_name(IN_ROWS)

@@ -21,13 +21,9 @@ class Mesh:
 
     Half-edge 3t + k is the directed edge of triangle t opposite its corner k.
 
-    Attributes
-    ----------
-    simplices : (m, 3) array of int64
-    origin, target, apex : (3m,) arrays of int64
-        Ends of each half-edge and the corner of its triangle opposite to it.
-    twin : (3m,) array of int64
-        The same edge in the other direction, -1 on the boundary.
+    simplices: (m, 3).
+    origin, target, apex: (3m,), ends of each half-edge and the corner of its triangle opposite to it.
+    twin: (3m,), the same edge in the other direction, -1 on the boundary.
     """
 
     simplices: LongArray

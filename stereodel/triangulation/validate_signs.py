@@ -24,9 +24,7 @@ _RADIAL_BOUND = 300 * UNIT_ROUNDOFF**2
 class PlaneSigns:
     """Orientation and incircle signs of points of the plane, given by their numbers.
 
-    Parameters
-    ----------
-    points : (n, 2) array of float
+    points: (n, 2).
     """
 
     def __init__(self, points: FloatArray) -> None:
@@ -100,10 +98,7 @@ def _circle_integers(p: BigIntegers) -> SignArray:
 class SphereSigns:
     """Signs on the exact rays through points of space, given by their numbers.
 
-    Parameters
-    ----------
-    points : (n, 3) array of float
-        Non-zero; any length.
+    points: (n, 3), non-zero; any length.
     """
 
     def __init__(self, points: FloatArray) -> None:
