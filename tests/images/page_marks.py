@@ -117,6 +117,8 @@ class _Place:
         match item:
             case Stroke() if has_length(item, self.scale):
                 path = self.path([item.path], item.closed)
+                if item.cap == "round":  # its ends meet, and are as round as a join
+                    path = replace(path, closed=np.zeros_like(path.closed))
                 yield _stroke(item, path, item.dash or (), item.cap), None
             case Stroke():
                 pass
@@ -154,8 +156,7 @@ class _Place:
         begin = np.flatnonzero((line[1:] == line[:-1]) & ~short[line[1:]])
         if len(begin):
             pieces = np.linspace(points[begin], points[begin + 1], 4, axis=1)
-            starts, ends = item.points[item.offsets[:-1]], item.points[item.offsets[1:] - 1]
-            path = tidy(pieces, line[begin], (starts == ends).all(axis=1) & (sizes > 3))
+            path = tidy(pieces, line[begin], np.zeros(len(sizes), dtype=bool))
             yield _stroke(item, path, (), "round"), None
         centers = points[item.offsets[:-1][short]]
         if len(centers):

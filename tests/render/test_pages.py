@@ -198,3 +198,15 @@ def test_an_empty_page_is_its_ground():
 def test_drawing_twice_gives_the_same_pixels():
     page = mixed_page()
     assert compare(render(page, size=300), render(page, size=300)).any == 0
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.5, 1.0, 3.0])
+def test_closed_lines_smaller_than_their_width_are_not_hollow(radius):
+    path = circle(np.array([20.0, 20.0]), radius)
+    points = np.concatenate([path[:, 0], path[:1, 0]])
+    line = Polylines(points, np.array([0, len(points)]), BLACK, 10.0, "coast")
+    for item in (line, Stroke(path, BLACK, 10.0, closed=True)):
+        page = Page((0.0, 40.0, 0.0, 40.0), (item,), width=40.0)
+        ink = [np.sum(255 - draw(page, size=40).astype(float)) / 765 for draw in (render, rasterize)]
+        np.testing.assert_allclose(ink[1], ink[0], rtol=0.05)
+        assert ink[0] >= 0.98 * np.pi * 5**2
