@@ -15,6 +15,8 @@ _LINE = re.compile(r"^( *)\{(\w+)\}$", re.MULTILINE)
 def shared(**parts: str) -> Callable[[_T], _T]:
     """Decorate a class or function: in its docstring a line ``{name}`` becomes the text of that name, indented alike.
 
+    A text may itself use those before it.
+
     Examples
     --------
     >>> @shared(unit="In metres.")
@@ -28,11 +30,17 @@ def shared(**parts: str) -> Callable[[_T], _T]:
     <BLANKLINE>
     In metres.
     """
-    texts = {name: cleandoc(text) for name, text in parts.items()}
+    texts: dict[str, str] = {}
+
+    def filled(text: str) -> str:
+        return _LINE.sub(lambda line: indent(texts[line[2]], line[1]), cleandoc(text))
 
     def fill(target: _T) -> _T:
         if target.__doc__ is not None:  # as under `python -OO`
-            target.__doc__ = _LINE.sub(lambda line: indent(texts[line[2]], line[1]), cleandoc(target.__doc__))
+            target.__doc__ = filled(target.__doc__)
         return target
+
+    for name, text in parts.items():
+        texts[name] = filled(text)
 
     return fill

@@ -37,23 +37,37 @@ __all__ = [
 
 _SHARED = LONLAT | {
     "points": """
+        Parameters
+        ----------
         points : array_like (n, 2) or (n, 3), PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them.
+        {instead}
         """,
     "workers": """
         workers : int, optional
             Threads; -1 for all processors. By default those of the triangulation. Does not affect the result.
         """,
-    "edges": """
-        (e, 2) array of int32
-            Edges i < j, in lexicographic order; read-only.
-        """,
     "raises": """
+        Raises
+        ------
         ValueError, TypeError
             For points that cannot be triangulated: see `PlanarDelaunay` and `SphericalDelaunay`; for points and
             `lonlat` together, and `latitude` without `lonlat`.
         """,
+    "graph": """
+        {points}
+        {workers}
+
+        Returns
+        -------
+        (e, 2) array of int32
+            Edges i < j, in lexicographic order; read-only.
+
+        {raises}
+        """,
     "hull_raises": """
+        Raises
+        ------
         ValueError, TypeError
             As for `hull`; for points of the sphere that lie in no open hemisphere.
         """,
@@ -70,19 +84,7 @@ def gabriel_graph(
 ) -> IntArray:
     """Edges whose diametral circle contains no other point, neither inside nor on it.
 
-    Parameters
-    ----------
-    {points}
-    {instead}
-    {workers}
-
-    Returns
-    -------
-    {edges}
-
-    Raises
-    ------
-    {raises}
+    {graph}
 
     Notes
     -----
@@ -118,19 +120,7 @@ def urquhart_graph(
 ) -> IntArray:
     """Delaunay edges that are not strictly the longest edge of a triangle.
 
-    Parameters
-    ----------
-    {points}
-    {instead}
-    {workers}
-
-    Returns
-    -------
-    {edges}
-
-    Raises
-    ------
-    {raises}
+    {graph}
 
     Notes
     -----
@@ -162,19 +152,7 @@ def relative_neighborhood_graph(
 ) -> IntArray:
     """Pairs of points without a third that is strictly nearer to both than they are to each other.
 
-    Parameters
-    ----------
-    {points}
-    {instead}
-    {workers}
-
-    Returns
-    -------
-    {edges}
-
-    Raises
-    ------
-    {raises}
+    {graph}
 
     Notes
     -----
@@ -205,10 +183,7 @@ def minimum_spanning_tree(
 ) -> IntArray:
     """The spanning tree of least total length.
 
-    Parameters
-    ----------
     {points}
-    {instead}
     {workers}
 
     Returns
@@ -216,8 +191,6 @@ def minimum_spanning_tree(
     (k - 1, 2) array of int32
         Edges i < j between k distinct points, in lexicographic order; read-only. None for fewer than two.
 
-    Raises
-    ------
     {raises}
 
     Notes
@@ -252,10 +225,7 @@ def hull(
 ) -> IntArray:
     """Corners of the convex hull, counterclockwise.
 
-    Parameters
-    ----------
     {points}
-    {instead}
 
     Returns
     -------
@@ -264,8 +234,6 @@ def hull(
         corner for one point, the two ends for points of a line or of an arc. On the sphere none if the points do not
         lie in an open hemisphere.
 
-    Raises
-    ------
     {raises}
 
     Notes
@@ -298,10 +266,7 @@ def hull_area(
 ) -> float:
     """Area of the convex hull.
 
-    Parameters
-    ----------
     {points}
-    {instead}
 
     Returns
     -------
@@ -309,8 +274,6 @@ def hull_area(
         In squares of the plane's unit, on the sphere in steradians; multiply by the square of the radius.
         0 without triangles.
 
-    Raises
-    ------
     {hull_raises}
 
     Notes
@@ -343,18 +306,13 @@ def hull_perimeter(
 ) -> float:
     """Length of the boundary of the convex hull.
 
-    Parameters
-    ----------
     {points}
-    {instead}
 
     Returns
     -------
     float
         In the plane's unit, on the sphere in degrees. For points of a line or an arc, twice its length.
 
-    Raises
-    ------
     {hull_raises}
 
     Examples

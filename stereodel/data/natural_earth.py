@@ -37,11 +37,14 @@ WATER_DIGITS: Final = 3
 
 
 _SHARED = {
-    "resolution": """
+    "parameters": """
+        Parameters
+        ----------
         resolution : {"10m", "50m", "110m"}, optional
             Made for maps of 1 : 10, 1 : 50 or 1 : 110 million.
-        """,
-    "raises": """
+
+        Raises
+        ------
         ValueError
             For another resolution.
         """,
@@ -121,13 +124,7 @@ class Countries(Polygons):
 def coastlines(resolution: str = "50m") -> Coastlines:
     """Coastlines of Natural Earth (public domain).
 
-    Parameters
-    ----------
-    {resolution}
-
-    Raises
-    ------
-    {raises}
+    {parameters}
 
     Examples
     --------
@@ -148,13 +145,7 @@ def coastlines(resolution: str = "50m") -> Coastlines:
 def land(resolution: str = "50m") -> Land:
     """Land as polygons, after Natural Earth (public domain).
 
-    Parameters
-    ----------
-    {resolution}
-
-    Raises
-    ------
-    {raises}
+    {parameters}
 
     Examples
     --------
@@ -166,7 +157,6 @@ def land(resolution: str = "50m") -> Land:
 
 
 @cache
-@shared(**_SHARED)
 def countries(resolution: str = "50m") -> Countries:
     """Countries as polygons, after Natural Earth (public domain); codes and continents after GeoNames (CC BY 4.0).
 
@@ -177,7 +167,8 @@ def countries(resolution: str = "50m") -> Countries:
 
     Raises
     ------
-    {raises}
+    ValueError
+        For another resolution.
 
     Examples
     --------
@@ -196,13 +187,7 @@ def countries(resolution: str = "50m") -> Countries:
 def borders(resolution: str = "50m") -> Borders:
     """Borders between countries, after Natural Earth (public domain).
 
-    Parameters
-    ----------
-    {resolution}
-
-    Raises
-    ------
-    {raises}
+    {parameters}
 
     Examples
     --------
@@ -227,13 +212,7 @@ def borders(resolution: str = "50m") -> Borders:
 def rivers(resolution: str = "50m") -> Rivers:
     """Rivers, and the ways on through lakes, after Natural Earth (public domain).
 
-    Parameters
-    ----------
-    {resolution}
-
-    Raises
-    ------
-    {raises}
+    {parameters}
 
     Examples
     --------
@@ -253,13 +232,7 @@ def lakes(resolution: str = "50m") -> Lakes:
 
     The latter two resolutions lie on a grid of 0.036° by 0.018°.
 
-    Parameters
-    ----------
-    {resolution}
-
-    Raises
-    ------
-    {raises}
+    {parameters}
 
     Examples
     --------
@@ -299,10 +272,8 @@ def _polygons(
 ) -> tuple[FloatArray, IntArray, IntArray]:
     """Coordinates, offsets of rings and offsets of polygons."""
     arcs = _arcs(columns, digits)
-    used, bounds = (
-        stored.integers(columns[f"{kind}_arcs"]).tolist(),
-        _offsets(stored.integers(columns[f"{kind}_rings"])),
-    )
+    used = stored.integers(columns[f"{kind}_arcs"]).tolist()
+    bounds = _offsets(stored.integers(columns[f"{kind}_rings"]))
     rings = [_ring(arcs, used[i:j]) for i, j in pairwise(bounds.tolist())]
     polygons = _offsets(stored.integers(columns[f"{kind}_polygons"]))
     return locked(np.concatenate(rings)), _offsets([len(ring) for ring in rings]), polygons

@@ -69,8 +69,6 @@ class Contour:
 def contours(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike, levels: npt.ArrayLike) -> list[Contour]:
     """Contours of the function that is linear in each triangle, `LinearInterpolator`.
 
-    Parameters
-    ----------
     {sites}
     values : (n,) array_like
         One number for each point; triangles with a NaN are skipped.

@@ -20,8 +20,6 @@ _UNKNOWNS = 5
 def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayLike) -> FloatArray:
     """Gradients at the points of a function known only at these points.
 
-    Parameters
-    ----------
     {sites}
     {values}
 
@@ -31,8 +29,6 @@ def estimate_gradients(points: npt.ArrayLike | Triangulation, values: npt.ArrayL
         Per unit of length, or tangent vectors per radian. NaN where the value is NaN and where there is no triangle.
         Correct at every scale of the points; on overflow, as for a rise of 1e10 over 1e-300, not finite.
 
-    Raises
-    ------
     {raises}
 
     Notes

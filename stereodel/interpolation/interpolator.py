@@ -67,8 +67,6 @@ class Interpolator(ABC):
         **options
             As for the constructor.
 
-        Raises
-        ------
         {lonlat_raises}
 
         Examples

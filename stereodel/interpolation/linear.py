@@ -17,19 +17,7 @@ from stereodel.interpolation.weights import Shares, WeightedInterpolator
 class LinearInterpolator(WeightedInterpolator, TriangleInterpolator):
     """Linear in each triangle, continuous across them.
 
-    Parameters
-    ----------
-    {points}
-    {values}
-    {extrapolate}
-
-    Attributes
-    ----------
-    {attributes}
-
-    Raises
-    ------
-    {raises}
+    {function}
 
     Notes
     -----

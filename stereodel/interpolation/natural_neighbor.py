@@ -17,19 +17,7 @@ from stereodel.triangulation.dispatch import threads_of
 class NaturalNeighborInterpolator(WeightedInterpolator):
     """Each point is weighted by the area that a Voronoi cell around the query would take from its own (Sibson).
 
-    Parameters
-    ----------
-    {points}
-    {values}
-    {extrapolate}
-
-    Attributes
-    ----------
-    {attributes}
-
-    Raises
-    ------
-    {raises}
+    {function}
 
     Notes
     -----

@@ -16,18 +16,12 @@ from stereodel.triangulation.dispatch import Triangulation
 class NearestInterpolator(WeightedInterpolator):
     """The value of the nearest point, exactly the nearest: constant on Voronoi cells.
 
-    Parameters
-    ----------
     {points}
     values : (n, ...) array_like
         A number or an array of numbers for each point; NaN is a value like any other.
 
-    Attributes
-    ----------
     {attributes}
 
-    Raises
-    ------
     {raises}
 
     Notes

@@ -19,8 +19,6 @@ from stereodel.triangulation.dispatch import Triangulation
 class SmoothInterpolator(TriangleInterpolator):
     """Smooth: the function and its gradient are continuous, by Renka's method on the sphere, by Nielson's in the plane.
 
-    Parameters
-    ----------
     {points}
     {values}
     gradients : (n, ..., 2) or (n, ..., 3) array_like, optional
@@ -28,8 +26,6 @@ class SmoothInterpolator(TriangleInterpolator):
         default those of `estimate_gradients`.
     {extrapolate}
 
-    Attributes
-    ----------
     {attributes}
     gradients : (n, ..., 2) or (n, ..., 3) array
         As used, read-only.

@@ -14,10 +14,14 @@ from stereodel.triangulation.dispatch import Triangulation
 
 FAMILY: Final = {
     "points": """
+        Parameters
+        ----------
         points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them. For longitude and latitude use `from_lonlat`.
         """,
     "sites": """
+        Parameters
+        ----------
         points : (n, 2) or (n, 3) array_like, PlanarDelaunay or SphericalDelaunay
             Points of the plane, directions, or a triangulation of them; for longitude and latitude, one made by
             `SphericalDelaunay.from_lonlat`.
@@ -31,6 +35,8 @@ FAMILY: Final = {
             Outside all triangles use the value of the nearest point, with gradient zero; by default NaN.
         """,
     "attributes": """
+        Attributes
+        ----------
         triangulation : PlanarDelaunay or SphericalDelaunay
         values : (n, ...) array
             Values as used: coincident points have the mean of their values.
@@ -38,9 +44,20 @@ FAMILY: Final = {
             The kind of latitude by which the points were given.
         """,
     "raises": """
+        Raises
+        ------
         ValueError, TypeError
             As for the triangulation; if a value is infinite or not a real number, or their number differs from that of
             the points.
+        """,
+    "function": """
+        {points}
+        {values}
+        {extrapolate}
+
+        {attributes}
+
+        {raises}
         """,
 }
 """Parts shared by the docstrings of this package."""

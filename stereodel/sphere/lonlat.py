@@ -27,6 +27,8 @@ LONLAT: Final = {
             It is remembered.
         """,
     "lonlat_raises": """
+        Raises
+        ------
         ValueError, TypeError
             For values that are not finite real numbers, latitudes out of range, other shapes, or another `latitude`.
         """,

@@ -129,8 +129,6 @@ class HullInsertion:
         spatial
             As for the constructor.
 
-        Raises
-        ------
         {lonlat_raises}
 
         Examples

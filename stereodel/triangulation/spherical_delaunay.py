@@ -115,8 +115,6 @@ class SphericalDelaunay(Delaunay):
         SphericalDelaunay
             Triangulation of the unit vectors from `lonlat_to_xyz`, which are then taken as exact.
 
-        Raises
-        ------
         {lonlat_raises}
 
         Examples

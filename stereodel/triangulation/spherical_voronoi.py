@@ -114,8 +114,6 @@ class SphericalVoronoi(Diagram):
         SphericalVoronoi
             Diagram of the unit vectors from `lonlat_to_xyz`, which are then taken as exact.
 
-        Raises
-        ------
         {lonlat_raises}
 
         Examples
