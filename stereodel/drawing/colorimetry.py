@@ -64,8 +64,6 @@ def luminance(colors: npt.ArrayLike) -> FloatArray:
 def contrast(a: npt.ArrayLike, b: npt.ArrayLike) -> FloatArray:
     """Contrast (...) of colours (..., 3), from 1 to 21 for black and white.
 
-    Examples
-    --------
     >>> round(float(contrast((0.0, 0.0, 0.0), (1.0, 1.0, 1.0))), 9)
     21.0
     """
@@ -80,18 +78,9 @@ def to_oklab(colors: npt.ArrayLike) -> FloatArray:
 
 
 def with_luminance(colors: FloatArray, target: FloatArray) -> FloatArray:
-    """Colours of the same hue with another luminance.
+    """Colours (n, 3) of the same hue in OKLab with another luminance (n,), in [0, 1].
 
-    Parameters
-    ----------
-    colors : (n, 3) array
-    target : (n,) array
-        Luminance, in [0, 1].
-
-    Returns
-    -------
-    (n, 3) array
-        Colours of the same hue in OKLab, and of the same chroma as far as sRGB contains it at that luminance.
+    Their chroma is the same as far as sRGB contains it at that luminance.
     """
     hue = to_oklab(colors)[:, 1:]
     light = _with_chroma(hue, target)

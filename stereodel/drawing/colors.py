@@ -70,10 +70,7 @@ def as_color(value: ColorLike, name: str = "color") -> Color:
 def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors") -> FloatArray:
     """Colours (n, 4) of `count` items, from one for all or from red, green, blue and optionally opacity of each.
 
-    Raises
-    ------
-    ValueError
-        If a colour is invalid, a number is outside [0, 1], or the number of colours differs from that of items.
+    ValueError if a colour is invalid, a number is outside [0, 1], or the number of colours differs from that of items.
     """
     if isinstance(values, str) or np.ndim(np.asarray(values, dtype=object)) < 2:
         return np.tile(as_color(cast(ColorLike, values), name), (count, 1))
@@ -86,13 +83,7 @@ def as_colors(values: ColorLike | npt.ArrayLike, count: int, name: str = "colors
 
 
 def color_map(name: str) -> Callable[[FloatArray], FloatArray]:
-    """A colour map of matplotlib: numbers (...) in [0, 1] to colours (..., 4).
-
-    Raises
-    ------
-    ValueError
-        If matplotlib has no colour map of this name.
-    """
+    """A colour map of matplotlib: numbers (...) in [0, 1] to colours (..., 4); ValueError for unknown names."""
     with of_extra("draw"):
         from matplotlib import colormaps
 

@@ -37,8 +37,6 @@ def dark_page(page: Page) -> Page:
 def dark_color(color: Color) -> Color:
     """The dark counterpart of a colour on white.
 
-    Examples
-    --------
     >>> [round(part, 2) for part in dark_color((1.0, 1.0, 1.0, 1.0))]
     [0.07, 0.07, 0.07, 1.0]
     """

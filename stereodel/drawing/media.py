@@ -23,18 +23,10 @@ ROUNDS: Final = 12
 class Medium:
     """A medium, and how lengths in points change with the scale s of the picture.
 
-    Parameters
-    ----------
-    width : float
-        Width of the page in points.
-    height : float, optional
-        Height of the page in points; by default as needed by the picture.
-    margin : float
-        Margin around the picture in points.
-    line, type_size : (float, float)
-        Factor a and power p: widths of lines and radii of dots, and sizes of type, are multiplied by a sᵖ.
-    least_type : float
-        Smallest size of type in points.
+    width, height: of the page in points; without height it has that of the picture.
+    margin: around the picture in points.
+    line, type_size: factor a and power p: widths of lines and radii of dots, and sizes of type, are multiplied by a sᵖ.
+    least_type: smallest size of type in points.
     """
 
     width: float
@@ -53,18 +45,7 @@ SLIDE: Final = Medium(33.87 * CENTIMETRE, 19.05 * CENTIMETRE, 24.0, (1.25, 1.0),
 
 
 def page_for(page: Page, medium: Medium) -> Page:
-    """A page laid out for a medium, with the picture centred.
-
-    Parameters
-    ----------
-    page : Page
-    medium : Medium
-
-    Returns
-    -------
-    Page
-        Page with the size of the medium, or of its width and as high as needed. Labels without room are left out.
-    """
+    """A page laid out for a medium, with the picture centred; labels without room are left out."""
     free = medium.width - 2 * medium.margin
     high = None if medium.height is None else medium.height - 2 * medium.margin
     scale = free / page.width if high is None else min(free / page.width, high / page.height)

@@ -22,20 +22,10 @@ Loop = list[CircleArc]
 
 @dataclass(frozen=True, eq=False)
 class SphereRegion:
-    """The part of a sphere about the origin on the left of a loop of arcs.
+    """The part of a sphere about the origin on the left of a loop of arcs; ValueError if the loop has a gap.
 
-    Parameters
-    ----------
-    boundary : tuple of CircleArc
-        A simple loop on the sphere, each arc starting at the end of the one before it, counterclockwise around the
-        region as seen from outside. It may have any size and shape.
-    radius : float
-        Radius of the sphere.
-
-    Raises
-    ------
-    ValueError
-        If the boundary has a gap.
+    boundary: a simple loop on the sphere, each arc starting at the end of the one before it, counterclockwise around
+        the region as seen from outside. It may have any size and shape.
     """
 
     boundary: tuple[CircleArc, ...]

@@ -140,13 +140,7 @@ class ColorScale:
 
 
 def category_colors(words: Sequence[str], name: str) -> dict[str, Color]:
-    """A colour for each word, distinguishable with any colour vision.
-
-    Raises
-    ------
-    ValueError
-        If there are more words than such colours.
-    """
+    """A colour for each word, distinguishable with any colour vision; ValueError if there are too many words."""
     if len(words) > len(CATEGORIES):
         raise ValueError(
             f"{name} has {len(words)} different words, but {len(CATEGORIES)} colours are told apart at most"

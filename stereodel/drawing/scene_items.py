@@ -228,10 +228,7 @@ class SceneSheet:
     def plane(self, layout: Layout) -> tuple[FloatArray, float, Layer]:
         """Normal toward the viewer and level of the plane in view axes, and the polygon's layer.
 
-        Raises
-        ------
-        ValueError
-            If the polygon cuts the sphere, so that no painter's order is correct.
+        ValueError if the polygon cuts the sphere, so that no painter's order is correct.
         """
         corners = layout.axes(self.corners)
         normal = _newell(corners)

@@ -83,15 +83,8 @@ class Run:
 def cut_at_limb(curves: Sequence[CircleArc], lines: Ragged, radius: float) -> list[Run]:
     """Lines on a sphere about the origin, cut at the limb; parts along the limb are visible.
 
-    Parameters
-    ----------
-    curves : sequence of CircleArc
-        On the sphere.
-    lines : Ragged
-        Indices of the curves of each line, in order; every curve belongs to one line. In a closed line the last curve
-        ends where the first begins.
-    radius : float
-        Radius of the sphere.
+    lines: indices of the curves of each line, in order; every curve belongs to one line. In a closed line the last
+        curve ends where the first begins.
     """
     if not curves:
         return []
@@ -142,8 +135,6 @@ def _joined(arcs: Arcs, lines: Ragged) -> Arcs:
 def split_by_ball(curves: Sequence[Curve], radius: float) -> list[list[tuple[Curve, Place]]]:
     """Curves cut into pieces of one `Place` each, in order; a closed curve that needs no cut stays closed.
 
-    Examples
-    --------
     >>> from stereodel.drawing.space_curves import Segment
     >>> [pieces] = split_by_ball([Segment.between([0, 0, 2], [0, 0, -3])], 1.0)
     >>> [(piece.start, piece.stop, place.name) for piece, place in pieces]

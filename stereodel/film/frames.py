@@ -32,13 +32,9 @@ OURS: Final = re.compile(r"\.?[0-9a-f]{32}\.png(\.\d+\.tmp)?")
 class KeptFrames:
     """The folder of a film's frames, one PNG each.
 
-    Parameters
-    ----------
-    folder : Path
-        Folder next to the film.
-    names : sequence of str
-        File name of each frame, a digest of all that the frame depends on, so that equal frames share a file and frames
-        of another film are never reused.
+    folder: next to the film.
+    names: file name of each frame, a digest of all that the frame depends on, so that equal frames share a file and
+        frames of another film are never reused.
     """
 
     folder: Path
@@ -95,18 +91,8 @@ def store_frame(picture: Pixels, path: str | os.PathLike[str]) -> None:
 def frame_names(drawing: Any, shots: Iterable[Any]) -> list[str]:
     """A name for each shot, the same for equal shots drawn by the same versions of the same code.
 
-    Parameters
-    ----------
-    drawing : object
-        The object that draws the frames. Code outside the library is identified by the files of the modules in its
-        pickle.
-    shots : iterable
-        The argument for each frame.
-
-    Raises
-    ------
-    TypeError
-        If something cannot be pickled, such as a local function.
+    Code outside the library is identified by the files of the modules in the pickle of `drawing`. TypeError if
+    something cannot be pickled, such as a local function.
     """
     pickled = _pickled(drawing, "draw")
     common = hashlib.sha256(library_digest() + pickled)

@@ -16,12 +16,7 @@ PAUSE: Final = 10.0
 
 @contextmanager
 def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], None]]:
-    """A context with a function that counts one more of `total` steps and reports on standard error.
-
-    what: name of the activity, such as "drawing".
-    total: number of steps.
-    shown: whether to report anything.
-    """
+    """Report steps of `what`, such as "drawing", on standard error, by a function that counts one more of `total`."""
     if not shown or total == 0:
         yield lambda: None
     elif sys.stderr.isatty():

@@ -50,7 +50,7 @@ Writer = Callable[[Reel, Path, FloatArray, str], None]
 class Format:
     """A file format: its writer and its limits.
 
-    write: writes the file; called as ``write(reel, path, seconds, title)``.
+    write: called as ``write(reel, path, seconds, title)``.
     largest: largest width or height in pixels.
     shortest: shortest duration of a frame in seconds.
     library: module of the extra ``film`` that encodes.

@@ -23,17 +23,7 @@ BLOCK = 4096
 
 
 class Interpolator(ABC):
-    """A function on the plane or the sphere that takes given values at given points.
-
-    Attributes
-    ----------
-    triangulation : PlanarDelaunay or SphericalDelaunay
-        Triangulation of the points; a copy, independent of later changes to the one given.
-    values : (n, ...) array
-        Values as used, read-only: coincident points have the mean of their values.
-    latitude : str or None
-        The kind of latitude by which the points were given (`from_lonlat`).
-    """
+    """A function on the plane or the sphere that takes given values at given points."""
 
     triangulation: Triangulation
     values: FloatArray

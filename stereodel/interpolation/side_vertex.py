@@ -26,11 +26,7 @@ from stereodel.interpolation.triangles import LocatedQueries, cross3, dot
 
 
 def side_vertex(located: LocatedQueries, values: FloatArray, gradients: FloatArray) -> FloatArray:
-    """Values (m, k) at the queries.
-
-    values: (m, 3, k), at the corners of each query's triangle.
-    gradients: (m, 3, d, k), tangent there.
-    """
+    """Values (m, k) at the queries from values (m, 3, k) and tangent gradients (m, 3, d, k) at their corners."""
     weights = np.maximum(located.weights(), LEAST_WEIGHT)
     first = np.take_along_axis(values, weights.argmax(axis=1)[:, None, None], axis=1)[:, 0]
     b = [weights[:, k : k + 1] for k in range(3)]

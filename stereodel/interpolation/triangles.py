@@ -50,11 +50,7 @@ def lengths(vectors: FloatArray) -> FloatArray:
 
 
 class LocatedQueries:
-    """Queries, each with the triangle that contains it.
-
-    corners: (m, 3), corners of each query's triangle, counterclockwise.
-    queries: (m, 2).
-    """
+    """Queries (m, 2), each with the corners (m, 3) of the triangle that contains it, counterclockwise."""
 
     def __init__(self, sites: PrecisePoints, corners: AnyIndices, queries: FloatArray) -> None:
         self.sites, self.corners = sites, corners
@@ -96,19 +92,13 @@ class LocatedQueries:
         return weights
 
     def slope(self, derivatives: list[FloatArray]) -> FloatArray:
-        """Gradient (m, d, k) of a function of the barycentric coordinates.
+        """Gradient (m, d, k) of a function of the barycentric coordinates, from its derivatives by each, three (m, k).
 
-        Parameters
-        ----------
-        derivatives : list of three (m, k) arrays
-            Its derivatives by each of them, as if they were independent; only differences count, as their sum is one.
-
-        Notes
-        -----
-        With edges d, e from the first corner and N = d × e the function has the slope G = (f_d e×N + f_e N×d) / N² in
-        the plane of the triangle. On the sphere the ray through q meets that plane at tq with t = (a·N)/(q·N), which
-        gives t(G − N (G·q)/(q·N)), a tangent vector. Where the side opposite the first corner is by far the shortest, d
-        and e are nearly the same; the corner opposite the longest side takes its part.
+        These are as if the coordinates were independent; only differences count, as their sum is one. With edges d, e
+        from the first corner and N = d × e the function has the slope G = (f_d e×N + f_e N×d) / N² in the plane of the
+        triangle. On the sphere the ray through q meets that plane at tq with t = (a·N)/(q·N), which gives t(G − N
+        (G·q)/(q·N)), a tangent vector. Where the side opposite the first corner is by far the shortest, d and e are
+        nearly the same; the corner opposite the longest side takes its part.
         """
         a = self.corners[:, 0]
         d, e = (self.sites.minus(self.corners[:, k], self.sites, a) for k in (1, 2))

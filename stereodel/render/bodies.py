@@ -76,16 +76,8 @@ class Mark:
 
 
 def bodies_of(placed: PlacedScene, points_per_unit: float) -> Iterator[Body]:
-    """The bodies of a scene in its own space, in the order in which they were added.
+    """The bodies of a scene in its own space, in the order in which they were added; lines are as thick as on the page.
 
-    Parameters
-    ----------
-    placed : PlacedScene
-    points_per_unit : float
-        Scale of the page, which determines the thickness of lines in space.
-
-    Notes
-    -----
     Lines on the ball lie `CURVE_ERROR` radii above those with the preceding name: chords of the same arc may be that
     far apart, and later names cover earlier ones, as on the page. Regions lie above all triangles of the ball, each
     above its predecessors.

@@ -66,8 +66,6 @@ def parted(docstring: str) -> tuple[str, str]:
 def captioned(page: Page) -> Page:
     """A page with its title and description below the picture; its width is unchanged, its height grows as needed.
 
-    page: the page to extend. Type has `LABEL_SIZE` points, and lines are broken by their measured widths.
-
     >>> page = Page((0.0, 2.0, 0.0, 1.0), width=200.0, title="A title", description="A line " * 12)
     >>> taller = captioned(page)
     >>> taller.width, [label.text for label in taller.labels]

@@ -192,7 +192,6 @@ def run_script(
 ) -> None:
     """Write the files and report where; errors become a message and exit code 1.
 
-    argv: arguments; by default those of the process.
     source: a function defined in the script; files go to `out` next to the script's folder by default.
     kind, usual_size: kind of files and default width, for the help.
     flags: additional Boolean options of `Drawing.save`, with their help.

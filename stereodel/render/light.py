@@ -39,12 +39,10 @@ RINGS, SPOKES = 25, 19
 
 @dataclass(frozen=True)
 class Gradient:
-    """A radial gradient over the unit disc.
+    """A radial gradient over the unit disc, x right, y up: from 0 at the focus to 1 at the last circle.
 
-    focus, center: the point to which circles shrink, and the centre of the last circle; x right, y up.
-    radius: radius of the last circle.
-    offsets: from 0 at the focus to 1 at the last circle.
-    brightness: factors on a colour at the offsets; linear in between.
+    focus, center: the point to which circles shrink, and the centre of the last circle.
+    offsets, brightness: factors on a colour at the offsets; linear in between.
     """
 
     focus: tuple[float, float]

@@ -40,12 +40,7 @@ BISECTIONS: Final = 24
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles that share corners.
-
-    points: (n, 3).
-    normals: (n, 3), unit vectors outward.
-    faces: (m, 3).
-    """
+    """Triangles (m, 3) that share corners (n, 3), whose normals are unit vectors outward."""
 
     points: FloatArray
     normals: FloatArray

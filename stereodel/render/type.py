@@ -243,10 +243,7 @@ class _Pen(BasePen):  # type: ignore[misc]
 
 @dataclass(frozen=True, eq=False)
 class Subset:
-    """The subset of a font used in a file, as a font.
-
-    glyphs: characters of each glyph, by its index in the font.
-    """
+    """The subset of a font used in a file, as a font; `glyphs` has the characters of each glyph by its index."""
 
     font: Face
     glyphs: dict[int, str] = field(default_factory=dict)

@@ -17,13 +17,10 @@ from stereodel.render.svg import svg
 
 
 def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
-    """Write a page as SVG or PDF, by the extension of `path`; `Page.save` provides the images that it needs.
+    """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`.
 
-    path: file to write; an existing file is replaced once the new one is complete.
-    pictures: an image of the whole page for each of `page.pictured`, clipped to its regions.
-    Returns the file.
-    Raises ValueError if the extension is not .svg or .pdf, or the number of images is wrong; OSError if the file cannot
-        be written.
+    ValueError if the extension is not .svg or .pdf, or the number of images is wrong; OSError if the file cannot be
+    written.
     """
     target = Path(path)
     match target.suffix.lower():

@@ -42,14 +42,6 @@ def _larger(p: FloatArray, q: FloatArray, r: FloatArray, s: FloatArray) -> Float
 class NearMisses:
     """A better answer than the exact one for queries just outside the hull, and for those in degenerate triangles.
 
-    Parameters
-    ----------
-    triangulation : PlanarDelaunay
-    transform : (m, 3, 2) array
-        From `transforms`.
-
-    Notes
-    -----
     Let x have barycentric coordinates of at least -tol in a triangle, and f be a side of the hull. All corners lie on
     one side of f and within the hull's width w of it, so x is at most 2·tol·w beyond f. The hull's centroid is at least
     w/3 inside (Minkowski and Radon), so x moved by 8·tol of its way there is inside f: only queries that come into the

@@ -26,11 +26,7 @@ class Options:
 
 
 def as_options(qhull_options: Any, furthest_site: Any, incremental: bool) -> Options:
-    """The options of a constructor, or what is wrong with them.
-
-    Raises TypeError if `qhull_options` is neither None nor a string; ValueError for furthest sites, options that are
-        not `KNOWN`, and options that Qhull refuses in incremental mode.
-    """
+    """The options of a constructor; TypeError or ValueError for what has no meaning here or that Qhull refuses."""
     if furthest_site:
         raise ValueError("furthest_site=True is not supported; use the class of scipy.spatial for furthest sites")
     if not isinstance(qhull_options, str | None):

@@ -40,8 +40,6 @@ class Paraboloid(NamedTuple):
     def equations(self, corners: FloatArray) -> FloatArray:
         """Planes (m, 4) of lifted triangles (m, 3, 2): unit normal that points down, and offset.
 
-        Notes
-        -----
         With d = b − a, e = c − a and the doubled area A = d×e, the circumcentre is a + q/2A where
         q = (e_y|d|² − d_y|e|², d_x|e|² − e_x|d|²), and the plane is that of the paraboloid's gradient there: its normal
         is that of (scale·(q + 2Aa), −A). Nothing is divided by the area, so that slivers have planes as well.

@@ -163,17 +163,8 @@ def as_direction(point: npt.ArrayLike, name: str = "point") -> FloatArray:
 
 
 def as_sphere_points(points: npt.ArrayLike, name: str = "points") -> FloatArray:
-    """Points of the sphere as directions, (n, 3).
+    """Directions (n, 3) of points given as rows (lon, lat) in degrees or as vectors, which error messages call `name`.
 
-    Parameters
-    ----------
-    points : array_like, shape (n, 2) or (n, 3)
-        Rows (lon, lat) in degrees, or non-zero vectors.
-    name : str
-        What error messages call them.
-
-    Examples
-    --------
     >>> print(as_sphere_points([(90.0, 0.0), (0.0, -90.0)]))
     [[ 0.  1.  0.]
      [ 0.  0. -1.]]

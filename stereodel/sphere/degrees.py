@@ -13,11 +13,9 @@ from stereodel._double_double import DoubleDouble
 
 
 def sin_cos_degrees(angle: FloatArray) -> tuple[DoubleDouble, DoubleDouble]:
-    """Sine and cosine of angles in degrees.
+    """Sine and cosine of angles in degrees, relative error below 2⁻¹⁰¹, mirrored where the angles are.
 
-    angle: any finite number of degrees.
-    Returns sine, cosine, relative error below 2⁻¹⁰¹; exact at multiples of 90°, of one value at odd multiples of 45°,
-        and mirrored where the angles are.
+    They are exact at multiples of 90°, one of the two at odd multiples of 45°.
 
     >>> import numpy as np
     >>> sine, cosine = sin_cos_degrees(np.array([30.0, 180.0]))

@@ -14,9 +14,8 @@ from stereodel.sphere.degrees import sin_cos_degrees
 def tangent_frame(point: npt.ArrayLike, name: str = "point") -> DoubleDouble:
     """Rows east, north, up at a point, shape (3, 3), errors below 2⁻⁹⁷.
 
-    point: (lon, lat) in degrees, or a direction. At a pole the axes are the limit along the given longitude, and along
-        longitude 0 for a direction: at the north pole north points toward lon + 180°, at the south pole toward lon.
-    name: what error messages call it.
+    At a pole the axes are the limit along the longitude of (lon, lat), for a direction along longitude 0: at the north
+    pole north points toward lon + 180°, at the south pole toward lon. Error messages call the point `name`.
     """
     values = as_direction_or_lonlat(point, name)
     if values.shape == (2,):

@@ -77,12 +77,9 @@ def _authalic_factors(t: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
 
 
 def sin_cos_on_sphere(latitude: FloatArray, kind: Latitude) -> tuple[DoubleDouble, DoubleDouble]:
-    """Sine and cosine of the latitude on the sphere, from geodetic latitude in degrees.
+    """Sine and cosine of the latitude on the sphere, from geodetic latitude in degrees, relative error below 2⁻⁸⁴.
 
-    latitude: in [−90, 90].
-    kind: "geodetic" for the direction from the centre, "authalic" for the sphere of equal area.
-    Returns sine, cosine, relative error below 2⁻⁸⁴; exact at the equator and the poles once rounded, and mirrored where
-        latitudes are.
+    They are exact at the equator and the poles once rounded, and mirrored where latitudes are.
     """
     sine, cosine = sin_cos_degrees(latitude)
     if kind == "geodetic":

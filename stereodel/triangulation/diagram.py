@@ -40,23 +40,6 @@ class Diagram:
 
     The cell of a site is a range of entries: its vertices counterclockwise from the lowest, and beside each the site
     beyond the ridge that leaves it. Ridges and polygons are read off these in O(n).
-
-    Attributes
-    ----------
-    points : (n, d) array
-        The sites as given.
-    vertices : (v, d) array
-        Circumcentres, numbered by the three lowest sites of each.
-    region_indices, region_offsets : (k,) and (n + 1,) arrays of int
-        The cell of site i has the vertices ``region_indices[region_offsets[i]:region_offsets[i + 1]]``.
-    region_neighbors : (k,) array of int32
-        The site beyond the ridge from each entry's vertex to the next one's.
-    point_region : (n,) array of int32
-        The region of each point: its own number, for a duplicate that of the kept point.
-    simplex_vertex : (m,) array of int32
-        The vertex of each Delaunay triangle; exactly cocircular neighbours share one.
-    latitude : str or None
-        The kind of latitude by which the points were given, None if they were not given by one.
     """
 
     points: FloatArray

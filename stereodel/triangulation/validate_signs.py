@@ -22,10 +22,7 @@ _RADIAL_BOUND = 300 * UNIT_ROUNDOFF**2
 
 
 class PlaneSigns:
-    """Orientation and incircle signs of points of the plane, given by their numbers.
-
-    points: (n, 2).
-    """
+    """Orientation and incircle signs of points (n, 2) of the plane, given by their numbers."""
 
     def __init__(self, points: FloatArray) -> None:
         self.points = points
@@ -96,10 +93,7 @@ def _circle_integers(p: BigIntegers) -> SignArray:
 
 
 class SphereSigns:
-    """Signs on the exact rays through points of space, given by their numbers.
-
-    points: (n, 3), non-zero; any length.
-    """
+    """Signs on the exact rays through points (n, 3) of space, of any length but zero, given by their numbers."""
 
     def __init__(self, points: FloatArray) -> None:
         self.points = points
