@@ -25,6 +25,7 @@ from typing import Any
 
 import natural_earth
 import numpy as np
+from data_files import dump
 from PIL import Image
 
 from stereodel._files import replacing
@@ -161,7 +162,7 @@ def make(name: str, folder: Path) -> dict[str, Any]:
     build, entry = SETS[name]
     (package,) = folder.rglob(entry["archive"])
     columns = build(package)
-    return described(f"{name}.npz.xz", stored.dump(columns), len(columns["lon"]), package, entry)
+    return described(f"{name}.npz.xz", dump(columns), len(columns["lon"]), package, entry)
 
 
 def make_marble(folder: Path) -> dict[str, Any]:

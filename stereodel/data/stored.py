@@ -11,13 +11,11 @@ import hashlib
 import io
 import json
 import lzma
-from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
 from typing import Any, Final
 
 import numpy as np
-import numpy.typing as npt
 
 from stereodel._arrays import Bytes, FloatArray, IntArray, Texts
 
@@ -51,20 +49,6 @@ def load(name: str) -> dict[str, Bytes]:
     """The stored arrays of a set."""
     with np.load(io.BytesIO(lzma.decompress(read(name)))) as archive:
         return dict(archive)
-
-
-def dump(columns: Mapping[str, Sequence[int] | npt.NDArray[np.integer[Any]] | Sequence[str]]) -> bytes:
-    """The file of a set: columns of integers of 32 bits, or of texts without line breaks."""
-    packed: dict[str, Any] = {}
-    for name, values in columns.items():
-        array = np.asarray(values)
-        if array.dtype.kind == "U":
-            packed[name] = np.frombuffer("\n".join(array.tolist()).encode(), dtype=np.uint8)
-        else:
-            packed[name] = np.ascontiguousarray(array.astype("<i4")[:, None].view(np.uint8).T)
-    archive = io.BytesIO()
-    np.savez(archive, **packed)
-    return lzma.compress(archive.getvalue(), preset=9 | lzma.PRESET_EXTREME)
 
 
 def integers(planes: Bytes) -> IntArray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import IntEnum
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 
@@ -111,13 +111,6 @@ class Layout:
         if any(layer is Layer.GROUND and height < -slack for height, layer in heights):
             return Layer.UNDER
         return Layer.OVER if any(layer is Layer.SHEET and height >= -slack for height, layer in heights) else None
-
-
-class SceneItem(Protocol):
-    """Interface of the items of a scene."""
-
-    def lay(self, layout: Layout) -> Iterator[Laid]:
-        """Its visible parts as page items with their layers."""
 
 
 def laid_out(items: Sequence[SceneItem], layout: Layout) -> tuple[Item, ...]:
@@ -283,6 +276,10 @@ class SceneLabel:
         if self.always or layout.place(point) is not Place.BEHIND:
             x, y = layout.on_page(point)
             yield Layer.LABEL, replace(self.label, anchor=(float(x), float(y)))
+
+
+SceneItem = SceneLines | SceneDots | SceneRegion | SceneSheet | SceneBall | SceneLabel
+"""Its `lay` yields its visible parts as page items with their layers."""
 
 
 def _newell(corners: FloatArray) -> FloatArray:

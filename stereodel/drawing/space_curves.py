@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -31,40 +30,6 @@ from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import turned, units
 
 LONGEST_PIECE_RAD = np.pi / 6
-
-
-class Curve(Protocol):
-    """Common interface of `Segment` and `CircleArc`; the parameter t runs from `start` to `stop`."""
-
-    @property
-    def start(self) -> float:
-        """First parameter."""
-
-    @property
-    def stop(self) -> float:
-        """Last parameter."""
-
-    @property
-    def closed(self) -> bool:
-        """Whether the curve ends where it starts."""
-
-    def sample(self, t: npt.ArrayLike) -> FloatArray:
-        """Points (..., 3) at parameters (...)."""
-
-    def beziers(self) -> FloatArray:
-        """Connected cubic Béziers, (k, 4, 3)."""
-
-    def moved(self, matrix: FloatArray, origin: FloatArray) -> Curve:
-        """The image under x → matrix·(x − origin)."""
-
-    def part(self, start: float, stop: float) -> Curve:
-        """The piece between two parameters."""
-
-    def level_parameters(self, normal: FloatArray, level: float) -> FloatArray:
-        """Where normal·x = level, in the open interval of the parameter."""
-
-    def quadric_parameters(self, weights: FloatArray, level: float) -> FloatArray:
-        """Where Σ weightsᵢ·xᵢ² = level, in the open interval of the parameter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,6 +195,10 @@ class CircleArc:
         first = complex(form(c, u), -form(c, v))
         second = complex((form(u, u) - form(v, v)) / 4, -form(u, v) / 2)
         return _within(self, trigonometric_roots(constant, first, second), period=True)
+
+
+Curve = Segment | CircleArc
+"""Its parameter t runs from `start` to `stop`."""
 
 
 def linear_roots(constant: float, cosine: float, sine: float) -> list[float]:

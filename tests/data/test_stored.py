@@ -8,10 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from stereodel.data import stored
+from tools.data_files import dump
 
 
 def unpacked(columns):
-    return dict(np.load(io.BytesIO(lzma.decompress(stored.dump(columns)))))
+    return dict(np.load(io.BytesIO(lzma.decompress(dump(columns)))))
 
 
 @settings(max_examples=15, deadline=None)
@@ -40,4 +41,4 @@ def test_decimals_are_what_their_text_says(values):
 
 def test_the_same_bytes_every_time():
     columns = {"n": np.arange(1000), "t": ["a", "ä"]}
-    assert stored.dump(columns) == stored.dump(columns)
+    assert dump(columns) == dump(columns)
