@@ -202,9 +202,9 @@ def test_every_part_is_in_the_order():
 
 
 def test_a_wrong_arrow_is_seen():
-    assert wrong_arrows({"stereodel.sphere.arcs": ["stereodel.projections.gnomonic"]})
+    assert wrong_arrows({"stereodel.sphere.arcs": ["stereodel.projections.azimuthal"]})
     assert wrong_arrows({"stereodel.predicates": ["stereodel"]})
-    assert not wrong_arrows({"stereodel.projections.gnomonic": ["stereodel.sphere.arcs"]})
+    assert not wrong_arrows({"stereodel.projections.azimuthal": ["stereodel.sphere.arcs"]})
 
 
 def imported_at_head(path):
@@ -265,7 +265,7 @@ def test_only_pictures_and_cli_use_more_than_numpy_and_scipy():
     }
     # In the function that decodes the picture; where arrays of xarray get their accessor; where a class is a widget.
     assert foreign == {
-        "stereodel.data.marble imports PIL",
+        "stereodel.data.sets imports PIL",
         "stereodel.xarray imports xarray",
         "stereodel.web.widget imports anywidget",
         "stereodel.web.widget imports traitlets",

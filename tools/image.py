@@ -29,8 +29,7 @@ from stereodel._arrays import BoolArray, FloatArray, Pixels
 from stereodel._files import replacing
 from stereodel.drawing.page import Page
 from stereodel.render.provenance import library_version
-from stereodel.render.rows import pixel_hash
-from stereodel.render.text import LabelLayer
+from stereodel.render.rows import LabelLayer, pixel_hash
 from tools.fields import fields_of, place_in
 
 Arrays = Mapping[str, npt.NDArray[Any]]

@@ -24,9 +24,9 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, as_directions, as_floats, as_scalar, read_only
+from stereodel._double_double import by_blocks
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.sphere import angular_distance
-from stereodel.sphere.chunks import by_blocks
 from stereodel.sphere.coordinates import as_sphere_points
 from stereodel.sphere.vectors import units
 

@@ -15,8 +15,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._double_double import DoubleDouble
-from stereodel.conformal.biquaternions import Biquaternion
-from stereodel.conformal.complex_pairs import Complex
+from stereodel.conformal.biquaternions import Biquaternion, Complex
 
 Quaternion = tuple[int, int, int, int]
 

@@ -6,8 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._double_double import DoubleDouble, unit
-from stereodel.conformal.biquaternions import Spinors, from_spinors
-from stereodel.conformal.complex_pairs import Complex
+from stereodel.conformal.biquaternions import Complex, Spinors, from_spinors
 from stereodel.conformal.moebius import MoebiusMap
 from stereodel.constants import UNDECIDED
 from stereodel.sphere.coordinates import as_sphere_points

@@ -4,7 +4,6 @@ Each is read on first use, checked against its SHA-256, and never changes afterw
 licences, see `sources`, and README.md in this folder.
 """
 
-from stereodel.data.marble import blue_marble
 from stereodel.data.natural_earth import (
     Borders,
     Coastlines,
@@ -19,7 +18,7 @@ from stereodel.data.natural_earth import (
     land,
     rivers,
 )
-from stereodel.data.sets import Airports, Cities, Stars, airports, cities, sources, stars
+from stereodel.data.sets import Airports, Cities, Stars, airports, blue_marble, cities, sources, stars
 
 __all__ = [
     "Airports",

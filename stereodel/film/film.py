@@ -30,8 +30,7 @@ from stereodel.film.progress import counting
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe
-from stereodel.render.caption import caption_of, script_of
-from stereodel.render.figure import run_script
+from stereodel.render.figure import caption_of, run_script, script_of
 from stereodel.render.sizes import LARGEST_SIZE, pixel_height
 
 T = TypeVar("T")

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import AnyIndices, BoolArray, FloatArray, as_levels, as_values, read_only
 from stereodel._docs import shared
-from stereodel.interpolation.values import FAMILY, PrecisePoints, one_value_a_place
+from stereodel.interpolation.interpolator import FAMILY, PrecisePoints, one_value_a_place
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.lonlat import as_told
 from stereodel.triangulation.dispatch import Triangulation, as_triangulation, open_triangles

@@ -7,9 +7,8 @@ import numpy as np
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._docs import shared
 from stereodel.curves.ragged import offsets_of
-from stereodel.interpolation.interpolator import TriangleInterpolator
+from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator
 from stereodel.interpolation.triangles import LocatedQueries
-from stereodel.interpolation.values import FAMILY
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
 
 

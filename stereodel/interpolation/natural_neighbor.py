@@ -7,7 +7,7 @@ import numpy as np
 from stereodel import _kernel
 from stereodel._arrays import FloatArray, Indices
 from stereodel._docs import shared
-from stereodel.interpolation.values import FAMILY, PrecisePoints
+from stereodel.interpolation.interpolator import FAMILY, PrecisePoints
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
 from stereodel.triangulation import SphericalDelaunay
 from stereodel.triangulation.dispatch import threads_of

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray
 from stereodel._docs import shared
-from stereodel.interpolation.values import FAMILY
+from stereodel.interpolation.interpolator import FAMILY
 from stereodel.interpolation.weights import Shares, WeightedInterpolator
 from stereodel.triangulation.dispatch import Triangulation
 

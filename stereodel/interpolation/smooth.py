@@ -8,10 +8,9 @@ import numpy.typing as npt
 from stereodel._arrays import AnyIndices, FloatArray, as_values, locked
 from stereodel._docs import shared
 from stereodel.interpolation.gradients import fit_gradients
-from stereodel.interpolation.interpolator import TriangleInterpolator
+from stereodel.interpolation.interpolator import FAMILY, TriangleInterpolator, one_value_a_place
 from stereodel.interpolation.side_vertex import side_vertex, side_vertex_slope
 from stereodel.interpolation.triangles import LocatedQueries, dot
-from stereodel.interpolation.values import FAMILY, one_value_a_place
 from stereodel.triangulation.dispatch import Triangulation
 
 

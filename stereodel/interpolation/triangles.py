@@ -12,7 +12,7 @@ from stereodel import _double_double as double_double
 from stereodel._arrays import AnyIndices, FloatArray
 from stereodel._double_double import DoubleDouble
 from stereodel.constants import NEEDLE, PLAIN_SQUARES, THIN_TRIANGLE
-from stereodel.interpolation.values import PrecisePoints
+from stereodel.interpolation.interpolator import PrecisePoints
 
 
 def cross2(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -1,7 +1,6 @@
 """Projections of the sphere to a plane, and the rectangle lift."""
 
-from stereodel.projections.gnomonic import Gnomonic
-from stereodel.projections.orthographic import Orthographic
+from stereodel.projections.azimuthal import Gnomonic, Orthographic
 from stereodel.projections.plane_curves import Conic, PlaneCircle, PlaneLine
 from stereodel.projections.rectangle_lift import RectangleLift
 from stereodel.projections.stereographic import Stereographic

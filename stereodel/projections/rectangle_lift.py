@@ -9,9 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_lengths, as_points, as_scalar, as_vectors
-from stereodel._double_double import DoubleDouble, dot
+from stereodel._double_double import DoubleDouble, by_blocks, dot
 from stereodel.projections.stereographic import Stereographic
-from stereodel.sphere.chunks import by_blocks
 
 
 @dataclass(frozen=True)

@@ -9,15 +9,14 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, IntArray, as_choice, as_directions, as_lengths, as_vectors
-from stereodel._double_double import DoubleDouble, dot, stack, where
+from stereodel._double_double import DoubleDouble, by_blocks, dot, stack, where
 from stereodel.constants import STORED_ERROR
+from stereodel.projections.azimuthal import TangentPlane
 from stereodel.projections.plane_curves import PlaneCircle, PlaneLine
-from stereodel.projections.tangent_plane import TangentPlane
 from stereodel.sphere import SphereCircle
-from stereodel.sphere.chunks import by_blocks
+from stereodel.sphere.circles import light_cone, shift_exponent
 from stereodel.sphere.coordinates import scaled
-from stereodel.sphere.heights import light_cone, shift_exponent
-from stereodel.sphere.quaternions import transform
+from stereodel.sphere.rotations import transform
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,8 @@
 
 Stages are streamed: after the triangles, each consumes and produces rows from the top, so that a picture is drawn,
 labelled and written a few rows at a time and memory does not grow with the square of its width. SVG and PDF are written
-from the page itself, except regions in very many colours, which they hold as images.
+from the page itself, except regions in very many colours, which they hold as images. They have the page's size and
+contain no date, version or random identifier: the same page always gives the same bytes.
 
 `stereodel.drawing.Page` imports this module when it is saved or drawn.
 """
@@ -12,7 +13,7 @@ from the page itself, except regions in very many colours, which they hold as im
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Final
@@ -24,11 +25,11 @@ from stereodel._files import replacing
 from stereodel.drawing.fonts import missing_characters, warn_of_missing
 from stereodel.drawing.page import Page
 from stereodel.render.gl import OpenGLError
+from stereodel.render.pdf import pdf
 from stereodel.render.png import png_chunks
-from stereodel.render.rows import PixelDigest, Renderer, bare_rows
+from stereodel.render.rows import PixelDigest, Renderer, bare_rows, labelled
 from stereodel.render.sizes import as_width, pixel_height, print_pixels
-from stereodel.render.text import labelled
-from stereodel.render.vector import save_vector
+from stereodel.render.svg import svg
 
 ENDINGS: Final = (".png", ".svg", ".pdf")
 
@@ -134,3 +135,22 @@ def write_png(rows: Iterable[Pixels], page: Page, target: Path, width: int) -> N
     lettered, texts = labelled(rows, page, width), {"Title": page.title, "Description": page.description}
     with replacing(target) as temporary, temporary.open("wb") as file:
         file.writelines(png_chunks(lettered, width, pixel_height(page, width), page_width=page.width, texts=texts))
+
+
+def save_vector(page: Page, path: str | os.PathLike[str], *, pictures: Sequence[Pixels] = ()) -> Path:
+    """Write a page as SVG or PDF, by the extension, with an image of the whole page for each of `page.pictured`.
+
+    ValueError if the extension is not .svg or .pdf, or the number of images is wrong; OSError if the file cannot be
+    written.
+    """
+    target = Path(path)
+    match target.suffix.lower():
+        case ".svg":
+            data = svg(page, pictures).encode()
+        case ".pdf":
+            data = pdf(page, pictures)
+        case _:
+            raise ValueError(f"path must end in .svg or .pdf, got {target.name!r}")
+    with replacing(target) as temporary:
+        temporary.write_bytes(data)
+    return target

@@ -22,10 +22,9 @@ from stereodel.drawing.solid import Solid
 from stereodel.render import gl
 from stereodel.render.bodies import ROUGHNESS
 from stereodel.render.glb import depths, glb_bytes, to_trimesh
-from stereodel.render.rows import SUPERSAMPLING, averaged, over_white
+from stereodel.render.rows import SUPERSAMPLING, averaged, labelled, over_white
 from stereodel.render.save import write_png
 from stereodel.render.sizes import as_width, pixel_height
-from stereodel.render.text import labelled
 
 __all__ = ["draw_solid", "save_solid", "to_trimesh"]
 

@@ -8,7 +8,7 @@ import scipy.spatial
 
 from stereodel import triangulation as exact
 from stereodel._arrays import FloatArray, IntArray, as_floats, as_points, as_scalar
-from stereodel.spatial.growing import other_dimensions
+from stereodel.spatial.compatibility import other_dimensions
 
 
 class SphericalVoronoi(scipy.spatial.SphericalVoronoi):

@@ -8,7 +8,7 @@ import numpy as np
 import scipy.spatial
 
 from stereodel._arrays import FloatArray, Indices, IntArray
-from stereodel.spatial.growing import GrowingPoints
+from stereodel.spatial.compatibility import GrowingPoints
 from stereodel.triangulation import PlanarVoronoi
 
 

@@ -8,12 +8,10 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, as_count, as_directions, as_scalar, read_only
-from stereodel._double_double import DoubleDouble, cross, dot, unit
+from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, unit, where
 from stereodel.constants import STORED_ERROR, UNDECIDED
-from stereodel.sphere.chunks import by_blocks
-from stereodel.sphere.coordinates import as_direction
+from stereodel.sphere.coordinates import as_direction, tangent_frame
 from stereodel.sphere.degrees import sin_cos_degrees
-from stereodel.sphere.frames import tangent_frame
 
 _NEAR_POINT = 0.9  # |cos| of the angular radius beyond which 1 − n·x is taken from the chord
 
@@ -185,3 +183,34 @@ def on_circle(circle: SphereCircle, point: DoubleDouble) -> DoubleDouble:
     normal, offset, radius = circle.exact_parts()
     across = point - normal * dot(point, normal)
     return normal * offset + across / dot(across, across).sqrt() * radius
+
+
+def one_plus_minus(height: DoubleDouble, across: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
+    """1 + c and 1 − c of unit vectors with height c along an axis and |t|² = `across`, with small relative errors.
+
+    Near the axis one of the two is |t|² over the other, t the part of the vector across the axis; it is never formed by
+    subtraction, so points and circles next to a pole keep their digits.
+    """
+    upper = height.hi >= 0
+    large = 1.0 + where(upper, height, -height)
+    small = across / large
+    return where(upper, large, small), where(upper, small, large)
+
+
+def light_cone(normal: DoubleDouble, cosine: DoubleDouble, sine: DoubleDouble) -> tuple[DoubleDouble, DoubleDouble]:
+    """n_z + cos α and n_z − cos α of the circle n·x = cos α, n of shape (3,).
+
+    As a vector (n, cos α) of Minkowski space these are its light-cone coordinates, with
+    n_x² + n_y² + (n_z + cos α)(n_z − cos α) = sin² α. Each is written as a difference of whichever of 1 ± n_z and
+    1 ± cos α are small, so that a tiny circle near the axis keeps its relative size.
+    """
+    n_plus, n_minus = one_plus_minus(normal[2], normal[0] * normal[0] + normal[1] * normal[1])
+    d_plus, d_minus = one_plus_minus(cosine, sine * sine)
+    plus = n_plus - d_minus if float(n_plus.hi + d_minus.hi) < 2 else d_plus - n_minus
+    minus = d_minus - n_minus if float(d_minus.hi + n_minus.hi) < 2 else n_plus - d_plus
+    return plus, minus
+
+
+def shift_exponent(value: DoubleDouble, exponent: np.ndarray[tuple[int, ...], np.dtype[np.int32]]) -> DoubleDouble:
+    """Times a power of two, exactly unless it underflows."""
+    return DoubleDouble(np.ldexp(value.hi, exponent), np.ldexp(value.lo, exponent))

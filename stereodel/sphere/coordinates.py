@@ -1,4 +1,4 @@
-"""Longitude and latitude to unit vectors and back.
+"""Longitude and latitude to unit vectors and back, and the axes (east, north, up) at a point.
 
 Axes: x towards (lon 0, lat 0), y towards (90, 0), z towards the north pole. Angles in degrees, in the order (lon, lat).
 """
@@ -21,9 +21,8 @@ from stereodel._arrays import (
     as_plane_or_sphere,
 )
 from stereodel._calls import by_name
-from stereodel._double_double import DoubleDouble, stack
+from stereodel._double_double import DoubleDouble, by_blocks, stack, unit
 from stereodel._threads import thread_count
-from stereodel.sphere.chunks import by_blocks
 from stereodel.sphere.degrees import angle_degrees, sin_cos_degrees
 from stereodel.sphere.latitudes import KINDS, Latitude, latitude_of, sin_cos_on_sphere
 
@@ -171,3 +170,35 @@ def as_sphere_points(points: npt.ArrayLike, name: str = "points") -> FloatArray:
     """
     rows = as_plane_or_sphere(points, name)
     return rows if rows.shape[1] == 3 else lonlat_to_xyz(as_lonlat(rows, name))
+
+
+def tangent_frame(point: npt.ArrayLike, name: str = "point") -> DoubleDouble:
+    """Rows east, north, up at a point, shape (3, 3), errors below 2⁻⁹⁷.
+
+    At a pole the axes are the limit along the longitude of (lon, lat), for a direction along longitude 0: at the north
+    pole north points toward lon + 180°, at the south pole toward lon. Error messages call the point `name`.
+    """
+    values = as_direction_or_lonlat(point, name)
+    if values.shape == (2,):
+        sines, cosines = sin_cos_degrees(values)
+        return _frame(sines[0], cosines[0], sines[1], cosines[1])
+    up = unit(values)
+    horizontal = scaled(values[:2])[0]
+    if not horizontal.any():
+        horizontal = np.array([1.0, 0.0])
+    x, y = DoubleDouble(horizontal[0]), DoubleDouble(horizontal[1])
+    rho = (x * x + y * y).sqrt()
+    sin_lon, cos_lon = y / rho, x / rho
+    return _frame(sin_lon, cos_lon, up[2], up[0] * cos_lon + up[1] * sin_lon)
+
+
+def _frame(sin_lon: DoubleDouble, cos_lon: DoubleDouble, sin_lat: DoubleDouble, cos_lat: DoubleDouble) -> DoubleDouble:
+    zero = DoubleDouble(0.0)
+    rows = [
+        [-sin_lon, cos_lon, zero],
+        [-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat],
+        [cos_lat * cos_lon, cos_lat * sin_lon, sin_lat],
+    ]
+    return DoubleDouble(
+        np.array([[float(c.hi) for c in row] for row in rows]), np.array([[float(c.lo) for c in row] for row in rows])
+    )

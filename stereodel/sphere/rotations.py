@@ -1,4 +1,8 @@
-"""Rotations of the sphere, each defined exactly by the direction of a quaternion of four doubles."""
+"""Rotations of the sphere, each defined exactly by the direction of a quaternion of four doubles.
+
+Quaternions (w, x, y, z) are computed in double-double. One of any length represents the rotation v ↦ q v q* / |q|²,
+counterclockwise about (x, y, z).
+"""
 
 from __future__ import annotations
 
@@ -10,13 +14,75 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_matrix, as_quaternion, as_scalar, as_vectors
-from stereodel._double_double import DoubleDouble, stack, unit
-from stereodel.constants import MATRIX_ERROR
-from stereodel.sphere import quaternions
-from stereodel.sphere.chunks import by_blocks
+from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, stack, unit
+from stereodel.constants import MATRIX_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, scaled
 from stereodel.sphere.degrees import sin_cos_degrees
 from stereodel.sphere.vectors import determinant
+
+_CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])
+
+
+def multiply(p: DoubleDouble, q: DoubleDouble) -> DoubleDouble:
+    """The product p q of quaternions (..., 4): as rotations, first q, then p."""
+    pw, px, py, pz = (p[..., k] for k in range(4))
+    qw, qx, qy, qz = (q[..., k] for k in range(4))
+    return stack(
+        [
+            pw * qw - px * qx - py * qy - pz * qz,
+            pw * qx + px * qw + py * qz - pz * qy,
+            pw * qy - px * qz + py * qw + pz * qx,
+            pw * qz + px * qy - py * qx + pz * qw,
+        ]
+    )
+
+
+def conjugate(q: DoubleDouble) -> DoubleDouble:
+    """The inverse rotation, exactly."""
+    return DoubleDouble(q.hi * _CONJUGATE, q.lo * _CONJUGATE)
+
+
+def normalized(q: DoubleDouble) -> DoubleDouble:
+    """The quaternion of length 1."""
+    return q / dot(q, q).sqrt()[..., None]
+
+
+def rotation_matrix(q: DoubleDouble) -> DoubleDouble:
+    """The (3, 3) rotation matrix of one quaternion (4,) of any length, entries with errors below 2⁻¹⁰⁰."""
+    w, x, y, z = (q[k] for k in range(4))
+    ww, xx, yy, zz = w * w, x * x, y * y, z * z
+    rows = [
+        stack([ww + xx - yy - zz, (x * y - w * z) * 2.0, (x * z + w * y) * 2.0]),
+        stack([(x * y + w * z) * 2.0, ww - xx + yy - zz, (y * z - w * x) * 2.0]),
+        stack([(x * z - w * y) * 2.0, (y * z + w * x) * 2.0, ww - xx - yy + zz]),
+    ]
+    matrix = DoubleDouble(np.stack([r.hi for r in rows]), np.stack([r.lo for r in rows]))
+    return matrix / dot(q, q)
+
+
+def transform(matrix: DoubleDouble, vectors: DoubleDouble) -> DoubleDouble:
+    """Matrix (3, 3) times vectors (..., 3)."""
+    columns = [vectors[..., k] for k in range(3)]
+    return stack([sum((matrix[i, k] * columns[k] for k in (1, 2)), matrix[i, 0] * columns[0]) for i in range(3)])
+
+
+def between(a: DoubleDouble, b: DoubleDouble) -> DoubleDouble:
+    """The shortest rotation from unit vector a to b, as a quaternion (4,) of any length.
+
+    (1 + a·b, a × b), with 1 + a·b = |a + b|²/2 and a × b = a × (b ∓ a), so that nothing cancels when the two are
+    nearly equal or nearly antipodal. Antipodal vectors: half a turn about a × eₖ, k the smallest component of a.
+    """
+    total = a + b
+    square = dot(total, total)
+    if float(square.hi) <= UNDECIDED**2:
+        basis = np.eye(3)[int(np.argmin(np.abs(a.hi)))]
+        return stack([DoubleDouble(0.0), *_components(cross(a, DoubleDouble(basis)))])
+    axis = cross(a, total if float(dot(a, b).hi) < 0 else b - a)
+    return stack([square * 0.5, *_components(axis)])
+
+
+def _components(vector: DoubleDouble) -> list[DoubleDouble]:
+    return [vector[k] for k in range(3)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +148,7 @@ class Rotation:
         For antipodal points: half a turn about the normal to `start` and the coordinate axis farthest from it.
         """
         a, b = unit(as_direction(start, "start")), unit(as_direction(end, "end"))
-        return cls.rounded(quaternions.between(a, b))
+        return cls.rounded(between(a, b))
 
     @classmethod
     def from_matrix(cls, matrix: npt.ArrayLike) -> Rotation:
@@ -116,12 +182,12 @@ class Rotation:
 
     def apply(self, vectors: DoubleDouble) -> DoubleDouble:
         """Double-double vectors (..., 3) of length about 1, rotated with an error below 2⁻⁹⁸."""
-        return quaternions.transform(self.exact_matrix, vectors)
+        return transform(self.exact_matrix, vectors)
 
     @cached_property
     def exact_matrix(self) -> DoubleDouble:
         """The (3, 3) matrix in double-double."""
-        return quaternions.rotation_matrix(DoubleDouble(self.quaternion))
+        return rotation_matrix(DoubleDouble(self.quaternion))
 
     @property
     def matrix(self) -> FloatArray:
@@ -132,11 +198,11 @@ class Rotation:
         """The rotation by `other`, then by this one; the exact product rounded once."""
         if not isinstance(other, Rotation):
             return NotImplemented
-        return Rotation.rounded(quaternions.multiply(DoubleDouble(self.quaternion), DoubleDouble(other.quaternion)))
+        return Rotation.rounded(multiply(DoubleDouble(self.quaternion), DoubleDouble(other.quaternion)))
 
     def inverse(self) -> Rotation:
         """The exact inverse."""
-        return Rotation(quaternions.conjugate(DoubleDouble(self.quaternion)).hi)
+        return Rotation(conjugate(DoubleDouble(self.quaternion)).hi)
 
     def __eq__(self, other: object) -> bool:
         """Whether two rotations are exactly the same: quaternions of the same direction, up to sign."""

@@ -16,7 +16,7 @@ from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots, Label, Polygons, Polylines, Stroke
 from stereodel.drawing.style import WHITE
 from stereodel.globe import Globe, Panel, hemispheres, panels
-from stereodel.render.text import LabelLayer
+from stereodel.render.rows import LabelLayer
 from stereodel.sphere import SphereCircle
 
 PARIS = (2.35, 48.86)

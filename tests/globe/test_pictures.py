@@ -17,7 +17,7 @@ from stereodel.globe.chart import Chart
 from stereodel.globe.layers import Image
 from stereodel.globe.raster import RasterOnDisc
 from stereodel.render.rows import SUPERSAMPLING
-from stereodel.render.vector import save_vector
+from stereodel.render.save import save_vector
 from tests.globe.supersampling import noise, zone_plate
 
 render, rasterize = Page.pixels, partial(Page.pixels, renderer="agg")

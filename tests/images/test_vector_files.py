@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
-from stereodel.render.save import region_pictures
-from stereodel.render.vector import save_vector
+from stereodel.render.save import region_pictures, save_vector
 from tests.images.marks import path_of
 from tests.images.page_marks import differences, expected
 from tests.images.read_pdf import read_pdf

@@ -11,9 +11,8 @@ import pytest
 
 from stereodel.drawing.page import Fill, Label, Page, Stroke
 from stereodel.drawing.style import BLACK
-from stereodel.render.caption import caption_of, captioned, parted
-from stereodel.render.figure import Figure
-from stereodel.render.text import LabelLayer
+from stereodel.render.figure import Figure, caption_of, captioned, parted
+from stereodel.render.rows import LabelLayer
 from tests.images.scripts import SCRIPTS
 from tests.render.test_pages import box
 from tools.build import load_drawing

@@ -19,8 +19,7 @@ from stereodel.render import save as saving
 from stereodel.render import text as labels
 from stereodel.render.figure import Figure
 from stereodel.render.pieces import Piece, Pieces, Window
-from stereodel.render.rows import PixelDigest, pixel_hash
-from stereodel.render.text import LabelLayer, labelled
+from stereodel.render.rows import LabelLayer, PixelDigest, labelled, pixel_hash
 from stereodel.render.triangles import triangulate
 from stereodel.sphere import SphereCircle
 

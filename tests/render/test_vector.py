@@ -15,10 +15,9 @@ from stereodel.drawing.page import Dots, Fill, Label, Page, Polylines, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.style import BLACK
 from stereodel.drawing.view import View
-from stereodel.render.rows import agg_rows
+from stereodel.render.rows import LabelLayer, agg_rows
+from stereodel.render.save import save_vector
 from stereodel.render.sizes import pixel_height
-from stereodel.render.text import LabelLayer
-from stereodel.render.vector import save_vector
 from stereodel.sphere import SphereCircle, graticule
 from tests.images.read_svg import read_svg
 

@@ -14,7 +14,7 @@ from stereodel import PlanarDelaunay, check_delaunay, orient2d
 from stereodel.data import airports
 from stereodel.spatial import Delaunay
 from stereodel.spatial.barycentric import transforms
-from stereodel.spatial.paraboloid import Paraboloid
+from stereodel.spatial.delaunay import Paraboloid
 
 SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
 

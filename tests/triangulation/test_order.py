@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stereodel.triangulation.order import insertion_order, spanning_points
+from stereodel.triangulation.hull_insertion import insertion_order, spanning_points
 from stereodel.triangulation.sites import PlaneSites, RaySites
 
 

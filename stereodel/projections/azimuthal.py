@@ -1,0 +1,229 @@
+"""Azimuthal projections: what they share, the gnomonic one, great circles to lines, and the orthographic one.
+
+The orthographic projection is the globe seen from infinitely far away (the views of Figures 10 to 12).
+"""
+
+from __future__ import annotations
+
+from dataclasses import KW_ONLY, dataclass
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from stereodel._arrays import FloatArray, as_direction_or_lonlat, as_directions, as_scalar, as_vectors
+from stereodel._double_double import DoubleDouble, by_blocks, dot, stack, unit
+from stereodel.constants import SEEN_FACE_ON, STORED_ERROR
+from stereodel.projections.plane_curves import Conic, ConicKind
+from stereodel.sphere import SphereCircle
+from stereodel.sphere.coordinates import tangent_frame
+from stereodel.sphere.rotations import transform
+
+
+@dataclass(frozen=True)
+class TangentPlane:
+    """A projection to a plane that touches a sphere, with axes (east, north) at the point of tangency.
+
+    center: (float, float), (lon, lat) in degrees of the point of tangency. At a pole the axes are the limit along
+        `lon`: at the north pole north points toward lon + 180°, at the south pole toward lon. A direction (x, y, z) is
+        accepted too, with lon 0 at the poles.
+    radius: radius R of the sphere, in the unit of the plane. Points of the sphere are directions whatever R is.
+    """
+
+    center: tuple[float, ...]
+    _: KW_ONLY
+    radius: float = 1.0
+
+    def __post_init__(self) -> None:
+        center = as_direction_or_lonlat(self.center, "center")
+        object.__setattr__(self, "center", tuple(center.tolist()))
+        object.__setattr__(self, "radius", as_scalar(self.radius, "radius", low=0.0, open_low=True))
+
+    @cached_property
+    def frame(self) -> DoubleDouble:
+        """Rows east, north, up at the centre, (3, 3), in double-double."""
+        return tangent_frame(self.center, "center")
+
+    def local(self, rows: FloatArray) -> DoubleDouble:
+        """Unit vectors of directions (m, 3) in the axes east, north, up."""
+        return transform(self.frame, unit(rows))
+
+    def world(self, local: DoubleDouble) -> FloatArray:
+        """Vectors (m, 3) from the axes east, north, up to those of the sphere, rounded once."""
+        transposed = DoubleDouble(self.frame.hi.T, self.frame.lo.T)
+        return transform(transposed, local).round() + 0.0
+
+
+def nan_where(outside: np.ndarray[tuple[int, ...], np.dtype[np.bool_]], values: FloatArray) -> FloatArray:
+    """NaN in the rows outside the domain of a map."""
+    return np.where(outside if values.ndim == outside.ndim else outside[..., None], np.nan, values)
+
+
+@dataclass(frozen=True)
+class Gnomonic(TangentPlane):
+    """Projection from the centre of the sphere to the plane that touches it at `center`: d = R tan χ for χ < 90°.
+
+    Parameters
+    ----------
+    center : (float, float)
+        (lon, lat) in degrees of the point of tangency; axes (east, north) as in `Stereographic`.
+    radius : float
+        Radius R of the sphere in the unit of the plane.
+
+    Examples
+    --------
+    >>> view = Gnomonic((0.0, 0.0))
+    >>> print(view.forward([[1.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]))
+    [[ 1.  0.]
+     [nan nan]]
+    >>> radial, tangential = view.scale_factors([1.0, 1.0, 0.0])
+    >>> print(round(float(radial), 12), round(float(tangential), 12))
+    2.0 1.414213562373
+    """
+
+    def forward(self, xyz: npt.ArrayLike) -> FloatArray:
+        """Plane points (..., 2) of directions (..., 3); NaN at 90° from the centre and beyond, and on overflow."""
+        return by_blocks(self._forward, as_directions(xyz, "xyz"))
+
+    def _forward(self, rows: FloatArray) -> FloatArray:
+        local = self.local(rows)
+        far, height = _guarded(local[..., 2])
+        with np.errstate(over="ignore", invalid="ignore"):
+            image = (local[..., :2] / height[..., None]).round() * self.radius + 0.0
+        return nan_where(far | ~np.isfinite(image).all(axis=-1), image)
+
+    def inverse(self, xy: npt.ArrayLike) -> FloatArray:
+        """Unit vectors (..., 3) of plane points (..., 2)."""
+        return by_blocks(self._inverse, as_vectors(xy, 2, "xy"))
+
+    def _inverse(self, rows: FloatArray) -> FloatArray:
+        heights = np.full((len(rows), 1), self.radius)
+        return self.world(unit(np.concatenate([rows, heights], axis=-1)))
+
+    def scale_factors(self, xyz: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """(radial, tangential) scale of `forward`, each (...): R / cos² χ and R / cos χ; NaN at 90° and beyond."""
+        scales = by_blocks(self._scales, as_directions(xyz, "xyz"))
+        return scales[..., 0], scales[..., 1]
+
+    def _scales(self, rows: FloatArray) -> FloatArray:
+        far, height = _guarded(self.local(rows)[..., 2])
+        secant = 1.0 / height
+        return nan_where(far, stack([secant * secant, secant]).round() * self.radius)
+
+    def image_of(self, circle: SphereCircle) -> Conic:
+        """The image of the part of a circle that lies less than 90° from the centre.
+
+        A line for a great circle; otherwise an ellipse, parabola or hyperbola as the circle stays away from, touches
+        (within `STORED_ERROR`) or crosses the great circle at 90°; empty when no part of it lies within.
+        """
+        normal, cosine, _ = circle.exact_parts()
+        local = transform(self.frame, normal)
+        across = dot(local[:2], local[:2]).sqrt()
+        spread = float((across * across - cosine * cosine).round())
+        a, c = float(across.round()), float(local[2].round())
+        along = (local[:2] / across).round() if a > 0 else np.array([1.0, 0.0])
+        basis = np.array([along, [-along[1], along[0]]])
+        kind, shift, sizes = _shape(a, c, circle, spread)
+        form = np.diag([spread, -(circle.offset**2), c * c - circle.offset**2])
+        form[0, 2] = form[2, 0] = a * c
+        to_basis = np.eye(3)
+        to_basis[:2, :2] = basis / self.radius
+        axes = np.array(sizes)[:, None] * basis * self.radius
+        return Conic(kind, shift * along * self.radius + 0.0, axes + 0.0, to_basis.T @ form @ to_basis)
+
+
+def _guarded(height: DoubleDouble) -> tuple[np.ndarray[tuple[int, ...], np.dtype[np.bool_]], DoubleDouble]:
+    """Where cos χ ≤ 0, and cos χ with 1 in those places."""
+    far = height.hi <= 0
+    return far, DoubleDouble(np.where(far, 1.0, height.hi), np.where(far, 0.0, height.lo))
+
+
+def _shape(a: float, c: float, circle: SphereCircle, spread: float) -> tuple[ConicKind, float, tuple[float, float]]:
+    """Kind, centre and signed half axes of (a s + c)² = d²(1 + s² + p²), s along the normal's image, p across it.
+
+    (a, c) are the parts of the circle's normal across and along the axis, d its offset, spread = a² − d². Of the two
+    branches of the squared equation the image is the one where a s + c has the sign of d.
+    """
+    d, r = circle.offset, circle.radius
+    if d == 0:
+        return ("line", -c / a, (0.0, 1.0)) if a > 0 else ("empty", np.nan, (np.nan, np.nan))
+    if abs(spread) <= STORED_ERROR * 2 * a * abs(c):
+        kind: ConicKind = "parabola" if c * d > 0 else "empty"
+        shift, sizes = (d * d - r * r) / (2 * abs(d) * c), (abs(d) / (2 * c), 1.0)
+    elif spread > 0:
+        kind, shift, sizes = "hyperbola", -a * c / spread, (d * r / spread, r / np.sqrt(spread))
+    else:
+        kind = "ellipse" if c * d > 0 else "empty"
+        shift, sizes = -a * c / spread, (abs(d) * r / -spread, r / np.sqrt(-spread))
+    return (kind, shift, sizes) if kind != "empty" else (kind, np.nan, (np.nan, np.nan))
+
+
+@dataclass(frozen=True)
+class Orthographic(TangentPlane):
+    """Parallel projection along the axis through `center`: d = R sin χ for χ ≤ 90°.
+
+    Parameters
+    ----------
+    center : (float, float)
+        (lon, lat) in degrees of the point that faces the viewer; axes (east, north) as in `Stereographic`.
+    radius : float
+        Radius R of the sphere in the unit of the plane.
+
+    Examples
+    --------
+    >>> view = Orthographic((0.0, 90.0))
+    >>> print(view.forward([[0.0, 1.0, 0.0], [0.0, 0.0, -1.0]]))
+    [[ 1.  0.]
+     [nan nan]]
+    >>> print(view.inverse([[0.0, 0.0], [2.0, 0.0]]))
+    [[ 0.  0.  1.]
+     [nan nan nan]]
+    """
+
+    def forward(self, xyz: npt.ArrayLike) -> FloatArray:
+        """Plane points (..., 2) of directions (..., 3); NaN beyond 90° from the centre."""
+        return by_blocks(self._forward, as_directions(xyz, "xyz"))
+
+    def _forward(self, rows: FloatArray) -> FloatArray:
+        local = self.local(rows)
+        return nan_where(local.hi[..., 2] < 0, local[..., :2].round() * self.radius + 0.0)
+
+    def inverse(self, xy: npt.ArrayLike) -> FloatArray:
+        """Unit vectors (..., 3) of plane points (..., 2) on the near side; NaN farther than R from the origin."""
+        return by_blocks(self._inverse, as_vectors(xy, 2, "xy"))
+
+    def _inverse(self, rows: FloatArray) -> FloatArray:
+        outside = np.hypot(rows[:, 0], rows[:, 1]) > 2 * self.radius
+        plane = DoubleDouble(np.where(outside[:, None], 2 * self.radius, rows)) / self.radius
+        rest = 1.0 - dot(plane, plane)
+        outside = rest.hi < 0
+        height = DoubleDouble(np.where(outside, 0.0, rest.hi), np.where(outside, 0.0, rest.lo)).sqrt()
+        return nan_where(outside, self.world(stack([plane[..., 0], plane[..., 1], height])))
+
+    def scale_factors(self, xyz: npt.ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """(radial, tangential) scale of `forward`, each (...): R cos χ and R; NaN beyond 90° from the centre."""
+        heights = by_blocks(lambda rows: self.local(rows)[..., 2].round(), as_directions(xyz, "xyz"))
+        radial = nan_where(heights < 0, heights * self.radius)
+        return radial, nan_where(heights < 0, np.full_like(heights, self.radius))
+
+    def image_of(self, circle: SphereCircle) -> Conic:
+        """The image of a whole circle, its part on the far side included: an ellipse, or a segment when seen edge-on.
+
+        `sample(t)` runs as the circle does, counterclockwise about its normal: clockwise on the plane where that points
+        away.
+        """
+        normal, cosine, _ = circle.exact_parts()
+        local = transform(self.frame, normal)
+        across = dot(local[:2], local[:2]).sqrt()
+        a, c, r = float(across.round()), float(local[2].round()), circle.radius
+        along = (local[:2] / across).round() if a > SEEN_FACE_ON else np.array([1.0, 0.0])
+        basis = np.array([along, [-along[1], along[0]]])
+        center = (across * cosine * self.radius).round()
+        # (s − s₀)² + c² p² = c² r², s along the normal's image and p across it.
+        form = np.array([[1.0, 0.0, -center], [0.0, c * c, 0.0], [-center, 0.0, 0.0]])
+        form[2, 2] = center**2 - (c * r * self.radius) ** 2
+        to_basis = np.eye(3)
+        to_basis[:2, :2] = basis
+        axes = np.array([[c * r], [r]]) * basis * self.radius
+        kind: ConicKind = "segment" if c == 0 else "ellipse"
+        return Conic(kind, center * along + 0.0, axes + 0.0, to_basis.T @ form @ to_basis)
