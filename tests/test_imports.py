@@ -25,6 +25,7 @@ MAY_IMPORT = {
     "_files": set(),
     "_extras": set(),
     "_interrupts": set(),
+    "_progress": {"_extras"},
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel"},
     "_arrays": BASE,
@@ -53,10 +54,10 @@ MAY_IMPORT = {
     "mpl": MATHEMATICS | {"curves", "data", "drawing", "io"},
     "globe": MATHEMATICS | {"_files", "_kernel", "curves", "data", "drawing", "io", "render"},
     "web": BASE | {"_files", "curves", "data", "sphere", "triangulation"},
-    "film": MATHEMATICS | {"_files", "drawing", "globe", "render"},
+    "film": MATHEMATICS | {"_files", "_progress", "drawing", "globe", "render"},
     "cli": MATHEMATICS
     | {"__init__", "_files", "curves", "data", "drawing", "earth", "film", "globe", "interpolation", "io"}
-    | {"_doctor", "_interrupts", "partitioned", "web"},
+    | {"_doctor", "_interrupts", "_progress", "partitioned", "web"},
 }
 # Whatever the table above says some day: data know nothing of pictures, and drawing is without OpenGL.
 NEVER = {("io", "render"), ("io", "globe"), ("io", "film"), ("io", "mpl"), ("drawing", "render"), ("render", "globe")}
@@ -259,7 +260,7 @@ def test_only_pictures_and_cli_use_more_than_numpy_and_scipy():
     foreign = {
         f"{name} imports {target}"
         for name, path in MODULES.items()
-        if part(name) not in {"curves", "drawing", "render", "mpl", "film", "globe", "cli"}
+        if part(name) not in {"_progress", "curves", "drawing", "render", "mpl", "film", "globe", "cli"}
         for target in imported(path)
         if target.split(".")[0] not in {"stereodel", "numpy", "scipy", *sys.stdlib_module_names}
     }

@@ -10,6 +10,7 @@ from typing import Any
 import typer
 
 from stereodel._interrupts import stop_if_interrupted
+from stereodel._progress import on_terminal
 
 PIECE = 100_000
 """Number of rows between two updates."""
@@ -17,18 +18,10 @@ PIECE = 100_000
 
 @contextmanager
 def _shown(*columns: str) -> Iterator[Any]:
-    """Rich's progress with columns of these kinds; None where stderr is no terminal."""
+    """As `on_terminal`, unless and until the command was interrupted."""
     stop_if_interrupted()
-    if sys.stderr.isatty():
-        from rich import progress
-        from rich.console import Console
-
-        text = progress.TextColumn("{task.description}", markup=False)
-        found = [text if kind == "Text" else getattr(progress, f"{kind}Column")() for kind in columns]
-        with progress.Progress(*found, console=Console(stderr=True), transient=True) as shown:
-            yield shown
-    else:
-        yield None
+    with on_terminal("cli", *columns) as shown:
+        yield shown
     stop_if_interrupted()
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Final
 
-from stereodel._extras import of_extra
+from stereodel._progress import on_terminal
 
 PAUSE: Final = 10.0
 """Seconds between two lines."""
@@ -19,30 +19,13 @@ def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], Non
     """Report steps of `what`, such as "drawing", on standard error, by a function that counts one more of `total`."""
     if not shown or total == 0:
         yield lambda: None
-    elif sys.stderr.isatty():
-        with _bar(what, total) as count:
-            yield count
-    else:
-        yield _Lines(what, total)
-
-
-@contextmanager
-def _bar(what: str, total: int) -> Iterator[Callable[[], None]]:
-    with of_extra("film"):
-        from rich.console import Console
-        from rich.progress import (
-            BarColumn,
-            MofNCompleteColumn,
-            Progress,
-            TextColumn,
-            TimeElapsedColumn,
-            TimeRemainingColumn,
-        )
-
-    columns = (TextColumn(what), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
-        task = progress.add_task(what, total=total)
-        yield lambda: progress.advance(task)
+        return
+    with on_terminal("film", "Text", "Bar", "MofNComplete", "TimeElapsed", "TimeRemaining") as progress:
+        if progress is None:
+            yield _Lines(what, total)
+        else:
+            task = progress.add_task(what, total=total)
+            yield lambda: progress.advance(task)
 
 
 class _Lines:

@@ -8,7 +8,7 @@ import pytest
 from stereodel.drawing.page import Fill, Label, Polygons, Polylines, Stroke
 from stereodel.render import canvas, rows, svg, triangles
 from stereodel.render import pdf as pdf_files
-from stereodel.render import text as labels
+from stereodel.render import rows as labels
 from stereodel.render.triangles import discs, ribbon, ribbons
 from tests.images.scripts import STORE, case
 from tests.images.test_vector_files import wrong_in_files

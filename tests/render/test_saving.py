@@ -16,7 +16,6 @@ from stereodel.drawing.style import BLACK, BLUE, VERMILION, with_opacity
 from stereodel.render import canvas as canvases
 from stereodel.render import gl, rows
 from stereodel.render import save as saving
-from stereodel.render import text as labels
 from stereodel.render.figure import Figure
 from stereodel.render.pieces import Piece, Pieces, Window
 from stereodel.render.rows import LabelLayer, PixelDigest, labelled, pixel_hash
@@ -226,7 +225,7 @@ def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monke
             raise error
         return part
 
-    monkeypatch.setattr(labels.LabelLayer, "over", fails)
+    monkeypatch.setattr(rows.LabelLayer, "over", fails)
     monkeypatch.setattr(gl, "BAND", 64)
     with pytest.raises(error):
         globe_page().save(path, size=100)
