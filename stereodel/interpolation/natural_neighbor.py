@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from stereodel import _kernel
@@ -62,31 +64,23 @@ class NaturalNeighborInterpolator(WeightedInterpolator):
         return np.flatnonzero(np.asarray(self.triangulation.find_simplex(queries, workers=workers)) < 0)
 
     def _ask(self, queries: FloatArray, workers: int | None, *, gradients: bool) -> FloatArray:
-        triangulation = self.triangulation
-        mesh = triangulation.simplices, triangulation.neighbors
-        crew = threads_of(triangulation, workers, len(queries))
-        if not isinstance(triangulation, SphericalDelaunay):
-            return _kernel.plane.natural_neighbors(
-                triangulation.points, *mesh, self._values, queries, gradients, crew, True
-            )
-        sites, asked = self._sites.exact, PrecisePoints(queries).exact
-        points, closing = triangulation.points, triangulation.closing
-        places = queries, asked.hi, asked.lo
-        return _kernel.sphere.natural_neighbors(
-            points, sites.hi, sites.lo, *mesh, self._values, *places, closing, gradients, crew, True
-        )
+        space, mesh, places, threads = self._for_kernel(queries, workers)
+        return space.natural_neighbors(*mesh, self._values, *places, gradients, threads, True)
 
     def _shares(self, queries: FloatArray, workers: int | None) -> Shares:
+        space, mesh, places, threads = self._for_kernel(queries, workers)
+        shares = Shares(*space.natural_neighbor_weights(*mesh, *places, threads, True))
+        return self._with_nearest(shares, queries, self._outside(queries, workers), workers)
+
+    def _for_kernel(
+        self, queries: FloatArray, workers: int | None
+    ) -> tuple[Any, tuple[Any, ...], tuple[Any, ...], int]:
+        """The kernel's space, mesh, queries (on the sphere with what double-doubles add), and number of threads."""
         triangulation = self.triangulation
         mesh = triangulation.simplices, triangulation.neighbors
-        crew = threads_of(triangulation, workers, len(queries))
-        if isinstance(triangulation, SphericalDelaunay):
-            sites, asked = self._sites.exact, PrecisePoints(queries).exact
-            points, closing = triangulation.points, triangulation.closing
-            places = queries, asked.hi, asked.lo
-            found = _kernel.sphere.natural_neighbor_weights(
-                points, sites.hi, sites.lo, *mesh, *places, closing, crew, True
-            )
-        else:
-            found = _kernel.plane.natural_neighbor_weights(triangulation.points, *mesh, queries, crew, True)
-        return self._with_nearest(Shares(*found), queries, self._outside(queries, workers), workers)
+        threads = threads_of(triangulation, workers, len(queries))
+        if not isinstance(triangulation, SphericalDelaunay):
+            return _kernel.plane, (triangulation.points, *mesh), (queries,), threads
+        sites, asked = self._sites.exact, PrecisePoints(queries).exact
+        places = queries, asked.hi, asked.lo, triangulation.closing
+        return _kernel.sphere, (triangulation.points, sites.hi, sites.lo, *mesh), places, threads

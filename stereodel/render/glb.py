@@ -13,6 +13,7 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel._extras import of_extra
+from stereodel.drawing import colorimetry
 from stereodel.drawing.colors import Color
 from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.solid import PlacedScene, Solid
@@ -42,9 +43,7 @@ def linear(color: Color) -> list[float]:
     >>> [round(part, 6) for part in linear((1.0, 0.5, 0.0, 0.25))]
     [1.0, 0.214041, 0.0, 0.25]
     """
-    srgb = np.array(color[:3])
-    light = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
-    return [*light.tolist(), float(color[3])]
+    return [*colorimetry.linear(color[:3]).tolist(), float(color[3])]
 
 
 def to_trimesh(solid: Solid) -> Any:
