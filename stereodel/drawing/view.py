@@ -6,7 +6,6 @@ Every view shows a cap of the sphere, {x : toward·x ≥ edge}, and maps it onto
 from __future__ import annotations
 
 from dataclasses import KW_ONLY, dataclass
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -17,40 +16,26 @@ from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.vectors import turned
 
 
-class MapView(Protocol):
-    """A map of a cap of the sphere onto the unit disc of the page."""
+@dataclass(frozen=True)
+class _Above:
+    """A view from above a point, north up, rotated counterclockwise by `roll` degrees."""
+
+    lon: float
+    lat: float
+    roll: float = 0.0
+
+    def __post_init__(self) -> None:
+        as_lonlat((self.lon, self.lat), "(lon, lat)")
+        as_scalar(self.roll, "roll")
 
     @property
     def matrix(self) -> FloatArray:
         """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-
-    @property
-    def edge(self) -> float:
-        """Cosine of the angular radius of the cap."""
-
-    @property
-    def stretch(self) -> float:
-        """Largest ratio of a curve's deviation from its chords on the page to that in space."""
-
-    @property
-    def round(self) -> bool:
-        """Whether the page shows a shaded ball rather than a map."""
-
-    def flattened(self, axes: FloatArray) -> FloatArray:
-        """Page coordinates (..., 2) of unit vectors (..., 3) of the cap in view axes."""
-
-    def raised(self, xy: FloatArray) -> FloatArray:
-        """Unit vectors in view axes (..., 3) of points (..., 2) of the unit disc; NaN outside it."""
-
-    def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
-        """Ratio (...) of the distance between two close lines on the page to that on the sphere.
-
-        Arguments in view axes: unit vectors (..., 3), and unit tangent vectors there that point across the lines.
-        """
+        return _frame(self.lon, self.lat, self.roll)
 
 
 @dataclass(frozen=True)
-class View:
+class View(_Above):
     """An orthographic view from above a point of the sphere, north up: the near hemisphere as a ball.
 
     Parameters
@@ -71,19 +56,6 @@ class View:
     >>> View(0, 90).matrix.tolist()
     [[0.0, 1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
-
-    lon: float
-    lat: float
-    roll: float = 0.0
-
-    def __post_init__(self) -> None:
-        as_lonlat((self.lon, self.lat), "(lon, lat)")
-        as_scalar(self.roll, "roll")
-
-    @property
-    def matrix(self) -> FloatArray:
-        """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-        return _frame(self.lon, self.lat, self.roll)
 
     @property
     def edge(self) -> float:
@@ -119,6 +91,7 @@ class View:
     def breadth(self, axes: FloatArray, across: FloatArray) -> FloatArray:
         """Ratio of the distance between two close lines on the page to that on the sphere; far and near side alike.
 
+        Arguments in view axes: unit vectors (..., 3), and unit tangent vectors there that point across the lines.
         Areas shrink by |z|, where z is the depth, and lengths along lines by √(z² + c²), where c is the depth of
         `across`: the squared depths of three perpendicular unit vectors sum to 1.
 
@@ -146,7 +119,7 @@ class View:
 
 
 @dataclass(frozen=True)
-class StereographicView:
+class StereographicView(_Above):
     """A stereographic view centred on a point of the sphere, north up: a conformal map, projected from the antipode.
 
     Parameters
@@ -171,21 +144,12 @@ class StereographicView:
     [0.5, 0.0]
     """
 
-    lon: float
-    lat: float
-    roll: float = 0.0
     _: KW_ONLY
     angular_radius: float = 90.0
 
     def __post_init__(self) -> None:
-        as_lonlat((self.lon, self.lat), "(lon, lat)")
-        as_scalar(self.roll, "roll")
+        super().__post_init__()
         as_scalar(self.angular_radius, "angular_radius", low=0.0, high=LARGEST_CAP, open_low=True)
-
-    @property
-    def matrix(self) -> FloatArray:
-        """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
-        return _frame(self.lon, self.lat, self.roll)
 
     @property
     def edge(self) -> float:
@@ -232,6 +196,10 @@ class StereographicView:
         with np.errstate(divide="ignore"):
             scale: FloatArray = 1 / ((1 + axes[..., 2]) * self._reach)
         return scale
+
+
+MapView = View | StereographicView
+"""A map of a cap of the sphere onto the unit disc of the page."""
 
 
 def _frame(lon: float, lat: float, roll: float) -> FloatArray:

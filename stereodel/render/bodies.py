@@ -10,7 +10,6 @@ import numpy as np
 
 from stereodel._arrays import FloatArray
 from stereodel.drawing.colors import Color
-from stereodel.drawing.page import Label
 from stereodel.drawing.scene_items import (
     Layer,
     Layout,
@@ -67,14 +66,6 @@ class Body:
         return poses
 
 
-@dataclass(frozen=True, eq=False)
-class Mark:
-    """A label at a point of the scene's space."""
-
-    label: Label
-    point: FloatArray
-
-
 def bodies_of(placed: PlacedScene, points_per_unit: float) -> Iterator[Body]:
     """The bodies of a scene in its own space, in the order in which they were added; lines are as thick as on the page.
 
@@ -108,9 +99,9 @@ def bodies_of(placed: PlacedScene, points_per_unit: float) -> Iterator[Body]:
                     yield Body(item.name, item.color, layer, surface)
 
 
-def marks_of(items: tuple[SceneItem, ...]) -> list[Mark]:
+def marks_of(items: tuple[SceneItem, ...]) -> list[SceneLabel]:
     """The labels of a scene."""
-    return [Mark(item.label, item.point) for item in items if isinstance(item, SceneLabel)]
+    return [item for item in items if isinstance(item, SceneLabel)]
 
 
 def _sphere(layout: Layout, factor: float) -> FloatArray:

@@ -143,8 +143,6 @@ def _frames(curve: Curve, error: float) -> tuple[FloatArray, FloatArray, FloatAr
         across = np.cross(along, np.eye(3)[np.argmin(np.abs(along))])
         t = np.array([curve.start, curve.stop])
         return curve.sample(t), np.tile(along, (2, 1)), np.tile(across / np.sqrt(np.sum(across**2)), (2, 1))
-    if not isinstance(curve, CircleArc):
-        raise TypeError(f"curve must be a Segment or a CircleArc, not {type(curve).__name__}")
     sweep = curve.stop - curve.start
     pieces = _pieces(sweep, speed, error)
     t = curve.start + sweep * np.arange(pieces + (not curve.closed)) / pieces

@@ -6,9 +6,8 @@ hull whose pole is a ghost vertex, and a hull is a planar triangulation whose po
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
 from collections import Counter
-from collections.abc import Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 
 from stereodel._arrays import FloatArray
 from stereodel.predicates.integers import to_integers
@@ -27,7 +26,7 @@ GHOST = -1
 """The plane's point at infinity as a vertex."""
 
 
-class InsertionSites(ABC):
+class _Sites:
     """Points by number, with the signs that the engine needs.
 
     keys: one hashable value for each point, equal exactly for equal points.
@@ -37,50 +36,27 @@ class InsertionSites(ABC):
 
     keys: list[Hashable]
     pole: int
+    _exact_signs: Callable[..., Iterator[int]]
+    """The exact sign of the sidedness test of four points, then that after displacement, each made when asked."""
 
     def __init__(self) -> None:
         self.keys = []
         self.inconclusive: Counter[str] = Counter(filter=0, exact=0)
 
-    @abstractmethod
-    def extend(self, points: FloatArray) -> None:
-        """Append points."""
-
-    @abstractmethod
-    def begin(self, a: int, b: int, c: int) -> list[Facet]:
-        """The first surface, of three points that `turn`."""
-
-    @abstractmethod
-    def sees(self, a: int, b: int, c: int, p: int) -> bool:
-        """Whether p sees the facet a b c from outside: whether it lies in the facet's bubble."""
-
-    @abstractmethod
-    def beyond(self, u: int, v: int, p: int) -> bool:
-        """Whether p lies to the right of the edge u → v, as seen from the pole."""
-
-    @abstractmethod
-    def turn(self, a: int, b: int, c: int) -> int:
-        """Orientation of three points, exactly; 0 on one line (one great circle)."""
-
-    @abstractmethod
-    def independent(self, a: int, b: int) -> bool:
-        """Whether two distinct points span a line (a great circle)."""
-
-    @abstractmethod
-    def _exact_signs(self, *four: int) -> Iterator[int]:
-        """The exact sign of the sidedness test of four points, then that after displacement, each made when asked."""
-
-    def _decide(self, *four: int) -> int:
+    def _is_inside(self, value: float, bound: float, *four: int) -> bool:
+        """Whether the sidedness test of four points is positive: by its value in doubles if that exceeds the bound."""
+        if abs(value) > bound:
+            return value > 0
         self.inconclusive["filter"] += 1
         signs = self._exact_signs(*four)
         sign = next(signs)
         if sign == 0:
             self.inconclusive["exact"] += 1
             sign = next(signs)
-        return sign
+        return sign > 0
 
 
-class PlaneSites(InsertionSites):
+class PlaneSites(_Sites):
     """Points of the plane; the pole is the ghost, takes part in no displacement and wins every tie."""
 
     pole = GHOST
@@ -98,13 +74,13 @@ class PlaneSites(InsertionSites):
         self.keys += map(tuple, (points + 0.0).tolist())  # −0 becomes 0
 
     def begin(self, a: int, b: int, c: int) -> list[Facet]:
-        """The triangle, and a ghost facet beyond each of its edges."""
+        """The first surface, of three points that `turn`: the triangle, and a ghost facet beyond each of its edges."""
         if self.turn(a, b, c) < 0:
             b, c = c, b
         return [(a, b, c), (b, a, GHOST), (c, b, GHOST), (a, c, GHOST)]
 
     def sees(self, a: int, b: int, c: int, p: int) -> bool:
-        """Whether p lies inside the circle; for a ghost facet, beyond its edge or within the open edge."""
+        """Whether p sees the facet, inside its circle; if it has a ghost, beyond its edge or within the open edge."""
         if c == GHOST:
             return self._sees_edge(a, b, p)
         if a == GHOST:
@@ -113,11 +89,7 @@ class PlaneSites(InsertionSites):
             return self._sees_edge(c, a, p)
         floats = self._floats
         value, bound = incircle_filter(floats[a], floats[b], floats[c], floats[p])
-        if value > bound:
-            return True
-        if value < -bound:
-            return False
-        return self._decide(a, b, c, p) > 0
+        return self._is_inside(value, bound, a, b, c, p)
 
     def _exact_signs(self, *four: int) -> Iterator[int]:
         points = [self._exact()[i] for i in four]
@@ -133,11 +105,11 @@ class PlaneSites(InsertionSites):
         return sign > 0
 
     def beyond(self, u: int, v: int, p: int) -> bool:
-        """Strictly to the right: the ghost takes part in no displacement."""
+        """Whether p lies strictly to the right of the edge u → v: the ghost takes part in no displacement."""
         return self.turn(v, u, p) > 0
 
     def turn(self, a: int, b: int, c: int) -> int:
-        """Orientation of three points, exactly."""
+        """Orientation of three points, exactly; 0 on one line."""
         floats = self._floats
         value, bound = orient2d_filter(floats[a], floats[b], floats[c])
         if value > bound:
@@ -160,10 +132,8 @@ class PlaneSites(InsertionSites):
         return self._integers
 
 
-class RaySites(InsertionSites):
+class RaySites(_Sites):
     """Directions; the pole is the first vertex of the first surface."""
-
-    keys: list[Hashable]
 
     def __init__(self) -> None:
         super().__init__()
@@ -178,19 +148,15 @@ class RaySites(InsertionSites):
         self.keys += rays
 
     def begin(self, a: int, b: int, c: int) -> list[Facet]:
-        """The triangle from both sides: any further point, displaced, sees exactly one of them."""
+        """The first surface, the triangle from both sides: any further point, displaced, sees exactly one of them."""
         self.pole = a
         return [(a, b, c), (a, c, b)]
 
     def sees(self, a: int, b: int, c: int, p: int) -> bool:
-        """Whether p lies in the bubble of the facet."""
+        """Whether p sees the facet from outside: whether it lies in its bubble."""
         four = self._units
         value, bound = bubble_filter(four[a], four[b], four[c], four[p])
-        if value > bound:
-            return True
-        if value < -bound:
-            return False
-        return self._decide(a, b, c, p) > 0
+        return self._is_inside(value, bound, a, b, c, p)
 
     def _exact_signs(self, *four: int) -> Iterator[int]:
         rays = [self._rays[i] for i in four]
@@ -198,13 +164,16 @@ class RaySites(InsertionSites):
         yield bubble_tie(*rays)
 
     def beyond(self, u: int, v: int, p: int) -> bool:
-        """Whether p would see the facet that joins the edge, reversed, to the pole."""
+        """Whether p is beyond an edge, seen from the pole: would see the facet that joins it, reversed, to the pole."""
         return self.sees(v, u, self.pole, p)
 
     def turn(self, a: int, b: int, c: int) -> int:
-        """Orientation of three directions, exactly."""
+        """Orientation of three directions, exactly; 0 on one great circle."""
         return turn_ray(self._rays[a], self._rays[b], self._rays[c])
 
     def independent(self, a: int, b: int) -> bool:
         """Whether two different directions are not opposite."""
         return self._rays[a][:3] != tuple(-x for x in self._rays[b][:3])
+
+
+InsertionSites = PlaneSites | RaySites
