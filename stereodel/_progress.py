@@ -1,13 +1,17 @@
-"""Progress of long work on a terminal, by rich."""
+"""Progress of long work: bars on a terminal, by rich, and occasional lines elsewhere for films."""
 
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Final
 
 from stereodel._extras import of_extra
+
+PAUSE: Final = 10.0
+"""Seconds between two lines."""
 
 
 @contextmanager
@@ -24,3 +28,32 @@ def on_terminal(extra: str, *columns: str) -> Iterator[Any]:
     found = [text if kind == "Text" else getattr(progress, f"{kind}Column")() for kind in columns]
     with progress.Progress(*found, console=Console(stderr=True), transient=True) as shown:
         yield shown
+
+
+@contextmanager
+def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], None]]:
+    """Report steps of `what`, such as "drawing", on standard error, by a function that counts one more of `total`."""
+    if not shown or total == 0:
+        yield lambda: None
+        return
+    with on_terminal("film", "Text", "Bar", "MofNComplete", "TimeElapsed", "TimeRemaining") as progress:
+        if progress is None:
+            yield _Lines(what, total)
+        else:
+            task = progress.add_task(what, total=total)
+            yield lambda: progress.advance(task)
+
+
+class _Lines:
+    """Counts steps and prints occasional lines, and one at the end."""
+
+    def __init__(self, what: str, total: int) -> None:
+        self.what, self.total, self.done = what, total, 0
+        self.begin = self.said = time.monotonic()
+
+    def __call__(self) -> None:
+        self.done += 1
+        now = time.monotonic()
+        if self.done == self.total or now - self.said >= PAUSE:
+            self.said = now
+            print(f"{self.what} {self.done}/{self.total} ({now - self.begin:.0f} s)", file=sys.stderr, flush=True)

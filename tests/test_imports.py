@@ -14,7 +14,8 @@ import stereodel
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "stereodel"
 
-BASE = {"constants", "earth", "_arrays", "_calls", "_docs", "_extras", "_numbers", "_double_double", "_threads"}
+BASE = {"constants", "earth"}
+BASE |= {"_arrays", "_calls", "_docs", "_extras", "_numbers", "_double_double", "_threads", "_values"}
 MATHEMATICS = BASE | {"sphere", "projections", "conformal", "predicates", "triangulation"}
 KERNEL = BASE | {"_kernel", "_spaces"}
 MAY_IMPORT = {
@@ -25,6 +26,7 @@ MAY_IMPORT = {
     "_files": set(),
     "_extras": set(),
     "_interrupts": set(),
+    "_values": set(),
     "_progress": {"_extras"},
     "_kernel": set(),
     "_spaces": {"_arrays", "_kernel"},

@@ -25,6 +25,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, as_directions, as_floats, as_scalar, read_only
 from stereodel._double_double import by_blocks
+from stereodel._values import Keyed
 from stereodel.constants import LARGEST_MAGNIFICATION
 from stereodel.sphere import angular_distance
 from stereodel.sphere.coordinates import as_sphere_points
@@ -35,7 +36,7 @@ _TAPER = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class FocusBlend:
+class FocusBlend(Keyed):
     """A map of the sphere that magnifies several places at once. It is injective, but not conformal.
 
     Parameters
@@ -152,12 +153,6 @@ class FocusBlend:
             # sin Ξ / sin χ from tan(Ξ/2) / tan(χ/2).
             tangential = growth * (1 + (self._rim * tau) ** 2) / (1 + (self._rim * tau * growth) ** 2)
             yield _Disc(focus, float(ring), inside, tau, growth, tangential)
-
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, FocusBlend) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
 
     @property
     def _key(self) -> tuple[object, ...]:

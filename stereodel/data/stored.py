@@ -31,13 +31,7 @@ def table() -> dict[str, dict[str, Any]]:
 
 
 def read(name: str) -> bytes:
-    """The file of a set.
-
-    Raises
-    ------
-    OSError
-        If it is not the one that the table names.
-    """
+    """The file of a set; OSError if it is not the one that the table names."""
     entry = table()[name]
     packed = resources.files("stereodel.data").joinpath(entry["file"]).read_bytes()
     if hashlib.sha256(packed).hexdigest() != entry["sha256"]:

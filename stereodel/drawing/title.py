@@ -47,8 +47,6 @@ def with_title(page: Page, title: str, *, ink: ColorLike = BLACK, size: float = 
 def title_height(title: str, size: float = TITLE_SIZE) -> float:
     """Points that a page grows by for a title.
 
-    Examples
-    --------
     >>> title_height(""), round(title_height("Nothing"), 1)
     (0.0, 20.8)
     """

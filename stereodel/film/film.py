@@ -17,6 +17,7 @@ import numpy as np
 from stereodel._arrays import FloatArray, Pixels, as_count, as_frame, as_scalar
 from stereodel._extras import of_extra
 from stereodel._files import replacing
+from stereodel._progress import counting
 from stereodel._threads import thread_count
 from stereodel.constants import MOST_FRAME_PIXELS, MOST_FRAMES
 from stereodel.drawing.colors import ColorLike, as_color
@@ -26,7 +27,6 @@ from stereodel.drawing.page_styles import StyledDraw
 from stereodel.drawing.style import WHITE
 from stereodel.film.frames import KeptFrames, frame_names, store_frame
 from stereodel.film.pool import Done, attempt, in_processes, main_script_here, refuse_in_import
-from stereodel.film.progress import counting
 from stereodel.film.shots import GlobePages, Motion, Samples, Shot
 from stereodel.film.writers import Reel, format_of, frame_seconds
 from stereodel.globe.globe import Globe

@@ -9,10 +9,11 @@ import numpy as np
 import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_count, as_floats, read_only
+from stereodel._values import Keyed
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneCircle:
+class PlaneCircle(Keyed):
     """A circle of the plane with one of its two sides.
 
     Parameters
@@ -43,19 +44,13 @@ class PlaneCircle:
         t = np.linspace(0.0, 2 * np.pi, as_count(n, "n"), endpoint=False)
         return self.center + self.radius * np.stack([np.cos(t), np.sin(t)], axis=-1)
 
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, PlaneCircle) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
-
     @property
     def _key(self) -> tuple[float, ...]:
         return (*self.center.tolist(), self.radius, self.outside)
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneLine:
+class PlaneLine(Keyed):
     """The line normal·(x, y) = offset; the interior of its bubble is the side where normal·(x, y) is larger.
 
     Parameters
@@ -89,12 +84,6 @@ class PlaneLine:
         """Unit vector along the line, the interior on its left."""
         return np.array([self.normal[1], -self.normal[0]])
 
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, PlaneLine) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
-
     @property
     def _key(self) -> tuple[float, ...]:
         return (*self.normal.tolist(), self.offset)
@@ -104,7 +93,7 @@ ConicKind = Literal["ellipse", "segment", "parabola", "hyperbola", "line", "empt
 
 
 @dataclass(frozen=True, eq=False)
-class Conic:
+class Conic(Keyed):
     """The image of a circle under a gnomonic or orthographic projection.
 
     Parameters
@@ -147,12 +136,6 @@ class Conic:
         values = as_floats(t, "t")
         f, g = _PARAMETRIC[self.kind](values)
         return self.center + f[..., None] * self.axes[0] + g[..., None] * self.axes[1]
-
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, Conic) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
 
     @property
     def _key(self) -> tuple[object, ...]:

@@ -109,12 +109,9 @@ class Description:
 
 
 def choose(platform: str | None = None) -> tuple[str, str]:
-    """The platform to use and the reason.
+    """The platform to use, and the reason: "argument", the name of the environment variable, or "found".
 
-    platform: "osmesa" or "egl"; overrides the environment.
-    Returns the platform; and "argument", the name of the environment variable, or "found".
-    Raises ValueError if `platform` is unknown; OpenGLError if the environment requests an unknown platform, or none can
-        be opened.
+    ValueError if `platform` is unknown; OpenGLError if the environment requests an unknown one, or none can be opened.
     """
     if platform is not None:
         if platform not in PLATFORMS:
@@ -145,17 +142,13 @@ def draw(
     background: Color = (1.0, 1.0, 1.0, 1.0),
     platform: str | None = None,
 ) -> Pixels:
-    """Draw triangles with 4 samples per pixel.
+    """Draw triangles with 4 samples per pixel: (height, width, 3) uint8, sRGB, rows from the top.
 
     Colours are drawn as given, shaded only by `Triangles.balls`; those of a triangle's corners are interpolated
-    linearly. Earlier items are covered or show through.
+    linearly. Earlier items are covered or show through. The opacity of the background is ignored.
 
-    width, height: in pixels.
-    background: opaque; its opacity is ignored.
-    platform: "osmesa" or "egl"; by default as `choose` says.
-    Returns (height, width, 3) uint8, sRGB, rows from the top.
-    Raises OpenGLError if there is no usable OpenGL, or this process already draws on another platform; ValueError if
-        the picture has no pixels, or too many items for the depth buffer.
+    OpenGLError if there is no usable OpenGL, or this process already draws on another platform; ValueError if the
+    picture has no pixels, or too many items for the depth buffer.
     """
     return np.concatenate(
         list(bands(lambda window: triangles, width, height, background=background, platform=platform))
@@ -173,10 +166,10 @@ def bands(
 ) -> Iterator[Pixels]:
     """Draw a picture from the top, `BAND` rows at a time, in the memory of a band and the triangles of a window.
 
+    Yields (rows, width, 3) uint8; errors are those of `draw`.
+
     part: function of a window that returns all triangles of the picture that touch it, in order; others have no effect.
-    width, height, background, platform: as for `draw`, which raises the same errors.
-    finish: function of the pixels of a window that returns those to keep.
-    Yields (rows, width, 3) uint8, or the result of `finish`.
+    finish: function of the pixels of a window that returns those to yield.
     """
     if min(width, height) < 1:
         raise ValueError(f"a picture has at least one pixel each way, got {width} by {height}")
@@ -200,11 +193,9 @@ def space_bands(
     make: function of the module pyrender that returns a scene without a camera. Its meshes are drawn in the order of
         their nodes' names, see `node_name`, which matters for transparent ones.
     box: left, right, bottom, top, and the smallest and largest z of the scene, which is viewed along −z from far away.
-    width, height: in pixels.
     numbered: whether to draw each mesh, without lighting, in the colour of its number, from 1, in 24 bits, red first,
         on black; without multisampling, so that each pixel shows the mesh at its centre.
-    platform, finish: as for `bands`, which raises the same errors.
-    Yields (rows, width, 3) uint8, or the result of `finish`.
+    finish: as for `bands`, which yields the same and raises the same errors.
     """
     context = DOOR.context(platform)
     scene, camera = make(context.pyrender), None

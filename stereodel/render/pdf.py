@@ -35,9 +35,7 @@ UPRIGHT: Final = 80
 
 
 def pdf(page: Page, pictures: Sequence[Pixels] = ()) -> bytes:
-    """A page as the bytes of a PDF file.
-
-    pictures: an image of the whole page for each of `page.pictured`, clipped to its regions.
+    """A page as the bytes of a PDF file; `pictures` hold the whole page for each of `page.pictured`, which clips it.
 
     >>> pdf(Page((0.0, 2.0, 0.0, 1.0), width=144.0))[:8]
     b'%PDF-1.4'

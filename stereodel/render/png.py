@@ -50,14 +50,12 @@ def png_chunks(
     texts: Mapping[str, str] | None = None,
     channels: int = 3,
 ) -> Iterator[bytes]:
-    """The chunks of a PNG file.
+    """The chunks of a PNG file; ValueError if rows have another width or type, or their number is not `height`.
 
     rows: the picture from the top, any number of rows at a time.
-    width, height: in pixels.
     page_width: width in print in points, from which the resolution in the file follows.
     texts: texts by the format's keywords: Title, Description. Empty texts are left out.
     channels: 3 for red, green and blue; 4 for those, not premultiplied, and opacity.
-    Raises ValueError if rows have another width or type, or their number is not `height`.
 
     >>> import io
     >>> from PIL import Image

@@ -140,9 +140,7 @@ def labelled(rows: Iterable[Pixels], page: Page, width: int) -> Iterator[Pixels]
 
 
 class LabelLayer:
-    """The labels of a page on a transparent background.
-
-    width_px: width of the picture in pixels.
+    """The labels of a page on a transparent background, `width_px` pixels wide.
 
     >>> from stereodel.drawing import Label
     >>> page = Page((0.0, 2.0, 0.0, 2.0), (Label("high", (1.0, 1.9)),), width=100.0)

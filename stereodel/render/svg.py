@@ -38,9 +38,7 @@ SERIF: Final = "'STIX Two Text','Times New Roman',Times,serif"
 
 
 def svg(page: Page, pictures: Sequence[Pixels] = ()) -> str:
-    """A page as the text of an SVG file.
-
-    pictures: an image of the whole page for each of `page.pictured`, clipped to its regions.
+    """A page as the text of an SVG file; `pictures` hold the whole page for each of `page.pictured`, which clips it.
 
     >>> text = svg(Page((0.0, 2.0, 0.0, 1.0), width=144.0, title="Nothing"))
     >>> print(text.split("viewBox=")[1].splitlines()[0])

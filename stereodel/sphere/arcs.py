@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_count, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, cross, dot, unit
+from stereodel._values import Keyed
 from stereodel.constants import UNDECIDED
 from stereodel.sphere.circles import SphereCircle, on_circle, stored_unit
 from stereodel.sphere.coordinates import as_direction
@@ -17,7 +18,7 @@ _FULL_TURN = 2 * np.pi
 
 
 @dataclass(frozen=True, eq=False)
-class SphereArc:
+class SphereArc(Keyed):
     """The arc of a circle from one point to another, counterclockwise as seen from the tip of `circle.normal`.
 
     Parameters
@@ -109,12 +110,6 @@ class SphereArc:
         points = center + np.cos(t) * u + np.sin(t) * v
         points[0], points[-1] = self.start, self.end
         return points
-
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, SphereArc) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
 
     @property
     def _key(self) -> tuple[object, ...]:

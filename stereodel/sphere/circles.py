@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, as_count, as_directions, as_scalar, read_only
 from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, unit, where
+from stereodel._values import Keyed
 from stereodel.constants import STORED_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, tangent_frame
 from stereodel.sphere.degrees import sin_cos_degrees
@@ -17,7 +18,7 @@ _NEAR_POINT = 0.9  # |cos| of the angular radius beyond which 1 − n·x is take
 
 
 @dataclass(frozen=True, eq=False)
-class SphereCircle:
+class SphereCircle(Keyed):
     """The circle n·x = offset on the unit sphere, with the side n·x > offset as its interior.
 
     Parameters
@@ -153,12 +154,6 @@ class SphereCircle:
         normal, offset, radius = self.exact_parts()
         east, north = tangent_frame(self.normal)[0], tangent_frame(self.normal)[1]
         return (normal * offset + (east * sine - north * cosine) * radius).round() + 0.0
-
-    def __eq__(self, other: object) -> bool:
-        return self._key == other._key if isinstance(other, SphereCircle) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._key)
 
     @property
     def _key(self) -> tuple[float, ...]:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import FloatArray, as_matrix, as_quaternion, as_scalar, as_vectors
 from stereodel._double_double import DoubleDouble, by_blocks, cross, dot, stack, unit
+from stereodel._values import Keyed
 from stereodel.constants import MATRIX_ERROR, UNDECIDED
 from stereodel.sphere.coordinates import as_direction, scaled
 from stereodel.sphere.degrees import sin_cos_degrees
@@ -86,7 +87,7 @@ def _components(vector: DoubleDouble) -> list[DoubleDouble]:
 
 
 @dataclass(frozen=True, eq=False)
-class Rotation:
+class Rotation(Keyed):
     """A rotation about the centre of the sphere.
 
     Parameters
@@ -204,16 +205,9 @@ class Rotation:
         """The exact inverse."""
         return Rotation(conjugate(DoubleDouble(self.quaternion)).hi)
 
-    def __eq__(self, other: object) -> bool:
-        """Whether two rotations are exactly the same: quaternions of the same direction, up to sign."""
-        return self._ratios == other._ratios if isinstance(other, Rotation) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(self._ratios)
-
     @property
-    def _ratios(self) -> tuple[Fraction, ...]:
-        """The quaternion over its largest component, exactly."""
+    def _key(self) -> tuple[Fraction, ...]:
+        """The quaternion over its largest component, exactly: rotations are the same up to its sign and length."""
         largest = Fraction(float(self.quaternion[int(np.argmax(np.abs(self.quaternion)))]))
         return tuple(Fraction(float(q)) / largest for q in self.quaternion)
 
