@@ -15,12 +15,12 @@ PAUSE: Final = 10.0
 
 
 @contextmanager
-def on_terminal(extra: str, *columns: str) -> Iterator[Any]:
+def on_terminal(*columns: str) -> Iterator[Any]:
     """Rich's progress on standard error with columns of these kinds; None where that is not a terminal."""
     if not sys.stderr.isatty():
         yield None
         return
-    with of_extra(extra):
+    with of_extra("film"):  # the command has its own door
         from rich import progress
         from rich.console import Console
 
@@ -36,7 +36,7 @@ def counting(what: str, total: int, *, shown: bool) -> Iterator[Callable[[], Non
     if not shown or total == 0:
         yield lambda: None
         return
-    with on_terminal("film", "Text", "Bar", "MofNComplete", "TimeElapsed", "TimeRemaining") as progress:
+    with on_terminal("Text", "Bar", "MofNComplete", "TimeElapsed", "TimeRemaining") as progress:
         if progress is None:
             yield _Lines(what, total)
         else:

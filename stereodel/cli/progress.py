@@ -20,7 +20,7 @@ PIECE = 100_000
 def _shown(*columns: str) -> Iterator[Any]:
     """As `on_terminal`, unless and until the command was interrupted."""
     stop_if_interrupted()
-    with on_terminal("cli", *columns) as shown:
+    with on_terminal(*columns) as shown:
         yield shown
     stop_if_interrupted()
 
