@@ -8,9 +8,8 @@ import pytest
 from stereodel.drawing import Page, Sketch, styled
 from stereodel.drawing.dark import GROUND, dark_page
 from stereodel.drawing.label import label_box
-from stereodel.drawing.media import COLUMN
 from stereodel.drawing.page import Dots, Label, Polylines, Stroke
-from stereodel.drawing.page_styles import StyledDraw, as_styles
+from stereodel.drawing.page_styles import COLUMN, StyledDraw, as_styles
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
 CM = 72 / 2.54

@@ -5,7 +5,7 @@ import pytest
 
 from stereodel.drawing import styled
 from stereodel.drawing.label import label_box
-from stereodel.drawing.media import COLUMN, SLIDE
+from stereodel.drawing.page_styles import COLUMN, SLIDE
 from tests.figures.scripts import FIGURES, page
 
 MAPS = ("globe_europe", "globe_tissot")
