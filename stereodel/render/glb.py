@@ -6,7 +6,6 @@ of buffers, colours that are not rounded to 1/255 of linear light, the camera of
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
 import numpy as np
@@ -133,8 +132,11 @@ def glb_bytes(solid: Solid) -> bytes:
 
     def finished(tree: dict[str, Any]) -> None:
         tree["asset"]["generator"] = "stereodel"
-        _set_colors(tree)
-        _set_targets(tree)
+        for mesh in tree.get("meshes", ()):
+            color = linear(mesh.pop("extras")["color"])
+            for primitive in mesh["primitives"]:
+                tree["materials"][primitive["material"]]["pbrMetallicRoughness"]["baseColorFactor"] = color
+                _set_targets(tree, primitive)
         _add_camera(tree, solid.page.extent, depths(scene))
 
     options = {"include_normals": True, "buffer_postprocessor": _shorten, "tree_postprocessor": finished}
@@ -148,15 +150,10 @@ def depths(scene: Any) -> tuple[float, float]:
     return float(low) - SPACE, float(high) + SPACE
 
 
-def _primitives(tree: Mapping[str, Any]) -> Iterator[dict[str, Any]]:
-    for mesh in tree.get("meshes", ()):
-        yield from mesh["primitives"]
-
-
 def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
     """Store indices in two bytes where there are few enough points."""
     accessors, keys = list(tree["accessors"].values()), list(buffers)
-    for primitive in _primitives(tree):
+    for primitive in (primitive for mesh in tree.get("meshes", ()) for primitive in mesh["primitives"]):
         indices, points = accessors[primitive["indices"]], accessors[primitive["attributes"]["POSITION"]]
         if points["count"] <= SHORT and indices["componentType"] != UNSIGNED_SHORT:
             key = keys[indices["bufferView"]]
@@ -165,22 +162,14 @@ def _shorten(buffers: Any, tree: dict[str, Any]) -> None:
             indices["componentType"] = UNSIGNED_SHORT
 
 
-def _set_colors(tree: dict[str, Any]) -> None:
-    for mesh in tree.get("meshes", ()):
-        color = linear(mesh.pop("extras")["color"])
-        for primitive in mesh["primitives"]:
-            tree["materials"][primitive["material"]]["pbrMetallicRoughness"]["baseColorFactor"] = color
-
-
-def _set_targets(tree: dict[str, Any]) -> None:
-    for primitive in _primitives(tree):
-        used = [(primitive["indices"], INDICES), *((number, VERTICES) for number in primitive["attributes"].values())]
-        for accessor, target in used:
-            view = tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
-            view["target"] = target
-            if target == VERTICES:
-                # Points of a ball are also its normals, and are stored once.
-                view["byteStride"] = STRIDE
+def _set_targets(tree: dict[str, Any], primitive: dict[str, Any]) -> None:
+    used = [(primitive["indices"], INDICES), *((number, VERTICES) for number in primitive["attributes"].values())]
+    for accessor, target in used:
+        view = tree["bufferViews"][tree["accessors"][accessor]["bufferView"]]
+        view["target"] = target
+        if target == VERTICES:
+            # Points of a ball are also its normals, and are stored once.
+            view["byteStride"] = STRIDE
 
 
 def _add_camera(tree: dict[str, Any], extent: tuple[float, float, float, float], depth: tuple[float, float]) -> None:

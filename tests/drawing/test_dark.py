@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from stereodel.drawing import style
 from stereodel.drawing.colorimetry import contrast, encoded, linear, luminance, to_oklab, with_luminance
-from stereodel.drawing.dark import GROUND, dark_color, dark_colors, dark_page
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
+from stereodel.drawing.page_styles import GROUND, dark_color, dark_colors, dark_page
 
 shares = st.floats(0, 1)
 colors = st.tuples(shares, shares, shares)

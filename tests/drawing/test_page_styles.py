@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import Page, Sketch, styled
-from stereodel.drawing.dark import GROUND, dark_page
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Label, Polylines, Stroke
-from stereodel.drawing.page_styles import COLUMN, StyledDraw, as_styles
+from stereodel.drawing.page_styles import COLUMN, GROUND, StyledDraw, as_styles, dark_page
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
 CM = 72 / 2.54

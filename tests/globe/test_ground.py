@@ -7,9 +7,9 @@ import pytest
 
 from stereodel import fisheye
 from stereodel.drawing import Fill, Label, Polygons, View, styled
-from stereodel.drawing.dark import GROUND, dark_color
 from stereodel.drawing.ground import legible, painted
 from stereodel.drawing.label import label_box, within_disc
+from stereodel.drawing.page_styles import GROUND, dark_color
 from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster
 
