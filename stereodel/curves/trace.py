@@ -16,7 +16,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.conformal.scales import largest_scale
+from stereodel.conformal.distortions import largest_scale
 from stereodel.constants import LONGEST_EDGE, MOST_PIECES, WHOLE_TURNS
 from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz

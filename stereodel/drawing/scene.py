@@ -17,7 +17,6 @@ from stereodel.drawing import style as styles
 from stereodel.drawing.colors import ColorLike, as_color
 from stereodel.drawing.lengths import LengthLike, as_length
 from stereodel.drawing.page import Item, Label, Page
-from stereodel.drawing.regions import SphereRegion
 from stereodel.drawing.scene_items import (
     BallStyle,
     Layer,
@@ -35,6 +34,7 @@ from stereodel.drawing.space_curves import CircleArc, Curve, Segment
 from stereodel.drawing.style import DotStyle, LineStyle
 from stereodel.drawing.title import with_title
 from stereodel.drawing.view import View
+from stereodel.drawing.visibility import SphereRegion
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import units
 

@@ -14,10 +14,10 @@ from stereodel.curves import clip, trace
 from stereodel.curves.borders import Cap, Pieces
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.page import Ball, Beziers
-from stereodel.drawing.regions import limb
 from stereodel.drawing.space_curves import page_path
 from stereodel.drawing.style import PRINT_WIDTH
 from stereodel.drawing.view import MapView
+from stereodel.drawing.visibility import limb
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere import SphereCircle

@@ -8,7 +8,7 @@ import numpy as np
 
 from stereodel import data
 from stereodel.curves.ragged import Ragged
-from stereodel.data.shapes import Lines
+from stereodel.data.natural_earth import Lines
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere.latitudes import Latitude

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import fisheye
-from stereodel.conformal.scales import largest_scale
+from stereodel.conformal.distortions import largest_scale
 from stereodel.sphere import SphereArc
 
 lonlats = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
