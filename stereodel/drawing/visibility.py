@@ -4,8 +4,8 @@ All coordinates are in view axes (right, up, toward the viewer) about the ball's
 x from the line of sight through the centre, the ball of radius r covers x if ρ < r and x is farther away than the near
 surface. A curve's place can change only where |x| = r or ρ = r: for a segment two quadratic equations, for a circle one
 equation linear in cos t, sin t and one quartic. Arcs *on* the sphere, where |x| = r holds throughout, are cut at the
-limb together by `stereodel.curves` and remain arcs. Regions of a sphere are
-bounded by arcs; the outlines of their visible parts are closed along the limb.
+limb together by `stereodel.curves` and remain arcs. Regions of a sphere are bounded by arcs; the outlines of their
+visible parts are closed along the limb.
 """
 
 from __future__ import annotations

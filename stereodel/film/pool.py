@@ -37,7 +37,17 @@ MainScript = tuple[Literal["module", "path"], str]
 
 @dataclass(frozen=True)
 class Done:
-    """Outcome of a task: its value, or error and traceback as text, as not every exception can be pickled."""
+    """Outcome of a task.
+
+    Parameters
+    ----------
+    result : object
+        The return value; None after an error.
+    error : str
+        Error message in one line; empty on success. It is text because not every exception can be pickled.
+    trace : str
+        Traceback of the error, if any.
+    """
 
     result: Any = None
     error: str = ""
@@ -57,12 +67,23 @@ def in_processes(
 ) -> Iterator[tuple[int, Done]]:
     """Run tasks in other processes; yields the number and outcome of each as it finishes.
 
-    When the iterator is closed or the program interrupted, all processes are terminated at once. TypeError if `work` or
-    a task is defined in an interactive session.
+    When the iterator is closed or the program interrupted, all processes are terminated at once.
 
-    work: function of a task that returns its result; pickled once for each process.
-    tasks: iterated twice without keeping any item, so tasks may be created on access.
-    lifetime: number of tasks after which a process is replaced.
+    Parameters
+    ----------
+    work : callable
+        Function of a task that returns its result; pickled once for each process.
+    tasks : sequence
+        Iterated twice without keeping any item, so tasks may be created on access.
+    jobs : int
+        Number of processes.
+    lifetime : int, optional
+        Number of tasks after which a process is replaced.
+
+    Raises
+    ------
+    TypeError
+        If `work` or a task is defined in an interactive session.
     """
     orders = _orders(work, map(pickle.dumps, tasks))
     waiting = enumerate(map(pickle.dumps, tasks))
