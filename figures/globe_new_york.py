@@ -17,8 +17,9 @@ from _poster import captioned
 
 from stereodel import MoebiusMap, SphereCircle, bubble_to_bubble, data, earth, lonlat_to_xyz
 from stereodel.drawing import Dots, Label, Page, Stroke, View
+from stereodel.drawing.ground import haloed
 from stereodel.drawing.page import Item
-from stereodel.drawing.style import BLACK, DARK_GRAY, MAP_FILLS, VERMILION, WHITE, DotStyle
+from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render import Figure
 
@@ -55,7 +56,6 @@ FAR = {
     "California": ((-120.0, 37.0), (0.30, -0.20), "left"),
 }
 """Where it is, where its name stands in radii from the middle of the globe, and on which side."""
-GROUND = (*MAP_FILLS["ocean"][:3], 0.8)
 
 
 def lens_of(radius: float) -> MoebiusMap:
@@ -92,7 +92,7 @@ def draw(g: dict) -> Page:
     lens = lens_of(g["radius"])
     near, far = hemispheres(*NEW_YORK)
     page = panels([Panel(globe, lens, near, "New York"), Panel(globe, lens, far, "everything else")])
-    page = replace(page, items=(*page.items, *leaders(page, lens, far)))
+    page = haloed(replace(page, items=(*page.items, *leaders(page, lens, far))))
     scale = float(lens.scale_factor(lonlat_to_xyz(NEW_YORK)))
     page = captioned(
         page,
@@ -117,7 +117,7 @@ def leaders(page: Page, lens: MoebiusMap, view: View) -> list[Item]:
         path = (place + np.linspace(0.0, 1.0, 4)[:, None] * (tip - place))[None]
         items.append(Stroke(path, DARK_GRAY, 0.4, name="leader"))
         shift = {"left": (2.0, 0.0), "right": (-2.0, 0.0)}[align]
-        items.append(Label(name, tuple(tip.tolist()), shift, align, "center", size=7.0, halo=1.2, halo_color=GROUND))
+        items.append(Label(name, tuple(tip.tolist()), shift, align, "center", size=7.0, halo=1.2, on_ground=True))
     return items
 
 
