@@ -25,6 +25,7 @@ from stereodel.render import Figure
 
 NEW_YORK = (-73.98, 40.75)
 RADIUS_KM = 100.0
+MILLION = 10  # of the scale for which coasts and rivers are made
 APART = 0.028  # between dots, radii of the globes
 AIRPORT = DotStyle(VERMILION, 0.75)
 NAMES_RIGHT = {
@@ -80,10 +81,10 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """The two hemispheres, seen from above their middles."""
     globe = Globe()
-    globe.add_land(resolution="10m")
+    globe.add_land(resolution=f"{MILLION}m")
     globe.add_lakes()
-    globe.add_rivers(resolution="10m")
-    globe.add_coastlines(resolution="10m")
+    globe.add_rivers(resolution=f"{MILLION}m")
+    globe.add_coastlines(resolution=f"{MILLION}m")
     globe.add_graticule(15)
     globe.add_points(g["airports"], style=AIRPORT)
     for names, offset in ((NAMES_RIGHT, (3.0, 0.0)), (NAMES_LEFT, (-3.0, 0.0))):
@@ -97,9 +98,10 @@ def draw(g: dict) -> Page:
     page = captioned(
         page,
         "A New Yorker’s globe",
-        "Half of it lies within 100 km of Manhattan, the other half is the rest of the world; every angle is true.",
-        "Land, rivers, lakes: Natural Earth, made for 1 : 10 million and here, in the middle of New York, enlarged "
-        f"{scale:.0f} times. Airports: airportsdata.",
+        f"Half of it lies within {RADIUS_KM:g} km of Manhattan, the other half is the rest of the world; every "
+        "angle is true.",
+        f"Land, rivers, lakes: Natural Earth, made for 1 : {MILLION} million and here, in the middle of New York, "
+        f"enlarged {scale:.0f} times. Airports: airportsdata.",
         ink=BLACK,
         above=46.0,
         below=16.0,
