@@ -20,7 +20,6 @@ from stereodel.render import Figure
 VIEW = View(-40, 36)
 CLEAR, NAMED = 0.3, 5  # depth on the unit ball from which airports are named, and how many
 PLACES = {"TXKF": "Bermuda", "SCIP": "Easter Island"}  # by code: where an airport is whose name tells nobody
-BEYOND = ", itself beyond the limb"
 
 
 def geometry() -> dict:
@@ -59,9 +58,12 @@ def draw(g: dict) -> Page:
     globe.add_labels(g["lonlat"][named], map(short, named.tolist()), size=7.0, offset=(3.5, 0.0), halo=1.2)
     subtitle = (
         f"{spaced(len(areas))} airports and the part of the Earth that is nearest to each; the largest in sight, "
-        f"{areas[largest] / 1e6:.1f} million km², is that of {short(largest)}{'' if depth[largest] > 0 else BEYOND}"
+        f"{areas[largest] / 1e6:.1f} million km², is that of {short(largest)}"
     )
     credit = "Airports: airportsdata. Coast: Natural Earth. Areas on WGS84."
+    if depth[largest] <= 0:
+        side = "left" if VIEW.project(voronoi.points[largest])[0] < 0 else "right"
+        credit += f" {short(largest)} itself lies beyond the {side} limb."
     page = captioned(globe.page(view=VIEW), "The airport next to you", subtitle, credit, ink=BLACK)
     return with_legend(page, scale, "area, km²", ink=BLACK)
 
