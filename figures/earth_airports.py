@@ -43,11 +43,16 @@ def largest_in_sight(voronoi: SphericalVoronoi, areas: np.ndarray) -> int:
     return int(np.argmax(np.where(np.array(seen)[voronoi.point_region], areas, 0.0)))
 
 
+def scale_of(areas: np.ndarray) -> ColorScale:
+    """Colours for all areas."""
+    return ColorScale("magma", *even_ends(areas), log=True)
+
+
 def draw(g: dict) -> Page:
     """Cells by area, and the coast."""
     globe, areas = Globe(latitude=LATITUDE), g["areas"]
     voronoi = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
-    scale = ColorScale("magma", *even_ends(areas), log=True)
+    scale = scale_of(areas)
     globe.add_cells(voronoi, colors=scale(areas), style=None)
     globe.add_coastlines(style=LineStyle(with_opacity(WHITE, 0.6), 0.4))
     depth = VIEW.depth(lonlat_to_xyz(g["lonlat"], latitude=LATITUDE))
