@@ -31,7 +31,7 @@ BAR_ROWS: Final = 3.2
 """Height of a scale with its title and numbers, in rows."""
 
 PREFIX: Final = "legend-"
-"""Of the name of a sample, before the name of what it explains."""
+"""Beginning of the name of a sample, before the name of what it explains."""
 
 LegendEntry = LineStyle | DotStyle | ColorLike | ColorScale
 """Symbols of a legend."""
