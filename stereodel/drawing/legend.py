@@ -108,18 +108,15 @@ def with_legend(
 def _look(item: Item) -> LineStyle | DotStyle | Color | None:
     """The entry of a legend that looks like an item, if there is one."""
     match item:
-        case Stroke():
-            return LineStyle(item.color, item.width, item.dash)
-        case Polylines():
-            return LineStyle(item.color, item.width)
+        case Stroke() | Polylines():
+            return LineStyle(item.color, item.width, item.dash if isinstance(item, Stroke) else None)
         case Dots():
             return DotStyle(item.color, item.radius, item.rim, item.rim_width)
         case Fill():
             return item.color
         case Polygons() if len(item.by_color[0]) == 1:
             return as_color(item.by_color[0][0].tolist())
-        case _:
-            return None
+    return None
 
 
 def _add_sample(
