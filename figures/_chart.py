@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +11,11 @@ from stereodel.drawing import Sketch
 
 TICK = 0.09
 """Length of the marks of a scale, cm."""
+
+
+def fraction(value: float) -> str:
+    """A number beside a scale as a formula, with a stroke where it is not whole."""
+    return f"${Fraction(value).limit_denominator(100)}$"
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from stereodel.sphere import SphereArc, graticule, graticule_patch
 
 FOCUS = (0.0, 40.0)  # degrees
 VIEWS = (View(0, 0), View(0, 90), View(0, -90), View(0, 40), View(180, -40))
-NAMES = ("equator", "north pole", "south pole", "40° N", "antipode")
+NAMES = ("equator", "north pole", "south pole", f"{FOCUS[1]:g}° N", "antipode")
 PITCH, MARGIN = 2.14, 0.03  # globe radii
 SIDE, FOOT = 0.33, 0.29  # of the strips for S on the left and the names below, globe radii
 WEIGHT = 0.625  # of the lines: the globes are small

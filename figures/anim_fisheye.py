@@ -30,7 +30,8 @@ STAGES = (FIGURE_10, FIGURE_11, FIGURE_12)
 NUMBERS = (10, 11, 12)
 SIZES = np.array([stage.magnification for stage in STAGES])
 LOGS = np.log(SIZES)
-SPACINGS = ("graticule 10°, fine grid 2°", "graticule 5°, fine grid 1°", "graticule 5° and 1°, fine grid ½°")
+GRATICULES = [f"{FIGURE_10.coarse:g}°", f"{FIGURE_11.coarse:g}°", f"{FIGURE_12.coarse:g}° and {FIGURE_11.fine:g}°"]
+FINE = {0.5: "½"}  # degrees that are not written with digits
 TICKS = (1, 2, 4, 10, 20)
 VIEW = View(0, 22)
 RADIUS, HEIGHT = 86.0, 214.0  # points
@@ -103,7 +104,9 @@ def frame(shot: Shot, lines: Grids) -> Page:
     sketch = Sketch().add_items(scene.layout(VIEW, at=(WIDTH / 2, HEIGHT - RADIUS - 4), scale=RADIUS))
     end, strength = nearest(np.log(ends), np.log(magnification), NEAR)
     stage = SIZES.tolist().index(ends[end])
-    add_words(sketch, f"Figure {NUMBERS[stage]}: {SPACINGS[stage]}", 28.0, strength=strength)
+    fine = FINE.get(STAGES[stage].fine, f"{STAGES[stage].fine:g}")
+    words = f"Figure {NUMBERS[stage]}: graticule {GRATICULES[stage]}, fine grid {fine}°"
+    add_words(sketch, words, 28.0, strength=strength)
     ticks = {log(size): [f"{size}"] for size in TICKS}
     add_gauge(sketch, log(magnification), ticks, 15.0, left=26.0, title=["$S$"])
     return whole(sketch, HEIGHT)

@@ -24,7 +24,7 @@ VIEW = View(0, -52)
 SECONDS = 3.5  # up, and down
 HEIGHT, UNIT = 184.0, 51.0  # points: of the page, and of a unit of the map
 MIDDLE = (WIDTH / 2, 99.0)  # of the rectangle
-RADII = {0.0: r"$\infty$", 0.25: "$D$", 0.5: "$D/2$", 1.0: "$D/4$"}  # by curvature, in units of the last one's
+SHARES = (0.0, 0.25, 0.5, 1.0)  # curvatures beside the scale, in units of the last one's
 
 
 def frame(curvature: float) -> Page:
@@ -39,7 +39,7 @@ def frame(curvature: float) -> Page:
         34.0,
         strength=strength,
     )
-    ticks = {place: (text, f"{extent(place):.0f}°") for place, text in RADII.items()}
+    ticks = {place: (radius(place), f"{extent(place):.0f}°") for place in SHARES}
     add_gauge(sketch, curvature, ticks, 25.0, left=40.0, title=("$R$", "$D$ spans"))
     return whole(sketch, HEIGHT)
 
@@ -75,6 +75,12 @@ def emerging(item: Item, curvature: float) -> Item:
     if isinstance(item, Fill) and item.name == "ball":
         return replace(item, color=with_opacity(item.color, curvature))
     return item
+
+
+def radius(curvature: float) -> str:
+    """The radius of the sphere as a part of the diagonal."""
+    part = round(curvature * lift().diagonal / lift().sphere.radius, 6)
+    return rf"$D{'' if part == 1 else f'/{part:g}'}$" if curvature else r"$\infty$"
 
 
 def extent(curvature: float) -> float:

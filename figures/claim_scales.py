@@ -16,7 +16,7 @@ Chosen by us: the numbers of paths, their seed, and the levels of the curves.
 """
 
 import numpy as np
-from _chart import Chart, steps
+from _chart import Chart, fraction, steps
 from _rectangle import HEIGHT, WIDTH, lift
 
 from stereodel import RectangleLift, SphereCircle, bubble_to_bubble
@@ -95,12 +95,13 @@ def add_densities(sketch: Sketch, g: dict) -> None:
         sketch.add_polygon(outline, name=kind, color=with_opacity(color, 0.12))
         sketch.add_polyline(outline, name=kind, style=LineStyle(color, 0.9))
     sketch.add_segment(*LEFT.place([(LEFT.x[0], 0.0), (LEFT.x[1], 0.0)]), name="axis")
-    ticks = {0.5: "$1/2$", 0.6: "0.6", 0.7: "0.7", 0.8: "0.8", 0.9: "0.9", 1.0: "$1$"}
+    ends = {end: fraction(end) for end in (0.5, 1.0)}
+    ticks = {value: ends.get(value, f"{value:g}") for value in (0.5, 0.6, 0.7, 0.8, 0.9, 1.0)}
     LEFT.add_x_ticks(sketch, ticks, "length of the image / length of the path")
     for at, text, color in (
         ((0.62, 3.2), "very short", DARK_GRAY),
         ((0.89, 5.6), "segments", BLUE),
-        ((0.79, 12.0), "through 12 points", VERMILION),
+        ((0.79, 12.0), f"through {STOPS} points", VERMILION),
     ):
         sketch.add_label(LEFT.place(at), text, align="left" if at[0] > 0.85 else "right", color=color)
 
@@ -116,12 +117,13 @@ def add_contours(sketch: Sketch, g: dict) -> None:
     RIGHT.add_frame(sketch)
     RIGHT.add_level(sketch, 90.0, name="frame")
     RIGHT.add_level(sketch, 90.0, name="frame", upright=True)
+    limit = fraction(scale_ratio(RADII[0], 90.0))
     for place, offset, side, words, color in (
         ((90, 0), (9, 0), (46, 10), "larger at the rim", BLUE),
         ((0, 90), (0, 9), (4, 40), "larger at the centre", VERMILION),
     ):
         sketch.add_points(RIGHT.place(place), name="ends", style=DotStyle(color, 2.4, rim_width=0.5))
-        sketch.add_label(RIGHT.place(place), "$2$", offset, color=color)
+        sketch.add_label(RIGHT.place(place), limit, offset, color=color)
         sketch.add_label(RIGHT.place(side), words, align="left" if place[0] == 0 else "right", color=color, halo=3.0)
     ticks = {value: f"${value}°$" for value in (0, 30, 60, 90)}
     RIGHT.add_x_ticks(sketch, ticks, r"radius $\chi$ of the bubble")

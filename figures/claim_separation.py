@@ -16,7 +16,7 @@ Chosen by us: the sides 3 : 2, the number of pairs and their seed.
 """
 
 import numpy as np
-from _chart import Chart, steps
+from _chart import Chart, fraction, steps
 from _rectangle import HEIGHT, WIDTH, lift
 
 from stereodel import RectangleLift
@@ -101,10 +101,10 @@ def add_words(sketch: Sketch, g: dict) -> None:
     """Scales and names."""
     MAIN.add_frame(sketch)
     low, high = g["bounds"]
-    MAIN.add_x_ticks(sketch, {0: "$0$", 0.25: "$1/4$", 0.5: "$1/2$", 0.75: "$3/4$", 1: "$1$"}, "distance  $d/D$")
-    ticks = {0.5: "$1/2$", low: r"$2/\pi$", 0.75: "$3/4$", 1.0: "$1$", high: r"$4/\pi$"}
-    MAIN.add_y_ticks(sketch, ticks, r"$c$ = angle / $(d/D)\,180°$", gap=27.0)
-    lengths = {value * high: text for value, text in ((0.5, "$1/2$"), (0.75, "$3/4$"), (1.0, "$1$"))}
+    MAIN.add_x_ticks(sketch, {value: fraction(value) for value in (0, 0.25, 0.5, 0.75, 1)}, "distance  $d/D$")
+    ticks = {value: fraction(value) for value in (0.5, 0.75, 1.0)} | {low: r"$2/\pi$", high: r"$4/\pi$"}
+    MAIN.add_y_ticks(sketch, dict(sorted(ticks.items())), r"$c$ = angle / $(d/D)\,180°$", gap=27.0)
+    lengths = {value * high: fraction(value) for value in (0.5, 0.75, 1.0)}
     SIDE.add_y_ticks(sketch, lengths, "geodesic of the sphere / segment", right=True)
     for at, text, offset, align, color in (
         ((0.03, 0.5), "the paper's lower constant", (0, -7), "left", DARK_GRAY),

@@ -17,13 +17,14 @@ import numpy as np
 from _sites import in_rectangle
 
 from stereodel import PlanarDelaunay, SphereCircle, SphericalDelaunay, Stereographic
-from stereodel.drawing import Fill, LineStyle, Page, Scene, Sketch, View
+from stereodel.drawing import Fill, LineStyle, Page, Scene, Sketch, View, with_legend
 from stereodel.drawing.sketch import arc_path
 from stereodel.drawing.style import BLUE, GRAY, PRINT_WIDTH, VERMILION, with_opacity
 from stereodel.render import Figure
 from stereodel.triangulation import planar_part
 
-SITES, HULL, SEED, SIDE, MARGIN = 16, 8, 10, 2.0, 0.05
+SITES, HULL, SIDE, MARGIN = 16, 8, 2.0, 0.05
+SEED = 861  # of the first 900 that whose sites are farthest from all lines that pass them
 RADIUS = 0.45  # of the sphere, in units of the map
 POLE = np.array([0.0, 0.0, 1.0])
 VIEW = View(25, 38)
@@ -32,6 +33,12 @@ WINDOW = 1.12  # half the side of the map, page units
 EXTENT = (-3.58, 1.16, -1.16, 1.16)
 KEPT, LEFT_OUT, CIRCLE = LineStyle(GRAY, 0.8), LineStyle(VERMILION, 1.1), LineStyle(BLUE, 1.1)
 MISSING = LineStyle(VERMILION, 0.9, (3.0, 2.0))
+LEGEND = {
+    "triangles of both": KEPT,
+    "facets left out": LEFT_OUT,
+    "the tinted facet": MISSING,
+    "its bubble": CIRCLE,
+}
 
 
 def geometry() -> dict:
@@ -64,7 +71,7 @@ def draw(g: dict) -> Page:
     sketch = Sketch()
     add_plane(sketch, g)
     sketch.add_items(sphere(g).layout(VIEW))
-    return sketch.page(EXTENT, width=PRINT_WIDTH)
+    return with_legend(sketch.page(EXTENT, width=PRINT_WIDTH), LEGEND, columns=len(LEGEND), indent=12.0)
 
 
 def add_plane(sketch: Sketch, g: dict) -> None:

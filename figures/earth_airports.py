@@ -3,12 +3,13 @@ The airport next to you
 =======================
 
 The Voronoi cells of 28 298 airports, five of which share their place with another: every point of the Earth belongs to
-its nearest airport. The colour shows the area of the cell on the ellipsoid, from a few km² in the United States to 13
-million km² of the Southern Ocean. The airports of the five largest cells that are clearly visible are labelled.
+its nearest airport. The colour shows the area of the cell on the ellipsoid, from 1.1 km² in Alaska to 13 million km² of
+the Southern Ocean. Of the airports that are clearly visible, those of the five largest cells are labelled; the largest
+cell of which a part is in sight belongs to an airport beyond the limb.
 """
 
 import numpy as np
-from _poster import LATITUDE, captioned, spaced, with_legend
+from _poster import LATITUDE, captioned, even_ends, spaced, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, lonlat_to_xyz
 from stereodel.drawing import ColorScale, Page, View
@@ -17,10 +18,8 @@ from stereodel.globe import Globe
 from stereodel.render import Figure
 
 VIEW = View(-40, 36)
-IN_SIGHT, NAMED = 0.3, 5  # depth on the unit ball, and how many of the largest cells are named
-PLACES = {"TXKF": "Bermuda"}  # by code of the airport: its place where its name tells nobody where it is
-SCALE = ColorScale("magma", 10.0, 1e7, log=True)  # km²
-TICKS = {1e1: "10", 1e2: "100", 1e3: "1000", 1e4: "10 000", 1e5: "100 000", 1e6: "1 million", 1e7: "10 million"}
+CLEAR, NAMED = 0.3, 5  # depth on the unit ball from which airports are named, and how many
+PLACES = {"TXKF": "Bermuda", "SCIP": "Easter Island"}  # by code: where an airport is whose name tells nobody
 
 
 def geometry() -> dict:
@@ -37,23 +36,41 @@ def short(airport: int) -> str:
     return PLACES.get(str(table.icao[airport]), name)
 
 
+def largest_in_sight(voronoi: SphericalVoronoi, areas: np.ndarray) -> int:
+    """The airport whose cell is the largest that reaches into the hemisphere that is seen: that has a corner there."""
+    near = VIEW.depth(voronoi.vertices) > 0
+    seen = [near[corners].any() for corners in voronoi.regions]
+    return int(np.argmax(np.where(np.array(seen)[voronoi.point_region], areas, 0.0)))
+
+
+def scale_of(areas: np.ndarray) -> ColorScale:
+    """Colours for all areas."""
+    return ColorScale("magma", *even_ends(areas), log=True)
+
+
 def draw(g: dict) -> Page:
     """Cells by area, and the coast."""
-    globe = Globe(latitude=LATITUDE)
-    globe.add_cells(SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE), colors=SCALE(g["areas"]), style=None)
+    globe, areas = Globe(latitude=LATITUDE), g["areas"]
+    voronoi = SphericalVoronoi.from_lonlat(g["lonlat"], latitude=LATITUDE)
+    scale = scale_of(areas)
+    globe.add_cells(voronoi, colors=scale(areas), style=None)
     globe.add_coastlines(style=LineStyle(with_opacity(WHITE, 0.6), 0.4))
-    seen = np.flatnonzero(VIEW.depth(lonlat_to_xyz(g["lonlat"], latitude=LATITUDE)) > IN_SIGHT)
-    named = seen[np.argsort(-g["areas"][seen])[:NAMED]]
-    largest = named[0]
+    depth = VIEW.depth(lonlat_to_xyz(g["lonlat"], latitude=LATITUDE))
+    clear = np.flatnonzero(depth > CLEAR)
+    named = clear[np.argsort(-areas[clear])[:NAMED]]
+    largest = largest_in_sight(voronoi, areas)
     globe.add_points(g["lonlat"][named], style=DotStyle(BLACK, 1.3, rim=WHITE, rim_width=0.3))
     globe.add_labels(g["lonlat"][named], map(short, named.tolist()), size=7.0, offset=(3.5, 0.0), halo=1.2)
     subtitle = (
-        f"{spaced(len(g['areas']))} airports and the part of the Earth that is nearest to each; the largest "
-        f"in sight, {g['areas'][largest] / 1e6:.1f} million km², is that of {short(largest)}"
+        f"{spaced(len(areas))} airports and the part of the Earth that is nearest to each; the largest in sight, "
+        f"{areas[largest] / 1e6:.1f} million km², is that of {short(largest)}"
     )
     credit = "Airports: airportsdata. Coast: Natural Earth. Areas on WGS84."
+    if depth[largest] <= 0:
+        side = "left" if VIEW.project(voronoi.points[largest])[0] < 0 else "right"
+        credit += f" {short(largest)} itself lies beyond the {side} limb."
     page = captioned(globe.page(view=VIEW), "The airport next to you", subtitle, credit, ink=BLACK)
-    return with_legend(page, SCALE, TICKS, "area, km²", ink=BLACK)
+    return with_legend(page, scale, "area, km²", ink=BLACK)
 
 
 FIGURE = Figure("earth_airports", geometry, draw)

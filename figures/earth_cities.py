@@ -20,7 +20,6 @@ from stereodel.render import Figure
 
 VIEW = View(68, 28)
 SCALE = ColorScale("inferno", 0.1, 1e4, log=True)  # people per km²
-TICKS = {1e-1: "0.1", 1e0: "1", 1e1: "10", 1e2: "100", 1e3: "1000", 1e4: "10 000"}
 SEA = (0.055, 0.058, 0.075, 1.0)
 NIGHT, INK = (0.03, 0.03, 0.045, 1.0), (0.9, 0.88, 0.84, 1.0)
 
@@ -46,7 +45,7 @@ def draw(g: dict) -> Page:
     subtitle = f"The surroundings of {spaced(len(g['density']))} cities and villages, by the number of their people"
     credit = "Places: GeoNames (CC BY 4.0). Coast: Natural Earth. Areas on WGS84."
     page = captioned(globe.page(view=VIEW), "Where people live", subtitle, credit, ink=INK)
-    return replace(with_legend(page, SCALE, TICKS, "people per km²", ink=INK), background=NIGHT)
+    return replace(with_legend(page, SCALE, "people per km²", ink=INK), background=NIGHT)
 
 
 FIGURE = Figure("earth_cities", geometry, draw)

@@ -193,7 +193,7 @@ def draw(g: dict) -> Page:
     second.add_points(points[g["new"]], style=NEW, name="read")
     for globe in (cut, first, second):
         globe.add_points(points[g["own"]], style=OWN, name="own")
-    titles = {"sixteen partitions": cut, "first round of one": first, "its second round": second}
+    titles = {f"{len(g['rooms'])} partitions": cut, "first round of one": first, "its second round": second}
     page = panels([Panel(globe, view=VIEW, title=title) for title, globe in titles.items()])
     return with_legend(page, LEGEND, columns=3, indent=40.0)
 

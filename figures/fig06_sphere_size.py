@@ -20,7 +20,7 @@ from stereodel.sphere import angular_distance
 
 HALF_LENGTH = 1.6
 RADII = (2.0, 1.0, 0.5)
-NAMES = ("2", "1", "½")
+NAMES = {0.5: "½"}  # of radii that are not written with digits
 INKS = (BLUE, VERMILION, as_color("#00805e"))  # of type, which needs more contrast than lines: the green is darker
 HEIGHTS = (2.7, 1.28, 0.36)  # where they stand
 EXTENT = (-2.35, 2.35, -0.3, 4.15)
@@ -59,7 +59,7 @@ def add_sphere(sketch: Sketch, number: int, radius: float, g: dict) -> None:
     sketch.add_arc(center, radius, -90 - half, -90 + half, name=f"covered{number + 1}")
     sketch.add_points(g["lifted"][number], name=name).add_points(top, name="pole")
     place, color = (0.0, HEIGHTS[number]), INKS[number]
-    sketch.add_label(place, f"$R = {NAMES[number]}$", (0, 6), color=color)
+    sketch.add_label(place, f"$R = {NAMES.get(radius, f'{radius:g}')}$", (0, 6), color=color)
     sketch.add_label(place, f"${g['extents'][number]:.1f}°$", (0, -6), color=color)
 
 

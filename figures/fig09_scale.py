@@ -10,6 +10,7 @@ Chosen by us: φ = 25° on the left, which the dots on the curves mark on the ri
 """
 
 import numpy as np
+from _chart import fraction
 
 from stereodel import RectangleLift, lonlat_to_xyz
 from stereodel.drawing import Page, Sketch
@@ -21,12 +22,12 @@ PHI = 25.0  # degrees south of the equator
 KNOTS = np.linspace(0.0, 90.0, 37)  # of the graph; φ is one
 EXTENT = (-1.42, 4.78, -0.3, 2.28)
 ORIGIN, WIDTH, HEIGHT = np.array([2.55, 0.0]), 1.95, 2.0  # the graph's box on the page
-ACROSS = {0.0: "$0°$", PHI: f"${PHI:g}°$", 60.0: "$60°$", 90.0: "$90°$"}
+ACROSS = {value: f"${value:g}°$" for value in (0.0, PHI, 60.0, 90.0)}
 TEXTS = {
     "scale": (np.array([0.85, 1.35]), r"$s = (1 + \sin\varphi)/2$"),
     "rate": (np.array([1.02, 0.86]), r"$\partial s/\partial\varphi = (\cos\varphi)/2$"),
 }
-UP = {0.0: "$0$", 0.5: "$1/2$", 1.0: "$1$"}
+UP = {value: fraction(value) for value in (0.0, 0.5, 1.0)}
 
 
 def geometry() -> dict:

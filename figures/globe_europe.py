@@ -9,7 +9,7 @@ Chosen by us: focus and magnification, and which airports are labelled.
 """
 
 import numpy as np
-from _poster import LATITUDE, captioned, spaced, with_legend
+from _poster import LATITUDE, captioned, in_words, on_scale, with_legend
 
 from stereodel import SphericalVoronoi, data, earth, fisheye
 from stereodel.drawing import ColorScale, Page
@@ -20,7 +20,6 @@ from stereodel.render import Figure
 FOCUS = (11.0, 49.0)
 MAGNIFICATION = 4.0
 SCALE = ColorScale("YlGnBu", 1e3, 1e6, log=True)  # km²
-TICKS = {1e3: "1000", 1e4: "10 000", 1e5: "100 000", 1e6: "1 million"}
 LABELLED = [
     *("FRA", "LHR", "CDG", "AMS", "MAD", "FCO", "IST", "ZRH", "VIE", "CPH", "ARN", "OSL", "HEL", "WAW", "PRG", "BUD"),
     *("ATH", "LIS", "DUB", "KEF", "BCN", "SVO", "MXP", "BEG", "OTP", "SOF", "KBP", "RIX", "EDI", "BGO", "PMI"),
@@ -39,9 +38,7 @@ def geometry() -> dict:
 
 def named(code: str, area: float) -> str:
     """A code, and the area of the cell in km² to two digits where it is asked for."""
-    rounded = int(float(f"{area:.1e}"))
-    size = str(rounded) if rounded < 10_000 else spaced(rounded)
-    return f"{code}, {size} km²" if code in MEASURED else code
+    return f"{code}, {on_scale(float(f'{area:.1e}'))} km²" if code in MEASURED else code
 
 
 def draw(g: dict) -> Page:
@@ -56,15 +53,16 @@ def draw(g: dict) -> Page:
     texts = [named(code, g["areas"][row]) for code, row in zip(LABELLED, rows, strict=True)]
     globe.add_points(labelled, style=DotStyle(BLACK, 1.5, rim=WHITE, rim_width=0.4))
     globe.add_labels(labelled, texts, size=7.5, offset=(3.5, 0.0), halo=1.3)
+    letters = in_words(len(g["iata"][0]))
     page = captioned(
         globe.page(fisheye(FOCUS, magnification=MAGNIFICATION)),
         "Europe, airport by airport",
-        "The part of the Earth that is nearest to each airport with a code of three letters; the middle of Europe is "
-        "four times as large.",
+        f"The part of the Earth that is nearest to each airport with a code of {letters} letters; the middle of "
+        f"Europe is {in_words(MAGNIFICATION)} times as large.",
         "Airports: airportsdata. Coast and borders: Natural Earth. Areas on WGS84.",
         ink=BLACK,
     )
-    return with_legend(page, SCALE, TICKS, "area, km²", ink=BLACK)
+    return with_legend(page, SCALE, "area, km²", ink=BLACK, values=g["areas"])
 
 
 FIGURE = Figure("globe_europe", geometry, draw)

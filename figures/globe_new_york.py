@@ -17,13 +17,15 @@ from _poster import captioned
 
 from stereodel import MoebiusMap, SphereCircle, bubble_to_bubble, data, earth, lonlat_to_xyz
 from stereodel.drawing import Dots, Label, Page, Stroke, View
+from stereodel.drawing.ground import haloed
 from stereodel.drawing.page import Item
-from stereodel.drawing.style import BLACK, DARK_GRAY, MAP_FILLS, VERMILION, WHITE, DotStyle
+from stereodel.drawing.style import BLACK, DARK_GRAY, VERMILION, WHITE, DotStyle
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render import Figure
 
 NEW_YORK = (-73.98, 40.75)
 RADIUS_KM = 100.0
+MILLION = 10  # of the scale for which coasts and rivers are made
 APART = 0.028  # between dots, radii of the globes
 AIRPORT = DotStyle(VERMILION, 0.75)
 NAMES_RIGHT = {
@@ -55,7 +57,6 @@ FAR = {
     "California": ((-120.0, 37.0), (0.30, -0.20), "left"),
 }
 """Where it is, where its name stands in radii from the middle of the globe, and on which side."""
-GROUND = (*MAP_FILLS["ocean"][:3], 0.8)
 
 
 def lens_of(radius: float) -> MoebiusMap:
@@ -80,10 +81,10 @@ def geometry() -> dict:
 def draw(g: dict) -> Page:
     """The two hemispheres, seen from above their middles."""
     globe = Globe()
-    globe.add_land(resolution="10m")
+    globe.add_land(resolution=f"{MILLION}m")
     globe.add_lakes()
-    globe.add_rivers(resolution="10m")
-    globe.add_coastlines(resolution="10m")
+    globe.add_rivers(resolution=f"{MILLION}m")
+    globe.add_coastlines(resolution=f"{MILLION}m")
     globe.add_graticule(15)
     globe.add_points(g["airports"], style=AIRPORT)
     for names, offset in ((NAMES_RIGHT, (3.0, 0.0)), (NAMES_LEFT, (-3.0, 0.0))):
@@ -92,14 +93,15 @@ def draw(g: dict) -> Page:
     lens = lens_of(g["radius"])
     near, far = hemispheres(*NEW_YORK)
     page = panels([Panel(globe, lens, near, "New York"), Panel(globe, lens, far, "everything else")])
-    page = replace(page, items=(*page.items, *leaders(page, lens, far)))
+    page = haloed(replace(page, items=(*page.items, *leaders(page, lens, far))))
     scale = float(lens.scale_factor(lonlat_to_xyz(NEW_YORK)))
     page = captioned(
         page,
         "A New Yorker’s globe",
-        "Half of it lies within 100 km of Manhattan, the other half is the rest of the world; every angle is true.",
-        "Land, rivers, lakes: Natural Earth, made for 1 : 10 million and here, in the middle of New York, enlarged "
-        f"{scale:.0f} times. Airports: airportsdata.",
+        f"Half of it lies within {RADIUS_KM:g} km of Manhattan, the other half is the rest of the world; every "
+        "angle is true.",
+        f"Land, rivers, lakes: Natural Earth, made for 1 : {MILLION} million and here, in the middle of New York, "
+        f"enlarged {scale:.0f} times. Airports: airportsdata.",
         ink=BLACK,
         above=46.0,
         below=16.0,
@@ -117,7 +119,7 @@ def leaders(page: Page, lens: MoebiusMap, view: View) -> list[Item]:
         path = (place + np.linspace(0.0, 1.0, 4)[:, None] * (tip - place))[None]
         items.append(Stroke(path, DARK_GRAY, 0.4, name="leader"))
         shift = {"left": (2.0, 0.0), "right": (-2.0, 0.0)}[align]
-        items.append(Label(name, tuple(tip.tolist()), shift, align, "center", size=7.0, halo=1.2, halo_color=GROUND))
+        items.append(Label(name, tuple(tip.tolist()), shift, align, "center", size=7.0, halo=1.2, on_ground=True))
     return items
 
 

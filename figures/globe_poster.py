@@ -10,6 +10,7 @@ Chosen by us: focus, magnification, colours, the cities and the positions of the
 from dataclasses import replace
 
 import numpy as np
+from _poster import in_words
 
 from stereodel import MoebiusMap, earth, fisheye
 from stereodel.drawing import Label, Page, Stroke
@@ -19,6 +20,8 @@ from stereodel.render import Figure
 
 FOCUS = (17.0, 38.5)
 MAGNIFICATION = 3.5
+MILLION = 10  # of the scale for which coasts and rivers are made
+RESOLUTION = f"{MILLION}m"
 SEA = (0.14, 0.30, 0.41, 1.0)
 LAND = (0.95, 0.90, 0.79, 1.0)
 BORDER = (0.62, 0.47, 0.36, 1.0)
@@ -78,12 +81,12 @@ BAR_KM = 200
 def draw(g: dict) -> Page:
     """The globe on a dark ground, its title below."""
     globe = Globe(ocean=SEA, limb=LineStyle(GOLD, 0.8))
-    globe.add_land(resolution="10m", color=LAND)
+    globe.add_land(resolution=RESOLUTION, color=LAND)
     globe.add_graticule(10, style=LineStyle(with_opacity(BRONZE, 0.8), 0.25))
-    globe.add_lakes(resolution="10m", color=SEA)
-    globe.add_rivers(resolution="10m", style=LineStyle(SEA, 0.22))
-    globe.add_borders(resolution="10m", style=LineStyle(BORDER, 0.25))
-    globe.add_coastlines(resolution="10m", style=LineStyle(INK, 0.25))
+    globe.add_lakes(resolution=RESOLUTION, color=SEA)
+    globe.add_rivers(resolution=RESOLUTION, style=LineStyle(SEA, 0.22))
+    globe.add_borders(resolution=RESOLUTION, style=LineStyle(BORDER, 0.25))
+    globe.add_coastlines(resolution=RESOLUTION, style=LineStyle(INK, 0.25))
     for names, offset in ((EAST, (2.6, 0.0)), (WEST, (-2.6, 0.0)), (SOUTH, (0.0, -2.6))):
         globe.add_points(list(names.values()), style=DotStyle(INK, 1.1, rim=LAND, rim_width=0.3))
         globe.add_labels(list(names.values()), names, offset=offset, size=6.2, color=INK, halo=0.9)
@@ -123,12 +126,14 @@ def framed(page: Page) -> Page:
     texts = (
         line("M A R E   N O S T R U M", 0.115, 22.0),
         line(
-            "The Mediterranean through a conformal fisheye: three and a half times as large, every angle true.",
+            f"The Mediterranean through a conformal fisheye: {in_words(MAGNIFICATION)} times as large, "
+            "every angle true.",
             0.165,
             8.0,
         ),
         line(
-            f"Magnification {MAGNIFICATION:g} about {FOCUS[1]:g}° N, {FOCUS[0]:g}° E. Natural Earth, 1 : 10 million.",
+            f"Magnification {MAGNIFICATION:g} about {FOCUS[1]:g}° N, {FOCUS[0]:g}° E. "
+            f"Natural Earth, 1 : {MILLION} million.",
             0.215,
             6.0,
         ),

@@ -10,7 +10,7 @@ Chosen by us: the place, one of the circles' centres; the magnification; one cir
 """
 
 import numpy as np
-from _poster import captioned
+from _poster import captioned, in_words
 
 from stereodel import earth, fisheye
 from stereodel.drawing import Page, View
@@ -21,8 +21,9 @@ from stereodel.render import Figure
 FOCUS = (0.0, 40.0)
 MAGNIFICATION = 3.0
 RADIUS_KM = 250.0
+SPACING = 10  # degrees
 VIEW = View(*FOCUS)
-NUMBERED = {"1": (0.0, 40.0), "2": (-360 / 28, 40.0), "3": (180 / 23, 50.0)}  # of 28 and 23 circles on a parallel
+NUMBERED = ((0.0, 40.0), (-360 / 28, 40.0), (180 / 23, 50.0))  # of 28 and 23 circles on a parallel
 
 
 def geometry() -> dict:
@@ -34,17 +35,18 @@ def draw(g: dict) -> Page:
     """The same globe twice, the second time through the lens."""
     globe = Globe()
     globe.add_land()
-    globe.add_graticule(10)
+    globe.add_graticule(SPACING)
     globe.add_coastlines()
-    globe.add_tissot(10, g["radius"])
-    globe.add_labels(list(NUMBERED.values()), NUMBERED, offset=(0.0, 0.0), size=7.5, halo=1.0)
+    globe.add_tissot(SPACING, g["radius"])
+    globe.add_labels(NUMBERED, map(str, range(1, len(NUMBERED) + 1)), offset=(0.0, 0.0), size=7.5, halo=1.0)
     lens = fisheye(FOCUS, magnification=MAGNIFICATION)
-    page = panels([Panel(globe, view=VIEW, title="without a lens"), Panel(globe, lens, VIEW, "magnified three times")])
+    magnified = f"magnified {in_words(MAGNIFICATION)} times"
+    page = panels([Panel(globe, view=VIEW, title="without a lens"), Panel(globe, lens, VIEW, magnified)])
     return captioned(
         page,
         f"Circles of {RADIUS_KM:.0f} km stay circles",
-        "Orange: all that lies within that distance of a place, one about every 10°. The numbers mark the same three "
-        "circles on both globes.",
+        f"Orange: all that lies within that distance of a place, one about every {SPACING}°. The numbers mark the same "
+        f"{in_words(len(NUMBERED))} circles on both globes.",
         "Land and coast: Natural Earth.",
         ink=BLACK,
         above=46.0,

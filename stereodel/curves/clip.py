@@ -117,7 +117,9 @@ def regions(
     owner : (r,) array
         The region of each ring.
     count : int
-        Number of regions. pieces, samples The arcs of the edges, cut at the border, and their points.
+        Number of regions.
+    pieces, samples : Pieces, Ragged
+        The arcs of the edges, cut at the border, and their points.
     middle : (count,) array, optional
         Which regions contain the centre of the view. If this is known, edges that are hidden throughout may be left out
         of the rings.

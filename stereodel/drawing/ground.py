@@ -20,6 +20,12 @@ ACROSS: Final = 9
 UP: Final = 3
 """Places in the box of a label at which the ground is sampled."""
 
+MOST: Final = 0.75
+"""Share of these places that must have one colour for the halo to have it: on more of another, it would be a patch."""
+
+VEIL: Final = 0.6
+"""Opacity of a halo on several colours: black type on a white one has contrast 7.4 even where the ground is black."""
+
 LEGIBLE: Final = 7.0
 """Least contrast of small type, a ratio of luminances plus 0.05 (Web Content Accessibility Guidelines, level AAA)."""
 
@@ -27,8 +33,9 @@ BEZIER_STEPS: Final = np.linspace(0.0, 1.0, 8, endpoint=False)
 
 
 def haloed(page: Page) -> Page:
-    """A page on which the halos of labels that are `on_ground` have the most frequent colour of the ground below them.
+    """A page on which the halos of labels that are `on_ground` have the colour of the ground below the words.
 
+    Where that has several colours, as at a coast, halos are a veil of white, or of black below light type.
     Labels are above everything else, so that all other items are the ground. Styles change its colours: halos are
     determined again when a page has been styled.
     """
@@ -48,13 +55,20 @@ def _tinted(label: Label, page: Page, ground: Sequence[Item]) -> Label:
     places = np.stack(np.meshgrid(np.linspace(left, right, ACROSS), np.linspace(bottom, top, UP)), axis=-1)
     found = painted(ground, places.reshape(-1, 2), page.background).round(3)
     colors, counts = np.unique(found, axis=0, return_counts=True)
+    if counts.max() < MOST * len(found):
+        return replace(label, halo_color=(*away_from(label.color), VEIL))
     red, green, blue = legible(colors[counts.argmax()], label.color).tolist()
     return replace(label, halo_color=(red, green, blue, HALO_OPACITY))
 
 
+def away_from(ink: Color) -> tuple[float, float, float]:
+    """White or black, whichever contrasts more with the ink."""
+    return max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
+
+
 def legible(ground: FloatArray, ink: Color) -> FloatArray:
     """A colour mixed with white or black, whichever is farther from the ink, until type on it is legible."""
-    away = max(WHITE[:3], BLACK[:3], key=lambda far: float(contrast(far, ink[:3])))
+    away = away_from(ink)
     for share in np.linspace(0.0, 1.0, 21):
         mixed: FloatArray = ground + share * (away - ground)
         if contrast(mixed, ink[:3]) >= LEGIBLE:

@@ -258,7 +258,9 @@ class Sketch:
         Parameters
         ----------
         corner : (float, float)
-            Lower left corner of the rectangle. width, height : float Size of the rectangle in page units.
+            Lower left corner of the rectangle.
+        width, height : float
+            Size of the rectangle in page units.
         across, up : mapping of float to str
             Numbers and their texts, below and to the left of the rectangle. The smallest and the largest are at its
             corners.

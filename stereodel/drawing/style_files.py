@@ -18,6 +18,7 @@ import numpy as np
 from stereodel._arrays import as_scalar
 from stereodel.drawing.colors import Color, as_color
 from stereodel.drawing.fonts import as_font
+from stereodel.drawing.legend import PREFIX
 from stereodel.drawing.lengths import as_length
 from stereodel.drawing.page import Dots, Fill, Item, Label, Page, Polygons, Polylines, Stroke
 
@@ -103,17 +104,18 @@ class PageStyle:
         return replace(page, background=background, items=tuple(map(self._item, page.items)))
 
     def _item(self, item: Item) -> Item:
+        name = item.name.removeprefix(PREFIX)
         match item:
             case Stroke() | Polylines():
-                return replace(item, **self.lines.get(item.name, {}))
+                return replace(item, **self.lines.get(name, {}))
             case Dots():
-                return replace(item, **self.dots.get(item.name, {}))
+                return replace(item, **self.dots.get(name, {}))
             case Label():
                 return replace(item, **self.labels, on_ground=item.on_ground and "halo_color" not in self.labels)
-            case Fill() if item.name in self.fills:
-                return replace(item, color=self.fills[item.name])
-            case Polygons() if item.name in self.fills and len(item.by_color[0]) == 1:
-                return replace(item, colors=np.tile(self.fills[item.name], (len(item.colors), 1)))
+            case Fill() if name in self.fills:
+                return replace(item, color=self.fills[name])
+            case Polygons() if name in self.fills and len(item.by_color[0]) == 1:
+                return replace(item, colors=np.tile(self.fills[name], (len(item.colors), 1)))
             case _:
                 return item
 

@@ -272,7 +272,7 @@ class Globe:
         priority is left out, and so is one whose place is not visible; a label that would leave the disc moves to
         another side of its place with room. A `movable` label may be on any side of its place where there is room,
         at the distance given by `offset`; see `stereodel.drawing.label_placement`. Without `halo_color`, halos have the
-        colour of the ground below them, at 80 % opacity.
+        colour of the ground below the words, at 80 % opacity; where it has several, they are a veil of white or black.
 
         Labels may be in any script, see `Globe` on fonts; `font` replaces the globe's. With `formulas`, text between
         two dollar signs is a formula in matplotlib's mathtext.

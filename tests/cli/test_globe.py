@@ -285,6 +285,18 @@ def test_names_titles_legends_and_looks(folder, run):
     assert dots.get("fill") == "#b22222"
 
 
+def test_a_legend_shows_what_the_map_shows_in_a_style_of_ones_own(folder, run):
+    (folder / "towns.csv").write_text("lon,lat\n10,50\n20,40\n0,60\n", encoding="utf-8")
+    (folder / "v.toml").write_text(
+        '[lines]\nvoronoi = {color = "red", width = 2}\n[dots.sites]\ncolor = "#00aa00"\n', encoding="utf-8"
+    )
+    run("globe", "towns.csv", "-o", "a.svg", "--view=10,50", "--legend", "--style=v.toml")
+    looks = {path.get("id"): path.attrib for path in ET.parse(folder / "a.svg").getroot().iter(f"{SVG}path")}
+    for name in ("voronoi", "legend-voronoi"):
+        assert (looks[name]["stroke"], looks[name]["stroke-width"]) == ("#ff0000", "2"), name
+    assert looks["sites-2"]["fill"] == looks["legend-sites-2"]["fill"] == "#00aa00"
+
+
 def test_layers_of_a_colour(folder, run):
     line = {"type": "LineString", "coordinates": [[0, 40], [20, 60]]}
     area = {"type": "Polygon", "coordinates": [[[0, 40], [20, 40], [10, 60], [0, 40]]]}

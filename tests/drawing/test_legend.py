@@ -1,9 +1,23 @@
 """Legends: rows below a picture, in points, whatever the unit of the page."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from stereodel.drawing import Dots, DotStyle, Fill, Label, LineStyle, Page, Stroke, with_legend
+from stereodel.drawing import (
+    Dots,
+    DotStyle,
+    Fill,
+    Label,
+    LineStyle,
+    Page,
+    Polygons,
+    Polylines,
+    Stroke,
+    styled,
+    with_legend,
+)
 from stereodel.drawing.legend import GAP, ROW, SAMPLE
 
 LINE, DASHES, DOT = LineStyle("red", 0.7), LineStyle("blue", 1.0, (3.0, 2.0)), DotStyle("green", 2.0, "black", 0.5)
@@ -73,3 +87,42 @@ def test_errors_say_what_is_wrong(page):
         with_legend(page, ENTRIES, columns=0)
     with pytest.raises(ValueError, match="no colour"):
         with_legend(page, {"x": "no colour"})
+
+
+def test_samples_follow_what_they_explain_in_every_style(page, tmp_path):
+    """They are named after what looks like them; what only resembles it, in width or in dashes, is another thing."""
+    line = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [3.0, 0.0]]])
+    picture = (
+        Stroke(line, LINE.color, LINE.width, name="coast"),
+        Polylines(line[0], np.array([0, 4]), LINE.color, 2 * LINE.width, "roads"),
+        Dots(line[0], DOT.radius, DOT.color, DOT.rim, DOT.rim_width, "sites"),
+        Fill((line,), (1.0, 165 / 255, 0.0, 1.0), "land"),
+        Polygons(line[0], np.array([0, 4]), np.array([0]), np.array([[0.0, 0.0, 1.0, 1.0]]), name="lakes"),
+    )
+    entries = ENTRIES | {"wide": LINE.scaled(2), "water": "blue"}
+    told = with_legend(replace(page, items=picture), entries, columns=2)
+    samples = {item.name: item for item in told.items[len(picture) :] if not isinstance(item, Label)}
+    assert list(samples) == ["legend-coast", "legend", "legend-sites", "legend-land", "legend-roads", "legend-lakes"]
+    file = tmp_path / "own.toml"
+    file.write_text(
+        "[lines]\ncoast = {color = 'lime', width = 3.0}\nroads = {width = 0.1}\n"
+        "[dots.sites]\ncolor = 'red'\nradius = 1.0\n[fills]\nland = 'gold'\nlakes = 'navy'\n"
+    )
+    for styles in ((), ("dark",), ("slide",), ("column", "dark"), (file,), ("slide", "dark", file)):
+        items = {item.name: item for item in styled(told, *styles).items if not isinstance(item, Label)}
+        for name in ("coast", "roads", "sites", "land", "lakes"):
+            assert looks(items[f"legend-{name}"]) == looks(items[name]), (styles, name)
+    assert looks(items["coast"]) == ((0.0, 1.0, 0.0, 1.0), 3.0)
+
+
+def looks(item):
+    """Colours and sizes of an item."""
+    match item:
+        case Polygons():
+            return tuple(item.colors[0].tolist())
+        case Fill():
+            return item.color
+        case Dots():
+            return item.color, item.radius, item.rim, item.rim_width
+        case _:
+            return item.color, item.width

@@ -30,7 +30,9 @@ def test_the_examples_draw_what_they_say(tmp_path, monkeypatch):
     assert [item.name for item in sketch.items if not isinstance(item, Label)][:3] == ["circle", "axis", "angle"]
     assert [label.text for label in sketch.labels] == ["$R$"]
     assert [label.text for label in legend.labels] == ["Delaunay triangulation", "sites"]
-    assert [item.name for item in slide.items] == [item.name for item in legend.items]
+    # On a slide labels are placed again, and come last.
+    assert sorted(item.name for item in slide.items) == sorted(item.name for item in legend.items)
+    assert {"legend-delaunay", "legend-sites"} < {item.name for item in slide.items}
     assert slide.width / slide.height == pytest.approx(33.87 / 19.05)
     assert slide.background[0] < 0.1
     amounts = [item for item in globe.items if isinstance(item, Dots)]

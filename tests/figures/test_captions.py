@@ -16,9 +16,10 @@ from tests.figures.scripts import CLAIMS, FIGURES, FOLDER, ROWS, arc_points, geo
 WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
 NUMBER = re.compile(
     r"(?P<digits>\d+(?: \d{3})*(?:\.\d+)?)(?P<million> million)?(?:/(?P<over>\d+))?"
-    rf"|\b(?P<word>{'|'.join(WORDS)})\b",
+    rf"|\b(?P<word>{'|'.join(WORDS)})\b(?P<half> and a half)?",
     re.IGNORECASE,
 )
+MAKEFILE = FOLDER.parent / "Makefile"
 REFERENCE = re.compile(r"Figures? \d+(?: to \d+)?|Theorem \d|[Cc]laims? P\d+(?: and P\d+)?")
 FORMULAS = {
     "anim_hull": ("2n − 4",),
@@ -44,9 +45,11 @@ OTHERS = (
     "earth_partitions",
     "globe_europe",
     "globe_new_york",
+    "globe_poster",
+    "globe_tissot",
     "sky_stars",
 )
-"""Scripts beside those of the paper. `globe_tissot` and the poster have numbers that only their scripts tell."""
+"""Scripts beside those of the paper."""
 
 
 def caption(name):
@@ -62,7 +65,7 @@ def numbers(text):
     """Each number of a text and how far it may be from the truth: half a unit of its last digit."""
     for found in NUMBER.finditer(text):
         if found["word"]:
-            yield WORDS[found["word"].lower()], 0.0
+            yield WORDS[found["word"].lower()] + 0.5 * bool(found["half"]), 0.0
         elif found["over"]:
             yield int(found["digits"]) / int(found["over"]), 0.0
         else:
@@ -202,7 +205,7 @@ def truth_of_others(name):
             return [len(module["FIGURE"].geometry()["points"]), module["COLUMNS"], module["ROWS"]]
         case "earth_airports":
             areas = module["geometry"]()["areas"]
-            return [len(areas), np.count_nonzero(areas == 0), areas.max(), module["NAMED"]]
+            return [len(areas), np.count_nonzero(areas == 0), areas[areas > 0].min(), areas.max(), module["NAMED"]]
         case "earth_cities":
             return [len(module["geometry"]()["density"]), len(data.cities().population)]
         case "earth_partitions":
@@ -212,6 +215,12 @@ def truth_of_others(name):
             (letters,) = {len(code) for code in data.airports().iata.tolist() if code}
             radius = np.radians(module["geometry"]().get("radius", 0)) * earth.MEAN_RADIUS_KM
             return [radius, letters] if radius else [letters]
+        case "globe_poster":
+            (wide,) = re.findall(r"globe_poster\.py .* --size (\d+)$", MAKEFILE.read_text("utf-8"), re.MULTILINE)
+            return [module["MAGNIFICATION"], 1, module["MILLION"] * 1e6, int(wide)]
+        case "globe_tissot":
+            size = module["MAGNIFICATION"]
+            return [module["RADIUS_KM"], size, size, module["SPACING"]]
         case "sky_stars":
             return [len(data.stars().magnitude), module["BRIGHT"]]
     raise AssertionError(f"{name} has a caption that nobody checks")
@@ -262,5 +271,5 @@ def test_row_p20_has_the_numbers_of_the_captions():
 
 
 def test_every_number_of_a_caption_is_read():
-    found = Counter(value for value, _ in numbers("a 3° patch, 1/2°, four views of 12.5 %"))
-    assert found == Counter([3.0, 0.5, 4, 12.5])
+    found = Counter(value for value, _ in numbers("a 3° patch, 1/2°, four views of 12.5 %, six and a half"))
+    assert found == Counter([3.0, 0.5, 4, 12.5, 6.5])

@@ -266,6 +266,7 @@ def told_by_lightness(name):
 
 
 SCALES = {name: found for name in SCRIPTS if (found := script(name).get("SCALE"))}
+SCALES["earth_airports"] = script("earth_airports")["scale_of"](np.array([1.0, 1e7]))
 
 
 def test_scales_are_told_by_lightness():

@@ -7,7 +7,7 @@ import pytest
 
 from stereodel import fisheye
 from stereodel.drawing import Fill, Label, Polygons, View, styled
-from stereodel.drawing.ground import legible, painted
+from stereodel.drawing.ground import VEIL, legible, painted
 from stereodel.drawing.label import label_box, within_disc
 from stereodel.drawing.page_styles import GROUND, dark_color
 from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
@@ -104,6 +104,48 @@ def test_a_halo_on_a_dark_page_is_as_dark_as_its_ground():
     assert label.halo_color == pytest.approx((*dark_color(MAP_FILLS["ocean"])[:3], HALO_OPACITY), abs=1e-3)
     # Outside the disc the ground is the background.
     assert painted([], np.zeros((1, 2)), GROUND)[0] == pytest.approx(GROUND[:3])
+
+
+WEST = [[[(-60, -60), (0, -60), (0, 60), (-60, 60)]]]
+
+
+@pytest.mark.parametrize(
+    ("place", "offset", "expected"),
+    [
+        ((-1.0, 0.0), (6.0, 0.0), MAP_FILLS["ocean"]),
+        ((1.0, 0.0), (-6.0, 0.0), (1.0, 0.9, 0.6)),
+        ((-4.0, 0.0), (6.0, 0.0), MAP_FILLS["ocean"]),  # a little of the first letter
+        ((0.0, 0.0), (0.0, 0.0), None),
+    ],
+)
+@pytest.mark.parametrize(("ink", "veil"), [("black", 1.0), ("white", 0.0)])
+def test_a_halo_is_tinted_as_the_ground_under_the_words(place, offset, expected, ink, veil):
+    """Not as that of the place; and where much of the words is on another ground it has the colour of neither."""
+    globe = Globe(ocean=MAP_FILLS["ocean"] if ink == "black" else tuple(0.2 * c for c in MAP_FILLS["ocean"][:3]))
+    globe.add_polygons(WEST, color=(1.0, 0.9, 0.6) if ink == "black" else (0.2, 0.18, 0.12), outline=None)
+    globe.add_labels([place], ["some words"], offset=offset, color=ink)
+    for page in (globe.page(view=View(0, 0)), globe.page(view=View(0, 0), style="slide")):
+        (label,) = page.labels
+        factor = 1.0 if ink == "black" else 0.2
+        wanted = (veil, veil, veil, VEIL) if expected is None else (*(factor * c for c in expected[:3]), HALO_OPACITY)
+        assert label.halo_color == pytest.approx(wanted, abs=1e-3)
+
+
+def test_a_halo_of_a_label_that_moved_is_tinted_as_the_ground_where_it_went():
+    globe = Globe()
+    globe.add_polygons(WEST, color=(1.0, 0.9, 0.6), outline=None)
+    globe.add_labels([(1.0, 0.0), (1.0, 0.0)], ["first", "second"], offset=(6.0, 0.0), movable=True)
+    first, second = globe.page(view=View(0, 0)).labels
+    assert (first.align, second.align) == ("left", "right")
+    assert first.halo_color[:3] == pytest.approx(MAP_FILLS["ocean"][:3], abs=1e-3)
+    assert second.halo_color[:3] == pytest.approx((1.0, 0.9, 0.6), abs=1e-3)
+
+
+def test_type_on_a_veil_is_legible_whatever_is_below():
+    for ink, away in (((0.0, 0.0, 0.0), 1.0), ((1.0, 1.0, 1.0), 0.0)):
+        for ground in np.eye(3).tolist() + [[0.0] * 3, [1.0] * 3]:
+            seen = [VEIL * away + (1 - VEIL) * part for part in ground]
+            assert contrast(seen, ink) > 5.5
 
 
 def test_labels_are_above_what_is_added_after_them():
