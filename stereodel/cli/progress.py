@@ -17,7 +17,7 @@ PIECE = 100_000
 
 @contextmanager
 def _shown(*columns: str) -> Iterator[Any]:
-    """Rich's progress with columns of these kinds; None where stderr is no terminal."""
+    """Rich's progress with columns of these kinds; None where stderr is not a terminal."""
     stop_if_interrupted()
     if sys.stderr.isatty():
         from rich import progress

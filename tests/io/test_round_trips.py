@@ -118,7 +118,7 @@ def expected(name, kind):
 
 
 def is_none(value):
-    return np.ndim(value) == 0 and bool(pd.isna(value))
+    return not isinstance(value, list | dict | np.ndarray) and bool(pd.isna(value))
 
 
 def same(found, wanted):
