@@ -232,11 +232,11 @@ def read_plane_points(
 
 @contextmanager
 def naming(source: Any) -> Iterator[None]:
-    """Begin errors with the name of the file."""
+    """Begin errors with the name of the file, unless it stands there already."""
     try:
         yield
     except ValueError as error:
-        if not isinstance(source, str | os.PathLike):
+        if not isinstance(source, str | os.PathLike) or str(error).startswith(f"{os.fspath(source)}: "):
             raise
         raise ValueError(f"{os.fspath(source)}: {error}") from error
 

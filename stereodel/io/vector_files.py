@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from glob import escape
 from io import BytesIO
 from pathlib import Path
 from textwrap import shorten
@@ -45,6 +46,9 @@ LOST: Final = re.compile(
 
 SHAPES: Final = b"\x00\x00\x27\x0a"
 """First bytes of the ``.shp`` of a shapefile; its length in words of 16 bits is in bytes 24 to 27."""
+
+HEADER: Final = 32
+"""Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
 
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
@@ -116,18 +120,30 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
 
 
 def _check_whole(path: Path) -> None:
-    """ValueError for files that GDAL reads in silence as far as they go: XML, and shapefiles with a cut ``.shp``."""
-    for part in path.glob("*.shp") if path.is_dir() else [path]:
+    """ValueError for files that GDAL reads in silence as far as they go: XML, and shapefiles that are cut."""
+    beside = path.parent.glob(f"{escape(path.stem)}.*") if path.suffix.lower() == ".shp" else [path]
+    parts = sorted(path.iterdir() if path.is_dir() else beside)
+    for part in [each for each in parts if each == path or each.suffix.lower() in (".shp", ".dbf")]:
         with part.open("rb") as file:
-            head = file.read(28)
+            head = file.read(HEADER)
             file.seek(0)
-            if head.startswith(SHAPES) and part.stat().st_size < 2 * int.from_bytes(head[24:28], "big"):
-                raise ValueError("the file is damaged: it is shorter than its header says")
+            if part.stat().st_size < _stated_size(head, part):
+                raise ValueError(f"the file is damaged: {part.name} is shorter than its header says")
             if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
                 try:
                     expat.ParserCreate().ParseFile(file)
-                except expat.ExpatError as error:
+                except (expat.ExpatError, LookupError, ValueError) as error:  # the latter two of unknown encodings
                     raise ValueError(f"the file is damaged: {error}") from error
+
+
+def _stated_size(head: bytes, path: Path) -> int:
+    """The least length in bytes of a part of a shapefile by its header; 0 for other files."""
+    if head.startswith(SHAPES):
+        return 2 * int.from_bytes(head[24:28], "big")
+    if path.suffix.lower() != ".dbf":
+        return 0
+    rows, start, row = (int.from_bytes(head[a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
+    return max(HEADER, start + rows * row)
 
 
 def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | None = None) -> None:

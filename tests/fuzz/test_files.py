@@ -63,10 +63,16 @@ def no_footer(folder):
     return folder / "a.parquet"
 
 
-@pytest.mark.parametrize("make", [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer])
+def unknown_encoding(folder):
+    (folder / "a.kml").write_bytes(b'<?xml version="1.0" encoding="UDF-8"?><kml/>')
+    return folder / "a.kml"
+
+
+@pytest.mark.parametrize(
+    "make", [unknown_encoding, cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer]
+)
 def test_what_libraries_raise_for_damage_is_one_line_that_names_the_file(make, tmp_path):
     path = make(tmp_path)
-    with pytest.raises(ValueError, match=rf"\A{path}: .+\Z"):
-        read_points(path)
-    with pytest.raises(ValueError, match=r"\A.+\Z"):
-        shapes_of(path)
+    for door in (read_points, shapes_of):
+        with pytest.raises(ValueError, match=rf"\A{path}: .+\Z"):
+            door(path)
