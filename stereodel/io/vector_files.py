@@ -85,10 +85,12 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
         # Integers with missing values stay integers, which doubles may not represent.
         objects = {"integer_object_nulls": True}
         with told():
+            info = pyogrio.read_info(path, layer=chosen)
+            if info["driver"] == DRIVERS["fgb"]:  # of damaged ones GDAL makes tables on which Arrow crashes
+                pyogrio.read_arrow(path, layer=chosen)[1].validate(full=True)
             frame = pyogrio.read_dataframe(path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects)
-            rows = pyogrio.read_info(path, layer=chosen)["features"]  # -1 where GDAL has to read all to know
-    if len(frame) < rows:
-        raise ValueError(f"the file is damaged: {len(frame)} of its {rows} rows can be read")
+    if len(frame) < info["features"]:  # -1 where GDAL has to read all to know
+        raise ValueError(f"the file is damaged: {len(frame)} of its {info['features']} rows can be read")
     own = [
         str(each.message).replace(str(path), path.name) for each in said if issubclass(each.category, RuntimeWarning)
     ]

@@ -68,9 +68,20 @@ def unknown_encoding(folder):
     return folder / "a.kml"
 
 
-@pytest.mark.parametrize(
-    "make", [unknown_encoding, cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer]
-)
+def no_geometry_in_the_middle(folder):
+    """A FlatGeobuf with a damaged geometry, of which GDAL makes a table that ends beyond its memory."""
+    frame = geopandas.GeoDataFrame({"a": ["x"] * 20}, geometry=[shapely.Point(k, 2) for k in range(20)], crs=4326)
+    frame.to_file(folder / "a.fgb", driver="FlatGeobuf")
+    content = bytearray((folder / "a.fgb").read_bytes())
+    content[-140] = 0
+    (folder / "a.fgb").write_bytes(content)
+    return folder / "a.fgb"
+
+
+MADE = [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer, unknown_encoding]
+
+
+@pytest.mark.parametrize("make", [*MADE, no_geometry_in_the_middle])
 def test_what_libraries_raise_for_damage_is_one_line_that_names_the_file(make, tmp_path):
     path = make(tmp_path)
     for door in (read_points, shapes_of):

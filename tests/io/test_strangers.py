@@ -4,12 +4,14 @@ import bz2
 import ctypes
 import gzip
 import io
+import json
 import os
 import socket
 import sqlite3
 import sys
 import threading
 import time
+import warnings
 import zipfile
 from functools import partial
 
@@ -20,7 +22,7 @@ import pytest
 import shapely
 
 from stereodel.constants import MOST_COLUMNS, MOST_MEMBERS
-from stereodel.io import read_points
+from stereodel.io import DataWarning, read_points, write
 from stereodel.io.reading import shapes_of
 
 POINT = geopandas.GeoDataFrame({"i": ["topsecret"]}, geometry=[shapely.Point(1, 2)], crs=4326)
@@ -288,6 +290,46 @@ def test_what_is_packed_well_is_read(tmp_path):
     rows = b"".join(b"%d,%d,valid,station\n" % (k % 180, k % 90) for k in range(50_000))
     assert len(read_points(io.BytesIO(gzip.compress(b"lon,lat,flag,kind\n" + rows)))) == 50_000
     assert len(read_points(io.BytesIO(bz2.compress(HEAD) + bz2.compress(b"3,4\n")))) == 2
+
+
+def own_keys(count, rows):
+    """GeoJSON with properties that few of its features have, and one that all have."""
+    features = [
+        {
+            "type": "Feature",
+            "properties": {"a": row, **{f"k{row}_{k}": k for k in range(count)}},
+            "geometry": {"type": "Point", "coordinates": [row % 180, 1]},
+        }
+        for row in range(rows)
+    ]
+    return json.dumps({"type": "FeatureCollection", "features": features})
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="memory is read from /proc")
+@pytest.mark.parametrize("make", [read_points, lambda stream: shapes_of(json.load(stream))])
+def test_properties_of_their_own_take_what_they_hold(make, patience):
+    text = own_keys(1, 20_000)
+    with open("/proc/self/clear_refs", "w") as peak:
+        peak.write("5")
+    held, began = _kilobytes("VmRSS"), time.process_time()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DataWarning)
+        make(io.StringIO(text))
+    assert time.process_time() - began < 2 * patience
+    assert _kilobytes("VmHWM") - held < 300_000
+
+
+def test_properties_that_few_features_have_are_in_one_column(tmp_path):
+    with pytest.warns(DataWarning, match="6000 of 6001 properties are together in the column 'others'"):
+        table = read_points(io.StringIO(own_keys(2, 3000)))
+    assert list(table.columns) == ["a", "others"]
+    assert table.columns["a"].tolist() == list(range(3000))
+    assert table.columns["others"][5] == {"k5_0": 0, "k5_1": 1}
+    write(tmp_path / "a.csv", table)
+    assert json.loads(read_points(tmp_path / "a.csv").columns["others"][5]) == {"k5_0": 0, "k5_1": 1}
+    write(tmp_path / "a.geojson", table)
+    assert read_points(tmp_path / "a.geojson").columns["others"][5] == {"k5_0": 0, "k5_1": 1}
+    assert len(read_points(io.StringIO(own_keys(1, 1000))).columns) == 1001  # few cells, however empty
 
 
 def test_columns_take_time_in_their_number(patience):
