@@ -351,5 +351,11 @@ EMPTY_RATIO: Final = 50
 With keys of their own, as in exports of OpenStreetMap, cells would grow with the square of the file.
 """
 
+MOST_LINE: Final = 2**22
+"""Characters that a line of a table of text may have: of longer ones the csv module makes eleven times as many bytes.
+
+A country's border as text has a tenth of them.
+"""
+
 MOST_COLUMNS: Final = 2**15
 """Columns that a table of text may have: each takes 30 µs, however few its rows are. Databases hold fewer."""

@@ -1,11 +1,13 @@
 """What a file of a stranger must not do: open other files, ask hosts, or take far more than it holds."""
 
+import base64
 import bz2
 import ctypes
 import gzip
 import io
 import json
 import os
+import random
 import socket
 import sqlite3
 import sys
@@ -21,7 +23,7 @@ import pyogrio
 import pytest
 import shapely
 
-from stereodel.constants import MOST_COLUMNS, MOST_MEMBERS
+from stereodel.constants import MOST_COLUMNS, MOST_LINE, MOST_MEMBERS
 from stereodel.io import DataWarning, read_points, write
 from stereodel.io.reading import shapes_of
 
@@ -208,6 +210,11 @@ HEAD = b"lon,lat\n1,2\n"
 MIB = 1 << 20
 
 
+def unpackable():
+    """A comment of nearly a megabyte of letters at random."""
+    return b"#" + base64.b64encode(random.Random(1).randbytes(720_000)) + b"\n"
+
+
 def spreadsheet(path, rows):
     """A spreadsheet with other rows, from bytes."""
     pyogrio.write_dataframe(pd.DataFrame({"lon": [1.5], "lat": [2.5]}), path.with_suffix(".a.xlsx"), driver="XLSX")
@@ -245,6 +252,10 @@ def endless(path):
 BOMBS = {
     "endless.gpkg": endless,
     "blanks.csv.bz2": lambda path: path.write_bytes(bz2.compress(HEAD + b" " * (1 << 26))),
+    # Within the ratio, as they begin with a comment that does not pack.
+    "line.csv.gz": lambda path: path.write_bytes(gzip.compress(unpackable() + HEAD + b" " * (30 * MIB))),
+    "fields.csv.gz": lambda path: path.write_bytes(gzip.compress(unpackable() + HEAD + b"3,4" + b"," * (30 * MIB))),
+    "quoted.csv.gz": lambda path: path.write_bytes(gzip.compress(unpackable() + HEAD + b'"' + b"a" * (30 * MIB))),
     "rows.csv.bz2": lambda path: path.write_bytes(bz2.compress(HEAD + b"1,2\n" * (1 << 21))),
     "zeros.csv.gz": lambda path: path.write_bytes(gzip.compress(HEAD + b"0" * (1 << 26))),
     "a.geojson.gz": lambda path: path.write_bytes(gzip.compress(b'{"features":[' + b" " * (1 << 26) + b"]}")),
@@ -271,7 +282,7 @@ def test_a_small_file_does_not_become_a_large_table(name, tmp_path, patience):
     with open("/proc/self/clear_refs", "w") as peak:
         peak.write("5")
     held, began = _kilobytes("VmRSS"), time.process_time()
-    with pytest.raises(ValueError, match=r"\A.+\Z"):
+    with pytest.raises(ValueError, match=rf"\A{tmp_path / name}: .+\Z"):
         read_points(tmp_path / name)
     assert time.process_time() - began < 2 * patience
     assert _kilobytes("VmHWM") - held < 300_000
@@ -280,6 +291,13 @@ def test_a_small_file_does_not_become_a_large_table(name, tmp_path, patience):
 def _kilobytes(key):
     with open("/proc/self/status") as status:
         return next(int(line.split()[1]) for line in status if line.startswith(key))
+
+
+def test_long_lines_are_read(tmp_path):
+    for end in ("\n", "\r", "\r\n"):
+        line = "x" * (MOST_LINE - 8)
+        table = read_points(io.StringIO(f"# {'y' * 2 * MOST_LINE}{end}lon,lat,a{end}1,2,{line}{end}3,4,{line}{end}"))
+        assert table.columns["a"].tolist() == [line, line]
 
 
 def test_what_is_packed_well_is_read(tmp_path):
