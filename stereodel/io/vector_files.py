@@ -211,7 +211,7 @@ def plain_column(values: Any, kind: str) -> Any:
         bound = 2**53 if kind == "shp" else 2**63  # a shapefile's numbers of 19 digits are doubles
         fits = all(end is None or -bound <= end < bound for end in ends)
         return column.cast(arrow.int64() if fits else arrow.string())
-    if arrow.types.is_duration(column.type):
+    if arrow.types.is_duration(column.type) or isinstance(column.type, arrow.BaseExtensionType):
         return arrow.array([None if cell is None else str(cell) for cell in column.to_pylist()], arrow.string())
     if kind == "kml" and arrow.types.is_float32(column.type):
         return column.cast(arrow.float64())  # GDAL writes too few digits of a float
