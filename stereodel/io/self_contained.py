@@ -87,7 +87,18 @@ def self_contained(path: Path) -> Iterator[Path]:
         if "!" in str(path.absolute()):
             raise ValueError("the path has an exclamation mark, which stands for archives in GDAL; rename it")
         with _without_schemas() if kind == "gml" else nullcontext():
-            yield path.absolute()
+            yield _apart(path, inner / "apart") if kind == "gml" else path.absolute()
+
+
+def _apart(path: Path, folder: Path) -> Path:
+    """A GML file and its companions by links, as GDAL writes the columns that it finds into a file beside."""
+    folder.mkdir()
+    try:
+        for part in filter(Path.is_file, (path, path.with_suffix(".xsd"), path.with_suffix(".gfs"))):
+            (folder / part.name).symlink_to(part.absolute())
+    except OSError:  # Windows lets few users make links
+        return path.absolute()
+    return folder / path.name
 
 
 def check_crs(crs: Any) -> None:

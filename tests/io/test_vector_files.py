@@ -110,6 +110,18 @@ def test_shapefiles_with_a_cut_table(tmp_path):
     assert len(read_points(tmp_path / "a.shp")) == len(read_points(tmp_path / "b.kml")) == ROWS
 
 
+def test_nothing_is_written_beside_a_file(tmp_path):
+    """GDAL would write a.gfs, and go by it when a.gml is another file."""
+    for ending in DRIVERS:
+        folder = tmp_path / ending
+        folder.mkdir()
+        written(folder / f"a{ending}", ending)
+        (folder / "a.xsd").unlink(missing_ok=True)
+        before = sorted(folder.iterdir())
+        assert len(read_points(folder / f"a{ending}")) == ROWS
+        assert sorted(folder.iterdir()) == before
+
+
 def test_sheets_and_layers_are_chosen_by_name(tmp_path):
     for ending, driver in ((".xlsx", "XLSX"), (".ods", "ODS"), (".gpkg", "GPKG")):
         path = tmp_path / f"two{ending}"
