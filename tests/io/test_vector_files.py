@@ -113,7 +113,7 @@ def test_shapefiles_with_a_cut_table(tmp_path):
 def test_nothing_is_written_beside_a_file(tmp_path):
     """GDAL would write a.gfs, and go by it when a.gml is another file."""
     for ending in DRIVERS:
-        folder = tmp_path / ending
+        folder = tmp_path / ending[1:].replace(".", "_")
         folder.mkdir()
         written(folder / f"a{ending}", ending)
         (folder / "a.xsd").unlink(missing_ok=True)
