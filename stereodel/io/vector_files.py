@@ -50,6 +50,9 @@ SHAPES: Final = b"\x00\x00\x27\x0a"
 HEADER: Final = 32
 """Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
 
+GPX_FIELDS: Final = 100
+"""From so many columns on, GDAL reads no rows of GPX, in silence."""
+
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
 
@@ -89,6 +92,8 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
             if info["driver"] == DRIVERS["fgb"]:  # of damaged ones GDAL makes tables on which Arrow crashes
                 pyogrio.read_arrow(path, layer=chosen)[1].validate(full=True)
             frame = pyogrio.read_dataframe(path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects)
+    if info["driver"] == "GPX" and len(info["fields"]) >= GPX_FIELDS:
+        raise ValueError(f"GDAL reads no rows of GPX with {GPX_FIELDS} columns; leave out some extensions")
     if len(frame) < info["features"]:  # -1 where GDAL has to read all to know
         raise ValueError(f"the file is damaged: {len(frame)} of its {info['features']} rows can be read")
     own = [

@@ -110,6 +110,17 @@ def test_shapefiles_with_a_cut_table(tmp_path):
     assert len(read_points(tmp_path / "a.shp")) == len(read_points(tmp_path / "b.kml")) == ROWS
 
 
+@pytest.mark.parametrize(("kinds", "read"), [(76, True), (77, False), (300, False)])
+def test_gpx_with_more_columns_than_gdal_reads(tmp_path, kinds, read):
+    rows = "".join(f'<wpt lat="1" lon="2"><extensions><k{k}>1</k{k}></extensions></wpt>' for k in range(kinds))
+    (tmp_path / "a.gpx").write_text(f'<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">{rows}</gpx>')
+    if read:
+        assert len(read_points(tmp_path / "a.gpx")) == kinds
+    else:
+        with pytest.raises(ValueError, match="no rows of GPX with 100 columns"):
+            read_points(tmp_path / "a.gpx")
+
+
 def test_nothing_is_written_beside_a_file(tmp_path):
     """GDAL would write a.gfs, and go by it when a.gml is another file."""
     for ending in DRIVERS:
