@@ -8,6 +8,7 @@ from uuid import UUID
 
 import numpy as np
 import pandas as pd
+import pyarrow as pa
 import pytest
 
 from stereodel.io import PointTable, RenamedColumnWarning, read_points, write
@@ -90,8 +91,8 @@ def expected(name, kind):
         return texts
     if name == "int64" and kind in ("shp", "kml"):
         return texts
-    if (name == "mixed" and kind not in JSON) or (name == "ids" and kind != "parquet"):
-        return texts
+    if (name == "mixed" and kind not in JSON) or (name == "ids" and (kind != "parquet" or not hasattr(pa, "uuid"))):
+        return texts  # Arrow knows UUIDs since its version 18
     if name == "zeros" and kind == "gpkg":
         return [0.0, 0.0, 1.0, 2.0]
     if name == "double" and kind in ("shp", "kml"):
