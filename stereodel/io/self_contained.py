@@ -9,7 +9,7 @@ from __future__ import annotations
 import functools
 import re
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -63,8 +63,15 @@ GRID: Final = re.compile(
 INCLUDED: Final = re.compile(rb"<[\w.:-]*(?:include|redefine)\b")
 """What makes one schema of XML part of another."""
 
-MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND sql LIKE '%RECURSIVE%'"
-"""Tables whose rows are not stored: virtual ones, and views that may have no end."""
+MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND (sql LIKE '%RECURSIVE%' OR name LIKE 'gpkg_%')"
+"""Tables whose rows are not stored: virtual ones, and views that may have no end or that GDAL reads for the layers."""
+
+VIEW: Final = re.compile(
+    r'CREATE\s+VIEW\s+[^()]+?\s+AS\s+SELECT\s(?:(?!\b(?:FROM|SELECT)\b)[^()])+\bFROM\s+"?([^\s",()]+)"?'
+    r"(?:\s+WHERE\s(?:(?!\bSELECT\b)[^()])*)?",
+    re.DOTALL | re.IGNORECASE,
+)
+"""A view of the columns of one table, and its name: it has no more than that. Joins and functions may have anything."""
 
 STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_ref_sys')"
 """Tables of coordinate systems."""
@@ -155,6 +162,22 @@ def _check_tables(path: Path) -> None:
     for name, sql in tables:
         if not INDEX.fullmatch(sql):
             raise ValueError(f"the table {name!r} is not stored in the file, but made, and could be any other file")
+
+
+def check_stored(path: Path, layers: Iterable[str]) -> None:
+    """A ValueError for a layer of a database that is computed, and may be of any size."""
+    with path.open("rb") if path.is_file() else nullcontext() as file:
+        if file is None or BINARY.get(file.read(16)) != "sqlite":
+            return
+    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+        every = "SELECT lower(name), type, sql FROM sqlite_master WHERE type IN ('table', 'view')"
+        known = {name: (kind, sql) for name, kind, sql in base.execute(every)}
+    for layer in layers:
+        kind, sql = known.get(layer.lower(), ("table", ""))
+        plain = VIEW.fullmatch(sql.strip()) if kind == "view" else None
+        of, stored = known.get(plain[1].lower(), ("", "")) if plain else (kind, sql)
+        if of != "table" or re.search(r"\bAS\s*\(", stored, re.IGNORECASE):
+            raise ValueError(f"the layer {layer!r} is not stored in the file, but computed; save it as a table")
 
 
 def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:

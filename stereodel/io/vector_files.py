@@ -19,7 +19,7 @@ from stereodel._extras import optional
 from stereodel.io.cells import as_text, check_held, plain
 from stereodel.io.columns import DataWarning, RenamedColumnWarning, beside, listed
 from stereodel.io.layers import Layer, Progress, arrow_column, is_there
-from stereodel.io.self_contained import check_crs, self_contained
+from stereodel.io.self_contained import check_crs, check_stored, self_contained
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Column names that a format reserves."""
@@ -117,6 +117,7 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
     if layer is not None and layer not in every:
         raise ValueError(f"layer is {layer!r}, which is not one of {listed(every)}")
     names = [layer] if layer else [str(name) for name, kind in layers if kind is not None] or every
+    check_stored(path, names)
     if len(names) > 1:  # GPX always has five
         with told():
             counts = [pyogrio.read_info(path, layer=name, force_feature_count=True)["features"] for name in names]

@@ -249,7 +249,28 @@ def endless(path):
         base.execute("INSERT INTO gpkg_contents (table_name, data_type, identifier) VALUES ('v', 'attributes', 'v')")
 
 
+def computed(made):
+    """A database whose layer is a view or has a column that is computed."""
+
+    def make(path):
+        POINT.to_file(path, driver="GPKG", layer="t")
+        with sqlite3.connect(path) as base:
+            base.execute(made)
+            base.execute("UPDATE gpkg_contents SET table_name = 'v'")
+            base.execute("UPDATE gpkg_geometry_columns SET table_name = 'v'")
+
+    return make
+
+
+PRODUCT = ", ".join(f"sqlite_master {letter}" for letter in "abcdefgh")
+
 BOMBS = {
+    "product.gpkg": computed(f"CREATE VIEW v AS SELECT 1 AS fid, a.name AS geom FROM {PRODUCT}"),
+    "union.gpkg": computed(
+        f"CREATE VIEW v AS SELECT fid, geom FROM t WHERE 1 UNION ALL SELECT 1, a.name FROM {PRODUCT}"
+    ),
+    "blob.gpkg": computed("CREATE VIEW v AS SELECT fid, geom, zeroblob(500000000) AS a FROM t"),
+    "column.gpkg": computed("CREATE TABLE v (fid INTEGER PRIMARY KEY, geom POINT, a AS (zeroblob(500000000)))"),
     "endless.gpkg": endless,
     "blanks.csv.bz2": lambda path: path.write_bytes(bz2.compress(HEAD + b" " * (1 << 26))),
     # Within the ratio, as they begin with a comment that does not pack.
@@ -298,6 +319,20 @@ def test_long_lines_are_read(tmp_path):
         line = "x" * (MOST_LINE - 8)
         table = read_points(io.StringIO(f"# {'y' * 2 * MOST_LINE}{end}lon,lat,a{end}1,2,{line}{end}3,4,{line}{end}"))
         assert table.columns["a"].tolist() == [line, line]
+
+
+@pytest.mark.parametrize("where", ["", " WHERE i <> 'other'"])
+def test_a_view_of_one_table_is_read(tmp_path, where):
+    computed(f"CREATE VIEW v AS SELECT fid, geom, i AS named FROM t{where}")(tmp_path / "a.gpkg")
+    assert read_points(tmp_path / "a.gpkg").columns["named"].tolist() == ["topsecret"]
+
+
+def test_a_view_of_a_view_is_not(tmp_path):
+    computed("CREATE VIEW v AS SELECT fid, geom FROM w")(tmp_path / "a.gpkg")
+    with sqlite3.connect(tmp_path / "a.gpkg") as base:
+        base.execute(f"CREATE VIEW w AS SELECT 1 AS fid, a.name AS geom FROM {PRODUCT}")
+    with pytest.raises(ValueError, match="the layer 'v' is not stored in the file, but computed"):
+        read_points(tmp_path / "a.gpkg")
 
 
 def test_what_is_packed_well_is_read(tmp_path):
