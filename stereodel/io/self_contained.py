@@ -9,6 +9,7 @@ from __future__ import annotations
 import functools
 import re
 import sqlite3
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
 from pathlib import Path
@@ -20,7 +21,7 @@ from zipfile import ZipFile
 from stereodel._extras import optional
 from stereodel.constants import MOST_COLUMNS, UNPACKED_RATIO
 from stereodel.io.columns import listed
-from stereodel.io.packed import ZIP, extract, pack_anew
+from stereodel.io.packed import ZIP, check_size, extract, pack_anew
 
 HEAD: Final = 1 << 20
 """Bytes from which a format is recognised; GDAL looks at fewer."""
@@ -47,6 +48,11 @@ NAMED: Final = (".xlsx", ".ods", ".kmz")
 
 CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")
 """The column in the name of a cell of a spreadsheet."""
+
+SHARED: Final = "sharedStrings.xml"
+TEXT: Final = re.compile(rb"<si\b.*?</si>", re.DOTALL)
+OF_TEXT: Final = re.compile(rb"\bt\s*=\s*[\"']s[\"'][^<]*<v[^>]*>\s*([0-9]{1,9})")
+"""The texts of a spreadsheet, and the number of its text in a cell."""
 
 SCHEMAS: Final = "GML_DOWNLOAD_SCHEMA"
 
@@ -184,7 +190,7 @@ def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     """A zip archive as what GDAL reads: a copy without packing, or the one file that is in it, and its format."""
     if path.suffix.lower() in NAMED:
         pack_anew(path, copy := folder / f"{path.stem}{path.suffix.lower()}")
-        _check_cells(copy)
+        _check_cells(copy, path.stat().st_size)
         return copy, "zip"
     found = [file for file in extract(path, folder, (*MAIN, *BESIDE)) if file.suffix.lower() in MAIN]
     kinds = {_kind_of(file) for file in found}
@@ -199,16 +205,24 @@ def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     return (found[0] if len(found) == 1 else found[0].parent), kinds.pop()
 
 
-def _check_cells(path: Path) -> None:
-    """A ValueError for a spreadsheet (.xlsx) with far more empty cells than others: GDAL makes room for all of them."""
+def _check_cells(path: Path, packed: int) -> None:
+    """A ValueError for a spreadsheet (.xlsx) with far more empty cells than others: GDAL makes room for all of them.
+
+    So it does for text that stands once and is the value of many cells.
+    """
     with ZipFile(path) as archive:
-        for name in archive.namelist():
+        names, letters = archive.namelist(), 0
+        shared = [len(each) for name in names if name.endswith(SHARED) for each in TEXT.findall(archive.read(name))]
+        for name in names:
             if "worksheets/" in name:
                 sheet = archive.read(name)
                 cells = CELL.findall(sheet)
                 width = max(map(_number, set(cells)), default=0)
                 if b"\0" in sheet or width * sheet.count(b"<row") > UNPACKED_RATIO * len(cells) + MOST_COLUMNS:
                     raise ValueError("the spreadsheet is nearly empty, with cells far apart; save it as CSV")
+                counts = Counter(map(int, OF_TEXT.findall(sheet)))
+                letters += sum(shared[number] * count for number, count in counts.items() if number < len(shared))
+    check_size(letters, packed)
 
 
 def _number(letters: bytes) -> int:

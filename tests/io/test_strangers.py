@@ -18,7 +18,10 @@ import zipfile
 from functools import partial
 
 import geopandas
+import numpy as np
 import pandas as pd
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pyogrio
 import pytest
 import shapely
@@ -215,13 +218,14 @@ def unpackable():
     return b"#" + base64.b64encode(random.Random(1).randbytes(720_000)) + b"\n"
 
 
-def spreadsheet(path, rows):
-    """A spreadsheet with other rows, from bytes."""
+def spreadsheet(path, rows, shared=b"</sst>"):
+    """A spreadsheet with other rows and texts, from bytes."""
     pyogrio.write_dataframe(pd.DataFrame({"lon": [1.5], "lat": [2.5]}), path.with_suffix(".a.xlsx"), driver="XLSX")
     with zipfile.ZipFile(path.with_suffix(".a.xlsx")) as plain, zipfile.ZipFile(path, "w", 8) as archive:
         for name in plain.namelist():
             text = plain.read(name)
-            archive.writestr(name, text.replace(b"</sheetData>", rows + b"</sheetData>"))
+            text = text.replace(b"</sst>", shared).replace(b"</sheetData>", rows + b"</sheetData>")
+            archive.writestr(name, text)
 
 
 def archive(path, *members):
@@ -289,6 +293,21 @@ BOMBS = {
     "a.xlsx": lambda path: spreadsheet(path, b" " * (1 << 26)),
     "far.xlsx": lambda path: spreadsheet(
         path, b"".join(b'<row r="%d"><c r="XFD%d"><v>1</v></c></row>' % (k, k) for k in range(3, 40_000))
+    ),
+    "shared.xlsx": lambda path: spreadsheet(
+        path,
+        b"".join(
+            b'<row r="%d"><c r="A%d"><v>1</v></c><c r="B%d"><v>1</v></c><c r="C%d" t="s"><v>2</v></c></row>'
+            % ((k,) * 4)
+            for k in range(3, 20_000)
+        ),
+        shared=b"<si><t>%s</t></si></sst>" % (b"x" * 30_000),
+    ),
+    "zeros.parquet": lambda path: pq.write_table(
+        pa.table({"lon": np.zeros(1 << 25), "lat": np.zeros(1 << 25)}), path, compression="zstd"
+    ),
+    "text.parquet": lambda path: pq.write_table(
+        pa.table({"lon": np.zeros(1000), "lat": np.zeros(1000), "a": ["x" * 300_000] * 1000}), path, compression="zstd"
     ),
     "a.ods": lambda path: archive(path, ("content.xml", bytes(1 << 26))),
 }
