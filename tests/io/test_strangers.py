@@ -152,6 +152,12 @@ REFERENCES = {
     "schema.gml": GML,
     "net.kml": KML.format("<NetworkLink><Link><href>{}</href></Link></NetworkLink>" + PLACE),
     "entity.kml": '<!DOCTYPE kml [<!ENTITY x SYSTEM "{}">]>' + KML.format(PLACE.format("&x;")),
+    "parameter.kml": '<!DOCTYPE kml [<!ENTITY % x SYSTEM "{}"> %x;]>' + KML.format(PLACE),
+    "definition.kml": '<!DOCTYPE kml SYSTEM "{}">' + KML.format(PLACE),
+    "style.kml": KML.format(PLACE.replace("<Point>", "<styleUrl>{0}#x</styleUrl><Point>")),
+    "overlay.kml": KML.format("<GroundOverlay><Icon><href>{0}</href></Icon></GroundOverlay>" + PLACE),
+    "location.gpx": '<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1" xsi:schemaLocation="http://a {0}" '
+    'xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance"><wpt lat="1" lon="2"><link href="{0}"/></wpt></gpx>',
     "linked.topojson": LINKED,
     "linked.geojson": LINKED,
     "init.geojson": LINKED.replace('"type":"link","properties":{{"href":"{}","type":"ogcwkt"}}', INIT),
