@@ -342,5 +342,20 @@ Repetition alone packs to a thousandth (gzip) or a millionth (bzip2): a kilobyte
 MOST_MEMBERS: Final = 10_000
 """Members that a zip archive may have; spreadsheets and zipped shapefiles have a dozen."""
 
+FEW_CELLS: Final = 2**20
+"""Cells that the columns of a table of features may have, however empty they are: 8 MiB."""
+
+EMPTY_RATIO: Final = 50
+"""How many cells columns of properties may have for each property that a feature has.
+
+With keys of their own, as in exports of OpenStreetMap, cells would grow with the square of the file.
+"""
+
+MOST_LINE: Final = 2**22
+"""Characters that a line of a table of text may have: of longer ones the csv module makes eleven times as many bytes.
+
+A country's border as text has a tenth of them.
+"""
+
 MOST_COLUMNS: Final = 2**15
 """Columns that a table of text may have: each takes 30 µs, however few its rows are. Databases hold fewer."""

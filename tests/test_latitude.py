@@ -3,9 +3,13 @@
 import inspect
 import typing
 
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 import typer.main
+from typer.testing import CliRunner
 
+from stereodel.cli import partitions, progress
 from stereodel.cli.application import app
 from stereodel.sphere.latitudes import KINDS, Latitude
 from tests.test_api import PACKAGES
@@ -71,3 +75,19 @@ def test_doors_of_the_commands():
         assert option.default == "authalic"
         assert tuple(type(option.default)) == KINDS
     assert len({option.help for option in takers.values()}) == 1
+
+
+@pytest.mark.parametrize(("given", "kind"), [([], "authalic"), (["--latitude", "geodetic"], "geodetic")])
+@pytest.mark.parametrize("out", ["a.csv", "a/", "a.html"])
+def test_where_areas_are_written_the_command_says_of_which_latitudes(tmp_path, monkeypatch, out, given, kind):
+    lon, lat = [1.0, 20.0, 50.0, 9.0], [3.0, 4.0, -50.0, 70.0]
+    pq.write_table(pa.table({"lon": lon, "lat": lat}), tmp_path / "points.parquet")
+    said = []
+    for module in (progress, partitions):
+        monkeypatch.setattr(module, "say", said.append)
+    command = ["web", "points.parquet", "-o", out] if out.endswith("html") else ["voronoi", "points.parquet", "-o", out]
+    monkeypatch.chdir(tmp_path)
+    ran = CliRunner().invoke(app, [*command, *given])
+    assert ran.exit_code == 0, ran.output
+    assert len(said) == 1
+    assert said[0].endswith(f" {kind} latitudes")

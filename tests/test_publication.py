@@ -201,7 +201,7 @@ def test_wheels_are_built_for_every_system_and_python():
     assert (ROOT / script).is_file()
 
 
-LEVELS = {"none": 0, "read": 1, "write": 2}
+LEVELS = ("none", "read", "write")
 
 
 def called_jobs(name):
@@ -213,9 +213,8 @@ def called_jobs(name):
         if "uses" in job:
             for nested_name, nested, nested_job in called_jobs(Path(job["uses"]).stem):
                 yield f"{name}.{job_name} → {nested_name}", nested, nested_job
-                levels = ("none", "read", "write")
                 beyond = [
-                    key for key, level in nested.items() if levels.index(level) > levels.index(asked.get(key, "none"))
+                    key for key, level in nested.items() if LEVELS.index(level) > LEVELS.index(asked.get(key, "none"))
                 ]
                 assert beyond == [], f"{nested_name} asks for {beyond}, which {name}.{job_name} does not have"
 

@@ -96,7 +96,9 @@ class Work:
         stop_if_interrupted()
         if not run.statistics["points"]:
             raise NothingToDoError(f"{', '.join(self.points)}: there are no points")
-        say(f"{self.out}: cells of {run.statistics['points']} points, in {run.statistics['partitions']} partitions")
+        kind = "" if self.plane else f", with {self.latitude} latitudes"
+        found = run.statistics
+        say(f"{self.out}: cells of {found['points']} points, in {found['partitions']} partitions{kind}")
 
 
 @contextmanager

@@ -111,6 +111,10 @@ def read_photo(path: str | os.PathLike[str]) -> Photo:
             raise ValueError(f"{name} is damaged or cut off: {error}") from error
         with opened as image:
             _check_size(name, image.size)
+            boxes = [tile[1] or (0, 0, 0, 0) for tile in image.tile]
+            covered = sum((right - left) * (low - top) for left, top, right, low in boxes)
+            if image.format == "TIFF" and covered < image.width * image.height:
+                raise ValueError(f"{name} is damaged or cut off: it has pixels of a part of its size alone")
             return _photo(name, image)
 
 

@@ -15,7 +15,7 @@ from typing import Any, TextIO
 import numpy as np
 
 from stereodel._arrays import Column, Indices
-from stereodel.constants import MOST_COLUMNS
+from stereodel.constants import MOST_COLUMNS, MOST_LINE
 from stereodel.io.cells import as_text, check_held, plain_cells
 from stereodel.io.columns import DataWarning, has_lonlat, listed
 from stereodel.io.layers import Progress
@@ -67,6 +67,9 @@ def split_columns(text: str, wanted: Collection[str] = (), progress: Progress | 
     comments = COMMENTS.match(text)
     above = text[: comments.end()] if comments else ""
     text = text[len(above) :]
+    for begin in range(0, len(text) - MOST_LINE, MOST_LINE):
+        if max(text.find(end, begin, begin + MOST_LINE) for end in "\r\n") < 0:
+            raise ValueError(f"a line has more than {MOST_LINE} characters, which no line of a table needs")
     mark = _separator(text)
     stream, lines = io.StringIO(text, newline=""), len(above.splitlines())
     rows = (row for row in _rows(stream, mark, lines) if any(row) and (len(row) > 1 or row[0].strip()))

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import warnings
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any, Final
 
@@ -12,10 +15,12 @@ import numpy as np
 
 from stereodel._arrays import Column, as_count
 from stereodel._extras import optional
+from stereodel.constants import EMPTY_RATIO, FEW_CELLS
 from stereodel.io.cells import check_held, plain_cells
+from stereodel.io.columns import DataWarning, beside, listed
 from stereodel.io.layers import Layer, Progress
 from stereodel.io.self_contained import check_crs
-from stereodel.io.text import column
+from stereodel.io.text import column, objects
 
 HEAD: Final = '{"type":"FeatureCollection","features":['
 TAIL: Final = "]}"
@@ -55,13 +60,17 @@ class Features:
         return cls([row.get("properties") or {} for row in rows], [row.get("geometry") for row in rows], one(systems))
 
     def columns(self) -> dict[str, Column]:
-        """The properties as columns, None where a feature lacks one."""
-        cells: dict[str, dict[int, Any]] = {}
-        for row, properties in enumerate(self.properties):
-            for name, value in properties.items():
-                cells.setdefault(name, {})[row] = value
-        rows = range(len(self.properties))
-        return {name: column(map(values.get, rows)) for name, values in cells.items()}
+        """The properties as columns, None where a feature lacks one; see `read_points` for those that few have."""
+        counts, rows = Counter(chain.from_iterable(self.properties)), len(self.properties)
+        if rows * len(counts) <= max(FEW_CELLS, EMPTY_RATIO * counts.total()):
+            return {name: column(each.get(name) for each in self.properties) for name in counts}
+        common = {name: None for name, count in counts.items() if EMPTY_RATIO * count >= rows}
+        others = [{name: each[name] for name in each if name not in common} or None for each in self.properties]
+        result = {name: column(each.get(name) for each in self.properties) for name in common}
+        added = beside(common, {"others": objects(others)})
+        said = f"{len(counts) - len(common)} of {len(counts)} properties are together in the column {listed([*added])}"
+        warnings.warn(f"{said}, as few features have any of them", DataWarning, stacklevel=2)
+        return result | added
 
 
 def one(systems: set[str | None]) -> str | None:

@@ -10,20 +10,38 @@ from typing import Any, Final
 from stereodel._extras import optional
 from stereodel.io.cells import check_held
 from stereodel.io.layers import Layer, Progress
+from stereodel.io.packed import check_size
 from stereodel.io.vector_files import in_degrees, told
 
 VERSION: Final = "1.0.0"
+
+TEXTS: Final = ("string", "binary")
+"""Names of Arrow's types that Parquet packs by numbers of distinct values."""
 
 
 def read_parquet(content: bytes) -> Any:
     """A GeoDataFrame, or a table of Arrow if the file has no metadata of geometries."""
     parquet = optional("pyarrow.parquet", "geo")
     with told():
-        table = parquet.read_table(io.BytesIO(content))
+        found = parquet.read_metadata(io.BytesIO(content))
+    check_size(8 * found.num_rows * found.num_columns, len(content))
+    with told():
+        # Text that repeats is read as it is packed, each once.
+        names = [field.name for field in parquet.read_schema(io.BytesIO(content)) if field.type in TEXTS]
+        table = parquet.read_table(io.BytesIO(content), read_dictionary=names)
+    check_size(sum(_letters(table[name]) for name in names), len(content))
+    with told():
         if b"geo" not in (table.schema.metadata or {}):
             return table
         frame = optional("geopandas", "geo").read_parquet(io.BytesIO(content))
     return in_degrees(frame)
+
+
+def _letters(column: Any) -> int:
+    """Bytes of all text of a column that has each once."""
+    compute = optional("pyarrow.compute", "geo")
+    lengths = ((compute.binary_length(chunk.dictionary), chunk.indices) for chunk in column.chunks)
+    return sum(compute.sum(compute.take(each, where)).as_py() or 0 for each, where in lengths)
 
 
 def write_parquet(layer: Layer, path: Path, progress: Progress | None = None) -> None:

@@ -139,8 +139,10 @@ def _of_several(binary: Packed) -> list[bytes | None]:
 def arrow_column(values: Any) -> Any:
     """The column as an Arrow array; values without an Arrow type, such as integers of any size, become text."""
     arrow = optional("pyarrow", "geo")
-    if isinstance(values, np.ndarray) and values.dtype.kind == "U":
-        values = values.astype(object)  # text of a fixed width would end at its first zero
+    if (
+        isinstance(values, np.ndarray) and values.dtype.char in "Ug"
+    ):  # text of a fixed width would end at its first zero
+        values = values.astype(object if values.dtype.kind == "U" else np.float64)
     try:
         column = arrow.array(values, from_pandas=True)
     except (arrow.ArrowInvalid, arrow.ArrowTypeError, arrow.ArrowNotImplementedError, OverflowError):

@@ -38,7 +38,7 @@ def unpacked(content: bytes) -> bytes:
             while piece := stream.read(PIECE):
                 pieces.append(piece)
                 size += len(piece)
-                _check_size(size, len(content))
+                check_size(size, len(content))
     except DAMAGED as error:
         raise ValueError(f"the compressed file is damaged: {error}") from error
     return b"".join(pieces)
@@ -69,13 +69,14 @@ def _archive(path: Path) -> Iterator[ZipFile]:
             members = archive.infolist()
             if len(members) > MOST_MEMBERS:
                 raise ValueError(f"the archive has {len(members)} members; {MOST_MEMBERS} are the most")
-            _check_size(sum(member.file_size for member in members), path.stat().st_size)
+            check_size(sum(member.file_size for member in members), path.stat().st_size)
             yield archive
     except DAMAGED as error:
         raise ValueError(f"the archive is damaged: {error}") from error
 
 
-def _check_size(size: int, packed: int) -> None:
+def check_size(size: int, packed: int) -> None:
+    """A ValueError for a file of `packed` bytes that holds far more, `size`."""
     most = max(UNPACKED_SIZE, UNPACKED_RATIO * packed)
     if size > most:
         raise ValueError(

@@ -127,9 +127,11 @@ def read_points(
     becomes numeric if all its values are numbers whose digits a double can hold and none has a leading zero followed by
     digits. Where each point or comma in a column may separate thousands (128.928, 1,234), the other numbers of the
     table decide: if theirs is the same decimal mark, and no other, it is decimal, and so is a point if they have none;
-    else the column stays text, with a `DataWarning`. Marks in degrees are decimal. Geometries in another coordinate
-    system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without one they are taken as longitude and
-    latitude in degrees. A MultiPoint with one point counts as a point.
+    else the column stays text, with a `DataWarning`. Marks in degrees are decimal. If columns of a GeoJSON file's
+    properties would have more than a million cells, and more than fifty for each property of a feature, those that
+    fewer than one in fifty features have are together, as mappings, in a column ``others``, with a `DataWarning`.
+    Geometries in another coordinate system (in GeoJSON, with a member ``crs``) are transformed to EPSG:4326; without
+    one they are taken as longitude and latitude in degrees. A MultiPoint with one point counts as a point.
 
     Examples
     --------
@@ -232,11 +234,11 @@ def read_plane_points(
 
 @contextmanager
 def naming(source: Any) -> Iterator[None]:
-    """Begin errors with the name of the file."""
+    """Begin errors with the name of the file, unless it stands there already."""
     try:
         yield
     except ValueError as error:
-        if not isinstance(source, str | os.PathLike):
+        if not isinstance(source, str | os.PathLike) or str(error).startswith(f"{os.fspath(source)}: "):
             raise
         raise ValueError(f"{os.fspath(source)}: {error}") from error
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 import functools
 import re
 import sqlite3
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager, nullcontext
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,7 +21,7 @@ from zipfile import ZipFile
 from stereodel._extras import optional
 from stereodel.constants import MOST_COLUMNS, UNPACKED_RATIO
 from stereodel.io.columns import listed
-from stereodel.io.packed import ZIP, extract, pack_anew
+from stereodel.io.packed import ZIP, check_size, extract, pack_anew
 
 HEAD: Final = 1 << 20
 """Bytes from which a format is recognised; GDAL looks at fewer."""
@@ -48,6 +49,11 @@ NAMED: Final = (".xlsx", ".ods", ".kmz")
 CELL: Final = re.compile(rb"\br\s*=\s*[\"']([A-Za-z]{1,3})[0-9]")
 """The column in the name of a cell of a spreadsheet."""
 
+SHARED: Final = "sharedStrings.xml"
+TEXT: Final = re.compile(rb"<si\b.*?</si>", re.DOTALL)
+OF_TEXT: Final = re.compile(rb"\bt\s*=\s*[\"']s[\"'][^<]*<v[^>]*>\s*([0-9]{1,9})")
+"""The texts of a spreadsheet, and the number of its text in a cell."""
+
 SCHEMAS: Final = "GML_DOWNLOAD_SCHEMA"
 
 INDEX: Final = re.compile(
@@ -63,8 +69,15 @@ GRID: Final = re.compile(
 INCLUDED: Final = re.compile(rb"<[\w.:-]*(?:include|redefine)\b")
 """What makes one schema of XML part of another."""
 
-MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND sql LIKE '%RECURSIVE%'"
-"""Tables whose rows are not stored: virtual ones, and views that may have no end."""
+MADE: Final = "sql LIKE '%VIRTUAL%TABLE%USING%' OR type = 'view' AND (sql LIKE '%RECURSIVE%' OR name LIKE 'gpkg_%')"
+"""Tables whose rows are not stored: virtual ones, and views that may have no end or that GDAL reads for the layers."""
+
+VIEW: Final = re.compile(
+    r'CREATE\s+VIEW\s+[^()]+?\s+AS\s+SELECT\s(?:(?!\b(?:FROM|SELECT)\b)[^()])+\bFROM\s+"?([^\s",()]+)"?'
+    r"(?:\s+WHERE\s(?:(?!\bSELECT\b)[^()])*)?",
+    re.DOTALL | re.IGNORECASE,
+)
+"""A view of the columns of one table, and its name: it has no more than that. Joins and functions may have anything."""
 
 STORED: Final = "type = 'table' AND name IN ('gpkg_spatial_ref_sys', 'spatial_ref_sys')"
 """Tables of coordinate systems."""
@@ -87,7 +100,18 @@ def self_contained(path: Path) -> Iterator[Path]:
         if "!" in str(path.absolute()):
             raise ValueError("the path has an exclamation mark, which stands for archives in GDAL; rename it")
         with _without_schemas() if kind == "gml" else nullcontext():
-            yield path.absolute()
+            yield _apart(path, inner / "apart") if kind == "gml" else path.absolute()
+
+
+def _apart(path: Path, folder: Path) -> Path:
+    """A GML file and its companions by links, as GDAL writes the columns that it finds into a file beside."""
+    folder.mkdir()
+    try:
+        for part in filter(Path.is_file, (path, path.with_suffix(".xsd"), path.with_suffix(".gfs"))):
+            (folder / part.name).symlink_to(part.absolute())
+    except OSError:  # Windows lets few users make links
+        return path.absolute()
+    return folder / path.name
 
 
 def check_crs(crs: Any) -> None:
@@ -146,11 +170,27 @@ def _check_tables(path: Path) -> None:
             raise ValueError(f"the table {name!r} is not stored in the file, but made, and could be any other file")
 
 
+def check_stored(path: Path, layers: Iterable[str]) -> None:
+    """A ValueError for a layer of a database that is computed, and may be of any size."""
+    with path.open("rb") if path.is_file() else nullcontext() as file:
+        if file is None or BINARY.get(file.read(16)) != "sqlite":
+            return
+    with closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)) as base:
+        every = "SELECT lower(name), type, sql FROM sqlite_master WHERE type IN ('table', 'view')"
+        known = {name: (kind, sql) for name, kind, sql in base.execute(every)}
+    for layer in layers:
+        kind, sql = known.get(layer.lower(), ("table", ""))
+        plain = VIEW.fullmatch(sql.strip()) if kind == "view" else None
+        of, stored = known.get(plain[1].lower(), ("", "")) if plain else (kind, sql)
+        if of != "table" or re.search(r"\bAS\s*\(", stored, re.IGNORECASE):
+            raise ValueError(f"the layer {layer!r} is not stored in the file, but computed; save it as a table")
+
+
 def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     """A zip archive as what GDAL reads: a copy without packing, or the one file that is in it, and its format."""
     if path.suffix.lower() in NAMED:
         pack_anew(path, copy := folder / f"{path.stem}{path.suffix.lower()}")
-        _check_cells(copy)
+        _check_cells(copy, path.stat().st_size)
         return copy, "zip"
     found = [file for file in extract(path, folder, (*MAIN, *BESIDE)) if file.suffix.lower() in MAIN]
     kinds = {_kind_of(file) for file in found}
@@ -165,16 +205,24 @@ def _of_archive(path: Path, folder: Path) -> tuple[Path, str]:
     return (found[0] if len(found) == 1 else found[0].parent), kinds.pop()
 
 
-def _check_cells(path: Path) -> None:
-    """A ValueError for a spreadsheet (.xlsx) with far more empty cells than others: GDAL makes room for all of them."""
+def _check_cells(path: Path, packed: int) -> None:
+    """A ValueError for a spreadsheet (.xlsx) with far more empty cells than others: GDAL makes room for all of them.
+
+    So it does for text that stands once and is the value of many cells.
+    """
     with ZipFile(path) as archive:
-        for name in archive.namelist():
+        names, letters = archive.namelist(), 0
+        shared = [len(each) for name in names if name.endswith(SHARED) for each in TEXT.findall(archive.read(name))]
+        for name in names:
             if "worksheets/" in name:
                 sheet = archive.read(name)
                 cells = CELL.findall(sheet)
                 width = max(map(_number, set(cells)), default=0)
                 if b"\0" in sheet or width * sheet.count(b"<row") > UNPACKED_RATIO * len(cells) + MOST_COLUMNS:
                     raise ValueError("the spreadsheet is nearly empty, with cells far apart; save it as CSV")
+                counts = Counter(map(int, OF_TEXT.findall(sheet)))
+                letters += sum(shared[number] * count for number, count in counts.items() if number < len(shared))
+    check_size(letters, packed)
 
 
 def _number(letters: bytes) -> int:

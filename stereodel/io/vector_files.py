@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
+from glob import escape
 from io import BytesIO
 from pathlib import Path
 from textwrap import shorten
@@ -18,7 +19,7 @@ from stereodel._extras import optional
 from stereodel.io.cells import as_text, check_held, plain
 from stereodel.io.columns import DataWarning, RenamedColumnWarning, beside, listed
 from stereodel.io.layers import Layer, Progress, arrow_column, is_there
-from stereodel.io.self_contained import check_crs, self_contained
+from stereodel.io.self_contained import check_crs, check_stored, self_contained
 
 RESERVED: Final = {"gpkg": ("fid", "geom"), "fgb": (), "shp": (), "kml": ()}
 """Column names that a format reserves."""
@@ -45,6 +46,12 @@ LOST: Final = re.compile(
 
 SHAPES: Final = b"\x00\x00\x27\x0a"
 """First bytes of the ``.shp`` of a shapefile; its length in words of 16 bits is in bytes 24 to 27."""
+
+HEADER: Final = 32
+"""Bytes that every ``.dbf`` has; 4 to 11 are the number of its rows, where they begin, and the length of a row."""
+
+GPX_FIELDS: Final = 100
+"""From so many columns on, GDAL reads no rows of GPX, in silence."""
 
 LAUNDERED: Final = re.compile(r"field name: '(.*)' to '(.*)'")
 """GDAL's warning for a column name that it shortens."""
@@ -81,10 +88,14 @@ def _read_frame(path: Path, layer: str | None, choice: str) -> Any:
         # Integers with missing values stay integers, which doubles may not represent.
         objects = {"integer_object_nulls": True}
         with told():
+            info = pyogrio.read_info(path, layer=chosen)
+            if info["driver"] == DRIVERS["fgb"]:  # of damaged ones GDAL makes tables on which Arrow crashes
+                pyogrio.read_arrow(path, layer=chosen)[1].validate(full=True)
             frame = pyogrio.read_dataframe(path, layer=chosen, use_arrow=True, arrow_to_pandas_kwargs=objects)
-            rows = pyogrio.read_info(path, layer=chosen)["features"]  # -1 where GDAL has to read all to know
-    if len(frame) < rows:
-        raise ValueError(f"the file is damaged: {len(frame)} of its {rows} rows can be read")
+    if info["driver"] == "GPX" and len(info["fields"]) >= GPX_FIELDS:
+        raise ValueError(f"GDAL reads no rows of GPX with {GPX_FIELDS} columns; leave out some extensions")
+    if len(frame) < info["features"]:  # -1 where GDAL has to read all to know
+        raise ValueError(f"the file is damaged: {len(frame)} of its {info['features']} rows can be read")
     own = [
         str(each.message).replace(str(path), path.name) for each in said if issubclass(each.category, RuntimeWarning)
     ]
@@ -106,6 +117,7 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
     if layer is not None and layer not in every:
         raise ValueError(f"layer is {layer!r}, which is not one of {listed(every)}")
     names = [layer] if layer else [str(name) for name, kind in layers if kind is not None] or every
+    check_stored(path, names)
     if len(names) > 1:  # GPX always has five
         with told():
             counts = [pyogrio.read_info(path, layer=name, force_feature_count=True)["features"] for name in names]
@@ -116,18 +128,30 @@ def _chosen(path: Path, layer: str | None, choice: str) -> str:
 
 
 def _check_whole(path: Path) -> None:
-    """ValueError for files that GDAL reads in silence as far as they go: XML, and shapefiles with a cut ``.shp``."""
-    for part in path.glob("*.shp") if path.is_dir() else [path]:
+    """ValueError for files that GDAL reads in silence as far as they go: XML, and shapefiles that are cut."""
+    beside = path.parent.glob(f"{escape(path.stem)}.*") if path.suffix.lower() == ".shp" else [path]
+    parts = sorted(path.iterdir() if path.is_dir() else beside)
+    for part in [each for each in parts if each == path or each.suffix.lower() in (".shp", ".dbf")]:
         with part.open("rb") as file:
-            head = file.read(28)
+            head = file.read(HEADER)
             file.seek(0)
-            if head.startswith(SHAPES) and part.stat().st_size < 2 * int.from_bytes(head[24:28], "big"):
-                raise ValueError("the file is damaged: it is shorter than its header says")
+            if part.stat().st_size < _stated_size(head, part):
+                raise ValueError(f"the file is damaged: {part.name} is shorter than its header says")
             if head.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"<"):
                 try:
                     expat.ParserCreate().ParseFile(file)
-                except expat.ExpatError as error:
+                except (expat.ExpatError, LookupError, ValueError) as error:  # the latter two of unknown encodings
                     raise ValueError(f"the file is damaged: {error}") from error
+
+
+def _stated_size(head: bytes, path: Path) -> int:
+    """The least length in bytes of a part of a shapefile by its header; 0 for other files."""
+    if head.startswith(SHAPES):
+        return 2 * int.from_bytes(head[24:28], "big")
+    if path.suffix.lower() != ".dbf":
+        return 0
+    rows, start, row = (int.from_bytes(head[a:b], "little") for a, b in ((4, 8), (8, 10), (10, 12)))
+    return max(HEADER, start + rows * row)
 
 
 def write_layer(layer: Layer, path: Path, *, name: str, progress: Progress | None = None) -> None:
@@ -193,7 +217,7 @@ def plain_column(values: Any, kind: str) -> Any:
         bound = 2**53 if kind == "shp" else 2**63  # a shapefile's numbers of 19 digits are doubles
         fits = all(end is None or -bound <= end < bound for end in ends)
         return column.cast(arrow.int64() if fits else arrow.string())
-    if arrow.types.is_duration(column.type):
+    if arrow.types.is_duration(column.type) or isinstance(column.type, arrow.BaseExtensionType):
         return arrow.array([None if cell is None else str(cell) for cell in column.to_pylist()], arrow.string())
     if kind == "kml" and arrow.types.is_float32(column.type):
         return column.cast(arrow.float64())  # GDAL writes too few digits of a float

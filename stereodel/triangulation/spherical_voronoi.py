@@ -155,6 +155,9 @@ class SphericalVoronoi(Diagram):
     def areas(self, *, radius: float = 1.0) -> FloatArray:
         """Area of each point's cell, (n,): 0 for duplicates; together 4π radius².
 
+        Areas are those of the sphere of the directions: of the Earth's ellipsoid, for sites that were given with
+        ``latitude="authalic"`` and the radius `stereodel.earth.AUTHALIC_RADIUS_KM`.
+
         Parameters
         ----------
         radius : float

@@ -23,6 +23,7 @@ import pandas as pd
 import pyogrio
 from PIL import Image
 
+from stereodel.constants import MOST_TEXELS
 from stereodel.globe.images import read_photo
 from stereodel.io import read_points
 from stereodel.io.reading import shapes_of
@@ -30,6 +31,9 @@ from stereodel.io.reading import shapes_of
 KEPT = Path(__file__).resolve().parent.parent.parent / "build" / "fuzz" / "files"
 SECONDS, KILOBYTES = 5.0, 300_000
 """What one file of some kilobytes may take of a processor and of memory."""
+
+PICTURE = MOST_TEXELS * (4 + 4) // 1000
+"""What a picture may take of memory, which says how many pixels it has: each as it is decoded, and as it is given."""
 
 REFUSED = (OSError, ValueError, ImportError)
 """What the command reports in one line; any other exception would be a traceback."""
@@ -128,12 +132,12 @@ def wrong(path):
         try:
             door(path)
         except REFUSED as error:
-            if "\n" in str(error) or (door is not shapes_of and path.name not in str(error)):
+            if "\n" in str(error) or str(path) not in str(error):
                 return f"{door.__name__}: message {str(error)!r}"
         except Exception as error:
             return f"{door.__name__}: {type(error).__name__}: {error}"
         spent, more = time.process_time() - began, _memory() - held
-        if spent > SECONDS or more > KILOBYTES:
+        if spent > SECONDS or more > (PICTURE if door is read_photo else KILOBYTES):
             return f"{door.__name__}: {spent:.1f} s and {more} kB"
     return None
 

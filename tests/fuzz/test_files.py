@@ -63,10 +63,27 @@ def no_footer(folder):
     return folder / "a.parquet"
 
 
-@pytest.mark.parametrize("make", [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer])
+def unknown_encoding(folder):
+    (folder / "a.kml").write_bytes(b'<?xml version="1.0" encoding="UDF-8"?><kml/>')
+    return folder / "a.kml"
+
+
+def no_geometry_in_the_middle(folder):
+    """A FlatGeobuf with a damaged geometry, of which GDAL makes a table that ends beyond its memory."""
+    frame = geopandas.GeoDataFrame({"a": ["x"] * 20}, geometry=[shapely.Point(k, 2) for k in range(20)], crs=4326)
+    frame.to_file(folder / "a.fgb", driver="FlatGeobuf")
+    content = bytearray((folder / "a.fgb").read_bytes())
+    content[-140] = 0
+    (folder / "a.fgb").write_bytes(content)
+    return folder / "a.fgb"
+
+
+MADE = [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer, unknown_encoding]
+
+
+@pytest.mark.parametrize("make", [*MADE, no_geometry_in_the_middle])
 def test_what_libraries_raise_for_damage_is_one_line_that_names_the_file(make, tmp_path):
     path = make(tmp_path)
-    with pytest.raises(ValueError, match=rf"\A{path}: .+\Z"):
-        read_points(path)
-    with pytest.raises(ValueError, match=r"\A.+\Z"):
-        shapes_of(path)
+    for door in (read_points, shapes_of):
+        with pytest.raises(ValueError, match=rf"\A{path}: .+\Z"):
+            door(path)

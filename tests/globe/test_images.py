@@ -93,6 +93,18 @@ def test_damaged_files_are_named(tmp_path):
         Raster.open(tmp_path / "empty.png")
 
 
+def test_a_tiff_of_a_few_rows_that_says_it_has_millions(tmp_path):
+    """Pillow would make room for all of them, and leave them black."""
+    path = tmp_path / "map.tif"
+    Image.fromarray(np.zeros((15, 30, 3), np.uint8)).save(path)
+    content = path.read_bytes()
+    length = b"\x01\x01\x04\0\1\0\0\0"  # the tag of the height, a whole number of 32 bits
+    assert content.count(length + b"\x0f") == 1
+    path.write_bytes(content.replace(length + b"\x0f\0\0", length + b"\0\0\x20"))
+    with pytest.raises(ValueError, match=r"map\.tif is damaged or cut off: it has pixels of a part"):
+        Raster.open(path)
+
+
 def test_what_is_no_picture(tmp_path):
     (tmp_path / "note.txt").write_text("lon,lat\n")
     with pytest.raises(ValueError, match=r"note\.txt is not a picture of a kind that is read: PNG, JPEG"):

@@ -1,6 +1,7 @@
 """Files of GDAL's formats: cut files are errors or all rows, layers are found, and GDAL's words are heard."""
 
 import gzip
+import re
 import resource
 import signal
 import sqlite3
@@ -90,8 +91,46 @@ def test_what_is_cut_is_named(tmp_path):
             read_points(path)
         with path.open("rb") as stream, pytest.raises(ValueError, match="damaged: "):
             read_points(stream)
-        with pytest.raises(ValueError, match=f"^{path.name}: .*damaged: "):
+        with pytest.raises(ValueError, match=f"^{re.escape(str(path))}: the file is damaged: "):
             shapes_of(path)
+
+
+def test_shapefiles_with_a_cut_table(tmp_path):
+    """GDAL reads no column where the header is cut."""
+    frame().to_file(tmp_path / "a.shp")
+    whole = (tmp_path / "a.dbf").read_bytes()
+    for length in (0, 1, 20, 31, 50, 200, len(whole) // 2, len(whole) - 2):
+        (tmp_path / "a.dbf").write_bytes(whole[:length])
+        for path in (tmp_path / "a.shp", tmp_path):
+            with pytest.raises(ValueError, match=r"a\.dbf is shorter than its header says"):
+                read_points(path, format="vector")
+    (tmp_path / "a.dbf").write_bytes(whole)
+    (tmp_path / "b.dbf").write_bytes(b"cut")
+    frame().to_file(tmp_path / "b.kml", driver="LIBKML")
+    assert len(read_points(tmp_path / "a.shp")) == len(read_points(tmp_path / "b.kml")) == ROWS
+
+
+@pytest.mark.parametrize(("kinds", "read"), [(76, True), (77, False), (300, False)])
+def test_gpx_with_more_columns_than_gdal_reads(tmp_path, kinds, read):
+    rows = "".join(f'<wpt lat="1" lon="2"><extensions><k{k}>1</k{k}></extensions></wpt>' for k in range(kinds))
+    (tmp_path / "a.gpx").write_text(f'<gpx version="1.1" xmlns="http://www.topografix.com/GPX/1/1">{rows}</gpx>')
+    if read:
+        assert len(read_points(tmp_path / "a.gpx")) == kinds
+    else:
+        with pytest.raises(ValueError, match="no rows of GPX with 100 columns"):
+            read_points(tmp_path / "a.gpx")
+
+
+def test_nothing_is_written_beside_a_file(tmp_path):
+    """GDAL would write a.gfs, and go by it when a.gml is another file."""
+    for ending in DRIVERS:
+        folder = tmp_path / ending[1:].replace(".", "_")
+        folder.mkdir()
+        written(folder / f"a{ending}", ending)
+        (folder / "a.xsd").unlink(missing_ok=True)
+        before = sorted(folder.iterdir())
+        assert len(read_points(folder / f"a{ending}")) == ROWS
+        assert sorted(folder.iterdir()) == before
 
 
 def test_sheets_and_layers_are_chosen_by_name(tmp_path):

@@ -142,7 +142,7 @@ def test_names_that_are_missing_or_no_text(built):
     names = ["Ulm", None, float("nan"), 5, "a\ud800b"]
     given = contents.Given(np.zeros((5, 2)), "a", names)
     shown = contents.packed(json.dumps(["Ulm", "", "", "5", "a?b"]).encode())
-    assert contents.contents("110m", given, sets=False)["given-names"] == shown
+    assert contents.contents("110m", given, latitude=None)["given-names"] == shown
 
 
 def test_wrong_arguments_and_nothing_written(built, tmp_path):

@@ -124,7 +124,7 @@ def in_python(folder, name, content):
     try:
         return {"places": read_points(path).lonlat.ravel().tolist()}
     except ValueError as error:
-        return {"error": str(error)}
+        return {"error": str(error).removeprefix(f"{path}: ")}
 
 
 def test_the_page_reads_what_read_points_reads_in_its_words(node, tmp_path):
@@ -198,7 +198,7 @@ def test_tables_of_a_plane_are_those_of_read_plane_points(node, tmp_path):
         try:
             expected = {"places": read_plane_points(path, *names)[0].ravel().tolist()}
         except ValueError as error:
-            expected = {"error": str(error)}
+            expected = {"error": str(error).removeprefix(f"{path}: ")}
         assert {key: found[f"{k}.csv"].get(key) for key in expected} == expected, text
 
 
