@@ -101,10 +101,13 @@ def reached(process, name, done):
     raise AssertionError(f"{name} {done} was not reached")
 
 
+WHEN = [(name, number) for name in ("spread", "solve", "align") for number in SIGNALS]
+QUICK = [("solve", signal.SIGKILL)]
+
+
 @pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=pytest.mark.thorough) for name in ("spread", "align")] + ["solve"]
+    ("name", "number"), [pytest.param(*when, marks=() if when in QUICK else pytest.mark.thorough) for when in WHEN]
 )
-@pytest.mark.parametrize("number", SIGNALS)
 def test_a_driver_that_is_killed(tmp_path, points, name, number):
     """Its workers end with it, and so does a pipe behind it; what is begun at once with other arguments is right."""
     folder, truth = points
