@@ -1,7 +1,9 @@
 """What is on the disk counts, not what tasks say: whatever is deleted, changed or cut meanwhile, no run ends on it."""
 
 import os
+import random
 import shutil
+from collections import Counter
 from functools import partial
 
 import numpy as np
@@ -12,7 +14,7 @@ import pytest
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
 from stereodel.partitioned.sources import PointFile
-from tests.partitioned.answers import in_memory, serially, write_points
+from tests.partitioned.answers import differences, in_memory, serially, write_points
 from tests.partitioned.sets import LONLAT, rows_of
 
 PASSES = ("sample", "spread", "collect", "solve", "align")
@@ -344,6 +346,44 @@ def test_the_source_of_values_that_changes(tmp_path, points):
     harm = partial(move, folder / "003.parquet")
     with pytest.raises(ValueError, match=r"003\.parquet has changed since the run began"):
         run.interpolate(folder, tmp_path / "found", "id", partition=60, progress=meanwhile("collect", 1, harm))
+
+
+@pytest.mark.parametrize("number", [12, pytest.param(300, marks=pytest.mark.thorough)])
+def test_files_that_are_damaged(tmp_path, number):
+    """Cut anywhere, or with bits of the footer changed: the points as they were, or an error that names the file."""
+    chance, columns = random.Random(5), LONLAT
+    _, rows = rows_of("airports", 60)
+    folder = write_points(tmp_path / "points", columns, rows, 2, row_group_size=10)
+    file, truth, counts = folder / "001.parquet", in_memory(columns, rows), Counter()
+    content = file.read_bytes()
+    footer = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
+    for _ in range(number):
+        damaged = bytearray(content)
+        if chance.random() < 0.3:
+            damaged = damaged[: chance.randrange(len(content))]
+        else:
+            damaged[chance.randrange(footer, len(content))] ^= 1 << chance.randrange(8)
+        file.write_bytes(damaged)
+        try:
+            found = serially(folder, tmp_path / "out", partition=20, resume=False)
+        except (ValueError, TypeError) as error:
+            counts["named" if str(file) in str(error) else str(error)] += 1
+        else:
+            assert differences(found, truth) == []
+            counts["equal"] += 1
+    assert counts.keys() == {"named", "equal"}
+
+
+def test_a_page_with_a_checksum(tmp_path, points):
+    """Files that have checksums are read with them."""
+    folder, _ = points
+    path = folder / "003.parquet"
+    pq.write_table(pq.read_table(path), path, write_page_checksum=True, compression="none", use_dictionary=False)
+    content = bytearray(path.read_bytes())
+    content[300] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=r"003\.parquet: row group 0 cannot be read: .*checksum"):
+        run_of(folder, tmp_path / "out")
 
 
 def test_a_page_that_is_damaged(tmp_path, points):
