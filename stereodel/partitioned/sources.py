@@ -81,7 +81,7 @@ def opened(path: str | os.PathLike[str]) -> Any:
     """A file of Parquet; errors give its name. It is not mapped: one that is cut short would end the process."""
     try:
         return optional("pyarrow.parquet", "partitioned").ParquetFile(path, page_checksum_verification=True)
-    except (OSError, optional("pyarrow", "partitioned").ArrowException) as error:
+    except (OSError, ValueError, optional("pyarrow", "partitioned").ArrowException) as error:
         if isinstance(error, OSError) and error.errno is not None:  # of the system, which names it
             raise
         raise ValueError(f"{path} is not a Parquet file: {error}") from error
