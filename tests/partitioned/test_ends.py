@@ -21,7 +21,7 @@ from tests.partitioned.sets import rows_of
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
 
-KILLS = 30
+KILLS = 20
 """Of the soak, which take a minute or two; a hundred would take longer than a test may."""
 
 SIGNALS = (signal.SIGTERM, signal.SIGKILL, signal.SIGINT)
