@@ -57,7 +57,8 @@ def said_of(target: str | os.PathLike[str], folder: str | None = None) -> Iterat
         named = "" if error.filename is None else os.fsdecode(error.filename)
         ours = named.endswith(ENDING) or (folder is not None and Path(named).is_relative_to(folder))
         if error.errno is not None and (not named or ours):
-            error.filename, error.filename2 = str(target), None
+            error.filename = str(target)
+            del error.filename2  # set to None it would be shown
         raise
 
 

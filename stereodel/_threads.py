@@ -1,8 +1,10 @@
-"""How many threads a call takes: what `workers=` means everywhere."""
+"""Threads of a call, what `workers=` means everywhere; and processes that end with the one that started them."""
 
 from __future__ import annotations
 
 import os
+import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -31,8 +33,6 @@ def in_order(job: Callable[[Task], Result], tasks: Iterable[Task], threads: int)
     For jobs whose time goes to libraries that release the interpreter's lock, as NumPy and GEOS do. Where the system
     gives no thread, this one does them, some perhaps a second time: jobs have no effects but their results.
 
-    Examples
-    --------
     >>> list(in_order(abs, range(-3, 2), threads=2))
     [3, 2, 1, 0, 1]
     """
@@ -60,3 +60,21 @@ def _begun(pool: ThreadPoolExecutor, job: Callable[[Task], Result], task: Task) 
         done: Future[Result] = Future()
         done.set_result(job(task))
         return done
+
+
+def end_with_parent() -> None:
+    """In a process that works for another one: end when that ends, even if killed, and leave interruptions to it.
+
+    An executor's processes would wait for tasks forever, and hold the pipes that their parent wrote to.
+    """
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threading.Thread(target=_end, daemon=True).start()
+
+
+def _end() -> None:
+    from multiprocessing import parent_process
+
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -29,24 +29,13 @@ def is_folder(out: str) -> bool:
 class Work:
     """Cells of points in files, to be written to a folder.
 
-    Attributes
-    ----------
-    points : list of str
-        Files, folders or patterns, or a HATS catalogue.
-    out : str
-    lon, lat : str, optional
-        Columns, both or none.
-    plane : tuple of str, optional
-        Columns of the plane.
-    latitude : {"spherical", "geodetic", "authalic"}
-    partition : int, optional
-        Points of a partition.
-    shapes : bool
-        Whether cells are written as polygons.
-    keep : list of str
-        Columns to write beside the results.
-    overwrite : bool
-        Whether the results of an earlier command are replaced.
+    points: files, folders or patterns, or a HATS catalogue.
+    lon, lat: columns, both or none.
+    plane: columns of the plane.
+    partition: points of a partition.
+    shapes: whether cells are written as polygons.
+    keep: columns to write beside the results.
+    overwrite: whether the results of an earlier command are replaced.
     """
 
     points: list[str]
@@ -91,7 +80,7 @@ class Work:
                 )
             except KeyboardInterrupt:
                 raise KeyboardInterrupt(KEPT) from None
-            except RuntimeError as error:  # another run holds the folder
+            except (RuntimeError, TypeError) as error:  # another run holds the folder; a column has no numbers
                 raise ValueError(str(error)) from error
         stop_if_interrupted()
         if not run.statistics["points"]:
@@ -105,12 +94,8 @@ class Work:
 def workers(scheduler: str | None) -> Iterator[Executor | None]:
     """Workers of a scheduler of Dask; None, for processes of this machine, without an address.
 
-    Raises
-    ------
-    ImportError
-        Without Dask (the extra ``dask``).
-    ValueError
-        Where no scheduler answers.
+    Raises ImportError without Dask (the extra ``dask``).
+    Raises ValueError where no scheduler answers.
     """
     if scheduler is None:
         yield None

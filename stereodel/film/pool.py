@@ -15,7 +15,6 @@ from __future__ import annotations
 import os
 import pickle
 import runpy
-import signal
 import sys
 import threading
 import traceback
@@ -25,9 +24,10 @@ from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wai
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from itertools import chain
-from multiprocessing import parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
 from typing import Any, Literal
+
+from stereodel._threads import end_with_parent
 
 Work = Callable[[Any], Any]
 
@@ -39,14 +39,9 @@ MainScript = tuple[Literal["module", "path"], str]
 class Done:
     """Outcome of a task.
 
-    Parameters
-    ----------
-    result : object
-        The return value; None after an error.
-    error : str
-        Error message in one line; empty on success. It is text because not every exception can be pickled.
-    trace : str
-        Traceback of the error, if any.
+    result: the return value; None after an error.
+    error: error message in one line; empty on success. It is text because not every exception can be pickled.
+    trace: traceback of the error, if any.
     """
 
     result: Any = None
@@ -69,21 +64,11 @@ def in_processes(
 
     When the iterator is closed or the program interrupted, all processes are terminated at once.
 
-    Parameters
-    ----------
-    work : callable
-        Function of a task that returns its result; pickled once for each process.
-    tasks : sequence
-        Iterated twice without keeping any item, so tasks may be created on access.
-    jobs : int
-        Number of processes.
-    lifetime : int, optional
-        Number of tasks after which a process is replaced.
-
-    Raises
-    ------
-    TypeError
-        If `work` or a task is defined in an interactive session.
+    work: function of a task that returns its result; pickled once for each process.
+    tasks: iterated twice without keeping any item, so tasks may be created on access.
+    jobs: number of processes.
+    lifetime: number of tasks after which a process is replaced.
+    Raises TypeError if `work` or a task is defined in an interactive session.
     """
     orders = _orders(work, map(pickle.dumps, tasks))
     waiting = enumerate(map(pickle.dumps, tasks))
@@ -220,9 +205,7 @@ _work: Work | Done = Done(error="nothing was ordered")
 def _prepare(orders: bytes) -> None:
     """Initialise the process; an error becomes the outcome of each task."""
     global _work
-    # Ctrl-C reaches all processes of a terminal, but only the parent handles it.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    end_with_parent()
     # llvmpipe would start a thread for each core in every process, which is too many.
     os.environ.setdefault("LP_NUM_THREADS", "1")
     try:
@@ -239,13 +222,6 @@ def _do(task: bytes) -> Done:
         return _work
     work = _work
     return attempt(lambda pickled: work(pickle.loads(pickled)), task)
-
-
-def _end_with_parent() -> None:
-    parent = parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
 
 
 def _import_main(script: MainScript) -> None:

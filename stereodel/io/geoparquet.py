@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Final
 
@@ -44,13 +45,16 @@ def _letters(column: Any) -> int:
     return sum(compute.sum(compute.take(each, where)).as_py() or 0 for each, where in lengths)
 
 
-def write_parquet(layer: Layer, path: Path, progress: Progress | None = None) -> None:
-    """Rows of a map as GeoParquet."""
+def write_parquet(
+    layer: Layer, path: Path, progress: Progress | None = None, metadata: Mapping[str, str] | None = None
+) -> None:
+    """Rows of a map as GeoParquet, with metadata of the caller's."""
     check_held(layer.columns, "parquet")
     schema, batches = layer.batches(progress)
     crs = None if layer.crs is None else optional("pyproj", "geo").CRS(layer.crs).to_json_dict()
     column = {"encoding": "WKB", "geometry_types": layer.kinds, "crs": crs}
     geo = {"version": VERSION, "primary_column": layer.name, "columns": {layer.name: column}}
-    with optional("pyarrow.parquet", "geo").ParquetWriter(path, schema.with_metadata({"geo": json.dumps(geo)})) as file:
+    schema = schema.with_metadata({"geo": json.dumps(geo), **(metadata or {})})
+    with optional("pyarrow.parquet", "geo").ParquetWriter(path, schema) as file:
         for batch in batches:
             file.write_batch(batch)

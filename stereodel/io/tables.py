@@ -11,7 +11,7 @@ import numpy as np
 
 from stereodel._arrays import Column, FloatArray, Indices, as_lonlat, as_points, read_only
 from stereodel._extras import optional
-from stereodel.io.text import doubles, why_not
+from stereodel.io.text import EXACT_INTEGERS, doubles, why_not
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,11 +138,24 @@ def transformed(places: FloatArray, crs: str, rows: Indices) -> FloatArray:
     return lonlat
 
 
-def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False, decimal: bool = False) -> FloatArray:
+def numbers(
+    values: Column,
+    name: str,
+    rows: Sequence[int] | Indices,
+    *,
+    gaps: bool = False,
+    decimal: bool = False,
+    advice: str = "leave such rows out with skip_missing=True",
+) -> FloatArray:
     """A column as finite numbers, with NaN for missing ones if `gaps`; ValueError names the first invalid row."""
     array = np.asarray(values)
     if array.dtype.kind in "iuf":
         result = array.astype(np.float64)
+        large = np.flatnonzero(np.abs(result) >= EXACT_INTEGERS).tolist() if array.dtype.kind in "iu" else []
+        rounded = [place for place in large if int(array[place]) != int(result[place])]
+        if rounded:
+            said = f"row {rows[rounded[0]]}: the {name} {array[rounded[0]]} is not a double{_more(rounded)}"
+            raise ValueError(f"{said}; subtract an origin that all share, or round it yourself")
     else:
         result, wrong = doubles(array, decimal=decimal)
         if wrong.any():
@@ -153,10 +166,12 @@ def numbers(values: Column, name: str, rows: Indices, *, gaps: bool = False, dec
     if len(bad):
         missing = bool(np.isnan(result[bad[0]]))
         what = "is missing" if missing else f"is {result[bad[0]]}, but must be finite"
-        advice = "leave such rows out with skip_missing=True" if missing else "correct or drop such rows first"
-        raise ValueError(f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; {advice}")
+        raise ValueError(
+            f"row {rows[bad[0]]}: the {name} {what}{_more(bad)}; "
+            + (advice if missing else "correct or drop such rows first")
+        )
     return result
 
 
-def _more(places: Column) -> str:
+def _more(places: Sequence[int] | Indices) -> str:
     return f" (and {len(places) - 1} more rows like it)" if len(places) > 1 else ""

@@ -26,10 +26,12 @@ from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, LongArra
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from stereodel.io.tables import numbers as numbers_of
 from stereodel.partitioned.index import Index
+from stereodel.partitioned.places import doubles_of
 from stereodel.partitioned.plan import Plan, Question
 from stereodel.partitioned.rounds import SKELETON, Reading, triangulation
 from stereodel.partitioned.solve import distances, row_type
 from stereodel.partitioned.sources import named, slices
+from stereodel.partitioned.spread import starts_of
 from stereodel.partitioned.store import Store
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
 
@@ -50,21 +52,18 @@ Certified = tuple[Columns, BoolArray, FloatArray]
 
 def points_of(question: Question) -> Store:
     """The points that are asked, as their run left them."""
-    return Store(Path(question.run), Path(question.run) / "scratch")
+    return Store.ended(Path(question.run))
 
 
-def take_values(store: Store, share: int) -> dict[str, Any]:
+def take_values(store: Store, share: int) -> None:
     """Values of a share of the points, in their order, as an array that later tasks map.
 
-    Raises
-    ------
-    ValueError
-        For a value that is not a finite number, naming file and row.
+    Raises ValueError for a value that is not a finite number, naming file and row.
     """
     question = _question(store)
     plan = points_of(question).plan
     found = [_values(plan, piece.file, piece.first, piece.last, question.values) for piece in plan.shares[share]]
-    return store.keep("values", share, {}, store.save("values", share, {"values": np.concatenate(found)}))
+    store.keep("values", share, {}, store.save("values", share, {"values": np.concatenate(found)}))
 
 
 def _values(plan: Plan, number: int, first: int, last: int, names: tuple[str, ...]) -> FloatArray:
@@ -72,21 +71,20 @@ def _values(plan: Plan, number: int, first: int, last: int, names: tuple[str, ..
     values = np.empty((last - first, len(names)))
     with named(file):
         for low, table in slices(file, names, first, last):
-            rows = np.arange(low + 1, low + 1 + table.num_rows)
+            rows = range(low + 1, low + 1 + table.num_rows)
             for place, name in enumerate(names):
-                column = table[name].combine_chunks().to_numpy(zero_copy_only=False)
+                column = doubles_of(table[name], name, rows, gaps=True)
                 values[filled : filled + len(rows), place] = numbers_of(column, name, rows, gaps=True)
             filled += len(rows)
+    if filled < len(values):
+        raise ValueError(f"{file.path} has fewer rows than it had")
     return values
 
 
-def answer(store: Store, part: int, limit: int) -> dict[str, Any]:
+def answer(store: Store, part: int, limit: int) -> None:
     """The answers at a partition's targets.
 
-    Raises
-    ------
-    MemoryError
-        Where a single target needs more than `limit` points at once, naming it.
+    Raises MemoryError where a single target needs more than `limit` points at once, naming it.
     """
     began, cpu = time.perf_counter(), time.process_time()
     plan = store.plan
@@ -102,10 +100,11 @@ def answer(store: Store, part: int, limit: int) -> dict[str, Any]:
         for rows, columns in _asked(store, targets, number, limit, reading).answers():
             for name, column in columns.items():
                 cells[name][rows] = column
-    starts = np.searchsorted(number[order], plan.share_firsts)
-    shards = store.save("cells", part, {"rows": cells[order], "starts": starts})
+    cells = cells[order]
+    starts = starts_of(np.searchsorted(number[order], plan.share_firsts), cells)
+    files = store.save("stars", part, {"rows": cells, "starts": starts})
     seconds = {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
-    return store.keep("answer", part, {"points": len(number)} | asdict(reading) | seconds, shards)
+    store.keep("answer", part, {"points": len(number)} | asdict(reading) | seconds, files)
 
 
 def _question(store: Store) -> Question:
@@ -124,21 +123,12 @@ def _asked(store: Store, targets: FloatArray, number: LongArray, limit: int, rea
 class Asked(ABC):
     """Targets, and the points that are read for them; a kind of question is a subclass with `certified`.
 
-    Parameters
-    ----------
-    store : Store
-        The targets and their answers.
-    question : Question
-    index : Index
-        The points.
-    targets : (n, width) array
-        Near ones next to one another.
-    number : (n,) array
-        Their numbers.
-    limit : int
-        Points that may be read at once.
-    reading : Reading
-        What was read so far.
+    store: the targets and their answers.
+    index: the points.
+    targets, (n, width) array: near ones next to one another.
+    number, (n,) array: their numbers.
+    limit: points that may be read at once.
+    reading: what was read so far.
     """
 
     store: Store

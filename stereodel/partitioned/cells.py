@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -39,13 +40,14 @@ def cells_of(stars: Round, index: Index, places: Places) -> Layer:
     return replace(own, columns={**own.columns, "point": numbers[own.columns["point"]]})
 
 
-def write_cells(store: Store, part: int, layers: Sequence[Layer]) -> None:
-    """The file of a partition, in the order of the points' numbers."""
+def write_cells(store: Store, part: int, layers: Sequence[Layer]) -> tuple[int, Path]:
+    """The file of a partition, in the order of the points' numbers; how many cells it has, and where it is."""
     names = ("point", "area")
     columns = {name: np.concatenate([layer.columns[name] for layer in layers]) for name in names}
     binary = np.concatenate([layer.binary for layer in layers])
     whole = Layer(columns, binary, layers[0].crs).take(np.argsort(columns["point"]))
-    path = store.results / "cells" / f"{part}.parquet"
+    path = store.room("cells") / f"{part}.parquet"
     path.parent.mkdir(parents=True, exist_ok=True)
     with replacing(path) as temporary:
-        write_parquet(whole, temporary)
+        write_parquet(whole, temporary, metadata=store.plan.metadata)
+    return len(whole), path

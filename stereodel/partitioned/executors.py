@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import multiprocessing
 import os
-import signal
+import time
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, as_completed
 from types import TracebackType
 from typing import Any, Final, Self, TypeVar
 
-from stereodel._threads import thread_count
+from stereodel._threads import end_with_parent, thread_count
 
 T = TypeVar("T")
 R = TypeVar("R")
+
+PAUSE: Final = 0.5
+"""Seconds in which a server of processes that the system ended is gone."""
 
 ATTEMPTS: Final = 3
 """How often in a row, with no task done between, processes are replaced when the system ended one of them."""
@@ -35,12 +38,8 @@ class Here(Executor):
 class Crew:
     """An executor of the caller, or processes of this machine, one for each processor, which end with the run.
 
-    Parameters
-    ----------
-    executor : concurrent.futures.Executor, optional
-        What has its `submit`.
-    tasks : int
-        Number of tasks of the largest pass; a single task is computed in this process.
+    executor: what has its `submit`.
+    tasks: number of tasks of the largest pass; a single task is computed in this process.
     """
 
     def __init__(self, executor: Executor | None, tasks: int) -> None:
@@ -56,8 +55,7 @@ class Crew:
         return ProcessPoolExecutor(
             self._count,
             mp_context=multiprocessing.get_context(kind),
-            initializer=signal.signal,  # an interruption is the caller's: tasks end, and none is begun
-            initargs=(signal.SIGINT, signal.SIG_IGN),
+            initializer=end_with_parent,
         )
 
     def __enter__(self) -> Self:
@@ -82,10 +80,14 @@ class Crew:
                     left.remove(task)
                     attempts = ATTEMPTS
                     yield result
-            except BrokenExecutor:
+            except (BrokenExecutor, ConnectionError, EOFError) as error:
                 attempts -= 1
+                of_server = not isinstance(error, BrokenExecutor)  # which starts processes
+                if of_server and self._own and not attempts:
+                    raise RuntimeError("what starts processes has ended; call again, and the run goes on") from error
                 if not self._own or not attempts:
                     raise
+                time.sleep(PAUSE if of_server else 0)
                 self._executor.shutdown(wait=True, cancel_futures=True)
                 self._executor = self._started()
 

@@ -13,13 +13,8 @@ from stereodel._spaces import space_of
 def is_flat(lots: Iterable[FloatArray]) -> bool:
     """Whether all points of some arrays lie on one line, or great circle, exactly; it reads no further than it must.
 
-    Parameters
-    ----------
-    lots : iterable of (n, 2) or (n, 3) arrays
-        Points of the plane, or directions.
+    lots, iterable of (n, 2) or (n, 3) arrays: points of the plane, or directions.
 
-    Examples
-    --------
     >>> is_flat([np.array([[0.0, 0], [1, 1]]), np.array([[5.0, 5]])])
     True
     >>> is_flat([np.array([[0.0, 0], [1, 1]]), np.array([[5.0, 6]])])

@@ -63,8 +63,6 @@ MAPS: Final = ("point_map.fits", "skymap.fits", "skymap.*.fits")
 class Pixel:
     """A pixel of HEALPix in the NESTED scheme.
 
-    Examples
-    --------
     >>> Pixel(5, 10_417).path(".parquet").as_posix()
     'dataset/Norder=5/Dir=10000/Npix=10417.parquet'
     """
@@ -88,14 +86,9 @@ class Pixel:
 class Catalogue:
     """A HATS catalogue on disk.
 
-    Attributes
-    ----------
-    folder : Path
-        Where ``hats.properties`` and ``dataset`` are.
-    properties : mapping of str to str
-        As the file has them.
-    pixels : tuple of Pixel
-        In the order of ``partition_info.csv``, which is that of the rows.
+    folder: where ``hats.properties`` and ``dataset`` are.
+    properties: as the file has them.
+    pixels: in the order of ``partition_info.csv``, which is that of the rows.
     """
 
     folder: Path
@@ -106,11 +99,8 @@ class Catalogue:
     def read(cls, folder: Path) -> Self:
         """The catalogue in a folder, or the primary one of a collection.
 
-        Raises
-        ------
-        ValueError
-            For a folder that is none, a catalogue of another kind than points, such as a margin, and one without the
-            columns of its points.
+        Raises ValueError for a folder that is none, a catalogue of another kind than points, such as a margin, and one
+        without the columns of its points.
         """
         if not _described(folder) and (folder / COLLECTION).is_file():
             primary = _properties(folder / COLLECTION).get("hats_primary_table_url", "")
@@ -155,10 +145,7 @@ class Catalogue:
     def files(self) -> list[Path]:
         """The files of all pixels, those of a pixel by name: from the catalogue's folder.
 
-        Raises
-        ------
-        FileNotFoundError
-            Where a pixel's is not there, as in a catalogue that was copied in part.
+        Raises FileNotFoundError where a pixel's is not there, as in a catalogue that was copied in part.
         """
         return [path.relative_to(self.folder) for pixel in self.pixels for path in self._files_of(pixel)]
 
@@ -179,11 +166,8 @@ class Catalogue:
 class HatsSource(Source):
     """The points of a HATS catalogue; its pixels are the partitions, and the rows a second catalogue.
 
-    Parameters
-    ----------
-    catalogue : Catalogue
-        Where they come from. Columns that are carried along beyond those that a catalogue must have are the caller's;
-        the first of them identifies rows.
+    catalogue: where they come from. Columns that are carried along beyond those that a catalogue must have are the
+    caller's; the first of them identifies rows.
     """
 
     catalogue: Catalogue
@@ -251,12 +235,9 @@ class HatsSource(Source):
 def hats_source(given: Given, columns: Sequence[str] | None, surface: Surface, latitude: Latitude) -> HatsSource:
     """A HATS catalogue or collection: its pixels in the order of ``partition_info.csv``.
 
-    Raises
-    ------
-    ValueError
-        If the folder is not a catalogue of points, has another number of rows than it states, or is for the plane.
-    FileNotFoundError
-        For a pixel without its file.
+    Raises ValueError if the folder is not a catalogue of points, has another number of rows than it states, or is for
+    the plane.
+    Raises FileNotFoundError for a pixel without its file.
     """
     if not isinstance(given, str | os.PathLike):
         raise ValueError(f"source is a list of {len(given)}, but a HATS catalogue is one folder")

@@ -11,32 +11,24 @@ import numpy.typing as npt
 from stereodel import _kernel
 from stereodel._arrays import BoolArray, FloatArray, Indices, IntArray, LongArray
 from stereodel._spaces import space_of
-from stereodel.partitioned.shards import load, save
+from stereodel.partitioned.shards import check, load, save, sums
 from stereodel.partitioned.store import Store
 
-COLUMNS: Final = ("lows", "highs", "levels", "part", "first", "last", "points", "numbers")
+COLUMNS: Final = ("lows", "highs", "levels", "part", "first", "last", "points", "numbers", "sums")
 
 
 class Index:
     """What a worker knows of all points; its pages are shared by the workers of a machine.
 
-    Attributes
-    ----------
-    lows, highs : (nodes, width) arrays
-        Boxes of the blocks, in the order of partitions, then those of the tree above them.
-    levels : array of int64
-        The first node of each level.
-    part : (blocks,) array of int32
-        The partition of each block.
-    first, last : (blocks,) arrays of int64
-        Its first row there, and the row after its last.
-    points : (blocks, width) array
-    numbers : (blocks,) array
-        One point of each block.
-    sizes : (blocks,) array of int64
-        Number of its points.
-    largest : int
-        The most of them.
+    lows, highs, (nodes, width) arrays: boxes of the blocks, in the order of partitions, then those of the tree above
+    them.
+    levels, array of int64: the first node of each level.
+    part, (blocks,) array of int32: the partition of each block.
+    first, last, (blocks,) arrays of int64: its first row there, and the row after its last.
+    numbers, (blocks,) array: one point of each block.
+    sums, (blocks,) array of uint32: CRC-32 of its points and their numbers.
+    sizes, (blocks,) array of int64: number of its points.
+    largest: the most of them.
     """
 
     lows: FloatArray
@@ -47,11 +39,12 @@ class Index:
     last: LongArray
     points: FloatArray
     numbers: npt.NDArray[np.integer]
+    sums: npt.NDArray[np.uint32]
 
     def __init__(self, store: Store) -> None:
         self._store = store
         for name in COLUMNS:
-            setattr(self, name, load(store.room("blocks") / f"{name}.npy"))
+            setattr(self, name, load(store.room("blocks") / name))
         self.sizes: LongArray = self.last - self.first
         self.largest = int(self.sizes.max(initial=0))
         self.space = space_of(self.points)
@@ -65,9 +58,9 @@ class Index:
             np.ascontiguousarray(blocks["low"]), np.ascontiguousarray(blocks["high"])
         )
         part = np.repeat(np.array(parts, dtype=np.int32), [len(part) for part in found])
-        columns = (lows, highs, levels, part, *(blocks[name] for name in ("first", "last", "point", "number")))
+        columns = (lows, highs, levels, part, *(blocks[name] for name in ("first", "last", "point", "number", "sum")))
         for name, column in zip(COLUMNS, columns, strict=True):
-            save(store.room("blocks") / f"{name}.npy", np.ascontiguousarray(column))
+            save(store.room("blocks") / name, column)
 
     def __len__(self) -> int:
         return len(self.part)
@@ -94,10 +87,13 @@ class Index:
         numbers: list[Any] = []
         for begin, end in _runs(self.part[blocks]):
             part = int(self.part[blocks[begin]])
-            place, number = (self._store.load("points", part, name) for name in ("points", "numbers"))
+            place, number = (self._store.load("points", part, name, checked=False) for name in ("points", "numbers"))
             own = blocks[begin:end]
             for low, high in _runs(own - np.arange(len(own))):
-                rows = slice(int(self.first[own[low]]), int(self.last[own[high - 1]]))
+                here = own[low:high]
+                starts = np.append(self.first[here], self.last[here[-1]])
+                check(self.sums[here], sums(starts, place, number), self._store.shard("points", part, "points"))
+                rows = slice(int(starts[0]), int(starts[-1]))
                 points.append(place[rows])
                 numbers.append(number[rows])
         block = np.concatenate([np.repeat(blocks, self.sizes[blocks]), alone])

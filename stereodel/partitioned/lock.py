@@ -16,10 +16,7 @@ NAME: Final = ".lock"
 def locked(folder: Path) -> Iterator[None]:
     """Keep other runs, on this machine or another one that shares the folder, from it.
 
-    Raises
-    ------
-    RuntimeError
-        Where a run holds it.
+    Raises RuntimeError where a run holds it.
     """
     with (folder / NAME).open("a+b") as file:
         try:

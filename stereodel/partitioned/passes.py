@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import shutil
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -16,15 +17,16 @@ import numpy as np
 
 from stereodel._arrays import as_count
 from stereodel._extras import optional
+from stereodel._files import ENDING
 from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import spread
-from stereodel.partitioned.executors import Crew
+from stereodel.partitioned.executors import ATTEMPTS, Crew
 from stereodel.partitioned.lock import locked
 from stereodel.partitioned.plan import NAME, Plan
 from stereodel.partitioned.shards import load_json, save, save_json
 from stereodel.partitioned.solve import write_table
-from stereodel.partitioned.sources import Source
-from stereodel.partitioned.store import KEPT, Store
+from stereodel.partitioned.sources import Source, opened
+from stereodel.partitioned.store import DIGITS, KEPT, RESULTS, SCRATCH, Store
 from stereodel.partitioned.tree import Splits, is_compact
 
 Progress = Callable[[str, int, int], None]
@@ -41,8 +43,8 @@ REPORT: Final = "run.json"
 FILES: Final = "files.parquet"
 """Name of the file that maps rows to files."""
 
-RESULTS: Final = ("rows", "triangles", "cells", KEPT, FILES, REPORT, NAME)
-"""What a run leaves in its folder."""
+NONE: Final = {"part": 0, "triangles": 0}
+"""The partition of a run without points."""
 
 
 @dataclass(frozen=True)
@@ -68,27 +70,50 @@ class Results:
 
     def rows(self) -> Any:
         """Results in the order of the rows that were read: a dataset of pyarrow, with a file for each file of them."""
-        files = [file.name for file in Plan.load(self.folder).files]
-        return dataset([self.folder / "rows" / name for name in files])
+        return self._dataset("rows")
+
+    def _dataset(self, room: str) -> Any:
+        plan = Plan.load(self.folder)
+        if not getattr(plan, room):
+            raise ValueError(f"{self.folder} has no {room}: the run was not asked for {room}=")
+        names = planned(plan, self.partitions)
+        paths = [str(self.folder / name) for name in names if name.startswith(f"{room}/")]
+        return optional("pyarrow.dataset", "partitioned").dataset(paths, format="parquet")
 
 
-def dataset(paths: Sequence[Path]) -> Any:
-    """Files of Parquet as one dataset of pyarrow."""
-    return optional("pyarrow.dataset", "partitioned").dataset([str(path) for path in paths], format="parquet")
+def planned(plan: Plan, partitions: Sequence[Mapping[str, Any]]) -> dict[str, int]:
+    """Files of Parquet that a run leaves, relative to its folder, and how many rows they have."""
+    files = {f"rows/{file.name}": file.rows for file in plan.files if plan.rows}
+    for room in ("triangles", "cells"):
+        if getattr(plan, room):
+            parts = partitions or ([NONE] if room == "triangles" else [])
+            files |= {f"{room}/{each['part']}.parquet": each[room] for each in parts}
+    return files
+
+
+def check_results(folder: Path, plan: Plan, partitions: Sequence[Mapping[str, Any]]) -> None:
+    """Raise ValueError unless the files of results are those of the plan, by names, numbers of rows and digest."""
+    wanted = {folder / name: rows for name, rows in planned(plan, partitions).items()}
+    for path, rows in wanted.items():
+        if not path.exists():
+            raise ValueError(f"{path} was deleted after it was written; begin anew with resume=False")
+        with opened(path) as content:
+            told = (content.metadata.metadata or {}).get(b"stereodel.digest", b"").decode()
+            if (content.metadata.num_rows, told) != (rows, plan.digest):
+                raise ValueError(f"{path} was changed after it was written; begin anew with resume=False")
+    for room in RESULTS:
+        for path in (folder / room).rglob("*.parquet"):
+            if path not in wanted and path.name[0] not in "._":
+                raise ValueError(f"{path} is not of the run that wrote the files beside it; move it elsewhere")
 
 
 @dataclass(frozen=True)
 class Means:
     """Who computes, in which folders, and who hears of progress.
 
-    Parameters
-    ----------
-    out : path-like
-        Folder of results.
-    limit : int
-        Points that a worker may read at once.
-    executor, scratch, resume, progress
-        As in `triangulate`.
+    out: folder of results.
+    limit: points that a worker may read at once.
+    executor, scratch, resume, progress: as in `triangulate`.
     """
 
     out: str | os.PathLike[str]
@@ -103,41 +128,87 @@ class Means:
         folder, limit = Path(self.out).absolute(), as_count(self.limit, "limit")
         _refuse_within(folder, source)
         folder.mkdir(parents=True, exist_ok=True)
-        scratch = folder / "scratch" if self.scratch is None else Path(self.scratch).absolute() / plan.digest[:16]
-        store = Store(folder, scratch)
+        store = Store.of(folder, None if self.scratch is None else Path(self.scratch).absolute(), plan)
         with locked(folder):
-            _begin(store, plan, self.resume)
+            _begin(store, self.resume)
             if not (folder / REPORT).exists():
                 with Crew(self.executor, max(len(plan.parts), len(plan.shares))) as crew:
                     kind(store, crew, limit, self.progress).run(source)
+                _publish(store)
+            else:
+                check_results(folder, plan, load_json(folder / REPORT)["partitions"])
+            _clear(store)
         return folder
 
 
 def _refuse_within(folder: Path, source: Source) -> None:
+    real = Path(os.path.realpath(folder))
     for file in source.files:
-        if Path(file.path).is_relative_to(folder):
+        if Path(file.path).is_relative_to(folder) or Path(os.path.realpath(file.path)).is_relative_to(real):
             raise ValueError(f"{file.path} lies in out, the folder of results; take another folder")
 
 
-def _begin(store: Store, plan: Plan, resume: bool) -> None:
+def _begin(store: Store, resume: bool) -> None:
     """Note what is to be done, or find that it was noted before."""
-    if not resume and (store.results / NAME).exists():
-        shutil.rmtree(store.scratch, ignore_errors=True)
-        for name in RESULTS:
-            path = store.results / name
-            shutil.rmtree(path) if path.is_dir() else path.unlink(missing_ok=True)
-    if (store.results / NAME).exists():
-        other = Plan.load(store.results).differs(plan)
+    folder = store.results
+    noted, left = (folder / NAME).exists(), [folder / name for name in (REPORT, FILES, *RESULTS, KEPT)]
+    if not resume and (noted or _is_report(folder / REPORT)):
+        with suppress(OSError, ValueError, TypeError, KeyError):  # its plan is lost or damaged
+            shutil.rmtree(Store.of(folder, store.scratch.parent, Plan.load(folder)).scratch)
+        _clear(store)
+        _delete(*left, folder / NAME)  # the plan last: what has one is a run's
+        noted = False
+    if noted:
+        other = Plan.load(folder).differs(store.plan)
         if other:
             raise ValueError(
-                f"{store.results} has a run of other files or arguments: {other}; take another folder, or begin anew "
+                f"{folder} has a run of other files or arguments: {other}; take another folder, or begin anew "
                 "with resume=False"
             )
+        if not (folder / REPORT).exists() and not (store.made / REPORT).exists():
+            _delete(*left)  # what an earlier deletion left, when it was interrupted
         return
-    there = [name for name in RESULTS if (store.results / name).exists()]
+    there = [path for path in left if path.exists()]
+    if there and _is_report(folder / REPORT):
+        raise ValueError(f"{folder / NAME} was deleted after it was written; begin anew with resume=False")
     if there:
-        raise ValueError(f"{store.results} has {there[0]!r}, which is not of a run; take another folder")
-    plan.save(store.results)
+        raise ValueError(f"{folder} has {there[-1].name!r}, which is not of a run; take another folder")
+    store.plan.save(folder)
+
+
+def _is_report(path: Path) -> bool:
+    return path.is_file() and b'"stereodel.digest"' in path.read_bytes()
+
+
+def _delete(*paths: Path) -> None:
+    for path in paths:
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink(missing_ok=True)
+
+
+def _publish(store: Store) -> None:
+    """Move what was made into the folder of results, the report last: one that is there says that all are."""
+    if not (store.results / NAME).exists():  # deleted meanwhile
+        store.plan.save(store.results)
+    for path in store.made.rglob(f".*{ENDING}"):  # of processes that were killed
+        path.unlink(missing_ok=True)
+    for name in sorted(os.listdir(store.made), key=REPORT.__eq__):
+        os.replace(store.made / name, store.results / name)
+
+
+def _clear(store: Store) -> None:
+    """Delete what this run and those before it, which are dead, left beside the results."""
+    shutil.rmtree(store.scratch, ignore_errors=True)
+    own = store.results / SCRATCH
+    for path in own.glob("[0-9a-f]" * DIGITS):
+        shutil.rmtree(path, ignore_errors=True)
+    for name in (NAME, REPORT):
+        for path in store.results.glob(f".{name}.*{ENDING}"):
+            path.unlink(missing_ok=True)
+    with suppress(OSError):  # it is not empty
+        own.rmdir()
 
 
 @dataclass(frozen=True)
@@ -153,35 +224,50 @@ class Passes(ABC):
     progress: Progress | None
 
     def run(self, source: Source) -> None:
-        """All of them, and the report."""
+        """All of them, and the report, when all files are as they should be."""
         store, plan = self.store, self.store.plan
+        if (store.made / REPORT).exists():
+            return
         compact, parts = self._collected() if plan.size else (True, [])
         report, told = self.results(parts)
         if plan.rows:
             self._aligned()
+            source.finish(store.made / "rows")
         _write_files(store)
-        source.finish(store.results / "rows")
         partitions = [_shown(each) for each in told]
-        save_json(store.results / REPORT, {"statistics": report | {"compact": compact}, "partitions": partitions})
-        shutil.rmtree(store.scratch, ignore_errors=True)
+        for file in plan.files:
+            file.check()
+        check_results(store.made, plan, partitions)
+        numbers = {"statistics": report | {"compact": compact}, "partitions": partitions}
+        save_json(store.made / REPORT, plan.metadata | numbers)
 
     @abstractmethod
     def results(self, parts: list[int]) -> tuple[dict[str, Any], list[dict[str, Any]]]:
         """Results of the partitions that have points: numbers of all of them, and what there is to say of each."""
 
-    def do(self, name: str, function: Callable[[int], dict[str, Any]], tasks: Sequence[int]) -> list[dict[str, Any]]:
-        """What the tasks of a pass say, in order; noted at the end, as what they wrote may be deleted then."""
+    def do(self, name: str, function: Callable[[int], None], tasks: Sequence[int]) -> list[dict[str, Any]]:
+        """What the tasks of a pass say, in order; noted at the end, as what they wrote may be deleted then.
+
+        What counts is what they left on the disk: a task whose files are gone is done again.
+        """
         note = self.store.scratch / "done" / f"{name}.json"
         if note.exists():
             return list(load_json(note)["told"])
-        told = {task: done for task in tasks if (done := self.store.done(name, task)) is not None}
-        self.tell(name, len(told), len(tasks))
-        for result in self.crew.results(function, [task for task in tasks if task not in told]):
-            told[result["task"]] = result
-            self.tell(name, len(told), len(tasks))
-        found = [told[task] for task in tasks]
-        save_json(note, {"told": found})
-        return found
+        for attempt in range(ATTEMPTS + 1):
+            told = {task: self.store.done(name, task) for task in tasks}
+            left = [task for task in tasks if told[task] is None]
+            done = len(tasks) - len(left)
+            if left or not attempt:
+                self.tell(name, done, len(tasks))
+            if not left:
+                break
+            for _ in self.crew.results(function, left):
+                done += 1
+                self.tell(name, done, len(tasks))
+        else:
+            raise ValueError(f"{self.store.marker(name, left[0])} or files in it are deleted while the run works there")
+        save_json(note, {"told": list(told.values())})
+        return [each for each in told.values() if each is not None]
 
     def tell(self, name: str, done: int, of: int) -> None:
         """Say how many tasks of a pass are done."""
@@ -194,11 +280,12 @@ class Passes(ABC):
         layout = store.scratch / "layout.json"
         if not layout.exists():
             save_json(layout, {"compact": self._laid_out()})
+        store.drop("sample")
         compact = bool(load_json(layout)["compact"])
         if compact:
             told = self.do("collect", partial(spread.take, store), range(len(plan.parts)))
         else:
-            if not (store.scratch / "done" / "collect.json").exists():
+            if not store.noted("collect"):
                 self.do("spread", partial(spread.spread, store), range(len(plan.shares)))
                 spread.gather(store)
             told = self.do("collect", partial(spread.collect, store), range(spread.splits_of(store).leaves))
@@ -219,8 +306,7 @@ class Passes(ABC):
         if not compact:
             splits = Splits.of(points, -(-plan.size // plan.partition))
             for name in ("axis", "value"):
-                save(store.scratch / f"splits.{name}.npy", getattr(splits, name))
-        store.drop("sample")
+                save(store.scratch / f"splits.{name}", getattr(splits, name))
         return compact
 
     def _aligned(self) -> None:
@@ -229,7 +315,7 @@ class Passes(ABC):
         for number, file in enumerate(plan.files):
             if not file.rows:
                 rows_of.write_file(store, number, [])
-        store.drop("cells")
+        store.drop("stars")
 
 
 def _shown(told: dict[str, Any]) -> dict[str, Any]:
@@ -249,4 +335,4 @@ def _write_files(store: Store) -> None:
     }
     pyarrow = optional("pyarrow", "partitioned")
     texts = {name: pyarrow.array(columns[name], pyarrow.string()) for name in ("path", "rows_file")}
-    write_table(store, store.results / FILES, columns | texts)
+    write_table(plan, store.made / FILES, columns | texts)

@@ -12,7 +12,7 @@ import numpy as np
 from stereodel._arrays import Bytes, FloatArray, Indices, as_directions, as_points
 from stereodel._extras import optional
 from stereodel.io.columns import find_lonlat, listed
-from stereodel.io.tables import numbers, table_of, transformed
+from stereodel.io.tables import degrees, numbers, transformed
 from stereodel.sphere import lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 
@@ -36,17 +36,10 @@ WKB_KINDS: Final = (1, 1001, 2001, 3001)
 class Places:
     """Which columns say where a row's point is.
 
-    Parameters
-    ----------
-    form : {"lonlat", "xyz", "xy", "wkb", "point"}
-        Degrees, directions, the plane; geometries of GeoParquet as binary or as pairs of numbers.
-    names : tuple of str
-        Names of the columns: two, three, or one of geometries.
-    surface : {"sphere", "plane"}
-    latitude : {"spherical", "geodetic", "authalic"}
-        Kind of latitude on the sphere, as in `lonlat_to_xyz`.
-    crs : str, optional
-        Coordinate system of geometries that are not in degrees, in any form that PROJ accepts; sphere only.
+    form: degrees, directions, the plane; geometries of GeoParquet as binary or as pairs of numbers.
+    names: names of the columns: two, three, or one of geometries.
+    latitude: kind of latitude on the sphere, as in `lonlat_to_xyz`.
+    crs: coordinate system of geometries that are not in degrees, in any form that PROJ accepts; sphere only.
     """
 
     form: Form
@@ -63,37 +56,26 @@ class Places:
     def points(self, table: Any, first: int = 0) -> FloatArray:
         """Points of the rows of a table of Arrow: unit vectors or directions (n, 3), or places of the plane (n, 2).
 
-        Parameters
-        ----------
-        table : pyarrow.Table
-            With the columns `names`, at least.
-        first : int
-            Rows of the file before it.
-
-        Raises
-        ------
-        ValueError
-            If a row is not a point; the message gives the first such row, counted from 1, and its value.
+        table: with the columns `names`, at least.
+        first: rows of the file before it.
+        Raises ValueError if a row is not a point; the message gives the first such row, counted from 1, and its value.
+        Raises TypeError if a column holds no numbers, or no geometries.
         """
-        columns = [self._plain(table[name]) for name in self.names]
+        rows = range(first + 1, first + 1 + table.num_rows)
+        if self.form in ("wkb", "point"):
+            geometries = _whole(table[self.names[0]])
+            places = wkb_places(geometries, rows) if self.form == "wkb" else _pairs(geometries, self.names[0], rows)
+            columns = list(places.T)
+        else:
+            columns = [doubles_of(table[name], name, rows) for name in self.names]
         try:
             return self._points(columns)
         except ValueError:
-            self._refuse(columns, np.arange(first + 1, first + 1 + table.num_rows))
+            self._refuse(columns, np.array(rows))
             raise
 
-    def _plain(self, column: Any) -> Any:
-        """A column without chunks; one of numbers as an array, without a copy where it is of doubles without gaps."""
-        whole = column.combine_chunks() if hasattr(column, "chunks") else column
-        return whole if self.form in ("wkb", "point") else whole.to_numpy(zero_copy_only=False)
-
-    def _points(self, columns: Sequence[Any]) -> FloatArray:
-        if self.form in ("wkb", "point"):
-            places = wkb_places(columns[0]) if self.form == "wkb" else _pairs(columns[0])
-        else:
-            places = np.empty((len(columns[0]), len(columns)))
-            for axis, column in enumerate(columns):
-                places[:, axis] = column
+    def _points(self, columns: Sequence[FloatArray]) -> FloatArray:
+        places = np.column_stack(columns)
         if self.surface == "plane":
             return as_points(places, 2, "points")
         if self.form == "xyz":
@@ -102,17 +84,18 @@ class Places:
             places = transformed(places, self.crs, np.arange(1, len(places) + 1))
         return lonlat_to_xyz(places, latitude=self.latitude, workers=1)
 
-    def _refuse(self, columns: Sequence[Any], rows: Indices) -> None:
+    def _refuse(self, columns: Sequence[FloatArray], rows: Indices) -> None:
         """Say which row is wrong; nothing if all are right, one by one."""
-        if self.form in ("wkb", "point"):
-            places = wkb_places(columns[0], rows) if self.form == "wkb" else _pairs(columns[0])
-            columns = list(places.T)
-        if self.surface == "sphere" and self.form != "xyz":
-            table_of(columns[0], columns[1], {}, rows, crs=self.crs)
-            return
-        names = self.names if len(self.names) == len(columns) else ("x", "y")
-        values = [numbers(column, name, rows) for column, name in zip(columns, names, strict=True)]
-        zero = np.flatnonzero(~np.any(values, axis=0))
+        on_earth = self.surface == "sphere" and self.form != "xyz"
+        names: Sequence[str] = self.names if len(self.names) == len(columns) else ("x", "y")
+        if on_earth:
+            names = ("longitude", "latitude") if self.crs is None else ("easting", "northing")
+        advice = "leave such rows out"
+        pairs = zip(columns, names, strict=True)
+        places = np.column_stack([numbers(column, name, rows, advice=advice) for column, name in pairs])
+        if on_earth:
+            degrees(places, self.crs, rows)
+        zero = np.flatnonzero(~places.any(axis=1))
         if self.form == "xyz" and len(zero):
             raise ValueError(f"row {rows[zero[0]]}: is the zero vector, which has no direction")
 
@@ -122,22 +105,13 @@ def find_places(
 ) -> Places:
     """Which columns of a file are places: those that the caller names, else what the file says, else by their names.
 
-    Parameters
-    ----------
-    schema : pyarrow.Schema
-        Schema of the first file.
-    columns : sequence of str or None
-        Names that the caller gives: (longitude, latitude) or (x, y, z) on the sphere, (x, y) in the plane; one name is
-        that of a column of geometries.
-    surface, latitude
-        As in `Places`.
-    geometry : bool
-        Whether the geometries of a GeoParquet file count where no names are given.
-
-    Raises
-    ------
-    ValueError
-        Listing the columns, where a name is not among them, or none or several look like longitude and latitude.
+    schema: schema of the first file.
+    columns: names that the caller gives: (longitude, latitude) or (x, y, z) on the sphere, (x, y) in the plane; one
+    name is that of a column of geometries.
+    surface, latitude: as in `Places`.
+    geometry: whether the geometries of a GeoParquet file count where no names are given.
+    Raises ValueError listing the columns, where a name is not among them, or none or several look like longitude and
+    latitude.
     """
     names, geo = list(schema.names), _geo(schema)
     if columns is None and geo and geometry:
@@ -194,27 +168,23 @@ def _crs_of(told: Mapping[str, Any]) -> str | None:
     return None if f"{known.get('authority')}:{known.get('code')}" in DEGREES else json.dumps(crs)
 
 
-def wkb_places(column: Any, rows: Indices | None = None) -> FloatArray:
+def wkb_places(column: Any, rows: Sequence[int] | None = None) -> FloatArray:
     """Coordinates (n, 2) of points in well-known binary.
 
-    Raises
-    ------
-    ValueError
-        For a row without a geometry, or with another than a point.
+    Raises ValueError for a row without a geometry, or with another than a point.
+    Raises TypeError for a column of something else.
 
-    Examples
-    --------
     >>> import pyarrow, struct
     >>> wkb_places(pyarrow.array([struct.pack("<BIdd", 1, 1, 8.5, 47.4)])).tolist()
     [[8.5, 47.4]]
     """
-    numbered = np.arange(1, len(column) + 1) if rows is None else rows
-    if column.null_count:
-        row = numbered[np.flatnonzero(column.is_null().to_numpy(zero_copy_only=False))[0]]
-        raise ValueError(f"row {row}: a Point is needed, not no geometry; leave such rows out")
+    numbered = range(1, len(column) + 1) if rows is None else rows
+    pyarrow = optional("pyarrow", "partitioned")
+    if not (pyarrow.types.is_binary(column.type) or pyarrow.types.is_large_binary(column.type)):
+        raise TypeError(f"the geometries are {column.type}, not well-known binary")
+    _refuse_gaps(column, numbered)
     if not len(column):
         return np.empty((0, 2))
-    pyarrow = optional("pyarrow", "partitioned")
     plain = column.cast(pyarrow.large_binary())
     _, offsets, values = plain.buffers()
     starts = np.frombuffer(offsets, np.int64)[plain.offset : plain.offset + len(plain) + 1]
@@ -229,8 +199,44 @@ def wkb_places(column: Any, rows: Indices | None = None) -> FloatArray:
     return np.ascontiguousarray(cells["place"])
 
 
-def _pairs(column: Any) -> FloatArray:
+def _pairs(column: Any, name: str, rows: Sequence[int]) -> FloatArray:
     """Coordinates of points that are stored as structures or lists of two numbers."""
-    if hasattr(column, "field") and column.type.num_fields >= 2:
-        return np.column_stack([column.field(axis).to_numpy(zero_copy_only=False) for axis in ("x", "y")])
-    return np.asarray(column.flatten().to_numpy(zero_copy_only=False)).reshape(len(column), -1)[:, :2]
+    types = optional("pyarrow", "partitioned").types
+    _refuse_gaps(column, rows)
+    if types.is_struct(column.type):
+        return np.column_stack([doubles_of(column.field(axis), f"{name}.{axis}", rows) for axis in ("x", "y")])
+    if not types.is_fixed_size_list(column.type) or column.type.list_size < 2:
+        raise TypeError(f"the geometries {name!r} are {column.type}, not points")
+    flat = column.flatten()
+    size = column.type.list_size
+    return np.column_stack([doubles_of(flat[axis::size], name, rows) for axis in range(2)])
+
+
+def _refuse_gaps(column: Any, rows: Sequence[int]) -> None:
+    if column.null_count:
+        row = rows[int(np.flatnonzero(column.is_null().to_numpy(zero_copy_only=False))[0])]
+        raise ValueError(f"row {row}: a Point is needed, not no geometry; leave such rows out")
+
+
+def _whole(column: Any) -> Any:
+    """A column without chunks."""
+    return column.combine_chunks() if hasattr(column, "chunks") else column
+
+
+def doubles_of(column: Any, name: str, rows: Sequence[int], *, gaps: bool = False) -> FloatArray:
+    """A column of numbers as doubles, NaN where there is none; all of them may be missing if `gaps`.
+
+    Raises TypeError for what NumPy would make numbers of: booleans, times, text, bytes.
+    Raises ValueError for a whole number that no double equals, naming its row.
+    """
+    types, column = optional("pyarrow", "partitioned").types, _whole(column)
+    if types.is_dictionary(column.type):
+        column = column.dictionary_decode()
+    if types.is_floating(column.type):
+        return np.asarray(column.to_numpy(zero_copy_only=False), dtype=np.float64)
+    if types.is_decimal(column.type) or (gaps and types.is_null(column.type)):
+        return np.array([np.nan if cell is None else float(cell) for cell in column.to_pylist()])
+    if not types.is_integer(column.type):
+        raise TypeError(f"the column {name!r} holds {column.type}, not numbers")
+    there = column.is_valid().to_numpy(zero_copy_only=False)
+    return np.where(there, numbers(column.fill_null(0).to_numpy(), name, rows), np.nan)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, fields
 from functools import cached_property, lru_cache
 from itertools import pairwise
 from pathlib import Path
@@ -52,20 +52,12 @@ class Piece(NamedTuple):
 class Question:
     """What is asked at targets, of the points of a run that ended.
 
-    Parameters
-    ----------
-    run : str
-        Its folder, absolute.
-    digest : str
-        Digest of its plan.
-    method : {"nearest", "linear", "natural"}
-        Nearest points, or how values are interpolated.
-    k : int or None
-        Number of nearest points; None: the nearest one, without an axis of its own.
-    values : tuple of str
-        Columns of the points' files that are interpolated.
-    flat : bool
-        Whether the points have no triangles, so that there are no values between them.
+    run: its folder, absolute.
+    digest: digest of its plan.
+    method: nearest points, or how values are interpolated.
+    k: number of nearest points; None: the nearest one, without an axis of its own.
+    values: columns of the points' files that are interpolated.
+    flat: whether the points have no triangles, so that there are no values between them.
     """
 
     run: str
@@ -80,30 +72,16 @@ class Question:
 class Plan:
     """What a run does; the same of equal files and arguments, so that one that was interrupted goes on.
 
-    Parameters
-    ----------
-    version : str
-        Version of the library.
-    files : tuple of PointFile
-    places : Places
-    carried : tuple of str
-        Columns of the files that are repeated.
-    partition : int
-        Points of a partition, about.
-    block : int
-        Points of a block at most.
-    share : int
-        Rows of a task that reads files, about.
-    rows : tuple of str
-        Columns for the points.
-    triangles, cells : bool
-        Whether they are written.
-    compact : bool or None
-        Whether files are partitions; None: that is measured.
-    index : bool
-        Whether points stay in their partitions, for targets.
-    question : Question, optional
-        What is asked at the points, if they are targets.
+    version: version of the library.
+    carried: columns of the files that are repeated.
+    partition: points of a partition, about.
+    block: points of a block at most.
+    share: rows of a task that reads files, about.
+    rows: columns for the points.
+    triangles, cells: whether they are written.
+    compact: whether files are partitions; None: that is measured.
+    index: whether points stay in their partitions, for targets.
+    question: what is asked at the points, if they are targets.
     """
 
     version: str
@@ -142,13 +120,22 @@ class Plan:
     @staticmethod
     def load(folder: Path) -> Plan:
         """The plan of a folder; of equal files the one that was read before."""
-        state = (folder / NAME).stat()
-        return _loaded(folder / NAME, state.st_mtime_ns, state.st_ino)
+        path = folder / NAME
+        if not path.exists():
+            raise FileNotFoundError(f"{folder} has no {NAME}: it was deleted, or no run was begun there")
+        state = path.stat()
+        return _loaded(path, state.st_mtime_ns, state.st_ino)
 
     @cached_property
     def digest(self) -> str:
         """Of everything in it: SHA-256, as text."""
         return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()
+
+    @property
+    def metadata(self) -> dict[str, str]:
+        """What files of a run say of it."""
+        told = {"version": self.version, "digest": self.digest, "points": self.size, "surface": self.places.surface}
+        return {f"stereodel.{name}": str(value) for name, value in told.items()}
 
     @cached_property
     def firsts(self) -> npt.NDArray[np.int64]:
@@ -210,20 +197,7 @@ class Plan:
                 return f"{name} was not there"
             if mine[name] != its[name]:
                 return f"{mine[name].path} has changed since"
-        for name in (
-            "version",
-            "places",
-            "partition",
-            "rows",
-            "triangles",
-            "cells",
-            "carried",
-            "compact",
-            "index",
-            "question",
-            "block",
-            "share",
-        ):
+        for name in (field.name for field in fields(self) if field.name != "files"):
             if getattr(self, name) != getattr(other, name):
                 return f"{name} was {getattr(self, name)}, and is {getattr(other, name)}"
         return "" if self == other else "files are in another order"
@@ -249,8 +223,6 @@ def _cut(files: Sequence[PointFile], size: int) -> tuple[tuple[Piece, ...], ...]
 
     A file that is not half as large again is not cut: its rows may lie anywhere in it.
 
-    Examples
-    --------
     >>> files = [PointFile("", str(k), rows, 0, 0) for k, rows in enumerate([9, 2, 2, 0, 5])]
     >>> for lot in _cut(files, 4):
     ...     print(*map(tuple, lot))

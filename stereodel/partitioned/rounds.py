@@ -56,14 +56,10 @@ def triangulation(points: FloatArray) -> SphericalDelaunay | PlanarDelaunay:
 class Round:
     """Stars that are final.
 
-    Attributes
-    ----------
-    mesh : SphericalDelaunay or PlanarDelaunay
-        Triangulation of the points read.
-    numbers : (n,) array of int64
-        Numbers of its points.
-    final : (n,) array of bool
-        Own points whose stars are final in this round, and in none before; of duplicates all together.
+    mesh: triangulation of the points read.
+    numbers, (n,) array of int64: numbers of its points.
+    final, (n,) array of bool: own points whose stars are final in this round, and in none before; of duplicates all
+    together.
     """
 
     mesh: SphericalDelaunay | PlanarDelaunay
@@ -75,13 +71,8 @@ class Round:
 class Rounds:
     """The rounds of some points.
 
-    Parameters
-    ----------
-    index : Index
-    limit : int
-        Points that may be read at once.
-    name : str
-        What the points are, for messages.
+    limit: points that may be read at once.
+    name: what the points are, for messages.
     """
 
     index: Index
@@ -92,10 +83,7 @@ class Rounds:
     def of_part(self, part: int) -> Iterator[Round]:
         """Rounds until the stars of all points of a partition are final.
 
-        Raises
-        ------
-        MemoryError
-            Where that takes more than `limit` points at once.
+        Raises MemoryError where that takes more than `limit` points at once.
         """
         index = self.index
         own = np.flatnonzero(index.part == part)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,37 +13,33 @@ from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel.partitioned.plan import Piece, Plan
 from stereodel.partitioned.shards import load, save
-from stereodel.partitioned.solve import metadata, row_kinds
-from stereodel.partitioned.sources import opened, slices
+from stereodel.partitioned.solve import row_kinds
+from stereodel.partitioned.sources import named, opened, slices
 from stereodel.partitioned.store import Store
 
 
 def gather(store: Store, parts: Sequence[int]) -> None:
-    """Write where each share of the input begins in the cells of each partition, (parts, shares + 1)."""
-    starts = [store.load("cells", part, "starts") for part in parts]
-    save(store.scratch / "cells" / "starts.npy", np.stack(starts))
-    save(store.scratch / "cells" / "parts.npy", np.array(parts))
+    """Write where each share of the input begins in the stars of each partition, (parts, shares + 1, 2)."""
+    starts = [store.load("stars", part, "starts") for part in parts]
+    save(store.scratch / "stars" / "starts", np.stack(starts))
+    save(store.scratch / "stars" / "parts", np.array(parts))
 
 
-def align(store: Store, output: int) -> dict[str, Any]:
+def align(store: Store, output: int) -> None:
     """The files of some shares of the input."""
     plan = store.plan
-    shares = plan.outputs[output]
+    shares, paths = plan.outputs[output], []
     if len(shares) > 1:
-        _write(store, plan.shares[shares[0]][0].file, shares)
+        lots = ((plan.shares[share][0], _columns(store, share)) for share in shares)
+        paths.append(write_file(store, plan.shares[shares[0]][0].file, lots))
     else:
         columns, first = _columns(store, shares[0]), 0
         for piece in plan.shares[shares[0]]:
             rows = slice(first, first + piece.last - piece.first)
             first = rows.stop
-            write_file(store, piece.file, [(piece, {name: column[rows] for name, column in columns.items()})])
-    return store.keep("align", output, {}, {})
-
-
-def _write(store: Store, file: int, shares: Sequence[int]) -> None:
-    """The file of a large file, share by share."""
-    plan = store.plan
-    write_file(store, file, ((plan.shares[share][0], _columns(store, share)) for share in shares))
+            lot = piece, {name: column[rows] for name, column in columns.items()}
+            paths.append(write_file(store, piece.file, [lot]))
+    store.keep("align", output, {}, paths)
 
 
 def _columns(store: Store, share: int) -> dict[str, npt.NDArray[Any]]:
@@ -52,33 +49,31 @@ def _columns(store: Store, share: int) -> dict[str, npt.NDArray[Any]]:
     columns = {name: np.empty(last - first, dtype=kind) for name, kind in row_kinds(plan).items()}
     if "kept" in columns:
         columns["kept"][:] = np.arange(first, last)
-    starts, parts = (load(store.scratch / "cells" / f"{name}.npy") for name in ("starts", "parts"))
-    for part, (low, high) in zip(parts.tolist(), starts[:, share : share + 2].tolist(), strict=True):
+    filled = 0
+    starts, parts = (load(store.scratch / "stars" / name) for name in ("starts", "parts"))
+    for part, ((low, total), (high, _)) in zip(parts.tolist(), starts[:, share : share + 2].tolist(), strict=True):
         if low == high:
             continue
-        cells = store.load_rows("cells", part, "rows", low, high)
-        at = cells["number"].astype(np.intp) - first
+        (cells,) = store.load_rows("stars", part, low, high, total, "rows")
+        at, filled = cells["number"].astype(np.intp) - first, filled + len(cells)
         for name in plan.told:
             columns[name][at] = cells[name]
         if "kept" in columns:
-            pairs = store.load("cells", part, "pairs")
+            pairs = store.load("stars", part, "pairs")
             low, high = np.searchsorted(pairs[:, 0], [first, last])
             columns["kept"][pairs[low:high, 0] - first] = pairs[low:high, 1]
+    if filled != last - first:
+        raise RuntimeError(f"there are results for {filled} of the {last - first} rows from {first}")
     return columns
 
 
-def write_file(store: Store, file: int, lots: Any) -> None:
+def write_file(store: Store, file: int, lots: Any) -> Path:
     """A file of rows, from pieces of the input's file and columns for each, in order; without a piece it has no rows.
 
-    Parameters
-    ----------
-    store : Store
-    file : int
-        Number of the input's file.
-    lots : iterable of (Piece, dict)
+    file: number of the input's file.
     """
     plan = store.plan
-    path = store.results / "rows" / plan.files[file].name
+    path = store.room("rows") / plan.files[file].name
     path.parent.mkdir(parents=True, exist_ok=True)
     schema = _schema(store, file)
     with (
@@ -89,6 +84,7 @@ def write_file(store: Store, file: int, lots: Any) -> None:
     ):
         for piece, columns in lots:
             out.write_table(_table(plan, piece, columns, schema))
+    return path
 
 
 def _schema(store: Store, file: int) -> Any:
@@ -100,7 +96,7 @@ def _schema(store: Store, file: int) -> Any:
         with opened(plan.files[file].path) as content:
             carried = [content.schema_arrow.field(name) for name in plan.carried]
     own = [pyarrow.field(name, _type(kind)) for name, kind in row_kinds(plan).items()]
-    return pyarrow.schema([*carried, *own], metadata=metadata(store))
+    return pyarrow.schema([*carried, *own], metadata=plan.metadata)
 
 
 def _type(kind: np.dtype[Any]) -> Any:
@@ -121,7 +117,9 @@ def _table(plan: Plan, piece: Piece, columns: dict[str, npt.NDArray[Any]], schem
     pyarrow = optional("pyarrow", "partitioned")
     arrays = {name: _array(column) for name, column in columns.items()}
     if plan.carried:
-        found = [table for _, table in slices(plan.files[piece.file], plan.carried, piece.first, piece.last)]
+        file = plan.files[piece.file]
+        with named(file):
+            found = [table for _, table in slices(file, plan.carried, piece.first, piece.last)]
         table = pyarrow.concat_tables(found).combine_chunks()
         arrays |= {name: table[name] for name in plan.carried}
     return pyarrow.table([arrays[name] for name in schema.names], schema=schema)

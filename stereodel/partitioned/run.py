@@ -20,8 +20,8 @@ from stereodel.partitioned import rows as rows_of
 from stereodel.partitioned import targets as targets_of
 from stereodel.partitioned.flat import is_flat
 from stereodel.partitioned.index import Index
-from stereodel.partitioned.kinds import source_of
-from stereodel.partitioned.passes import LIMIT, PARTITION, Means, Passes, Progress, Results, dataset
+from stereodel.partitioned.kinds import names_of, source_of
+from stereodel.partitioned.passes import LIMIT, NONE, PARTITION, Means, Passes, Progress, Results
 from stereodel.partitioned.places import SURFACES, Surface
 from stereodel.partitioned.plan import Plan
 from stereodel.partitioned.shards import load_json, save_json
@@ -66,11 +66,11 @@ class Run(Results):
 
     def triangles(self) -> Any:
         """Triangles by the numbers of their points: a dataset of pyarrow with a, b, c, closing."""
-        return self._of_partitions("triangles")
+        return self._dataset("triangles")
 
     def cells(self) -> Any:
         """Cells, if they were asked for: a dataset of pyarrow with point, area and geometry, well-known binary."""
-        return self._of_partitions("cells")
+        return self._dataset("cells")
 
     @shared(**targets_of.FAMILY)
     def nearest(
@@ -188,9 +188,6 @@ class Run(Results):
         wanted = targets_of.Targets(targets, columns, kind, keep, partition)
         return targets_of.interpolate(self.folder, wanted, values, method, means)
 
-    def _of_partitions(self, name: str) -> Any:
-        return dataset(sorted((self.folder / name).glob("*.parquet"), key=lambda path: int(path.stem)))
-
 
 def triangulate(
     source: Given,
@@ -277,7 +274,10 @@ def triangulate(
     ------
     ValueError
         If a row is not a point, naming file, row and value; for columns that are not there; where a run in `out` was
-        begun with other files or arguments.
+        begun with other files or arguments; where a file that is read changes meanwhile; where files in `out` or
+        `scratch` were deleted or changed, naming one of them.
+    TypeError
+        For coordinates of another type than numbers: booleans, times, text, bytes; naming file and column.
     MemoryError
         Where a star has more points than `limit`, naming partition and point.
     RuntimeError
@@ -292,7 +292,8 @@ def triangulate(
     Triangles, areas, degrees and nearest points are those of `stereodel.SphericalDelaunay` or
     `stereodel.PlanarDelaunay` of all points, bitwise, ties and duplicates included, for any partitions,
     executor and number of workers. At the end the number of triangles is compared with Euler's formula, and the sum of
-    areas with that of the sphere.
+    areas with that of the sphere; then the files of results with the plan. They are moved into `out` when all are
+    right, ``run.json`` last.
 
     Where files are compact, as pixels of HEALPix or files sorted along a space-filling curve, they are the partitions,
     cut where they are large and grouped where they are small: nothing is copied. That is measured, on a sample: see
@@ -315,14 +316,15 @@ def triangulate(
     optional("pyarrow", "partitioned")
     as_choice(surface, SURFACES, "surface")
     as_choice(latitude, LATITUDES, "latitude")
-    for name in rows:
+    wanted = names_of(rows) or ()
+    for name in wanted:
         as_choice(name, tuple(ROWS), "rows")
     found = source_of(source, kind, columns, surface, latitude, keep, ROWS)
     plan = Plan.of(
         found,
         version=stereodel.__version__,
         partition=as_count(partition, "partition"),
-        rows=tuple(name for name in ROWS if name in rows),
+        rows=tuple(name for name in ROWS if name in wanted),
         triangles=bool(triangles),
         cells=bool(cells),
         index=bool(index),
@@ -342,7 +344,7 @@ class _Triangulating(Passes):
         _check(plan, report)
         if plan.triangles and not told:
             none = {name: np.empty(0, dtype=np.int64) for name in "abc"} | {"closing": np.empty(0, dtype=np.bool_)}
-            write_table(store, store.results / "triangles" / "0.parquet", none)
+            write_table(plan, store.room("triangles") / f"{NONE['part']}.parquet", none)
         return report, told
 
     def _solved(self, parts: list[int]) -> list[dict[str, Any]]:
@@ -358,7 +360,7 @@ class _Triangulating(Passes):
             save_json(note, {"told": told})
         else:
             told = self.do("solve", partial(solve, store, limit=self.limit), parts)
-        if store.plan.rows and not (store.scratch / "done" / "align.json").exists():
+        if store.plan.rows and not store.noted("align"):
             rows_of.gather(store, [each["task"] for each in told])
         if not store.plan.index:
             store.drop("points", "blocks")
@@ -403,10 +405,7 @@ def _report(plan: Plan, told: Sequence[dict[str, Any]]) -> dict[str, Any]:
 def _check(plan: Plan, report: dict[str, Any]) -> None:
     """Triangles by Euler's formula, and the areas of all cells of a sphere.
 
-    Raises
-    ------
-    RuntimeError
-        Where they differ, which no input may cause.
+    Raises RuntimeError where they differ, which no input may cause.
     """
     if report["triangles"] != report["euler"]:
         raise RuntimeError(f"there are {report['triangles']} triangles, but {report['euler']} by Euler's formula")

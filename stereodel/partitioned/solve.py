@@ -16,10 +16,12 @@ from stereodel._arrays import BoolArray, LongArray
 from stereodel._extras import optional
 from stereodel._files import replacing
 from stereodel._spaces import space_of
+from stereodel.io.layers import Layer
 from stereodel.partitioned.cells import cells_of, write_cells
 from stereodel.partitioned.index import Index
 from stereodel.partitioned.plan import Plan
 from stereodel.partitioned.rounds import Round, Rounds, triangulation
+from stereodel.partitioned.spread import starts_of
 from stereodel.partitioned.store import Store
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, SphericalVoronoi
@@ -37,7 +39,7 @@ CELLS: Final = ("kept", "degree", "area", "nearest", "distance")
 """The order in which the kernel tells it."""
 
 
-def solve(store: Store, part: int, limit: int) -> dict[str, Any]:
+def solve(store: Store, part: int, limit: int) -> None:
     """The stars of a partition's points."""
     began, cpu = time.perf_counter(), time.process_time()
     index = Index(store)
@@ -47,12 +49,9 @@ def solve(store: Store, part: int, limit: int) -> dict[str, Any]:
         found.append(_told(store, stars))
         if store.plan.cells and stars.final.any():
             shapes.append(cells_of(stars, index, store.plan.places))
-    told = write(store, part, found)
-    if shapes:
-        write_cells(store, part, shapes)
+    told, files = write(store, part, found, shapes)
     seconds = {"seconds": time.perf_counter() - began, "cpu": time.process_time() - cpu}
-    shards = told.pop("shards")
-    return store.keep("solve", part, told | asdict(rounds.reading) | seconds, shards)
+    store.keep("solve", part, told | asdict(rounds.reading) | seconds, files)
 
 
 Columns = dict[str, npt.NDArray[Any]]
@@ -105,35 +104,38 @@ def distances(a: npt.NDArray[np.float64], b: npt.NDArray[np.float64]) -> npt.NDA
     return np.hypot(*(a - b).T) if a.shape[1] == 2 else np.radians(angular_distance(a, b))
 
 
-def write(store: Store, part: int, found: Sequence[Told]) -> dict[str, Any]:
-    """Write what was found of a partition; what there is to say of it."""
+def write(store: Store, part: int, found: Sequence[Told], shapes: Sequence[Layer]) -> tuple[dict[str, Any], list[Path]]:
+    """Write what was found of a partition; what there is to say of it, and the files."""
     plan = store.plan
     number = np.concatenate([told[0]["number"] for told in found])
     order = np.argsort(number)
     number = number[order]
     cells = {name: np.concatenate([told[0][name] for told in found])[order] for name in CELLS}
     dropped = np.flatnonzero(cells["kept"] != number)
-    shards: dict[str, int] = {}
+    told = {
+        "points": len(number),
+        "dropped": len(dropped),
+        "triangles": sum(len(told[1]) for told in found),
+        "edges": sum(told[3] for told in found),
+        "area": float(np.sum(cells["area"], where=np.isfinite(cells["area"]))),
+    }
+    files: list[Path] = []
     if plan.rows:
         rows = np.empty(len(number), dtype=row_type(plan))
         rows["number"] = number
         for name in plan.told:
             rows[name] = cells[name]
         pairs = np.column_stack([number[dropped], cells["kept"][dropped]])
-        starts = np.searchsorted(number, plan.share_firsts)
-        shards = store.save("cells", part, {"rows": rows, "pairs": pairs, "starts": starts})
+        starts = starts_of(np.searchsorted(number, plan.share_firsts), rows)
+        files += store.save("stars", part, {"rows": rows, "pairs": pairs, "starts": starts})
     if plan.triangles:
-        corners, closing = (np.concatenate([told[k] for told in found]) for k in (1, 2))
+        corners, closing = (np.concatenate([each[k] for each in found]) for k in (1, 2))
         columns = {name: np.ascontiguousarray(corners[:, axis]) for axis, name in enumerate("abc")}
-        write_table(store, store.results / "triangles" / f"{part}.parquet", columns | {"closing": closing})
-    return {
-        "points": len(number),
-        "dropped": len(dropped),
-        "triangles": sum(len(told[1]) for told in found),
-        "edges": sum(told[3] for told in found),
-        "area": float(np.sum(cells["area"], where=np.isfinite(cells["area"]))),
-        "shards": shards,
-    }
+        files.append(write_table(plan, store.room("triangles") / f"{part}.parquet", columns | {"closing": closing}))
+    if shapes:
+        told["cells"], path = write_cells(store, part, shapes)
+        files.append(path)
+    return told, files
 
 
 def row_type(plan: Plan) -> np.dtype[np.void]:
@@ -153,31 +155,22 @@ def row_kinds(plan: Plan) -> dict[str, np.dtype[Any]]:
     return {name: np.dtype((ROWS[name], shape)) for name in plan.rows}
 
 
-def write_table(store: Store, path: Path, columns: dict[str, Any]) -> None:
+def write_table(plan: Plan, path: Path, columns: dict[str, Any]) -> Path:
     """A file of Parquet with what it belongs to in its metadata."""
     pyarrow = optional("pyarrow", "partitioned")
     table = pyarrow.table(columns)
     path.parent.mkdir(parents=True, exist_ok=True)
     with replacing(path) as temporary:
         optional("pyarrow.parquet", "partitioned").write_table(
-            table.replace_schema_metadata(metadata(store)), temporary, compression="none", use_dictionary=False
+            table.replace_schema_metadata(plan.metadata), temporary, compression="none", use_dictionary=False
         )
-
-
-def metadata(store: Store) -> dict[str, str]:
-    """What files of a run say of it."""
-    plan = store.plan
-    told = {"version": plan.version, "digest": plan.digest, "points": plan.size, "surface": plan.places.surface}
-    return {f"stereodel.{name}": str(value) for name, value in told.items()}
+    return path
 
 
 def solve_flat(store: Store, limit: int, parts: Sequence[int]) -> dict[str, Any]:
     """All points at once, where they lie on one line or great circle, in the name of the first partition.
 
-    Raises
-    ------
-    MemoryError
-        Where they are more than `limit`.
+    Raises MemoryError where they are more than `limit`.
     """
     plan = store.plan
     if plan.size > limit:
@@ -190,16 +183,10 @@ def solve_flat(store: Store, limit: int, parts: Sequence[int]) -> dict[str, Any]
     order = np.argsort(numbers)
     points = np.concatenate([store.load("points", part, "points") for part in parts])[order]
     mesh = triangulation(points)
-    told = write(store, parts[0], [_flat(mesh, numbers[order])])
+    shapes = []
     if plan.cells:
         stars = Round(mesh, numbers[order], np.ones(len(order), dtype=np.bool_))
-        write_cells(store, parts[0], [cells_of(stars, Index(store), plan.places)])
-    del told["shards"]
-    return told | {
-        "task": parts[0],
-        "rounds": 1,
-        "read": len(points),
-        "largest": len(points),
-        "seconds": 0.0,
-        "cpu": 0.0,
-    }
+        shapes.append(cells_of(stars, Index(store), plan.places))
+    told, _ = write(store, parts[0], [_flat(mesh, numbers[order])], shapes)
+    reading = {"rounds": 1, "read": len(points), "largest": len(points), "seconds": 0.0, "cpu": 0.0}
+    return told | {"task": parts[0]} | reading

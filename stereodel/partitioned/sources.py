@@ -28,18 +28,11 @@ ENDINGS: Final = (".parquet", ".geoparquet", ".pq")
 class PointFile:
     """A file of points.
 
-    Parameters
-    ----------
-    path : str
-        Where it is, absolute.
-    name : str
-        What its file of results is called, relative to the folder of rows, with slashes.
-    rows : int
-        Number of its rows.
-    size : int
-        In bytes.
-    modified : int
-        Its time stamp in nanoseconds.
+    path: where it is, absolute.
+    name: what its file of results is called, relative to the folder of rows, with slashes.
+    rows: number of its rows.
+    size: in bytes.
+    modified: its time stamp in nanoseconds.
     """
 
     path: str
@@ -48,13 +41,11 @@ class PointFile:
     size: int
     modified: int
 
-    def is_unchanged(self) -> bool:
-        """Whether the file is there as it was, by its size and time stamp."""
-        try:
-            state = os.stat(self.path)
-        except FileNotFoundError:
-            return False
-        return (state.st_size, state.st_mtime_ns) == (self.size, self.modified)
+    def check(self) -> None:
+        """Raise ValueError unless the file is there as it was, by its size and time stamp."""
+        state = os.stat(self.path)
+        if (state.st_size, state.st_mtime_ns) != (self.size, self.modified):
+            raise ValueError(f"{self.path} has changed since the run began; begin anew with resume=False")
 
     @classmethod
     def of(cls, path: Path, name: str) -> PointFile:
@@ -71,16 +62,10 @@ class Source:
     A kind of its own, such as a catalogue of HATS, is a function that makes one of these of a path, in `KINDS`, and a
     subclass where it has something to say in `finish`.
 
-    Parameters
-    ----------
-    files : tuple of PointFile
-        In order: the number of a point is that of its row in all of them, from 0.
-    places : Places
-        Which columns say where points are, the same ones in all files.
-    compact : bool, optional
-        Whether files, cut or grouped in their order, are partitions as they are; by default that is measured.
-    carried : tuple of str
-        Columns that the files of rows repeat from the files of points, before their own.
+    files: in order: the number of a point is that of its row in all of them, from 0.
+    places: which columns say where points are, the same ones in all files.
+    compact: whether files, cut or grouped in their order, are partitions as they are; by default that is measured.
+    carried: columns that the files of rows repeat from the files of points, before their own.
     """
 
     files: tuple[PointFile, ...]
@@ -93,21 +78,20 @@ class Source:
 
 
 def opened(path: str | os.PathLike[str]) -> Any:
-    """A file of Parquet; errors give its name."""
-    pyarrow = optional("pyarrow", "partitioned")
+    """A file of Parquet; errors give its name. It is not mapped: one that is cut short would end the process."""
     try:
-        return optional("pyarrow.parquet", "partitioned").ParquetFile(path, memory_map=True)
-    except pyarrow.ArrowInvalid as error:
+        return optional("pyarrow.parquet", "partitioned").ParquetFile(path, page_checksum_verification=True)
+    except (OSError, ValueError, optional("pyarrow", "partitioned").ArrowException) as error:
+        if isinstance(error, OSError) and error.errno is not None:  # of the system, which names it
+            raise
         raise ValueError(f"{path} is not a Parquet file: {error}") from error
 
 
 def read(file: PointFile, places: Places, first: int, last: int) -> Iterator[FloatArray]:
     """Points of rows `first` to `last` of a file, a row group at a time.
 
-    Raises
-    ------
-    ValueError
-        If a row is not a point, naming the file, the row (counted from 1) and the value; if columns are missing.
+    Raises ValueError if a row is not a point, naming the file, the row (counted from 1) and the value; if columns are
+    missing.
     """
     with named(file):
         for low, table in slices(file, places.names, first, last):
@@ -116,7 +100,7 @@ def read(file: PointFile, places: Places, first: int, last: int) -> Iterator[Flo
 
 def some(file: PointFile, places: Places, first: int, last: int, count: int, groups: int) -> Iterator[FloatArray]:
     """About `count` points of rows `first` to `last` of a file, evenly spread over at most so many row groups."""
-    with named(file), opened(file.path) as content:
+    with named(file), _unchanged(file) as content:
         found = list(_groups(content, first, last))
         most = min(groups, len(found))
         for group, begin, end in (found[(2 * k + 1) * len(found) // (2 * most)] for k in range(most)):
@@ -133,10 +117,19 @@ def some(file: PointFile, places: Places, first: int, last: int, count: int, gro
 
 def slices(file: PointFile, names: Sequence[str], first: int, last: int) -> Iterator[tuple[int, Any]]:
     """Columns of rows `first` to `last` of a file, a row group at a time: the first row, and a table of Arrow."""
-    with opened(file.path) as content:
+    with _unchanged(file) as content:
         for group, begin, end in _groups(content, first, last):
             low = max(begin, first)
             yield low, _columns(content, group, names).slice(low - begin, min(end, last) - low)
+
+
+@contextmanager
+def _unchanged(file: PointFile) -> Iterator[Any]:
+    """A file that is as it was before and after it is read."""
+    file.check()
+    with opened(file.path) as content:
+        yield content
+    file.check()
 
 
 def _groups(content: Any, first: int, last: int) -> Iterator[tuple[int, int, int]]:
@@ -152,7 +145,10 @@ def _columns(content: Any, group: int, names: Sequence[str]) -> Any:
     missing = [name for name in names if name not in content.schema_arrow.names]
     if missing:
         raise ValueError(f"there is no column {missing[0]!r}, which the first file has")
-    return content.read_row_group(group, columns=list(names), use_threads=False)
+    try:
+        return content.read_row_group(group, columns=list(names), use_threads=False)
+    except (OSError, optional("pyarrow", "partitioned").ArrowException) as error:
+        raise ValueError(f"row group {group} cannot be read: {error}") from error
 
 
 @contextmanager
@@ -160,19 +156,17 @@ def named(file: PointFile) -> Iterator[None]:
     """Say of which file a message is."""
     try:
         yield
-    except ValueError as error:
-        raise ValueError(f"{file.path}: {error}") from error
+    except (ValueError, TypeError) as error:
+        if str(error).startswith(file.path):
+            raise
+        kind = ValueError if isinstance(error, ValueError) else TypeError
+        raise kind(f"{file.path}: {error}") from error
 
 
 def paths_of(given: Given) -> list[tuple[Path, str]]:
     """Files and the names of their results: relative to the folder, to what a pattern fixes, or to what all share.
 
-    Raises
-    ------
-    FileNotFoundError
-        Where nothing is there.
-    ValueError
-        Where a file is named twice.
+    Raises FileNotFoundError where nothing is there.
     """
     if not isinstance(given, str | os.PathLike):
         paths = [Path(os.path.abspath(path)) for path in given]
@@ -188,8 +182,6 @@ def paths_of(given: Given) -> list[tuple[Path, str]]:
     missing = [path for path in paths if not path.is_file()]
     if missing or (not paths and isinstance(given, str | os.PathLike)):
         raise FileNotFoundError(f"{missing[0] if missing else given} is no file, folder or pattern of Parquet files")
-    if len(set(paths)) < len(paths):
-        raise ValueError("source names a file twice; its points would be duplicates of themselves")
     return [(path, path.relative_to(root).as_posix()) for path in paths]
 
 

@@ -1,28 +1,37 @@
 """Where a run keeps what its tasks hand on: names of files in the folder of results and in that of scratch.
 
 results:   plan.json, files.parquet, rows/…, triangles/<part>.parquet, run.json; if the index is kept, points and blocks
-scratch:   splits.*.npy                     the k-d tree
-           spread/<share>.*.npy             points of a share of the input in the order of partitions
-           points/<part>.*.npy              points of a partition in blocks, their numbers, and the blocks
-           blocks/*.npy                     boxes of all blocks, one point of each
-           cells/<part>.*.npy               results for the points of a partition, in the order of numbers
-           values/<share>.values.npy        columns of the points that are interpolated, in the order of numbers
+made:      all of these but plan.json, until all are there: then they are moved
+scratch:   splits.*                         the k-d tree
+           spread/<share>.*                 points of a share of the input in the order of partitions
+           points/<part>.*                  points of a partition in blocks, their numbers, and the blocks
+           blocks/*                         boxes of all blocks, one point of each
+           stars/<part>.*                   results for the points of a partition, in the order of numbers
+           values/<share>.values            columns of the points that are interpolated, in the order of numbers
            done/<pass>/<task>.json          what a task said when it was done, and the files that it wrote
 """
 
 from __future__ import annotations
 
+import hashlib
+import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any, Final
 
+import numpy as np
 import numpy.typing as npt
 
 from stereodel.partitioned.plan import Plan
-from stereodel.partitioned.shards import load, load_json, load_rows, save, save_json
+from stereodel.partitioned.shards import check, load, load_json, save, save_json, sums
+
+SCRATCH: Final = "scratch"
+"""Folder of results in which runs work, each in a folder of its own."""
+
+DIGITS: Final = 16
+"""How many of a digest are the name of such a folder."""
 
 KEPT: Final = "index"
 """Folder of results that has the rooms of the index if it is kept."""
@@ -30,47 +39,58 @@ KEPT: Final = "index"
 INDEX: Final = ("points", "blocks")
 """Rooms that answers at targets need."""
 
+RESULTS: Final = ("rows", "triangles", "cells")
+"""Rooms of Parquet, which are results."""
+
 
 @dataclass(frozen=True)
 class Store:
-    """The two folders of a run.
+    """The folders of a run, seen by all of its workers.
 
-    Parameters
-    ----------
-    results, scratch : Path
-        All workers see both.
+    The plan's digest is in the paths of `scratch` and `made`: a task of another run that ended cannot write there.
     """
 
     results: Path
     scratch: Path
+    made: Path
+    plan: Plan
 
-    @cached_property
-    def plan(self) -> Plan:
-        """What the run does."""
-        return Plan.load(self.results)
+    @classmethod
+    def of(cls, folder: Path, scratch: Path | None, plan: Plan) -> Store:
+        """Folders of a run that writes to one folder, and works in it or in another one."""
+        name = hashlib.sha256(f"{plan.digest} {folder}".encode()).hexdigest()[:DIGITS]
+        own = folder / SCRATCH / name
+        return cls(folder, own if scratch is None else scratch / name, own / "results", plan)
+
+    @classmethod
+    def ended(cls, folder: Path) -> Store:
+        """Folders of a run that ended."""
+        return cls(folder, folder, folder, Plan.load(folder))
 
     def room(self, name: str) -> Path:
         """The folder of what one pass hands on."""
-        return (self.results / KEPT if self.plan.index and name in INDEX else self.scratch) / name
+        if name in RESULTS:
+            return self.made / name
+        return (self.made / KEPT if self.plan.index and name in INDEX else self.scratch) / name
 
     def shard(self, room: str, number: int, name: str) -> Path:
         """The file of an array that a task hands on."""
-        return self.room(room) / f"{number}.{name}.npy"
+        return self.room(room) / f"{number}.{name}"
 
-    def save(self, room: str, number: int, arrays: Mapping[str, npt.NDArray[Any]]) -> dict[str, int]:
-        """Write arrays; how large their files are by name."""
-        for name, array in arrays.items():
-            save(self.shard(room, number, name), array)
-        paths = [self.shard(room, number, name) for name in arrays]
-        return {f"{room}/{path.name}": path.stat().st_size for path in paths}
+    def save(self, room: str, number: int, arrays: Mapping[str, npt.NDArray[Any]]) -> list[Path]:
+        """Write arrays to files."""
+        return [save(self.shard(room, number, name), array) for name, array in arrays.items()]
 
-    def load(self, room: str, number: int, name: str) -> npt.NDArray[Any]:
+    def load(self, room: str, number: int, name: str, *, checked: bool = True) -> npt.NDArray[Any]:
         """An array, mapped."""
-        return load(self.shard(room, number, name))
+        return load(self.shard(room, number, name), checked=checked)
 
-    def load_rows(self, room: str, number: int, name: str, first: int, last: int) -> npt.NDArray[Any]:
-        """Rows of an array, in memory."""
-        return load_rows(self.shard(room, number, name), first, last)
+    def load_rows(self, room: str, number: int, first: int, last: int, total: int, *names: str) -> list[Any]:
+        """The same rows of arrays, in memory, whose CRC-32 was `total`."""
+        path = self.shard(room, number, names[0])
+        found = [np.array(self.load(room, number, name, checked=False)[first:last]) for name in names]
+        check([total], sums(np.array([0, last - first]), *found), path)
+        return found
 
     def drop(self, *rooms: str) -> None:
         """Delete what was handed on and is used."""
@@ -79,22 +99,25 @@ class Store:
 
     def done(self, name: str, task: int) -> dict[str, Any] | None:
         """What a task of a pass said; None if it was not done, or what it wrote is not there as it was."""
-        path = self._marker(name, task)
+        path = self.marker(name, task)
         if not path.exists():
             return None
         told = load_json(path)
-        return told if all(self._is_whole(file, size) for file, size in told["files"].items()) else None
+        return told if all(_size(file) == size for file, size in told["files"].items()) else None
 
-    def _is_whole(self, file: str, size: int) -> bool:
-        room, name = file.split("/")
-        path = self.room(room) / name
-        return path.exists() and path.stat().st_size == size
+    def keep(self, name: str, task: int, told: dict[str, Any], files: Iterable[Path]) -> None:
+        """Note that a task is done: what there is to say of it, and the files, with their sizes, that it wrote."""
+        sizes = {str(path): path.stat().st_size for path in files}
+        save_json(self.marker(name, task), told | {"task": task, "files": sizes})
 
-    def keep(self, name: str, task: int, told: dict[str, Any], files: Mapping[str, int]) -> dict[str, Any]:
-        """Note that a task is done: what it said and the files, with their sizes, that it wrote for others."""
-        whole = told | {"task": task, "files": dict(files)}
-        save_json(self._marker(name, task), whole)
-        return whole
+    def noted(self, name: str) -> bool:
+        """Whether a whole pass is done."""
+        return (self.scratch / "done" / f"{name}.json").exists()
 
-    def _marker(self, name: str, task: int) -> Path:
+    def marker(self, name: str, task: int) -> Path:
+        """The file that says that a task is done."""
         return self.scratch / "done" / name / f"{task}.json"
+
+
+def _size(path: str) -> int:
+    return os.path.getsize(path) if os.path.exists(path) else -1

@@ -48,7 +48,9 @@ FAMILY: Final = {
             If the run was made without ``index=True``.
         ValueError
             If a row is not a target, naming file, row and value; for columns that are not there; where answers in `out`
-            were begun with other files or arguments.
+            were begun with other files or arguments, or files changed, as in `triangulate`.
+        TypeError
+            For targets or values of another type than numbers.
         MemoryError
             Where a target needs more than `limit` points, naming it.
         RuntimeError, OSError, ImportError
@@ -123,8 +125,7 @@ def interpolate(
     if not names:
         raise ValueError("values is empty; name one or more columns of the files of points")
     for file in plan.files:
-        if not file.is_unchanged():
-            raise ValueError(f"{file.path} is not there as the run read it; triangulate it anew")
+        file.check()
         there = opened(file.path).schema_arrow.names
         missing = [name for name in names if name not in there]
         if missing:
@@ -192,11 +193,10 @@ class _Answering(Passes):
         """What there is to say of each partition."""
         store, question = self.store, self.store.plan.question
         assert question is not None
-        done = (store.scratch / "done" / "answer.json").exists()
-        if question.values and not question.flat and not done:
+        if question.values and not question.flat and not store.noted("answer"):
             self.do("values", partial(take_values, store), range(len(points_of(question).plan.shares)))
         told = self.do("answer", partial(answer, store, limit=self.limit), parts)
-        if not (store.scratch / "done" / "align.json").exists():
+        if not store.noted("align"):
             rows_of.gather(store, parts)
         store.drop("points", "values")
         return told

@@ -23,12 +23,8 @@ COMPACT: Final = 2.0
 class Splits:
     """A k-d tree in the order of a heap: the children of inner node k are 2k + 1 and 2k + 2, then come the leaves.
 
-    Parameters
-    ----------
-    axis : (leaves - 1,) array of int32
-        Axis of each inner node.
-    value : (leaves - 1,) array
-        Points up to it go to the first child.
+    axis, (leaves - 1,) array of int32: axis of each inner node.
+    value, (leaves - 1,) array: points up to it go to the first child.
     """
 
     def __init__(self, axis: IntArray, value: FloatArray) -> None:
@@ -38,15 +34,9 @@ class Splits:
     def of(cls, sample: FloatArray, leaves: int) -> Splits:
         """The tree whose leaves have about equally many points of a sample: cut across the longest axis.
 
-        Parameters
-        ----------
-        sample : (n, 2) or (n, 3) array
-            Points of the plane, or unit vectors.
-        leaves : int
-            Any number from 1.
+        sample, (n, 2) or (n, 3) array: points of the plane, or unit vectors.
+        leaves: any number from 1.
 
-        Examples
-        --------
         >>> splits = Splits.of(np.array([[0.0, 0], [1, 0], [2, 0], [3, 0], [4, 0], [5, 0]]), 3)
         >>> splits.axis.tolist(), splits.value.tolist()
         ([0, 0], [3.0, 1.0])
@@ -86,15 +76,9 @@ def is_compact(sample: FloatArray, parts: IntArray) -> bool:
     same number of leaves. Pixels of HEALPix and files sorted along a space-filling curve have 1 to 1.5 times as many;
     files in the order of time, of names, or bands of latitude far more.
 
-    Parameters
-    ----------
-    sample : (n, 2) or (n, 3) array
-        Points of the plane, or unit vectors.
-    parts : (n,) array of int
-        The partition of each point.
+    sample, (n, 2) or (n, 3) array: points of the plane, or unit vectors.
+    parts, (n,) array of int: the partition of each point.
 
-    Examples
-    --------
     >>> points = np.random.default_rng(1).uniform(size=(4000, 2))
     >>> squares = (points[:, 0] * 4).astype(np.int32) * 4 + (points[:, 1] * 4).astype(np.int32)
     >>> is_compact(points, squares), is_compact(points, np.arange(4000, dtype=np.int32) % 16)

@@ -51,6 +51,22 @@ def test_options_of_a_folder(folder, points, run):
     run("voronoi", *FILES, "--lon", "lon", "--lat", "lat", "-o", "named/")
 
 
+def test_results_that_were_deleted(folder, points, run):
+    """A line that names the file, and the option that begins anew."""
+    run("voronoi", *FILES, "-o", "cells/")
+    (folder / "cells" / "rows" / "1.parquet").unlink()
+    said = run("voronoi", *FILES, "-o", "cells/", code=2)
+    assert said.endswith("rows/1.parquet was deleted after it was written; begin anew with --overwrite\n")
+    assert run("voronoi", *FILES, "-o", "cells/", "--overwrite") == ""
+
+
+def test_columns_that_hold_no_numbers(folder, run):
+    pq.write_table(pa.table({"lon": [True, False], "lat": [1, 2]}), folder / "flags.parquet")
+    said = run("voronoi", "flags.parquet", "-o", "cells/", code=2)
+    assert said.startswith("error: ")
+    assert said.endswith("flags.parquet: the column 'lon' holds bool, not numbers\n")
+
+
 SAID = [
     ([*FILES, "-o", "a.csv"], "results of 2 files need a folder, such as --out cells/, not a.csv"),
     ([FILES[0], "-o", "a.csv", "--partition", 5], "--partition is for results in a folder, such as --out cells/, not"),

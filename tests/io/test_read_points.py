@@ -200,6 +200,14 @@ def test_only_a_header():
     assert len(read_points(io.StringIO("lon,lat,name\n"))) == 0
 
 
+@pytest.mark.parametrize("kind", ["int64", "uint64"])
+def test_whole_numbers_that_no_double_equals(tmp_path, kind):
+    frame = pd.DataFrame({"lon": np.array([1, 2**53 + 1], kind), "lat": [1, 2]})
+    frame.to_parquet(tmp_path / "cities.parquet")
+    with pytest.raises(ValueError, match="row 2: the longitude 9007199254740993 is not a double; subtract an origin"):
+        read_points(tmp_path / "cities.parquet")
+
+
 @pytest.mark.parametrize("ending", ["geojson", "gpkg", "parquet"])
 @pytest.mark.parametrize("crs", [4326, 3857])
 def test_files_of_geopandas(tmp_path, ending, crs):

@@ -106,6 +106,7 @@ def test_errors_name_the_target(target, code):
     with pytest.raises(OSError, match=r"note\.txt") as raised, replacing(target):
         raise OSError(code, os.strerror(code))
     assert raised.value.filename == str(target)
+    assert str(raised.value).endswith(f"{os.strerror(code)}: {str(target)!r}")  # and no second name
     with pytest.raises(OSError, match=r"other\.txt"), replacing(target):
         raise OSError(code, os.strerror(code), "other.txt")
 

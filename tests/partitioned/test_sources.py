@@ -1,5 +1,7 @@
 """What is read: files in their order, columns by name or by what the file says, geometries, row groups."""
 
+import json
+import os
 import struct
 
 import numpy as np
@@ -8,6 +10,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from stereodel import lonlat_to_xyz
+from stereodel.partitioned.executors import Here
 from stereodel.partitioned.kinds import source_of
 from stereodel.partitioned.places import Places, find_places, wkb_places
 from stereodel.partitioned.sources import paths_of, read, some
@@ -39,8 +42,11 @@ def test_files_and_names(tmp_path):
     for missing in (tmp_path / "none", tmp_path / "*.csv", [tmp_path / "none.parquet"]):
         with pytest.raises(FileNotFoundError, match=r"is no file, folder or pattern of Parquet files"):
             paths_of(missing)
-    with pytest.raises(ValueError, match="source names a file twice"):
-        paths_of([listed[0], listed[0]])
+    os.symlink(listed[0], tmp_path / "link.parquet")
+    os.link(listed[0], tmp_path / "second.parquet")
+    for twice in ([listed[0], listed[0]], [listed[0], tmp_path / "link.parquet"], tmp_path):
+        with pytest.raises(ValueError, match=r"source names a file twice, as .*b\.parquet and .*\.parquet; its"):
+            of(twice)
     (tmp_path / "notes.txt").write_text("a note")
     with pytest.raises(ValueError, match=r"notes\.txt is not a Parquet file"):
         of(tmp_path / "notes.txt")
@@ -96,6 +102,123 @@ def test_kinds_of_numbers(tmp_path, kind):
     assert np.array_equal(points_of(of(tmp_path)), lonlat_to_xyz([[10, -5], [20, 0], [30, 40]]))
 
 
+REFUSED = {
+    "booleans": pa.array([True, False, True]),
+    "dates": pa.array([1, 2, 3], pa.date32()),
+    "times of day": pa.array([1, 2, 3], pa.time64("us")),
+    "time stamps": pa.array([1, 2, 3], pa.timestamp("ns")),
+    "durations": pa.array([1, 2, 3], pa.duration("s")),
+    "bytes": pa.array([b"1", b"2", b"3"]),
+    "text": pa.array(["1", "2", "3"]),
+    "text of few kinds": pa.array(["1", "2", "3"]).dictionary_encode(),
+    "nothing": pa.nulls(3),
+    "lists": pa.array([[1], [2], [3]]),
+}
+
+
+@pytest.mark.parametrize("columns", [LONLAT, XYZ, ("x", "y")])
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_is_no_number_is_no_coordinate(tmp_path, name, columns):
+    """As degenerate.md says of columns of tables; NumPy would convert most of them."""
+    number = pa.array([10.0, 20, 30])
+    for wrong in columns:
+        values = {column: REFUSED[name] if column == wrong else number for column in columns}
+        pq.write_table(pa.table(values), tmp_path / "a.parquet")
+        source = of(tmp_path / "a.parquet", columns, surface="plane" if columns == ("x", "y") else "sphere")
+        with pytest.raises(TypeError, match=rf"a\.parquet: the column '{wrong}' holds .*, not numbers"):
+            points_of(source)
+
+
+@pytest.mark.parametrize("kind", [pa.int64(), pa.uint64()])
+@pytest.mark.parametrize("columns", [XYZ, ("x", "y"), LONLAT])
+def test_whole_numbers_that_no_double_equals(tmp_path, kind, columns):
+    surface = "plane" if columns == ("x", "y") else "sphere"
+    whole = {name: pa.array([2**53, 2**53 + 2, 1, 3], kind) for name in columns}
+    last = columns[0]
+    pq.write_table(pa.table(whole | {"lat": pa.array([1, 2, 3, 4], kind)}), tmp_path / "a.parquet", row_group_size=2)
+    assert len(points_of(of(tmp_path, columns, surface))) == 4
+    wrong = whole | {last: pa.array([2**53, 2, 2**53 + 1, 2**62 + 1], kind), "lat": pa.array([1, 2, 3, 4], kind)}
+    pq.write_table(pa.table(wrong), tmp_path / "a.parquet", row_group_size=2)
+    with pytest.raises(ValueError, match=rf"a\.parquet: row 3: the \w+ {2**53 + 1} is not a double \(and 1 more"):
+        points_of(of(tmp_path, columns, surface))
+
+
+@pytest.mark.parametrize("cell", [2**53 + 1, True, b"1", None])
+def test_values_and_targets_are_numbers_too(tmp_path, cell):
+    """The same door for values that are interpolated, where all may be missing, and for targets."""
+    _, rows = rows_of("airports", 50)
+    value = pa.array([cell] + [None] * (len(rows) - 1))
+    (tmp_path / "points").mkdir()
+    pq.write_table(pa.table({"lon": rows[:, 0], "lat": rows[:, 1], "value": value}), tmp_path / "points" / "a.parquet")
+    pq.write_table(pa.table({"lon": value, "lat": rows[:, 1]}), tmp_path / "targets.parquet")
+    run = serially(tmp_path / "points", tmp_path / "out", index=True)
+    error = ValueError if cell == 2**53 + 1 else TypeError
+    with pytest.raises(error, match=r"targets\.parquet: "):
+        run.nearest(tmp_path / "targets.parquet", tmp_path / "nearest", executor=Here())
+    if cell is None:
+        found = run.interpolate(tmp_path / "points", tmp_path / "values", "value", executor=Here())
+        assert np.isnan(found.rows().to_table()["value"].to_numpy()).all()
+        return
+    message = "row 1: the value 9007199254740993 is" if error is ValueError else "the column 'value' holds"
+    with pytest.raises(error, match=rf"a\.parquet: {message}"):
+        run.interpolate(tmp_path / "points", tmp_path / "values", "value", executor=Here())
+
+
+def test_gaps_are_no_advice_that_cannot_be_taken(tmp_path):
+    for kind in (pa.float64(), pa.int64(), pa.decimal128(9, 2)):
+        pq.write_table(pa.table({"x": pa.array([1, None], kind), "y": [1.0, 2]}), tmp_path / "a.parquet")
+        with pytest.raises(ValueError, match=r"row 2: the x is missing; leave such rows out$"):
+            points_of(of(tmp_path, surface="plane"))
+
+
+def test_points_of_structures_and_lists(tmp_path):
+    geo = {"primary_column": "g", "columns": {"g": {"encoding": "point"}}}
+    pair = pa.struct([("x", pa.float64()), ("y", pa.float64())])
+    wrong = pa.struct([("x", pa.timestamp("s")), ("y", pa.float64())])
+    for kind, cells, error, message in [
+        (pair, [{"x": 1, "y": 2}, {"x": 3, "y": 4}], None, ""),
+        (pair, [{"x": 1, "y": 2}, None], ValueError, "row 2: a Point is needed, not no geometry"),
+        (pa.list_(pa.float64(), 2), [[1, 2], [3, 4]], None, ""),
+        (pa.list_(pa.float64(), 2), [[1, 2], None], ValueError, "row 2: a Point is needed, not no geometry"),
+        (pa.list_(pa.float64()), [[1, 2], [3, 4]], TypeError, "'g' are list<.*>, not points"),
+        (wrong, [{"x": 1, "y": 2}] * 2, TypeError, r"the column 'g\.x' holds timestamp"),
+        (pa.list_(pa.int64(), 2), [[1, 2], [2**53 + 1, 4]], ValueError, f"row 2: the g {2**53 + 1} is not a double"),
+        (pa.int64(), [1, 2], TypeError, "'g' are int64, not points"),
+    ]:
+        table = pa.table({"g": pa.array(cells, kind)}).replace_schema_metadata({"geo": json.dumps(geo)})
+        pq.write_table(table, tmp_path / "a.parquet")
+        source = of(tmp_path, surface="plane")
+        if error is None:
+            assert points_of(source).tolist() == [[1, 2], [3, 4]]
+            continue
+        with pytest.raises(error, match=message):
+            points_of(source)
+
+
+def test_columns_to_keep_have_one_type(tmp_path):
+    write_points(tmp_path, LONLAT, np.zeros((4, 2)), 2)
+    for name, ids in (("000", [1, 2]), ("001", [1.5, 2])):
+        table = pq.read_table(tmp_path / f"{name}.parquet").append_column("id", pa.array(ids))
+        pq.write_table(table, tmp_path / f"{name}.parquet")
+    with pytest.raises(ValueError, match=r"keep has 'id', which is int64 in .*000\.parquet, but double in .*001\.parq"):
+        source_of(tmp_path, "auto", None, "sphere", "spherical", ["id"], ())
+    write_points(tmp_path, LONLAT, np.zeros((2, 2)), 1)
+    with pytest.raises(
+        ValueError, match=r"keep has 'id', which is not one of the columns 'lon', 'lat' of .*000\.parquet"
+    ):
+        source_of(tmp_path, "auto", None, "sphere", "spherical", "id", ())
+
+
+def test_results_that_lie_in_the_source_by_way_of_a_link(tmp_path):
+    _, rows = rows_of("airports", 50)
+    write_points(tmp_path / "points", LONLAT, rows)
+    os.symlink(tmp_path / "points", tmp_path / "link")
+    with pytest.raises(ValueError, match="lies in out, the folder of results"):
+        serially(tmp_path / "points", tmp_path / "link")
+    with pytest.raises(ValueError, match="lies in out, the folder of results"):
+        serially(tmp_path / "link", tmp_path / "points")
+
+
 def test_row_groups_one_by_one(tmp_path):
     _, rows = rows_of("airports", 500)
     write_points(tmp_path, LONLAT, rows, 1, row_group_size=37)
@@ -138,6 +261,12 @@ def wkb(x, y, kind=1, order=1):
 def test_geometries_that_are_no_points(cells, message):
     with pytest.raises(ValueError, match=message):
         wkb_places(pa.array(cells, pa.binary()))
+
+
+def test_geometries_that_are_no_binary():
+    for cells in (["a" * 21], [1], [None]):
+        with pytest.raises(TypeError, match=r"the geometries are \w+, not well-known binary"):
+            wkb_places(pa.array(cells))
 
 
 def test_points_in_binary():

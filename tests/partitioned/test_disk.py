@@ -1,0 +1,505 @@
+"""What is on the disk counts, not what tasks say: whatever is deleted, changed or cut meanwhile, no run ends on it."""
+
+import os
+import random
+import shutil
+from collections import Counter
+from functools import partial
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+
+from stereodel.partitioned import Run
+from stereodel.partitioned import passes as passes_of
+from stereodel.partitioned.sources import PointFile
+from tests.partitioned.answers import differences, in_memory, serially, write_points
+from tests.partitioned.sets import LONLAT, rows_of
+
+PASSES = ("sample", "spread", "collect", "solve", "align")
+
+
+@pytest.fixture(autouse=True)
+def many_tasks(monkeypatch):
+    """So that each pass has several."""
+    monkeypatch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
+
+
+@pytest.fixture
+def points(tmp_path):
+    """Points in files that are not compact, with one more column; and the answer in memory."""
+    columns, rows = rows_of("airports", 600)
+    write_points(
+        tmp_path / "points", (*columns, "id"), np.column_stack([rows, np.arange(len(rows))]), row_group_size=40
+    )
+    return tmp_path / "points", in_memory(columns, rows)
+
+
+def meanwhile(name, done, action, seen=None):
+    """A function for `progress` that does something once, when so many tasks of a pass are done."""
+    seen = [] if seen is None else seen
+
+    def progress(*told):
+        if told[:2] == (name, done) and not seen:
+            seen.append(told)
+            action()
+
+    return progress
+
+
+def delete(folder, pattern):
+    found = sorted(folder.glob(pattern))
+    assert found, pattern
+    for path in found:
+        path.unlink()
+
+
+def run_of(folder, out, **options):
+    return serially(folder, out, **{"partition": 60, "keep": ["id"]} | options)
+
+
+def check(run, truth):
+    rows = run.rows().to_table()
+    assert rows["id"].to_pylist() == list(range(len(rows)))
+    faces, told = truth
+    table = run.triangles().to_table()
+    found = np.column_stack([table[name].to_numpy() for name in ("a", "b", "c", "closing")])
+    assert np.array_equal(found[np.lexsort(found.T[::-1])], faces)
+    assert all(np.array_equal(rows[name].to_numpy(), told[name]) for name in ("area", "degree", "nearest", "kept"))
+    left = {path.name for path in run.folder.iterdir()}
+    assert left == {".lock", "files.parquet", "plan.json", "rows", "run.json", "triangles"}
+    assert not list(run.folder.rglob("*.tmp"))
+
+
+# Results
+
+AGAIN = [("solve", "triangles/*.parquet"), ("solve", "triangles/[12].parquet"), ("align", "rows/00[01].parquet")]
+
+
+@pytest.mark.parametrize(("name", "pattern"), AGAIN)
+def test_results_that_are_deleted_while_their_pass_runs_are_made_again(tmp_path, points, name, pattern):
+    folder, truth = points
+    seen = []
+    action = partial(delete, tmp_path / "out", f"scratch/*/results/{pattern}")
+    run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, action, seen))
+    assert seen
+    check(run, truth)
+
+
+@pytest.mark.parametrize("pattern", ["triangles/1.parquet", "triangles/*.parquet"])
+def test_results_that_are_deleted_later_are_missed(tmp_path, points, pattern):
+    folder, truth = points
+    action = partial(delete, tmp_path / "out", f"scratch/*/results/{pattern}")
+    message = r"triangles/\d+\.parquet was deleted after it was written; begin anew with resume=False"
+    with pytest.raises(ValueError, match=message):
+        run_of(folder, tmp_path / "out", progress=meanwhile("align", 2, action))
+    with pytest.raises(ValueError, match=message):
+        run_of(folder, tmp_path / "out")
+    check(run_of(folder, tmp_path / "out", resume=False), truth)
+
+
+@pytest.mark.parametrize("pattern", ["triangles/0.parquet", "rows/003.parquet"])
+def test_results_that_are_deleted_between_two_calls(tmp_path, points, pattern):
+    folder, truth = points
+    run = run_of(folder, tmp_path / "out")
+    delete(tmp_path / "out", pattern)
+    with pytest.raises(FileNotFoundError, match=pattern):
+        (run.triangles if pattern.startswith("t") else run.rows)().to_table()
+    with pytest.raises(ValueError, match=f"{pattern} was deleted after it was written; begin anew with resume=False"):
+        run_of(folder, tmp_path / "out")
+    check(run_of(folder, tmp_path / "out", resume=False), truth)
+
+
+def test_results_of_another_run(tmp_path, points):
+    """A file of the same name and number of rows, which another run wrote; one that no run of this plan has."""
+    folder, truth = points
+    run = run_of(folder, tmp_path / "out")
+    other = run_of(folder, tmp_path / "other", rows=("area", "degree", "nearest", "kept"))
+    shutil.copy(other.folder / "triangles" / "0.parquet", run.folder / "triangles" / "99.parquet")
+    assert differences_of_triangles(run, truth) == 0  # parts of the report, not what lies there
+    with pytest.raises(ValueError, match=r"99\.parquet is not of the run that wrote the files beside it"):
+        run_of(folder, tmp_path / "out")
+    (run.folder / "triangles" / "99.parquet").unlink()
+    shutil.copy(other.folder / "triangles" / "0.parquet", run.folder / "triangles")
+    with pytest.raises(ValueError, match=r"triangles/0\.parquet was changed after it was written"):
+        run_of(folder, tmp_path / "out")
+
+
+def differences_of_triangles(run, truth):
+    return run.triangles().count_rows() - len(truth[0])
+
+
+def test_cells_that_are_deleted(tmp_path, points):
+    folder, _ = points
+    run = run_of(folder, tmp_path / "out", cells=True)
+    assert run.cells().count_rows() == sum(each["cells"] for each in run.partitions) > 500
+    delete(tmp_path / "out", "cells/2.parquet")
+    with pytest.raises(ValueError, match=r"cells/2\.parquet was deleted"):
+        run_of(folder, tmp_path / "out", cells=True)
+
+
+def test_the_plan_that_is_deleted(tmp_path, points):
+    """While it runs it is written again; later the folder is still known as that of a run."""
+    folder, truth = points
+    run = run_of(
+        folder, tmp_path / "out", progress=meanwhile("solve", 3, partial(delete, tmp_path / "out", "plan.json"))
+    )
+    check(run, truth)
+    check(run_of(folder, tmp_path / "out"), truth)
+    for text in (None, "{"):
+        delete(tmp_path / "out", "plan.json")
+        if text:
+            (tmp_path / "out" / "plan.json").write_text(text)
+        with pytest.raises(
+            ValueError, match=r"plan\.json was (deleted|cut short or changed) after it was written; begin"
+        ):
+            run_of(folder, tmp_path / "out")
+        check(run_of(folder, tmp_path / "out", resume=False), truth)
+
+
+def test_a_deletion_that_was_interrupted(tmp_path, points, monkeypatch):
+    """A run that begins anew deletes the report first and the plan last; what is left then is deleted by the next."""
+    folder, truth = points
+    run_of(folder, tmp_path / "out")
+    removed = []
+
+    def interrupted(path, **options):
+        removed.append(path)
+        if path.name == "triangles":
+            raise KeyboardInterrupt
+        rmtree(path, **options)
+
+    rmtree = shutil.rmtree
+    with monkeypatch.context() as patch:
+        patch.setattr("shutil.rmtree", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            run_of(folder, tmp_path / "out", resume=False)
+    assert (tmp_path / "out" / "triangles").exists()
+    assert not (tmp_path / "out" / "run.json").exists()
+    check(run_of(folder, tmp_path / "out"), truth)
+
+
+@pytest.mark.parametrize("after", range(4))
+def test_results_whose_moving_was_interrupted(tmp_path, points, monkeypatch, after):
+    """They are moved when all are there; the report is the last, so that a folder that has it is whole."""
+    folder, truth = points
+    replace, moved = os.replace, []
+
+    def interrupted(source, target):
+        if "results" in str(source) and str(target).count("/") == str(tmp_path / "out").count("/") + 1:
+            if len(moved) == after:
+                raise KeyboardInterrupt
+            moved.append(target)
+        replace(source, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr("os.replace", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            run_of(folder, tmp_path / "out")
+    assert not (tmp_path / "out" / "run.json").exists()
+    check(run_of(folder, tmp_path / "out"), truth)
+
+
+# Scratch
+
+LOST = [
+    ("collect", 2, "spread/2.points"),
+    ("solve", 2, "points/*.points"),
+    ("solve", 2, "blocks/lows"),
+    ("align", 2, "stars/*.rows"),
+    ("spread", 2, "splits.value"),
+]
+
+
+@pytest.mark.parametrize(("name", "done", "pattern"), LOST)
+def test_scratch_that_is_deleted(tmp_path, points, name, done, pattern):
+    """The error names the file and the way out, which is one."""
+    folder, truth = points
+    action = partial(delete, tmp_path / "out", f"scratch/*/{pattern}")
+    for progress in (meanwhile(name, done, action), None):
+        with pytest.raises(
+            ValueError, match=r"scratch/.* was deleted after it was written; begin anew with resume=False"
+        ):
+            run_of(folder, tmp_path / "out", progress=progress)
+    assert not (tmp_path / "out" / "run.json").exists()
+    check(run_of(folder, tmp_path / "out", resume=False), truth)
+
+
+def test_scratch_that_can_be_made_again(tmp_path, points):
+    folder, truth = points
+    action = partial(delete, tmp_path / "out", "scratch/*/spread/starts")
+    with pytest.raises(ValueError, match=r"spread/starts was deleted after it was written"):
+        run_of(folder, tmp_path / "out", progress=meanwhile("collect", 2, action))
+    check(run_of(folder, tmp_path / "out"), truth)
+
+
+def test_scratch_that_is_deleted_in_its_own_pass_is_made_again(tmp_path, points):
+    folder, truth = points
+    for name, pattern in (("spread", "spread/1.points"), ("collect", "points/1.blocks"), ("solve", "stars/1.rows")):
+        out = tmp_path / name
+        run = run_of(folder, out, progress=meanwhile(name, 4, partial(delete, out, f"scratch/*/{pattern}")))
+        check(run, truth)
+
+
+def flip(folder, pattern, place=-1):
+    """Change a byte of each file, which keeps its size."""
+    found = [path for path in sorted(folder.glob(pattern)) if not path.read_bytes().endswith(b"\n")]  # not empty
+    assert found, pattern
+    for path in found:
+        content = bytearray(path.read_bytes())
+        content[place] ^= 1
+        path.write_bytes(content)
+
+
+SHARDS = [
+    ("spread", 3, "splits.*"),
+    ("spread", 5, "spread/*.starts"),
+    *(("collect", 2, f"spread/{name}") for name in ("starts", "*.points", "*.numbers")),
+    ("collect", 10, "points/*.blocks"),
+    *(("solve", 2, f"points/*.{name}") for name in ("points", "numbers")),
+    *(
+        ("solve", 2, f"blocks/{name}")
+        for name in ("lows", "highs", "part", "first", "last", "points", "numbers", "sums")
+    ),
+    ("solve", 10, "stars/*.starts"),
+    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "parts")),
+]
+
+
+@pytest.mark.parametrize(("name", "done", "pattern"), SHARDS)
+def test_a_byte_of_a_shard_that_is_changed(tmp_path, points, name, done, pattern):
+    """Noticed by CRC-32, whether a shard is read whole or in slices."""
+    folder, truth = points
+    action = partial(flip, tmp_path / "out", f"scratch/*/{pattern}")
+    with pytest.raises(ValueError, match=r"was changed after it was written; begin anew with resume=False"):
+        run_of(folder, tmp_path / "out", progress=meanwhile(name, done, action))
+    check(run_of(folder, tmp_path / "out", resume=False), truth)
+
+
+def test_a_byte_of_the_index_that_is_changed(tmp_path, points):
+    folder, _ = points
+    run = run_of(folder, tmp_path / "out", index=True)
+    flip(tmp_path / "out", "index/points/*.points", -100)
+    with pytest.raises(ValueError, match=r"index/points/\d+\.points was changed after it was written"):
+        run.nearest(folder, tmp_path / "found", keep="id")
+
+
+# Sources
+
+
+def cut(path):
+    pq.write_table(pq.read_table(path).slice(0, 10), path)
+
+
+def lengthen(path):
+    pq.write_table(pa.concat_tables([pq.read_table(path)] * 2), path)
+
+
+def move(path):
+    """Other rows, as many."""
+    table = pq.read_table(path)
+    pq.write_table(table.set_column(0, "lon", pa.array(table["lon"].to_numpy() / 2)), path)
+
+
+def overwrite(path):
+    """As many bytes, in the same file."""
+    content = path.read_bytes()
+    path.write_bytes(content[:200] + bytes(8) + content[208:])
+
+
+HARMS = [cut, lengthen, move, overwrite, os.unlink]
+TIMES = [(name, done) for name in PASSES for done in (0, 2)]
+QUICK = [("spread", 0), ("solve", 2)]
+
+
+@pytest.mark.parametrize("harm", HARMS)
+@pytest.mark.parametrize(
+    ("name", "done"), [pytest.param(*when, marks=() if when in QUICK else pytest.mark.thorough) for when in TIMES]
+)
+def test_a_source_that_changes_while_it_is_read(tmp_path, points, name, done, harm):
+    """Whenever that is, it is an error: files are looked at before and after each reading, and at the end."""
+    folder, truth = points
+    file = folder / "003.parquet"
+    kept = tmp_path / "kept.parquet"
+    shutil.copy2(file, kept)
+    with pytest.raises((ValueError, FileNotFoundError), match=r"003\.parquet"):
+        run_of(folder, tmp_path / "out", progress=meanwhile(name, done, partial(harm, file)))
+    with pytest.raises(FileNotFoundError, match="no run ended there"):
+        Run(tmp_path / "out")
+    shutil.copy2(kept, file)  # with its time: as it was
+    check(run_of(folder, tmp_path / "out"), truth)
+
+
+def test_a_source_with_fewer_rows_than_planned(points, monkeypatch):
+    """Should its time stamp say nothing: no row is what happened to be in memory."""
+    folder, _ = points
+    monkeypatch.setattr(PointFile, "check", lambda self: None)
+    out = folder.parent / "out"
+    with pytest.raises(ValueError, match=r"003\.parquet .*have \d+ of \d+ rows"):
+        run_of(folder, out, progress=meanwhile("sample", 10, partial(cut, folder / "003.parquet")))
+
+
+def test_the_source_of_values_that_changes(tmp_path, points):
+    folder, _ = points
+    run = run_of(folder, tmp_path / "out", index=True)
+    harm = partial(move, folder / "003.parquet")
+    with pytest.raises(ValueError, match=r"003\.parquet has changed since the run began"):
+        run.interpolate(folder, tmp_path / "found", "id", partition=60, progress=meanwhile("collect", 1, harm))
+
+
+@pytest.mark.parametrize("number", [12, pytest.param(300, marks=pytest.mark.thorough)])
+def test_files_that_are_damaged(tmp_path, number):
+    """Cut anywhere, or with bits of the footer changed: the points as they were, or an error that names the file."""
+    chance, columns = random.Random(5), LONLAT
+    _, rows = rows_of("airports", 60)
+    folder = write_points(tmp_path / "points", columns, rows, 2, row_group_size=10)
+    file, truth, counts = folder / "001.parquet", in_memory(columns, rows), Counter()
+    content = file.read_bytes()
+    footer = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
+    for _ in range(number):
+        damaged = bytearray(content)
+        if chance.random() < 0.3:
+            damaged = damaged[: chance.randrange(len(content))]
+        else:
+            damaged[chance.randrange(footer, len(content))] ^= 1 << chance.randrange(8)
+        file.write_bytes(damaged)
+        try:
+            found = serially(folder, tmp_path / "out", partition=20, resume=False)
+        except (ValueError, TypeError) as error:
+            counts["named" if str(file) in str(error) else str(error)] += 1
+        else:
+            assert differences(found, truth) == []
+            counts["equal"] += 1
+    assert counts.keys() == {"named", "equal"}
+
+
+def test_a_page_with_a_checksum(tmp_path, points):
+    """Files that have checksums are read with them."""
+    folder, _ = points
+    path = folder / "003.parquet"
+    pq.write_table(pq.read_table(path), path, write_page_checksum=True, compression="none", use_dictionary=False)
+    content = bytearray(path.read_bytes())
+    content[300] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=r"003\.parquet: row group 0 cannot be read: .*checksum"):
+        run_of(folder, tmp_path / "out")
+
+
+def test_a_page_that_is_damaged(tmp_path, points):
+    """The message has the file and the row group."""
+    folder, _ = points
+    group = pq.ParquetFile(folder / "003.parquet").metadata.row_group(2).column(0)
+    path = folder / "003.parquet"
+    content = bytearray(path.read_bytes())
+    first = group.dictionary_page_offset or group.data_page_offset
+    content[first : first + 8] = b"\xff" * 8
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=r"003\.parquet: row group 2 cannot be read: "):
+        run_of(folder, tmp_path / "out")
+
+
+WITH_PROCESSES = [
+    ("spread", 2, "points/003.parquet", cut),
+    ("spread", 2, "points/003.parquet", lengthen),
+    ("spread", 2, "points/003.parquet", os.unlink),
+    ("solve", 2, "points/003.parquet", move),
+    ("solve", 2, "points/003.parquet", overwrite),
+    ("collect", 2, "out/scratch/*/spread/2.points", os.unlink),
+    ("collect", 2, "out/scratch/*/spread/starts", partial(os.truncate, length=70)),
+    ("solve", 2, "out/scratch/*/points/*.points", partial(os.truncate, length=70)),
+    ("align", 2, "out/scratch/*/results/triangles/3.parquet", os.unlink),
+]
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize(("name", "done", "pattern", "harm"), WITH_PROCESSES)
+def test_what_changes_under_processes(tmp_path, points, name, done, pattern, harm):
+    """The same with processes, one of which the system may end as what it has mapped is cut short."""
+    folder, truth = points
+    found = sorted(tmp_path.glob(pattern)) if pattern.startswith("points") else []
+    kept = [path.with_suffix(".kept") for path in found]
+    for path, copy in zip(found, kept, strict=True):
+        shutil.copy2(path, copy)
+
+    def harmed():
+        for path in sorted(tmp_path.glob(pattern)):
+            harm(path)
+
+    with pytest.raises((ValueError, FileNotFoundError), match=r"changed|deleted|cut short|No such file"):
+        run_of(folder, tmp_path / "out", executor=None, progress=meanwhile(name, done, harmed))
+    for path, copy in zip(found, kept, strict=True):
+        shutil.copy2(copy, path)
+    check(run_of(folder, tmp_path / "out", executor=None, resume=bool(found)), truth)
+
+
+def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points):
+    """Neither in the folder of results nor in scratch elsewhere, which runs of other folders may share."""
+    folder, truth = points
+    for partition in (60, 90):
+        with pytest.raises(KeyboardInterrupt):
+            run_of(
+                folder,
+                tmp_path / "out",
+                scratch=tmp_path / "scratch",
+                partition=partition,
+                resume=False,
+                progress=meanwhile("solve", 2, partial(stop)),
+            )
+        assert len(list((tmp_path / "scratch").iterdir())) == 1
+    other = run_of(folder, tmp_path / "other", scratch=tmp_path / "scratch", partition=90)
+    check(other, truth)
+    check(run_of(folder, tmp_path / "out", scratch=tmp_path / "scratch", partition=90), truth)
+    assert list((tmp_path / "scratch").iterdir()) == []
+
+
+def stop():
+    raise KeyboardInterrupt
+
+
+def test_late_tasks_of_a_run_that_is_dead(tmp_path, points, monkeypatch):
+    """Workers of a cluster outlive their client: what they write still, after another run began, is not in its way."""
+    folder, truth = points
+    late = []
+    once = passes_of.Passes.do
+
+    def dying(self, name, function, tasks):
+        if name == "solve":
+            late.extend(partial(function, task) for task in tasks)
+            raise KeyboardInterrupt
+        return once(self, name, function, tasks)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(passes_of.Passes, "do", dying)
+        with pytest.raises(KeyboardInterrupt):
+            run_of(folder, tmp_path / "out", partition=60)
+    kept = tmp_path / "kept"
+    shutil.copytree(tmp_path / "out" / "scratch", kept)
+
+    def write_late():
+        shutil.copytree(kept, tmp_path / "out" / "scratch", dirs_exist_ok=True)
+        for task in late:
+            task()
+
+    for when in (("collect", 1), ("solve", 1), ("align", 1)):
+        run = run_of(folder, tmp_path / "out", partition=150, resume=False, progress=meanwhile(*when, write_late))
+        check(run, truth)
+
+
+def test_what_is_not_there_is_said(tmp_path, points):
+    folder, _ = points
+    run = run_of(folder, tmp_path / "out", rows=(), triangles=False, keep=())
+    with pytest.raises(ValueError, match="has no rows: the run was not asked for rows="):
+        run.rows()
+    for read in (run.triangles, run.cells):
+        with pytest.raises(ValueError, match="the run was not asked for "):
+            read()
+
+
+def test_names_that_are_given_by_themselves(tmp_path, points):
+    folder, _ = points
+    with pytest.raises(ValueError, match="columns has 1 names, but on the sphere a place has"):
+        run_of(folder, tmp_path / "out", columns="lon")
+    run = run_of(folder, tmp_path / "out", keep="id", rows="area")
+    assert run.rows().schema.names == ["id", "area"]
+    assert set(LONLAT) <= set(pq.read_schema(folder / "000.parquet").names)

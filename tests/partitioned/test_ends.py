@@ -1,0 +1,222 @@
+"""Runs that are killed: nothing of them stays, and whatever is begun after them, at once, is right."""
+
+import json
+import os
+import random
+import signal
+import subprocess
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+import stereodel
+from stereodel.partitioned import Run, executors, triangulate
+from stereodel.partitioned.executors import ATTEMPTS, Crew
+from tests.partitioned.answers import differences, in_memory, write_points
+from tests.partitioned.sets import rows_of
+
+SECONDS = 10
+"""In which the processes of a run that was killed end, on a machine that does much else."""
+
+KILLS = 20
+"""Of the soak, which take a minute or two; a hundred would take longer than a test may."""
+
+SIGNALS = (signal.SIGTERM, signal.SIGKILL, signal.SIGINT)
+
+DRIVER = """
+import json, signal, sys
+from stereodel.partitioned import plan, triangulate
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    plan.LEAST_SHARE = 1
+    points, out, options = map(json.loads, sys.argv[1:])
+    triangulate(points, out, progress=lambda *told: print(*told, flush=True), **options)
+"""
+
+COMMAND = """
+import signal
+signal.signal(signal.SIGINT, signal.default_int_handler)
+from stereodel.__main__ import main
+if __name__ == "__main__":
+    main()
+"""
+
+
+@pytest.fixture
+def points(tmp_path):
+    columns, rows = rows_of("uniform", 3000)
+    (tmp_path / "driver.py").write_text(DRIVER)
+    (tmp_path / "command.py").write_text(COMMAND)
+    return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
+
+
+def started(folder, *arguments):
+    """A process in a session of its own, by which those that it starts are known."""
+    environment = os.environ | {"PYTHONPATH": str(Path(stereodel.__file__).parents[1])}
+    return subprocess.Popen(
+        [sys.executable, *map(str, arguments)],
+        cwd=folder,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+
+
+def driver(folder, points, out, **options):
+    return started(folder, "driver.py", *map(json.dumps, (str(points), str(out), options)))
+
+
+def processes(session):
+    """Processes of a session that have not ended, with their parents."""
+    found = {}
+    for path in Path("/proc").glob("[0-9]*"):
+        try:
+            fields = (path / "stat").read_text().rpartition(")")[2].split()
+        except OSError:  # it has ended meanwhile
+            continue
+        if int(fields[3]) == session and fields[0] not in "ZX":
+            found[int(path.name)] = int(fields[1])
+    return found
+
+
+def left(session):
+    """Processes that have not ended in time."""
+    end = time.monotonic() + SECONDS
+    while (found := processes(session)) and time.monotonic() < end:
+        time.sleep(0.05)
+    return found
+
+
+def reached(process, name, done):
+    """Wait until so many tasks of a pass are done."""
+    for line in process.stdout:
+        said, count, _ = line.split()
+        if said == name and int(count) >= done:
+            return
+    raise AssertionError(f"{name} {done} was not reached")
+
+
+WHEN = [(name, number) for name in ("spread", "solve", "align") for number in SIGNALS]
+QUICK = [("solve", signal.SIGKILL)]
+
+
+@pytest.mark.parametrize(
+    ("name", "number"), [pytest.param(*when, marks=() if when in QUICK else pytest.mark.thorough) for when in WHEN]
+)
+def test_a_driver_that_is_killed(tmp_path, points, name, number):
+    """Its workers end with it, and so does a pipe behind it; what is begun at once with other arguments is right."""
+    folder, truth = points
+    process = driver(tmp_path, folder, tmp_path / "out", partition=100)
+    reached(process, name, 2)
+    assert len(processes(process.pid)) > 2  # or the test has nothing to show
+    process.send_signal(number)
+    process.wait(timeout=SECONDS)
+    with driver(tmp_path, folder, tmp_path / "out", partition=170, resume=False) as second:
+        said = second.communicate(timeout=120)[0]
+    assert second.returncode == 0, said
+    process.communicate(timeout=SECONDS)
+    assert left(process.pid) == {}
+    assert left(second.pid) == {}
+    assert differences(Run(tmp_path / "out"), truth) == []
+    assert clean(tmp_path / "out")
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("number", SIGNALS)
+def test_a_command_that_is_killed(tmp_path, points, number):
+    folder, _ = points
+    arguments = ["command.py", "voronoi", f"{folder}/", "--partition", 40, "-o", "out/"]
+    process = started(tmp_path, *arguments)
+    while not list((tmp_path / "out").glob("scratch/*/done/solve/*.json")):
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.send_signal(number)
+    process.communicate(timeout=SECONDS)
+    assert left(process.pid) == {}
+    with started(tmp_path, *arguments) as second:
+        assert second.wait(timeout=120) == 0, second.stdout.read()
+    assert left(second.pid) == {}
+    assert Run(tmp_path / "out").rows().count_rows() == 3000
+
+
+def clean(out):
+    """Whether a folder has results alone, and no file of a process that was killed."""
+    names = {path.name for path in out.iterdir()} - {"triangles"}
+    return names == {".lock", "files.parquet", "plan.json", "rows", "run.json"} and not list(out.rglob("*.tmp"))
+
+
+@pytest.mark.parametrize("error", [ConnectionRefusedError(111, "Connection refused"), EOFError("unexpected EOF")])
+def test_a_server_of_processes_that_is_killed(tmp_path, points, monkeypatch, error):
+    """It is started again; if that fails again and again, a sentence says what to do."""
+    folder, truth = points
+    failures, once = [], Crew._once
+
+    def failing(self, function, tasks):
+        if len(failures) < count:
+            failures.append(function)
+            raise error
+        return once(self, function, tasks)
+
+    monkeypatch.setattr(executors, "PAUSE", 0)
+    monkeypatch.setattr(Crew, "_once", failing)
+    count = ATTEMPTS
+    with pytest.raises(RuntimeError, match="what starts processes has ended; call again, and the run goes on"):
+        triangulate(folder, tmp_path / "out", partition=500)
+    failures, count = [], ATTEMPTS - 1
+    assert differences(triangulate(folder, tmp_path / "out", partition=500), truth) == []
+    assert len(failures) == count
+
+
+@pytest.mark.thorough
+def test_soak(tmp_path, points):
+    """Random processes of runs are killed at random times, with new runs begun at once."""
+    counts = soak(tmp_path, *points, KILLS, seed=20261125)
+    print(dict(counts))
+    assert counts["killed"] == KILLS
+
+
+def soak(tmp_path, folder, truth, kills, seed):
+    """Kill processes of runs until so many were; how often what happened."""
+    chance, counts, out, runs = random.Random(seed), Counter(), tmp_path / "out", []
+    before = {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()}
+    began = time.monotonic()
+    with driver(tmp_path, folder, out, partition=100) as process:
+        process.communicate()
+    usual = time.monotonic() - began
+    while counts["killed"] < kills:
+        begun = json.loads((out / "plan.json").read_text())["partition"] if (out / "plan.json").exists() else None
+        resume = begun is not None and not (out / "run.json").exists() and chance.random() < 0.7
+        partition = begun if resume else chance.choice([each for each in (100, 140, 230) if each != begun])
+        process = driver(tmp_path, folder, out, partition=partition, resume=resume)
+        runs.append(process)
+        time.sleep(chance.uniform(0, usual))
+        victims = {"driver": [process.pid], "worker": [], "helper": []}
+        for pid, parent in sorted(processes(process.pid).items()):
+            victims["helper" if parent == process.pid else "worker"] += [pid] * (pid != process.pid)
+        there = [name for name in ("driver", "driver", "driver", "worker", "worker", "helper") if victims[name]]
+        name, number = chance.choice(there), chance.choice(SIGNALS)
+        if process.poll() is None:
+            os.kill(chance.choice(victims[name]), number)
+            counts.update(["killed", f"{name} {number.name}", "resumed" if resume else "begun anew"])
+        if name == "driver" and process.wait(timeout=120):
+            continue  # at once: its workers may be there still
+        said = process.communicate(timeout=120)[0]
+        assert process.returncode == 0, (name, number, said[-2000:])
+        counts["ended"] += 1
+        assert differences(Run(out), truth) == []
+        assert clean(out)
+    with driver(tmp_path, folder, out, partition=300, resume=False) as process:
+        assert process.communicate()[0]
+    assert process.returncode == 0
+    assert differences(Run(out), truth) == []
+    assert clean(out)
+    assert [left(process.pid) for process in runs] == [{}] * len(runs)
+    for process in runs:
+        process.communicate(timeout=SECONDS)
+    assert {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.iterdir()} == before
+    return counts
