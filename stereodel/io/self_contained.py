@@ -7,6 +7,7 @@ So the format is recognised here first, and every other is refused.
 from __future__ import annotations
 
 import functools
+import os
 import re
 import sqlite3
 from collections import Counter
@@ -100,7 +101,11 @@ def self_contained(path: Path) -> Iterator[Path]:
         if "!" in str(path.absolute()):
             raise ValueError("the path has an exclamation mark, which stands for archives in GDAL; rename it")
         with _without_schemas() if kind == "gml" else nullcontext():
-            yield _apart(path, inner / "apart") if kind == "gml" else path.absolute()
+            source = _apart(path, inner / "apart") if kind == "gml" else path.absolute()
+            try:
+                yield source
+            except ValueError as error:  # without the folder that GDAL names
+                raise ValueError(str(error).replace(f"{source.parent}{os.sep}", "")) from error
 
 
 def _apart(path: Path, folder: Path) -> Path:

@@ -6,6 +6,7 @@ import resource
 import signal
 import sqlite3
 import warnings
+import zipfile
 from contextlib import closing
 
 import geopandas
@@ -131,6 +132,15 @@ def test_nothing_is_written_beside_a_file(tmp_path):
         before = sorted(folder.iterdir())
         assert len(read_points(folder / f"a{ending}")) == ROWS
         assert sorted(folder.iterdir()) == before
+
+
+def test_damage_is_told_of_the_file_that_was_given(tmp_path):
+    path = tmp_path / "a.kmz"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("doc.kml", "<kml><Document><Placemark>")
+    with pytest.raises(ValueError) as caught:
+        read_points(path)
+    assert str(caught.value).replace(str(path), "a.kmz").count("/") == 0
 
 
 def test_sheets_and_layers_are_chosen_by_name(tmp_path):
