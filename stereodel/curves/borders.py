@@ -66,7 +66,7 @@ class Outline(Protocol):
 
     @property
     def blur(self) -> float:
-        """Bound on the distance between chords and curves, next to a curved border."""
+        """Bound on the distance between chords and curves, relative to the length of the border over 2π."""
 
     def flat(self, chains: Ragged) -> FloatArray:
         """Coordinates (n, 2) on the chart of points (n, 3) in chains."""

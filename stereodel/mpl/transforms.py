@@ -126,7 +126,8 @@ class LonLatToPage(Transform):
         if not near.any():
             return clip.bordered(Ragged.of([], rings.values), owner[:0], middle, self._border)
         pieces, samples = self._traced(edges.take(near))
-        return clip.regions(clip.among(sides, near), owner, count, pieces, samples, self._border, middle)
+        rows, left = clip.among(sides, near), edges.left(sides)
+        return clip.regions(rows, owner, count, pieces, samples, self._border, middle, left)
 
     @property
     def _border(self) -> Cap:
