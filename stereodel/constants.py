@@ -79,7 +79,7 @@ A loop whose area is less than that times its length has no well-defined interio
 """
 
 THIN_RING: Final = 2.0**-8
-"""Area of a region, relative to the square of its border's size, up to which its side is told on the sphere.
+"""Area of a region, relative to the square of its border's size, up to which its side is found on the sphere.
 
 A disc has 2⁻⁴ or more. Of a strip, it is half its width over its length, and chords and arcs that deviate by more than
 the width of a strip have its area negative: those of `LONGEST_EDGE`, by 2° at most.

@@ -106,15 +106,16 @@ class Arcs:
         u, w = start - center, end - center
         return Arcs(start, end, axis, offset, u, np.zeros(len(u)), _swept(axis, u, w), arcs.edge)
 
-    def sampled(self, tolerance: float) -> Ragged:
-        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`.
+    def sampled(self, tolerance: float, seen: BoolArray | bool = True) -> Ragged:
+        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`, if it is seen.
 
         A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). No chord sweeps more than a quarter
         turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
         """
         radius = np.sqrt(np.sum(self.u**2, axis=1))
         step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), np.sqrt(0.5), 1.0))
-        return self.spread(np.maximum(1, np.ceil((self.stop - self.begin) / step)).astype(np.intp))
+        steps = np.where(seen, np.ceil((self.stop - self.begin) / step), 1)
+        return self.spread(np.maximum(1, steps).astype(np.intp))
 
     def spread(self, pieces: Indices) -> Ragged:
         """Points at equal steps, with a number of steps for each arc."""

@@ -25,6 +25,10 @@ class MapView(Protocol):
         """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
 
     @property
+    def angular_radius(self) -> float:
+        """Angular radius of the cap in degrees, which keeps the digits that the cosine of a small one loses."""
+
+    @property
     def edge(self) -> float:
         """Cosine of the angular radius of the cap."""
 
@@ -84,6 +88,11 @@ class View:
     def matrix(self) -> FloatArray:
         """Rows right, up, toward the viewer: unit vectors, a rotation matrix (3, 3)."""
         return _frame(self.lon, self.lat, self.roll)
+
+    @property
+    def angular_radius(self) -> float:
+        """Angular radius of the visible cap in degrees: 90."""
+        return 90.0
 
     @property
     def edge(self) -> float:

@@ -62,8 +62,7 @@ class Chart:
     @cached_property
     def source(self) -> SphereCircle:
         """The circle before the lens whose interior is visible."""
-        cap = SphereCircle(self.view.matrix[2], self.view.edge)
-        return self.lens.inverse().image_of(cap)
+        return self.lens.inverse().image_of(SphereCircle.around(self.view.matrix[2], self.view.angular_radius))
 
     def lines(self, lines: SphereLines) -> Ragged:
         """The visible parts of lines, on the page."""
@@ -88,7 +87,7 @@ class Chart:
             used = np.zeros(len(edges), dtype=bool)
             used[np.where(rings.values < 0, ~rings.values, rings.values)] = True
             hidden = Pieces.uncut(self._images(edges.take(used)), seen=False)
-            rows, samples = clip.among(rings, used), self._samples(hidden)
+            rows, samples = clip.among(rings, used), hidden.arcs.sampled(self.slack / 2)
             around |= clip.surround(rows, owner, asked, hidden, samples, self._border, left)
         loops, region = clip.bordered(loops, region, around, self._border)
         return self._placed(loops), region
@@ -117,7 +116,7 @@ class Chart:
         return edges.arcs_under(self.lens, self.slack / 2).through(self.lens).turned(self.view.matrix)
 
     def _samples(self, pieces: Pieces) -> Ragged:
-        return pieces.arcs.sampled(self.slack / 2)
+        return pieces.arcs.sampled(self.slack / 2, pieces.seen)
 
     def _placed(self, found: Ragged) -> Ragged:
         return Ragged(self.scale * found.values + np.array(self.at), found.offsets)

@@ -42,6 +42,18 @@ def test_holes_belong_to_the_smallest_shell_of_their_region():
     assert not in_gap.any()
 
 
+@pytest.mark.parametrize("turn", range(4))
+def test_holes_may_touch_their_shell(turn):
+    """Whatever corner comes first, and on whichever side of the shell's border rounding has put it."""
+    outside = np.array([(-1e-12, 5.0), (4, 3), (5, 5), (4, 7)])[::-1]
+    hole = np.roll(outside, turn, axis=0)
+    loops = Ragged.of([square(0, 0, 10), np.concatenate([hole, hole[:1]]), square(-6, 2, 5.9)])
+    corners, owner = triangles(loops, np.zeros(3, dtype=np.intp))
+    assert areas(corners).sum() == pytest.approx(100 - 10 + 5.9**2)
+    middle = corners.mean(axis=1)
+    assert not ((middle > [3.5, 4]) & (middle < [4.5, 6])).all(axis=1).any()
+
+
 def test_nothing_has_no_triangles():
     corners, owners = triangles(Ragged(np.zeros((0, 2)), np.zeros(1, dtype=np.intp)), np.zeros(0, dtype=np.intp))
     assert corners.shape == (0, 3, 2)
