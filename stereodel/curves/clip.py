@@ -158,8 +158,9 @@ def in_sight(
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
     # Parts along the border are dropped: closing the other chains restores them where needed.
-    head = chains.pieces.values[chains.pieces.offsets[:-1]]
-    drawn = chains.seen & ~_flag(pieces.along, pieces.along, head)
+    piece = np.maximum(chains.pieces.values, ~chains.pieces.values)
+    off = np.bincount(chains.pieces.row, ~pieces.along[piece], minlength=len(chains.row)) > 0
+    drawn = chains.seen & (off | chains.whole)
     points = points_along(chains.pieces.take(drawn), samples)
     flat, whole = Ragged(border.flat(points), points.offsets), chains.whole[drawn]
     shown = region[drawn]
@@ -192,7 +193,7 @@ def in_sight(
     on_chart = np.where((narrow > 0) & (np.abs(on_chart) < blurred), of_region, on_chart)
     around = np.where(total(closed_by, np.ones(len(joined))) > 0, on_chart, on_sphere) < 0
     loops, loop_owner = bordered(loops, loop_owner, around, border)
-    return loops, loop_owner, np.bincount(region[chains.seen], minlength=count) > 0
+    return loops, loop_owner, np.bincount(shown, minlength=count) > 0
 
 
 def _by_region(left: FloatArray, owner: Indices, count: int) -> FloatArray:
