@@ -132,7 +132,7 @@ class Cap:
         number = np.arange(len(seen)) - np.maximum.accumulate(np.where(opens, 0, np.arange(len(seen))))
         middle = pieces.points(np.arange(len(seen)), (pieces.begin + pieces.stop) / 2)
         heights = np.stack([pieces.start[:, 2], middle[:, 2], pieces.end[:, 2]])
-        along = (np.abs(heights - self.view.edge) <= 2 * LIMB_DEPTH).all(axis=0)
+        along: BoolArray = np.all(np.abs(heights - self.view.edge) <= 2 * LIMB_DEPTH, axis=0)
         return Pieces(pieces, opens, shuts, seen ^ (number % 2 == 1), along)
 
     def flat(self, chains: Ragged) -> FloatArray:
