@@ -78,6 +78,26 @@ CHART_ROUNDING: Final = 2.0**-50
 A loop whose area is less than that times its length has no well-defined interior and is not a region.
 """
 
+THIN_RING: Final = 2.0**-8
+"""Area of a region, relative to the square of its border's size, up to which its side is found on the sphere.
+
+A disc has 2⁻⁴ or more. Of a strip, it is half its width over its length, and chords and arcs that deviate by more than
+the width of a strip have its area negative: those of `LONGEST_EDGE`, by 2° at most.
+"""
+
+NARROW_PASSAGE: Final = 4.0
+"""Distance along a border of two crossings, relative to the root of the blur, below which a thin region passes once.
+
+Curves a distance d apart cross a circle of radius 1 that they touch at places up to √(8d) apart: computed crossings of
+two sides that are closer than the blur may be in reverse order.
+"""
+
+TOUCHING: Final = 2.0**-10
+"""Distance of a hole's corner from a shell, relative to the hole's size, above which they do not touch there.
+
+Rims that are sampled differently are less than a pixel apart, a ten-thousandth of the disc.
+"""
+
 ON_BALL: Final = 1e-9
 """Distance from a sphere, relative to its radius, within which a drawn arc is taken to lie on it, and a plane to touch.
 
@@ -220,6 +240,12 @@ STAR_ROUNDING: Final = 2.0**-50
 
 Each difference is off by 2⁻⁵³ of itself, so are products and their difference: four times that together, and as much
 again to be sure.
+"""
+
+MOST_WARPED: Final = 2**12
+"""Points of a warped polygon from which it is not warped again more finely, with four times as many.
+
+Parts that touch at a corner may cross there however fine; without the limit, they took 286 000 points.
 """
 
 DEGREE_ROUNDING: Final = 2.0**-43

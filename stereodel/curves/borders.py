@@ -66,7 +66,7 @@ class Outline(Protocol):
 
     @property
     def blur(self) -> float:
-        """Bound on the distance between chords and curves, next to a curved border."""
+        """Bound on the distance between chords and curves, relative to the length of the border over 2π."""
 
     def flat(self, chains: Ragged) -> FloatArray:
         """Coordinates (n, 2) on the chart of points (n, 3) in chains."""
@@ -130,7 +130,10 @@ class Cap:
         # Alternately visible and hidden, beginning with the side of the start.
         seen = np.repeat(above, np.bincount(arc, minlength=len(arcs)) + 1)
         number = np.arange(len(seen)) - np.maximum.accumulate(np.where(opens, 0, np.arange(len(seen))))
-        return Pieces(pieces, opens, shuts, seen ^ (number % 2 == 1), np.zeros(len(seen), dtype=bool))
+        middle = pieces.points(np.arange(len(seen)), (pieces.begin + pieces.stop) / 2)
+        heights = np.stack([pieces.start[:, 2], middle[:, 2], pieces.end[:, 2]])
+        along: BoolArray = np.all(np.abs(heights - self.view.edge) <= 2 * LIMB_DEPTH, axis=0)
+        return Pieces(pieces, opens, shuts, seen ^ (number % 2 == 1), along)
 
     def flat(self, chains: Ragged) -> FloatArray:
         """Page coordinates (n, 2) of points in view axes."""

@@ -11,7 +11,11 @@ Two questions remain:
 * w is such that the depth is never negative: minus the smallest running sum of ends and starts.
 * A chart that a region surrounds without touching the border is inside when the loops on it have a negative area
   together (holes without a shell). Where nothing of a region's border is in sight, the same question is asked of the
-  hidden rings, on the chart that shows all but the middle of the view, unless the caller knows.
+  hidden rings, on the sphere without the middle of the view, unless the caller knows.
+
+Loops are chords, and a region thinner than their deviation has an area of any sign, and two ends in any order. Whatever
+such an area cannot tell, the rings themselves do, as they are on the sphere (`Edges.left`): an area a little above zero
+is that of a thin region, a little below zero, or a whole sphere, that of all the rest.
 """
 
 from __future__ import annotations
@@ -21,9 +25,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
+from stereodel.constants import CHART_ROUNDING, NARROW_PASSAGE, THIN_RING
 from stereodel.curves.borders import Outline, Pieces
 from stereodel.curves.ragged import Ragged, cycles, offsets_of, spans
-from stereodel.curves.trace import Arcs
+from stereodel.curves.trace import Arcs, fans
+
+UP = np.array([0.0, 0.0, 1.0])
+"""The centre of a view in its axes; on a map, the north pole, on its border as is the south pole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,6 +115,7 @@ def regions(
     samples: Ragged,
     border: Outline,
     middle: BoolArray | None = None,
+    left: FloatArray | None = None,
 ) -> tuple[Ragged, Indices]:
     """The visible parts of regions, interior left of their rings: closed loops on the chart, and the region of each.
 
@@ -123,17 +132,26 @@ def regions(
     middle : (count,) array, optional
         Which regions contain the centre of the view. If this is known, edges that are hidden throughout may be left out
         of the rings.
+    left : (r, 2) array, optional
+        What `Edges.left` says of the rings; without it, chords alone decide.
     """
-    loops, region, shown = in_sight(rings, owner, count, pieces, samples, border)
+    left = np.full((len(rings), 2), np.nan) if left is None else left
+    loops, region, shown = in_sight(rings, owner, count, pieces, samples, border, left)
     if middle is None:
         hidden = np.zeros(count, dtype=bool)
         hidden[owner[rings.sizes > 0]] = True
-        middle = surround(rings, owner, hidden & ~shown, pieces, samples)
-    return bordered(loops, region, middle & (np.bincount(region, minlength=count) == 0), border)
+        middle = surround(rings, owner, hidden & ~shown, pieces, samples, border, left)
+    return bordered(loops, region, middle & ~shown, border)
 
 
 def in_sight(
-    rings: Ragged, owner: Indices, count: int, pieces: Pieces, samples: Ragged, border: Outline
+    rings: Ragged,
+    owner: Indices,
+    count: int,
+    pieces: Pieces,
+    samples: Ragged,
+    border: Outline,
+    left: FloatArray,
 ) -> tuple[Ragged, Indices, BoolArray]:
     """As for `regions`, without regions whose rings are entirely hidden, which `surround` handles.
 
@@ -142,23 +160,66 @@ def in_sight(
     chains = chains_of(rings, pieces)
     region = owner[chains.row]
     # Parts along the border are dropped: closing the other chains restores them where needed.
-    head = chains.pieces.values[chains.pieces.offsets[:-1]]
-    drawn = chains.seen & ~_flag(pieces.along, pieces.along, head)
+    piece = np.maximum(chains.pieces.values, ~chains.pieces.values)
+    off = np.bincount(chains.pieces.row, ~pieces.along[piece], minlength=len(chains.row)) > 0
+    drawn = chains.seen & (off | chains.whole)
     points = points_along(chains.pieces.take(drawn), samples)
     flat, whole = Ragged(border.flat(points), points.offsets), chains.whole[drawn]
     shown = region[drawn]
-    joined, closed_by = closed_along(border, flat.take(~whole), shown[~whole])
-    loops = together(flat.take(whole), joined)
-    loop_owner = np.concatenate([shown[whole], closed_by])
-    area, length = signed_areas(loops)
-    # A region thinner than the deviation of its chords may become clockwise at the border, as if it surrounded
-    # everything else. Its overlap with neighbours is equally thin, so it is kept counterclockwise to avoid a gap.
-    blur = np.where(np.arange(len(loops)) < whole.sum(), 0.0, border.blur)
-    there = (area > length * border.slack) | (area < -length * (border.slack + blur))
-    loops, loop_owner = loops.take(there), loop_owner[there]
-    around = np.bincount(loop_owner, area[there], minlength=count) < 0
+    of_ring, (of_region, narrow) = _known(left), _known(_by_region(left, owner, count))
+    unit = border.length / (2 * np.pi)
+    least = np.where(narrow, NARROW_PASSAGE * unit * np.sqrt(border.blur), 0.0)[shown[~whole]]
+    joined, closed_by = closed_along(border, flat.take(~whole), shown[~whole], least)
+    # A part at the border may become clockwise, as if its region surrounded everything else; its overlap with
+    # neighbours is equally thin, so it is left out.
+    part, length = signed_areas(joined)
+    error = length * border.blur * unit
+    kept = (part > length * border.slack) | (part < -length * border.slack - error)
+    # A ring that may run clockwise for the same reason is turned to run as it does on the sphere.
+    uncut, ring_owner = flat.take(whole), shown[whole]
+    side, reach = fans(UP, points.take(whole))
+    told = np.copysign(side, _told(side, reach, reach * border.blur, of_ring[:, chains.row[drawn][whole]]))
+    area, length = signed_areas(uncut)
+    there = np.abs(area) > length * border.slack
+    loops = together(uncut.reversed(told * area < 0).take(there), joined.take(kept))
+    loop_owner = np.concatenate([ring_owner[there], closed_by[kept]])
+
+    def total(owner: Indices, values: FloatArray) -> FloatArray:
+        return np.bincount(owner, values, minlength=count).astype(np.float64)
+
+    # With parts at the border, their order along it has told what the region surrounds, unless it is thin.
+    on_chart = total(closed_by[kept], part[kept]) + total(ring_owner[there], np.copysign(area, told)[there])
+    blurred = total(closed_by, error) + total(ring_owner, length * border.blur * unit)
+    seen, reach = total(ring_owner, told), total(ring_owner, reach)
+    on_sphere = _told(seen, reach, reach * border.blur, np.stack([of_region, narrow]))
+    on_chart = np.where((narrow > 0) & (np.abs(on_chart) < blurred), of_region, on_chart)
+    around = np.where(total(closed_by, np.ones(len(joined))) > 0, on_chart, on_sphere) < 0
     loops, loop_owner = bordered(loops, loop_owner, around, border)
-    return loops, loop_owner, np.bincount(region[chains.seen], minlength=count) > 0
+    return loops, loop_owner, np.bincount(shown, minlength=count) > 0
+
+
+def _by_region(left: FloatArray, owner: Indices, count: int) -> FloatArray:
+    """The sums over the rings of each region."""
+    return np.stack([np.bincount(owner, a, minlength=count) for a in left.T], axis=1)
+
+
+def _known(left: FloatArray) -> FloatArray:
+    """Areas of rings or regions less whole spheres, NaN if larger than a quarter of one, and which are thin: (2, n)."""
+    area, size = left.T
+    area = area - 4 * np.pi * np.rint(area / (4 * np.pi))
+    area[np.abs(area) > np.pi] = np.nan
+    sure = np.where(np.abs(area) <= CHART_ROUNDING * size, 0.0, area)
+    return np.stack([sure, np.abs(area) <= THIN_RING * size**2])
+
+
+def _told(area: FloatArray, length: FloatArray, error: FloatArray, known: FloatArray) -> FloatArray:
+    """Areas (n,), where they are in doubt and thin by what is `_known`.
+
+    What is not thin keeps its side however large the error: a lens may make a dot of nearly the whole sphere.
+    """
+    on_sphere, thin = known
+    doubt = (np.abs(area) < error) & ((np.abs(area) <= THIN_RING * length**2) | (thin > 0)) & ~np.isnan(on_sphere)
+    return np.where(doubt, on_sphere, area)
 
 
 def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) -> tuple[Ragged, Indices]:
@@ -169,30 +230,43 @@ def bordered(loops: Ragged, owner: Indices, around: BoolArray, border: Outline) 
     return together(loops, Ragged.of([border.once()] * len(regions))), np.concatenate([owner, regions])
 
 
-def surround(rings: Ragged, owner: Indices, asked: BoolArray, pieces: Pieces, samples: Ragged) -> BoolArray:
+def surround(
+    rings: Ragged,
+    owner: Indices,
+    asked: BoolArray,
+    pieces: Pieces,
+    samples: Ragged,
+    border: Outline,
+    left: FloatArray,
+) -> BoolArray:
     """Which of some regions (count,) without visible rings contain the whole visible part.
 
-    Projected from the centre of the view, the hidden part lies around the origin, mirrored, and the centre of the view
-    is at infinity: it is inside if the sum of areas is positive.
+    The areas between rings and the place opposite the centre of the view, on their left, add up to that of the region,
+    or, if it contains the centre, to that less a whole sphere.
     """
     chosen = asked[owner]
     if not chosen.any():
         return np.zeros_like(asked)
     chains = chains_of(rings.take(chosen), pieces)
-    points = points_along(chains.pieces, samples)
-    x, y, z = points.values.T
-    area, _ = signed_areas(Ragged(np.stack([x, y], axis=1) / (1 - z)[:, None], points.offsets))
-    total = np.bincount(owner[chosen][chains.row], area, minlength=len(asked))
-    return asked & (total > 0)
+    area, length = fans(-UP, points_along(chains.pieces, samples))
+    region = owner[chosen][chains.row]
+    total, reach = (np.bincount(region, of, minlength=len(asked)).astype(np.float64) for of in (area, length))
+    known = _known(_by_region(left[chosen], owner[chosen], len(asked)))
+    return asked & (_told(total, reach, reach * border.blur, known) < 0)
 
 
-def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragged, Indices]:
-    """Loops of chains (k, 2) from border to border, closed along it for each region; and the region of each loop."""
+def closed_along(
+    border: Outline, chains: Ragged, owner: Indices, least: FloatArray | float = 0.0
+) -> tuple[Ragged, Indices]:
+    """Loops of chains (k, 2) from border to border, closed along it for each region; and the region of each loop.
+
+    `least` is as in `followers`.
+    """
     if not len(chains):
         return chains, owner
     starts = border.place(chains.values[chains.offsets[:-1]])
     ends = border.place(chains.values[chains.offsets[1:] - 1])
-    follower, stop = followers(starts, ends, border.length, owner)
+    follower, stop = followers(starts, ends, border.length, owner, least)
     # Loops alternate between chains, in the first half of the rows, and walks along the border, in the second.
     loops = cycles(follower)
     rows = together(chains, border.between(ends, stop)).take((loops.values[:, None] + [0, len(chains)]).ravel())
@@ -200,7 +274,9 @@ def closed_along(border: Outline, chains: Ragged, owner: Indices) -> tuple[Ragge
     return closed, owner[loops.values[loops.offsets[:-1]]]
 
 
-def followers(starts: FloatArray, ends: FloatArray, length: float, owner: Indices) -> tuple[Indices, FloatArray]:
+def followers(
+    starts: FloatArray, ends: FloatArray, length: float, owner: Indices, least: FloatArray | float = 0.0
+) -> tuple[Indices, FloatArray]:
     """For each chain its successor in the loop, and the position at which that starts, counted onwards from its end.
 
     Parameters
@@ -211,6 +287,8 @@ def followers(starts: FloatArray, ends: FloatArray, length: float, owner: Indice
         Length of the border.
     owner : (n,) array
         The region of each chain, which has as many starts as ends.
+    least : (n,) array or float
+        Distance between neighbouring positions of a region below which their order does not tell its depth.
     """
     # Depth: +1 after an end, −1 after a start; at equal positions the end comes first, so that chains that only touch
     # the border close there. The sums restart at 0 for each region.
@@ -218,7 +296,10 @@ def followers(starts: FloatArray, ends: FloatArray, length: float, owner: Indice
     order = np.lexsort((kind, place, region))
     depth = np.cumsum(1 - 2 * kind[order])
     first = np.flatnonzero(np.append(True, np.diff(region[order]) > 0))
-    deep = np.maximum(0, -np.minimum.reduceat(depth, first))
+    ahead = np.diff(place[order], append=0.0)
+    ahead[np.append(first[1:], len(order)) - 1] = np.inf
+    lasting = ahead >= np.tile(np.broadcast_to(least, owner.shape), 2)[order]
+    deep = -np.minimum.reduceat(np.where(lasting, depth, 0), first)
     # The i-th end of a region to its (i + deep)-th start, which may be one or more turns around the border.
     by_end, by_start = np.lexsort((ends, owner)), np.lexsort((starts, owner))
     base, size = first // 2, np.diff(np.append(first, 2 * len(owner))) // 2

@@ -6,6 +6,7 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel._extras import of_extra
+from stereodel.constants import TOUCHING
 from stereodel.curves.clip import signed_areas, with_first_again
 from stereodel.curves.ragged import Ragged, cycles
 
@@ -15,7 +16,8 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
 
     Loops without holes that are star-shaped about their centre, such as cells, become triangle fans, all at once; the
     others are triangulated by ear clipping. Ear clipping needs a shell with its holes: a hole belongs to the smallest
-    shell of its region that contains its first point.
+    shell of its region that contains it. They may touch, even along sides, where rounding decides what lies inside: the
+    corner or middle of a side that is farthest from the shell does not touch it.
     """
     with of_extra("draw"):
         from mapbox_earcut import triangulate_float64
@@ -25,12 +27,11 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
     held: dict[int, list[int]] = {}
     low, high = (f.reduceat(loops.values, loops.offsets[:-1]) for f in (np.minimum, np.maximum))
     for hole in np.flatnonzero(area < 0):
-        point = loops.values[loops.offsets[hole]]
-        near = shells[
-            (owner[shells] == owner[hole]) & (low[shells] <= point).all(axis=1) & (point <= high[shells]).all(axis=1)
-        ]
+        ring = loops.values[loops.offsets[hole] : loops.offsets[hole + 1]]
+        meets = (low[shells] < high[hole]).all(axis=1) & (low[hole] < high[shells]).all(axis=1)
+        near = shells[(owner[shells] == owner[hole]) & meets & (area[shells] > -area[hole])]
         for shell in near[np.argsort(area[near])]:
-            if _holds(loops.values[loops.offsets[shell] : loops.offsets[shell + 1]], point):
+            if _holds(loops.values[loops.offsets[shell] : loops.offsets[shell + 1]], ring):
                 held.setdefault(int(shell), []).append(int(hole))
                 break
     fanned, fans, row = _fans(loops)
@@ -83,8 +84,27 @@ def _fans(loops: Ragged) -> tuple[BoolArray, FloatArray, Indices]:
     return ahead & (turn < 3 * np.pi), fans, row
 
 
-def _holds(loop: FloatArray, point: FloatArray) -> bool:
+def _holds(loop: FloatArray, ring: FloatArray) -> bool:
+    """Whether a loop contains a ring that does not cross it."""
+    point = _off(loop, ring)
     (x0, y0), (x1, y1) = loop[:-1].T, loop[1:].T
     side = (x1 - x0) * (point[1] - y0) - (point[0] - x0) * (y1 - y0)
     up, down = (y0 <= point[1]) & (y1 > point[1]) & (side > 0), (y0 > point[1]) & (y1 <= point[1]) & (side < 0)
     return bool(np.count_nonzero(up) != np.count_nonzero(down))
+
+
+def _off(loop: FloatArray, ring: FloatArray) -> FloatArray:
+    """A corner or middle of a side of a ring that is off a loop: the first one farther than most, or the farthest."""
+    middles = (ring[1:] + ring[:-1]) / 2
+    clear = TOUCHING * np.ptp(ring, axis=0).max()
+    best, far = ring[0], -1.0
+    a, way = loop[:-1], np.diff(loop, axis=0)
+    square = np.maximum(np.sum(way**2, axis=1), np.finfo(np.float64).tiny)
+    for point in np.concatenate([ring[:-1], middles]):
+        share = np.clip(np.sum((point - a) * way, axis=1) / square, 0.0, 1.0)
+        away = float(np.hypot(*(point - a - share[:, None] * way).T).min())
+        if away > far:
+            best, far = point, away
+        if far > clear:
+            break
+    return best

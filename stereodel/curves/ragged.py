@@ -74,6 +74,11 @@ class Ragged:
             np.insert(self.values, places, values, axis=0), self.offsets + np.searchsorted(places, self.offsets)
         )
 
+    def reversed(self, chosen: BoolArray) -> Ragged:
+        """The rows, some of them backwards."""
+        start = np.where(chosen, self.offsets[1:] - 1, self.offsets[:-1])
+        return Ragged(self.values[spans(start, self.sizes, np.where(chosen, -1, 1))], self.offsets)
+
     def rotated(self, first: Indices) -> Ragged:
         """Each row rotated to start at one of its values, as for closed rings; `first` (m,) are positions in rows."""
         sizes = self.sizes

@@ -31,10 +31,7 @@ def left_inside(rings: Ragged, outer: BoolArray) -> Ragged:
     # The area to the left of a ring around the Earth is 2π − ∫ sin φ dλ, whatever its direction.
     sine = np.sin(np.radians(points[:, 1]))
     height = np.bincount(rings.row, (sine + sine[after]) / 2 * step[:, 0], minlength=len(rings))
-    backwards = np.where(turns != 0, height < 0, area < 0) == outer
-    place = np.arange(len(points))
-    mirrored = (rings.offsets[:-1] + rings.offsets[1:] - 1)[rings.row] - place
-    return Ragged(points[np.where(backwards[rings.row], mirrored, place)], rings.offsets)
+    return rings.reversed(np.where(turns != 0, height < 0, area < 0) == outer)
 
 
 def stitched(rings: Ragged, owner: Indices, seam: float = 180.0) -> tuple[FloatArray, FloatArray, Ragged, Indices]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -22,6 +23,9 @@ from stereodel.curves.ragged import Ragged, offsets_of, spans
 from stereodel.sphere import SphereArc, lonlat_to_xyz
 from stereodel.sphere.latitudes import Latitude
 from stereodel.sphere.vectors import crossed, turned
+
+APEX = np.array([0.36, 0.48, 0.8])
+"""A unit vector, no vertex of anything."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,15 +106,16 @@ class Arcs:
         u, w = start - center, end - center
         return Arcs(start, end, axis, offset, u, np.zeros(len(u)), _swept(axis, u, w), arcs.edge)
 
-    def sampled(self, tolerance: float) -> Ragged:
-        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`.
+    def sampled(self, tolerance: float, seen: BoolArray | bool = True) -> Ragged:
+        """Points of each arc, both ends included, whose chords deviate from it by at most `tolerance`, if it is seen.
 
         A chord of angle a deviates from a circle of radius r by r(1 − cos(a/2)). No chord sweeps more than a quarter
         turn, so that a circle smaller than the tolerance still has an area, which determines the side of its region.
         """
         radius = np.sqrt(np.sum(self.u**2, axis=1))
         step = 2 * np.arccos(np.clip(1 - tolerance / np.maximum(radius, tolerance), np.sqrt(0.5), 1.0))
-        return self.spread(np.maximum(1, np.ceil((self.stop - self.begin) / step)).astype(np.intp))
+        steps = np.where(seen, np.ceil((self.stop - self.begin) / step), 1)
+        return self.spread(np.maximum(1, steps).astype(np.intp))
 
     def spread(self, pieces: Indices) -> Ragged:
         """Points at equal steps, with a number of steps for each arc."""
@@ -122,6 +127,23 @@ class Arcs:
         t = self.begin[arc] + (self.stop - self.begin)[arc] * number / pieces[arc]
         points[offsets[arc] + number] = self.points(arc, t)
         return Ragged(points, offsets)
+
+
+def fans(apex: FloatArray, rows: Ragged) -> tuple[FloatArray, FloatArray]:
+    """Areas (m,) of triangles between an apex, (3,) or (m, 3), and the steps of rows of points, and sums of the steps.
+
+    Areas on the left of the steps are positive. The place opposite to the apex counts as outside.
+    """
+    first, sides = sides_of(rows)
+    a, b = rows.values[first, :3], rows.values[first + 1, :3]
+    apex = np.broadcast_to(apex, (len(rows), 3))[sides.row]
+    # tan(area/2) = n·(a × b)/(1 + n·a + n·b + a·b), whose terms cancel where a and b are opposite to n.
+    far = np.sum((a + apex) ** 2, axis=1) * np.sum((b + apex) ** 2, axis=1) / 4
+    height = far + np.sum(crossed(apex, a) * crossed(apex, b), axis=1)
+    area = 2 * np.arctan2(np.sum(apex * crossed(a, b - a), axis=1), height)
+    step = np.sqrt(np.sum((b - a) ** 2, axis=1))
+    total, length = (np.bincount(sides.row, of, minlength=len(rows)).astype(np.float64) for of in (area, step))
+    return total, length
 
 
 def great_axes(start: FloatArray, end: FloatArray) -> FloatArray:
@@ -217,6 +239,35 @@ class Edges:
 
     def __len__(self) -> int:
         return len(self.arcs)
+
+    @cached_property
+    def _swept(self) -> FloatArray:
+        """Areas (n,) between the edges and a point of the sphere, on its left if positive, modulo a whole sphere.
+
+        The point is the north pole for edges straight in degrees, ∫ (1 − sin φ) dλ, and `APEX` for arcs: triangles of
+        quarters of each, and its segments, the sector θ(1 − offset) about its centre less the triangles there.
+        """
+        if self.lonlat.any():
+            lat, (turn, rise) = np.radians(self.lonlat[:, 0, 1]), np.radians(np.diff(self.lonlat, axis=1)[:, 0].T)
+            return turn * (1 - np.sin(lat + rise / 2) * np.sinc(rise / (2 * np.pi)))
+        arcs = self.arcs
+        quarters = arcs.spread(np.full(len(arcs), 4))
+        inner = (arcs.stop - arcs.begin) * (1 - arcs.offset) - fans(arcs.axis, quarters)[0]
+        return fans(APEX, quarters)[0] + np.where(arcs.offset == 0, 0.0, inner)
+
+    def left(self, rings: Ragged) -> FloatArray:
+        """Areas on the left of rings of edges, modulo a whole sphere, 4π, and sizes by which to judge them, (r, 2).
+
+        The sizes are at least the lengths of the rings, and the areas are off by `CHART_ROUNDING` of them.
+        """
+        edge, back = np.maximum(rings.values, ~rings.values), rings.values < 0
+        area = np.where(back, -1.0, 1.0) * self._swept[edge]
+        size = self.length[edge] + np.abs(area)
+        # At the south pole, where meridians end, the next edge may begin on another one.
+        start, end = (np.where(back[:, None], self.lonlat[edge, 1 - k], self.lonlat[edge, k]) for k in (0, 1))
+        jump = start[rings.following, 0] - end[:, 0]
+        area += np.where(end[:, 1] == -90.0, 2 * np.radians(jump), 0.0)
+        return np.stack([np.bincount(rings.row, part, minlength=len(rings)) for part in (area, size)], axis=1)
 
     def take(self, chosen: Indices | BoolArray) -> Edges:
         """Some of the edges, renumbered."""

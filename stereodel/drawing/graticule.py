@@ -343,14 +343,14 @@ class _Window:
 
     @cached_property
     def _seen(self) -> _Box:
-        cap = self.lens.inverse().image_of(SphereCircle(self.view.matrix[2], self.view.edge))
+        cap = _visible(self.lens, self.view)
         return _box_around(cap.normal, float(np.radians(cap.angular_radius)))
 
     @property
     def _widest(self) -> float:
         """The largest scale of the view, reached at its edge."""
-        edge = self.view.edge
-        return float(self.view.breadth(np.array([np.sqrt(1 - edge**2), 0.0, edge]), np.array([0.0, 1.0, 0.0])))
+        edge = np.array([np.sin(np.radians(self.view.angular_radius)), 0.0, self.view.edge])
+        return float(self.view.breadth(edge, np.array([0.0, 1.0, 0.0])))
 
     @property
     def _peak(self) -> FloatArray:
@@ -388,6 +388,11 @@ def _box_around(center: FloatArray, radius: float) -> _Box:
     return (south, north, lon - side, lon + side)
 
 
+def _visible(lens: MoebiusMap, view: MapView) -> SphereCircle:
+    """The circle before the lens whose interior a view shows."""
+    return lens.inverse().image_of(SphereCircle.around(view.matrix[2], view.angular_radius))
+
+
 def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
     """The spacing of `SPACINGS`, in degrees, that gives about `LINES_ACROSS` lines across a picture.
 
@@ -398,8 +403,7 @@ def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
     >>> [usual_spacing(fisheye((2, 48), magnification=size), View(2, 48)) for size in (1, 20, 1e6)]
     [15.0, 1.0, 2e-05]
     """
-    cap = lens.inverse().image_of(SphereCircle(view.matrix[2], view.edge))
-    across = max(2 * cap.angular_radius, SPACINGS[-1])
+    across = max(2 * _visible(lens, view).angular_radius, SPACINGS[-1])
     return min(SPACINGS, key=lambda spacing: abs(np.log(across / LINES_ACROSS / spacing)))
 
 

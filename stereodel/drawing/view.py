@@ -58,6 +58,11 @@ class View(_Above):
     """
 
     @property
+    def angular_radius(self) -> float:
+        """Angular radius of the visible cap in degrees: 90."""
+        return 90.0
+
+    @property
     def edge(self) -> float:
         """Cosine of the angular radius of the visible cap: 0."""
         return 0.0

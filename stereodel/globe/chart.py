@@ -55,13 +55,6 @@ class Chart:
         return (page_path([limb(1.0)], self.at, self.scale),)
 
     @property
-    def rim(self) -> FloatArray:
-        """Points of the edge (n, 2), counterclockwise, whose chords deviate from it by at most half the tolerance."""
-        steps = int(np.ceil(np.pi / np.arccos(1 - min(0.5, self.tolerance / (2 * self.scale)))))
-        angle = np.arange(steps) * (2 * np.pi / steps)
-        return np.array(self.at) + self.scale * np.stack([np.cos(angle), np.sin(angle)], axis=1)
-
-    @property
     def ball(self) -> Ball | None:
         """The shading of the disc, if it is a ball."""
         return Ball(self.at, self.scale) if self.view.round else None
@@ -69,8 +62,7 @@ class Chart:
     @cached_property
     def source(self) -> SphereCircle:
         """The circle before the lens whose interior is visible."""
-        cap = SphereCircle(self.view.matrix[2], self.view.edge)
-        return self.lens.inverse().image_of(cap)
+        return self.lens.inverse().image_of(SphereCircle.around(self.view.matrix[2], self.view.angular_radius))
 
     def lines(self, lines: SphereLines) -> Ragged:
         """The visible parts of lines, on the page."""
@@ -85,16 +77,18 @@ class Chart:
         near = edges.within(self.source.center, self._reach)
         pieces = self._border.cut(self._images(edges.take(near)))
         rows, samples = clip.among(rings, near), self._samples(pieces)
-        loops, region, shown = clip.in_sight(rows, owner, regions.count, pieces, samples, self._border)
+        loops, region, shown = clip.in_sight(rows, owner, regions.count, pieces, samples, self._border, regions.left)
         # No ring of the others is visible: where they may contain the view, all their rings are traced to find out.
         around = regions.everywhere.copy()
         asked = ~shown & regions.may_hold(self.source.center)
         if asked.any():
-            rings, owner = rings.take(asked[owner]), owner[asked[owner]]
+            some = asked[owner]
+            rings, owner, left = rings.take(some), owner[some], regions.left[some]
             used = np.zeros(len(edges), dtype=bool)
             used[np.where(rings.values < 0, ~rings.values, rings.values)] = True
             hidden = Pieces.uncut(self._images(edges.take(used)), seen=False)
-            around |= clip.surround(clip.among(rings, used), owner, asked, hidden, self._samples(hidden))
+            rows, samples = clip.among(rings, used), hidden.arcs.sampled(self.slack / 2)
+            around |= clip.surround(rows, owner, asked, hidden, samples, self._border, left)
         loops, region = clip.bordered(loops, region, around, self._border)
         return self._placed(loops), region
 
@@ -122,7 +116,7 @@ class Chart:
         return edges.arcs_under(self.lens, self.slack / 2).through(self.lens).turned(self.view.matrix)
 
     def _samples(self, pieces: Pieces) -> Ragged:
-        return pieces.arcs.sampled(self.slack / 2)
+        return pieces.arcs.sampled(self.slack / 2, pieces.seen)
 
     def _placed(self, found: Ragged) -> Ragged:
         return Ragged(self.scale * found.values + np.array(self.at), found.offsets)

@@ -46,6 +46,12 @@ def land(resolution: str, latitude: Latitude) -> SphereRegions:
     return SphereRegions.of_lonlat(data.land(resolution=resolution).polygons(), latitude=latitude)
 
 
+@cache
+def sea(resolution: str, latitude: Latitude) -> SphereRegions:
+    """The rest of the Earth."""
+    return land(resolution, latitude).complement
+
+
 def edges(triangulation: SphericalDelaunay) -> SphereLines:
     """The edges of a triangulation."""
     points = units(triangulation.points)

@@ -48,7 +48,7 @@ from stereodel.drawing.title import with_title
 from stereodel.drawing.view import MapView
 from stereodel.globe import features
 from stereodel.globe.chart import Chart
-from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Outside, Points, Rim
+from stereodel.globe.layers import Areas, GridLines, Ground, Image, Lines, MapLayer, Names, Points, Rim
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.pages import Panel, default_view, panels
 from stereodel.globe.raster import Raster
@@ -177,7 +177,7 @@ class Globe:
 
     def add_ocean(self, *, color: ColorLike = MAP_FILLS["ocean"], resolution: str = "50m") -> None:
         """Fill everything but the land of the Earth (Natural Earth); layers below then show on land only."""
-        self.add(Outside(features.land(resolution, self.latitude), as_color(color), "ocean"))
+        self.add(Areas(features.sea(resolution, self.latitude), np.array([as_color(color)]), "ocean"))
 
     def add_lakes(
         self, *, color: ColorLike = MAP_FILLS["ocean"], outline: LineStyle | None = None, resolution: str = "50m"

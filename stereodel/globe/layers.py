@@ -117,25 +117,6 @@ class Areas:
 
 
 @dataclass(frozen=True, eq=False)
-class Outside:
-    """The complement of some regions, in one colour, such as the sea around the land."""
-
-    regions: SphereRegions
-    color: Color
-    name: str
-
-    def lay(self, chart: Chart) -> Iterator[Item]:
-        """The disc with the regions as holes."""
-        holes, _ = chart.regions(self.regions)
-        disc = np.concatenate([chart.rim, chart.rim[:1]])
-        # Backwards, regions are holes of the disc.
-        points = np.concatenate([disc, holes.values[::-1]])
-        offsets = np.concatenate([[0], len(disc) + np.cumsum([0, *holes.sizes[::-1]])])
-        owner = np.zeros(len(offsets) - 1, dtype=np.intp)
-        yield Polygons(points, offsets, owner, np.array([self.color]), chart.ball, self.name)
-
-
-@dataclass(frozen=True, eq=False)
 class Image:
     """A raster, whose own opacity is multiplied by `opacity`."""
 

@@ -234,8 +234,7 @@ class Raster:
             Whether opacity on the limb includes the fraction of the pixel covered by the disc. Otherwise it is that of
             the raster, for an image that is then clipped to the disc.
         """
-        # tan(α/2) from the cosine of the angular radius α of a flat view.
-        reach = 0.0 if view.round else float(np.sqrt((1 - view.edge) / (1 + view.edge)))
+        reach = 0.0 if view.round else float(np.tan(np.radians(view.angular_radius) / 2))
         projection = "orthographic" if view.round else "stereographic"
         return self._warped(lens, view.matrix, projection, reach, place, pixels, covered=covered, workers=workers)
 

@@ -125,6 +125,18 @@ class SphereRegions:
         return len(self.everywhere)
 
     @property
+    def complement(self) -> SphereRegions:
+        """What none of the regions contains, as one region, if they do not overlap."""
+        rings = Ragged(~self.rings.values[::-1], self.rings.offsets[-1] - self.rings.offsets[::-1])
+        everywhere = np.array([not len(rings) and not self.everywhere.any()])
+        return SphereRegions(self.edges, rings, np.zeros_like(self.owner), everywhere)
+
+    @cached_property
+    def left(self) -> FloatArray:
+        """What `Edges.left` says of the rings."""
+        return self.edges.left(self.rings)
+
+    @property
     def outlines(self) -> SphereLines:
         """The rings as lines, without the seams of map files."""
         return SphereLines(self.edges, self.rings)
@@ -148,14 +160,9 @@ class SphereRegions:
         away = 2 * np.arcsin(np.minimum(np.sqrt(np.sum((start - center[region]) ** 2, axis=1)) / 2, 1.0))
         reach = np.zeros(self.count)
         np.maximum.at(reach, region, away + self.edges.length[edge])
-        # Seen from the centre of the cap, the interior is on the left of the rings: the sum of their areas is positive.
-        axis = center[region]
-        far = axis + start
-        height = 1 + np.sum(axis * start, axis=1)
-        flat = np.divide(far, height[:, None], out=np.zeros_like(far), where=height[:, None] > 0)
-        following = flat[self.rings.following]
-        area = np.bincount(region, np.sum(np.cross(flat, following) * axis, axis=1), minlength=self.count)
-        reach[(reach >= np.pi / 2) | (area <= 0)] = np.pi
+        # A region with its border in less than a hemisphere is within it, too, or else more than half of the sphere.
+        area = np.mod(np.bincount(self.owner, self.left[:, 0], minlength=self.count), 4 * np.pi)
+        reach[(reach >= np.pi / 2) | (area >= 2 * np.pi)] = np.pi
         return center, reach
 
 
@@ -185,9 +192,4 @@ def _oriented(rings: Ragged, hole: BoolArray) -> tuple[Ragged, FloatArray]:
     north = np.bincount(rings.row[begin], step * (sine[begin] + sine[begin + 1]), minlength=len(rings)) * way > 0
     # North of an eastward ring is on its left.
     left = np.where(np.abs(way) > 180, north == (way > 0), area > 0)
-    backward = left == hole
-    order = np.arange(len(rings.values))
-    row = rings.row
-    mirrored = first[row] + last[row] - order
-    turned = rings.values[np.where(backward[row], mirrored, order)]
-    return Ragged(turned, rings.offsets), np.where(hole, -1.0, 1.0) * np.abs(area)
+    return rings.reversed(left == hole), np.where(hole, -1.0, 1.0) * np.abs(area)

@@ -9,12 +9,12 @@ import numpy as np
 
 from stereodel._arrays import Geometries, Indices, as_lonlat
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import FINER_WARPS
+from stereodel.constants import FINER_WARPS, MOST_WARPED
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.seams import left_inside, stitched
-from stereodel.curves.trace import sides_of, straight, unwrapped
+from stereodel.curves.trace import Edges, sides_of, straight, unwrapped
 from stereodel.io.on_map import close_in_longitude, lines_on_map, polygons_on_map, repaired, shapely
 from stereodel.io.shapes import COLLECTION, LINE, MULTILINE, MULTIPOINT, MULTIPOLYGON, POINT, POLYGON, RING
 from stereodel.sphere import lonlat_to_xyz, xyz_to_lonlat
@@ -66,22 +66,23 @@ def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometr
     outer = np.append(True, polygon[1:] != polygon[:-1])
     outlines, owner = left_inside(Ragged.grouped(lonlat, ring, len(rings)), outer), geometry[polygon]
     images = _filled(outlines, owner, len(geometries), lens, slack)
-    wrong = ~shapely.is_valid(images)
+    wrong = ~shapely.is_valid(images) | shapely.is_empty(images)
     for finer in FINER_WARPS:
-        if not wrong.any():
+        some = np.flatnonzero(wrong & (shapely.get_num_coordinates(images) <= MOST_WARPED))
+        if not len(some):
             break
-        some = np.flatnonzero(wrong)
         chosen = np.isin(owner, some)
         number = np.searchsorted(some, owner[chosen])
         images[some] = _filled(outlines.take(chosen), number, len(some), lens, slack * finer)
-        wrong[some] = ~shapely.is_valid(images[some])
-    return repaired(images, wrong)
+        wrong[some] = ~shapely.is_valid(images[some]) | shapely.is_empty(images[some])
+    return repaired(images, wrong & ~shapely.is_empty(images))
 
 
 def _filled(outlines: Ragged, owner: Indices, count: int, lens: MoebiusMap, slack: float) -> Geometries:
     start, end, rings, owner = stitched(outlines, owner)
-    pieces = BORDER.cut(straight(start, end, lens, slack / 4).through(lens))
-    loops, region = clip.regions(rings, owner, count, pieces, _sampled(pieces, slack), BORDER)
+    edges, border = Edges.straight(start, end), Antimeridian(blur=slack)
+    pieces = border.cut(edges.arcs_under(lens, slack / 4).through(lens))
+    loops, region = clip.regions(rings, owner, count, pieces, _sampled(pieces, slack), border, left=edges.left(rings))
     images, _ = polygons_on_map(loops, region, count)
     # A polygon without a border on the sphere covers all of it.
     images[np.setdiff1d(np.arange(count), owner)] = shapely.box(-180.0, -90.0, 180.0, 90.0)

@@ -64,14 +64,11 @@ def on_the_left(
     over = np.rint(total(np.where(edges.lat > 0, edges.border, 0.0)) / 360.0).astype(np.intp)
     over += around & ((total(edges.turn) > 0) == left)
     hole = _is_hole(edges, rings, owner, count, left, over)
-    backwards = left == hole
-    sizes = rings.sizes
-    order = spans(np.where(backwards, rings.offsets[1:] - 1, rings.offsets[:-1]), sizes, np.where(backwards, -1, 1))
     edge, _, ahead = edges.passing(spot[:1])
     # For the pole itself, test a place next to it, below the border of the map.
     lat = min(spot[1], 90.0 - DEGREE_ROUNDING)
     above = np.bincount(owner[edges.ring[edge]], edges.height(edge, ahead) > lat, minlength=count)
-    return Ragged(rings.values[order], rings.offsets), (above + np.bincount(owner, over, minlength=count)) % 2 == 1
+    return rings.reversed(left == hole), (above + np.bincount(owner, over, minlength=count)) % 2 == 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -53,7 +53,7 @@ class LonLatToPage(Transform):
         toward = self.matrix[2]
         self._middle = xyz_to_lonlat(self.back(toward))
         # The preimage of the visible cap under the lens is also a cap; slightly enlarged.
-        self._shown = self.back.image_of(SphereCircle(toward, view.edge - ON_BALL))
+        self._shown = self.back.image_of(SphereCircle.around(toward, view.angular_radius + np.degrees(ON_BALL)))
         self._reach = float(np.arctan2(self._shown.radius, self._shown.offset)) + STORED_ERROR
 
     @property
@@ -126,7 +126,8 @@ class LonLatToPage(Transform):
         if not near.any():
             return clip.bordered(Ragged.of([], rings.values), owner[:0], middle, self._border)
         pieces, samples = self._traced(edges.take(near))
-        return clip.regions(clip.among(sides, near), owner, count, pieces, samples, self._border, middle)
+        rows, left = clip.among(sides, near), edges.left(sides)
+        return clip.regions(rows, owner, count, pieces, samples, self._border, middle, left)
 
     @property
     def _border(self) -> Cap:
@@ -155,7 +156,7 @@ class LonLatToPage(Transform):
         # Tolerance for chords in space; if arcs are approximate too, half is for arcs and half for chords.
         slack = self.tolerance / self.view.stretch / (2 if self.edges == "straight" else 1)
         pieces = self._border.cut(edges.arcs_under(self.lens, slack).through(self.lens).turned(self.matrix))
-        return pieces, pieces.arcs.sampled(slack)
+        return pieces, pieces.arcs.sampled(slack, pieces.seen)
 
     def inverted(self) -> Transform:
         """From the page to longitude and latitude."""

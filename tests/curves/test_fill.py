@@ -42,6 +42,18 @@ def test_holes_belong_to_the_smallest_shell_of_their_region():
     assert not in_gap.any()
 
 
+@pytest.mark.parametrize("turn", range(4))
+def test_holes_may_touch_their_shell(turn):
+    """Whatever corner comes first, and on whichever side of the shell's border rounding has put it."""
+    corner = np.array([(10.0, 5.0), (6, 7), (5, 5), (6, 3)])[::-1]
+    hole = np.roll(corner, turn, axis=0)
+    loops = Ragged.of([square(0, 0, 10), np.concatenate([hole, hole[:1]]), square(10.1, 2, 5.9)])
+    corners, _ = triangles(loops, np.zeros(3, dtype=np.intp))
+    assert areas(corners).sum() == pytest.approx(100 - 10 + 5.9**2)
+    middle = corners.mean(axis=1)
+    assert not ((middle > [5.5, 4.5]) & (middle < [6.5, 5.5])).all(axis=1).any()
+
+
 def test_nothing_has_no_triangles():
     corners, owners = triangles(Ragged(np.zeros((0, 2)), np.zeros(1, dtype=np.intp)), np.zeros(0, dtype=np.intp))
     assert corners.shape == (0, 3, 2)

@@ -159,3 +159,16 @@ def spacing(end, lens, view, step, *, meridian):
     east, north = (page[1] - page[2]) / 2, (page[3] - page[4]) / 2
     area = abs(east[0] * north[1] - east[1] * north[0])
     return step / small * area / np.hypot(*(north if meridian else east))
+
+
+@pytest.mark.parametrize("radius", [1e-6, 1e-4])
+def test_a_tiny_view_under_a_lens_asks_for_little(radius):
+    """The cap is known by its angle: its cosine is 1, or 15 % off. Hidden parts of lines have no points between."""
+    lens, view = fisheye((10.0, 40.0), magnification=1e3), StereographicView(10, 40, angular_radius=radius)
+    assert Chart(lens, view).source.angular_radius == pytest.approx(radius / 1e3, rel=1e-9)
+    spacing = usual_spacing(lens, view)
+    assert radius / 1e3 / 10 < spacing < radius / 1e3 / 4
+    grid = Graticule.shown(spacing, lens, view, 0.003)
+    assert len(grid.arcs) < 200
+    lines = Chart(lens, view).lines(SphereLines.alone(grid.thinned(lens, view, 0.003)))
+    assert 0 < len(lines.values) < 1e5

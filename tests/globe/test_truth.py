@@ -1,0 +1,223 @@
+"""Pictures say what is so: renderers agree by layer and view, places of the disc lie in what is drawn there, slivers.
+
+The oracle is `tests/globe/truth.py`. There is no program for PDF among the tools of the tests: librsvg shows the SVG,
+whose paths `tests/images/test_vector_files.py` compares with those of the PDF.
+"""
+
+import subprocess
+from dataclasses import replace
+from io import BytesIO
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from stereodel import MoebiusMap, data, fisheye
+from stereodel.curves.clip import signed_areas
+from stereodel.curves.fill import triangles
+from stereodel.curves.ragged import Ragged
+from stereodel.drawing import LineStyle, StereographicView, View
+from stereodel.drawing.page import Polygons
+from stereodel.globe import Globe
+from stereodel.globe.chart import Chart
+from stereodel.globe.regions import SphereRegions
+from stereodel.mpl.transforms import LonLatToPage
+from tests.globe import truth
+
+SIZE, BLOCK = 320, 64
+BOXES = [[[(w, s), (e, s), (e, n), (w, n)]] for w, s, e, n in ((0, 0, 90, 50), (90, -40, 180, 0), (-90, -60, -60, 60))]
+LAYERS = {
+    "land": lambda globe, size: globe.add_land(resolution=size, color="black"),
+    "ocean": lambda globe, size: globe.add_ocean(resolution=size, color="black"),
+    "coastlines": lambda globe, size: globe.add_coastlines(resolution=size, style=LineStyle("black", 1.0)),
+    "borders": lambda globe, size: globe.add_borders(resolution=size, style=LineStyle("black", 1.0)),
+    "rivers": lambda globe, size: globe.add_rivers(resolution=size, style=LineStyle("black", 1.0)),
+    "lakes": lambda globe, size: globe.add_lakes(resolution=size, color="black"),
+    "graticule": lambda globe, _: globe.add_graticule(15, style=LineStyle("black", 1.0)),
+    "polygons": lambda globe, _: globe.add_polygons(BOXES, color="black", outline=None),
+}
+VIEWS = [
+    View(90, 0),
+    View(-90, 0),
+    View(0, 90),
+    View(0, 0),
+    View(0, -90),
+    View(180, 0),
+    View(135, -25),
+    StereographicView(90, 0, angular_radius=90),
+    StereographicView(-60, 30, angular_radius=150),
+]
+
+
+def globe_of(layer, resolution="110m"):
+    globe = Globe(ocean="white", limb=LineStyle("white", 0.1))
+    LAYERS[layer](globe, resolution)
+    return globe
+
+
+def blocks(picture):
+    rows, columns = (side // BLOCK for side in picture.shape[:2])
+    cut = picture[: rows * BLOCK, : columns * BLOCK].reshape(rows, BLOCK, columns, BLOCK, 3)
+    return cut.mean(axis=(1, 3))
+
+
+def shown(page, folder):
+    """What librsvg makes of the SVG of a page."""
+    path = page.save(folder / "page.svg", text=False)
+    command = ["rsvg-convert", "--width", str(SIZE), "--background-color", "white", str(path)]
+    picture = subprocess.run(command, capture_output=True, check=True, timeout=60).stdout
+    return np.asarray(Image.open(BytesIO(picture)).convert("RGB"))[:SIZE]
+
+
+def assert_all_show_the_same(layer, view, resolution, folder):
+    page = globe_of(layer, resolution).page(None, view, width=200)
+    # Agg does not shade balls.
+    page = replace(page, items=tuple(replace(i, ball=None) if getattr(i, "ball", None) else i for i in page.items))
+    ours, agg = (page.pixels(size=SIZE, renderer=name, text=False).astype(float) for name in ("gl", "agg"))
+    for other in (agg, shown(page, folder).astype(float)):
+        off = np.abs(blocks(ours) - blocks(other)).max()
+        assert off < 6, (layer, view, resolution, off)
+
+
+@pytest.mark.parametrize(
+    ("layer", "view", "resolution"),
+    [("ocean", View(0, 0), "110m"), ("land", View(90, 0), "50m"), ("polygons", View(180, 0), "110m")],
+)
+def test_renderers_show_the_same(tmp_path, layer, view, resolution):
+    """With holes of the first corner's shell, Africa was sea in OpenGL; by chords, the Indian Ocean was land."""
+    assert_all_show_the_same(layer, view, resolution, tmp_path)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("layer", LAYERS)
+def test_renderers_show_the_same_in_all_views(tmp_path, layer):
+    for view in VIEWS:
+        assert_all_show_the_same(layer, view, "50m" if layer in ("land", "ocean") else "110m", tmp_path)
+
+
+def covered(page, xy):
+    """Which places of a disc the polygons of a page cover, by their triangles as OpenGL draws them."""
+    found = np.zeros(len(xy), dtype=bool)
+    middle = np.array(page.extent[1::2]) / 2
+    for item in page.items:
+        if isinstance(item, Polygons):
+            (a, b, c) = triangles(item.loops, item.owner)[0].swapaxes(0, 1)
+            for k, p in enumerate(xy + middle):
+                u, v, w = (
+                    (q - o)[:, 0] * (p - o)[:, 1] - (q - o)[:, 1] * (p - o)[:, 0] for o, q in ((a, b), (b, c), (c, a))
+                )
+                found[k] |= bool(((u >= 0) & (v >= 0) & (w >= 0) | (u <= 0) & (v <= 0) & (w <= 0)).any())
+    return found
+
+
+def assert_places_are_true(rng, layer, sources):
+    """Places whose surroundings, a pixel of a picture a thousand across, lie on one side of the source's borders."""
+    focus, size = (float(rng.uniform(-180, 180)), float(rng.uniform(-85, 85))), float(10 ** rng.uniform(-0.5, 1.5))
+    place = float(rng.uniform(-180, 180)), float(rng.uniform(-85, 85))
+    if rng.random() < 0.3:
+        place = float(rng.choice([-90, 0, 90, 180])), float(rng.choice([-90, 0, 90]))
+        size = 1.0
+    view = View(*place) if rng.random() < 0.5 else StereographicView(*place, angular_radius=float(rng.uniform(20, 150)))
+    assert_true_at(rng, layer, sources, focus, size, view)
+
+
+def assert_true_at(rng, layer, sources, focus, size, view, resolution="110m"):
+    page = globe_of(layer, resolution).page(fisheye(focus, magnification=size), view)
+    angle, far = rng.uniform(0, 2 * np.pi, 40), 0.995 * np.sqrt(rng.uniform(0, 1, 40))
+    xy = np.stack([far * np.cos(angle), far * np.sin(angle)], axis=1)
+    near = [xy + 2e-3 * np.array(step) for step in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (-1, -1))]
+    answers = [truth.inside(sources, truth.degrees(truth.before(focus, size, truth.raised(view, p)))) for p in near]
+    clear = np.all(answers, axis=0) | ~np.any(answers, axis=0)
+    wanted = answers[0] != (layer == "ocean")
+    wrong = clear & (covered(page, xy) != wanted)
+    assert not wrong.any(), (layer, focus, size, view, xy[wrong])
+
+
+SOURCES = {"land": lambda: data.land("110m").polygons(), "polygons": lambda: BOXES}
+SOURCES["ocean"] = SOURCES["land"]
+
+
+@pytest.mark.parametrize("layer", SOURCES)
+def test_places_lie_in_what_is_drawn(layer):
+    for seed in range(3):
+        assert_places_are_true(np.random.default_rng(seed), layer, SOURCES[layer]())
+
+
+@pytest.mark.parametrize("lon", [90, 90 + 1e-9])
+def test_the_limb_may_be_the_meridian_of_the_cut(lon):
+    """Two islands of a few kilometres, with sides on the limb, had all the disc be land."""
+    sources = data.land("50m").polygons()
+    assert_true_at(np.random.default_rng(4), "land", sources, (0.0, 0.0), 1.0, View(lon, 0), "50m")
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("layer", SOURCES)
+def test_places_lie_in_what_is_drawn_in_a_hundred_views(layer):
+    for seed in range(100):
+        assert_places_are_true(np.random.default_rng(seed), layer, SOURCES[layer]())
+
+
+def slivers(rng, count):
+    """Strips and triangles 1e-9 to 0.1 degrees wide and up to 170 long, sides sampled at different places."""
+    found = []
+    for _ in range(count):
+        wide, long = 10 ** rng.uniform(-9, -1), float(rng.choice([0.4, 5.0, 20.0, 60.0, 120.0]))
+        lon, lat, part = rng.uniform(-180, 180 - long), rng.uniform(-80, 80), rng.uniform(0.2, 0.8)
+        end = float(np.clip(lat + rng.uniform(-long, long), -85, 85)) if rng.random() < 0.5 else lat
+        strip = [(lon, lat), (lon + long, end), (lon + long, end + wide)]
+        strip += [(lon + part * long, lat + part * (end - lat) + wide), (lon, lat + wide)]
+        upright = [(lon, lat), (lon + wide, lat), (lon + wide, -lat), (lon, -lat), (lon, -0.4 * lat)]
+        ring = [strip, upright, strip[:3], [(-80, 0), (90, 0), (90, wide)]][rng.choice(4, p=[0.5, 0.2, 0.2, 0.1])]
+        found.append(np.array(ring, dtype=float)[:: int(rng.choice([1, -1]))])
+    return found
+
+
+SIGHTS = [
+    (MoebiusMap.identity(), View(20, 20)),
+    (MoebiusMap.identity(), View(90, 0)),
+    (MoebiusMap.identity(), StereographicView(10, 10, angular_radius=150)),
+    (fisheye((20, 30), magnification=6.0), View(20, 30)),
+    (fisheye((20, 30), magnification=0.1), View(-150, -20)),
+]
+
+
+def assert_slivers_are_thin(rings, lens, view):
+    """In globes and in axes of matplotlib; and all the rest of the sphere, which is the disc."""
+    count, owner = len(rings), np.arange(len(rings))
+    regions = SphereRegions.of_lonlat([[ring] for ring in rings])
+    sides = Ragged(~regions.rings.values[::-1], regions.rings.offsets[-1] - regions.rings.offsets[::-1])
+    rest = SphereRegions(regions.edges, sides, regions.owner[::-1], regions.everywhere)
+    closed = Ragged.of([np.concatenate([ring, ring[:1]]) for ring in rings])
+    chart = Chart(lens, view)
+    drawn = [chart.regions(regions), LonLatToPage(lens, view, "straight").regions(closed, owner, count)]
+    for (loops, region), wanted in [*((found, 0.0) for found in drawn), (chart.regions(rest), np.pi)]:
+        area = np.bincount(region, signed_areas(loops)[0], minlength=count)
+        assert np.flatnonzero(np.abs(area - wanted) > 0.5).tolist() == [], (lens.magnification, view)
+
+
+def test_slivers():
+    rings = slivers(np.random.default_rng(1), 200)
+    for lens, view in SIGHTS[:4:3]:
+        assert_slivers_are_thin(rings, lens, view)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("sight", SIGHTS)
+def test_ten_thousand_slivers(sight):
+    assert_slivers_are_thin(slivers(np.random.default_rng(2), 2000), *sight)
+
+
+def test_slivers_on_the_map():
+    """Images of slivers cover no map, and none is lost."""
+    shapely = pytest.importorskip("shapely")
+    from stereodel.io.warping import warp
+
+    strips = [
+        np.array([(x, 40), (x + 1.1, 40), (x + 1.1, 40 + w), (x + 0.3, 40 + w), (x, 40 + w)])
+        for x in range(5)
+        for w in (1.6e-7, 1e-4)
+    ]
+    images = warp(np.array([shapely.Polygon(strip) for strip in strips]), fisheye((3, 30), magnification=3.0))
+    assert shapely.area(images).max() < 1
+    assert not shapely.is_empty(images).any()
+    assert shapely.is_valid(images).all()
