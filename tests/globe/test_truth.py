@@ -1,7 +1,6 @@
 """Pictures say what is so: renderers agree by layer and view, places of the disc lie in what is drawn there, slivers.
 
-The oracle is `tests/globe/truth.py`. There is no program for PDF among the tools of the tests: librsvg shows the SVG,
-whose paths `tests/images/test_vector_files.py` compares with those of the PDF.
+The oracle is `tests/globe/truth.py`. The files are shown by programs of others: SVG by librsvg, PDF by PDFium.
 """
 
 import subprocess
@@ -9,6 +8,7 @@ from dataclasses import replace
 from io import BytesIO
 
 import numpy as np
+import pypdfium2
 import pytest
 from PIL import Image
 
@@ -61,7 +61,13 @@ def blocks(picture):
     return cut.mean(axis=(1, 3))
 
 
-def shown(page, folder):
+def of_pdf(page, folder):
+    """What PDFium makes of the PDF of a page."""
+    with pypdfium2.PdfDocument(page.save(folder / "page.pdf", text=False)) as document:
+        return document[0].render(scale=SIZE / document[0].get_width()).to_numpy()[:SIZE, :, ::-1]
+
+
+def of_svg(page, folder):
     """What librsvg makes of the SVG of a page."""
     path = page.save(folder / "page.svg", text=False)
     command = ["rsvg-convert", "--width", str(SIZE), "--background-color", "white", str(path)]
@@ -74,8 +80,8 @@ def assert_all_show_the_same(layer, view, resolution, folder):
     # Agg does not shade balls.
     page = replace(page, items=tuple(replace(i, ball=None) if getattr(i, "ball", None) else i for i in page.items))
     ours, agg = (page.pixels(size=SIZE, renderer=name, text=False).astype(float) for name in ("gl", "agg"))
-    for other in (agg, shown(page, folder).astype(float)):
-        off = np.abs(blocks(ours) - blocks(other)).max()
+    for other in (agg, of_svg(page, folder), of_pdf(page, folder)):
+        off = np.abs(blocks(ours) - blocks(other.astype(float))).max()
         assert off < 6, (layer, view, resolution, off)
 
 
