@@ -45,7 +45,7 @@ def draw(g: dict) -> Page:
     subtitle = f"The surroundings of {spaced(len(g['density']))} cities and villages, by the number of their people"
     credit = "Places: GeoNames (CC BY 4.0). Coast: Natural Earth. Areas on WGS84."
     page = captioned(globe.page(view=VIEW), "Where people live", subtitle, credit, ink=INK)
-    return replace(with_legend(page, SCALE, "people per km²", ink=INK), background=NIGHT)
+    return replace(with_legend(page, SCALE, "people per km²", ink=INK, values=g["density"]), background=NIGHT)
 
 
 FIGURE = Figure("earth_cities", geometry, draw)

@@ -21,8 +21,8 @@ from tests.partitioned.sets import rows_of
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
 
-KILLS = 20
-"""Of the soak, which take a minute or two; a hundred would take longer than a test may."""
+SOAKS, KILLS = 5, 20
+"""A hundred kills in tests of less than a minute, or of some minutes on a machine that does much else."""
 
 SIGNALS = (signal.SIGTERM, signal.SIGKILL, signal.SIGINT)
 
@@ -173,9 +173,10 @@ def test_a_server_of_processes_that_is_killed(tmp_path, points, monkeypatch, err
 
 
 @pytest.mark.thorough
-def test_soak(tmp_path, points):
+@pytest.mark.parametrize("seed", range(SOAKS))
+def test_soak(tmp_path, points, seed):
     """Random processes of runs are killed at random times, with new runs begun at once."""
-    counts = soak(tmp_path, *points, KILLS, seed=20261125)
+    counts = soak(tmp_path, *points, KILLS, seed)
     print(dict(counts))
     assert counts["killed"] == KILLS
 
