@@ -21,19 +21,14 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
         from mapbox_earcut import triangulate_float64
 
     shells, holder = holders(loops, owner)
-    holes: dict[int, list[int]] = {}
-    for hole, shell in enumerate(holder.tolist()):
-        if shell >= 0:
-            holes.setdefault(shell, []).append(hole)
     fanned, fans, row = _fans(loops)
     fanned &= shells
-    fanned[list(holes)] = False
+    fanned[holder[holder >= 0]] = False
     corners, owners = [fans[fanned[row]]], [owner[row[fanned[row]]]]
     for shell in np.flatnonzero(shells & ~fanned).tolist():
-        rings = [loops.values[loops.offsets[i] : loops.offsets[i + 1]] for i in (shell, *holes.get(shell, []))]
-        points, ends = np.concatenate(rings), np.cumsum([len(ring) for ring in rings], dtype=np.uint32)
-        found = triangulate_float64(points, ends).reshape(-1, 3)
-        corners.append(points[found])
+        rings = loops.take(np.append(shell, np.flatnonzero(holder == shell)))
+        found = triangulate_float64(rings.values, rings.offsets[1:].astype(np.uint32)).reshape(-1, 3)
+        corners.append(rings.values[found])
         owners.append(np.full(len(found), owner[shell]))
     return np.concatenate(corners), np.concatenate(owners)
 
@@ -46,14 +41,13 @@ def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
     """
     area, _ = signed_areas(loops)
     shells, holder = np.flatnonzero(area > 0), np.full(len(loops), -1)
-    if len(shells) < len(loops):
-        low, high = (f.reduceat(loops.values, loops.offsets[:-1]) for f in (np.minimum, np.maximum))
+    low, high = (f.reduceat(loops.values, loops.offsets[:-1]) for f in (np.minimum, np.maximum))
+    rings = list(loops) if len(shells) < len(loops) else []
     for hole in np.flatnonzero(area < 0):
-        ring = loops.values[loops.offsets[hole] : loops.offsets[hole + 1]]
         meets = (low[shells] < high[hole]).all(axis=1) & (low[hole] < high[shells]).all(axis=1)
         near = shells[(owner[shells] == owner[hole]) & meets & (area[shells] > -area[hole])]
         for shell in near[np.argsort(area[near])]:
-            if _holds(loops.values[loops.offsets[shell] : loops.offsets[shell + 1]], ring):
+            if _holds(rings[shell], rings[hole]):
                 holder[hole] = shell
                 break
     return area > 0, holder

@@ -59,20 +59,16 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
 
 
 def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
-    """The images of polygons; those that are narrow and would cross themselves are sampled more finely, once.
-
-    The mean width of a narrow polygon is twice its area over the length of its border.
-    """
+    """The images of polygons; those that cross themselves are sampled as finely as they are wide: 2 area/length."""
     polygons, geometry = shapely.get_parts(geometries, return_index=True)
     rings, polygon = shapely.get_rings(polygons, return_index=True)
     lonlat, ring = shapely.get_coordinates(rings, return_index=True)
     outer = np.append(True, polygon[1:] != polygon[:-1])
     outlines, owner = left_inside(Ragged.grouped(lonlat, ring, len(rings)), outer), geometry[polygon]
     images = _filled(outlines, owner, len(geometries), lens, slack)
-    wrong = ~shapely.is_valid(images) | shapely.is_empty(images)
+    wrong = ~shapely.is_valid(images)
     length = shapely.length(geometries)
-    scale = np.where(shapely.is_empty(images), length, shapely.length(images)) / length
-    width = scale * np.radians(2 * shapely.area(geometries) / length) / slack
+    width = np.radians(2 * shapely.area(geometries) * shapely.length(images) / length**2) / slack
     for finer in FINER_WARPS:
         some = np.flatnonzero(wrong & (width >= 16 * finer))
         wrong[some] = False

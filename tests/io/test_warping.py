@@ -225,6 +225,15 @@ def test_narrow_polygons_are_followed_more_closely():
     assert image.geom_type == "Polygon"
 
 
+@pytest.mark.parametrize("width", [1e-3, 1e-4])
+def test_slanted_strips_narrower_than_the_tolerance_keep_their_area(width):
+    """Their sides have corners at different places, and chords that stray by the tolerance cross."""
+    strip = shapely.Polygon([(0, 50), (60, 56), (60, 56 + width), (25, 52.5 + width), (0, 50 + width)])
+    image = warp(strip, MoebiusMap.identity())
+    assert image.geom_type == "Polygon"
+    assert image.area == pytest.approx(strip.area, rel=0.05)
+
+
 SLIVERS = {
     "parallel": [(3, 47), (23, 47), (23, 47.00000006), (8.4, 47.00000006), (3, 47.00000006)],
     "short": [(147, 39), (148.1, 39), (148.1, 39.00000004), (147.5, 39.00000004), (147, 39.00000004)],
