@@ -228,11 +228,11 @@ BORDER_STEPS: Final = 2**14
 A cell 90° long and 0.1 m wide takes 2¹² of them. A cell that takes more exists mainly because of rounding.
 """
 
-FINER_WARPS: Final = (2.0**-4, 2.0**-8, 2.0**-12, 2.0**-16)
-"""Fractions of the tolerance with which polygons are warped again if their chords cross on the map.
+FINER_WARPS: Final = (2.0**-4, 2.0**-8, 2.0**-12)
+"""Fractions of the tolerance, one of which is used if the chords of a warped polygon cross: 1/16 of its width or less.
 
-Chords must deviate less than the width of a polygon; with the last fraction they are 256 times as many. What still
-crosses is cut off.
+Polygons narrower than 2⁻⁸ of the tolerance, 4 m on Earth, and parts that touch at a corner may cross however fine the
+chords are. What a crossing adds or takes away is within the tolerance.
 """
 
 STAR_ROUNDING: Final = 2.0**-50
@@ -240,12 +240,6 @@ STAR_ROUNDING: Final = 2.0**-50
 
 Each difference is off by 2⁻⁵³ of itself, so are products and their difference: four times that together, and as much
 again to be sure.
-"""
-
-MOST_WARPED: Final = 2**12
-"""Points of a warped polygon from which it is not warped again more finely, with four times as many.
-
-Parts that touch at a corner may cross there however fine; without the limit, they took 286 000 points.
 """
 
 DEGREE_ROUNDING: Final = 2.0**-43

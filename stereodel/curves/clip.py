@@ -171,18 +171,19 @@ def in_sight(
     least = np.where(narrow, NARROW_PASSAGE * unit * np.sqrt(border.blur), 0.0)[shown[~whole]]
     joined, closed_by = closed_along(border, flat.take(~whole), shown[~whole], least)
     # A part at the border may become clockwise, as if its region surrounded everything else; its overlap with
-    # neighbours is equally thin, so it is left out.
+    # neighbours is equally thin, so it is left out, or turned where it may be all there is of a thin region.
     part, length = signed_areas(joined)
     error = length * border.blur * unit
     kept = (part > length * border.slack) | (part < -length * border.slack - error)
+    turned = ~kept & (np.abs(part) > length * border.slack) & ((narrow > 0) & (of_region > 0))[closed_by]
     # A ring that may run clockwise for the same reason is turned to run as it does on the sphere.
     uncut, ring_owner = flat.take(whole), shown[whole]
     side, reach = fans(UP, points.take(whole))
     told = np.copysign(side, _told(side, reach, reach * border.blur, of_ring[:, chains.row[drawn][whole]]))
     area, length = signed_areas(uncut)
     there = np.abs(area) > length * border.slack
-    loops = together(uncut.reversed(told * area < 0).take(there), joined.take(kept))
-    loop_owner = np.concatenate([ring_owner[there], closed_by[kept]])
+    loops = together(uncut.reversed(told * area < 0).take(there), joined.reversed(turned).take(kept | turned))
+    loop_owner = np.concatenate([ring_owner[there], closed_by[kept | turned]])
 
     def total(owner: Indices, values: FloatArray) -> FloatArray:
         return np.bincount(owner, values, minlength=count).astype(np.float64)

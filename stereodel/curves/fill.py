@@ -15,36 +15,42 @@ def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
     """Corners (m, 3, 2) of triangles that cover loops, and the region of each; clockwise loops are holes.
 
     Loops without holes that are star-shaped about their centre, such as cells, become triangle fans, all at once; the
-    others are triangulated by ear clipping. Ear clipping needs a shell with its holes: a hole belongs to the smallest
-    shell of its region that contains it. They may touch, even along sides, where rounding decides what lies inside: the
-    corner or middle of a side that is farthest from the shell does not touch it.
+    others are triangulated by ear clipping, each with its holes.
     """
     with of_extra("draw"):
         from mapbox_earcut import triangulate_float64
 
+    shells, holder = holders(loops, owner)
+    fanned, fans, row = _fans(loops)
+    fanned &= shells
+    fanned[holder[holder >= 0]] = False
+    corners, owners = [fans[fanned[row]]], [owner[row[fanned[row]]]]
+    for shell in np.flatnonzero(shells & ~fanned).tolist():
+        rings = loops.take(np.append(shell, np.flatnonzero(holder == shell)))
+        found = triangulate_float64(rings.values, rings.offsets[1:].astype(np.uint32)).reshape(-1, 3)
+        corners.append(rings.values[found])
+        owners.append(np.full(len(found), owner[shell]))
+    return np.concatenate(corners), np.concatenate(owners)
+
+
+def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
+    """Which loops (m,) are shells, and for each hole, a clockwise loop, the smallest shell of its region that holds it.
+
+    Shells, and holes without a shell, have −1. They may touch, even along sides, where rounding decides what lies
+    inside: the corner or middle of a side that is farthest from the shell does not touch it.
+    """
     area, _ = signed_areas(loops)
-    shells = np.flatnonzero(area > 0)
-    held: dict[int, list[int]] = {}
+    shells, holder = np.flatnonzero(area > 0), np.full(len(loops), -1)
     low, high = (f.reduceat(loops.values, loops.offsets[:-1]) for f in (np.minimum, np.maximum))
+    rings = list(loops) if len(shells) < len(loops) else []
     for hole in np.flatnonzero(area < 0):
-        ring = loops.values[loops.offsets[hole] : loops.offsets[hole + 1]]
         meets = (low[shells] < high[hole]).all(axis=1) & (low[hole] < high[shells]).all(axis=1)
         near = shells[(owner[shells] == owner[hole]) & meets & (area[shells] > -area[hole])]
         for shell in near[np.argsort(area[near])]:
-            if _holds(loops.values[loops.offsets[shell] : loops.offsets[shell + 1]], ring):
-                held.setdefault(int(shell), []).append(int(hole))
+            if _holds(rings[shell], rings[hole]):
+                holder[hole] = shell
                 break
-    fanned, fans, row = _fans(loops)
-    fanned &= area > 0
-    fanned[list(held)] = False
-    corners, owners = [fans[fanned[row]]], [owner[row[fanned[row]]]]
-    for shell in shells[~fanned[shells]].tolist():
-        rings = [loops.values[loops.offsets[i] : loops.offsets[i + 1]] for i in (shell, *held.get(shell, []))]
-        points, ends = np.concatenate(rings), np.cumsum([len(ring) for ring in rings], dtype=np.uint32)
-        found = triangulate_float64(points, ends).reshape(-1, 3)
-        corners.append(points[found])
-        owners.append(np.full(len(found), owner[shell]))
-    return np.concatenate(corners), np.concatenate(owners)
+    return area > 0, holder
 
 
 def union(loops: Ragged) -> Ragged:
@@ -86,23 +92,25 @@ def _fans(loops: Ragged) -> tuple[BoolArray, FloatArray, Indices]:
 
 def _holds(loop: FloatArray, ring: FloatArray) -> bool:
     """Whether a loop contains a ring that does not cross it."""
-    point = _off(loop, ring)
-    (x0, y0), (x1, y1) = loop[:-1].T, loop[1:].T
-    side = (x1 - x0) * (point[1] - y0) - (point[0] - x0) * (y1 - y0)
-    up, down = (y0 <= point[1]) & (y1 > point[1]) & (side > 0), (y0 > point[1]) & (y1 <= point[1]) & (side < 0)
-    return bool(np.count_nonzero(up) != np.count_nonzero(down))
+    x, y = _off(loop, ring)
+    at = np.flatnonzero((loop[:-1, 1] <= y) != (loop[1:, 1] <= y))
+    (x0, y0), (x1, y1) = loop[at].T, loop[at + 1].T
+    up, side = y1 > y0, (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
+    return bool(np.count_nonzero(up & (side > 0)) != np.count_nonzero(~up & (side < 0)))
 
 
 def _off(loop: FloatArray, ring: FloatArray) -> FloatArray:
     """A corner or middle of a side of a ring that is off a loop: the first one farther than most, or the farthest."""
-    middles = (ring[1:] + ring[:-1]) / 2
     clear = TOUCHING * np.ptp(ring, axis=0).max()
+    beside = np.maximum(loop[1:], loop[:-1]) >= ring.min(axis=0) - clear
+    beside &= np.minimum(loop[1:], loop[:-1]) <= ring.max(axis=0) + clear
+    sides = np.flatnonzero(beside.all(axis=1))
     best, far = ring[0], -1.0
-    a, way = loop[:-1], np.diff(loop, axis=0)
+    a, way = loop[sides], loop[sides + 1] - loop[sides]
     square = np.maximum(np.sum(way**2, axis=1), np.finfo(np.float64).tiny)
-    for point in np.concatenate([ring[:-1], middles]):
+    for point in np.concatenate([ring[:-1], (ring[1:] + ring[:-1]) / 2]):
         share = np.clip(np.sum((point - a) * way, axis=1) / square, 0.0, 1.0)
-        away = float(np.hypot(*(point - a - share[:, None] * way).T).min())
+        away = float(np.hypot(*(point - a - share[:, None] * way).T).min(initial=np.inf))
         if away > far:
             best, far = point, away
         if far > clear:

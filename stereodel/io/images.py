@@ -9,7 +9,7 @@ import numpy as np
 
 from stereodel._arrays import Geometries, Indices, as_lonlat
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import FINER_WARPS, MOST_WARPED
+from stereodel.constants import FINER_WARPS
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
 from stereodel.curves.ragged import Ragged
@@ -59,23 +59,24 @@ def _lines(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries
 
 
 def _polygons(geometries: Geometries, lens: MoebiusMap, slack: float) -> Geometries:
-    """The images of polygons; those that are narrow and would cross themselves are sampled more finely."""
+    """The images of polygons; those that cross themselves are sampled as finely as they are wide: 2 area/length."""
     polygons, geometry = shapely.get_parts(geometries, return_index=True)
     rings, polygon = shapely.get_rings(polygons, return_index=True)
     lonlat, ring = shapely.get_coordinates(rings, return_index=True)
     outer = np.append(True, polygon[1:] != polygon[:-1])
     outlines, owner = left_inside(Ragged.grouped(lonlat, ring, len(rings)), outer), geometry[polygon]
     images = _filled(outlines, owner, len(geometries), lens, slack)
-    wrong = ~shapely.is_valid(images) | shapely.is_empty(images)
+    wrong = ~shapely.is_valid(images)
+    length = shapely.length(geometries)
+    width = np.radians(2 * shapely.area(geometries) * shapely.length(images) / length**2) / slack
     for finer in FINER_WARPS:
-        some = np.flatnonzero(wrong & (shapely.get_num_coordinates(images) <= MOST_WARPED))
-        if not len(some):
-            break
-        chosen = np.isin(owner, some)
-        number = np.searchsorted(some, owner[chosen])
-        images[some] = _filled(outlines.take(chosen), number, len(some), lens, slack * finer)
-        wrong[some] = ~shapely.is_valid(images[some]) | shapely.is_empty(images[some])
-    return repaired(images, wrong & ~shapely.is_empty(images))
+        some = np.flatnonzero(wrong & (width >= 16 * finer))
+        wrong[some] = False
+        if len(some):
+            chosen = np.isin(owner, some)
+            number = np.searchsorted(some, owner[chosen])
+            images[some] = _filled(outlines.take(chosen), number, len(some), lens, slack * finer)
+    return repaired(images, ~shapely.is_valid(images))
 
 
 def _filled(outlines: Ragged, owner: Indices, count: int, lens: MoebiusMap, slack: float) -> Geometries:

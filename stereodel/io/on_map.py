@@ -12,6 +12,7 @@ from stereodel._extras import optional
 from stereodel.constants import AT_POLE
 from stereodel.curves import clip
 from stereodel.curves.borders import Antimeridian, Pieces
+from stereodel.curves.fill import holders
 from stereodel.curves.ragged import Ragged, spans
 
 shapely = optional("shapely", "geo")
@@ -78,24 +79,16 @@ def lines_on_map(
 def polygons_on_map(loops: Ragged, owner: Indices, count: int) -> tuple[Geometries, BoolArray]:
     """Polygons and MultiPolygons (count,) of closed loops, and which loops run counterclockwise.
 
-    Clockwise loops are holes of the smallest shell that contains their first point; without such a shell they are
-    dropped.
+    Clockwise loops are holes; without a shell they are dropped.
     """
     result = np.full(count, shapely.Polygon())
     if not len(loops):
         return result, np.zeros(0, dtype=bool)
     outlines = shapely.linearrings(loops.values, indices=loops.row)
-    outer = shapely.is_ccw(outlines)
+    outer, holder = holders(loops, owner)
     parts = shapely.polygons(outlines)
-    for region in np.unique(owner[~outer]):
-        shells, holes = np.flatnonzero((owner == region) & outer), np.flatnonzero((owner == region) & ~outer)
-        solid = parts[shells]
-        hole, shell = shapely.STRtree(solid).query(shapely.get_point(outlines[holes], 0), predicate="intersects")
-        order = np.lexsort((shapely.area(solid)[shell], hole))
-        hole, first = np.unique(hole[order], return_index=True)
-        shell = shell[order][first]
-        for k in np.unique(shell):
-            parts[shells[k]] = shapely.polygons(outlines[shells[k]], holes=outlines[holes[hole[shell == k]]])
+    for shell in np.unique(holder[holder >= 0]):
+        parts[shell] = shapely.polygons(outlines[shell], holes=outlines[holder == shell])
     return grouped(parts[outer], owner[outer], result, shapely.multipolygons), outer
 
 

@@ -45,6 +45,9 @@ def warp(shapes: Any, lens: MoebiusMap, *, tolerance: float = 0.01) -> Any:
     edge near the focus is as exact as any other. The interior of a polygon is on the left of its boundary, and a
     conformal map keeps it there, however large it becomes.
 
+    The chords of a polygon narrower than 2⁻⁸ of the tolerance may cross: it becomes a row of slivers that deviate by no
+    more than the tolerance. Below 1e-8 degrees, and at a pole, its sides may have the same chords: it is then empty.
+
     Examples
     --------
     >>> import shapely

@@ -62,3 +62,27 @@ def inside(polygons, lonlat):
         height = y0[there] + (y1 - y0)[there] * (x - x0[there]) / (x1 - x0)[there]
         found[k] = np.count_nonzero(height > y)
     return found % 2 == 1
+
+
+def slivers(rng, count):
+    """Strips and triangles 1e-9 to 0.1 degrees wide and up to 170 long, sides sampled at different places.
+
+    Some begin or end at 180° or at a pole.
+    """
+    found = []
+    for _ in range(count):
+        wide, long = 10 ** rng.uniform(-9, -1), float(rng.choice([0.4, 5.0, 20.0, 60.0, 120.0]))
+        lon, lat, part = rng.uniform(-180, 180 - long), rng.uniform(-80, 80), rng.uniform(0.2, 0.8)
+        lon = float(rng.choice([lon, -180.0, 180.0 - long], p=[0.8, 0.1, 0.1]))
+        end = float(np.clip(lat + rng.uniform(-long, long), -85, 85)) if rng.random() < 0.5 else lat
+        if end != lat:
+            lat, end = (
+                float(rng.choice([lat, -90.0], p=[0.9, 0.1])),
+                float(rng.choice([end, 90.0 - wide], p=[0.9, 0.1])),
+            )
+        strip = [(lon, lat), (lon + long, end), (lon + long, end + wide)]
+        strip += [(lon + part * long, lat + part * (end - lat) + wide), (lon, lat + wide)]
+        upright = [(lon, lat), (lon + wide, lat), (lon + wide, -lat), (lon, -lat), (lon, -0.4 * lat)]
+        ring = [strip, upright, strip[:3], [(-80, 0), (90, 0), (90, wide)]][rng.choice(4, p=[0.5, 0.2, 0.2, 0.1])]
+        found.append(np.clip(ring, [-180, -90], [180, 90])[:: int(rng.choice([1, -1]))])
+    return found

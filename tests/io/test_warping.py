@@ -7,6 +7,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from pyproj import Transformer
+from scipy.spatial import KDTree
 
 from stereodel import (
     MoebiusMap,
@@ -19,6 +20,7 @@ from stereodel import (
     xyz_to_lonlat,
 )
 from stereodel.io import warp
+from tests.globe import truth
 
 PARIS = (2.35, 48.86)
 WORLD = shapely.box(-180, -90, 180, 90)
@@ -221,6 +223,111 @@ def test_narrow_polygons_are_followed_more_closely():
     image = warp(strip, fisheye((30.0, 40.0), magnification=2.0))
     assert image.is_valid
     assert image.geom_type == "Polygon"
+
+
+@pytest.mark.parametrize("width", [1e-3, 1e-4])
+def test_slanted_strips_narrower_than_the_tolerance_keep_their_area(width):
+    """Their sides have corners at different places, and chords that stray by the tolerance cross."""
+    strip = shapely.Polygon([(0, 50), (60, 56), (60, 56 + width), (25, 52.5 + width), (0, 50 + width)])
+    image = warp(strip, MoebiusMap.identity())
+    assert image.geom_type == "Polygon"
+    assert image.area == pytest.approx(strip.area, rel=0.05)
+
+
+SLIVERS = {
+    "parallel": [(3, 47), (23, 47), (23, 47.00000006), (8.4, 47.00000006), (3, 47.00000006)],
+    "short": [(147, 39), (148.1, 39), (148.1, 39.00000004), (147.5, 39.00000004), (147, 39.00000004)],
+    "to 180": [(120, 85.6), (180, 85.6), (180, 85.60000006), (164, 85.60000006), (120, 85.60000006)],
+    "from 180": [(-180, 59), (-120, 60.5), (-120, 60.50000002), (-138, 60.05000002), (-180, 59.00000002)],
+    "along 180": [(-180, -68), (-179.999995, -68), (-179.999995, 68), (-180, 68), (-180, 30)],
+    "meridian": [(60, 66), (60.000006, 66), (60.000006, -66), (60, -66), (60, -29)],
+    "slanted": [(57, 64), (62, 65), (62, 65.000007), (59, 64.400007), (57, 64.000007)],
+    "triangle": [(14.5, -69), (134.5, -69), (134.5, -68.99999999)],
+    "from a pole": [(-114.6, -90), (-114.2, 60), (-114.2, 60.00000002)],
+    "to a pole": [(169.6, 39), (170, 89.9998), (170, 90)],
+    "from a corner": [(-180, -90), (-175, -49), (-175, -48.999999)],
+}
+"""Each covered the map, or was lost, under one of `THINNING` or another."""
+THINNING = [
+    MoebiusMap.identity(),
+    fisheye((20.0, 30.0), magnification=2.0),
+    fisheye((-170.0, -80.0), magnification=7.0),
+    fisheye((60.0, -20.0), magnification=50.0),
+    fisheye((60.0, -20.0), magnification=0.2),
+]
+
+
+def on_sphere(polygon):
+    """Its area on the unit sphere: that of its sides' middles in longitude and the sine of latitude."""
+    equal = shapely.transform(
+        shapely.segmentize(polygon, 0.25), lambda p: np.column_stack([np.radians(p[:, 0]), np.sin(np.radians(p[:, 1]))])
+    )
+    return shapely.area(equal)
+
+
+def assert_slivers_stay_thin(slivers, lens, tolerance=0.01):
+    """Images lie along those of their sides, none is lost, and under the identity areas are what they were."""
+    images, reach = warp(slivers, lens, tolerance=tolerance), np.radians(tolerance)
+    assert shapely.is_valid(images).all()
+    # Narrower ones may have both sides on the same chords.
+    lost = shapely.is_empty(images)
+    assert (2 * shapely.area(slivers)[lost] <= 1e-8 * shapely.length(slivers)[lost]).all()
+    assert lost.mean() < 0.01
+    assert (np.abs(shapely.total_bounds(images)) <= [180, 90, 180, 90]).all()
+    for sliver, image in zip(slivers[~lost], images[~lost], strict=True):
+        fine = shapely.get_coordinates(shapely.segmentize(sliver.boundary, shapely.length(sliver) / 2000))
+        before, after = lonlat_to_xyz(fine), lens(lonlat_to_xyz(fine))
+        steps, moved = (np.linalg.norm(np.diff(p, axis=0), axis=1) for p in (before, after))
+        scale = (moved / np.maximum(steps, 1e-12)).max()
+        off = KDTree(after).query(lonlat_to_xyz(shapely.get_coordinates(image)))[0]
+        assert off.max() <= moved.max() / 2 + 2 * reach, sliver.wkt
+        width = np.radians(0.1) * scale**2 if sliver.area > 1e-3 else 0.0
+        assert on_sphere(image) <= moved.sum() * (reach + width), sliver.wkt
+        if lens.magnification == 1:
+            assert abs(on_sphere(image) - on_sphere(sliver)) <= moved.sum() * reach, sliver.wkt
+
+
+def some_slivers(seed, count):
+    polygons = np.array([shapely.Polygon(ring) for ring in truth.slivers(np.random.default_rng(seed), count)])
+    return polygons[shapely.is_valid(polygons)]
+
+
+@pytest.mark.parametrize("lens", THINNING)
+def test_slivers(lens):
+    """By chords, they covered the map; by the turn at the highest of crossing chords, they were holes, and lost."""
+    named = [shapely.Polygon(ring) for ring in SLIVERS.values()]
+    assert_slivers_stay_thin(np.append(named, some_slivers(1, 12)), lens)
+
+
+@pytest.mark.thorough
+@pytest.mark.parametrize("lens", THINNING)
+def test_thousands_of_slivers(lens):
+    assert_slivers_stay_thin(some_slivers(2, 600), lens)
+
+
+@pytest.mark.parametrize("side", range(4))
+@pytest.mark.parametrize("west", [0, 140])
+def test_holes_may_touch_their_shell_first(side, west):
+    """A hole whose first corner lies on a side of its shell, where chords leave it outside, was lost."""
+    shore = shapely.box(west, -30, west + 40, 40)
+    lake = np.array([(west + 20, 10), (west + 15, 0), (west + 25, 0)], dtype=float)
+    lake[0] = [(west, 3), (west + 40, 3), (west + 17, -30), (west + 17, 40)][side]
+    source = shapely.Polygon(shore.exterior.coords, [lake])
+    assert source.is_valid
+    for lens in LENSES:
+        image = warp(source, lens)
+        assert image.is_valid
+        assert same_places(source, image, lens)
+
+
+def test_parts_that_touch_at_corners_stay_few_points():
+    """They cross there however fine the chords are: the sampling was refined to millions of points."""
+    rng = np.random.default_rng(27)
+    boxes = [shapely.box(w, s, w + 15, s + 15) for w in range(-180, 180, 15) for s in range(-90, 90, 15)]
+    source = shapely.union_all([box for box in boxes if rng.random() < 0.5])
+    image = warp(source, fisheye((20.0, 30.0), magnification=12.0))
+    assert image.is_valid
+    assert shapely.get_num_coordinates(image) < 20_000
 
 
 @pytest.mark.parametrize(
