@@ -347,6 +347,12 @@ GRID_SAMPLES: Final = 97
 A part that begins and ends between two of them is shorter than 4° of its circle, on the sphere and in its image.
 """
 
+MOST_GRID_LINES: Final = 2**16
+"""Meridians (and parallels) of one stride that a picture may take: each has 200 samples, all together 1 GB.
+
+Near a pole of a picture there are about 35 for each least distance between lines in its radius: 16 000 for hair lines.
+"""
+
 GROUND_PIXEL: Final = 2.0**-10
 """Side of the pixel with which an image below a label is sampled for its colour, in page units: radii of the disc.
 
