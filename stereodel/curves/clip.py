@@ -165,7 +165,8 @@ def in_sight(
     shown = region[drawn]
     of_ring, (of_region, narrow) = _known(left), _known(_by_region(left, owner, count))
     unit = border.length / (2 * np.pi)
-    least = np.where(narrow, NARROW_PASSAGE * unit * np.sqrt(border.blur), 0.0)[shown[~whole]]
+    # Sides that coincide, as at the 180th meridian, cross the border where rounding has put either of them.
+    least = np.where(narrow, NARROW_PASSAGE * unit * np.sqrt(border.blur), 8 * border.slack)[shown[~whole]]
     joined, closed_by = closed_along(border, flat.take(~whole), shown[~whole], least)
     # A part at the border may become clockwise, as if its region surrounded everything else; its overlap with
     # neighbours is equally thin, so it is left out.

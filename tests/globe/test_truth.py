@@ -158,6 +158,11 @@ def test_places_lie_in_what_is_drawn_in_a_hundred_views(layer):
         assert_places_are_true(np.random.default_rng(seed), layer, SOURCES[layer]())
 
 
+def test_coincident_sides_cross_the_rim_at_one_place():
+    """The sea's two sides along the 180th meridian: where rounding put one after the other, all the disc was sea."""
+    assert_places_are_true(np.random.default_rng(22), "ocean", SOURCES["ocean"]())
+
+
 def slivers(rng, count):
     """Strips and triangles 1e-9 to 0.1 degrees wide and up to 170 long, sides sampled at different places."""
     found = []
