@@ -58,10 +58,10 @@ MATRIX_MAGNIFICATION: Final = 1e6
 """Largest S recovered from a matrix: a double Lorentz matrix of magnification S holds S⁻² ulps of its directions."""
 
 LIMB_DEPTH: Final = 1e-12
-"""Depth behind the limb, relative to the radius, up to which a point of a sphere counts as visible.
+"""Radians behind the limb of a sphere, or the rim of a cap, up to which a point counts as visible.
 
 A hundred times the rounding error of a rotated unit vector, so that a curve on the limb itself is drawn entirely; on
-the page it is within 1e-24 of the limb.
+the page it is within 1e-24 of the limb, and of the rim of a cap of a millionth of a degree within 6e-5 radii.
 """
 
 RIM_FINENESS: Final = 1e-3
@@ -339,6 +339,12 @@ GRID_SAMPLES: Final = 97
 """Number of samples along a line of a grid, before a lens and again after it, between which it may end once.
 
 A part that begins and ends between two of them is shorter than 4° of its circle, on the sphere and in its image.
+"""
+
+MOST_GRID_LINES: Final = 2**16
+"""Meridians (and parallels) of one stride that a picture may take: each has 200 samples, all together 1 GB.
+
+Near a pole of a picture there are about 35 for each least distance between lines in its radius: 16 000 for hair lines.
 """
 
 GROUND_PIXEL: Final = 2.0**-10

@@ -26,6 +26,8 @@ from stereodel.sphere import xyz_to_lonlat
 from stereodel.sphere.latitudes import Latitude
 
 TURN = 2 * np.pi
+UP = np.array([0.0, 0.0, 1.0])
+"""The centre of a view in its axes; on a map, the north pole, on its border as is the south pole."""
 MARGIN = 0.1
 """Margin that `frame_of` adds on each side, relative to the longer side of the points' bounding box."""
 
@@ -89,11 +91,11 @@ class Border(Outline, Protocol):
 
 
 class DiscView(Protocol):
-    """A map of the cap z ≥ edge of the sphere, in its own axes, onto the unit disc of a page."""
+    """A map of a cap about (0, 0, 1), in its own axes, onto the unit disc of a page."""
 
     @property
-    def edge(self) -> float:
-        """Cosine of the angular radius of the cap."""
+    def angular_radius(self) -> float:
+        """Angular radius of the cap in degrees."""
 
     def flattened(self, axes: FloatArray) -> FloatArray:
         """Page coordinates (..., 2) of unit vectors (..., 3)."""
@@ -101,7 +103,7 @@ class DiscView(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Cap:
-    """The edge of a view, z = view.edge in view axes: the limb of a ball, the rim of a flat map.
+    """The edge of a view, at its angular radius from (0, 0, 1): the limb of a ball, the rim of a flat map.
 
     Chains deviate from their curves by a tolerance, the rim by the fraction `fineness` of it, so that chains rarely
     cross the rim. With the nonzero rule such crossings are harmless, and the rim may be as coarse as the chains.
@@ -120,20 +122,27 @@ class Cap:
 
     def cut(self, arcs: Arcs) -> Pieces:
         """Arcs in view axes, cut at the rim; arcs on the rim are visible."""
-        level = self.view.edge - LIMB_DEPTH
         # Points where the planes of circle and rim meet, moved onto the rim itself, which closing parts share.
-        arc, t, above = crossings(arcs, np.array([0.0, 0.0, 1.0]), level)
+        arc, t, above = crossings(arcs, UP, self._radius + LIMB_DEPTH)
         points = arcs.points(arc, t)
-        reach = np.sqrt(1 - level**2) / np.hypot(*points[:, :2].T)
-        points = np.concatenate([points[:, :2] * reach[:, None], np.full((len(arc), 1), level)], axis=1)
+        points[:, :2] *= (np.sin(self._radius + LIMB_DEPTH) / np.hypot(*points[:, :2].T))[:, None]
+        points[:, 2] = np.sin(np.pi / 2 - self._radius - LIMB_DEPTH)
         pieces, opens, shuts = _marked(arcs, arc, t, points)
         # Alternately visible and hidden, beginning with the side of the start.
         seen = np.repeat(above, np.bincount(arc, minlength=len(arcs)) + 1)
         number = np.arange(len(seen)) - np.maximum.accumulate(np.where(opens, 0, np.arange(len(seen))))
         middle = pieces.points(np.arange(len(seen)), (pieces.begin + pieces.stop) / 2)
-        heights = np.stack([pieces.start[:, 2], middle[:, 2], pieces.end[:, 2]])
-        along: BoolArray = np.all(np.abs(heights - self.view.edge) <= 2 * LIMB_DEPTH, axis=0)
+        heights = np.stack([above_circle(points, UP, self._radius) for points in (pieces.start, middle, pieces.end)])
+        along: BoolArray = np.all(np.abs(heights) <= 2 * LIMB_DEPTH * np.sin(self._radius), axis=0)
         return Pieces(pieces, opens, shuts, seen ^ (number % 2 == 1), along)
+
+    def holds(self, points: FloatArray) -> BoolArray:
+        """Which points (n, 3) in view axes are visible, as ends of arcs are."""
+        return above_circle(points, UP, self._radius + LIMB_DEPTH) >= 0
+
+    @property
+    def _radius(self) -> float:
+        return float(np.radians(self.view.angular_radius))
 
     def flat(self, chains: Ragged) -> FloatArray:
         """Page coordinates (n, 2) of points in view axes."""
@@ -252,7 +261,7 @@ class Antimeridian(Box):
         """Arcs cut at the 180th meridian and at the poles."""
         arcs = self._with_poles(_snapped(arcs))
         # The plane of the meridian also cuts arcs at longitude 0; those cuts are left out.
-        arc, t, _ = crossings(arcs, np.array([0.0, 1.0, 0.0]), 0.0, slack=AT_POLE)
+        arc, t, _ = crossings(arcs, np.array([0.0, 1.0, 0.0]), np.pi / 2, slack=AT_POLE)
         points = arcs.points(arc, t)
         west = points[:, 0] < -AT_POLE
         arc, t, points = arc[west], t[west], points[west]
@@ -312,24 +321,40 @@ def _on_border(points: FloatArray, slack: float = 0.0) -> BoolArray:
     return (np.abs(points[:, 1]) <= slack) & (points[:, 0] <= slack)
 
 
+def above_circle(points: FloatArray, direction: FloatArray, radius: float) -> FloatArray:
+    """Heights of unit vectors (n, 3) along a direction above the circle of an angular radius about it.
+
+    Near the direction from distances to it, whose squares keep the digits that the cosines of a small circle lose.
+    """
+    height = points @ direction
+    aside = np.sum((points - height[:, None] * direction) ** 2, axis=1)
+    near = 2 * np.sin(radius / 2) ** 2 - aside / (1 + np.maximum(height, 0.0))
+    return np.where(height > 0.5, near, height - np.sin(np.pi / 2 - radius))
+
+
 def crossings(
-    arcs: Arcs, direction: FloatArray, level: float, slack: float = 0.0
+    arcs: Arcs, direction: FloatArray, radius: float, slack: float = 0.0
 ) -> tuple[Indices, FloatArray, BoolArray]:
-    """Where arcs cross a plane direction·x = level: arcs (k,) and parameters (k,), in order; and which start above it.
+    """Where arcs cross a circle about a direction: arcs (k,), parameters (k,), in order; which start above its plane.
 
     An arc of less than a turn crosses once if its ends are on different sides, otherwise never or twice: twice if its
-    highest (lowest) point is on the arc and beyond the level by more than the slack.
+    highest (lowest) point is on the arc and beyond the plane by more than the slack.
     """
-    first, last = arcs.start @ direction - level, arcs.end @ direction - level
+    first, last = above_circle(arcs.start, direction, radius), above_circle(arcs.end, direction, radius)
     above, ending = first >= 0, last >= 0
     # The sides of the ends and the bound |height − h(start)| ≤ length leave few arcs to examine.
-    reach = np.sqrt(np.sum(arcs.u**2, axis=1)) * (arcs.stop - arcs.begin)
-    near = np.flatnonzero((above != ending) | (np.abs(first) + np.abs(last) <= reach))
+    size = np.sqrt(np.sum(arcs.u**2, axis=1))
+    near = np.flatnonzero((above != ending) | (np.abs(first) + np.abs(last) <= size * (arcs.stop - arcs.begin)))
     some, begin, stop = arcs.take(near), arcs.begin[near], arcs.stop[near]
-    constant, size, phase = some.waves(direction)
-    constant = constant - level
-    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-        half = np.nan_to_num(np.arccos(np.clip(-constant / size, -1.0, 1.0)))
+    _, _, phase = some.waves(direction)
+    # Its nearest and farthest points are at the difference and the sum of its radius and its axis' angle; how far they
+    # are above and below the plane are differences of cosines, as products. The half angle between crossings follows.
+    tilt = np.arctan2(np.sqrt(np.sum(np.cross(some.axis, direction) ** 2, axis=1)), some.axis @ direction)
+    own = np.arctan2(size[near], some.offset)
+    peak, depth = (
+        2 * np.sin((a + b) / 2) * np.sin((a - b) / 2) for a, b in ((radius, tilt - own), (tilt + own, radius))
+    )
+    half = 2 * np.arctan2(np.sqrt(np.maximum(peak, 0.0)), np.sqrt(np.maximum(depth, 0.0)))
     rising, falling = (_from(begin, stop, phase + turn) for turn in (-half, half))
     once = above[near] != ending[near]
     # Ends on different sides: the one crossing is where the height passes the level downwards from an arc that starts
@@ -338,7 +363,7 @@ def crossings(
     single = np.where(last[near] == 0, stop, np.where(first[near] == 0, begin, single))
     # Ends on the same side: two crossings about the lowest (highest) point, if it is on the arc and beyond the level.
     bulge = begin + np.mod(phase + np.where(above[near], np.pi, 0) - begin, TURN)
-    far = np.where(above[near], size - constant, size + constant) > slack
+    far = np.where(above[near], depth, peak) > slack
     twice = ~once & (bulge > begin) & (bulge < stop) & far
     out = np.where(above[near], np.pi - half, half)
     both = np.stack([np.maximum(bulge - out, begin), np.minimum(bulge + out, stop)], axis=1)

@@ -26,12 +26,9 @@ import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.constants import CHART_ROUNDING, NARROW_PASSAGE, THIN_RING
-from stereodel.curves.borders import Outline, Pieces
+from stereodel.curves.borders import UP, Outline, Pieces
 from stereodel.curves.ragged import Ragged, cycles, offsets_of, spans
 from stereodel.curves.trace import Arcs, fans
-
-UP = np.array([0.0, 0.0, 1.0])
-"""The centre of a view in its axes; on a map, the north pole, on its border as is the south pole."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,10 +129,10 @@ def regions(
     middle : (count,) array, optional
         Which regions contain the centre of the view. If this is known, edges that are hidden throughout may be left out
         of the rings.
-    left : (r, 2) array, optional
+    left : (r, 3) array, optional
         What `Edges.left` says of the rings; without it, chords alone decide.
     """
-    left = np.full((len(rings), 2), np.nan) if left is None else left
+    left = np.full((len(rings), 3), np.nan) if left is None else left
     loops, region, shown = in_sight(rings, owner, count, pieces, samples, border, left)
     if middle is None:
         hidden = np.zeros(count, dtype=bool)
@@ -168,7 +165,8 @@ def in_sight(
     shown = region[drawn]
     of_ring, (of_region, narrow) = _known(left), _known(_by_region(left, owner, count))
     unit = border.length / (2 * np.pi)
-    least = np.where(narrow, NARROW_PASSAGE * unit * np.sqrt(border.blur), 0.0)[shown[~whole]]
+    # Sides that coincide, as at the 180th meridian, cross the border where rounding has put either of them.
+    least = np.where(narrow, NARROW_PASSAGE * unit * np.sqrt(border.blur), 8 * border.slack)[shown[~whole]]
     joined, closed_by = closed_along(border, flat.take(~whole), shown[~whole], least)
     # A part at the border may become clockwise, as if its region surrounded everything else; its overlap with
     # neighbours is equally thin, so it is left out, or turned where it may be all there is of a thin region.
@@ -206,11 +204,11 @@ def _by_region(left: FloatArray, owner: Indices, count: int) -> FloatArray:
 
 def _known(left: FloatArray) -> FloatArray:
     """Areas of rings or regions less whole spheres, NaN if larger than a quarter of one, and which are thin: (2, n)."""
-    area, size = left.T
+    area, size, length = left.T
     area = area - 4 * np.pi * np.rint(area / (4 * np.pi))
     area[np.abs(area) > np.pi] = np.nan
     sure = np.where(np.abs(area) <= CHART_ROUNDING * size, 0.0, area)
-    return np.stack([sure, np.abs(area) <= THIN_RING * size**2])
+    return np.stack([sure, np.abs(area) <= THIN_RING * length**2])
 
 
 def _told(area: FloatArray, length: FloatArray, error: FloatArray, known: FloatArray) -> FloatArray:
@@ -249,7 +247,11 @@ def surround(
     if not chosen.any():
         return np.zeros_like(asked)
     chains = chains_of(rings.take(chosen), pieces)
-    area, length = fans(-UP, points_along(chains.pieces, samples))
+    points = points_along(chains.pieces, samples)
+    (area, length), (same, _) = fans(-UP, points), fans(UP, points)
+    # To the opposite place, angles cancel about the centre; unless a ring goes round that, the area to it is the same.
+    near = (np.abs(same - area) < 2 * np.pi) & (points.values[points.offsets[:-1], 2] > 0)
+    area = np.where(near, same, area)
     region = owner[chosen][chains.row]
     total, reach = (np.bincount(region, of, minlength=len(asked)).astype(np.float64) for of in (area, length))
     known = _known(_by_region(left[chosen], owner[chosen], len(asked)))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import numpy as np
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel._extras import of_extra
 from stereodel.constants import TOUCHING
 from stereodel.curves.clip import signed_areas, with_first_again
-from stereodel.curves.ragged import Ragged, cycles
+from stereodel.curves.ragged import Ragged, cycles, spans
 
 
 def triangles(loops: Ragged, owner: Indices) -> tuple[FloatArray, Indices]:
@@ -41,13 +43,14 @@ def holders(loops: Ragged, owner: Indices) -> tuple[BoolArray, Indices]:
     """
     area, _ = signed_areas(loops)
     shells, holder = np.flatnonzero(area > 0), np.full(len(loops), -1)
+    shell_of = cache(lambda number: _Shell(loops.values[loops.offsets[number] : loops.offsets[number + 1]]))
     low, high = (f.reduceat(loops.values, loops.offsets[:-1]) for f in (np.minimum, np.maximum))
-    rings = list(loops) if len(shells) < len(loops) else []
     for hole in np.flatnonzero(area < 0):
+        ring = loops.values[loops.offsets[hole] : loops.offsets[hole + 1]]
         meets = (low[shells] < high[hole]).all(axis=1) & (low[hole] < high[shells]).all(axis=1)
         near = shells[(owner[shells] == owner[hole]) & meets & (area[shells] > -area[hole])]
         for shell in near[np.argsort(area[near])]:
-            if _holds(rings[shell], rings[hole]):
+            if shell_of(shell).holds(ring):
                 holder[hole] = shell
                 break
     return area > 0, holder
@@ -90,29 +93,46 @@ def _fans(loops: Ragged) -> tuple[BoolArray, FloatArray, Indices]:
     return ahead & (turn < 3 * np.pi), fans, row
 
 
-def _holds(loop: FloatArray, ring: FloatArray) -> bool:
-    """Whether a loop contains a ring that does not cross it."""
-    x, y = _off(loop, ring)
-    at = np.flatnonzero((loop[:-1, 1] <= y) != (loop[1:, 1] <= y))
-    (x0, y0), (x1, y1) = loop[at].T, loop[at + 1].T
-    up, side = y1 > y0, (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
-    return bool(np.count_nonzero(up & (side > 0)) != np.count_nonzero(~up & (side < 0)))
+class _Shell:
+    """A loop whose sides are listed by horizontal bands, to find the few near a hole; a band is a mean side high."""
 
+    def __init__(self, loop: FloatArray) -> None:
+        self.a, self.b = loop[:-1], loop[1:]
+        low, high = np.minimum(self.a[:, 1], self.b[:, 1]), np.maximum(self.a[:, 1], self.b[:, 1])
+        self.bottom, self.height = low.min(), (high - low).mean()
+        first, last = (((y - self.bottom) // self.height).astype(np.intp) for y in (low, high))
+        side, band = np.repeat(np.arange(len(low)), last - first + 1), spans(first, last - first + 1)
+        order = np.argsort(band, kind="stable")
+        self.sides = Ragged.grouped(side[order], band, int(last.max()) + 1)
 
-def _off(loop: FloatArray, ring: FloatArray) -> FloatArray:
-    """A corner or middle of a side of a ring that is off a loop: the first one farther than most, or the farthest."""
-    clear = TOUCHING * np.ptp(ring, axis=0).max()
-    beside = np.maximum(loop[1:], loop[:-1]) >= ring.min(axis=0) - clear
-    beside &= np.minimum(loop[1:], loop[:-1]) <= ring.max(axis=0) + clear
-    sides = np.flatnonzero(beside.all(axis=1))
-    best, far = ring[0], -1.0
-    a, way = loop[sides], loop[sides + 1] - loop[sides]
-    square = np.maximum(np.sum(way**2, axis=1), np.finfo(np.float64).tiny)
-    for point in np.concatenate([ring[:-1], (ring[1:] + ring[:-1]) / 2]):
-        share = np.clip(np.sum((point - a) * way, axis=1) / square, 0.0, 1.0)
-        away = float(np.hypot(*(point - a - share[:, None] * way).T).min(initial=np.inf))
-        if away > far:
-            best, far = point, away
-        if far > clear:
-            break
-    return best
+    def holds(self, ring: FloatArray) -> bool:
+        """Whether the loop contains a ring that does not cross it."""
+        x, y = self._off(ring)
+        (x0, y0), (x1, y1) = (ends.T for ends in self._between(y, y))
+        side = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
+        up, down = (y0 <= y) & (y1 > y) & (side > 0), (y0 > y) & (y1 <= y) & (side < 0)
+        return bool(np.count_nonzero(up) != np.count_nonzero(down))
+
+    def _off(self, ring: FloatArray) -> FloatArray:
+        """A corner or middle of a side of a ring off the loop: the first one farther than most, or the farthest."""
+        low, high = ring.min(axis=0), ring.max(axis=0)
+        clear = TOUCHING * (high - low).max()
+        a, b = self._between(low[1] - clear, high[1] + clear)
+        near = (np.maximum(a[:, 0], b[:, 0]) >= low[0] - clear) & (np.minimum(a[:, 0], b[:, 0]) <= high[0] + clear)
+        a, way = a[near], (b - a)[near]
+        best, far = ring[0], -1.0
+        square = np.maximum(np.sum(way**2, axis=1), np.finfo(np.float64).tiny)
+        for point in np.concatenate([ring[:-1], (ring[1:] + ring[:-1]) / 2]):
+            share = np.clip(np.sum((point - a) * way, axis=1) / square, 0.0, 1.0)
+            away = float(np.hypot(*(point - a - share[:, None] * way).T).min(initial=np.inf))
+            if away > far:
+                best, far = point, away
+            if far > clear:
+                break
+        return best
+
+    def _between(self, low: float, high: float) -> tuple[FloatArray, FloatArray]:
+        """Both ends of the sides in all bands from one height to another, once for each band."""
+        first, last = (min(max(int((y - self.bottom) // self.height), -1), len(self.sides) - 1) for y in (low, high))
+        some = self.sides.values[self.sides.offsets[max(first, 0)] : self.sides.offsets[last + 1]]
+        return self.a[some], self.b[some]

@@ -256,18 +256,19 @@ class Edges:
         return fans(APEX, quarters)[0] + np.where(arcs.offset == 0, 0.0, inner)
 
     def left(self, rings: Ragged) -> FloatArray:
-        """Areas on the left of rings of edges, modulo a whole sphere, 4π, and sizes by which to judge them, (r, 2).
+        """Areas on the left of rings of edges, modulo a whole sphere, 4π, sizes of their terms, and lengths, (r, 3).
 
-        The sizes are at least the lengths of the rings, and the areas are off by `CHART_ROUNDING` of them.
+        The areas are off by `CHART_ROUNDING` of the sizes.
         """
         edge, back = np.maximum(rings.values, ~rings.values), rings.values < 0
         area = np.where(back, -1.0, 1.0) * self._swept[edge]
-        size = self.length[edge] + np.abs(area)
+        length = self.length[edge]
+        size = length + np.abs(area)
         # At the south pole, where meridians end, the next edge may begin on another one.
         start, end = (np.where(back[:, None], self.lonlat[edge, 1 - k], self.lonlat[edge, k]) for k in (0, 1))
         jump = start[rings.following, 0] - end[:, 0]
         area += np.where(end[:, 1] == -90.0, 2 * np.radians(jump), 0.0)
-        return np.stack([np.bincount(rings.row, part, minlength=len(rings)) for part in (area, size)], axis=1)
+        return np.stack([np.bincount(rings.row, part, minlength=len(rings)) for part in (area, size, length)], axis=1)
 
     def take(self, chosen: Indices | BoolArray) -> Edges:
         """Some of the edges, renumbered."""

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from stereodel._arrays import BoolArray, FloatArray, Indices, as_scalar, as_steps
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import GRID_SAMPLES, REACH_MARGIN, UNIT_ROUNDOFF
+from stereodel.constants import GRID_SAMPLES, MOST_GRID_LINES, REACH_MARGIN, UNIT_ROUNDOFF
 from stereodel.curves.trace import Arcs, exact, joined, numbered
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.view import MapView
@@ -44,6 +44,9 @@ NARROWINGS: Final = 8
 
 HALVINGS: Final = 40
 """Number of halvings of the interval in which a line ends, down to a millionth of a millionth of it."""
+
+LINES_AT_ONCE: Final = 512
+"""Lines along which the spacing is computed at once, at two hundred places in three coordinates: arrays of 2.4 MB."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,10 +91,15 @@ class Graticule:
     def shown(
         cls, spacing: float, lens: MoebiusMap, view: MapView, least: float, *, latitude: Latitude = "spherical"
     ) -> Graticule:
-        """The lines of `regular` that may be visible in a picture thinned to `least`: at most some thousands.
+        """The lines of `regular` that may be visible in a picture thinned to `least`: some thousands.
 
         However fine the grid, the cost depends only on its visible part. Parameters are those of `regular` and
         `thinned`; for a glass ball this is the near side.
+
+        Raises
+        ------
+        ValueError
+            If there are more than `MOST_GRID_LINES` of them.
 
         Examples
         --------
@@ -172,7 +180,8 @@ class Graticule:
         row = np.broadcast_to(np.arange(len(t))[:, None], t.shape)
         # Lines that always remain are drawn regardless of their neighbours.
         wanted = np.where(self.strides == 0, 0.0, need / np.maximum(self.strides, 1))
-        enough = lines.spacing(row, t) >= wanted[:, None]
+        some = np.array_split(np.arange(len(t)), len(t) // LINES_AT_ONCE + 1)
+        enough = np.concatenate([lines.spacing(row[rows], t[rows]) for rows in some]) >= wanted[:, None]
         line, cut, begins = lines.ends(t, enough, wanted)
         starts, stops = enough[:, 0], enough[:, -1]
         every = np.arange(len(t))
@@ -301,8 +310,8 @@ class _Window:
             return np.zeros(0, dtype=np.intp)
         step, (west, east) = stride * 180.0 / steps, box[2:]
         if east - west + 2 * step >= 360.0:
-            return np.arange(-(steps // stride), -(-steps // stride)) * stride
-        numbers = np.arange(np.floor(west / step), np.ceil(east / step) + 1).astype(np.intp) * stride
+            return _multiples(-(steps // stride), -(-steps // stride), stride)
+        numbers = _multiples(np.floor(west / step), np.ceil(east / step) + 1, stride)
         return np.mod(numbers + steps, 2 * steps) - steps
 
     def parallels(self, stride: int, steps: int, apart: float) -> Indices:
@@ -312,7 +321,7 @@ class _Window:
             return np.zeros(0, dtype=np.intp)
         step = stride * 180.0 / steps
         south, north = xyz_to_lonlat(lonlat_to_xyz([(0.0, lat) for lat in box[:2]]), latitude=self.latitude)[:, 1]
-        return np.arange(np.floor(south / step), np.ceil(north / step) + 1).astype(np.intp) * stride
+        return _multiples(np.floor(south / step), np.ceil(north / step) + 1, stride)
 
     def _room(self, apart: float, *, meeting: bool) -> _Box | None:
         """South, north, west, east of the part visible at this scale or a larger one; `meeting` is for meridians."""
@@ -321,7 +330,7 @@ class _Window:
             nearest = 0.0 if box[0] <= 0 <= box[1] else min(abs(box[0]), abs(box[1]))
             breadth = float(np.cos(np.radians(nearest))) if meeting else 1.0
             radius = self._reach(apart / max(breadth, UNIT_ROUNDOFF) / self._widest)
-            if radius is None:
+            if radius is None or radius < self._away:
                 return None
             around = _box_around(self._peak, radius)
             south, north = max(box[0], around[0]), min(box[1], around[1])
@@ -345,6 +354,14 @@ class _Window:
     def _seen(self) -> _Box:
         cap = _visible(self.lens, self.view)
         return _box_around(cap.normal, float(np.radians(cap.angular_radius)))
+
+    @cached_property
+    def _away(self) -> float:
+        """Distance in radians of the visible part from the peak, near which a box would reach round the sphere."""
+        cap = _visible(self.lens, self.view)
+        chord = float(np.sqrt(np.sum((cap.normal - self._peak) ** 2)))
+        apart = 2 * np.arcsin(min(1.0, chord / 2)) - np.radians(cap.angular_radius)
+        return float(apart) * (1 - REACH_MARGIN) - 8 * UNIT_ROUNDOFF
 
     @property
     def _widest(self) -> float:
@@ -405,6 +422,13 @@ def usual_spacing(lens: MoebiusMap, view: MapView) -> float:
     """
     across = max(2 * _visible(lens, view).angular_radius, SPACINGS[-1])
     return min(SPACINGS, key=lambda spacing: abs(np.log(across / LINES_ACROSS / spacing)))
+
+
+def _multiples(first: float, end: float, stride: int) -> Indices:
+    """Multiples of a stride, from one up to another."""
+    if end - first > MOST_GRID_LINES:
+        raise ValueError(f"spacing is too small: over {MOST_GRID_LINES} lines have room; give wider lines or spacing")
+    return np.arange(first, end).astype(np.intp) * stride
 
 
 def _quarter(steps: int) -> int:

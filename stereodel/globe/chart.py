@@ -95,7 +95,7 @@ class Chart:
     def points(self, xyz: FloatArray) -> tuple[FloatArray, BoolArray]:
         """Page coordinates (n, 2) of unit vectors, meaningless for hidden points, and a mask of visible points."""
         axes = turned(self.lens(xyz), self.view.matrix)
-        return self.scale * self.view.flattened(axes) + np.array(self.at), axes[:, 2] >= self.view.edge
+        return self.scale * self.view.flattened(axes) + np.array(self.at), self._border.holds(axes)
 
     @property
     def slack(self) -> float:

@@ -12,7 +12,7 @@ from matplotlib.transforms import Transform
 
 from stereodel._arrays import BoolArray, FloatArray, Indices
 from stereodel.conformal import MoebiusMap
-from stereodel.constants import DEGREE_ROUNDING, LIMB_DEPTH, ON_BALL, PAGE_TOLERANCE, STORED_ERROR, WHOLE_TURNS
+from stereodel.constants import DEGREE_ROUNDING, ON_BALL, PAGE_TOLERANCE, STORED_ERROR, WHOLE_TURNS
 from stereodel.curves import clip, trace
 from stereodel.curves.borders import Cap, Pieces
 from stereodel.curves.ragged import Ragged
@@ -74,7 +74,7 @@ class LonLatToPage(Transform):
         page = np.full(rows.shape, np.nan)
         place = np.flatnonzero(_is_place(rows))
         axes = turned(self.lens(lonlat_to_xyz(rows[place])), self.matrix)
-        seen = axes[:, 2] >= self.view.edge - LIMB_DEPTH
+        seen = self._border.holds(axes)
         page[place[seen]] = self.view.flattened(axes[seen])
         return page.reshape(lonlat.shape)
 

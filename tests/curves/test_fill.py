@@ -1,9 +1,11 @@
 """Loops as triangles: what they cover, holes in the right shell, the owner of each triangle."""
 
 from itertools import pairwise
+from time import process_time
 
 import numpy as np
 import pytest
+from mapbox_earcut import triangulate_float64
 from scipy.spatial import Delaunay
 
 from stereodel.curves.clip import signed_areas
@@ -52,6 +54,23 @@ def test_holes_may_touch_their_shell(turn):
     assert areas(corners).sum() == pytest.approx(100 - 10 + 5.9**2)
     middle = corners.mean(axis=1)
     assert not ((middle > [5.5, 4.5]) & (middle < [6.5, 5.5])).all(axis=1).any()
+
+
+def test_a_sea_takes_no_longer_than_its_ears():
+    """Each of its islands was measured against the whole shore; an island has a lake with an island of its own."""
+    t = np.linspace(0, 2 * np.pi, 60_001)
+    shore = np.stack([np.cos(t), np.sin(t)], axis=1) * (40 + np.sin(40 * t) + 0.01 * np.sin(20_000 * t))[:, None]
+    shore[-1] = shore[0]
+    places = [(x, y) for x in range(-26, 26) for y in range(-26, 26)]
+    islands = [square(x, y, 0.6, clockwise=True) for x, y in places]
+    inner = [square(x + at, y + at, side, at == 0.2) for x, y in places[::9] for at, side in ((0.1, 0.4), (0.2, 0.1))]
+    loops, start = Ragged.of([shore, *islands, *inner]), process_time()
+    corners, _ = triangles(loops, np.zeros(len(loops), dtype=np.intp))
+    taken, start = process_time() - start, process_time()
+    sea = [shore, *islands]
+    triangulate_float64(np.concatenate(sea), np.cumsum([len(ring) for ring in sea], dtype=np.uint32))
+    assert areas(corners).sum() == pytest.approx(signed_areas(loops)[0].sum(), rel=1e-9)
+    assert taken < 0.5 + 3 * (process_time() - start)
 
 
 def test_nothing_has_no_triangles():

@@ -1,5 +1,7 @@
 """Grids that are thinned: lines end exactly where their neighbours come too near, and nothing runs together."""
 
+import tracemalloc
+
 import numpy as np
 import pytest
 
@@ -159,6 +161,46 @@ def spacing(end, lens, view, step, *, meridian):
     east, north = (page[1] - page[2]) / 2, (page[3] - page[4]) / 2
     area = abs(east[0] * north[1] - east[1] * north[0])
     return step / small * area / np.hypot(*(north if meridian else east))
+
+
+def asked(rng):
+    """How many lines a random picture asks for, and what it is: radii and magnifications of all sizes."""
+    focus = rng.uniform(-180, 180), float(rng.choice([rng.uniform(-90, 90), 90, -90, 89.9999, 0]))
+    place = focus if rng.random() < 0.5 else rng.uniform((-180, -90), (180, 90))
+    flat = StereographicView(*place, angular_radius=min(170.0, 10 ** rng.uniform(-7, 2.26)))
+    view = View(*place) if rng.random() < 0.2 else flat
+    lens = fisheye(focus, magnification=10 ** rng.uniform(-3, 6))
+    spacing = usual_spacing(lens, view) if rng.random() < 0.5 else float(rng.choice([15, 1, 0.1, 1e-3, 1e-6]))
+    return len(Graticule.shown(spacing, lens, view, 0.0032).arcs), (spacing, lens, view)
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, pytest.param(3, marks=pytest.mark.thorough)])
+def test_no_picture_asks_for_more_lines_than_have_room(seed):
+    """A view of a small part that a lens shrinks asked for millions, of the scale that the lens has elsewhere."""
+    rng = np.random.default_rng(seed)
+    count, picture = max((asked(rng) for _ in range(10_000 if seed == 3 else 300)), key=lambda found: found[0])
+    assert count < 35 / 0.0032, picture
+    lens = fisheye((-37.9, 0), magnification=0.005)
+    assert len(Graticule.shown(1e-6, lens, StereographicView(-37.9, 0, angular_radius=0.0036), 0.003).arcs) < 10_000
+
+
+def test_lines_without_number_are_refused_before_they_are_made():
+    tracemalloc.start()
+    with pytest.raises(ValueError, match="over 65536 lines"):
+        Graticule.shown(1e-9, fisheye((0, 0), magnification=1e-3), View(0, 0), 1e-8)
+    assert tracemalloc.get_traced_memory()[1] < 10e6
+    tracemalloc.stop()
+
+
+def test_many_lines_take_little_memory():
+    """The most that have room at a usual width, around the pole."""
+    lens, view, least = fisheye((0, -90), magnification=790), View(0, -30), 0.0032
+    grid = Graticule.shown(0.05, lens, view, least)
+    assert len(grid.arcs) > 1500
+    tracemalloc.start()
+    grid.thinned(lens, view, least)
+    assert tracemalloc.get_traced_memory()[1] < 60e6
+    tracemalloc.stop()
 
 
 @pytest.mark.parametrize("radius", [1e-6, 1e-4])

@@ -73,6 +73,7 @@ def in_box(xyz, box):
     return (np.mod(lon - west, 360) <= east - west) & (south <= lat) & (lat <= north)
 
 
+@example(focus=(0.0, -66.0), size=1e5, view=View(0.0, 0.0), name="south as in files")
 @given(focus=places, size=st.floats(-3, 6).map(lambda e: 10.0**e), view=views, name=st.sampled_from(sorted(BOXES)))
 def test_boxes_hold_what_they_should_under_every_lens(focus, size, view, name):
     """Winding numbers of the loops on the page against the box itself, at places all over the disc."""

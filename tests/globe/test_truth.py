@@ -22,6 +22,7 @@ from stereodel.drawing import LineStyle, StereographicView, View
 from stereodel.drawing.page import Polygons
 from stereodel.globe import Globe
 from stereodel.globe.chart import Chart
+from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
 from stereodel.mpl import FisheyeAxes
 from stereodel.mpl.transforms import LonLatToPage
@@ -166,6 +167,11 @@ def test_places_lie_in_what_is_drawn_in_a_hundred_views(layer):
         assert_places_are_true(np.random.default_rng(seed), layer, SOURCES[layer]())
 
 
+def test_coincident_sides_cross_the_rim_at_one_place():
+    """The sea's two sides along the 180th meridian: where rounding put one after the other, all the disc was sea."""
+    assert_places_are_true(np.random.default_rng(22), "ocean", SOURCES["ocean"]())
+
+
 SIGHTS = [
     (MoebiusMap.identity(), View(20, 20)),
     (MoebiusMap.identity(), View(90, 0)),
@@ -223,3 +229,46 @@ def test_hundreds_of_slivers_in_axes(size):
     for seed in range(10):
         rings = truth.slivers(np.random.default_rng(10 + seed), 40)
         assert_axes_stay_white(rings, focus=(36.0 * seed - 180, 16.0 * seed - 72), magnification=size)
+
+
+def chord(a, b):
+    """Length of the part of a segment in the unit disc."""
+    way = b - a
+    size = np.hypot(*way)
+    middle = -(a @ way) / size
+    half = np.sqrt(max(0.0, 1 - (a @ a - middle**2)))
+    return max(0.0, min(size, middle + half) - max(0.0, middle - half))
+
+
+@pytest.mark.parametrize("magnification", [1.0, 1e3])
+@pytest.mark.parametrize("radius", [1e-3, 1e-5, 1e-6])
+@pytest.mark.parametrize("seed", range(3))
+def test_tiny_caps_show_what_lies_in_them(radius, magnification, seed):
+    """Such a cap is flat. By cosines, two radii of 1e-6 degrees beyond the rim were within it."""
+    rng = np.random.default_rng(seed)
+    focus = float(rng.uniform(-180, 180)), float(rng.uniform(-75, 75))
+    chart = Chart(fisheye(focus, magnification=magnification), StereographicView(*focus, angular_radius=radius))
+    off = chart.tolerance
+
+    def places(xy):
+        return truth.before(focus, magnification, truth.raised(chart.view, xy))
+
+    xy = rng.uniform(-1.5, 1.5, (300, 2))
+    found, seen = chart.points(places(xy))
+    far = np.hypot(*xy.T)
+    np.testing.assert_allclose(found, xy, atol=off)
+    np.testing.assert_array_equal(seen[np.abs(far - 1) > off], far[np.abs(far - 1) > off] < 1)
+    for start, end, third in rng.uniform(-2, 2, (30, 3, 2)):
+        lines = chart.lines(SphereLines.great(places(start[None]), places(end[None])))
+        assert np.hypot(*lines.values.T).max(initial=0) < 1 + off
+        length = sum(np.hypot(*np.diff(line, axis=0).T).sum() for line in lines)
+        assert length == pytest.approx(chord(start, end), abs=2 * np.sqrt(2 * off))
+        corners = np.array([start, end, third])
+        loops, _ = chart.regions(SphereRegions.of_lonlat([[truth.degrees(places(corners))]]))
+        assert np.hypot(*loops.values.T).max(initial=0) < 1 + off
+        inner = xy[far < 1 - 10 * off]
+        near = [inner + 10 * off * np.array(step) for step in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1))]
+        answers = [truth.inside([[corners]], place) for place in near]
+        clear = np.all(answers, axis=0) | ~np.any(answers, axis=0)
+        drawn = truth.inside([list(loops)], inner) if len(loops) else np.zeros(len(inner), dtype=bool)
+        np.testing.assert_array_equal(drawn[clear], answers[0][clear])
