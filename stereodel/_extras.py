@@ -36,7 +36,7 @@ class Extra:
 
 
 TRIMESH: Final = Library("trimesh", "4.4")
-PYARROW: Final = Library("pyarrow", "16")
+PYARROW: Final = Library("pyarrow", "19")
 RICH: Final = Library("rich", "13.7")
 
 EXTRAS: Final[Mapping[str, Extra]] = {
