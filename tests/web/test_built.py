@@ -25,7 +25,7 @@ def test_it_asks_for_one_function_and_offers_what_is_called(node):
     imports, exports = node(
         'import { readFileSync } from "node:fs";'
         f"const module = await WebAssembly.compile(readFileSync({json.dumps(str(MODULE))}));"
-        "console.log(JSON.stringify([WebAssembly.Module.imports(module), WebAssembly.Module.exports(module)]));"
+        "export default [WebAssembly.Module.imports(module), WebAssembly.Module.exports(module)];"
     )
     assert imports == [{"module": "page", "name": "fail", "kind": "function"}]
     names = {export["name"] for export in exports}

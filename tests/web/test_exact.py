@@ -116,8 +116,7 @@ def web(request, bundle, tmp_path_factory):
     if request.param == "node":
         node = request.getfixturevalue("node")
         code = f"import {{ readFileSync }} from 'node:fs'; (0, eval)(readFileSync({json.dumps(str(bundle))}, 'utf8'));"
-        code += "await web.ready; const given = JSON.parse(readFileSync(0, 'utf8'));"
-        yield lambda line, given: node(f"{code} console.log(JSON.stringify(await {line}))", input=json.dumps(given))
+        yield lambda line, given: node(f"{code} await web.ready; export default await {line};", given)
         return
     page = request.getfixturevalue("browser").new_page()
     empty = tmp_path_factory.mktemp("page") / "page.html"

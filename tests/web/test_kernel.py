@@ -21,7 +21,6 @@ await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));
 const refused = (call) => {{
   try {{ call(); return null; }} catch (error) {{ return [error.name, error.message]; }}
 }};
-const print = (value) => console.log(JSON.stringify(value));
 """
 
 # Said by both: what is asked of Python, the same of the script, and the name of the error there.
@@ -66,7 +65,7 @@ SAME_WORDS = {
 def said(node):
     """What the script says, by the names of `SAME_WORDS`."""
     asked = ", ".join(f"{json.dumps(name)}: refused(() => {script})" for name, (_, script, _) in SAME_WORDS.items())
-    return node(f"{KERNEL} print({{{asked}}});")
+    return node(f"{KERNEL} export default {{{asked}}};")
 
 
 @pytest.mark.parametrize("name", SAME_WORDS)
@@ -115,7 +114,7 @@ def refusals(node):
     asked = ", ".join(f"() => {line}" for line in WRONG)
     answers = node(
         f"{KERNEL} const square = () => new api.PlanarDelaunay([0, 0, 2, 0, 2, 2, 0, 2, 1, 1]).simplices.join();"
-        f"const before = square(); print([{asked}].map((call) => [refused(call), square() === before]));"
+        f"const before = square(); export default [{asked}].map((call) => [refused(call), square() === before]);"
     )
     return dict(zip(WRONG, answers, strict=True))
 
@@ -132,14 +131,14 @@ def test_input_is_never_written_to_nor_kept(node):
     same = node(
         f"{KERNEL} const points = Float64Array.of(0, 0, 2, 0, 2, 2, 0, 2); const copy = points.slice();"
         "const made = new api.PlanarDelaunay(points); made.insert([1, 1]); made.remove([0]);"
-        "print([points.join() === copy.join(), made.points.buffer !== points.buffer, made.size]);"
+        "export default [points.join() === copy.join(), made.points.buffer !== points.buffer, made.size];"
     )
     assert same == [True, True, 4]
 
 
-def test_a_failure_drops_the_instance_and_nothing_else(node):
+def test_a_failure_drops_the_instance_and_nothing_else(fresh_node):
     """Out of memory, a hundred times: the next call works, and old objects answer as before."""
-    first, errors, before, after, answer, again = node(
+    first, errors, before, after, answer, again = fresh_node(
         f"{KERNEL} const points = Float64Array.from({{ length: 3000 }}, (_, k) => Math.sin(k * k + 1));"
         "const made = new api.SphericalDelaunay(points); const answer = made.nearest([1, 2, 3])[0];"
         "const before = kernel().memoryBytes; const errors = new Set(); let first = null;"
@@ -148,7 +147,7 @@ def test_a_failure_drops_the_instance_and_nothing_else(node):
         "  first ??= failure; errors.add(failure.join(': ')); new api.PlanarDelaunay([0, 0, 1, 0, 0, 1]);"
         "}"
         "const again = made.nearest([1, 2, 3])[0];"
-        "print([first, errors.size, before, kernel().memoryBytes, answer, again]);"
+        "export default [first, errors.size, before, kernel().memoryBytes, answer, again];"
     )
     assert first == ["KernelError", "out of memory: the kernel has 4 GiB at most; give fewer points"]
     assert errors == 1
@@ -159,18 +158,18 @@ def test_a_failure_drops_the_instance_and_nothing_else(node):
 def test_an_error_of_the_kernel_comes_with_its_message(node):
     """Checks come first, so it takes a call around them; the message is that of the C++ exception."""
     name, message = node(
-        f"{KERNEL} print(refused(() => kernel().run((session) => {{"
+        f"{KERNEL} export default refused(() => kernel().run((session) => {{"
         "  const out = session.place(Int8Array, 1);"
         "  session.call('plane_turn', Float64Array.of(NaN, 0), 1, Float64Array.of(0, 0), 1,"
         "Float64Array.of(1, 0), 1, out);"
-        "})));"
+        "}));"
     )
     assert (name, message) == ("KernelError", "a[0, 0] is nan, not a finite number")
 
 
-def test_addresses_above_two_gigabytes(node):
+def test_addresses_above_two_gigabytes(fresh_node):
     """Memory that is asked for and not touched costs nothing: what comes after it lies above 2 GiB."""
-    numbers, equal, above = node(
+    numbers, equal, above = fresh_node(
         f"{KERNEL} const points = Float64Array.from({{ length: 60000 }}, (_, k) => Math.sin(k * k + 1));"
         "const all = () => { const made = new api.SphericalDelaunay(points);"
         "const cells = new api.SphericalVoronoi(made);"
@@ -179,34 +178,34 @@ def test_addresses_above_two_gigabytes(node):
         "for (let k = 0; k < 5; ++k) kernel().run((session) => session.call('allocate', 2 ** 29 - 2 ** 16));"
         "const equal = all() === before;"
         "const place = kernel().run((session) => session.place(Float64Array, 1e6).address);"
-        "print([[-1, -(2 ** 31), 5].map(unsigned), equal, place]);"
+        "export default [[-1, -(2 ** 31), 5].map(unsigned), equal, place];"
     )
     assert numbers == [2**32 - 1, 2**31, 5]
     assert equal
     assert above > 2**31
 
 
-def test_arrays_that_stay_are_given_back(node):
+def test_arrays_that_stay_are_given_back(fresh_node):
     """What may stay in the module is bounded: the array that was not used for longest goes first."""
-    grown, bound = node(
+    grown, bound = fresh_node(
         f"{KERNEL} const array = () => new Float64Array(2 ** 20);"
         "kernel().run((session) => session.call('xyz_to_lonlat', new Kept(array()), 0, 0));"
         "for (let k = 0; k < 100;"
         "++k) kernel().run((session) => session.call('xyz_to_lonlat', new Kept(array()), 0, 0));"
-        "print([kernel().memoryBytes, KEPT_BYTES]);"
+        "export default [kernel().memoryBytes, KEPT_BYTES];"
     )
     assert bound < grown < 2.2 * bound  # memory is given out in powers of two
 
 
-def test_without_the_module(node):
-    said = node(
+def test_without_the_module(fresh_node):
+    said = fresh_node(
         f'import {{ PlanarDelaunay }} from "{SCRIPT}/kernel/api.ts";'
         f'import {{ load }} from "{SCRIPT}/kernel/instance.ts";'
         "const said = []; try { new PlanarDelaunay([0, 1]); } catch (error) { said.push(error.message); }"
         "try { await load(new Uint8Array(3)); } catch (error) { said.push(error.name); }"
         f'const {{ readFileSync }} = await import("node:fs");'
         f'await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));'
-        "said.push(new PlanarDelaunay([0, 1]).size); console.log(JSON.stringify(said));"
+        "said.push(new PlanarDelaunay([0, 1]).size); export default said;"
     )
     assert said == ["the kernel is not loaded: await load() first", "CompileError", 1]
 
@@ -221,12 +220,11 @@ def test_a_raster_is_that_of_python(node):
         picture[..., 3] |= 255 * opaque
         turned = ", ".join(map(repr, Rotation.nearest(view.matrix).quaternion.tolist()))
         made = node(
-            f"{KERNEL} const given = JSON.parse(readFileSync(0, 'utf8'));"
-            "const turned = api.MoebiusMap.rotation(api.Rotation.about([10, 20], 70));"
+            f"{KERNEL} const turned = api.MoebiusMap.rotation(api.Rotation.about([10, 20], 70));"
             "const lens = turned.after(api.MoebiusMap.fisheye([10, 50], 4));"
             f"const view = api.MoebiusMap.rotation(new api.Rotation([{turned}]));"
-            "print(Array.from(new api.Raster(Uint8Array.from(given), 120).warp(view.after(lens), 50)));",
-            input=json.dumps(picture.ravel().tolist()),
+            "export default Array.from(new api.Raster(Uint8Array.from(given), 120).warp(view.after(lens), 50));",
+            picture.ravel().tolist(),
         )
         warped = Raster(picture).warp(lens, view, 50)
         assert np.abs(np.array(made).reshape(50, 50, 4) - warped).max() <= 1  # the rotations are multiplied otherwise

@@ -1,7 +1,5 @@
 """What the Lift room says of a sheet, against the library: images, scales, bounds, facets that see the pole."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -16,13 +14,11 @@ WASM = SCRIPT.parent / "built" / "stereodel.wasm"
 
 ROOM = f"""
 import {{ readFileSync }} from "node:fs";
-import {{ text }} from "node:stream/consumers";
 import {{ load }} from "{SCRIPT}/kernel/instance.ts";
 import {{ separationBounds }} from "{SCRIPT}/rooms/lift_sheet.ts";
 import {{ LiftSites }} from "{SCRIPT}/rooms/lift_sites.ts";
 import {{ sheetSets }} from "{SCRIPT}/rooms/lift_sets.ts";
 await load(readFileSync("{WASM}"));
-const given = JSON.parse(await text(process.stdin));
 const sitesOf = (places, sides) => new LiftSites(Float64Array.from(places.flat()), sides);
 const imagesOf = (sites, corner) => Array.from({{ length: sites.count }}, (_, k) => {{
   const sheet = sites.sheet(corner), [x, y] = sites.places.subarray(2 * k, 2 * k + 2);
@@ -35,7 +31,7 @@ SETS = "sheetSets(Float64Array.from(given.flat()))"
 
 
 def ask(node, expression, given=None):
-    return node(f"{ROOM}console.log(JSON.stringify({expression}));", input=json.dumps(given))
+    return node(f"{ROOM}export default {expression};", given)
 
 
 @pytest.fixture

@@ -1,6 +1,5 @@
 """The state of the page as a link: what is written is read back, and what is hostile is refused as a whole."""
 
-import json
 import random
 import string
 
@@ -10,9 +9,7 @@ import pytest
 from .conftest import SCRIPT
 
 LINK = f"""
-import {{ text }} from "node:stream/consumers";
 import {{ LinkError, LinkValues, packPlaces, readLink, unpackPlaces, writeLink, writeNumber }} from "{SCRIPT}/link.ts";
-const given = JSON.parse(await text(process.stdin));
 const attempt = (body) => {{
   try {{ return body(); }} catch (error) {{ return error instanceof LinkError ? "refused" : String(error); }}
 }};
@@ -20,10 +17,8 @@ const attempt = (body) => {{
 
 
 def ask(node, expression, given):
-    """What an expression of `given` is; signs that end a line of output are written by their numbers."""
-    escape = r"(c) => '\\u' + c.charCodeAt(0).toString(16).padStart(4, '0')"
-    answer = f"JSON.stringify({expression}).replace(/[^ -~]/g, {escape})"
-    return node(f"{LINK}console.log({answer});", input=json.dumps(given))
+    """What an expression of `given` is."""
+    return node(f"{LINK}export default {expression};", given)
 
 
 READ = (
