@@ -70,7 +70,11 @@ SAME = {
     "no hull": ("[d3.geoVoronoi(given).hull()]", places(100, 1), list),
     "mesh": ("d3.geoVoronoi().mesh(given).coordinates", FIVE, unordered),
     "cell mesh": ("d3.geoVoronoi().cellMesh(given).coordinates", FIVE, unordered),
-    "lengths": (f"{LINKS}.map((f) => f.properties.length)", THREE, lambda lengths: sorted(round(x, 12) for x in lengths)),
+    "lengths": (
+        f"{LINKS}.map((f) => f.properties.length)",
+        THREE,
+        lambda lengths: sorted(round(x, 12) for x in lengths),
+    ),
     "corners": (f"{TRIANGLES}.map((f) => f.geometry.coordinates[0])", THREE, lambda rings: [*map(turned, rings)]),
     "centres": (f"{TRIANGLES}.map((f) => f.properties.circumcenter)", THREE, rounded),
     "accessors": ("d3.geoVoronoi().x((d) => +d.lon).y((d) => +d.lat)(given).points", OBJECTS, list),

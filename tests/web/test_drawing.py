@@ -18,7 +18,9 @@ def drawing(node, request):
     """Call a function of drawing.ts, whose random numbers begin with the test: `drawing("arcs(100)")`."""
 
     def call(expression):
-        return node(f'import * as drawing from "{DRAWING}?{request.node.name}"; export default await drawing.{expression};')
+        return node(
+            f'import * as drawing from "{DRAWING}?{request.node.name}"; export default await drawing.{expression};'
+        )
 
     return call
 

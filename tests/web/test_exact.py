@@ -151,7 +151,13 @@ def test_every_array_of_every_set(web, which):
 def tied_rows():
     """Rows of four (three) points that lie exactly on a circle, a plane or a line, or a hair beside."""
     rng = np.random.default_rng(60_000)
-    widths_and_counts = {"orient2d": (2, 3), "incircle": (2, 4), "orient3d": (3, 4), "in_bubble": (3, 4), "turn": (3, 3)}
+    widths_and_counts = {
+        "orient2d": (2, 3),
+        "incircle": (2, 4),
+        "orient3d": (3, 4),
+        "in_bubble": (3, 4),
+        "turn": (3, 3),
+    }
     for name, (width, count) in widths_and_counts.items():
         rows = [rng.integers(-3, 4, size=(14_000, width)).astype(float) for _ in range(count)]
         # A third of the rows are moved by one unit in the last place of one coordinate, a third are scaled.

@@ -74,23 +74,13 @@ def test_numbers_and_words_are_read(node):
     read = "[new LinkValues(given).number('lat', -90, 90, 7), new LinkValues(given).number('no', 0, 1, 0.5)]"
     assert ask(node, read, {"lat": "-53.125"}) == [-53.125, 0.5]
     assert ask(node, "attempt(() => new LinkValues(given).whole('k', 0, 9, 1))", {"k": "2.5"}) == "refused"
-    words = "attempt(() => new LinkValues(given).word('click', ['keep', 'add'], 'keep'))"
-    assert [ask(node, words, each) for each in ({"click": "add"}, {}, {"click": "toString"})] == [
-        "add",
-        "keep",
-        "refused",
-    ]
+    words = "given.map((each) => attempt(() => new LinkValues(each).word('click', ['keep', 'add'], 'keep')))"
+    assert ask(node, words, [{"click": "add"}, {}, {"click": "toString"}]) == ["add", "keep", "refused"]
 
 
 def test_numbers_are_written_short(node):
-    expression = "given.map(([value, digits]) => writeNumber(value, digits))"
-    assert ask(node, expression, [[5, 4], [-0.00001, 3], [1.25, 1], [100, 0], [-2.5, 4]]) == [
-        "5",
-        "0",
-        "1.3",
-        "100",
-        "-2.5",
-    ]
+    numbers = [[5, 4], [-0.00001, 3], [1.25, 1], [100, 0], [-2.5, 4]]
+    assert ask(node, "given.map((number) => writeNumber(...number))", numbers) == ["5", "0", "1.3", "100", "-2.5"]
 
 
 def test_sites_come_back_to_the_bit(node, rng):
