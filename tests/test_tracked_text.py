@@ -1,23 +1,14 @@
 """The text checks of `make check`: what they see, and what they say about this repository."""
 
-import importlib.util
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
+from tools import tracked_text as tracked
+
 ROOT = Path(__file__).resolve().parent.parent
-
-
-def tool(name):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "tools" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-tracked = tool("tracked_text")
 
 
 @pytest.mark.parametrize("line", ["x" * 121, "\tx", "x "])
