@@ -27,14 +27,18 @@ from tools.browser import Visit, chromium
 SCRIPT = Path(__file__).resolve().parents[2] / "stereodel" / "web" / "script"
 """The sources in TypeScript."""
 
+LOADED = f"""
+import {{ readFileSync }} from "node:fs";
+import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));
+"""
+"""How a module for Node begins that needs the kernel."""
+
 NEED_THE_SWITCH = {"browser", "visit", "node", "fresh_node"}
 
 
 def pytest_collection_modifyitems(config, items):
-    """One process has the browser. Without browser and Node where they are switched off; the summary says so."""
-    for item in items:
-        if "browser" in getattr(item, "fixturenames", ()):
-            item.add_marker(pytest.mark.xdist_group("browser"))
+    """Leave out what needs a browser or Node where that is switched off; tests/conftest.py says so in the summary."""
     if os.environ.get("STEREODEL_TEST_WEB") != "off":
         return
     off = [item for item in items if NEED_THE_SWITCH & set(getattr(item, "fixturenames", ()))]

@@ -6,15 +6,12 @@ Both are asked the same; orders that neither documents are taken out before they
 import numpy as np
 import pytest
 
-from tests.web.conftest import SCRIPT
+from tests.web.conftest import LOADED, SCRIPT
 
-BOTH = f"""
-import {{ readFileSync }} from "node:fs";
-import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+BOTH = f"""{LOADED}
 import * as ours from "{SCRIPT}/kernel/d3.ts";
 import * as theirs from "{SCRIPT}/node_modules/d3-geo-voronoi/src/index.js";
 import {{ geoArea, geoCentroid }} from "{SCRIPT}/node_modules/d3-geo/src/index.js";
-await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));
 """
 
 FIVE = [[10, 0], [10, 10], [3, 5], [-2, 5], [0, 0]]

@@ -94,6 +94,27 @@ COLLECTIONS = {
     "nothing.geojson": geojson(),
 }
 
+XY = ("x", "y")
+PLANE = {
+    "x,y\n1,2\n3,4e9\n": XY,
+    "x,y\n1,2\n3,\n": XY,
+    "x,y\n1,2\nb,3\n": XY,
+    "n,Y,X\n1,2,3\n4,5,6\n": ("X", "Y"),
+    "1;2,5\n3;4\n": ("lon", "lat"),
+    "x;y\n567.890;1\n": XY,
+    "x;y\n567,890;1\n567,891;1\n": XY,
+    "x;y\n567,890;0,5\n": XY,
+    "x;y\n567,890;0.5\n": XY,
+    "x;y;z\n567.890;1;0,5\n": XY,
+    "x;y;z\n567.890;1;007,5\n": XY,
+    "x;y\n567.890;1\n0,5;1\n": XY,
+    "x;y\n567.890;1\n0.5;1\nNA;1\n": XY,
+    "x,y\n567.890,1\n": XY,
+    'x,y\n"567,890",1\n': XY,
+    'x,y\n"567,890",1\n"0,5",2\n': XY,
+}
+"""Tables of a plane, with the columns that are taken."""
+
 READ = f"""
 import {{ readPoints }} from "{SCRIPT}/files.ts";
 const {{ kind, chosen, files }} = given;
@@ -117,19 +138,24 @@ def on_page(node, files, kind="lonlat", chosen=None):
     return node(READ, {"kind": kind, "chosen": chosen, "files": packed})
 
 
-def in_python(folder, name, content, read=lambda path: read_points(path).lonlat):
+def in_python(folder, name, content, columns=None):
     path = folder / name
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     try:
-        return {"places": read(path).ravel().tolist()}
+        found = read_plane_points(path, *columns)[0] if columns else read_points(path).lonlat
+        return {"places": found.ravel().tolist()}
     except ValueError as error:
         return {"error": str(error).removeprefix(f"{path}: ")}
 
 
-@pytest.mark.parametrize("name", TABLES | COLLECTIONS)
-def test_the_page_reads_what_read_points_reads_in_its_words(node, tmp_path, name):
-    content = (TABLES | COLLECTIONS)[name]
-    found, expected = on_page(node, {name: content})[name], in_python(tmp_path, name, content)
+CASES = [pytest.param("lonlat", name, content, None, id=name) for name, content in (TABLES | COLLECTIONS).items()]
+CASES += [pytest.param("plane", "plane.csv", content, columns, id=content) for content, columns in PLANE.items()]
+
+
+@pytest.mark.filterwarnings("ignore:column .* is kept as text")
+@pytest.mark.parametrize(("kind", "name", "content", "columns"), CASES)
+def test_the_page_reads_what_the_library_reads_in_its_words(node, tmp_path, kind, name, content, columns):
+    found, expected = on_page(node, {name: content}, kind)[name], in_python(tmp_path, name, content, columns)
     assert {key: found.get(key) for key in expected} == expected
 
 
@@ -169,31 +195,3 @@ def test_the_reader_is_asked_for_columns_that_do_not_say_what_they_are(node, kin
     files = {"strange.csv": "east,north,height\n7,1,0\n5,6,9\n"}
     assert on_page(node, files, kind)["strange.csv"]["columns"] == ["east", "north", "height"]
     assert on_page(node, files, kind, ["north", "height"])["strange.csv"]["places"] == [1, 0, 6, 9]
-
-
-PLANE = {
-    "x,y\n1,2\n3,4e9\n": ("x", "y"),
-    "x,y\n1,2\n3,\n": ("x", "y"),
-    "x,y\n1,2\nb,3\n": ("x", "y"),
-    "n,Y,X\n1,2,3\n4,5,6\n": ("X", "Y"),
-    "1;2,5\n3;4\n": ("lon", "lat"),
-    "x;y\n567.890;1\n": ("x", "y"),
-    "x;y\n567,890;1\n567,891;1\n": ("x", "y"),
-    "x;y\n567,890;0,5\n": ("x", "y"),
-    "x;y\n567,890;0.5\n": ("x", "y"),
-    "x;y;z\n567.890;1;0,5\n": ("x", "y"),
-    "x;y;z\n567.890;1;007,5\n": ("x", "y"),
-    "x;y\n567.890;1\n0,5;1\n": ("x", "y"),
-    "x;y\n567.890;1\n0.5;1\nNA;1\n": ("x", "y"),
-    "x,y\n567.890,1\n": ("x", "y"),
-    'x,y\n"567,890",1\n': ("x", "y"),
-    'x,y\n"567,890",1\n"0,5",2\n': ("x", "y"),
-}
-
-
-@pytest.mark.filterwarnings("ignore:column .* is kept as text")
-@pytest.mark.parametrize(("text", "names"), PLANE.items())
-def test_tables_of_a_plane_are_those_of_read_plane_points(node, tmp_path, text, names):
-    found = on_page(node, {"plane.csv": text}, "plane")["plane.csv"]
-    expected = in_python(tmp_path, "plane.csv", text, lambda path: read_plane_points(path, *names)[0])
-    assert {key: found.get(key) for key in expected} == expected
