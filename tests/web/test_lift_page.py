@@ -56,18 +56,7 @@ def test_the_numbers_are_those_of_the_library(room):
     assert (state["p"], state["q"]) == ("4", "8")
 
 
-def test_p_and_q_are_dragged_and_typed(room):
-    page = room("lift")
-    page.page.locator(f"{ROOM} [name=q]").fill("5")
-    page.rest()
-    assert link(page)["q"] == "5"
-    before = output(page, "separation")
-    page.page.locator(PLATE).press(".")
-    assert link(page)["q"] == "6"
-    assert output(page, "separation") != before
-
-
-def test_the_picture_is_turned_by_the_hand_and_by_fields(room):
+def test_the_picture_is_turned_by_the_hand_and_sites_are_chosen_by_keys_and_fields(room):
     page = room("lift")
     x, y = page.middle(PLATE)
     before = page.digest(PLATE)
@@ -83,13 +72,18 @@ def test_the_picture_is_turned_by_the_hand_and_by_fields(room):
     page.rest()
     assert page.digest(PLATE) == before
 
+    page.page.locator(f"{ROOM} [name=q]").fill("5")
+    page.rest()
+    assert link(page)["q"] == "5"
+    words = output(page, "separation")
+    page.page.locator(PLATE).press(".")
+    assert link(page)["q"] == "6"
+    assert output(page, "separation") != words
 
-def test_facets_that_see_the_pole_are_hatched(room):
-    page = room("lift")
-    before = page.ink(PLATE)
+    ink = page.ink(PLATE)
     page.page.locator(f"{ROOM} [name=seeing]").check()
     page.rest()
-    assert page.ink(PLATE) > before + 0.005
+    assert page.ink(PLATE) > ink + 0.005  # facets that see the pole are hatched
     assert link(page)["turned"] == "seeing"
 
 
@@ -105,22 +99,25 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     page.rest()
     assert output(page, "sum") == "6 facets on the ball = 4 triangles of the sheet + 2 facets that see the pole"
     assert output(page, "separation").startswith("In the sheet 2.236, which is 0.447 of the diagonal.")
-    broken = tmp_path / "broken.csv"
-    broken.write_text("x,y\n1,2\n3,four\n")
-    page.page.locator(f"{ROOM} input[type=file]").set_input_files(broken)
-    message.filter(has_text="broken.csv").wait_for()
-    assert message.inner_text().startswith("broken.csv, row 2: the y 'four' is not a number. Nothing has changed.")
+    file.write_text("x,y\n1,2\n3,four\n")
+    page.page.locator(f"{ROOM} input[type=file]").set_input_files(file)
+    message.filter(has_text="four").wait_for()
+    assert message.inner_text().startswith("plane.csv, row 2: the y 'four' is not a number. Nothing has changed.")
     assert output(page, "sum").startswith("6 facets")
 
-
-def test_lengths_are_written_to_four_digits_of_the_sheet(room, tmp_path):
-    file = tmp_path / "grid.csv"
+    # Lengths have four digits of the sheet.
     file.write_text("x,y\n4500000.1,5300000\n4500100,5299999.96\n-4500.25,5400000\n")
-    page = room("lift")
     opened(page, "lift", file)
     cells = page.page.locator(f"{ROOM} .sites tr[data-site] td").all_inner_texts()
     assert [cells[k].replace("\u202f", " ") for k in (0, 1, 6)] == ["4 500 000", "5 300 000", "\u22124500"]
     assert "In the sheet 4 505 610, which is 1.000" in output(page, "separation").replace("\u202f", " ")
+
+    file.write_text("x,y\n1,2\n")
+    opened(page, "lift", file)
+    assert output(page, "separation") == "Two sites are needed."
+    assert [page.page.input_value(f"{ROOM} input[name={letter}]") for letter in "pq"] == ["", ""]
+    assert output(page, "count") == "The site"
+    assert page.page.locator(PLATE).get_attribute("aria-label") == "Sheet with 1 site, and ball"
 
 
 @pytest.mark.parametrize("width", [1280, 800, 390])
@@ -139,14 +136,3 @@ def test_marks_of_the_ruler_keep_clear_of_each_other(room, width):
         marks.sort()
         assert all(left[1] < right[0] for left, right in itertools.pairwise(marks)), (other, marks)
     assert shown == {2, 4}  # bounds that lie close share a mark
-
-
-def test_one_site_is_no_pair(room, tmp_path):
-    file = tmp_path / "one.csv"
-    file.write_text("x,y\n1,2\n")
-    page = room("lift")
-    opened(page, "lift", file)
-    assert output(page, "separation") == "Two sites are needed."
-    assert [page.page.input_value(f"{ROOM} input[name={letter}]") for letter in "pq"] == ["", ""]
-    assert output(page, "count") == "The site"
-    assert page.page.locator(PLATE).get_attribute("aria-label") == "Sheet with 1 site, and ball"

@@ -34,7 +34,7 @@ def is_accent(pixels):
     return (red > 180) & (red - green > 60) & (green - blue > 40)
 
 
-def test_the_bubble_follows_the_pointer_in_both_pictures(room):
+def test_the_bubble_follows_the_pointer_until_a_click_keeps_it(room):
     page = room("sphere")
     before = page.digest(PLANE)
     x, y = page.middle(BALL)
@@ -50,10 +50,6 @@ def test_the_bubble_follows_the_pointer_in_both_pictures(room):
     assert page.digest(BALL) != on_ball
     assert output(page, "sentence").endswith("Other sites inside: 0\u00a0and\u00a00.")
 
-
-def test_a_click_keeps_the_bubble_and_escape_frees_it(room):
-    page = room("sphere")
-    x, y = page.middle(BALL)
     page.page.mouse.click(x + 60, y + 60)
     kept = output(page, "sentence")
     page.page.mouse.move(x - 100, y)
@@ -137,6 +133,7 @@ def test_sites_are_added_moved_removed_and_undone(room):
         page.page.locator(f"{ROOM} [data-do=undo]").click()
     assert page.page.locator(rows).inner_text() == "The 54 sites"
     assert page.page.locator(f"{ROOM} [data-do=undo]").is_disabled()
+    assert link(page)["set"] == "gap"
     assert output(page, "sum") == "104 facets on the sphere = 94 triangles in the plane + 10 facets that see\u00a0P"
 
 
@@ -222,17 +219,12 @@ def test_the_ball_is_named_and_seen_from_somewhere(room):
     assert not room("sphere").page.locator(f"{ROOM} [data-show=closing]").is_visible()
 
 
-@pytest.fixture
-def named(room, tmp_path):
-    """The room with four sites of a file that names them."""
+def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):
     file = tmp_path / "towns.csv"
     file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")
-    page = room("sphere")
-    opened(page, "sphere", file)
-    return page
+    named = room("sphere")
+    opened(named, "sphere", file)
 
-
-def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(named):
     def names():
         return named.page.locator(f"{ROOM} td.name").all_inner_texts()
 
@@ -253,15 +245,6 @@ def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(named):
     assert named.page.locator(f"{ROOM} select[name=set] option:checked").inner_text() == "towns.csv"
     named.page.wait_for_timeout(500)
     assert 'read_points("towns.csv")' in named.page.locator("#python").inner_text()
-
-
-def test_undo_gives_back_the_set_of_the_list(room):
-    page = room("sphere")
-    page.page.locator(BALL).press("n")
-    assert "sites" in link(page)
-    page.page.locator(BALL).press("Control+z")
-    assert link(page)["set"] == "gap"
-    assert page.page.locator(f"{ROOM} [data-do=undo]").is_disabled()
 
 
 def test_the_bubble_goes_and_comes_with_its_switch(room):
