@@ -22,8 +22,6 @@ CLASSIFIERS = PROJECT["project"]["classifiers"]
 PYTHONS = [found[1] for line in CLASSIFIERS if (found := re.fullmatch(r".* :: (3\.\d+)", line))]
 PINS = dict(line.split("==") for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines())
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
-USED = re.compile(r"uses: ([\w.-]+/[\w.-]+)@([0-9a-f]{40}) # (v\d+\.\d+\.\d+)")
-"""An action by the hash of its commit, as names of versions can be moved to others, with the version that it is."""
 
 
 def read(path):
@@ -149,11 +147,11 @@ def test_a_workflow_is_one_and_what_it_calls_is_there(name):
 
 
 def test_actions_are_pinned_by_commits_and_the_same_everywhere():
-    lines = [line for path in WORKFLOWS for line in path.read_text(encoding="utf-8").splitlines() if "uses: " in line]
-    pins = [USED.fullmatch(line.strip(" -")) for line in lines if "uses: $/" not in line]
-    assert len(pins) > 20
-    assert None not in pins
-    assert len({pin[1] for pin in pins}) == len({pin.groups() for pin in pins}) == 7
+    """By the hash of a commit, as names of versions can be moved to others, with the version that it is."""
+    texts = [path.read_text(encoding="utf-8") for path in WORKFLOWS]
+    pins = {pin for text in texts for pin in re.findall(r"uses: ([\w.-]+/.*)", text)}
+    assert [pin for pin in pins if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", pin)] == []
+    assert len({pin.partition("@")[0] for pin in pins}) == len(pins) > 5
 
 
 def test_workflows_run_every_python():
@@ -166,19 +164,12 @@ def test_workflows_run_every_python():
 
 def test_wheels_are_built_for_every_system_and_python():
     settings = PROJECT["tool"]["cibuildwheel"]
-    built = settings["build"].split()
-    assert built == [
-        *(f"cp{version.replace('.', '')}-*" for version in PYTHONS),
-        f"cp{PYTHONS[-1].replace('.', '')}t-*",
-    ]
+    built = [f"cp{version.replace('.', '')}-*" for version in PYTHONS]
+    assert settings["build"].split() == [*built, built[-1].replace("-", "t-")]
     systems = [entry["system"] for entry in workflow("wheels")["jobs"]["wheels"]["strategy"]["matrix"]["include"]]
-    assert len(systems) == len(set(systems)) == 7
-    kinds = {system.partition("-")[0] for system in systems}
-    assert kinds == {"linux", "macos", "windows", "pyodide"}
+    assert {system.partition("-")[0] for system in systems} == {"linux", "macos", "windows", "pyodide"}
     assert "musllinux" in str(settings["linux"])
-    assert "i686" in settings["skip"]
-    script = re.search(r"\{project\}/(\S+)", settings["test-command"])[1]
-    assert (ROOT / script).is_file()
+    assert (ROOT / re.search(r"\{project\}/(\S+)", settings["test-command"])[1]).is_file()
 
 
 LEVELS = ("none", "read", "write")
@@ -203,14 +194,8 @@ def called_jobs(name):
 def test_a_called_job_asks_for_no_more_than_its_caller_has(name):
     """The host compares them when it reads the file, whatever `if:` says, and starts no job where they do not fit."""
     assert len(list(called_jobs(name))) >= len(workflow(name)["jobs"])
-
-
-def test_every_called_workflow_may_be_called():
-    called = {
-        Path(job["uses"]).stem for path in WORKFLOWS for job in workflow(path.stem)["jobs"].values() if "uses" in job
-    }
-    assert called == {"tests", "wheels"}
-    assert all("workflow_call" in workflow(name)[True] for name in called)
+    called = {Path(job["uses"]).stem for job in workflow(name)["jobs"].values() if "uses" in job}
+    assert all("workflow_call" in workflow(other)[True] for other in called)
 
 
 def test_only_the_job_that_publishes_may_prove_who_it_is():
@@ -225,7 +210,7 @@ def test_only_the_job_that_publishes_may_prove_who_it_is():
 
 def test_publication_waits_for_the_tests_and_asks_for_texts_fit_for_it():
     jobs = workflow("release")["jobs"]
-    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish"} == {"version", "tests", "wheels"}
+    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish"} == {"version", "archives", "tests", "wheels"}
     assert jobs["wheels"]["with"] == {"publication": True}
     assert workflow("wheels")["env"] == {"STEREODEL_PUBLICATION": "${{ inputs.publication && '1' || '' }}"}
     # Of Linux the wheels are built in a container, which gets what is named.
