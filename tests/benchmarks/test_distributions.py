@@ -28,6 +28,10 @@ def test_the_exact_circle_is_one():
     assert len(np.unique(points, axis=0)) == len(points) == 20_000
 
 
+def test_the_circle_of_the_sphere_is_a_parallel():
+    assert len(np.unique(make("sphere", "circle", 1000)[:, 2])) == 1
+
+
 def test_the_graticule_repeats_its_poles_and_its_date_line():
     points = make("sphere", "graticule", 2000)
     k = 32
