@@ -4,6 +4,8 @@ import pytest
 
 from benchmarks import interpolation, interpolation_page
 
+pytestmark = pytest.mark.thorough
+
 
 @pytest.fixture(scope="module")
 def rows():

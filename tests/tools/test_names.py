@@ -40,15 +40,6 @@ def test_members_are_those_of_our_classes():
     assert names.members(len) == []
 
 
-def test_signatures_show_short_defaults_and_no_types():
-    def draw(page: int, /, *, size: float = 2.0, word: str = "up", color: tuple[int, ...] = tuple(range(20))) -> int:
-        return page
-
-    assert names.signature(draw) == '(page, /, *, size=2.0, word="up", color=…)'
-    assert names.signature(ValueError) == ""
-    assert names.signature(3.0) == ""
-
-
 def test_a_change_is_seen(monkeypatch):
     """A parameter more, another first line, a name less."""
     graphs = importlib.import_module("stereodel.graphs")
