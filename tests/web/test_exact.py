@@ -36,6 +36,8 @@ def every_set():
     for power in (2, 4, 6, 7, 8, 9, 10, 12, 14, 15, 16):
         close = sets.near(rng, sets.MIDDLE, 10.0**-power, 200)
         found[f"cluster of 1e-{power}"] = np.vstack([close, rng.normal(size=(20, 3))])
+    subnormal = 1e-320 * rng.integers(1, 10, size=(60, 3))
+    found["1e300 and subnormal"] = np.vstack([1e300 * rng.normal(size=(60, 3)), subnormal])
     return found | {"a hundred thousand": rng.normal(size=(100_000, 3))}
 
 
