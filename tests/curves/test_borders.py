@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, SphereCircle, fisheye, lonlat_to_xyz
@@ -67,7 +67,6 @@ def test_all_round_the_rim():
     assert 0 < np.pi - np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]) / 2 < 1e-5
 
 
-@settings(max_examples=100)
 @given(SEEDS)
 def test_crossings_of_a_plane(seed):
     rng = np.random.default_rng(seed)
@@ -192,7 +191,6 @@ def test_rounding_along_180_cuts_nothing():
     assert all((line[:, 0] == 180).all() for line in flat)
 
 
-@settings(max_examples=60)
 @given(SEEDS)
 def test_rings_leave_a_chart_as_often_as_they_enter_it(seed):
     """Vertices on the rim, on the meridian, at the poles, doubled: signs tell how many crossings there are."""

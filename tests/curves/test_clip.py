@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import SphereCircle, SphericalVoronoi, fisheye
@@ -50,7 +50,6 @@ def distances(places, loops):
     return best
 
 
-@settings(max_examples=250)
 @given(SEEDS)
 def test_regions_hold_what_they_hold_on_the_sphere(seed):
     """Stars of half a degree to a hemisphere and their complements, with holes, under lenses from 0.1 to 1000."""
@@ -80,7 +79,6 @@ def test_regions_hold_what_they_hold_on_the_sphere(seed):
     assert ((found > 0) == wanted)[clear].all()
 
 
-@settings(max_examples=100)
 @given(SEEDS)
 def test_ends_of_lines_are_exact(seed):
     """Images of great arcs against points of the image that are found by bisection."""
@@ -188,7 +186,6 @@ def test_both_sides_of_the_limb_itself():
     )
 
 
-@settings(max_examples=100)
 @given(st.sampled_from([0, 90, 180, -90]), st.sampled_from([-90, 0, 90]), SEEDS)
 def test_a_cap_and_the_rest_fill_the_disc(lon, lat, seed):
     rng = np.random.default_rng(seed)
@@ -278,7 +275,6 @@ def test_rings_on_the_map():
     assert polar.values[:, 1].max() == 90
 
 
-@settings(max_examples=60)
 @given(SEEDS)
 def test_a_ring_and_its_reverse_fill_the_map(seed):
     rng = np.random.default_rng(seed)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
@@ -32,7 +32,6 @@ def between(p, q, share):
     return units((1 - share)[:, None] * p + share[:, None] * q)
 
 
-@settings(max_examples=60)
 @given(SEEDS)
 def test_images_of_great_arcs_lie_on_their_arcs(seed):
     rng = np.random.default_rng(seed)
@@ -83,7 +82,6 @@ def test_edges_without_length_stay():
         np.testing.assert_allclose(samples.values, lens(AXES[[0, 0]]), atol=1e-15)
 
 
-@settings(max_examples=80)
 @given(SEEDS, st.sampled_from(["spherical", "geodetic", "authalic"]))
 def test_edges_straight_in_degrees(seed, latitude):
     rng = np.random.default_rng(seed)

@@ -4,7 +4,7 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
@@ -50,7 +50,6 @@ def test_higher_values_lie_on_the_left(make_points, rng, known):
         assert (sides[(lengths > 1e-9) & np.isfinite(sides)] > 0).all()
 
 
-@settings(max_examples=150)
 @given(SMALL_VALUES, st.integers(-2, 2))
 def test_ties_neither_break_nor_double_a_contour(values, level):
     """On whole values at whole levels: rings close, ends lie on the hull, and no piece of line is drawn twice."""
@@ -70,7 +69,6 @@ def test_ties_neither_break_nor_double_a_contour(values, level):
     assert max(pieces.values(), default=1) == 1
 
 
-@settings(max_examples=100)
 @given(SMALL_VALUES)
 def test_a_tie_is_as_a_value_just_above(values):
     """The rule for ties: contours of a level run as those of one a little lower."""

@@ -5,7 +5,7 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf, workdps
 from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
@@ -365,7 +365,6 @@ def test_weights_in_thin_triangles(aspect, make_points, rng):
     assert held > 10
 
 
-@settings(max_examples=60)
 @given(st.lists(GRID_POINT, min_size=3, max_size=12), st.lists(GRID_POINT, min_size=1, max_size=6), st.randoms())
 def test_linear_stays_between_the_values_of_the_corners(points, queries, random):
     values = np.array([random.uniform(-5, 5) for _ in points])
@@ -378,7 +377,6 @@ def test_linear_stays_between_the_values_of_the_corners(points, queries, random)
     assert np.isnan(function(queries[triangles < 0])).all()
 
 
-@settings(max_examples=60)
 @given(st.lists(SMALL, min_size=1, max_size=12), st.lists(SMALL, min_size=1, max_size=6))
 def test_all_methods_take_any_directions(points, queries):
     values = np.arange(float(len(points)))

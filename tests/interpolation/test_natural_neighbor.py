@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import SphericalVoronoi
@@ -54,7 +54,6 @@ def sibson(points, query):
     return [a / sum(areas) for a in areas]
 
 
-@settings(max_examples=60)
 @given(st.lists(GRID_POINT, max_size=7, unique=True), INNER_POINT)
 def test_weights_are_those_of_exact_areas(points, query):
     """Whole points, many on common circles, within four that keep the query's cell small."""

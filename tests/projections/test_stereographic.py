@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.projections import PlaneCircle, PlaneLine, Stereographic
@@ -58,7 +58,6 @@ def near(center, side, offset, exponent):
 
 
 @given(CENTERS, PLANES, st.sampled_from([1, -1]), DIRECTIONS, EXPONENTS, st.floats(1e-3, 1e3))
-@settings(deadline=None, max_examples=120)
 def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radius):
     projection = Stereographic(center, radius=radius, plane=plane)
     vector = near(center, side, offset, exponent)
@@ -75,7 +74,6 @@ def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radiu
 
 
 @given(CENTERS, PLANES, st.floats(-300, 300), st.floats(0, 6.3), st.floats(1e-3, 1e3))
-@settings(deadline=None, max_examples=120)
 def test_inverse_is_the_exact_image(center, plane, power, angle, radius):
     projection = Stereographic(center, radius=radius, plane=plane)
     xy = 10.0**power * np.array([np.cos(angle), np.sin(angle)])
@@ -126,7 +124,6 @@ def test_p8_equatorial_plane_differs_by_a_factor_2(center, vector, radius):
 
 
 @given(CENTERS, DIRECTIONS)
-@settings(deadline=None)
 def test_p8_scale_is_the_derivative_and_the_same_in_all_directions(center, vector):
     projection = Stereographic(center, radius=1.5)
     v = np.array(vector) / np.linalg.norm(vector)

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
@@ -73,7 +73,6 @@ def test_step_in_a_triangle():
 
 
 @given(st.lists(GRID_POINT, min_size=1, max_size=12))
-@settings(max_examples=30)
 def test_energy_never_grows_in_the_plane(points):
     relaxed = lloyd(points, steps=12, bounds=SQUARE)
     assert never_grows(relaxed)
@@ -81,7 +80,6 @@ def test_energy_never_grows_in_the_plane(points):
 
 
 @given(st.lists(DIRECTION, min_size=1, max_size=12))
-@settings(max_examples=30)
 def test_energy_never_grows_on_the_sphere(points):
     relaxed = lloyd(points, steps=12)
     assert never_grows(relaxed)
@@ -250,7 +248,6 @@ def test_a_star_is_not_convex_though_it_always_turns_left():
 @pytest.mark.parametrize("factor", [0.5, 1.5, 1.9])
 @given(points=st.lists(DIRECTION, min_size=2, max_size=12))
 @example(points=[(-1, 0, 1), (-1, 0, 1), (-1, 0, 1), (2, 2, 1)])  # four close to a great circle: ridges of 1e-17
-@settings(max_examples=30)
 def test_a_factor_takes_that_part_of_the_way_on_the_sphere(factor, points):
     """The same great circle; the energy never grows."""
     full, part = lloyd(points, steps=1), lloyd(points, steps=1, factor=factor)
@@ -263,7 +260,6 @@ def test_a_factor_takes_that_part_of_the_way_on_the_sphere(factor, points):
 
 @pytest.mark.parametrize("factor", [0.5, 1.5, 1.9])
 @given(points=st.lists(GRID_POINT, min_size=1, max_size=9))
-@settings(max_examples=30)
 def test_a_factor_takes_that_part_of_the_way_in_the_plane_and_stays_within_the_bounds(factor, points):
     full, part = lloyd(points, steps=1, bounds=SQUARE), lloyd(points, steps=1, bounds=SQUARE, factor=factor)
     wanted = np.array(points) + factor * (full.points - points)

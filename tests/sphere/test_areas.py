@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.sphere import angular_distance, lonlat_to_xyz, solid_angle
@@ -27,7 +27,6 @@ def l_huilier(a, b, c):
 
 
 @given(LONLAT, st.floats(-13, -0.5), st.floats(0.2, 1.3), st.floats(0.3, 2.8))
-@settings(deadline=None)
 def test_tiny_triangles_keep_their_digits(center, power, shape, angle):
     a = lonlat_to_xyz(center)
     across = np.linalg.svd(a[None])[2][1:]

@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.sphere import SphereCircle, angular_distance, lonlat_to_xyz
@@ -33,7 +33,6 @@ def test_sample_lies_on_the_circle_counterclockwise(center, radius):
 
 
 @given(LONLAT, st.floats(-14, 2).map(lambda k: 10.0**k), st.permutations([0.3, 2.0, 4.4]))
-@settings(deadline=None)
 def test_through_three_points(center, radius, turns):
     normal = lonlat_to_xyz(center)
     across = np.linalg.svd(normal[None])[2][1:]

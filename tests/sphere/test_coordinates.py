@@ -1,7 +1,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel._double_double import stack
@@ -15,7 +15,6 @@ LAT = st.floats(-90, 90)
 
 
 @given(LON, LAT)
-@settings(deadline=None)
 def test_components_are_correctly_rounded(lon, lat):
     # Correct rounding is what makes the bits the same on every machine.
     x = lonlat_to_xyz([lon, lat])

@@ -3,7 +3,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel._double_double import DoubleDouble
@@ -23,7 +23,6 @@ def exact(value: DoubleDouble, index=()):
 
 
 @given(ANGLES)
-@settings(deadline=None)
 def test_relative_error_below_2_to_minus_101(angle):
     sine, cosine = sin_cos_degrees(np.array(angle))
     turn = mpmath.mpf(float(np.fmod(angle, 360))) * mpmath.pi / 180

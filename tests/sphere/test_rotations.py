@@ -1,7 +1,7 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation as Oracle
 
@@ -28,7 +28,6 @@ def exact_rotation(quaternion, vector):
 
 
 @given(QUATERNIONS, VECTORS)
-@settings(deadline=None)
 def test_exact_up_to_one_rounding(quaternion, vector):
     length = float(np.linalg.norm(vector))
     got = Rotation(quaternion)(vector)
