@@ -6,18 +6,9 @@ import scipy.interpolate
 
 from stereodel.interpolation import (
     LinearInterpolator,
-    NaturalNeighborInterpolator,
-    NearestInterpolator,
-    SmoothInterpolator,
     griddata,
 )
-
-KINDS = {
-    "nearest": NearestInterpolator,
-    "linear": LinearInterpolator,
-    "natural": NaturalNeighborInterpolator,
-    "smooth": SmoothInterpolator,
-}
+from tests.interpolation.known import KINDS
 
 
 @pytest.mark.parametrize("method", ["linear", "nearest"])

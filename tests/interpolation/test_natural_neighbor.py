@@ -86,17 +86,6 @@ def test_linear_functions_of_the_plane_far_from_the_origin(rng):
     assert np.allclose(function.gradient(queries), np.eye(2), rtol=0, atol=1e-9)
 
 
-def test_gradient_agrees_with_differences(make_points, rng, slopes):
-    points = make_points(rng, 300)
-    queries = make_points(rng, 200)
-    queries = 0.2 + 0.6 * queries if points.shape[1] == 2 else queries / np.linalg.norm(queries, axis=1)[:, None]
-    function = NaturalNeighborInterpolator(points, rng.random((300, 2)))
-    expected = slopes(function, queries, 1e-7)
-    error = np.abs(function.gradient(queries) - expected)
-    assert np.median(error) < 1e-6
-    assert np.quantile(error, 0.99) < 1e-3  # second derivatives are large near points
-
-
 def test_linear_on_the_hull_of_the_plane():
     function = NaturalNeighborInterpolator([[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]], [0.0, 1.0, 7.0, 3.0, 5.0])
     assert function([[3, 0], [4, 1], [0, 3]]).tolist() == [0.75, 2.5, 2.25]
@@ -113,14 +102,6 @@ def test_flips_do_not_matter(rng):
     assert np.allclose(NaturalNeighborInterpolator(-grid, values)(-queries), exact, rtol=0, atol=1e-13)
     shaken = NaturalNeighborInterpolator(grid + 1e-9 * rng.random((64, 2)), values)
     assert np.allclose(shaken(queries), exact, rtol=0, atol=1e-6)
-
-
-def test_threads_do_not_matter(make_points, rng):
-    points, queries = make_points(rng, 500), make_points(rng, 30000)
-    function = NaturalNeighborInterpolator(points, rng.random(500))
-    assert np.array_equal(function(queries, workers=1), function(queries, workers=3), equal_nan=True)
-    one, three = (function.gradient(queries, workers=w) for w in (1, 3))
-    assert np.array_equal(one, three, equal_nan=True)
 
 
 def test_thin_hulls(rng):

@@ -9,17 +9,9 @@ import xarray as xr
 import stereodel.xarray
 from stereodel.interpolation import (
     LinearInterpolator,
-    NaturalNeighborInterpolator,
-    NearestInterpolator,
-    SmoothInterpolator,
 )
+from tests.interpolation.known import KINDS
 
-KINDS = {
-    "nearest": NearestInterpolator,
-    "linear": LinearInterpolator,
-    "natural": NaturalNeighborInterpolator,
-    "smooth": SmoothInterpolator,
-}
 LON, LAT = np.linspace(-10, 10, 5), np.linspace(-8, 8, 3)
 GRID = np.stack(np.meshgrid(LON, LAT), axis=-1)
 
