@@ -68,12 +68,3 @@ def test_rings_lie_where_areas_are_equal(nside):
     assert np.allclose(sines, np.concatenate([caps, belt]), rtol=0, atol=1e-15)
     assert (lonlat[:, 0] >= 0).all()
     assert (lonlat[:, 0] < 360).all()
-
-
-def test_other_sizes_are_refused():
-    with pytest.raises(ValueError, match="nside is 3, but nested pixels need a power of two"):
-        healpix_centers(3, nested=True)
-    with pytest.raises(ValueError, match="nside is 0"):
-        healpix_centers(0)
-    with pytest.raises(TypeError, match="nside must be one integer"):
-        healpix_centers(2.0)
