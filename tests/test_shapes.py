@@ -150,6 +150,10 @@ def test_last_axes(door):
         refuses(call, shape)
     assert np.shape(call(np.zeros((0, width))))[0] == 0
     assert np.shape(call(np.zeros((4, 0, width))))[:2] == (4, 0)
+    rows = np.random.default_rng(2).normal(size=(3, 2501, width))
+    found, last = call(rows), call(rows[-1, -1])
+    assert np.shape(found) == (3, 2501, *np.shape(last))
+    assert np.array_equal(found[-1, -1], last, equal_nan=True)
 
 
 @doors(ONE_A_POINT)
