@@ -1,4 +1,6 @@
-"""Vectors in eighty digits: what rounded results are measured against."""
+"""Vectors in eighty digits and cells in fractions: what rounded results are measured against."""
+
+from fractions import Fraction
 
 import mpmath
 
@@ -45,3 +47,26 @@ def rotate(quaternion, v):
     inner = [a + w * b for a, b in zip(cross(axis, v), v, strict=True)]
     size = w * w + dot(axis, axis)
     return [a + 2 * b / size for a, b in zip(v, cross(axis, inner), strict=True)]
+
+
+def fractions(points):
+    return [tuple(map(Fraction, p)) for p in points]
+
+
+def nearer(polygon, a, b):
+    """The part of a convex polygon that is nearer to a than to b, all in fractions."""
+    along = [y - x for x, y in zip(a, b, strict=True)]
+    excess = [2 * dot(p, along) - dot(b, b) + dot(a, a) for p in polygon]
+    result = []
+    for k, (p, f) in enumerate(zip(polygon, excess, strict=True)):
+        q, g = polygon[k - 1], excess[k - 1]
+        if f * g < 0:
+            t = g / (g - f)
+            result.append(tuple(x + t * (y - x) for x, y in zip(q, p, strict=True)))
+        if f <= 0:
+            result.append(p)
+    return result
+
+
+def area(polygon):
+    return sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True)) / 2

@@ -7,7 +7,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, fisheye
-from stereodel.sphere import Rotation, SphereCircle, angular_distance, lonlat_to_xyz
+from stereodel.sphere import Rotation, angular_distance, lonlat_to_xyz
 from tests.strategies import BETWEEN_POLES, decades, maps
 
 MAPS = maps(decades(-4, 4))
@@ -48,26 +48,6 @@ def test_lorentz_matrix(conformal):
         again = MoebiusMap.from_matrix(m)
         assert again.is_close(conformal, tolerance=1e-14 * size)
         assert np.abs(again(POINTS) - conformal(POINTS)).max() < 1e-13 * size
-
-
-@given(BETWEEN_POLES, st.floats(-0.999, 0.999), MAPS)
-def test_circles_are_vectors_of_minkowski_space(normal, offset, conformal):
-    circle = SphereCircle(normal, offset)
-    vector = conformal.matrix @ [*circle.normal, circle.offset]
-    image = conformal.image_of(circle)
-    length = np.linalg.norm(vector[:3])
-    if length > 1e-3 * np.abs(conformal.matrix).max():
-        assert np.abs(vector[:3] / length - image.normal).max() < 1e-11
-        assert vector[3] / length == pytest.approx(image.offset, abs=1e-11)
-
-
-def test_fisheye_is_the_boost_of_rapidity_minus_ln_s():
-    s = 4.0
-    boost = fisheye((0, 90), magnification=s).matrix
-    rapidity = -np.log(s)
-    assert boost[2:, 2:] == pytest.approx(
-        np.array([[np.cosh(rapidity), np.sinh(rapidity)], [np.sinh(rapidity), np.cosh(rapidity)]])
-    )
 
 
 @pytest.mark.parametrize("magnification", [1.0, 1.0 + 1e-9, 1.5, 10.0, 1e3, 1e6])
@@ -131,27 +111,10 @@ def proj_image(conformal, lonlat):
 @pytest.mark.parametrize("magnification", [0.25, 1.0, 4.0, 20.0, 1000.0])
 def test_p18_proj_computes_the_same_map(focus, magnification):
     lens = fisheye(focus, magnification=magnification)
+    assert "affine" not in lens.to_proj()
     lonlat = np.random.default_rng(4).uniform([-180, -85], [180, 85], size=(50, 2))
     expected = lens(lonlat_to_xyz(lonlat))
     assert angular_distance(lonlat_to_xyz(proj_image(lens, lonlat)), expected).max() < 1e-7
-
-
-@given(BETWEEN_POLES, BETWEEN_POLES, st.floats(0.1, 50))
-def test_proj_pipeline_with_a_moved_focus(focus, target, magnification):
-    # East and north at the focus go to east and north at its image.
-    carry = frame(target) @ frame(focus).T
-    conformal = MoebiusMap.rotation(Rotation.from_matrix(carry)) @ fisheye(focus, magnification=magnification)
-    lonlat = np.random.default_rng(4).uniform([-180, -85], [180, 85], size=(20, 2))
-    if max(abs(focus[1]), abs(target[1])) < 80 and magnification > 1.01:
-        expected = conformal(lonlat_to_xyz(lonlat))
-        assert angular_distance(lonlat_to_xyz(proj_image(conformal, lonlat)), expected).max() < 1e-6
-
-
-def frame(lonlat):
-    lon, lat = np.radians(lonlat)
-    east = [-np.sin(lon), np.cos(lon), 0]
-    north = [-np.sin(lat) * np.cos(lon), -np.sin(lat) * np.sin(lon), np.cos(lat)]
-    return np.array([east, north, lonlat_to_xyz(lonlat)]).T
 
 
 @given(MAPS)
@@ -166,11 +129,3 @@ def test_every_map_is_a_proj_pipeline(conformal):
     cosines = [np.hypot(*point[:2]) for point in (conformal.focus, conformal(conformal.focus))]
     lost = max((2e-14 / cosine for cosine in cosines if cosine > 1e-12), default=0.0)
     assert (gap < (1e-9 + lost) * np.maximum(1, conformal.scale_factor(xyz)))[away].all()
-
-
-def test_a_twist_is_a_turn_of_the_plane():
-    lens = fisheye((0, 40), magnification=4)
-    assert "affine" not in lens.to_proj()
-    twisted = MoebiusMap.rotation((0, 40), 30) @ lens
-    numbers = dict(part.split("=") for part in twisted.to_proj().split() if part.startswith("+s1"))
-    assert [float(numbers[name]) for name in ("+s11", "+s12")] == pytest.approx([np.sqrt(0.75), -0.5], abs=1e-15)

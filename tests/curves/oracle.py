@@ -26,6 +26,17 @@ def winding(loops, places):
     return total
 
 
+def off_lines(points, lines):
+    """How far points (n, d) are from the nearest chord of lines."""
+    best = np.full(len(points), np.inf)
+    for line in lines:
+        start, chord = line[:-1], np.diff(line, axis=0)
+        share = np.einsum("ijk,jk->ij", points[:, None] - start, chord) / np.maximum(np.sum(chord**2, axis=1), 1e-300)
+        nearest = start + np.clip(share, 0, 1)[:, :, None] * chord
+        best = np.minimum(best, np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1))
+    return best
+
+
 def ring(points):
     """One ring of great-circle edges through directions, and its row of edges."""
     points = units(points)

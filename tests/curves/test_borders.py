@@ -11,8 +11,8 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
 from stereodel.drawing.view import StereographicView, View
 from tests.curves.oracle import units, whole_circles
+from tests.strategies import SEEDS
 
-SEEDS = st.integers(0, 10**9)
 BOX = Box(-1.0, 3.0, -2.0, 1.0)
 CAP = Cap(View(0, 0), 1e-3)
 

@@ -9,47 +9,25 @@ from hypothesis import strategies as st
 
 from stereodel import SphericalVoronoi
 from stereodel.interpolation import NaturalNeighborInterpolator
+from tests.exact import area, fractions, nearer
 
 GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
 INNER_POINT = st.tuples(st.integers(-15, 15), st.integers(-15, 15)).map(lambda p: (p[0] / 8, p[1] / 8))
 CORNERS = [(-4, -5), (5, -4), (4, 5), (-5, 4)]
 
 
-def clipped(polygon, a, b):
-    """The part of a convex polygon that is nearer to a than to b."""
-
-    def excess(p):
-        return sum((x - y) ** 2 for x, y in zip(p, a, strict=True)) - sum(
-            (x - y) ** 2 for x, y in zip(p, b, strict=True)
-        )
-
-    result = []
-    for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True):
-        f, g = excess(p), excess(q)
-        if f <= 0:
-            result.append(p)
-        if f * g < 0:
-            result.append(tuple(x + (y - x) * f / (f - g) for x, y in zip(p, q, strict=True)))
-    return result
-
-
-def area(polygon):
-    return sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True)) / 2
-
-
 def sibson(points, query):
     """Weights in rational arithmetic; the query must lie within the hull, and be none of the points."""
-    exact = [tuple(map(Fraction, p)) for p in points]
-    at = tuple(map(Fraction, query))
+    exact, (at,) = fractions(points), fractions([query])
     far = Fraction(10) ** 9
     cell = [(-far, -far), (far, -far), (far, far), (-far, far)]
     for p in exact:
-        cell = clipped(cell, at, p)
+        cell = nearer(cell, at, p)
     areas = []
     for p in exact:
         part = cell
         for other in exact:
-            part = clipped(part, p, other) if other != p else part
+            part = nearer(part, p, other) if other != p else part
         areas.append(area(part))
     return [a / sum(areas) for a in areas]
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
 from stereodel.relaxation import lloyd
+from tests.exact import fractions, nearer
 from tests.strategies import GRID_DIRECTIONS
 
 SQUARE = (0, 0, 8, 8)
@@ -16,29 +17,14 @@ ROUNDING = 1e-12
 GRID_POINT = st.tuples(st.integers(0, 8), st.integers(0, 8))
 
 
-def clip(polygon, normal, offset):
-    """The part of a convex polygon with normal · x <= offset, in fractions."""
-    heights = [offset - normal[0] * x - normal[1] * y for x, y in polygon]
-    result = []
-    for k, (p, h) in enumerate(zip(polygon, heights, strict=True)):
-        q, g = polygon[k - 1], heights[k - 1]
-        if h * g < 0:
-            t = g / (g - h)
-            result.append((q[0] + t * (p[0] - q[0]), q[1] + t * (p[1] - q[1])))
-        if h >= 0:
-            result.append(p)
-    return result
-
-
 def exact_step(points, polygon):
     """Energy and centroids by cutting the polygon with all bisectors; the first of equal points has the cell."""
-    places = [tuple(map(Fraction, p)) for p in points]
+    places = fractions(points)
     energy, centroids = Fraction(0), []
     for k, p in enumerate(places):
-        cell = [] if p in places[:k] else [tuple(map(Fraction, corner)) for corner in polygon]
+        cell = [] if p in places[:k] else fractions(polygon)
         for q in set(places) - {p}:
-            normal = q[0] - p[0], q[1] - p[1]
-            cell = clip(cell, normal, (q[0] ** 2 + q[1] ** 2 - p[0] ** 2 - p[1] ** 2) / 2)
+            cell = nearer(cell, p, q)
         area, first = Fraction(0), [Fraction(0), Fraction(0)]
         around = [(x - p[0], y - p[1]) for x, y in cell]
         for (x, y), (u, v) in zip(around, around[1:] + around[:1], strict=True):

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from scipy.spatial._qhull import _get_barycentric_transforms
 
 from stereodel import PlanarDelaunay, check_delaunay, orient2d
-from stereodel.data import airports
 from stereodel.spatial import Delaunay
 from stereodel.spatial.barycentric import transforms
 from stereodel.spatial.delaunay import Paraboloid
@@ -222,14 +221,3 @@ def test_where_scipy_refuses_there_are_no_triangles(one):
     assert tri.vertex_neighbor_vertices[0].tolist() == [0] * (tri.npoints + 1)
     assert tri.find_simplex([[0, 0], [1, 2]]).tolist() == [-1, -1]
     assert tri.plane_distance(np.zeros((5, 2))).shape == (5, 0)
-
-
-@pytest.mark.thorough
-def test_airports_as_if_the_earth_were_flat():
-    """28 298 places, five of them twice, many on common parallels: the same triangles and answers."""
-    points = airports().lonlat
-    ours, theirs = Delaunay(points), scipy.spatial.Delaunay(points)
-    assert as_sets(ours.simplices) == as_sets(theirs.simplices)
-    np.testing.assert_array_equal(ours.coplanar[:, [0, 2]], theirs.coplanar[theirs.coplanar[:, 0].argsort()][:, [0, 2]])
-    queries = np.random.default_rng(0).uniform([-180, -90], [180, 90], (2000, 2))
-    np.testing.assert_array_equal(ours.find_simplex(queries) < 0, theirs.find_simplex(queries) < 0)

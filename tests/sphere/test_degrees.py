@@ -38,21 +38,6 @@ def test_multiples_of_90_are_exact(quarter):
     assert (float(cosine.hi), float(cosine.lo)) == ([1, 0, -1, 0][quarter % 4], 0)
 
 
-@given(st.integers(-720 * 64, 720 * 64).map(lambda k: k / 64))
-def test_mirrors_are_exact(angle):
-    sine, cosine = sin_cos_degrees(np.array([angle, -angle, 180 - angle, 90 - angle, angle + 360]))
-    for part in ("hi", "lo"):
-        s, c = getattr(sine, part), getattr(cosine, part)
-        assert s[1] == -s[0]
-        assert c[1] == c[0]
-        assert s[2] == s[0]
-        assert c[2] == -c[0]
-        assert s[3] == c[0]
-        assert c[3] == s[0]
-        assert s[4] == s[0]
-        assert c[4] == c[0]
-
-
 @given(st.floats(-179.999, 180).filter(lambda v: v == 0 or abs(v) > 1e-290), st.floats(1e-3, 1e3))
 def test_angle_is_the_inverse(angle, length):
     sine, cosine = sin_cos_degrees(np.array(angle))
