@@ -6,7 +6,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.conformal import fisheye
-from stereodel.projections import Stereographic
 from stereodel.sphere import SphereArc, SphereCircle, angular_distance, graticule, lonlat_to_xyz, meridian, parallel
 from tests.strategies import BETWEEN_POLES, decades
 
@@ -23,17 +22,6 @@ def test_p18_stretch_of_the_colatitude(focus, s):
     # S tan((90° + φ)/2) = tan((90° + Φ)/2) with φ, Φ the latitudes towards the antipode.
     phi, capital_phi = chi - np.pi / 2, xi - np.pi / 2
     assert s * np.tan((np.pi / 2 + phi) / 2) == pytest.approx(np.tan((np.pi / 2 + capital_phi) / 2), rel=1e-10)
-
-
-@given(BETWEEN_POLES, MAGNIFICATIONS)
-def test_p18_similarity_between_stereographic_projections(focus, s):
-    gamma = Stereographic(focus)
-    expected, lens = gamma.inverse(s * gamma.forward(POINTS)), fisheye(focus, magnification=s)
-    slack = 2e-15 * (1 + lens.scale_factor(POINTS))[:, None]
-    assert (np.abs(lens(POINTS) - expected) < slack).all()
-    # The bearing from the focus stays (Figure 13: one ray, spheres of radius R and R/S).
-    smaller = Stereographic(focus, radius=1 / s)
-    assert (np.abs(smaller.inverse(gamma.forward(POINTS)) - expected) < slack).all()
 
 
 @pytest.mark.parametrize("s", [1.0, 4.0, 20.0])

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.sphere import Rotation, angular_distance, lonlat_to_xyz
-from tests.strategies import BETWEEN_POLES, decades, maps
+from tests.strategies import decades, maps
 
 MAPS = maps(decades(-4, 4))
 POINTS = np.random.default_rng(11).normal(size=(20, 3))
@@ -26,15 +26,6 @@ def test_group_laws(a, b, c):
     assert a.inverse().inverse().is_close(a)
     assert not (a @ MoebiusMap.rotation((0, 90), 1e-3)).is_close(a)
     assert not (a @ fisheye((0, 0), magnification=1.001)).is_close(a)
-
-
-@given(BETWEEN_POLES, decades(-30, 30))
-def test_magnification_and_focus(focus, magnification):
-    lens = fisheye(focus, magnification=magnification)
-    assert np.abs(lens.focus - lonlat_to_xyz(focus)).max() < 4e-16
-    assert lens.scale_factor(lens.focus) == pytest.approx(magnification, rel=1e-6 + 1e-30 * magnification**2)
-    assert lens.inverse().magnification == magnification
-    assert np.abs(lens.inverse().focus + lens.focus).max() < 4e-16
 
 
 @given(MAPS)

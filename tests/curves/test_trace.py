@@ -1,11 +1,10 @@
 """Edges as arcs and their images: on their circles, ends bit for bit, chords within the tolerance."""
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import MoebiusMap, angular_distance, fisheye, lonlat_to_xyz
+from stereodel import MoebiusMap, fisheye, lonlat_to_xyz
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import Edges, great, sides_of, straight, unwrapped
 from tests.curves.oracle import off_lines, units
@@ -99,24 +98,6 @@ def test_parallels_are_followed_exactly():
     np.testing.assert_allclose(arcs.stop, np.radians(300))
     points = arcs.sampled(1e-6).values
     np.testing.assert_allclose(points[:, 2], np.sin(np.radians(60)), atol=1e-15)
-
-
-def test_arcs_cut_in_pieces_share_points():
-    arcs = great(AXES, AXES[[1, 2, 0]])
-    arc, t = np.array([0, 0, 2]), np.array([0.3, 0.9, 0.5])
-    points = arcs.points(arc, t)
-    pieces = arcs.cut(arc, t, points)
-    assert pieces.edge.tolist() == [0, 0, 0, 1, 2, 2]
-    np.testing.assert_array_equal(pieces.end[[0, 1, 4]], points)
-    np.testing.assert_array_equal(pieces.start[[1, 2, 5]], points)
-    np.testing.assert_allclose(np.bincount(pieces.edge, pieces.stop - pieces.begin), np.pi / 2)
-
-
-@pytest.mark.parametrize("count", [1, 2, 7])
-def test_points_at_equal_steps(count):
-    samples = great(AXES[:1], AXES[1:2]).spread(np.array([count]))
-    assert samples.sizes.tolist() == [count + 1]
-    np.testing.assert_allclose(angular_distance(samples.values[1:], samples.values[:-1]), 90 / count)
 
 
 def test_sides_of_lines_and_longitudes_that_go_on():

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
+from stereodel import PlanarDelaunay, check_delaunay
 from stereodel.interpolation import LinearInterpolator, contours
 from tests import sets
 from tests.interpolation.known import known
@@ -21,14 +21,6 @@ def on_hull(triangulation, point):
     d, e = hull[:, 1] - hull[:, 0], point - hull[:, 0]
     t = np.clip(np.einsum("ij,ij->i", d, e) / np.einsum("ij,ij->i", d, d), 0, 1)[:, None]
     return np.linalg.norm(e - t * d, axis=1).min() < 1e-12
-
-
-def test_a_field_along_x_has_straight_contours():
-    found = contours(GRID, [float(x) for x, _ in GRID], [0.5, 2.25])
-    assert [(c.level, c.closed) for c in found] == [(0.5, False), (2.25, False)]
-    for contour in found:
-        assert (contour.points[:, 0] == contour.level).all()
-        assert contour.points[[0, -1], 1].tolist() == [4.0, 0.0]  # higher x on the left
 
 
 def test_points_lie_on_the_level_of_the_linear_function(make_points, rng):
@@ -96,16 +88,6 @@ def test_rings_of_the_sphere(rng):
         assert np.allclose(contour.points[:, 2], contour.level, atol=0.01)
         turn = np.cross(contour.points[:-1], contour.points[1:])[:, 2].sum()
         assert turn == pytest.approx(2 * np.pi * (1 - contour.level**2), rel=0.02)
-
-
-def test_a_hemisphere_ends_contours_at_its_hull(rng):
-    points = rng.normal(size=(300, 3)) + [0, 0, 4.0]
-    triangulation = SphericalDelaunay(points)
-    found = contours(triangulation, points[:, 0] / np.linalg.norm(points, axis=1), 0.0)
-    border = set(triangulation.convex_hull.ravel().tolist())
-    assert len(border) < 100
-    assert all(not c.closed for c in found)
-    assert len(found) == 1
 
 
 def test_unknown_values_end_contours(rng):

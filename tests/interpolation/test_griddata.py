@@ -5,7 +5,6 @@ import pytest
 import scipy.interpolate
 
 from stereodel.interpolation import (
-    LinearInterpolator,
     griddata,
 )
 from tests.interpolation.known import KINDS
@@ -40,11 +39,6 @@ def test_what_is_not_known_is_not_filled():
     values = np.ma.masked_equal([1.0, 2.0, 3.0, -9.0], -9)
     found = griddata([[0, 0], [4, 0], [0, 4], [4, 4]], values, [[1, 1], [3, 3], [9, 9]], fill_value=0)
     assert np.array_equal(found, [1.75, np.nan, 0], equal_nan=True)
-
-
-def test_directions(rng):
-    points, queries = rng.normal(size=(30, 3)), rng.normal(size=(4, 5, 3))
-    assert np.array_equal(griddata(points, points[:, 0], queries), LinearInterpolator(points, points[:, 0])(queries))
 
 
 def test_other_methods_are_refused():

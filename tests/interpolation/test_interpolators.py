@@ -197,14 +197,6 @@ def test_lengths_of_directions_do_not_matter(method, rng):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_order_of_points_does_not_matter(method, make_points, rng):
-    points, values, queries = make_points(rng, 80), rng.random(80), make_points(rng, 60)
-    order = rng.permutation(80)
-    one, other = method(points, values)(queries), method(points[order], values[order])(queries)
-    assert np.allclose(one, other, rtol=0, atol=1e-12, equal_nan=True)
-
-
-@pytest.mark.parametrize("method", METHODS)
 def test_equal_points_have_the_mean_of_their_values(method, make_points, rng):
     points, values, queries = make_points(rng, 60), rng.random(60), make_points(rng, 40)
     twice = np.concatenate([points, points[:5], points[:5]])

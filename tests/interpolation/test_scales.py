@@ -15,7 +15,6 @@ from stereodel.interpolation import (
     SmoothInterpolator,
     estimate_gradients,
 )
-from stereodel.interpolation.gradients import _third_least
 from stereodel.interpolation.triangles import lengths
 
 RNG = np.random.default_rng(0)
@@ -124,11 +123,3 @@ def test_lengths_of_any_vectors(rows):
         with mpmath.workdps(700):
             exact = mpmath.sqrt(sum(mpmath.mpf(x) ** 2 for x in row))
             assert abs(found - exact) <= 4 * 2.0**-53 * exact + 5e-324
-
-
-@given(st.lists(st.lists(st.sampled_from([1e-300, 2e-300, 1e-9, 1.0, 1.0000000001, 3.0]), min_size=1), min_size=1))
-def test_the_third_least_of_each(groups):
-    size = np.concatenate(groups)
-    owners = np.repeat(np.arange(len(groups)), list(map(len, groups)))
-    found = _third_least(size, owners, np.flatnonzero(np.diff(owners, prepend=-1)))
-    assert found.tolist() == [sorted(group)[min(2, len(group) - 1)] for group in groups]

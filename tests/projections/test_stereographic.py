@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.projections import PlaneCircle, PlaneLine, Stereographic
+from stereodel.projections import Gnomonic, Orthographic, PlaneCircle, PlaneLine, Stereographic
 from stereodel.sphere import SphereArc, SphereCircle, angular_distance, lonlat_to_xyz
 from tests.exact import ACCURACY, distance, dot, mp, normalized
 from tests.strategies import DIRECTIONS, LONLAT
@@ -200,21 +200,18 @@ def test_p9_smaller_spheres_give_larger_caps():
     assert angular_distance(projection.inverse([1.0, 0.0]), [0, 0, -1]) == pytest.approx(radii[2])
 
 
-def test_axes_are_east_and_north():
-    projection = Stereographic((30.0, 50.0))
-    east, north = projection.forward(lonlat_to_xyz([[30.001, 50.0], [30.0, 50.001]]))
+@pytest.mark.parametrize("view", [Stereographic, Gnomonic, Orthographic])
+def test_axes_are_east_and_north(view):
+    east, north = view((30.0, 50.0)).forward(lonlat_to_xyz([[30.001, 50.0], [30.0, 50.001]]))
     assert east[0] > 0
     assert abs(east[1]) < 1e-8
     assert north[1] > 0
     assert abs(north[0]) < 1e-16
     # At a pole: the limit along the given longitude.
     for lat in (90, -90):
-        limit = Stereographic((70.0, np.nextafter(lat, 0))).forward([0.3, 0.4, np.sign(lat)])
-        assert Stereographic((70.0, lat)).forward([0.3, 0.4, np.sign(lat)]) == pytest.approx(limit, abs=1e-14)
-    assert (
-        Stereographic((0.0, 0.0, -2.0)).forward([0, 1, -1]).tolist()
-        == Stereographic((0, -90)).forward([0, 1, -1]).tolist()
-    )
+        limit = view((70.0, np.nextafter(lat, 0))).forward([0.3, 0.4, np.sign(lat)])
+        assert view((70.0, lat)).forward([0.3, 0.4, np.sign(lat)]) == pytest.approx(limit, abs=1e-14)
+    assert view((0.0, 0.0, -2.0)).forward([0, 1, -1]).tolist() == view((0, -90)).forward([0, 1, -1]).tolist()
 
 
 @pytest.mark.parametrize(

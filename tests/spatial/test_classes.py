@@ -178,13 +178,6 @@ def test_scipys_plots_show_the_same(plot, name):
     assert len(ours[0]) > 60
 
 
-def test_matplotlib_takes_the_triangles():
-    tri = stereodel.spatial.Delaunay(FLAT)
-    mesh = matplotlib.tri.Triangulation(*tri.points.T, tri.simplices)
-    queries = random_points(500, 1)
-    np.testing.assert_array_equal(mesh.get_trifinder()(*queries.T) < 0, tri.find_simplex(queries) < 0)
-
-
 @pytest.mark.parametrize(
     "method", [scipy.interpolate.LinearNDInterpolator, scipy.interpolate.CloughTocher2DInterpolator]
 )

@@ -53,14 +53,6 @@ def test_each_vertex_is_the_center_of_its_triangle_and_regions_turn_counterclock
     assert sv.regions == before
 
 
-def test_cocircular_triangles_have_equal_vertices():
-    cube = sets.unit(sets.sphere("cube").points)
-    sv = SphericalVoronoi(cube)
-    assert sv.vertices.shape == scipy.spatial.SphericalVoronoi(cube).vertices.shape == (12, 3)
-    assert len(np.unique(sv.vertices, axis=0)) == 6
-    np.testing.assert_allclose(sv.calculate_areas(), np.pi / 2)
-
-
 @pytest.mark.parametrize("points", [*CIRCLES.values(), SMALL, SMALL[:3]], ids=[*CIRCLES, "small", "three"])
 def test_points_on_one_circle(points):
     points = 13 * points
@@ -95,15 +87,6 @@ def test_points_closer_than_the_threshold(distance):
     areas = sv.calculate_areas()
     assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-12)
     assert (areas > 0).sum() == distinct
-    check_delaunay(points, sv._simplices)
-
-
-def test_equal_points_have_empty_regions():
-    points = np.concatenate([sphere(20), sphere(20)[:5]])
-    sv = SphericalVoronoi(points)
-    assert sv.regions[20:] == [[]] * 5
-    assert (sv.calculate_areas()[20:] == 0).all()
-    np.testing.assert_array_equal(sv.calculate_areas()[:20], SphericalVoronoi(points[:20]).calculate_areas())
     check_delaunay(points, sv._simplices)
 
 

@@ -35,11 +35,6 @@ def test_nested_numbers(nside, nested, ring):
     assert np.array_equal(healpix_centers(nside, nested=True)[nested], healpix_centers(nside)[ring])
 
 
-def test_nested_numbers_of_the_second_level():
-    expected = [13, 5, 4, 0, 15, 7, 6, 1, 17, 9]
-    assert np.array_equal(healpix_centers(2, nested=True)[:10], healpix_centers(2)[expected])
-
-
 @pytest.mark.parametrize("nside", [1, 2, 4, 8, 16])
 def test_orders_have_the_same_centers(nside):
     ring, nested = healpix_centers(nside), healpix_centers(nside, nested=True)
