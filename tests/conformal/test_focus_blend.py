@@ -104,12 +104,3 @@ def test_it_turns_with_its_foci():
     blend = FocusBlend(CITIES, magnification=[4, 10, 2], width=20)
     turned = FocusBlend(turn(lonlat_to_xyz(CITIES)), magnification=[4, 10, 2], width=20)
     assert np.abs(turned(turn(points)) - turn(blend(points))).max() < 1e-13
-
-
-def test_directions_of_any_length_and_shape():
-    blend, points = FocusBlend(CITIES, magnification=4.0), sphere_points(60, 3)
-    assert blend(1e-300 * points) == pytest.approx(blend(points), abs=1e-15)
-    assert (blend(points.reshape(3, 20, 3)) == blend(points).reshape(3, 20, 3)).all()
-    assert blend(points[0]).shape == (3,)
-    assert blend.stretches(points.reshape(3, 20, 3))[0].shape == (3, 20)
-    assert FocusBlend(CITIES, magnification=1.0)(points) == pytest.approx(points, abs=1e-15)

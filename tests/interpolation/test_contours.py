@@ -110,12 +110,3 @@ def test_flat_fields_have_no_contours():
 def test_large_values():
     (contour,) = contours([[0, 0], [2, 0], [0, 2]], [-1.7e308, 1.7e308, -1.7e308], 0.0)
     assert contour.points.tolist() == [[1.0, 1.0], [1.0, 0.0]]
-
-
-def test_other_arguments_are_refused():
-    with pytest.raises(ValueError, match=r"values must be one number for each point, got shape \(25, 2\)"):
-        contours(GRID, np.zeros((25, 2)), 0.0)
-    with pytest.raises(ValueError, match=r"levels\[1\] is nan"):
-        contours(GRID, np.zeros(25), [0.0, np.nan])
-    with pytest.raises(ValueError, match=r"levels must be a number or a list of numbers, got shape \(1, 1\)"):
-        contours(GRID, np.zeros(25), [[0.0]])

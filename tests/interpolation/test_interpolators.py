@@ -348,30 +348,3 @@ def test_later_changes_of_the_triangulation_do_not_matter(rng):
         assert other([0.5, 0.5]) == before
     with pytest.raises(ValueError, match="read-only"):
         function.values[0] = 1.0
-
-
-@pytest.mark.parametrize(
-    ("values", "message"),
-    [
-        ([1.0, 2.0], r"values must have shape \(3, \.\.\.\), one entry for each point, got \(2,\)"),
-        (5.0, r"values must have shape \(3, \.\.\.\)"),
-        ([1.0, np.inf, 2.0], r"values\[1\] is inf; every value must be finite, or NaN where it is not known"),
-        ([1.0, "a", 2.0], "values must hold real numbers"),
-    ],
-)
-@pytest.mark.parametrize("method", METHODS)
-def test_values_that_are_none_are_refused(method, values, message):
-    with pytest.raises((ValueError, TypeError), match=message):
-        method([[0, 0], [1, 0], [0, 1]], values)
-
-
-def test_other_arguments_are_refused():
-    points, values = [[0, 0], [1, 0], [0, 1]], [1.0, 2.0, 3.0]
-    with pytest.raises(ValueError, match="extrapolate is 'linear', but must be one of 'nearest'"):
-        LinearInterpolator(points, values, extrapolate="linear")
-    with pytest.raises(ValueError, match=r"queries must have shape \(\.\.\., 2\), got \(3,\)"):
-        LinearInterpolator(points, values)([1, 2, 3])
-    with pytest.raises(ValueError, match=r"queries is the zero vector"):
-        LinearInterpolator(np.eye(3), values)([0, 0, 0])
-    with pytest.raises(ValueError, match=r"gradients must have shape \(3, 2\), a vector for each value, got \(3, 3\)"):
-        SmoothInterpolator(points, values, gradients=np.zeros((3, 3)))
