@@ -4,9 +4,6 @@ import copy
 import inspect
 import pickle
 
-import matplotlib as mpl
-import matplotlib.pyplot as plt
-import matplotlib.tri
 import numpy as np
 import pytest
 import scipy.interpolate
@@ -142,40 +139,6 @@ def test_every_other_name_of_scipy_spatial():
     assert tsearch(tri, [0.5, 0.5]) == tri.find_simplex([0.5, 0.5])
     with pytest.raises(AttributeError, match=r"neither stereodel\.spatial nor scipy\.spatial has 'NoSuchThing'"):
         _ = stereodel.spatial.NoSuchThing
-
-
-@pytest.fixture
-def _agg():
-    with mpl.rc_context({"backend": "Agg"}):
-        yield
-        plt.close("all")
-
-
-def drawn(figure):
-    """Every line and segment of a figure, without order and direction, rounded."""
-    axes = figure.gca()
-    segments = [segment for collection in axes.collections for segment in collection.get_segments()]
-    lines = [np.column_stack(line.get_data()) for line in axes.lines]
-    for line in lines:
-        gaps = np.flatnonzero(np.isnan(line[:, 0]))  # triplot draws all edges as one line with gaps
-        segments += [part for part in np.split(line, gaps) if len(part) < len(line)]
-    rows = [sorted(map(tuple, np.round(s[~np.isnan(s).any(axis=1)], 6).tolist())) for s in map(np.asarray, segments)]
-    return sorted(row for row in rows if row), [len(line) for line in lines], axes.get_xlim(), axes.get_ylim()
-
-
-@pytest.mark.usefixtures("_agg")
-@pytest.mark.parametrize(
-    ("plot", "name"),
-    [("delaunay_plot_2d", "Delaunay"), ("voronoi_plot_2d", "Voronoi"), ("convex_hull_plot_2d", "Delaunay")],
-)
-def test_scipys_plots_show_the_same(plot, name):
-    figures = [
-        getattr(scipy.spatial, plot)(getattr(module, name)(FLAT), plt.figure().gca())
-        for module in (stereodel.spatial, scipy.spatial)
-    ]
-    ours, theirs = map(drawn, figures)
-    assert ours == theirs
-    assert len(ours[0]) > 60
 
 
 @pytest.mark.parametrize(

@@ -35,14 +35,6 @@ def test_nested_numbers(nside, nested, ring):
     assert np.array_equal(healpix_centers(nside, nested=True)[nested], healpix_centers(nside)[ring])
 
 
-@pytest.mark.parametrize("nside", [1, 2, 4, 8, 16])
-def test_orders_have_the_same_centers(nside):
-    ring, nested = healpix_centers(nside), healpix_centers(nside, nested=True)
-    assert len(ring) == 12 * nside**2
-    assert np.array_equal(np.unique(ring, axis=0), np.unique(nested, axis=0))
-    assert len(np.unique(ring, axis=0)) == len(ring)
-
-
 @pytest.mark.parametrize("nside", [1, 2, 4, 8, 16, 32])
 def test_four_nested_pixels_lie_around_the_center_of_theirs(nside):
     """Their mean is nearer to it than half a side."""

@@ -6,7 +6,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mpf
-from pyproj import Transformer
 
 from stereodel import lonlat_to_xyz, xyz_to_lonlat
 from stereodel._double_double import DoubleDouble
@@ -74,13 +73,3 @@ def test_authalic_latitude_is_found_within_an_ulp(z, rho):
             if 1e-290 < beside < 90 and min(z, rho) > 1e-290:
                 sine, cosine = on_sphere(beside, "authalic")
                 assert mpmath.sign(mpf(z) * cosine - mpf(rho) * sine) == -step
-
-
-def test_geocentric_latitude_is_the_direction_from_the_centre():
-    to_centre = Transformer.from_crs("EPSG:4979", "EPSG:4978", always_xy=True)
-    lon = np.linspace(-170, 190, len(LATITUDES))
-    xyz = np.stack(to_centre.transform(lon, LATITUDES, np.zeros_like(lon)), axis=-1)
-    expected = xyz / np.linalg.norm(xyz, axis=-1, keepdims=True)
-    np.testing.assert_allclose(
-        lonlat_to_xyz(np.stack([lon, LATITUDES], axis=-1), latitude="geodetic"), expected, atol=1e-15
-    )
