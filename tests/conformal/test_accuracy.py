@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye, flight
 from stereodel.sphere import Rotation, SphereCircle, lonlat_to_xyz
 from tests.exact import ACCURACY, angle, direction, distance, dot, mp, normalized, rotate
+from tests.examples import examples
 from tests.strategies import DIRECTIONS, LONLAT, ROTATIONS, decades, maps
 
 UNIT = mpmath.mpf(2) ** -53
@@ -231,6 +232,7 @@ BUBBLES = st.builds(SphereCircle.around, LONLAT, st.one_of(BUBBLE_SIZES, BUBBLE_
 
 
 @given(BUBBLES, BUBBLES, st.floats(0, 360))
+@examples(0.2)
 def test_bubbles_down_to_points(source, target, turn):
     if min(source.radius, target.radius) <= 8 * 2.0**-52:
         with pytest.raises(ValueError, match="cannot be told from a point"):
@@ -240,6 +242,7 @@ def test_bubbles_down_to_points(source, target, turn):
 
 
 @given(LONLAT, st.floats(-11, 1.9), LONLAT, st.floats(1, 179), st.floats(0, 360), st.floats(-17, 0))
+@examples(0.2)
 def test_points_next_to_the_rim(center, decades, other, radius, bearing, depth):
     """A point that lies inside by more than rounding goes where it should; one that does not is refused."""
     source, target = SphereCircle.around(center, 10.0**decades), SphereCircle.around(other, radius)

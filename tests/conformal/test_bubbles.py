@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye
 from stereodel.sphere import Rotation, SphereArc, SphereCircle, angular_distance
+from tests.examples import examples
 from tests.strategies import BETWEEN_POLES
 
 BUBBLES = st.builds(SphereCircle.around, BETWEEN_POLES, st.floats(0.5, 179.5))
@@ -26,6 +27,7 @@ def same(a, b):
 
 
 @given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(-360, 360))
+@examples(0.2)
 def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, turn):
     p, q = inside(source, start), inside(target, end)
     conformal = bubble_to_bubble(source, target, p, q, turn=turn)
@@ -35,6 +37,7 @@ def test_p16_bubble_to_bubble_and_point_to_point(source, target, start, end, tur
 
 
 @given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(1, 359))
+@examples(0.2)
 def test_p16_the_turn_is_the_angle_at_the_target_point(source, target, start, end, turn):
     p, q = inside(source, start), inside(target, end)
     plain, turned = bubble_to_bubble(source, target, p, q), bubble_to_bubble(source, target, p, q, turn=turn)
@@ -46,6 +49,7 @@ def test_p16_the_turn_is_the_angle_at_the_target_point(source, target, start, en
 
 
 @given(BUBBLES, BUBBLES, PLACES, PLACES, st.floats(-180, 180))
+@examples(0.2)
 def test_p16_unique_up_to_the_turn(source, target, start, end, turn):
     # Another way to a map with the same properties differs by a turn about the point: a map of the target
     # bubble onto itself that fixes a point and turns by nothing is the identity.
@@ -66,12 +70,14 @@ def turned_by(conformal, fixed, ahead):
 
 
 @given(BUBBLES, PLACES)
+@examples(0.2)
 def test_no_turn_onto_itself_is_the_identity(bubble, place):
     p = inside(bubble, place)
     assert bubble_to_bubble(bubble, bubble, p, p).is_close(MoebiusMap.identity(), tolerance=1e-12)
 
 
 @given(BETWEEN_POLES, st.floats(1, 179), st.floats(1, 179))
+@examples(0.2)
 def test_centres_by_default_give_the_fisheye(center, first, second):
     a, b = SphereCircle.around(center, first), SphereCircle.around(center, second)
     size = np.tan(np.radians(second) / 2) / np.tan(np.radians(first) / 2)
@@ -79,6 +85,7 @@ def test_centres_by_default_give_the_fisheye(center, first, second):
 
 
 @given(BETWEEN_POLES, st.floats(1, 90), BETWEEN_POLES, st.floats(1, 90))
+@examples(0.2)
 def test_p17_scales_differ_by_at_most_1_to_2(source, chi0, target, xi0):
     bubble = SphereCircle.around(source, chi0)
     conformal = bubble_to_bubble(bubble, SphereCircle.around(target, xi0))

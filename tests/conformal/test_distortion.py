@@ -52,6 +52,7 @@ def test_mean_against_quadrature(conformal, bubble):
 
 
 @given(MAPS, BUBBLES)
+@examples(0.2)
 def test_area_ratio_is_the_mean_of_the_squared_scale(conformal, bubble):
     inside, _ = sampled(bubble, rings=200)
     summary = distortion(conformal, bubble)
@@ -64,6 +65,7 @@ def test_area_ratio_is_the_mean_of_the_squared_scale(conformal, bubble):
 
 
 @given(BETWEEN_POLES, st.floats(1e-3, 90), BETWEEN_POLES, st.floats(1e-3, 90))
+@examples(0.2)
 def test_p17_centre_to_centre(source, chi0, target, xi0):
     bubble = SphereCircle.around(source, chi0)
     summary = distortion(bubble_to_bubble(bubble, SphereCircle.around(target, xi0)), bubble)

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from stereodel.conformal import fisheye
 from stereodel.sphere import SphereArc, SphereCircle, angular_distance, graticule, lonlat_to_xyz, meridian, parallel
+from tests.examples import examples
 from tests.strategies import BETWEEN_POLES, decades
 
 MAGNIFICATIONS = decades(-3, 3)
@@ -88,6 +89,7 @@ def test_tiny_circles_next_to_the_focus(s, radius):
 
 
 @given(BETWEEN_POLES, decades(0, 9), BETWEEN_POLES, BETWEEN_POLES)
+@examples(0.2)
 def test_arcs_to_arcs(focus, s, start, end):
     a, b = lonlat_to_xyz(start), lonlat_to_xyz(end)
     if not 1e-3 < angular_distance(a, b) < 179.9:

@@ -52,6 +52,7 @@ def test_stretches_are_those_of_the_derivative_and_nothing_folds(blend):
 
 
 @given(BLENDS)
+@examples(0.2)
 def test_cores_are_fisheyes(blend):
     for focus, size, radius in zip(blend.foci, blend.magnification, blend.core_radii, strict=True):
         u, v = np.linalg.svd(focus[None])[2][1:]

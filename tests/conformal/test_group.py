@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, fisheye, three_points
 from stereodel.sphere import SphereCircle, angular_distance, lonlat_to_xyz
+from tests.examples import examples
 from tests.strategies import BETWEEN_POLES, decades, maps
 
 MAPS, MILD = maps(decades(-3, 3)), maps(st.floats(0.2, 5))
@@ -74,6 +75,7 @@ def test_fixed_points_are_fixed_and_the_multiplier_is_the_derivative(conformal):
 
 
 @given(MILD, st.sampled_from(["rotation", "boost", "loxodromic"]), BETWEEN_POLES, st.floats(1.1, 4), st.floats(5, 175))
+@examples(0.2)
 def test_kind_fixed_points_and_multiplier_go_with_conjugation(other, kind, axis, size, angle):
     inner = MoebiusMap.rotation(axis, 0 if kind == "boost" else angle)
     if kind != "rotation":
@@ -127,6 +129,7 @@ TRIPLES = st.lists(BETWEEN_POLES, min_size=3, max_size=3).filter(
 
 
 @given(TRIPLES, TRIPLES)
+@examples(0.2)
 def test_three_points_to_three_points(sources, targets):
     conformal = three_points(sources, targets)
     slack = 2e-15 * (1 + conformal.scale_factor(lonlat_to_xyz(sources)))

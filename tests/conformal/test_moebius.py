@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.sphere import Rotation, angular_distance, lonlat_to_xyz
+from tests.examples import examples
 from tests.strategies import decades, maps
 
 MAPS = maps(decades(-4, 4))
@@ -17,6 +18,7 @@ METRIC = np.diag([1.0, 1.0, 1.0, -1.0])
 
 
 @given(MAPS, MAPS, MAPS)
+@examples(0.2)
 def test_group_laws(a, b, c):
     assert ((a @ b) @ c).is_close(a @ (b @ c))
     assert (a @ a.inverse()).is_close(IDENTITY)

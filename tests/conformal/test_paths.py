@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, fisheye, flight, path_between
+from tests.examples import examples
 from tests.strategies import BETWEEN_POLES, ROTATIONS, decades, maps
 
 MAPS = maps(decades(-4, 4))
@@ -24,6 +25,7 @@ def distance(a, b):
 
 
 @given(MAPS, MAPS)
+@examples(0.2)
 def test_ends_are_the_maps_and_nothing_jumps(start, end):
     path = path_between(start, end)
     assert (path(0.0), path(1.0)) == (start, end)
@@ -58,6 +60,7 @@ def test_a_flight_is_made_of_fisheyes(start, end, first, last, t):
 
 
 @given(MAPS, MAPS, ROTATIONS, ROTATIONS, TIMES)
+@examples(0.2)
 def test_paths_turn_with_what_they_join(start, end, before, after, t):
     left, right = MoebiusMap.rotation(after), MoebiusMap.rotation(before)
     here, there = path_between(start, end), path_between(left @ start @ right, left @ end @ right)

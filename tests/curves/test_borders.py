@@ -11,6 +11,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
 from stereodel.drawing.view import StereographicView, View
 from tests.curves.oracle import units, whole_circles
+from tests.examples import examples
 from tests.strategies import SEEDS
 
 BOX = Box(-1.0, 3.0, -2.0, 1.0)
@@ -68,6 +69,7 @@ def test_all_round_the_rim():
 
 
 @given(SEEDS)
+@examples(0.5)
 def test_crossings_of_a_plane(seed):
     rng = np.random.default_rng(seed)
     p, q = units(rng.normal(size=(2, 20, 3)))

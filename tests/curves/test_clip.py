@@ -14,6 +14,7 @@ from stereodel.curves.trace import Arcs, great
 from stereodel.drawing.view import StereographicView, View
 from stereodel.io.faces import voronoi_sides
 from tests.curves.oracle import Star, in_sight, off_lines, ring, rings, rows, units, whole_circles, winding
+from tests.examples import examples
 from tests.strategies import SEEDS
 
 X, Y, Z = np.eye(3)
@@ -40,6 +41,7 @@ def any_view(rng):
 
 
 @given(SEEDS)
+@examples(0.5)
 def test_regions_hold_what_they_hold_on_the_sphere(seed):
     """Stars of half a degree to a hemisphere and their complements, with holes, under lenses from 0.1 to 1000."""
     rng = np.random.default_rng(seed)
@@ -130,6 +132,7 @@ def test_circles_that_touch_the_limb(lon):
 
 
 @given(st.sampled_from([0, 90, 180, -90]), st.sampled_from([-90, 0, 90]), SEEDS)
+@examples(0.5)
 def test_a_cap_and_the_rest_fill_the_disc(lon, lat, seed):
     rng = np.random.default_rng(seed)
     circle = SphereCircle.around(rng.uniform((-180, -90), (180, 90)), rng.uniform(1, 179))

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
 from stereodel.relaxation import lloyd
 from tests.exact import fractions, nearer
+from tests.examples import examples
 from tests.strategies import GRID_DIRECTIONS
 
 SQUARE = (0, 0, 8, 8)
@@ -54,6 +55,7 @@ def test_a_step_is_the_exact_one(polygon, points):
 @pytest.mark.parametrize("factor", [1.0, 1.9])
 @pytest.mark.parametrize("bounds", [SQUARE, None], ids=["plane", "sphere"])
 @given(data=st.data())
+@examples(0.5)
 def test_energy_never_grows(bounds, factor, data):
     points = data.draw(st.lists(GRID_DIRECTIONS if bounds is None else GRID_POINT, min_size=1, max_size=12))
     relaxed = lloyd(points, steps=12, bounds=bounds, factor=factor)
@@ -217,6 +219,7 @@ def test_a_factor_takes_that_part_of_the_way_on_the_sphere(factor, points):
 
 @pytest.mark.parametrize("factor", [0.5, 1.5, 1.9])
 @given(points=st.lists(GRID_POINT, min_size=1, max_size=9))
+@examples(0.5)
 def test_a_factor_takes_that_part_of_the_way_in_the_plane_and_stays_within_the_bounds(factor, points):
     full, part = lloyd(points, steps=1, bounds=SQUARE), lloyd(points, steps=1, bounds=SQUARE, factor=factor)
     wanted = np.array(points) + factor * (full.points - points)
