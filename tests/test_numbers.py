@@ -147,6 +147,7 @@ CALLS = {
     "scale_factor": lambda w: fisheye((0, 0), magnification=3.0).scale_factor(SPHERE, workers=w),
     "linear": lambda w: LinearInterpolator(PLANE, PLANE[:, 0])(PLANE[::7], workers=w),
     "smooth": lambda w: SmoothInterpolator(PLANE, PLANE[:, 0])(PLANE[::7], workers=w),
+    "gradients": lambda w: NaturalNeighborInterpolator(PLANE, PLANE[:, 0]).gradient(PLANE[::7] + 0.001, workers=w),
     "natural neighbours": lambda w: NaturalNeighborInterpolator(PLANE, PLANE[:, 0])(PLANE[::7], workers=w),
 }
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, check_delaunay
+from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
 from stereodel.interpolation import LinearInterpolator, contours
 from tests import sets
 from tests.interpolation.known import known
@@ -88,6 +88,15 @@ def test_rings_of_the_sphere(rng):
         assert np.allclose(contour.points[:, 2], contour.level, atol=0.01)
         turn = np.cross(contour.points[:-1], contour.points[1:])[:, 2].sum()
         assert turn == pytest.approx(2 * np.pi * (1 - contour.level**2), rel=0.02)
+
+
+def test_a_hemisphere_ends_contours_at_its_hull():
+    points = sets.sphere("half").points
+    (contour,) = contours(points, points[:, 1], 0.0)
+    assert not contour.closed
+    hull = SphericalDelaunay(points).convex_hull
+    turns = np.cross(points[hull[:, 0]], points[hull[:, 1]])
+    assert (np.abs(contour.points[[0, -1]] @ turns.T).min(axis=1) < 1e-15).all()
 
 
 def test_unknown_values_end_contours(rng):
