@@ -6,7 +6,7 @@ from stereodel import SphereArc
 from stereodel.curves import clip
 from stereodel.curves.borders import Cap
 from stereodel.curves.ragged import Ragged, offsets_of
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.trace import exact, great
 
 
 def units(vectors):
@@ -57,23 +57,12 @@ def rows(*sizes):
 
 def whole_circles(circles):
     """Circles as two arcs each, and a row for each circle."""
-    frames = [SphereArc.whole(circle).frame() for circle in circles]
-    center, u, _ = (np.repeat(np.array([frame[k] for frame in frames]), 2, axis=0) for k in range(3))
-    axis = np.repeat(np.array([circle.normal for circle in circles]), 2, axis=0)
-    offset = np.repeat([circle.offset for circle in circles], 2)
-    first = np.tile([True, False], len(circles))
-    a, b = center + u, center - u
-    arcs = Arcs(
-        np.where(first[:, None], a, b),
-        np.where(first[:, None], b, a),
-        axis,
-        offset,
-        u,
-        np.where(first, 0.0, np.pi),
-        np.where(first, np.pi, 2 * np.pi),
-        np.arange(len(first)),
-    )
-    return arcs, rows(*[2] * len(circles))
+    halves = []
+    for circle in circles:
+        center, u, _, _ = SphereArc.whole(circle).frame()
+        a, b = center + u, center - u
+        halves += [SphereArc(circle, a, b), SphereArc(circle, b, a)]
+    return exact(halves), rows(*[2] * len(circles))
 
 
 def in_sight(arcs, sides, view, tolerance=1e-4, owner=None, count=1):
