@@ -100,6 +100,11 @@ def test_discs_meet_where_nothing_else_is_said():
     assert FocusBlend([(0, 0)], magnification=4.0).width == 90
 
 
+def test_what_magnifies_nothing_moves_nothing():
+    points = sphere_points(60, 3)
+    assert FocusBlend(CITIES, magnification=1.0)(1e-300 * points) == pytest.approx(points, abs=1e-15)
+
+
 def test_it_turns_with_its_foci():
     turn, points = Rotation((0.3, -0.5, 0.2, 0.7)), sphere_points(300, 2)
     blend = FocusBlend(CITIES, magnification=[4, 10, 2], width=20)
