@@ -10,6 +10,7 @@ from stereodel.curves.borders import Antimeridian, Box, Cap, crossings
 from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
 from stereodel.drawing.view import StereographicView, View
+from tests import sets
 from tests.curves.oracle import units, whole_circles
 from tests.examples import examples
 from tests.strategies import SEEDS
@@ -182,8 +183,7 @@ def test_rounding_along_180_cuts_nothing():
 def test_rings_leave_a_chart_as_often_as_they_enter_it(seed):
     """Vertices on the rim, on the meridian, at the poles, doubled: signs tell how many crossings there are."""
     rng = np.random.default_rng(seed)
-    grid = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], dtype=float)
-    points = units(grid)[rng.permutation(26)[: rng.integers(3, 9)]]
+    points = units(sets.cube_grid(1))[rng.permutation(26)[: rng.integers(3, 9)]]
     following = np.roll(points, -1, axis=0)
     opposite = np.abs(points + following).max(axis=1) < 1e-9
     normal = np.where(opposite[:, None], units(np.cross(points, units(rng.normal(size=points.shape)))), 0.0)

@@ -15,6 +15,7 @@ from stereodel.curves.ragged import Ragged
 from stereodel.curves.trace import great
 from stereodel.drawing.view import StereographicView, View
 from stereodel.io.faces import voronoi_sides
+from tests import sets
 from tests.curves.oracle import Star, in_sight, off_lines, ring, rings, rows, units, whole_circles, winding
 from tests.examples import examples
 from tests.strategies import SEEDS
@@ -230,8 +231,7 @@ def test_rings_on_the_map():
 @given(SEEDS)
 def test_a_ring_and_its_reverse_fill_the_map(seed):
     rng = np.random.default_rng(seed)
-    grid = np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1, 0, 1) if x or y or z], dtype=float)
-    points = units(grid)[rng.permutation(26)[:3]]
+    points = units(sets.cube_grid(1))[rng.permutation(26)[:3]]
     if abs(np.linalg.det(points)) < 0.1:
         return
     assert area(on_map(points)) + area(on_map(points[::-1])) == pytest.approx(360 * 180, abs=1e-6)

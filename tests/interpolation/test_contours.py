@@ -12,7 +12,7 @@ from stereodel.interpolation import LinearInterpolator, contours
 from tests import sets
 from tests.interpolation.known import known
 
-GRID = [(x, y) for x in range(5) for y in range(5)]
+GRID = sets.grid(5, 5)
 SMALL_VALUES = st.lists(st.integers(-2, 2).map(float), min_size=25, max_size=25)
 
 
@@ -100,8 +100,8 @@ def test_a_hemisphere_ends_contours_at_its_hull():
 
 
 def test_unknown_values_end_contours(rng):
-    values = np.array([float(x) for x, _ in GRID])
-    values[GRID.index((2, 2))] = np.nan
+    values = GRID[:, 0].copy()
+    values[12] = np.nan  # in the middle
     found = contours(GRID, values, 1.5)
     assert [c.closed for c in found] == [False, False]
     assert all(np.isfinite(c.points).all() for c in found)
