@@ -3,11 +3,11 @@
 import copy
 import pickle
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mpmath import mp, mpf, workdps
 
 from stereodel import PlanarDelaunay, Rotation
 from stereodel.interpolation import (
@@ -18,6 +18,7 @@ from stereodel.interpolation import (
     estimate_gradients,
 )
 from tests import sets
+from tests.exact import cross, dot, mp, normalized
 from tests.interpolation.known import known, slopes
 from tests.sets import unit
 from tests.strategies import GRID_DIRECTIONS
@@ -70,23 +71,6 @@ def test_linear_functions_of_the_plane(rng):
         function = method(points, points @ [2.0, -3.0])
         assert np.allclose(function(queries), queries @ [2.0, -3.0], rtol=0, atol=1e-14)
         assert np.allclose(function.gradient(queries), [2.0, -3.0], rtol=0, atol=1e-10)
-
-
-@pytest.mark.parametrize("pairs", [None, 1e-3, 1e-9])
-def test_quadratic_polynomials_of_the_plane(pairs, rng):
-    """Estimated gradients are exact for them, and so is the smooth interpolant; also where some points nearly meet."""
-    points = rng.normal(size=(400, 2))
-    if pairs:
-        points = np.concatenate([points, points[::7] + pairs * rng.normal(size=points[::7].shape)])
-    queries = 0.2 * rng.normal(size=(200, 2))
-
-    def polynomial(x):
-        return 1 + x[:, 0] - 2 * x[:, 1] + 3 * x[:, 0] ** 2 - x[:, 0] * x[:, 1] + 0.5 * x[:, 1] ** 2
-
-    function = SmoothInterpolator(points, polynomial(points))
-    exact = np.column_stack([1 + 6 * points[:, 0] - points[:, 1], -2 - points[:, 0] + points[:, 1]])
-    assert np.allclose(function.gradients, exact, rtol=0, atol=1e-8)
-    assert np.allclose(function(queries), polynomial(queries), rtol=0, atol=1e-12)
 
 
 def test_gradients_of_degree_one_harmonics_are_exact(rng):
@@ -281,16 +265,10 @@ def test_clusters_are_as_accurate_as_the_whole(method, spread, rng):
 
 
 def exact_weights(corners, query):
-    """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points, in 60 digits."""
-    with workdps(60):
-        rows = [[mpf(float(x)) for x in p] for p in (*corners, query)]
-        if len(rows[0]) == 3:
-            rows = [[x / mp.sqrt(sum(y * y for y in p)) for x in p] for p in rows]
-        else:
-            rows = [[*p, mpf(1)] for p in rows]
-        *triangle, q = rows
-        areas = [mp.det(mp.matrix([q if j == k else triangle[j] for j in range(3)])) for k in range(3)]
-        return [float(area / sum(areas)) for area in areas]
+    """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points."""
+    *corners, query = (normalized(mp(p)) if len(p) == 3 else [*mp(p), mpmath.mpf(1)] for p in (*corners, query))
+    areas = [dot(query, cross(corners[k - 2], corners[k - 1])) for k in range(3)]
+    return [float(area / sum(areas)) for area in areas]
 
 
 @pytest.mark.parametrize("aspect", [1e-3, 1e-9, 1e-14])

@@ -39,19 +39,27 @@ def quadratic(point):
     return 2 + x - 3 * y + x * x - 4 * x * y + 2 * y * y
 
 
-@pytest.mark.parametrize("scale", [1e-300, 1e-250, 1e-200, 1e-160, 1e-155, 1e-100, 1.0, 1e100, 1e150])
-def test_quadratic_polynomials_are_reproduced_at_every_scale(scale):
+SCALES = [1e-300, 1e-250, 1e-200, 1e-160, 1e-155, 1e-100, 1.0, 1e100, 1e150]
+
+
+@pytest.mark.parametrize(("scale", "pairs"), [*((scale, 0.0) for scale in SCALES), (1.0, 1e-3), (1.0, 1e-9)])
+def test_quadratic_polynomials_are_reproduced_at_every_scale(scale, pairs):
+    """Estimated gradients are exact for them, and so is the smooth interpolant; also where some points nearly meet."""
     points, queries = POINTS * scale, QUERIES * scale
-    unit = Fraction(scale)
+    if pairs:
+        points = np.concatenate([points, points[::7] + pairs * np.random.default_rng(3).normal(size=points[::7].shape)])
 
     def exact(rows):
-        return np.array([float(quadratic([Fraction(float(c)) / unit for c in row])) for row in rows])
+        return np.array([float(quadratic([Fraction(float(c)) / Fraction(scale) for c in row])) for row in rows])
+
+    def slope(rows):
+        x, y = (rows / scale).T
+        return np.column_stack([1 + 2 * x - 4 * y, -3 - 4 * x + 4 * y])
 
     smooth = SmoothInterpolator(points, exact(points))
     assert np.abs(smooth(queries) - exact(queries)).max() < 1e-12
-    x, y = (queries / scale).T
-    slope = np.column_stack([1 + 2 * x - 4 * y, -3 - 4 * x + 4 * y])
-    assert np.abs(smooth.gradient(queries) * scale - slope).max() < 1e-11
+    assert np.abs(smooth.gradient(queries) * scale - slope(queries)).max() < 1e-11
+    assert np.abs(smooth.gradients * scale - slope(points)).max() < 1e-8
     assert np.array_equal(smooth(points), smooth.values)
 
 
