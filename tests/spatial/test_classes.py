@@ -109,7 +109,7 @@ def test_input_is_copied(name):
         (
             "SphericalVoronoi",
             (ROUND, 0.98),
-            r"Radius inconsistent .*: points\[\d+\] is 1.* from the center",
+            r"Radius inconsistent .*: points\[\d+\] is 1.* but radius is 0.98; scale",
         ),
         ("SphericalVoronoi", (ROUND, 1, [0.1, 0, 0]), "Radius inconsistent"),
         ("SphericalVoronoi", (ROUND, -1), "radius is -1"),
