@@ -1,25 +1,16 @@
-"""DataArrays in, DataArrays out: the accessor, and interpolators that are asked with DataArrays."""
+"""Other doors to the interpolators: DataArrays in, DataArrays out; `griddata` as SciPy has it."""
 
 import dask
 import dask.array
 import numpy as np
 import pytest
+import scipy.interpolate
 import xarray as xr
 
 import stereodel.xarray
-from stereodel.interpolation import (
-    LinearInterpolator,
-    NaturalNeighborInterpolator,
-    NearestInterpolator,
-    SmoothInterpolator,
-)
+from stereodel.interpolation import LinearInterpolator, griddata
+from tests.interpolation.known import KINDS
 
-KINDS = {
-    "nearest": NearestInterpolator,
-    "linear": LinearInterpolator,
-    "natural": NaturalNeighborInterpolator,
-    "smooth": SmoothInterpolator,
-}
 LON, LAT = np.linspace(-10, 10, 5), np.linspace(-8, 8, 3)
 GRID = np.stack(np.meshgrid(LON, LAT), axis=-1)
 
@@ -102,12 +93,6 @@ def test_points_and_curvilinear_grids(stations, lonlat):
     assert np.array_equal(found, expected, equal_nan=True)
 
 
-def test_one_place(stations):
-    found = stations.stereodel.interpolate(lon=1.0, lat=2.0)
-    assert found.dims == ("time", "level")
-    assert found.lon.item() == 1.0
-
-
 @pytest.mark.parametrize("names", [("longitude", "latitude"), ("x", "y")])
 def test_the_source_may_be_a_grid(names):
     """Its coordinates found by name, standard name or units; a global one closes at the antimeridian."""
@@ -124,9 +109,11 @@ def test_the_source_may_be_a_grid(names):
     assert np.array_equal(same, values[:, :3])
 
 
-def test_extrapolation_is_that_of_the_interpolators(stations, lonlat):
-    far = stations.stereodel.interpolate(lon=80.0, lat=0.0, extrapolate="nearest").isel(time=0)
-    assert np.array_equal(far, stations.isel(time=0, station=int(np.argmax(lonlat[:, 0]))))
+def test_one_place_and_extrapolation(stations, lonlat):
+    far = stations.stereodel.interpolate(lon=80.0, lat=0.0, extrapolate="nearest")
+    assert far.dims == ("time", "level")
+    assert far.lon.item() == 80.0
+    assert np.array_equal(far, stations.isel(station=int(np.argmax(lonlat[:, 0]))))
     assert np.isnan(stations.stereodel.interpolate(lon=80.0, lat=0.0)).all()
 
 
@@ -174,3 +161,34 @@ def test_places_of_the_plane_and_weights(lonlat):
 
 def test_the_accessor_is_there_by_one_import():
     assert isinstance(xr.DataArray(1).stereodel, stereodel.xarray.StereodelAccessor)
+
+
+@pytest.mark.parametrize("method", ["linear", "nearest"])
+@pytest.mark.parametrize("fill_value", [np.nan, -7.0])
+def test_values_are_those_of_scipy(method, fill_value, rng):
+    points, values = rng.random((100, 2)), rng.normal(size=(100, 2))
+    x, y = np.meshgrid(np.linspace(-0.2, 1.2, 31), np.linspace(-0.2, 1.2, 23))
+    ours = griddata(points, values, (x, y), method=method, fill_value=fill_value)
+    theirs = scipy.interpolate.griddata(points, values, (x, y), method=method, fill_value=fill_value)
+    assert ours.shape == theirs.shape == (23, 31, 2)
+    assert np.allclose(ours, theirs, rtol=0, atol=1e-9, equal_nan=True)
+    by_columns = griddata(tuple(points.T), values, np.stack([x, y], axis=-1), method=method, fill_value=fill_value)
+    assert np.array_equal(by_columns, ours, equal_nan=True)
+
+
+@pytest.mark.parametrize("method", KINDS)
+def test_methods_are_the_interpolators(method, rng):
+    lonlat, values = np.column_stack([rng.uniform(-50, 50, 80), rng.uniform(-40, 40, 80)]), rng.normal(size=80)
+    targets = np.column_stack([rng.uniform(-90, 90, 50), rng.uniform(-60, 60, 50)])
+    expected = KINDS[method].from_lonlat(lonlat, values, latitude="geodetic")(lonlat=targets)
+    found = griddata(lonlat, values, targets, method=method, latitude="geodetic")
+    assert np.array_equal(found, expected, equal_nan=True)
+    filled = griddata(lonlat, values, tuple(targets.T), method=method, latitude="geodetic", fill_value=9)
+    assert np.array_equal(filled, np.where(np.isnan(expected), 9, expected))
+
+
+def test_what_is_not_known_is_not_filled():
+    """Only what is outside is."""
+    values = np.ma.masked_equal([1.0, 2.0, 3.0, -9.0], -9)
+    found = griddata([[0, 0], [4, 0], [0, 4], [4, 4]], values, [[1, 1], [3, 3], [9, 9]], fill_value=0)
+    assert np.array_equal(found, [1.75, np.nan, 0], equal_nan=True)
