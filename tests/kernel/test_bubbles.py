@@ -8,6 +8,8 @@ import pytest
 
 from stereodel import _kernel
 from stereodel._spaces import space_of
+from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
+from tests import sets, spaces
 
 DIGITS = 400
 """Binary ones behind the point, of unit vectors."""
@@ -106,15 +108,10 @@ def test_a_million_pairs_of_integers_in_the_plane():
         assert 0.02 < touched / truth.size / 550 < 0.98
 
 
-def directions(rng, n):
-    v = rng.normal(size=(n, 3))
-    return v / np.linalg.norm(v, axis=1)[:, None]
-
-
 def triangles_on_sphere(rng, n, size):
     """Of neighbours `size` radians apart, half of them seen from behind: their bubbles are all but a small one."""
-    corners = directions(rng, n)[:, None] + size * rng.normal(size=(n, 3, 3))
-    corners /= np.linalg.norm(corners, axis=2)[..., None]
+    corners = sets.directions(rng, n)[:, None] + size * rng.normal(size=(n, 3, 3))
+    corners = sets.unit(corners)
     corners[::5, 2] = corners[::5, 1] + (corners[::5, 0] - corners[::5, 1]) * 1e-7  # slivers
     return corners
 
@@ -237,3 +234,24 @@ def test_faces_of_points_that_do_not_matter_are_not_looked_at():
         assert is_open.astype(int).tolist() == answer
         assert (depth > 0).all() == bool(wanted)
         assert not space.open_bubbles(points, faces, *tree, np.zeros(1, np.int32), mask)[0].any()
+
+
+@pytest.mark.parametrize("kind", [LinearInterpolator, NaturalNeighborInterpolator])
+@spaces.BOTH
+def test_a_hidden_point_changes_open_targets_alone(space, kind):
+    """That parts agree with all points, on every set, tests/partitioned shows; here, that little else is told open."""
+    rng = np.random.default_rng(20261122)
+    points, queries, values = space.random(rng, 30), space.random(rng, 40), rng.normal(size=31)
+    mesh = space.delaunay(points)
+    before, changed, told = kind(mesh, values[:30])(queries), 0, 0
+    for hidden in rng.normal(size=(100, 1, space.width)):
+        after = kind(space.delaunay(np.concatenate([points, hidden])), values)(queries)
+        differs = ~np.isclose(before, after, rtol=1e-9, atol=0, equal_nan=True)
+        tree = space.kernel.box_tree(*space.kernel.blocks(hidden, 1)[2:])
+        arrays = mesh.points, mesh.simplices, mesh.neighbors, queries
+        closing = mesh.closing if space.width == 3 else None
+        natural = kind is NaturalNeighborInterpolator
+        is_open, _ = space.kernel.open_targets(*arrays, *tree, np.ones(1, np.int32), closing, natural)
+        assert not (differs & ~is_open).any()
+        changed, told = changed + differs.sum(), told + is_open.sum()
+    assert 0.01 * 4000 < changed <= told < 0.6 * 4000

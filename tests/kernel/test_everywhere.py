@@ -33,13 +33,6 @@ def test_another_answer_is_seen():
     assert "plane" in answers.differences(found, STORED, to_the_bit=False)
 
 
-def test_the_sets_are_ties_and_open_signs():
-    sets = answers.sets()
-    assert set(sets) == set(STORED)
-    assert np.array_equal(sets["plane of whole numbers"], np.round(sets["plane of whole numbers"]))
-    assert all(len(points) > 4000 for points in sets.values())
-
-
 def test_eight_threads_have_equal_answers_and_no_wrong_change(capsys):
     assert free_threads.main(rounds=3) == 0
     assert " 0 wrong answers" in capsys.readouterr().out
@@ -49,14 +42,6 @@ def test_a_wrong_answer_is_counted(monkeypatch):
     order = iter(range(10**6))
     monkeypatch.setitem(free_threads.QUESTIONS, "edges", lambda made, _: np.array([next(order)]))
     assert free_threads.wrong_answers(PlanarDelaunay, 2, 0) == free_threads.THREADS
-
-
-def test_a_lock_that_was_brought_back_is_seen(monkeypatch):
-    monkeypatch.setattr("sysconfig.get_config_var", lambda name: 1)
-    monkeypatch.setattr("sys._is_gil_enabled", lambda: True, raising=False)
-    assert free_threads.locked()
-    monkeypatch.setattr("sys._is_gil_enabled", lambda: False, raising=False)
-    assert not free_threads.locked()
 
 
 def test_threads_and_locks_of_the_kernel_stand_in_one_file():
