@@ -17,7 +17,7 @@ import scipy.spatial
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
+from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay
 from stereodel.predicates import in_bubble, incircle
 from stereodel.triangulation.topology import neighbors_of
 from tests import sets
@@ -184,13 +184,6 @@ def as_sets(table):
 def test_hard_fixtures(path):
     points = np.array(json.loads(path.read_text(encoding="utf-8")), dtype=float)
     assert PLANE.triangulated(points).dimension == 2
-
-
-def test_a_tight_cluster_is_a_planar_triangulation():
-    """At 1e-9 the sphere is flat to 1e-9 of the cluster: the tangent plane has the same triangles."""
-    offsets = np.random.default_rng(2).normal(size=(150, 2)) * 2.0**-30
-    triangulation = SPHERE.triangulated(np.column_stack([offsets, np.ones(150)]))
-    assert rows(triangulation.simplices[~triangulation.closing]) == rows(PlanarDelaunay(offsets).simplices)
 
 
 def test_the_nearest_doubles_are_different_points():
@@ -462,25 +455,6 @@ def test_simplices_known_from_elsewhere(assert_same):
     assert_same(known, direct)
     known.insert([[0.25, 0.5]])
     check_delaunay(known)
-
-
-def test_lonlat():
-    """Repeated poles and ±180 are duplicates; 2n − 4 for what remains."""
-    lonlat = [[lon, lat] for lon in range(-180, 181, 30) for lat in range(-90, 91, 30)]
-    triangulation = SphericalDelaunay.from_lonlat(lonlat)
-    check_delaunay(triangulation)
-    assert len(lonlat) - len(triangulation.duplicates) == 12 * 5 + 2
-    assert np.array_equal(triangulation.points, lonlat_to_xyz(lonlat))
-
-
-@pytest.mark.parametrize(
-    ("latitude", "expected"), [("spherical", 45.0), ("geodetic", 44.80758), ("authalic", 44.87170)]
-)
-def test_latitudes_of_the_ellipsoid(latitude, expected):
-    triangulation = SphericalDelaunay.from_lonlat([[0, 45], [10, 0], [0, 90]], latitude=latitude, workers=2)
-    z = triangulation.points[:, 2]
-    np.testing.assert_allclose(np.degrees(np.arcsin(z[0])), expected, atol=1e-5)
-    assert z[1:].tolist() == [0.0, 1.0]
 
 
 @pytest.mark.thorough

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
@@ -43,13 +43,11 @@ def test_theorem_1(points):
     assert theorem_1_holds(points)
 
 
-@settings(deadline=None, max_examples=60)
 @given(st.lists(DYADIC, max_size=20), st.integers(-4, 12))
 def test_theorem_1_in_general(points, exponent):
     assert theorem_1_holds(np.ldexp(np.reshape(points, (-1, 2)), -exponent))
 
 
-@settings(deadline=None, max_examples=100)
 @given(st.lists(SMALL, max_size=14))
 def test_theorem_1_with_ties_and_duplicates(points):
     assert theorem_1_holds(np.reshape(points, (-1, 2)))
@@ -89,7 +87,6 @@ def test_facets_that_are_left_out_by_hand(points, hull, plane):
     assert theorem_1_holds(points)
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.lists(SMALL, min_size=4, max_size=14, unique=True))
 def test_as_many_facets_are_left_out_as_the_hull_has_points_but_two(points):
     """2n − 4 triangles on the sphere, 2n − 2 − h in the plane, of h points on the boundary of the convex hull."""
