@@ -1,9 +1,16 @@
 """The kernel's tests in stages: which of them leave open what, and that none is wrong."""
 
 import numpy as np
+import pytest
 
 OPEN = 2
 STAGES = ["filter", "double_double", "balls", "integers", "exact", "all"]
+
+
+def third_by_day(cases):
+    """Parameters of a test, two of three of them left to the thorough tier."""
+    cases = [case if isinstance(case, tuple) else (case,) for case in cases]
+    return [pytest.param(*case, marks=pytest.mark.thorough if k % 3 else ()) for k, case in enumerate(cases)]
 
 
 def shares_of(truth, signs_of, stages=STAGES):

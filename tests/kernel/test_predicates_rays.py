@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import bubble_ray, compare_component, compare_directions, ray, turn_ray
-from tests.kernel.stages import OPEN, Predicates
+from tests.kernel.stages import OPEN, Predicates, third_by_day
 from tests.sets import unit as normalised
 from tests.spaces import SPHERE, dot
 
@@ -74,7 +74,7 @@ def allowance(name, spread):
 
 
 @EVERY
-@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("spread", third_by_day(SPREADS))
 @pytest.mark.parametrize("change", [normalised, off_length, any_length])
 def test_clusters(name, spread, change):
     """And four of one circle each, rounded."""
@@ -180,7 +180,7 @@ REGIMES = [
 ]
 
 
-@pytest.mark.parametrize(("regime", "size"), REGIMES, ids=lambda v: getattr(v, "__name__", str(v)))
+@pytest.mark.parametrize(("regime", "size"), third_by_day(REGIMES), ids=lambda v: getattr(v, "__name__", str(v)))
 @EVERY
 def test_no_stage_is_wrong(name, regime, size):
     for vectors, unit in regime(size):

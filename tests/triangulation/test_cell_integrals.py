@@ -13,6 +13,7 @@ from stereodel import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, _kerne
 from tests import sets
 from tests.digits import cross, dot, minus, norm, times, unit
 from tests.examples import examples
+from tests.kernel.stages import third_by_day
 from tests.spaces import SPHERE
 
 GENERAL = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3  # an orthogonal matrix: no axis is special
@@ -186,7 +187,7 @@ MANY = {
 
 @pytest.mark.parametrize(
     ("digits", "make", "size"),
-    [(digits, *case) for digits, cases in MANY.items() for case in cases],
+    third_by_day([(digits, *case) for digits, cases in MANY.items() for case in cases]),
     ids=lambda value: getattr(value, "__name__", str(value)),
 )
 def test_cells_of_the_sphere_against_many_digits(digits, make, size):
