@@ -139,6 +139,14 @@ def test_interpolators(kind, latitude):
     np.testing.assert_array_equal(again(lonlat=queries), plain(xyz))
 
 
+def test_options_of_interpolators_go_through():
+    lonlat = [(0, 0), (10, 0), (0, 10)]
+    assert np.isnan(LinearInterpolator.from_lonlat(lonlat, [1, 2, 3])(lonlat=(40, 1)))
+    assert LinearInterpolator.from_lonlat(lonlat, [1, 2, 3], extrapolate="nearest")(lonlat=(40, 1)) == 2
+    flat = SmoothInterpolator.from_lonlat(lonlat, [1, 2, 3], gradients=np.zeros((3, 3)))
+    assert not flat.gradients.any()
+
+
 @pytest.mark.parametrize("latitude", KINDS)
 @pytest.mark.parametrize("graph", GRAPHS)
 def test_graphs(graph, latitude):
