@@ -255,6 +255,13 @@ _plane("huge", "random sizes", lambda rng, n: 1e150 * rng.normal(size=(n, 2)))
 _plane("thin strip", "needle random", lambda rng, n: rng.random((n, 2)) * [1, 1e-4])
 _plane("needles", "needle random", lambda rng, n: np.column_stack([np.arange(float(n)), 1e-13 * rng.normal(size=n)]))
 _plane("parabola", "ties", lambda _, n: np.column_stack([np.arange(n) - n // 2, (np.arange(n) - n // 2) ** 2]))
+_plane(
+    "mixed scales",
+    "cluster needle sizes",
+    lambda rng, n: rng.normal(size=(n, 2)) * 10.0 ** -(np.arange(n) % 300)[:, None],
+)
+_plane("subnormal", "ties duplicates sizes", lambda rng, n: rng.integers(-5, 6, (n, 2)) * 5e-324, size=60)
+_plane("largest", "ties duplicates sizes", lambda rng, n: rng.integers(-5, 6, (n, 2)) * 3e307, size=60)
 # Of which the hull's edges alone tell what lies outside.
 _plane("disc and two far", "random", lambda rng, n: [*(on_circle(rng, n) * rng.random((n, 1))), [40, 1], [-3, 50]])
 
@@ -298,6 +305,18 @@ _sphere("half", "random hemisphere", hemisphere)
 _sphere("cap", "random hemisphere", lambda rng, n: near(rng, MIDDLE, 0.005, n))
 _sphere("bowl", "ties hemisphere", lambda rng, n: np.insert(lattice(rng, n) - n**0.5 // 2, 2, 12.0, axis=1))
 _sphere("clusters", "cluster needle random", sphere_clusters)
+_sphere("opposites", "random", lambda rng, n: opposite(rng, n // 2))
+_sphere("mirrored", "ties", lambda rng, n: np.concatenate([CUBE * v for v in directions(rng, n // 8)]))
+_sphere(
+    "mixed scales",
+    "cluster",
+    lambda rng, n: AXES[0] + rng.normal(size=(n, 3)) * 10.0 ** -(np.arange(n) % 18)[:, None],
+)
+_sphere(
+    "ends of an axis",
+    "cluster needle",
+    lambda rng, n: [[s, *(1e-30 * rng.normal(size=2))] for s in (1, -1) for _ in range(n // 2)],
+)
 _sphere("a metre and 8 far", "cluster needle random", lambda rng, n: [*opposite(rng, 4), *near(rng, MIDDLE, 4e-8, n)])
 _sphere("a rounding and 8 far", "cluster needle", lambda rng, n: [*opposite(rng, 4), *near(rng, MIDDLE, 1e-15, n)])
 _sphere("copied", "duplicates", lambda rng, n: copied(directions(rng, n), rng))

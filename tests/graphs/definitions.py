@@ -4,13 +4,12 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cmp_to_key
 from itertools import combinations
-from types import SimpleNamespace
 
 import numpy as np
-import pytest
 
 from stereodel.predicates.integers import sign, sign_of_roots
 from stereodel.predicates.rays import compare_directions, ray
+from tests.spaces import dot
 
 
 @dataclass
@@ -31,7 +30,7 @@ class Exact:
         return self.points.shape[1] == 3
 
     def dot(self, a, b):
-        return sum(x * y for x, y in zip(self.places[a][:3], self.places[b][:3], strict=True))
+        return dot(self.places[a], self.places[b])
 
     def compare_lengths(self, a, b, c, d):
         if not self.on_sphere:
@@ -103,54 +102,3 @@ def spanning_tree(exact):
             joined = component[a] | component[b]
             component.update(dict.fromkeys(joined, joined))
     return sorted(tree)
-
-
-PLANE_SETS = {
-    "none": np.zeros((0, 2)),
-    "one": [[1, 2]],
-    "all the same": [[1, 2]] * 4,
-    "two": [[1, 2], [0, 7]],
-    "line": [[k * k, 2 * k * k] for k in (3, 1, 0, 2, 4, 1)],
-    "grid": [[i, j] for i in range(4) for j in range(4)],
-    "right angles": [[0, 0], [3, 0], [0, 4], [3, 4], [6, 0]],
-    "circle and centre": [[3, 4], [4, 3], [5, 0], [-3, 4], [0, -5], [-4, -3], [0, 0], [3, 4]],
-    "cluster": [[1 + i * 1e-12, j * 1e-12] for i in range(3) for j in range(3)] + [[0, 0], [9, 9]],
-    "large and small": [[1e150, 0], [0, 1e150], [1e-150, 0], [0, 0], [5e-324, 0], [-1, -1]],
-    "tenths": [[i * 0.1, j * 0.1] for i in range(4) for j in range(3)],
-}
-SPHERE_SETS = {
-    "none": np.zeros((0, 3)),
-    "one": [[0, 0, 2]],
-    "opposite": [[0, 0, 1], [0, 0, -3]],
-    "two": [[0, 0, 1], [1, 0, 1], [2, 0, 2]],
-    "opposite and one more": [[0, 0, 1], [0, 0, -3], [5, 0, 1]],
-    "great circle": [[1, 0, 0], [0, 2, 0], [-1, 0, 0], [1, 1, 0], [2, 2, 0], [0, -1, 0]],
-    "arc": [[1, 0, 0], [5, 1, 0], [2, 2, 0], [0, 3, 0], [-1, 7, 0]],
-    "half circle": [[1, 0, 0], [5, 1, 0], [-3, 0, 0]],
-    "wide steps": [[100, 0, 0], [-64, 77, 0], [-77, -64, 0], [-81, -60, 0]],
-    "third of a circle": [[1, -1, 0], [0, 1, -1], [-1, 0, 1]],
-    "three": [[1, 0, 0], [0, 1, 0], [0, 0, 1]],
-    "small circle": [[3, 4, 1], [4, 3, 1], [5, 0, 1], [-3, 4, 1], [0, -5, 1]],
-    "octahedron": [[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, 0, 0], [0, -1, 0], [0, 0, -1], [0, 0, 7]],
-    "cube": [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)],
-    "hemisphere": [[i, j, 2] for i in range(-2, 3) for j in range(-1, 2)],
-    "closed hemisphere": [[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [1, 1, 3], [1, 2, 0]],
-    "cluster": [[i * 1e-12, j * 1e-12, 1] for i in range(3) for j in range(3)] + [[1, 0, 0], [0, 0, -1]],
-}
-
-
-@pytest.fixture(scope="session")
-def definitions():
-    return SimpleNamespace(
-        Exact=Exact, gabriel=gabriel, relative=relative, urquhart=urquhart, spanning_tree=spanning_tree
-    )
-
-
-@pytest.fixture(params=PLANE_SETS)
-def plane_set(request):
-    return np.array(PLANE_SETS[request.param], dtype=float)
-
-
-@pytest.fixture(params=SPHERE_SETS)
-def sphere_set(request):
-    return np.array(SPHERE_SETS[request.param], dtype=float)
