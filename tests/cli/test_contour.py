@@ -1,7 +1,6 @@
 """`stereodel contour`: lines of equal values."""
 
 import geopandas
-import pytest
 
 
 def test_levels_and_multiples(folder, run):
@@ -19,19 +18,3 @@ def test_the_plane(folder, run):
     run("contour", "plane.csv", "--plane", "x", "y", "--value", "z", "--levels", "1", "-o", "lines.parquet")
     (line,) = geopandas.read_parquet(folder / "lines.parquet").geometry
     assert {x for x, _ in line.coords} == {0.5}
-
-
-@pytest.mark.parametrize(
-    ("options", "code", "message"),
-    [
-        ([], 2, "give either --levels"),
-        (["--levels", "1", "--interval", "1"], 2, "give either --levels"),
-        (["--levels", "1,a"], 2, "--levels is '1,a'"),
-        (["--interval", "0"], 2, "--interval"),
-        (["--interval", "1e-3"], 2, "--interval is 0.001, which makes"),
-        (["--levels", "1e12"], 1, "no lines"),
-    ],
-)
-def test_wrong_options(run, folder, options, code, message):
-    assert message in run("contour", "cities.csv", "--value", "people", "-o", "a.geojson", *options, code=code)
-    assert not (folder / "a.geojson").exists()

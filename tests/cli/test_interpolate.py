@@ -67,26 +67,7 @@ def test_outside_is_empty(folder, run, rows):
     assert outside["t"] == ""
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ([], "either --at"),
-        (["--grid", 1, "--at", "values.csv"], "either --at"),
-        (["--grid", 7], "--grid is 7, but 180 must be a whole multiple"),
-        (["--grid", 1, "--box", "1,2,3"], "--box is '1,2,3'"),
-        (["--grid", 1, "--box", "0,50,10,40"], "south border"),
-        (["--grid", 1, "--plane", "lon", "lat"], "--at"),
-        (["--grid", 90, "--value", "q"], "there is no column 'q'"),
-    ],
-)
-def test_wrong_options(values, options, message, run):
-    assert message in run("interpolate", "values.csv", "--value", "z", "-o", "out.csv", *options, code=2)
-    assert not (values / "out.csv").exists()
-
-
-def test_words_are_no_values(folder, run):
-    message = run("interpolate", "cities.csv", "--value", "name", "--grid", 90, "-o", "-", code=2)
-    assert "cities.csv: row 1: the name 'Quito' is not a number" in message
+def test_numbers_that_may_have_thousands_are_no_values(folder, run):
     table = pd.DataFrame(
         {"lon": ["9,9934", "9,5"], "lat": ["48,4011", "48,1"], "pop": ["128.928", "27.000"], "id": [1, 2]}
     )

@@ -67,10 +67,6 @@ def test_geodetic_latitudes_can_change_the_answer(folder, run, rows):
     assert rows(run(*options, "--latitude", "geodetic"))[0]["site_row"] == "1"
 
 
-def test_stdin_for_both_is_refused(folder, run):
-    assert "cannot both be stdin" in run("nearest", "-", "--of", "-", "-o", "-", code=2)
-
-
 def clusters(planar):
     """Sites of which several are at one place, and queries at some of these places and beside them."""
     rng = np.random.default_rng(5)

@@ -7,8 +7,6 @@ import subprocess
 import sys
 import time
 
-import pytest
-
 # Whoever runs the tests in the background has SIGINT ignored, and programs inherit that.
 PROGRAM = """
 import signal
@@ -70,30 +68,3 @@ def test_a_failure_keeps_the_old_file(folder, run):
     assert message.count("\n") == 1
     assert (folder / "old.csv").read_text(encoding="utf-8") == "kept"
     assert len(list(folder.iterdir())) == 3
-
-
-@pytest.mark.parametrize(
-    ("name", "message"),
-    [
-        ("out.xyz", "out.xyz: cannot write xyz; choose .csv"),
-        ("out", "out: cannot write a file without extension"),
-        ("none/out.csv", "there is no folder none"),
-        (".", "cannot write"),
-    ],
-)
-def test_destinations_are_refused_before_the_work(run, name, message):
-    assert message in run("nearest", "not-there.csv", "--of", "cities.csv", "-o", name, code=2)
-
-
-def test_format_is_for_stdout(run):
-    assert "--format is for stdout" in run("globe", "cities.csv", "-o", "a.svg", "--format", "svg", code=2)
-
-
-def test_a_file_that_is_not_there(run):
-    assert "not-there.csv: No such file or directory" in run("globe", "not-there.csv", "-o", "a.svg", code=2)
-
-
-def test_no_points_are_nothing_to_do(folder, run):
-    (folder / "empty.csv").write_text("lon,lat\n", encoding="utf-8")
-    assert run("globe", "empty.csv", "-o", "a.svg", code=1) == "empty.csv: there are no points\n"
-    assert not (folder / "a.svg").exists()

@@ -1,8 +1,11 @@
 """Tables of results in every format, read again."""
 
+import geopandas
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
+from stereodel.cli import app
 from stereodel.cli.destinations import TABLES
 from stereodel.io import read_points
 
@@ -29,10 +32,6 @@ def test_formats_hold_the_same(folder, run, kind):
 @pytest.mark.parametrize("kind", [kind for kind in TABLES if kind != "shp"])
 def test_pipes_hold_the_same(folder, run, kind):
     """What one command writes to stdout, the next one reads from stdin."""
-    from typer.testing import CliRunner
-
-    from stereodel.cli import app
-
     first = CliRunner().invoke(app, ["nearest", "cities.csv", "--of", "cities.csv", "-o", "-", "--format", kind])
     options = ["nearest", "-", "--of", "cities.csv", "-o", "out.csv", "--keep", "people"]
     assert CliRunner().invoke(app, options, input=first.stdout_bytes).exit_code == 0
@@ -40,21 +39,18 @@ def test_pipes_hold_the_same(folder, run, kind):
     assert sorted(found) == sorted(read_points("cities.csv").columns["people"].tolist())
 
 
-@pytest.mark.parametrize("kind", ["gpkg", "parquet", "geojson"])
 @pytest.mark.parametrize(
-    "command",
+    ("command", "kind"),
     [
-        ["voronoi", "plane.csv"],
-        ["triangulate", "plane.csv"],
-        ["contour", "plane.csv", "--value", "v", "--levels", "1.5"],
-        ["nearest", "plane.csv", "--of", "plane.csv"],
-        ["interpolate", "plane.csv", "--value", "v", "--at", "plane.csv"],
+        (["voronoi", "plane.csv"], "gpkg"),
+        (["triangulate", "plane.csv"], "parquet"),
+        (["contour", "plane.csv", "--value", "v", "--levels", "1.5"], "geojson"),
+        (["nearest", "plane.csv", "--of", "plane.csv"], "parquet"),
+        (["interpolate", "plane.csv", "--value", "v", "--at", "plane.csv"], "gpkg"),
+        (["nearest", "plane.csv", "--of", "plane.csv"], "geojson"),
     ],
-    ids=lambda command: command[0],
 )
 def test_a_plane_keeps_its_coordinate_system(folder, run, command, kind):
-    import geopandas
-
     lines = ["e,n,v", "570000,5360000,1", "580000,5360000,2", "575000,5370000,3", "576000,5364000,2"]
     (folder / "plane.csv").write_text("\n".join(lines), encoding="utf-8")
     run(*command, "--plane", "e", "n", "--crs", "EPSG:25832", "-o", f"out.{kind}")

@@ -34,14 +34,10 @@ def test_the_far_side_is_left_out(folder, run, rows):
     assert {frozenset(row) for row in found.tolist()} == {frozenset(row) for row in ((1, 2, 4), (2, 3, 4), (1, 3, 4))}
 
 
-def test_no_triangles_are_nothing_to_do(folder, run):
-    (folder / "two.csv").write_text("lon,lat\n0,0\n9,0\n", encoding="utf-8")
-    assert run("triangulate", "two.csv", "-o", "out.csv", code=1).startswith("two.csv: no triangles")
-    assert not (folder / "out.csv").exists()
-
-
-@pytest.mark.parametrize("kind", ["geojson", "parquet", "gpkg"])
-@pytest.mark.parametrize(("options", "what"), [([], "Polygon"), (["--edges"], "LineString")])
+@pytest.mark.parametrize(
+    ("kind", "options", "what"),
+    [("geojson", [], "Polygon"), ("parquet", ["--edges"], "LineString"), ("gpkg", ["--edges"], "LineString")],
+)
 def test_shapes(folder, run, rows, kind, options, what):
     run("triangulate", "cities.csv", "-o", f"out.{kind}", *options)
     read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
@@ -58,8 +54,6 @@ def test_shapes(folder, run, rows, kind, options, what):
 def test_meshes_and_pictures(folder, run, kind):
     run("triangulate", "cities.csv", "-o", f"out.{kind}", "--latitude", "geodetic")
     assert (folder / f"out.{kind}").stat().st_size > 0
-    assert "holds faces, not edges" in run("triangulate", "cities.csv", "--edges", "-o", f"edges.{kind}", code=2)
-    assert not (folder / f"edges.{kind}").exists()
 
 
 def test_glb_holds_the_triangles(folder, run, rows):

@@ -60,45 +60,6 @@ def test_results_that_were_deleted(folder, points, run):
     assert run("voronoi", *FILES, "-o", "cells/", "--overwrite") == ""
 
 
-def test_columns_that_hold_no_numbers(folder, run):
-    pq.write_table(pa.table({"lon": [True, False], "lat": [1, 2]}), folder / "flags.parquet")
-    said = run("voronoi", "flags.parquet", "-o", "cells/", code=2)
-    assert said.startswith("error: ")
-    assert said.endswith("flags.parquet: the column 'lon' holds bool, not numbers\n")
-
-
-SAID = [
-    ([*FILES, "-o", "a.csv"], "results of 2 files need a folder, such as --out cells/, not a.csv"),
-    ([FILES[0], "-o", "a.csv", "--partition", 5], "--partition is for results in a folder, such as --out cells/, not"),
-    (
-        [FILES[0], "-o", "a.csv", "--keep", "id"],
-        "--keep is for results in a folder, such as --out cells/, not in a.csv",
-    ),
-    ([FILES[0], "-o", "a/", "--clip", "land"], "--clip is for results in a file, not in the folder a/"),
-    ([FILES[0], "-o", "a/", "--area-unit", "km2"], "--area-unit km2 is for results in a file, not in the folder a/"),
-    (["-", "-o", "a/"], "results in the folder a/ are of files, not of stdin"),
-    ([FILES[0], "-o", "a/", "--lon", "lon"], "--lon and --lat are given together where results are in a folder"),
-    (
-        [FILES[0], "-o", "a/", "--lon", "x", "--lat", "y"],
-        "--lon has 'x', which is not one of the columns 'lon'",
-    ),
-    ([FILES[0], "-o", "a/", "--keep", "x"], "--keep has 'x', which is not one of the columns 'lon', 'lat', 'id'"),
-    (["none.parquet", "-o", "a/"], "none.parquet is no file, folder or pattern of Parquet files"),
-    (["cities.csv", "-o", "a/"], "cities.csv is not a Parquet file"),
-    ([*FILES, "-o", "points/"], "lies in out, the folder of results; take another folder"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "said"), SAID, ids=[" ".join(map(str, row[0])) for row in SAID])
-def test_what_is_wrong_is_said_in_one_line(folder, points, run, arguments, said):
-    line = run("voronoi", *arguments, code=2)
-    assert line.startswith("error: ")
-    assert said in line
-    assert line.count("\n") == 1
-    assert not (folder / "a.csv").exists()
-    assert not (folder / "a" / "rows").exists()
-
-
 def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
     run("voronoi", FILES[0], "-o", "cells/")
     message = run("voronoi", FILES[1], "-o", "cells/", code=2)
@@ -106,11 +67,6 @@ def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
     assert message.endswith("take another folder, or begin anew with --overwrite\n")
     run("voronoi", FILES[1], "-o", "cells/", "--overwrite")
     assert Run(folder / "cells").statistics["points"] == 100
-
-
-def test_no_points(folder, run):
-    pq.write_table(pa.table({"lon": pa.array([], pa.float64()), "lat": pa.array([], pa.float64())}), "none.parquet")
-    assert run("voronoi", "none.parquet", "-o", "cells/", code=1) == "none.parquet: there are no points\n"
 
 
 def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):

@@ -4,7 +4,7 @@ import io
 import lzma
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.data import stored
@@ -15,7 +15,6 @@ def unpacked(columns):
     return dict(np.load(io.BytesIO(lzma.decompress(dump(columns)))))
 
 
-@settings(max_examples=15, deadline=None)
 @given(st.lists(st.integers(-(2**31), 2**31 - 1), max_size=20))
 def test_integers(values):
     found = stored.integers(unpacked({"n": np.array(values, dtype=np.int64)})["n"])
@@ -23,7 +22,6 @@ def test_integers(values):
     assert found.tolist() == values
 
 
-@settings(max_examples=15, deadline=None)
 @given(
     st.lists(st.text(st.characters(blacklist_characters="\n\0", blacklist_categories=["Cs"])), min_size=1, max_size=9)
 )
@@ -31,7 +29,6 @@ def test_texts(values):
     assert stored.texts(unpacked({"t": values})["t"]).tolist() == values
 
 
-@settings(max_examples=15, deadline=None)
 @given(st.lists(st.integers(-180 * 10**6, 180 * 10**6), min_size=1, max_size=20))
 def test_decimals_are_what_their_text_says(values):
     written = [f"{'-' * (v < 0)}{abs(v) // 10**6}.{abs(v) % 10**6:06d}" for v in values]

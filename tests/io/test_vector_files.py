@@ -60,9 +60,16 @@ def rows_of(path, areas):
     return len(shapes_of(path).polygon_feature) if areas else len(read_points(path))
 
 
-@pytest.mark.parametrize(
-    ("ending", "areas"), [(e, a) for e in DRIVERS for a in (False, True) if not (a and e in (*TABLES_ALONE, ".gpx"))]
-)
+QUICK = [(".gml", False), (".shp", True), (".fgb", False)]
+CUT = [
+    pytest.param(ending, areas, marks=() if (ending, areas) in QUICK else pytest.mark.thorough)
+    for ending in DRIVERS
+    for areas in (False, True)
+    if not (areas and ending in (*TABLES_ALONE, ".gpx"))
+]
+
+
+@pytest.mark.parametrize(("ending", "areas"), CUT)
 def test_a_cut_file_is_an_error_or_has_all_rows(tmp_path, ending, areas):
     path = tmp_path / f"whole{ending}"
     files = [part for part in written(path, ending, areas) if part.suffix not in (".cpg", ".prj", ".xsd")]

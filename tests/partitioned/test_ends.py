@@ -15,8 +15,7 @@ import pytest
 import stereodel
 from stereodel.partitioned import Run, executors, triangulate
 from stereodel.partitioned.executors import ATTEMPTS, Crew
-from tests.partitioned.answers import differences, in_memory, write_points
-from tests.partitioned.sets import rows_of
+from tests.partitioned.answers import differences, in_memory, rows_of, write_points
 
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
@@ -47,7 +46,7 @@ if __name__ == "__main__":
 
 @pytest.fixture
 def points(tmp_path):
-    columns, rows = rows_of("uniform", 3000)
+    columns, rows = rows_of("random", 3000)
     (tmp_path / "driver.py").write_text(DRIVER)
     (tmp_path / "command.py").write_text(COMMAND)
     return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)

@@ -117,6 +117,7 @@ def computed(catalogue):
 def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened, table):
     source = source_of(collection)
     assert source.compact
+    assert all("sky/dataset" in file.path for file in source.files)  # not the margin
     assert source.places.names == ("ra", "dec")
     assert len({pixel.order for pixel in source.catalogue.pixels}) > 2
     pixels = opened(collection).get_healpix_pixels()
@@ -129,13 +130,6 @@ def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened
     by_id = table.set_index("source_id").loc[np.concatenate(expected)]
     assert np.array_equal(np.concatenate(found), lonlat_to_xyz(by_id[["ra", "dec"]].to_numpy()))
     assert sum(file.rows for file in source.files) == ROWS
-
-
-def test_the_margin_of_a_collection_is_not_read(collection):
-    margin = next(path for path in collection.iterdir() if path.name.startswith("sky_"))
-    with pytest.raises(ValueError, match=r"is a catalogue of type 'margin', not of points"):
-        source_of(margin)
-    assert all("sky/dataset" in file.path for file in source_of(collection).files)
 
 
 def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, tmp_path):
@@ -186,15 +180,6 @@ def test_the_second_catalogue_is_one_for_hats(collection, tmp_path):
     assert again.catalogue.pixels == source_of(collection).catalogue.pixels
 
 
-def test_the_older_name_of_the_properties_and_a_list_that_is_missing(copied):
-    expected = source_of(copied)
-    (copied / "hats.properties").unlink()
-    (copied / "partition_info.csv").unlink()
-    found = source_of(copied)
-    assert found.catalogue.pixels == expected.catalogue.pixels
-    assert found.files == expected.files
-
-
 def test_pixels_that_are_folders_of_files(copied, opened, tmp_path):
     whole = source_of(copied)
     for file in whole.files:
@@ -240,13 +225,17 @@ def test_pixels_share_folders_of_ten_thousand():
         assert Pixel.of_path(pixel.path(".snappy.parquet")) == pixel
 
 
-def test_what_is_a_catalogue(collection, tmp_path):
+def test_what_is_a_catalogue(collection, copied, tmp_path):
+    """With the older name of its properties, and without its list of pixels, too."""
+    expected = source_of(copied)
+    (copied / "hats.properties").unlink()
+    (copied / "partition_info.csv").unlink()
+    found = source_of(copied)
+    assert (found.catalogue.pixels, found.files) == (expected.catalogue.pixels, expected.files)
     assert is_catalogue(str(collection))
     assert is_catalogue(collection / "sky")
     assert not is_catalogue(tmp_path)
     assert not is_catalogue([collection])
-    with pytest.raises(ValueError, match=r"there is no hats\.properties, so it is no HATS catalogue"):
-        source_of(tmp_path)
 
 
 def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
@@ -285,14 +274,16 @@ def test_what_is_wrong_with_a_catalogue(copied, message):
         source_of(copied)
 
 
-def test_a_collection_without_its_primary(collection, tmp_path):
-    shutil.copy(collection / "collection.properties", tmp_path)
-    with pytest.raises(ValueError, match="hats_primary_table_url is 'sky', no catalogue beside it"):
-        source_of(tmp_path)
-
-
-def test_what_a_catalogue_cannot_be(collection):
-    with pytest.raises(ValueError, match="source is a list of 1, but a HATS catalogue is one folder"):
-        source_of([collection])
-    with pytest.raises(ValueError, match="surface is 'plane', but a HATS catalogue is on the sphere"):
-        hats_source(collection, None, "plane", "spherical")
+def test_what_a_catalogue_cannot_be(collection, tmp_path):
+    margin = next(path for path in collection.iterdir() if path.name.startswith("sky_"))
+    (tmp_path / "alone").mkdir()
+    shutil.copy(collection / "collection.properties", tmp_path / "alone")
+    for source, surface, message in [
+        (margin, "sphere", "is a catalogue of type 'margin', not of points"),
+        (tmp_path, "sphere", r"there is no hats\.properties, so it is no HATS catalogue"),
+        (tmp_path / "alone", "sphere", "hats_primary_table_url is 'sky', no catalogue beside it"),
+        ([collection], "sphere", "source is a list of 1, but a HATS catalogue is one folder"),
+        (collection, "plane", "surface is 'plane', but a HATS catalogue is on the sphere"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            hats_source(source, None, surface, "spherical")
