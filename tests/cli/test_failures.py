@@ -1,10 +1,7 @@
 """How commands end: exit codes, one line on stderr, and silence where a reader has gone."""
 
 import codecs
-import os
 import signal
-import subprocess
-import sys
 
 import pytest
 import typer
@@ -78,18 +75,6 @@ def test_an_interruption_that_a_library_turned_into_another_exception(error):
         signals.clear()
         signal.signal(signal.SIGINT, own)
     assert (ran.exit_code, ran.stderr) == (130, "interrupted; nothing was written\n")
-
-
-def command_line(*arguments):
-    return [sys.executable, "-c", "from stereodel.cli import app; app()", *arguments]
-
-
-def test_a_broken_pipe_is_quiet():
-    reading, writing = os.pipe()
-    os.close(reading)
-    with os.fdopen(writing, "wb") as pipe:
-        ran = subprocess.run(command_line("doctor"), stdout=pipe, stderr=subprocess.PIPE, text=True, check=False)
-    assert (ran.returncode, ran.stderr) == (1, "")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -26,6 +26,7 @@ from stereodel.globe import Globe
 from tools.image import read_picture
 
 SVG = "{http://www.w3.org/2000/svg}"
+BARE = ["--no-land", "--no-coastlines"]
 
 
 def test_png_has_the_size_asked_for(folder, run):
@@ -89,7 +90,7 @@ def test_textures(folder, run):
     pixels[:, :20, 0] = 255
     iio.imwrite(folder / "red.png", pixels)
     for name, view in (("west.png", "-90,0"), ("east.png", "90,0")):
-        run("globe", "-o", name, "--size", 60, "--texture", "red.png", f"--view={view}", "--no-coastlines")
+        run("globe", "-o", name, "--size", 60, "--texture", "red.png", f"--view={view}", *BARE)
     west, east = (read_picture(folder / name)[30, 30].astype(int) for name in ("west.png", "east.png"))
     assert west[0] > 150 > 50 > west[1]
     assert east.max() < 50
@@ -114,7 +115,7 @@ def test_projections(folder, run, projection):
 )
 def test_films(folder, run, name, options, frames):
     """Whole files of so many frames, which differ, and nothing beside them."""
-    run("globe", "-o", name, "--focus", "10,50", "--magnify", 5, "--size", 48, *options)
+    run("globe", "-o", name, "--focus", "10,50", "--magnify", 5, "--size", 48, *BARE, *options)
     with Image.open(folder / name) as film:
         pictures = [np.asarray(picture.convert("RGB")) for picture in ImageSequence.Iterator(film)]
     assert len(pictures) == frames
@@ -211,7 +212,7 @@ def test_layers_of_points_lines_and_polygons(folder, run):
 
     def drawn(*layers):
         layers = [f"--layer={layer}" for layer in layers]
-        run("globe", "-o", "a.svg", "--focus=10,50", "--magnify=5", *layers, "--overwrite")
+        run("globe", "-o", "a.svg", "--focus=10,50", "--magnify=5", *BARE, *layers, "--overwrite")
         paths = ET.parse(folder / "a.svg").getroot().iter(f"{SVG}path")
         return [path for path in paths if (path.get("id") or "").startswith("layer")]
 
@@ -230,20 +231,20 @@ def test_layers_of_points_lines_and_polygons(folder, run):
 
 def test_styles_pixels_and_paper(folder, run):
     (folder / "mine.toml").write_text('background = "black"\n[fills]\nball = "red"\n', encoding="utf-8")
-    run("globe", "-o", "a.png", "--style=mine.toml", "--no-land", "--no-coastlines", "--width=1in", "--dpi=50")
+    run("globe", "-o", "a.png", "--style=mine.toml", *BARE, "--width=1in", "--dpi=50")
     picture = iio.imread(folder / "a.png")
     assert picture.shape == (50, 50, 3)
     assert picture[0, 0].tolist() == [0, 0, 0]
     assert picture[25, 20, 0] > 150 > 30 > picture[25, 20, 1]
-    run("globe", "-o", "b.png", "--transparent", "--size=40", "--no-land", "--no-coastlines")
+    run("globe", "-o", "b.png", "--transparent", "--size=40", *BARE)
     assert iio.imread(folder / "b.png")[0, 0].tolist() == [0, 0, 0, 0]
-    run("globe", "-o", "c.png", "--style=slide", "--style=dark", "--dpi=10", "--no-land", "--no-coastlines")
+    run("globe", "-o", "c.png", "--style=slide", "--style=dark", "--dpi=10", *BARE)
     assert iio.imread(folder / "c.png").shape == (75, 133, 3)
 
 
 def test_films_have_titles(folder, run):
     """Written above the globe, which is as much smaller, and in the file."""
-    options = ["--fps=1", "--seconds=1", "--size=120", "--no-land", "--no-coastlines", "--spin"]
+    options = ["--fps=1", "--seconds=1", "--size=120", *BARE, "--spin"]
     run("globe", "-o", "plain.apng", *options)
     run("globe", "-o", "named.apng", *options, "--title=Earth")
     plain, named = (iio.imread(folder / name, index=0) for name in ("plain.apng", "named.apng"))

@@ -224,3 +224,21 @@ def test_what_takes_nothing(folder, options, message):
     (folder / "full.csv").symlink_to("/dev/full")
     ran = shell(folder, f"stereodel voronoi cities.csv {options}")
     assert (ran.returncode, ran.stderr) == (2, message)
+
+
+def test_stdin_to_stdout(folder, run, rows):
+    text = (folder / "cities.csv").read_text(encoding="utf-8")
+    from_file = run("nearest", "cities.csv", "--of", "cities.csv", "-o", "-")
+    assert run("nearest", "-", "--of", "cities.csv", "-o", "-", stdin=text) == from_file
+    assert run("nearest", "cities.csv", "--of", "-", "-o", "-", stdin=text) == from_file
+    assert [row["distance_km"] for row in rows(from_file)] == ["0"] * 5
+
+
+def test_a_closed_pipe_is_quiet(folder):
+    arguments = ["interpolate", "cities.csv", "--value", "people", "--grid", "0.5", "--method", "nearest", "-o", "-"]
+    program = [sys.executable, "-c", "from stereodel.cli import app; app()"]
+    with subprocess.Popen([*program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as writer:
+        assert writer.stdout.readline() == b"lon,lat,people\n"
+        writer.stdout.close()
+        assert writer.stderr.read() == b""
+        assert writer.wait() == 1

@@ -1,13 +1,12 @@
 """Contours as lines on the map."""
 
-import geopandas
 import numpy as np
 import pytest
 import shapely
 
 from stereodel import PlanarDelaunay, SphericalDelaunay, lonlat_to_xyz
 from stereodel.interpolation import contours
-from stereodel.io import to_geodataframe, write
+from stereodel.io import to_geodataframe
 
 AXIS = np.array([0.5, 0.3, 0.8])
 
@@ -44,14 +43,6 @@ def test_higher_values_are_on_the_left(sphere):
         for part in shapely.get_parts(line):
             start, end = lonlat_to_xyz(shapely.get_coordinates(part)[:2])
             assert np.cross(start, end) @ AXIS > 0
-
-
-@pytest.mark.parametrize("kind", ["geojson", "gpkg", "parquet", "shp"])
-def test_files(sphere, tmp_path, kind):
-    _, found = sphere
-    write(tmp_path / f"lines.{kind}", found)
-    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
-    assert read(tmp_path / f"lines.{kind}")["level"].tolist() == pytest.approx([contour.level for contour in found])
 
 
 def test_the_plane():

@@ -96,6 +96,11 @@ class Watched:
         except BlockingIOError:
             return b""
 
+    def close(self):
+        """As a user has a hundred at most."""
+        if self.linux:
+            os.close(self.told)
+
 
 @pytest.fixture
 def secret(tmp_path):
@@ -104,7 +109,9 @@ def secret(tmp_path):
     folder.mkdir()
     POINT.to_file(folder / "secret.gpkg", driver="GPKG")
     (folder / "secret.gsb").write_text("topsecret" * 100)
-    return folder, Watched(folder)
+    watched = Watched(folder)
+    yield folder, watched
+    watched.close()
 
 
 def virtual_table(path, secret):

@@ -94,14 +94,12 @@ def test_geojson_is_as_the_standard_wants_it(diagram):
 
 
 def test_geojson_rounds_transforms_and_turns_rings():
+    """And has no numbers but finite ones: not those of missing values and of unbounded cells."""
     clockwise = shapely.Polygon([(0, 0), (0, 1e5), (1e5, 1e5), (1e5, 0)])
     frame = geopandas.GeoDataFrame({"value": [np.nan]}, geometry=[clockwise], crs=3857)
     feature = json.loads(to_geojson(frame, decimals=3))["features"][0]
     assert feature["properties"] == {"value": None}
     assert feature["geometry"]["coordinates"] == [[[0, 0], [0.898, 0], [0.898, 0.898], [0, 0.898], [0, 0]]]
-
-
-def test_unbounded_cells_have_no_area_in_geojson():
     collection = json.loads(to_geojson(to_geodataframe(PlanarVoronoi(PLANE[:3]))))
     assert [feature["properties"]["area"] for feature in collection["features"]] == [None] * 3
 
@@ -141,16 +139,13 @@ def test_ugrid_comes_back(tmp_path, what):
             assert float(read["face_area"].sum()) == pytest.approx(4 * np.pi)
 
 
-def test_ugrid_without_cartesian_nodes_and_counted_from_one():
+def test_ugrid_of_the_plane_and_without_cartesian_nodes_counted_from_one():
     dataset = to_ugrid(SphericalDelaunay(SPHERE)).drop_vars(["node_x", "node_y", "node_z"])
     links = dataset["face_node_connectivity"]
     dataset["face_node_connectivity"] = (links.dims, links.values + 1, links.attrs | {"start_index": 1})
     nodes, faces = from_ugrid(dataset)
     assert angular_distance(nodes, SPHERE).max() < 1e-13
     check_delaunay(SPHERE, faces)
-
-
-def test_ugrid_of_the_plane():
     nodes, faces = from_ugrid(to_ugrid(PlanarDelaunay(PLANE)))
     assert (nodes == PLANE).all()
     check_delaunay(nodes, faces)
@@ -177,21 +172,19 @@ def test_ugrid_keeps_to_its_conventions(mesh):
     """UGRID 1.0: attributes of the topology name variables of the right shape; places have standard names and units."""
     dataset = to_ugrid(mesh)
     topology, spherical = dataset["mesh"].attrs, mesh.points.shape[1] == 3
+    assert topology["topology_dimension"] == 2
+    standards = [{"standard_name": "longitude", "units": "degrees_east"}]
+    standards += [{"standard_name": "latitude", "units": "degrees_north"}]
     for location in ("node", "face", "edge"):
         names = topology[f"{location}_coordinates"].split()
         assert names == [f"{location}_{axis}" for axis in (("lon", "lat") if spherical else ("x", "y"))]
-        for name, standard, unit in zip(
-            names, ("longitude", "latitude"), ("degrees_east", "degrees_north"), strict=True
-        ):
-            assert dataset[name].dims == (location,)
-            assert np.isfinite(dataset[name]).all()
-            if spherical:
-                assert dataset[name].attrs == {"standard_name": standard, "units": unit}
-    for kind in ("face", "edge"):
-        links = dataset[topology[f"{kind}_node_connectivity"]]
-        assert links.dims[0] == topology[f"{kind}_dimension"] == kind
-        assert links.attrs["start_index"] == 0
-    assert dataset["mesh"].attrs["topology_dimension"] == 2
+        places = [dataset[name] for name in names]
+        assert all(each.dims == (location,) and np.isfinite(each).all() for each in places)
+        assert not spherical or [each.attrs for each in places] == standards
+        if location != "node":
+            links = dataset[topology[f"{location}_node_connectivity"]]
+            assert links.dims[0] == topology[f"{location}_dimension"] == location
+            assert links.attrs["start_index"] == 0
 
 
 def test_centres_of_ugrid():
@@ -240,26 +233,21 @@ def test_faces_of_a_mesh_name_its_nodes(entries, message):
 
 
 @pytest.mark.parametrize("ending", ["glb", "ply"])
-def test_globe_comes_back(tmp_path, ending):
-    write(tmp_path / f"globe.{ending}", SphericalDelaunay(SPHERE))
-    mesh = trimesh.load(tmp_path / f"globe.{ending}", force="mesh", process=False)
-    assert np.allclose(mesh.vertices, UNIT, atol=1e-6)
-    assert mesh.is_watertight
-    assert mesh.volume == pytest.approx(
-        trimesh.Trimesh(UNIT, SphericalDelaunay(SPHERE).simplices, process=False).volume
-    )
-    check_delaunay(SPHERE, mesh.faces)
-
-
-@pytest.mark.parametrize("ending", ["glb", "ply"])
-def test_coloured_cells_come_back(tmp_path, ending, diagram):
-    colors = np.random.default_rng(13).integers(0, 256, size=(60, 3))
-    made = to_trimesh(diagram, colors=colors)
+def test_globes_and_coloured_cells_come_back(tmp_path, ending, diagram):
+    triangulation, colors = SphericalDelaunay(SPHERE), np.random.default_rng(13).integers(0, 256, size=(60, 3))
+    write(tmp_path / f"globe.{ending}", triangulation)
     write(tmp_path / f"cells.{ending}", diagram, colors=colors)
-    mesh = trimesh.load(tmp_path / f"cells.{ending}", force="mesh", process=False)
-    assert np.allclose(mesh.vertices, made.vertices, atol=1e-6)
-    assert (mesh.faces == made.faces).all()
-    assert (mesh.visual.vertex_colors[:, :3] == colors[made.vertex_attributes["point"].astype(int)]).all()
+    globe, cells = (
+        trimesh.load(tmp_path / f"{name}.{ending}", force="mesh", process=False) for name in ("globe", "cells")
+    )
+    assert np.allclose(globe.vertices, UNIT, atol=1e-6)
+    assert globe.is_watertight
+    assert globe.volume == pytest.approx(trimesh.Trimesh(UNIT, triangulation.simplices, process=False).volume)
+    check_delaunay(SPHERE, globe.faces)
+    made = to_trimesh(diagram, colors=colors)
+    assert np.allclose(cells.vertices, made.vertices, atol=1e-6)
+    assert (cells.faces == made.faces).all()
+    assert (cells.visual.vertex_colors[:, :3] == colors[made.vertex_attributes["point"].astype(int)]).all()
 
 
 @pytest.mark.parametrize("points", [SPHERE, SPHERE[:2], GREAT_CIRCLE], ids=["random", "two", "great circle"])

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import SphericalDelaunay, SphericalVoronoi
 from stereodel.partitioned import passes, rounds
 from stereodel.partitioned import run as running
 from tests import sets
@@ -147,11 +146,3 @@ def test_columns_that_are_wanted_alone(tmp_path, columns, name):
     assert not (tmp_path / "out" / "triangles").exists()
     told = in_memory(columns, rows)[1]
     assert all(np.array_equal(table[name].to_numpy(), told[name]) for name in table.column_names)
-
-
-def test_latitudes_of_the_ellipsoid(tmp_path):
-    _, rows = rows_of("airports", 200)
-    write_points(tmp_path / "points", LONLAT, rows)
-    run = serially(tmp_path / "points", tmp_path / "out", latitude="authalic", partition=60)
-    areas = SphericalVoronoi(SphericalDelaunay.from_lonlat(rows, latitude="authalic")).areas()
-    assert np.array_equal(run.rows().to_table()["area"].to_numpy(), areas)

@@ -265,10 +265,13 @@ def test_more_points_at_once_than_the_limit(tmp_path, space, name, message):
 
 
 def test_results_are_not_among_the_points(tmp_path, points):
+    """Nor by way of a link."""
     folder, _ = points
     (folder / "002.parquet").rename(folder / "a.parquet")
-    with pytest.raises(ValueError, match=r"lies in out, the folder of results"):
-        serially(folder, folder)
+    os.symlink(folder, tmp_path / "link")
+    for source, out in [(folder, folder), (folder, tmp_path / "link"), (tmp_path / "link", folder)]:
+        with pytest.raises(ValueError, match="lies in out, the folder of results"):
+            serially(source, out)
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path, points):

@@ -5,84 +5,63 @@ import pytest
 
 from stereodel import PlanarDelaunay, _kernel
 from stereodel.partitioned import rounds
-from tests.partitioned.answers import differences, in_memory, serially, surface_of, write_points
+from tests.partitioned.answers import differences, in_memory, serially, write_points
 from tests.sets import ALL
 
 pytestmark = pytest.mark.thorough
 
-SPACES = {"sphere": _kernel.sphere, "plane": _kernel.plane}
+SPACES = (_kernel.sphere, _kernel.plane)
 
 
-def noticed(folder, name, size=1500, partition=100):
+def noticed(folder, space, name, size=1500, partition=100):
     """Whether the answer, or that there is none, is another one than in memory."""
-    found = ALL[name]
-    columns, rows = found.columns, found.rows(size)
-    write_points(folder / "points", columns, rows)
+    found = ALL[space, name]
+    rows = found.rows(size)
+    write_points(folder / "points", found.columns, rows)
+    asked = {"columns": found.columns, "surface": space, "partition": partition}
     try:
-        run = serially(
-            folder / "points", folder / "out", columns=columns, surface=surface_of(columns), partition=partition
-        )
+        run = serially(folder / "points", folder / "out", **asked)
     except RuntimeError as error:  # the check at the end
         return "Euler" in str(error) or "areas" in str(error)
-    return bool(differences(run, in_memory(columns, rows)))
-
-
-@pytest.fixture
-def damage(monkeypatch):
-    """Replace a function of the kernel by what another one makes of its result."""
-
-    def replaced(name, change):
-        for space in SPACES.values():
-            function = getattr(space, name)
-
-            def changed(*args, function=function):
-                return change(function(*args), *args)
-
-            monkeypatch.setattr(space, name, changed)
-
-    return replaced
+    return bool(differences(run, in_memory(found.columns, rows)))
 
 
 def all_final(found, *_):
     return tuple(np.zeros_like(part) for part in found)
 
 
-@pytest.mark.parametrize("name", ["random", "half", "airports", "whole numbers", "copied"])
-def test_every_triangle_final_and_no_halo(tmp_path, monkeypatch, damage, name):
-    damage("open_bubbles", all_final)
-    monkeypatch.setattr(rounds, "REACH", -1.0)
-    assert noticed(tmp_path, ("sphere", name))
+def no_hull_edges(found, _, faces, *rest):
+    return found[0] & (faces[:, 2] >= 0), found[1]
 
 
-@pytest.mark.parametrize("name", ["half", "airports", "whole numbers"])
-def test_every_triangle_final(tmp_path, damage, name):
-    damage("open_bubbles", all_final)
-    assert noticed(tmp_path, ("sphere", name))
+def no_closing_facets(found, points, faces, *_):
+    return found[0] & ~_kernel.sphere.closing(points, faces), found[1]
 
 
-def test_hull_edges_not_asked(tmp_path, damage):
-    damage("open_bubbles", lambda found, _, faces, *rest: (found[0] & (faces[:, 2] >= 0), found[1]))
-    assert noticed(tmp_path, ("plane", "thin strip"))
+def small_boxes(found, *_):
+    order, starts, lows, highs = found
+    middle = (lows + highs) / 2
+    return order, starts, middle + (lows - middle) * 0.5, middle + (highs - middle) * 0.5
 
 
-def test_closing_facets_not_asked(tmp_path, damage):
-    def change(found, points, faces, *_):
-        return found[0] & ~_kernel.sphere.closing(points, faces), found[1]
+DAMAGE = [
+    *(("open_bubbles", all_final, False, "sphere", name) for name in ("random", "half", "airports", "whole numbers")),
+    *(("open_bubbles", all_final, True, "sphere", name) for name in ("half", "airports", "whole numbers")),
+    ("open_bubbles", no_hull_edges, True, "plane", "thin strip"),
+    ("open_bubbles", no_closing_facets, True, "sphere", "half"),
+    ("blocks", small_boxes, False, "sphere", "random"),
+    ("blocks", small_boxes, False, "plane", "lattice"),
+]
 
-    damage("open_bubbles", change)
-    assert noticed(tmp_path, ("sphere", "half"))
 
-
-@pytest.mark.parametrize("name", [("sphere", "random"), ("plane", "lattice")])
-def test_boxes_that_are_too_small(tmp_path, damage, monkeypatch, name):
-    def change(found, *_):
-        order, starts, lows, highs = found
-        middle = (lows + highs) / 2
-        return order, starts, middle + (lows - middle) * 0.5, middle + (highs - middle) * 0.5
-
-    damage("blocks", change)
-    monkeypatch.setattr(rounds, "REACH", -1.0)
-    assert noticed(tmp_path, name)
+@pytest.mark.parametrize(("name", "change", "halo", "space", "points"), DAMAGE)
+def test_damage_is_noticed(tmp_path, monkeypatch, name, change, halo, space, points):
+    """A function of the kernel is replaced by what another one makes of its result; the halo is a guess that helps."""
+    for each in SPACES:
+        function = getattr(each, name)
+        monkeypatch.setattr(each, name, lambda *args, function=function: change(function(*args), *args))
+    monkeypatch.setattr(rounds, "REACH", rounds.REACH if halo else -1.0)
+    assert noticed(tmp_path, space, points)
 
 
 def test_another_tie_rule(tmp_path, monkeypatch):
@@ -101,5 +80,5 @@ def test_another_tie_rule(tmp_path, monkeypatch):
 
     monkeypatch.setattr(rounds, "PlanarDelaunay", Turned)
     monkeypatch.setattr(rounds, "isinstance", lambda mesh, _: mesh.points.shape[1] == 2, raising=False)
-    assert noticed(tmp_path, ("plane", "lattice"))
+    assert noticed(tmp_path, "plane", "lattice")
     assert len(calls) > 10

@@ -199,16 +199,6 @@ def test_columns_to_keep_have_one_type(tmp_path):
         source_of(tmp_path, "auto", None, "sphere", "spherical", "id", ())
 
 
-def test_results_that_lie_in_the_source_by_way_of_a_link(tmp_path):
-    _, rows = rows_of("airports", 50)
-    write_points(tmp_path / "points", LONLAT, rows)
-    os.symlink(tmp_path / "points", tmp_path / "link")
-    with pytest.raises(ValueError, match="lies in out, the folder of results"):
-        serially(tmp_path / "points", tmp_path / "link")
-    with pytest.raises(ValueError, match="lies in out, the folder of results"):
-        serially(tmp_path / "link", tmp_path / "points")
-
-
 def test_row_groups_one_by_one(tmp_path):
     _, rows = rows_of("airports", 500)
     write_points(tmp_path, LONLAT, rows, 1, row_group_size=37)
