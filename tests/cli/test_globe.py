@@ -29,11 +29,6 @@ SVG = "{http://www.w3.org/2000/svg}"
 BARE = ["--no-land", "--no-coastlines"]
 
 
-def test_png_has_the_size_asked_for(folder, run):
-    run("globe", "cities.csv", "-o", "globe.png", "--size", 200)
-    assert read_picture(folder / "globe.png").shape == (200, 200, 3)
-
-
 @pytest.mark.parametrize(("shown", "groups"), [("cells", {"voronoi"}), ("triangles", {"delaunay"}), ("points", set())])
 def test_svg_shows_what_was_asked_for(folder, shown, groups, run):
     run("globe", "cities.csv", "-o", "globe.svg", "--show", shown)

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.data import stored
+from tests.examples import examples
 from tools.data_files import dump
 
 
@@ -15,6 +16,7 @@ def unpacked(columns):
     return dict(np.load(io.BytesIO(lzma.decompress(dump(columns)))))
 
 
+@examples(0.4)
 @given(st.lists(st.integers(-(2**31), 2**31 - 1), max_size=20))
 def test_integers(values):
     found = stored.integers(unpacked({"n": np.array(values, dtype=np.int64)})["n"])
@@ -22,6 +24,7 @@ def test_integers(values):
     assert found.tolist() == values
 
 
+@examples(0.4)
 @given(
     st.lists(st.text(st.characters(blacklist_characters="\n\0", blacklist_categories=["Cs"])), min_size=1, max_size=9)
 )
@@ -29,6 +32,7 @@ def test_texts(values):
     assert stored.texts(unpacked({"t": values})["t"]).tolist() == values
 
 
+@examples(0.4)
 @given(st.lists(st.integers(-180 * 10**6, 180 * 10**6), min_size=1, max_size=20))
 def test_decimals_are_what_their_text_says(values):
     written = [f"{'-' * (v < 0)}{abs(v) // 10**6}.{abs(v) % 10**6:06d}" for v in values]

@@ -75,18 +75,19 @@ def test_every_kind_of_file_with_every_harm(sound, tmp_path, harm):
     assert set(found.values()) == {None}, found
 
 
+PLACE = geopandas.GeoDataFrame({"a": ["Zoë"]}, geometry=[shapely.Point(1, 2)], crs=4326)
+
+
 def cut_text(folder):
     """A shapefile whose text is cut inside a letter, as writers do that count bytes."""
-    frame = geopandas.GeoDataFrame({"a": ["Zoë"]}, geometry=[shapely.Point(1, 2)], crs=4326)
-    frame.to_file(folder / "a.shp", encoding="utf-8")
+    PLACE.to_file(folder / "a.shp", encoding="utf-8")
     table = folder / "a.dbf"
     table.write_bytes(table.read_bytes().replace("Zoë".encode(), b"Zo\xc3\x20"))
     return folder / "a.shp"
 
 
 def unknown_crs(folder):
-    frame = geopandas.GeoDataFrame({"a": [1]}, geometry=[shapely.Point(1, 2)], crs=4326)
-    frame.to_parquet(folder / "a.parquet")
+    PLACE.to_parquet(folder / "a.parquet")
     table = pq.read_table(folder / "a.parquet")
     damaged = table.schema.metadata[b"geo"].replace(b'"type": "GeographicCRS"', b'"type": "GeogrxphicCRS"')
     assert damaged != table.schema.metadata[b"geo"]
@@ -95,8 +96,7 @@ def unknown_crs(folder):
 
 
 def not_of_the_earth(folder):
-    frame = geopandas.GeoDataFrame({"a": [1]}, geometry=[shapely.Point(1, 2)], crs=4326)
-    frame.to_file(folder / "a.shp")
+    PLACE.to_file(folder / "a.shp")
     prj = folder / "a.prj"
     prj.write_text(prj.read_text().replace("6378137", "1737400"))
     return folder / "a.shp"

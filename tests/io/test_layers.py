@@ -12,7 +12,7 @@ import shapely
 from stereodel import SphericalVoronoi
 from stereodel.io import from_geodataframe, read_points, to_geodataframe, write
 from stereodel.io import layers as module
-from stereodel.io.layers import Layer, arrow_column
+from stereodel.io.layers import Layer
 
 POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
 
@@ -84,10 +84,6 @@ def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path):
     ]
     write(tmp_path / "a.fgb", Layer({"n": np.arange(2)}, layer.binary[:2], "EPSG:4326"))
     assert pyogrio.read_info(tmp_path / "a.fgb")["geometry_type"] == "MultiLineString"
-
-
-def test_what_arrow_has_no_type_for_is_text():
-    assert arrow_column(np.array([2**70, 1, None], dtype=object)).to_pylist() == [str(2**70), "1", None]
 
 
 @pytest.mark.parametrize("kind", ["parquet", "fgb", "gpkg", "geojson"])

@@ -266,25 +266,6 @@ def test_airports():
     assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
 
 
-@pytest.mark.parametrize("latitude", ["spherical", "authalic"])
-def test_the_bound_on_straying_spares_work_and_changes_nothing(monkeypatch, latitude):
-    """Sites 1e-6 degrees apart, where chords are halved; without any halving they would lie in others' cells."""
-    rng = np.random.default_rng(3)
-    base = rng.uniform([-170, -80], [170, 80], (40, 2))
-    lonlat = np.concatenate([base, base + rng.normal(size=base.shape) * 1e-6, [[0, 60], [90, 60.00001]]])
-    diagram = SphericalVoronoi.from_lonlat(lonlat, latitude=latitude)
-
-    def cells(bound=None):
-        if bound is not None:
-            monkeypatch.setattr("stereodel.io.tiles._most_straying", lambda middle, half: np.full(len(half), bound))
-        return to_geodataframe(diagram, max_segment=5).geometry.values
-
-    usual, asked, never = cells(), cells(np.inf), cells(0.0)
-    assert shapely.equals_identical(usual, asked).all()
-    assert (shapely.distance(usual, shapely.points(lonlat)) < 1e-12).all()
-    assert (shapely.distance(never, shapely.points(lonlat)) > 1e-12).any()
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_star_shaped_rings_are_valid(seed):
     """No ring that GEOS calls invalid or clockwise is called star-shaped, and convex ones all are."""

@@ -69,12 +69,6 @@ def test_the_land_of_the_earth_and_everything_else(lens):
     assert warp(shapely.Polygon(), lens).is_empty
 
 
-def test_identity_leaves_areas():
-    for resolution in ("110m", "50m"):
-        source = land(resolution)
-        assert warp(source, MoebiusMap.identity()).symmetric_difference(source).area < 2
-
-
 @examples(0.5)
 @given(st.sampled_from(LENSES), st.integers(0, 10**9), st.floats(0.5, 60))
 def test_stars_with_holes_of_all_sizes(lens, seed, size):
@@ -103,16 +97,7 @@ def test_vertices_are_those_of_proj():
     assert gaps.max() < 1e-9
 
 
-def test_circles_stay_circles():
-    circle = SphereCircle.around((10.0, 60.0), 25.0)
-    image = warp(shapely.Polygon(xyz_to_lonlat(circle.sample(2000))), LENSES[1], tolerance=1e-4)
-    wanted = LENSES[1].image_of(circle)
-    off = lonlat_to_xyz(shapely.get_coordinates(image)) @ wanted.normal - wanted.offset
-    border = np.abs(np.abs(shapely.get_coordinates(image)) - (180, 90)).min(axis=1) > 1e-9
-    assert np.abs(off[border]).max() < 1e-5
-
-
-@pytest.mark.parametrize("tolerance", [0.3, 0.01])
+@pytest.mark.parametrize("tolerance", [0.01, pytest.param(0.3, marks=pytest.mark.thorough)])
 def test_no_chord_strays_from_the_worlds_coast_at_a_thousand(tolerance):
     """Middles of straight pieces of the result, taken back, lie beside the coast by no more than the tolerance."""
     lens = fisheye((-5.0, 48.0), magnification=1000.0)

@@ -19,9 +19,9 @@ def places():
     return np.random.default_rng(3).permutation(rows_of("airports", 1500)[1])
 
 
-def run(folder, columns, rows, **options):
-    write_points(folder / "points", columns, rows, 3)
-    options = {"cells": True, "columns": columns, "surface": surface_of(columns)} | options
+def run(folder, names, rows, **options):
+    write_points(folder / "points", names, rows, 3)
+    options = {"cells": True, "columns": names, "surface": surface_of(names)} | options
     return serially(folder / "points", folder / "out", **options)
 
 

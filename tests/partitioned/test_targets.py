@@ -258,18 +258,3 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path, octahedron):
     )
     assert calls.count("values") == 2
     assert found.rows().to_table()["value"].to_pylist() == pytest.approx([2.0] * 4)
-
-
-@pytest.mark.parametrize(("name", "told"), [("open_discs", "nearest"), ("open_targets", "linear")])
-def test_it_takes_each_question(tmp_path, name, told, rng, monkeypatch):
-    """Answers that are never open are wrong: so the sets above can tell."""
-    columns, rows = rows_of("random", SIZE)
-    values, targets = rng.normal(size=(len(rows), 2)), targets_of(columns, rows, rng)
-    run = run_of(tmp_path, columns, rows, values, 5)
-    place = 3 if told == "linear" else 0  # of the targets among the arguments
-
-    def closed(*given, **_):
-        return np.zeros(len(given[place]), bool), np.zeros(given[-2][1])
-
-    monkeypatch.setattr(space_of(rows), name, closed)
-    assert told in differences(asked(run, targets, tmp_path), mesh_of(columns, rows), values, targets)
