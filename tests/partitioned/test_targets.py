@@ -130,7 +130,7 @@ def test_every_set(tmp_path, one, rng):
     check(tmp_path, one.columns, one.rows(min(SIZE, one.size) if "sizes" in one.traits else SIZE), 5, rng)
 
 
-@examples(0.1)
+@examples(0.04)
 @given(
     name=st.sampled_from(
         ["sphere random", "sphere copied", "sphere whole numbers", "plane lattice", "plane thin strip"]
