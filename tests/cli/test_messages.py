@@ -3,6 +3,7 @@
 import inspect
 import re
 import shlex
+import shutil
 import struct
 import zlib
 
@@ -128,7 +129,7 @@ globe --focus=0,0 --fly=180,0 -o out.gif → opposite
 globe --projection hemispheres -o out.gif → --projection hemispheres cannot move
 globe --fps 200 -o out.gif → at most 50 frames a second
 globe --magnify inf → --magnify is inf,
-globe --magnify 1e200 → --magnify is 1e+200, outside the range
+globe --no-land --no-coastlines --magnify 1e200 → --magnify is 1e+200, outside the range
 globe --graticule -5 → --graticule is -5
 globe --texture missing.png → missing.png: No such file or directory
 globe --texture broken.gpkg → broken.gpkg is not a picture
@@ -201,9 +202,10 @@ def arguments(line):
     return words if "-o" in words else [*words, "-o", f"out.{ENDINGS.get(words[0], 'csv')}"]
 
 
-@pytest.fixture
-def files(folder):
-    """The folder, with tables, layers and pictures of which much is wrong."""
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Tables, layers and pictures of which much is wrong."""
+    folder = tmp_path_factory.mktemp("made")
     for name, content in TEXTS.items():
         (folder / name).write_text(content, encoding="utf-8")
     (folder / "points").mkdir()
@@ -225,6 +227,11 @@ def files(folder):
     for name, content in pictures.items():
         (folder / f"{name}.png").write_bytes(content)
     return folder
+
+
+@pytest.fixture
+def files(folder, made):
+    return shutil.copytree(made, folder, dirs_exist_ok=True)
 
 
 def everything(folder):
