@@ -53,7 +53,7 @@ def report_failure(store, case, messages, folder):
     rank = 1.0
     if "stored" in pictures:
         rank = compare(pictures["stored"], case.picture).any
-        red = f"difference: red where more than {PIXEL_LEVELS} levels, orange where less"
+        red = f"difference, red above {PIXEL_LEVELS} levels"
         pictures[red] = difference_picture(pictures["stored"], case.picture)
     if case.page.labels:
         pictures["today, with its labels"] = LabelLayer(case.page, SIZE).over(case.picture)
