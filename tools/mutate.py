@@ -76,11 +76,11 @@ def build_kernel() -> None:
     """Compile what changed of the copy's kernel, and put it into the copy."""
     nanobind = subprocess.check_output([sys.executable, "-m", "nanobind", "--cmake_dir"], text=True).strip()
     options = ["-DSTEREODEL_DEVELOPMENT=ON", f"-DPython_EXECUTABLE={sys.executable}", f"-Dnanobind_DIR={nanobind}"]
-    kernel = BUILD / "kernel"
+    kernel, tree = str(BUILD / "kernel"), str(TREE)
     for command in (
-        ["cmake", "-S", TREE, "-B", kernel, "-G", "Ninja", *options],
+        ["cmake", "-S", tree, "-B", kernel, "-G", "Ninja", *options],
         ["cmake", "--build", kernel],
-        ["cmake", "--install", kernel, "--prefix", TREE],
+        ["cmake", "--install", kernel, "--prefix", tree],
     ):
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode:

@@ -21,7 +21,7 @@ def text(file):
 
 
 @cache
-def tests_of(file):
+def functions(file):
     return set(re.findall(r"^def (test_\w+)\(", text(file), re.MULTILINE))
 
 
@@ -40,7 +40,7 @@ def test_it_can_be_made(name):
     for test in mutation.caught_by:
         file, _, function = test.partition("::")
         assert Path(file).parts[0] == "tests"
-        assert function.partition("[")[0] in tests_of(file)
+        assert function.partition("[")[0] in functions(file)
 
 
 def test_it_is_chosen_by_its_file_and_by_those_of_its_tests():
