@@ -1,7 +1,6 @@
 """Break the library on purpose, one place at a time, and see the tests fail: `python -m tools.mutate`.
 
-`tests/mutations/*.toml` say what is broken and which tests must notice it, each alone and by an assertion. All is done
-in a copy of the tracked files, build/mutations/tree, with a kernel of its own.
+`tests/mutations/*.toml` say what is broken and which tests must fail, each by an assertion; all in a copy of the tree.
 """
 
 from __future__ import annotations
@@ -15,25 +14,21 @@ import sys
 import time
 import tomllib
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
-ROOT: Final = Path(__file__).resolve().parent.parent
-BUILD: Final = ROOT / "build" / "mutations"
-TREE: Final = BUILD / "tree"
-BY_ASSERTION: Final = ("AssertionError", "assert ", "Failed", "ExceptionGroup", "hypothesis.errors.FlakyFailure")
-"""How the message of a test begins that failed and did not break."""
+ROOT = Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "mutations"
+TREE = BUILD / "tree"
 
 
 @dataclass(frozen=True)
 class Mutation:
-    """A change of one place in a file, and the tests that must fail for it."""
+    """A change of one place in a file, under a row of the ledger or what draws, and the tests that must fail for it."""
 
     name: str
     where: str
-    """A row of the ledger, docs/paper.md, or what draws."""
     file: str
     old: str
     new: str
@@ -43,10 +38,6 @@ class Mutation:
     def of_kernel(self) -> bool:
         """Whether the kernel must be compiled for it."""
         return self.file.startswith("stereodel/kernel/")
-
-    def concerns(self, changed: Iterable[str]) -> bool:
-        """Whether its file or one of its tests' files is among those that changed."""
-        return not {self.file, *(test.partition("::")[0] for test in self.caught_by)}.isdisjoint(changed)
 
 
 def mutations() -> Iterator[Mutation]:
@@ -69,7 +60,7 @@ def copy_tree() -> None:
         source, target = ROOT / name, TREE / name
         if not target.is_file() or source.read_bytes() != target.read_bytes():
             target.parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target)
+            shutil.copy(source, target)  # with the time of now
 
 
 def build_kernel() -> None:
@@ -77,27 +68,21 @@ def build_kernel() -> None:
     nanobind = subprocess.check_output([sys.executable, "-m", "nanobind", "--cmake_dir"], text=True).strip()
     options = ["-DSTEREODEL_DEVELOPMENT=ON", f"-DPython_EXECUTABLE={sys.executable}", f"-Dnanobind_DIR={nanobind}"]
     kernel, tree = str(BUILD / "kernel"), str(TREE)
-    for command in (
-        ["cmake", "-S", tree, "-B", kernel, "-G", "Ninja", *options],
-        ["cmake", "--build", kernel],
-        ["cmake", "--install", kernel, "--prefix", tree],
-    ):
+    configure = ["cmake", "-S", tree, "-B", kernel, "-G", "Ninja", *options]
+    for command in (configure, ["cmake", "--build", kernel], ["cmake", "--install", kernel, "--prefix", tree]):
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if done.returncode:
             raise SystemExit(f"the kernel cannot be built:\n{done.stdout}")
 
 
-def outcomes(tests: Iterable[str], *, compiled: bool = False) -> dict[str, set[str]]:
-    """What becomes of each test of the copy: "passed", "failed", that is for an assertion, or what else there is.
-
-    compiled: whether Python may keep what it compiles; of a mutated module it must not.
-    """
-    report, asked = BUILD / "report.xml", list(tests)
+def outcomes(tests: Sequence[str]) -> dict[str, set[str]]:
+    """What becomes of each test of the copy: "passed", "failed", that is for an assertion, or what else there is."""
+    report = BUILD / "report.xml"
     report.unlink(missing_ok=True)
-    settings = {"PYTHONPATH": str(TREE), "CI": "true", "PYTHONDONTWRITEBYTECODE": "" if compiled else "1"}
     command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-q", "-m", "", f"--junitxml={report}"]
-    done = subprocess.run([*command, *asked], cwd=TREE, env=os.environ | settings, capture_output=True, text=True)
-    said: dict[str, set[str]] = {test: set() for test in asked}
+    settings = {"PYTHONPATH": str(TREE), "CI": "true"}
+    done = subprocess.run([*command, *tests], cwd=TREE, env=os.environ | settings, capture_output=True, text=True)
+    said: dict[str, set[str]] = {test: set() for test in tests}
     for case in ET.parse(report).iter("testcase") if report.is_file() else ():
         name, file = case.get("name", ""), case.get("classname", "").replace(".", "/") + ".py"
         for test in {f"{file}::{name}", f"{file}::{name.partition('[')[0]}"} & said.keys():
@@ -106,9 +91,11 @@ def outcomes(tests: Iterable[str], *, compiled: bool = False) -> dict[str, set[s
 
 
 def _outcome(case: ET.Element) -> str:
-    if (failure := case.find("failure")) is not None and failure.get("message", "").startswith(BY_ASSERTION):
-        return "failed"
-    return f"{case[0].tag}: {case[0].get('message', '')[:150]}" if case.find("*") is not None else "passed"
+    if (found := case.find("*")) is None:
+        return "passed"
+    message = found.get("message", "")
+    asserted = message.startswith(("AssertionError", "assert ", "Failed", "ExceptionGroup"))
+    return "failed" if found.tag == "failure" and asserted else f"{found.tag}: {message[:150]}"
 
 
 def why_survived(mutation: Mutation) -> str:
@@ -131,17 +118,20 @@ def main() -> None:
     """Try all mutations, or some; exit with 1 where one of them survives."""
     parser = argparse.ArgumentParser(prog="python -m tools.mutate", description=__doc__.partition("\n")[0])
     parser.add_argument("--only", metavar="PATTERN", default="", help="those whose row or name match")
-    parser.add_argument("--changed", metavar="FILE", nargs="+", help="those of these files, or of tests in them")
+    parser.add_argument(
+        "--changed", metavar="FILE", nargs="+", default=(), help="those of these files, or of tests in them"
+    )
     given = parser.parse_args()
     os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
     chosen = [m for m in mutations() if re.search(given.only, f"{m.where}: {m.name}")]
-    chosen = [m for m in chosen if given.changed is None or m.concerns(given.changed)]
+    changed = set(given.changed)
+    chosen = [m for m in chosen if not changed or changed & {m.file, *(t.partition("::")[0] for t in m.caught_by)}]
     chosen.sort(key=lambda mutation: mutation.of_kernel)  # after them the copy's kernel is not what it was
     copy_tree()
     if any(mutation.of_kernel for mutation in chosen):
         build_kernel()
     tests = sorted({test for mutation in chosen for test in mutation.caught_by})
-    wrong = {test: said for test, said in outcomes(tests, compiled=True).items() if said != {"passed"}}
+    wrong = {test: said for test, said in outcomes(tests).items() if said != {"passed"}}
     for test, said in wrong.items():
         print(f"does not pass as it is: {test}: {said}", flush=True)
     survived = 0

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tools.mutate import ROOT, Mutation, mutations
+from tools.mutate import ROOT, mutations
 
 MUTATIONS = {f"{mutation.where}: {mutation.name}": mutation for mutation in mutations()}
 
@@ -41,11 +41,3 @@ def test_it_can_be_made(name):
         file, _, function = test.partition("::")
         assert Path(file).parts[0] == "tests"
         assert function.partition("[")[0] in functions(file)
-
-
-def test_it_is_chosen_by_its_file_and_by_those_of_its_tests():
-    mutation = Mutation("a", "P1", "stereodel/kernel/a.cpp", "1", "2", ("tests/b.py::test_c[d]", "tests/e.py::test_f"))
-    assert mutation.of_kernel
-    assert mutation.concerns(["stereodel/kernel/a.cpp"])
-    assert mutation.concerns(["README.md", "tests/e.py"])
-    assert not mutation.concerns(["tests/c.py"])
