@@ -21,6 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build" / "mutations"
 TREE = BUILD / "tree"
+KERNEL = "stereodel/kernel/"
 
 
 @dataclass(frozen=True)
@@ -33,11 +34,6 @@ class Mutation:
     old: str
     new: str
     caught_by: tuple[str, ...]
-
-    @property
-    def of_kernel(self) -> bool:
-        """Whether the kernel must be compiled for it."""
-        return self.file.startswith("stereodel/kernel/")
 
 
 def mutations() -> Iterator[Mutation]:
@@ -75,27 +71,29 @@ def build_kernel() -> None:
             raise SystemExit(f"the kernel cannot be built:\n{done.stdout}")
 
 
+def pytest_configure() -> None:
+    """As a plugin of pytest: what fails a property is taken as it is found, for to make it smaller takes minutes."""
+    from hypothesis import Phase, settings
+
+    settings.register_profile("as found", settings.default, phases=(Phase.explicit, Phase.generate))
+    settings.load_profile("as found")
+
+
 def outcomes(tests: Sequence[str]) -> dict[str, set[str]]:
     """What becomes of each test of the copy: "passed", "failed", that is for an assertion, or what else there is."""
     report = BUILD / "report.xml"
     report.unlink(missing_ok=True)
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-q", "-m", "", f"--junitxml={report}"]
-    settings = {"PYTHONPATH": str(TREE), "CI": "true"}
+    command = [sys.executable, "-m", "pytest", "-p", "tools.mutate", "-qm", "", f"--junitxml={report}"]
+    settings = {"PYTHONPATH": str(TREE), "CI": "true", "PYTEST_ADDOPTS": "-p no:cacheprovider"}
     done = subprocess.run([*command, *tests], cwd=TREE, env=os.environ | settings, capture_output=True, text=True)
     said: dict[str, set[str]] = {test: set() for test in tests}
     for case in ET.parse(report).iter("testcase") if report.is_file() else ():
+        kind, message = next(((each.tag, each.get("message", "")) for each in case), ("passed", ""))
+        failed = kind == "failure" and message.startswith(("AssertionError", "assert ", "Failed", "ExceptionGroup"))
         name, file = case.get("name", ""), case.get("classname", "").replace(".", "/") + ".py"
         for test in {f"{file}::{name}", f"{file}::{name.partition('[')[0]}"} & said.keys():
-            said[test].add(_outcome(case))
-    return {test: found or {f"did not run: {done.stdout[-300:]}"} for test, found in said.items()}
-
-
-def _outcome(case: ET.Element) -> str:
-    if (found := case.find("*")) is None:
-        return "passed"
-    message = found.get("message", "")
-    asserted = message.startswith(("AssertionError", "assert ", "Failed", "ExceptionGroup"))
-    return "failed" if found.tag == "failure" and asserted else f"{found.tag}: {message[:150]}"
+            said[test].add("failed" if failed else f"{kind} {message[:150]}".strip())
+    return {test: found or {f"did not run: {done.stderr[-200:]}"} for test, found in said.items()}
 
 
 def why_survived(mutation: Mutation) -> str:
@@ -106,7 +104,7 @@ def why_survived(mutation: Mutation) -> str:
         return f"old stands {text.count(mutation.old)} times in {mutation.file}"
     target.write_text(text.replace(mutation.old, mutation.new), encoding="utf-8")
     try:
-        if mutation.of_kernel:
+        if mutation.file.startswith(KERNEL):
             build_kernel()
         found = outcomes(mutation.caught_by)
     finally:
@@ -126,9 +124,11 @@ def main() -> None:
     chosen = [m for m in mutations() if re.search(given.only, f"{m.where}: {m.name}")]
     changed = set(given.changed)
     chosen = [m for m in chosen if not changed or changed & {m.file, *(t.partition("::")[0] for t in m.caught_by)}]
-    chosen.sort(key=lambda mutation: mutation.of_kernel)  # after them the copy's kernel is not what it was
+    chosen.sort(
+        key=lambda mutation: mutation.file.startswith(KERNEL)
+    )  # after them the copy's kernel is not what it was
     copy_tree()
-    if any(mutation.of_kernel for mutation in chosen):
+    if any(mutation.file.startswith(KERNEL) for mutation in chosen):
         build_kernel()
     tests = sorted({test for mutation in chosen for test in mutation.caught_by})
     wrong = {test: said for test, said in outcomes(tests).items() if said != {"passed"}}
