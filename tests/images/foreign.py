@@ -13,10 +13,10 @@ DPI = 600
 TILE = 16
 """Side of the tiles whose means are compared, pixels: programs smooth edges in ways of their own, which evens out."""
 
-EDGES, TYPE, EVEN, SHADED = 18.0, 20.0, 1.5, 6.0
-"""Levels of 255 by which the mean of a tile may differ: where there are edges, 15 are found in all figures; where there
-is type, which matplotlib moves to whole pixels, 16; in one colour 1; on pages with balls, whose light is a gradient in
-files, 5."""
+EDGES, TYPE, EVEN, SHADED = 18.0, 20.0, 2.5, 6.0
+"""Levels of 255 by which the mean of a tile may differ. Found in all figures, at most: where there are edges, 15; where
+there is type, which matplotlib moves to whole pixels, 18; in one colour 2, where several lie one over the other; on
+pages with balls, whose light is a gradient in files, 5."""
 
 EVENLY = 6
 """Levels between the pixels of a tile, at most, where there is light and no edge."""
@@ -46,7 +46,7 @@ def by_pdfium(file, shape):
     return picture[:height, :width] if np.abs(np.subtract(picture.shape, shape)).max() <= 1 else picture
 
 
-def disagreements(page, ours, theirs):
+def disagreements(page, ours, theirs, even_limit=EVEN):
     """Where the picture of a page is another one in a file, a line for each kind of place; empty where it is the same.
 
     Parameters
@@ -54,6 +54,8 @@ def disagreements(page, ours, theirs):
     page : Page
     ours, theirs : (h, w, 3) uint8 array
         As `page.pixels` draws it, and as another program shows the file.
+    even_limit : float
+        Of tiles in one colour.
     """
     if ours.shape != theirs.shape:
         return [f"{theirs.shape[1]} × {theirs.shape[0]} pixels, expected {ours.shape[1]} × {ours.shape[0]}"]
@@ -66,7 +68,7 @@ def disagreements(page, ours, theirs):
         "type": (with_type, TYPE),
         "edges": (~with_type & ~even, EDGES),
         "light": (even & lit, SHADED),
-        "one colour": (even & (not lit), EVEN),
+        "one colour": (even & (not lit), even_limit),
     }
     wrong = []
     for kind, (where, limit) in kinds.items():

@@ -15,12 +15,12 @@ from tests.render.test_pages import box, circle, lines
 BLACK, RED = (0.0, 0.0, 0.0, 1.0), (0.8, 0.1, 0.0, 1.0)
 
 
-def wrong_in_files(page, browser, folder, renderer="gl"):
+def wrong_in_files(page, browser, folder, renderer="gl", **limit):
     """Where the files of a page show something else than the page, a line each."""
     width = round(page.width / 72 * DPI)
     ours = page.pixels(size=width, renderer=renderer)
     found = shown_files(page, ours.shape, browser, folder)
-    return [f"{kind}: {what}" for kind, theirs in found.items() for what in disagreements(page, ours, theirs)]
+    return [f"{kind}: {what}" for kind, theirs in found.items() for what in disagreements(page, ours, theirs, **limit)]
 
 
 def shown_files(page, shape, browser, folder):
@@ -115,7 +115,7 @@ def everything():
 
 
 def test_files_show_each_kind_of_item(browser, tmp_path):
-    assert wrong_in_files(everything(), browser, tmp_path) == []
+    assert wrong_in_files(everything(), browser, tmp_path, even_limit=1.5) == []
 
 
 def test_files_show_the_light_of_balls(browser, tmp_path):
