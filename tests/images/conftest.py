@@ -23,6 +23,7 @@ def browser():
         def shown(file, width, height):
             page = running.new_page(viewport={"width": width, "height": height})
             try:
+                page.set_default_timeout(90_000)  # of a machine whose processors are all busy
                 page.goto(file.as_uri())
                 return np.asarray(Image.open(BytesIO(page.screenshot())).convert("RGB"))
             finally:

@@ -13,10 +13,13 @@ DPI = 600
 TILE = 16
 """Side of the tiles whose means are compared, pixels: programs smooth edges in ways of their own, which evens out."""
 
-EDGES, TYPE, EVEN, SHADED = 18.0, 20.0, 2.5, 6.0
-"""Levels of 255 by which the mean of a tile may differ. Found in all figures, at most: where there are edges, 15; where
-there is type, which matplotlib moves to whole pixels, 18; in one colour 2, where several lie one over the other; on
-pages with balls, whose light is a gradient in files, 5."""
+LARGE = {"type": 20.0, "edges": 12.0, "light": 4.5, "one colour": 1.5}
+"""Levels of 255 by which the mean of a tile may differ on a page of few and large items: matplotlib moves type to whole
+pixels, and the light of a ball is a gradient in files. Found are 16, 9, 4 and 1; lines a twentieth wider make 18."""
+
+FIGURES = {"type": 40.0, "edges": 32.0, "light": 6.5, "one colour": 2.5}
+"""The same of figures. Found are 32, 25, 5 and 2: PDFium has darker hairlines and small type, and colours lie over one
+another."""
 
 EVENLY = 6
 """Levels between the pixels of a tile, at most, where there is light and no edge."""
@@ -46,7 +49,7 @@ def by_pdfium(file, shape):
     return picture[:height, :width] if np.abs(np.subtract(picture.shape, shape)).max() <= 1 else picture
 
 
-def disagreements(page, ours, theirs, even_limit=EVEN):
+def disagreements(page, ours, theirs, limits=FIGURES):
     """Where the picture of a page is another one in a file, a line for each kind of place; empty where it is the same.
 
     Parameters
@@ -54,8 +57,8 @@ def disagreements(page, ours, theirs, even_limit=EVEN):
     page : Page
     ours, theirs : (h, w, 3) uint8 array
         As `page.pixels` draws it, and as another program shows the file.
-    even_limit : float
-        Of tiles in one colour.
+    limits : dict
+        Of the means of tiles, by what they show.
     """
     if ours.shape != theirs.shape:
         return [f"{theirs.shape[1]} × {theirs.shape[0]} pixels, expected {ours.shape[1]} × {ours.shape[0]}"]
@@ -65,14 +68,14 @@ def disagreements(page, ours, theirs, even_limit=EVEN):
     even = ~with_type & (spread <= EVENLY)
     lit = any(getattr(item, "ball", None) for item in page.items)
     kinds = {
-        "type": (with_type, TYPE),
-        "edges": (~with_type & ~even, EDGES),
-        "light": (even & lit, SHADED),
-        "one colour": (even & (not lit), even_limit),
+        "type": with_type,
+        "edges": ~with_type & ~even,
+        "light": even & lit,
+        "one colour": even & (not lit),
     }
     wrong = []
-    for kind, (where, limit) in kinds.items():
-        found = np.where(where, apart, 0.0)
+    for kind, where in kinds.items():
+        found, limit = np.where(where, apart, 0.0), limits[kind]
         if found.max() > limit:
             row, column = np.unravel_index(found.argmax(), found.shape)
             place = f"at column {TILE * column}, row {TILE * row}"

@@ -7,20 +7,20 @@ import pypdf
 
 from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.render.save import region_pictures, save_vector
-from tests.images.foreign import DPI, by_chromium, by_pdfium, disagreements
+from tests.images.foreign import DPI, FIGURES, LARGE, by_chromium, by_pdfium, disagreements
 from tests.images.scripts import cases, thorough_but_for
 from tests.render.test_light import disc, gradient_level
 from tests.render.test_pages import box, circle, lines
 
-BLACK, RED = (0.0, 0.0, 0.0, 1.0), (0.8, 0.1, 0.0, 1.0)
+BLACK, WHITE, RED = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0), (0.8, 0.1, 0.0, 1.0)
 
 
-def wrong_in_files(page, browser, folder, renderer="gl", **limit):
+def wrong_in_files(page, browser, folder, renderer="gl", limits=FIGURES):
     """Where the files of a page show something else than the page, a line each."""
     width = round(page.width / 72 * DPI)
     ours = page.pixels(size=width, renderer=renderer)
     found = shown_files(page, ours.shape, browser, folder)
-    return [f"{kind}: {what}" for kind, theirs in found.items() for what in disagreements(page, ours, theirs, **limit)]
+    return [f"{kind}: {what}" for kind, theirs in found.items() for what in disagreements(page, ours, theirs, limits)]
 
 
 def shown_files(page, shape, browser, folder):
@@ -86,10 +86,10 @@ def everything():
     ring = (box(0, 0.8, 0, 0.8), box(0.2, 0.6, 0.2, 0.6))
     veil = (0.0, 0.3, 0.0, 0.5)
     items = (
-        checkerboard(2.3, 2.0),
-        Picture((circle((3.6, 2.4), 0.4),), Checks()),
         Fill(tuple(part + [0.1, 1.1] for part in ring), (0.9, 0.6, 0.1, 0.4)),
         Fill((*(part + [0.3, 1.0] for part in ring), box(0.6, 0.8, 1.3, 1.5)), RED),
+        checkerboard(2.3, 2.0),
+        Picture((circle((3.6, 2.4), 0.4),), Checks()),
         fan((1.8, 1.5), 1.5 * np.pi, 0.35),
         fan((1.9, 1.5), 2.0 * np.pi, 0.4),
         Stroke(bent + [2.3, 1.1], RED, 2.0, dash=(6.0, 4.0), cap="butt"),
@@ -106,7 +106,9 @@ def everything():
         Label("North", (0.1, 4.0), (3.0, 4.0), align="left", valign="top", size=100.0, color=RED),
         Label(r"$\frac{\varphi}{2}$ and $\sqrt{2\pi}$", (4.4, 3.0), size=30.0, rotation=-10.0),
         Label("", (2.0, 0.7)),
-        Label("Lea & Anne", (6.1, 0.5), align="right", size=20.0, halo=4.0, halo_color=(0.9, 0.9, 0.7, 1.0)),
+        Label(
+            "Lea & Anne", (6.1, 0.5), align="right", size=20.0, color=WHITE, halo=4.0, halo_color=(0.1, 0.2, 0.6, 1.0)
+        ),
         Label("שלום", (5.4, 1.4), size=50.0),
         Label("سلام עולם", (5.4, 2.2), size=30.0),
     )
@@ -115,18 +117,18 @@ def everything():
 
 
 def test_files_show_each_kind_of_item(browser, tmp_path):
-    assert wrong_in_files(everything(), browser, tmp_path, even_limit=1.5) == []
+    assert wrong_in_files(everything(), browser, tmp_path, limits=LARGE) == []
 
 
 def test_files_show_the_light_of_balls(browser, tmp_path):
     """On a whole ball and on land; in SVG to a level as the gradient of the page says, by PDFium in 256 steps."""
-    ball, white = Ball((1.0, 1.0), 0.9), (1.0, 1.0, 1.0, 1.0)
+    ball = Ball((1.0, 1.0), 0.9)
     items = (
-        Fill((circle(ball.center, 0.9),), white, ball=ball),
+        Fill((circle(ball.center, 0.9),), WHITE, ball=ball),
         fan((3.0, 1.0), 1.3 * np.pi, 0.8, ball=Ball((3.0, 1.0), 0.9)),
     )
     page = Page((0.0, 4.0, 0.0, 2.0), items, width=144.0)
-    assert wrong_in_files(page, browser, tmp_path) == []
+    assert wrong_in_files(page, browser, tmp_path, limits=LARGE) == []
     x, y, inside = disc(540)
     for kind, theirs in shown_files(page, page.pixels(size=1200).shape, browser, tmp_path).items():
         found = theirs[30:570, 30:570, 0][inside]
