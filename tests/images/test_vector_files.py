@@ -30,7 +30,7 @@ def shown_files(page, shape, browser, folder):
     return {"svg": by_chromium(browser, svg, shape), "pdf": by_pdfium(pdf, shape)}
 
 
-@thorough_but_for("fig03_bubbles", "globe_europe")
+@thorough_but_for("fig03_bubbles", "fig11_fisheye4")
 def test_the_files_of_a_script_show_its_picture(script, browser, tmp_path):
     """Of a film that of its last frame."""
     case = cases(script)[-1]
