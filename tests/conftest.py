@@ -96,17 +96,21 @@ def keep_times(terminalreporter):
 STORED = Path(__file__).resolve().parent / "images" / "baselines"
 """Pictures of the image tests; the source archive has none."""
 
-REPOSITORY = ROOT / ".git"
-"""What git tracks is read as text; the source archive has no repository."""
-
-collect_ignore = []
-if not REPOSITORY.exists():
-    collect_ignore += ["test_tracked_text.py"]
-if not STORED.is_dir():
-    collect_ignore += [f"images/test_{name}.py" for name in ("figures", "mutations", "renderer_mutations")]
+collect_ignore = [] if STORED.is_dir() else ["images/test_figures.py"]
 
 WEB_SWITCH = "STEREODEL_TEST_WEB"
 """Where this variable of the environment is "off", tests that need a browser or Node are left out."""
+
+NEED_THE_SWITCH = {"browser", "visit", "node", "fresh_node"}
+"""The fixtures that start one."""
+
+
+def pytest_collection_modifyitems(config, items):
+    if os.environ.get(WEB_SWITCH) != "off":
+        return
+    off = [item for item in items if NEED_THE_SWITCH & set(getattr(item, "fixturenames", ()))]
+    config.hook.pytest_deselected(items=off)
+    items[:] = [item for item in items if item not in off]
 
 
 def pytest_terminal_summary(terminalreporter):
@@ -114,10 +118,7 @@ def pytest_terminal_summary(terminalreporter):
     keep_times(terminalreporter)
     if os.environ.get(WEB_SWITCH) == "off":
         terminalreporter.section("switched off")
-        terminalreporter.line(f"The tests of the interactive page were left out, because {WEB_SWITCH}=off.")
-    if not REPOSITORY.exists():
-        terminalreporter.section("no repository")
-        terminalreporter.line("The text of tracked files was not checked: there is no repository that tracks any.")
+        terminalreporter.line(f"Tests that need a browser or Node were left out, because {WEB_SWITCH}=off.")
     if not STORED.is_dir():
         terminalreporter.section("no stored pictures")
         terminalreporter.line(

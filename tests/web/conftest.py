@@ -11,7 +11,6 @@ page complained or asked another host for anything. `Visit` in tools/browser.py 
 
 import itertools
 import json
-import os
 import subprocess
 from contextlib import contextmanager
 from pathlib import Path
@@ -33,17 +32,6 @@ import {{ load }} from "{SCRIPT}/kernel/instance.ts";
 await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));
 """
 """How a module for Node begins that needs the kernel."""
-
-NEED_THE_SWITCH = {"browser", "visit", "node", "fresh_node"}
-
-
-def pytest_collection_modifyitems(config, items):
-    """Leave out what needs a browser or Node where that is switched off; tests/conftest.py says so in the summary."""
-    if os.environ.get("STEREODEL_TEST_WEB") != "off":
-        return
-    off = [item for item in items if NEED_THE_SWITCH & set(getattr(item, "fixturenames", ()))]
-    config.hook.pytest_deselected(items=off)
-    items[:] = [item for item in items if item not in off]
 
 
 @pytest.fixture(scope="session")
