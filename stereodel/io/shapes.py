@@ -153,7 +153,7 @@ def _parts(geometry: Any, where: str) -> Iterator[tuple[str, Any]]:
         return
     kind = kind_of(geometry)
     if kind == "GeometryCollection":
-        for part in geometry.get("geometries") or ():
+        for part in _listed(geometry.get("geometries") or (), kind, where):
             yield from _parts(part, where)
         return
     if kind not in KINDS:
@@ -162,10 +162,18 @@ def _parts(geometry: Any, where: str) -> Iterator[tuple[str, Any]]:
     if coordinates is None:
         raise ValueError(f"{where}: has a {kind} without coordinates")
     if kind == "Point":
-        coordinates = [coordinates] if len(coordinates) else []
-    for part in coordinates if kind in ("MultiLineString", "MultiPolygon") else [coordinates]:
-        if len(part):
+        coordinates = [coordinates] if len(_listed(coordinates, kind, where)) else []
+    for part in _listed(coordinates, kind, where) if kind in ("MultiLineString", "MultiPolygon") else [coordinates]:
+        if len(_listed(part, kind, where)):
             yield kind, part
+
+
+def _listed(value: Any, kind: str, where: str) -> Any:
+    """The same, a sequence of any kind; ValueError for what has no order."""
+    if hasattr(value, "__len__") and not isinstance(value, Mapping | str):
+        return value
+    inside = "geometries" if kind == "GeometryCollection" else "coordinates"
+    raise ValueError(f"{where}: has a {kind} whose {inside} are {value!r:.40}, which is no list; see RFC 7946")
 
 
 def _positions(positions: Any, kind: str, where: str) -> FloatArray:
