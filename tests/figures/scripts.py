@@ -7,6 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.images.scripts import case
+
 FOLDER = Path(__file__).parents[2] / "figures"
 FIGURES = tuple(path.stem for path in sorted(FOLDER.glob("fig*.py")))
 CLAIMS = tuple(path.stem for path in sorted(FOLDER.glob("claim_*.py")))
@@ -23,14 +25,13 @@ def script(name):
         sys.path.remove(str(FOLDER))
 
 
-@cache
 def geometry(name):
-    return script(name)["FIGURE"].geometry()
+    return case(name).geometry
 
 
-@cache
 def page(name):
-    return script(name)["FIGURE"].page()
+    """Drawn once a process, also where the tests of images draw it."""
+    return case(name).page
 
 
 def arc_points(rows, steps=33):

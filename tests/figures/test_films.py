@@ -53,7 +53,7 @@ def test_the_fisheye_stops_at_the_numbers_of_figures_10_to_12():
         assert np.array_equal(gray.start, expected.start)
         assert np.array_equal(gray.axis, expected.axis)
         assert all(looks[name].color[3] == 1 for name in drawn)
-        assert f"graticule {stage.coarse}°" in text
+        assert f"Figure { {1: 10, 4: 11, 20: 12}[stage.magnification] }: graticule {stage.coarse}°" in text
         assert text.endswith(f"fine grid {'½' if stage.fine == 0.5 else stage.fine}°")
 
 
