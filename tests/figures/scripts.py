@@ -6,7 +6,6 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-import pytest
 
 from tests.images.scripts import case
 
@@ -33,12 +32,6 @@ def geometry(name):
 def page(name):
     """Drawn once a process, also where the tests of images draw it."""
     return case(name).page
-
-
-def by_day(names, *some):
-    """Names as parameters: the tests of some run by day, those of all others are thorough."""
-    assert set(some) <= set(names)
-    return [name if name in some else pytest.param(name, marks=pytest.mark.thorough) for name in names]
 
 
 def arc_points(rows, steps=33):

@@ -19,7 +19,8 @@ from stereodel import (
 from stereodel.drawing import Dots, Fill, Label, Stroke, View
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import check_delaunay
-from tests.figures.scripts import FIGURES, ROWS, arc_points, by_day, geometry, page, path_points, script
+from tests.figures.scripts import FIGURES, ROWS, arc_points, geometry, page, path_points, script
+from tests.tiers import by_day
 from tools.image import ink_boxes
 
 

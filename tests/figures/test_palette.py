@@ -14,7 +14,8 @@ from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Fill, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.scales import usual_scale
 from stereodel.drawing.style import DOTS, LINES, MAP_LINES, fainter
-from tests.figures.scripts import FIGURES, FOLDER, by_day, page, path_points, script
+from tests.figures.scripts import FIGURES, FOLDER, page, path_points, script
+from tests.tiers import by_day
 
 MAPS = ("globe_europe", "globe_tissot")
 SCRIPTS = sorted(path.stem for kind in ("earth", "globe", "sky") for path in FOLDER.glob(f"{kind}_*.py"))

@@ -6,7 +6,8 @@ import pytest
 from stereodel.drawing import styled
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page_styles import COLUMN, SLIDE
-from tests.figures.scripts import FIGURES, by_day, page
+from tests.figures.scripts import FIGURES, page
+from tests.tiers import by_day
 
 MAPS = ("globe_europe", "globe_tissot")
 by_name = pytest.mark.parametrize("name", by_day([*FIGURES, *MAPS], "fig03_bubbles", "globe_tissot"))
