@@ -6,8 +6,7 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
-from hypothesis import strategies as st
+from hypothesis import example, given
 
 from stereodel import MoebiusMap, SphericalDelaunay, SphericalVoronoi, data, fisheye, lonlat_to_xyz
 from stereodel.curves.clip import signed_areas
@@ -18,14 +17,16 @@ from stereodel.drawing.style import WHITE
 from stereodel.globe import Globe, Panel, hemispheres, panels
 from stereodel.render.rows import LabelLayer
 from stereodel.sphere import SphereCircle
+from tests import sets
+from tests.examples import examples
+from tests.globe.sights import disc, places, sizes, views
+from tests.tiers import by_day
 
 PARIS = (2.35, 48.86)
 FOUR = SphericalVoronoi(np.concatenate([np.eye(3), [[-1.0, -1.0, -1.0]]]))
 
-views = st.one_of(
-    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
-    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
-)
+
+VIEWS = [View(*PARIS), StereographicView(*PARIS, angular_radius=150)]
 
 
 def items_of(page, kind):
@@ -36,10 +37,8 @@ def area_of(polygons):
     return signed_areas(polygons.loops)[0].sum()
 
 
-@settings(deadline=None, max_examples=15)
-@given(
-    focus=st.tuples(st.floats(-180, 180), st.floats(-90, 90)), size=st.floats(-1, 3).map(lambda e: 10.0**e), view=views
-)
+@examples(0.5)
+@given(focus=places, size=sizes(-1, 3), view=views)
 @example(focus=(0.0, 2.5), size=1.0, view=View(112.0, 0.0))  # a pole on the rim
 def test_paper_and_pixels_fill_the_same_land(focus, size, view):
     """What the loops bound is what the triangles cover, each place once, and within the disc."""
@@ -54,8 +53,8 @@ def test_paper_and_pixels_fill_the_same_land(focus, size, view):
         assert (np.hypot(*(land.points - 1.03).T) <= 1 + 1e-9).all()
 
 
-@pytest.mark.parametrize("size", [1.0, 20.0, 1000.0])
-@pytest.mark.parametrize("view", [View(*PARIS), StereographicView(*PARIS, angular_radius=150)])
+@pytest.mark.parametrize("size", by_day([1.0, 20.0, 1000.0], 20.0))
+@pytest.mark.parametrize("view", VIEWS)
 def test_circles_are_drawn_on_the_exact_circle(size, view):
     """Corners of the image of a circle are on the circle that the map's own image is, in space."""
     lens = fisheye(PARIS, magnification=size)
@@ -167,17 +166,12 @@ def test_few_colours_are_paths_and_many_are_a_picture():
 
 
 def test_the_cells_of_a_diagram_cover_the_disc():
-    """All cells add up to the disc, under lens and view, each place once: also what is see-through."""
-    voronoi = SphericalVoronoi(np.random.default_rng(3).normal(size=(200, 3)))
+    """Each place once: also what is see-through."""
+    voronoi = SphericalVoronoi(sets.sphere("random").drawn(200))
     globe = Globe(ocean=WHITE)
     globe.add_cells(voronoi, colors=np.tile([0.2, 0.4, 0.6, 0.5], (200, 1)), style=None)
-    for view in (View(10, 20), StereographicView(-50, -60, angular_radius=130)):
-        page = globe.page(fisheye(PARIS, magnification=10.0), view)
-        (cells,) = items_of(page, Polygons)
-        assert area_of(cells) == pytest.approx(np.pi, rel=1e-4)
-    picture = page.pixels(size=300)
-    x = (np.arange(300) + 0.5) * 2.06 / 300 - 1.03
-    inside = np.hypot(x, x[:, None]) < 0.98
+    picture = globe.page(fisheye(PARIS, magnification=10.0), VIEWS[1]).pixels(size=300)
+    inside = np.linalg.norm(1.03 * disc(300), axis=-1) < 0.98
     assert np.abs(picture[inside] - 255 * (np.array([0.2, 0.4, 0.6]) + 1) / 2).max() <= 1
 
 
@@ -191,34 +185,17 @@ def test_triangulations_are_drawn_without_their_far_side():
     assert len(lines.offsets) - 1 == len(triangulation.edges)
 
 
-def test_layers_of_files_keep_their_colours():
-    collection = {
-        "type": "FeatureCollection",
-        "features": [
-            {
-                "type": "Feature",
-                "properties": {"value": value},
-                "geometry": {"type": "Polygon", "coordinates": [[[x, 0], [x + 5, 0], [x + 5, 5], [x, 5], [x, 0]]]},
-            }
-            for x, value in ((0, 1.0), (10, 2.0), (20, None))
-        ]
-        + [
-            {
-                "type": "Feature",
-                "properties": {},
-                "geometry": {"type": "LineString", "coordinates": [[0, 20], [9, 20]]},
-            },
-            {"type": "Feature", "properties": {}, "geometry": {"type": "Point", "coordinates": [0, -20]}},
-        ],
-    }
+def test_layers_have_geometries_of_every_kind():
+    square = [[[0, 0], [5, 0], [5, 5], [0, 5], [0, 0]]]
+    kinds = {"Polygon": square, "LineString": [[0, 20], [9, 20]], "Point": [0, -20]}
+    features = [
+        {"type": "Feature", "properties": {}, "geometry": {"type": kind, "coordinates": coordinates}}
+        for kind, coordinates in kinds.items()
+    ]
     globe = Globe()
-    globe.add_layer(collection, column="value", color=(0.1, 0.1, 0.1, 1.0))
+    globe.add_layer({"type": "FeatureCollection", "features": features}, color=(0.1, 0.1, 0.1, 1.0))
     page = globe.page()
-    colors = [tuple(color) for item in items_of(page, Polygons) for color in item.by_color[0].tolist()]
-    assert len(colors) == 3
-    assert (0.1, 0.1, 0.1, 1.0) in colors
-    assert len(items_of(page, Polylines)) == 2
-    assert len(items_of(page, Dots)) == 1
+    assert [len(items_of(page, kind)) for kind in (Polygons, Polylines, Dots)] == [1, 2, 1]
 
 
 def test_globes_can_be_pickled():

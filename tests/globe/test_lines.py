@@ -14,26 +14,15 @@ from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.sphere import SphereArc, SphereCircle
 from stereodel.sphere.vectors import turned
+from tests.globe.sights import distance, places, sizes, views
 
 NONE = MoebiusMap.identity()
-places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
-views = st.one_of(
-    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
-    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
-)
-
-
-def distance_to_polyline(truth, points):
-    a, way = points[:-1], np.diff(points, axis=0)
-    share = np.sum((truth[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300)
-    near = a + np.clip(share, 0.0, 1.0)[..., None] * way
-    return np.linalg.norm(truth[:, None] - near, axis=-1).min(axis=1)
 
 
 @given(
     start=places,
     step=st.tuples(st.floats(-179, 179), st.floats(-90, 90)),
-    size=st.floats(-2, 2).map(lambda e: 10.0**e),
+    size=sizes(-2, 2),
     focus=places,
 )
 def test_edges_are_straight_in_longitude_and_latitude(start, step, size, focus):
@@ -44,23 +33,20 @@ def test_edges_are_straight_in_longitude_and_latitude(start, step, size, focus):
     share = np.linspace(0, 1, 500)[:, None]
     truth = lens(lonlat_to_xyz(np.array(start) + share * (np.array(end) - start)))
     assert offsets.tolist() == [0, len(points)]
-    assert len(points) == 1 or distance_to_polyline(truth, points).max() <= 1.2e-3
+    assert len(points) == 1 or distance(truth, points).max() <= 1.2e-3
 
 
 def test_jumps_across_the_antimeridian_go_the_short_way():
+    """From one side of it to the other there is no way at all."""
     lines = SphereLines.straight_in_lonlat([[(170, 10), (-170, 12), (-160, 12)], [(-179, 0), (179, 0)]])
     points, offsets = lines.through(NONE, tolerance=1e-3)
-    lon = np.abs(xyz_to_lonlat(points)[:, 0])
-    assert lon.min() > 159.9
+    assert np.abs(xyz_to_lonlat(points)[:, 0]).min() > 159.9
     assert len(offsets) == 3
-
-
-def test_from_one_side_of_the_antimeridian_to_the_other_is_no_way():
     points, _ = SphereLines.straight_in_lonlat([[(180, 10), (-180, 10), (-170, 10)]]).through(NONE, tolerance=1e-3)
     assert np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < np.radians(10)
 
 
-@given(start=places, end=places, focus=places, size=st.floats(-2, 6).map(lambda e: 10.0**e), view=views)
+@given(start=places, end=places, focus=places, size=sizes(-2, 6), view=views)
 def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, view):
     """All of the image in the disc is near what is drawn, and what is drawn is near the image."""
     a, b = lonlat_to_xyz([start, end])
@@ -76,7 +62,7 @@ def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, v
         assert len(truth) == 0 or np.ptp(truth, axis=0).max() < 1e-2
         return
     assert (np.hypot(*seen.values.T) <= 1 + 1e-9).all()
-    gaps = np.min([distance_to_polyline(truth, line) for line in seen], axis=0) if len(truth) else np.zeros(1)
+    gaps = np.min([distance(truth, line) for line in seen], axis=0) if len(truth) else np.zeros(1)
     assert gaps.max() <= 2.2e-3
     # Ends are ends of the image, or on the rim.
     ends = np.concatenate([seen.values[seen.offsets[:-1]], seen.values[seen.offsets[1:] - 1]])
@@ -121,7 +107,7 @@ def test_arcs_of_circles_are_followed_whole():
     np.testing.assert_allclose(points @ image.normal, image.offset, atol=1e-12)
     assert offsets.tolist() == [0, len(points)]
     assert (points[0] == points[-1]).all()
-    assert distance_to_polyline(image.sample(2000), points).max() < 1e-4
+    assert distance(image.sample(2000), points).max() < 1e-4
 
 
 @given(st.integers(0, 1000), st.floats(0.01, 1.0))
@@ -154,4 +140,4 @@ def test_long_edges_through_a_strong_lens_are_exact_and_few_pieces(size, latitud
         near = 0.5 + np.array([-1, 1])[:, None] * np.geomspace(0.5, 1e-3 / size, 40)
         truth = lens(lonlat_to_xyz(start + np.sort(near.ravel())[:, None] * (end - start), latitude=latitude))
         drawn = own.through(lens).sampled(tolerance / 2).values
-        assert distance_to_polyline(truth, drawn).max() <= tolerance + 4e-16 * size  # the rounding of the places
+        assert distance(truth, drawn).max() <= tolerance + 4e-16 * size  # the rounding of the places
