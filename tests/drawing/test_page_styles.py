@@ -7,7 +7,7 @@ import pytest
 
 from stereodel.drawing import Page, Sketch, styled
 from stereodel.drawing.label import label_box
-from stereodel.drawing.page import Dots, Label, Polylines, Stroke
+from stereodel.drawing.page import Dots, Label, Stroke
 from stereodel.drawing.page_styles import COLUMN, GROUND, StyledDraw, as_styles, dark_page
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
@@ -119,12 +119,6 @@ def test_spaces_of_a_line_that_is_not_broken_stay():
     assert styled(page(spaced, extent=(-2.0, 2.0, -1.5, 1.5)), "column").labels[0].text == spaced.text
 
 
-def test_the_picture_is_in_the_middle_of_a_slide_whatever_stands_beside():
-    words = Label(LONG, (-0.9, 1.2), align="left", valign="baseline", size=9.0)
-    left, right, _, _ = styled(page(words, extent=(-1.0, 1.0, -1.5, 1.5)), "slide").extent
-    assert left + right == pytest.approx(0.0, abs=1e-9)
-
-
 def test_type_in_the_picture_moves_aside_and_none_covers_another():
     words = [Label(f"word {k}", (0.05 * k, 0.0), (3.0, 0.0), "left") for k in range(4)]
     before = page(*words, extent=(-2.0, 2.0, -1.0, 1.0))
@@ -187,12 +181,6 @@ def test_type_turned_is_held_by_its_turned_box():
     flat = styled(page(Label("a long word upright", (-1.95, 0.0))), "column")
     assert flat.labels[0].offset[0] > 10
     assert outside(flat) == []
-
-
-def test_polylines_change_as_strokes_do():
-    lines = Polylines(np.array([[0.0, 0.0], [1.0, 0.5]]), np.array([0, 2]), BLACK, 1.0)
-    column = styled(Page((0.0, 1.0, 0.0, 1.0), (lines,), 17 * CM), "column")
-    assert column.items[0].width == styled(page(), "column").items[0].width
 
 
 def test_the_order_of_styles_does_not_matter():

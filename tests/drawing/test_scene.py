@@ -206,16 +206,6 @@ def test_layout_is_repeatable_and_leaves_no_trace():
     assert all(np.array_equal(first[key], again[key]) for key in first)
 
 
-def test_input_is_not_modified():
-    points = lonlat_to_xyz([(0, 0), (10, 50)]) * 3
-    before = points.copy()
-    scene = Scene(radius=2.0)
-    scene.add_points(points)
-    scene.add_edges(points, [[0, 1]], name="delaunay")
-    scene.layout(FRONT)
-    assert np.array_equal(points, before)
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -240,11 +230,3 @@ def test_input_is_not_modified():
 def test_bad_input_is_named(call, message):
     with pytest.raises(ValueError, match=message):
         call(Scene())
-
-
-def test_a_layer_of_ones_own_lifts_lines_inside_a_glass_ball_over_the_tints():
-    scene = Scene(style="glass")
-    scene.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1])
-    scene.add_segments([[1.0, 0, 0]], [[0, 1.0, 0]], name="chord", layer=Layer.LINE)
-    found = names(scene.layout(View(45, 35)))
-    assert found.index("chord") > found.index("triangle")

@@ -157,6 +157,7 @@ def test_the_triangulation_of_the_lift_never_changes():
 # The flight
 
 
+@pytest.mark.thorough
 def test_names_fade_and_legs_join():
     module = script("anim_flight")
     film = module["film"]()

@@ -10,7 +10,6 @@ import pytest
 from scipy.spatial import SphericalVoronoi, cKDTree
 
 from stereodel import data, earth, fisheye
-from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
 from stereodel.sphere import lonlat_to_xyz
 from tests.figures.scripts import arc_points, geometry, page, script
 
@@ -170,14 +169,6 @@ def test_the_hemisphere_of_new_york():
     own = script("globe_new_york")["lens_of"](geometry("globe_new_york")["radius"])
     assert own.is_close(lens, tolerance=1e-9)
     assert million == "10"
-
-
-def test_names_at_leaders_have_the_ground_under_their_words():
-    halos = {label.text: label.halo_color for label in page("globe_new_york").labels if label.halo}
-    for name in script("globe_new_york")["FAR"]:
-        ground = MAP_FILLS["land" if name == "California" else "ocean"]
-        assert halos[name] == pytest.approx((*ground[:3], HALO_OPACITY), abs=1e-3), name
-    assert len({halos[name][:3] for name in ("Staten Island", "Philadelphia")}) == 1  # across a coast: neither's
 
 
 def test_circles_and_bar_have_the_lengths_that_they_say():

@@ -8,7 +8,6 @@ from hypothesis import strategies as st
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
 from stereodel.curves import trace
 from stereodel.curves.ragged import Ragged, thinned
-from stereodel.curves.trace import Edges
 from stereodel.drawing.view import StereographicView, View
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
@@ -78,25 +77,6 @@ def test_lines_out_of_sight_leave_nothing():
         assert seen.values.shape == (0, 2)
         assert len(seen) == 0
     assert len(Chart(NONE, View(0, 0)).lines(SphereLines.straight_in_lonlat([]))) == 0
-
-
-@pytest.mark.parametrize("size", [1.0, 30.0, 1e6])
-@pytest.mark.parametrize("view", [View(2, 48), View(60, 10), StereographicView(2, 48, angular_radius=140)])
-def test_edges_that_are_left_out_are_out_of_sight(size, view, monkeypatch):
-    rng = np.random.default_rng(1)
-    walks = np.cumsum(rng.normal(scale=3.0, size=(40, 30, 2)), axis=1) + rng.uniform(-90, 90, (40, 1, 2))
-    walks[::2, -1] = walks[::2, 0]
-    walks[:9] = walks[:9] * 10.0 ** -np.arange(9)[:, None, None] + [2, 48]
-    walks[..., 1] = np.clip(walks[..., 1], -90, 90)
-    lines = SphereLines.straight_in_lonlat(walks)
-    chart = Chart(fisheye((2.0, 48.0), magnification=size), view)
-    some = chart.lines(lines)
-    near = lines.edges.within(chart.source.center, chart._reach).mean()
-    monkeypatch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
-    whole = chart.lines(lines)
-    np.testing.assert_array_equal(some.values, whole.values)
-    np.testing.assert_array_equal(some.offsets, whole.offsets)
-    assert near < 0.9 or size == 1
 
 
 def test_arcs_of_circles_are_followed_whole():

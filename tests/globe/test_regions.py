@@ -166,9 +166,11 @@ def test_edges_that_are_left_out_are_out_of_sight(focus, size, view, name):
     chart = Chart(fisheye(focus, magnification=size), view)
     regions = SphereRegions.of_lonlat([[BOXES[name][0]]])
     some, _ = chart.regions(regions)
+    lines = chart.lines(regions.outlines)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
         whole, _ = chart.regions(regions)
+        np.testing.assert_array_equal(lines.values, chart.lines(regions.outlines).values)
     np.testing.assert_array_equal(some.values, whole.values)
 
 
