@@ -65,18 +65,15 @@ def test_the_fonts_of_the_machine_stand_in(monkeypatch, no_other_fonts):
     assert families_of(Label(f"東京 {HEBREW}", (0.0, 0.0))) == [STIX, SHIPPED, CJK]
 
 
-def test_fonts_that_are_not_there():
+def test_fonts_that_are_none(tmp_path):
+    (tmp_path / "a.ttf").write_text("no font")
+    with pytest.raises(ValueError, match="not a font that can be read"):
+        as_font(tmp_path / "a.ttf")
     with pytest.raises(ValueError, match=r"'DejaVu Sanz', which this machine does not have \(similar: DejaVu Sans"):
         as_font("DejaVu Sanz")
     with pytest.raises(FileNotFoundError, match=r"nowhere\.ttf is not there"):
         Globe(font="nowhere.ttf")
     assert as_font(["Nowhere", Path(CJK)]) == ("Nowhere", CJK)
-
-
-def test_a_file_that_is_no_font(tmp_path):
-    (tmp_path / "a.ttf").write_text("no font")
-    with pytest.raises(ValueError, match="not a font that can be read"):
-        as_font(tmp_path / "a.ttf")
 
 
 def test_one_warning_a_file_names_the_characters(tmp_path, no_other_fonts):

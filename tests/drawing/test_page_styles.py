@@ -8,7 +8,7 @@ import pytest
 from stereodel.drawing import Page, Sketch, styled
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Label, Stroke
-from stereodel.drawing.page_styles import COLUMN, GROUND, StyledDraw, as_styles, dark_page
+from stereodel.drawing.page_styles import GROUND, StyledDraw, as_styles, dark_page
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
 CM = 72 / 2.54
@@ -79,12 +79,6 @@ def test_what_is_measured_in_points_changes_with_the_medium():
     assert large.labels[0].size == pytest.approx(1.15 * 18 * growth)
 
 
-def test_type_in_a_column_is_not_below_seven_points():
-    column = styled(page(Label("small", (0.0, 0.0), (2.0, 0.0), size=5.0, align="left")), "column")
-    assert column.labels[0].size == COLUMN.least_type == 7.0
-    assert column.labels[0].offset == pytest.approx((2.0 * 7 / 5, 0.0))
-
-
 def test_long_lines_are_broken_and_the_page_grows():
     left, right, bottom, top = -2.0, 2.0, -1.5, 1.5
     title = Label("A title", (left + 0.1, 1.35), align="left", valign="baseline", size=17.0)
@@ -127,13 +121,6 @@ def test_type_in_the_picture_moves_aside_and_none_covers_another():
     assert overlapping(column) == []
     assert column.labels[0].offset == pytest.approx((3.0 * 7 / 9, 0.0))
     assert len(column.labels) >= 3
-
-
-def test_what_has_no_room_is_left_out():
-    words = [Label("the same", (0.0, 0.0)) for _ in range(40)]
-    column = styled(page(*words), "column")
-    assert 2 <= len(column.labels) < 40
-    assert overlapping(column) == []
 
 
 def test_type_that_is_clear_of_lines_stays_so():

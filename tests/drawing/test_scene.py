@@ -8,7 +8,7 @@ from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.space_curves import CircleArc
-from stereodel.drawing.style import DOTS, LINES, LineStyle
+from stereodel.drawing.style import LINES, LineStyle
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
 
@@ -68,34 +68,12 @@ def test_without_a_ball_nothing_is_hidden():
     assert all(item.closed == arc.closed for item, arc in zip(items, graticule(30), strict=True))
 
 
-def test_graticule_on_the_page_is_that_of_the_sphere():
-    """Every drawn point, put back on the sphere, lies on its circle; and ends lie on the limb or at the poles."""
-    scene = Scene()
-    scene.add_circles([SphereCircle.around((0, 90), 60)])
-    view = View(0, 20)
-    [stroke] = of(scene.layout(view), Stroke, "circle")
-    on_page = stroke.path[:, 0]
-    on_sphere = np.column_stack([on_page, np.sqrt(1 - np.sum(on_page**2, axis=1))]) @ view.matrix
-    assert np.allclose(on_sphere[1:, 2], 0.5, rtol=0, atol=1e-9)
-
-
 def test_at_and_scale_place_the_origin():
     scene = Scene(radius=2.0, center=(0.0, 0.0, 2.0))
     [limb] = of(scene.layout(View(0, 0), at=(10.0, 20.0), scale=0.5), Stroke, "limb")
     points = limb.path[:, 0]
     assert np.allclose(points.mean(axis=0), [10.0, 21.0])
     assert np.allclose(np.hypot(*(points - [10.0, 21.0]).T), 1.0)
-
-
-def test_rays_are_cut_by_the_ball():
-    scene = Scene()
-    scene.add_segments([0.0, 0.0, 1.0], [[1.5, 0.0, -1.0], [0.0, -1.5, -1.0]], name="ray")
-    items = scene.layout(View(-90, 10))
-    outside = of(items, Stroke, "ray")
-    assert len(outside) == 2
-    limb_at = names(items).index("limb")
-    beside, front = names(items).index("ray"), len(items) - 1
-    assert beside < limb_at < front
 
 
 def test_a_plane_below_the_ball_is_painted_first_and_from_below_last():
@@ -184,15 +162,6 @@ def test_style_and_layer_can_be_given():
     items = scene.layout(FRONT)
     assert names(items) == ["ball", "limb", "mine"]
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
-
-
-def test_weight_scales_lines_and_dots():
-    scene = Scene(weight=0.5)
-    scene.add_circles([SphereCircle.around((0, 90), 30)])
-    scene.add_points([[0, 0, 1]])
-    _, circle, limb, dots = scene.layout(FRONT)
-    assert (circle.width, limb.width) == (LINES["circle"].width / 2, LINES["limb"].width / 2)
-    assert (dots.radius, dots.rim_width) == (DOTS["sites"].radius / 2, DOTS["sites"].rim_width / 2)
 
 
 def test_layout_is_repeatable_and_leaves_no_trace():

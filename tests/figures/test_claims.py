@@ -2,7 +2,6 @@
 
 import sys
 from colorsys import rgb_to_hsv
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -154,15 +153,6 @@ def test_figure_5_marks_right_angles_between_planes_and_diameters():
         assert np.allclose(np.cross(on_diameter, tangent), 0, atol=1e-15)
         assert np.linalg.norm(on_diameter) < 1
         assert np.allclose(corner - on_plane, on_diameter - tangent)
-
-
-def test_figure_5_draws_both_centres_of_projection_alike():
-    module, drawn = script("fig05_projections"), page("fig05_projections")
-    first, second = [item for item in drawn.items if item.name == "ring"]
-    assert (first.radius, first.color, first.rim) == (second.radius, second.color, second.rim)
-    for number, (name, dot) in enumerate(zip(module["PANELS"], (first, second), strict=True)):
-        center = module["VIEW"].project(-geometry("fig05_projections")[f"{name}_tangent"])
-        assert np.allclose(dot.centers, center + [number * module["PITCH"], 0])
 
 
 @pytest.mark.parametrize("name", by_day(FIGURES, "fig05_projections", "fig09_scale"))
@@ -355,33 +345,6 @@ def test_fine_region_is_hidden_in_panels_3_and_5_and_seen_whole_in_panel_4(name)
     assert not visible[2].any()
     assert not visible[4].any()
     assert visible[3].all()
-
-
-@pytest.mark.parametrize("name", by_day(ROWS, "fig12_fisheye20"))
-def test_nothing_is_solid_gray(name):
-    """Where a line of a grid is drawn its neighbours leave two widths of white: nothing outlasts that much erosion."""
-    drawn = page(name)
-    grids = tuple(item for item in drawn.items if item.name in ("graticule", "fine"))
-    ink = replace(drawn, items=grids).pixels(size=4096, renderer="agg").min(axis=-1) < 200
-    # Squares of 1.1 points, more than four lines wide, that are inked all over.
-    side = round(1.1 * 4096 / drawn.width)
-    sums = np.pad(ink, ((1, 0), (1, 0))).cumsum(axis=0).cumsum(axis=1)
-    full = sums[side:, side:] - sums[:-side, side:] - sums[side:, :-side] + sums[:-side, :-side] == side**2
-    assert not full.any()
-
-
-def test_the_focus_is_in_the_same_spot_of_each_column():
-    drawn, module = page("fig10_12_plate"), script("fig10_12_plate")
-    dots = np.concatenate([item.centers for item in drawn.items if item.name == "focus"])
-    limbs = np.array([path_points(item.path).mean(axis=0) for item in drawn.items if item.name == "limb"])
-    assert len(limbs) == 15
-    assert len(dots) == 9
-    nearest = np.linalg.norm(dots[:, None] - limbs[None], axis=-1).argmin(axis=1)
-    offsets = (dots - limbs[nearest]).reshape(3, 3, 2)
-    assert np.allclose(offsets, offsets[:1], atol=1e-3)
-    focus = lonlat_to_xyz(module["FOCUS"])
-    expected = [view.project(focus) for view in module["VIEWS"] if view.depth(focus) > 0]
-    assert np.allclose(offsets[0], expected, atol=1e-3)
 
 
 def test_figure_13_measures_d_and_relates_the_latitudes():

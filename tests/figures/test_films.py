@@ -77,19 +77,6 @@ def test_the_scale_tells_the_magnification():
         assert centers(page(float(size)), "points")[0, 0] == pytest.approx(ticks[str(size)])
 
 
-def test_no_words_pass_by_that_nobody_can_read():
-    """On the way from one pause to the next no words are seen but theirs."""
-    module = script("anim_fisheye")
-    lines = dict.fromkeys(module["grids"](), ())
-    written = {
-        shot[1]: {label.text for label in labels(module["frame"](shot, lines)) if "Figure" in label.text}
-        for shot, _ in module["moments"]()
-        if 3.5 < shot[0] < 4.5
-    }
-    assert written.pop((20.0, 1.0)) == set()
-    assert all(len(texts) == 1 for texts in written.values())
-
-
 # The hull
 
 

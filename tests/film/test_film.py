@@ -1,7 +1,6 @@
 """Films: what is drawn is what is written, an interruption costs nothing, and what fails is named."""
 
 import os
-import pickle
 import re
 import signal
 import subprocess
@@ -313,8 +312,3 @@ def test_a_kept_frame_that_cannot_be_read_is_named(balls, out):
     with pytest.raises(OSError, match=rf"{frame.name} cannot be read .*remove it and try again"):
         replace(film, shots=[1.0]).save(out / "balls.gif", jobs=1, progress=False)
     assert not (out / "balls.gif").exists()
-
-
-def test_films_can_be_pickled(balls):
-    film = pickle.loads(pickle.dumps(Film(balls.ball, (1.0, 2.0), size=80)))
-    assert np.array_equal(film.picture(1), Film(balls.ball, (2.0,), size=80).picture(0))

@@ -143,13 +143,6 @@ def test_whatever_changes_is_seen(tmp_path_factory, ending, data):
     assert np.abs(frames.astype(int) - reel).max() <= (2 if ending == "gif" else 0)
 
 
-def test_a_gif_of_a_million_colours_is_near_them(tmp_path):
-    y, x = np.mgrid[0:256, 0:256]
-    reel = [np.stack([x, y, np.full_like(x, blue)], axis=-1).astype(np.uint8) for blue in (0, 100, 200)]
-    frames, _, _ = read(save(reel, tmp_path / "many.gif"))
-    assert np.abs(frames.astype(int) - reel).mean() < 14
-
-
 def test_what_a_gif_shows_long_has_its_colours(tmp_path):
     """A still among hundreds of frames that move keeps its tints, wherever it stands."""
     rows, columns = np.mgrid[:16, :16]
@@ -170,12 +163,6 @@ def test_what_a_gif_shows_long_has_its_colours(tmp_path):
 def test_times_add_up(count, rate, per_second):
     ticks = whole_ticks(frame_seconds(1 / rate, count), per_second)
     assert np.abs(np.cumsum(ticks) / per_second - np.arange(1, count + 1) / rate).max() <= 0.5 / per_second + 1e-9
-
-
-@pytest.mark.parametrize("ending", ["jpg", "", "avi"])
-def test_other_endings_are_refused(tmp_path, ending):
-    with pytest.raises(ValueError, match=r"path must end in \.gif, \.png, \.apng, \.webp, \.mp4"):
-        save(REEL, tmp_path / f"moving.{ending}")
 
 
 @pytest.mark.parametrize("ending", [*LOOPING, "mp4"])

@@ -243,14 +243,6 @@ def test_latitudes_are_those_of_the_globe():
         assert dots.centers[0, 1] - 1.03 == pytest.approx(expected, abs=1e-12)
 
 
-def test_labels_are_what_they_were():
-    globe = Globe()
-    globe.add_labels([PARIS], ["Paris"], offset=(-3.0, 0.0), size=7.0)
-    (label,) = globe.page().labels
-    assert isinstance(label, Label)
-    assert (label.align, label.valign, label.offset, label.size) == ("right", "center", (-3.0, 0.0), 7.0)
-
-
 def test_a_halo_has_the_colour_that_is_asked_for():
     """In pixels, and in what the first net compares; a white one adds nothing there."""
     globe = Globe()

@@ -6,12 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
-from stereodel.curves import trace
 from stereodel.curves.ragged import Ragged, thinned
 from stereodel.drawing.view import StereographicView, View
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
-from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere import SphereArc
 from stereodel.sphere.vectors import turned
 from tests.globe.sights import distance, places, sizes, views
 
@@ -77,17 +76,6 @@ def test_lines_out_of_sight_leave_nothing():
         assert seen.values.shape == (0, 2)
         assert len(seen) == 0
     assert len(Chart(NONE, View(0, 0)).lines(SphereLines.straight_in_lonlat([]))) == 0
-
-
-def test_arcs_of_circles_are_followed_whole():
-    circle = SphereCircle.around((20.0, 30.0), 25.0)
-    lens = fisheye((10.0, 20.0), magnification=5.0)
-    points, offsets = SphereLines.alone(trace.exact([SphereArc.whole(circle)])).through(lens, tolerance=1e-4)
-    image = lens.image_of(circle)
-    np.testing.assert_allclose(points @ image.normal, image.offset, atol=1e-12)
-    assert offsets.tolist() == [0, len(points)]
-    assert (points[0] == points[-1]).all()
-    assert distance(image.sample(2000), points).max() < 1e-4
 
 
 @given(st.integers(0, 1000), st.floats(0.01, 1.0))

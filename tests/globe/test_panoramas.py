@@ -7,6 +7,7 @@ from stereodel import fisheye, xyz_to_lonlat
 from stereodel.drawing.view import View
 from stereodel.globe import Raster
 from tests.globe.supersampling import checkerboard, grid, interpolated, noise, psnr, zone_plate
+from tests.tiers import by_day
 
 LENS = fisheye((20.0, 40.0), magnification=3.0)
 VIEW = View(35.0, -20.0, 15.0)
@@ -65,7 +66,7 @@ def expected(raster, *where):
     return values.reshape(rows, SAMPLES, columns, SAMPLES).mean(axis=(1, 3))
 
 
-@pytest.mark.parametrize("kind", RASTERS)
+@pytest.mark.parametrize("kind", by_day(RASTERS, "rings"))
 @pytest.mark.parametrize(
     ("size", "window"),
     [

@@ -296,16 +296,6 @@ def test_the_graticule_is_that_of_the_library():
     assert np.ptp(around[np.abs(around - 0.5) < 1e-3]) < 1e-12
 
 
-def test_coast_of_the_package():
-    axes = axes_of(focus=PARIS, magnification=10)
-    coast = axes.coastlines("110m", color="tab:blue", lw=2)
-    assert coast.get_edgecolor()[:3] != (0, 0, 0)
-    assert coast.get_linewidth() == 2
-    assert len(coast.get_transform().transform_path(coast.get_path()).vertices) > 50
-    with pytest.raises(ValueError, match="resolution"):
-        axes.coastlines("1m")
-
-
 def test_land_and_borders_of_the_package():
     """As much land as there is: of a hemisphere seen flat, the share of places in it."""
     axes = axes_of(focus=PARIS, view=StereographicView(2, 48, angular_radius=90))
