@@ -20,9 +20,10 @@ from stereodel.drawing.label import label_box
 from stereodel.globe import Globe
 from stereodel.globe.pages import Panel, panels
 from stereodel.render.type import lines_of
-from tests.drawing.fonts import CJK
 
 STIX, SHIPPED = "STIXGeneral", "DejaVu Sans"
+CJK = str(Path(__file__).resolve().parents[1] / "fixtures" / "fonts" / "noto-sans-cjk-subset.otf")
+"""東京한국港 in the outlines of Noto Sans CJK TC; see tests/fixtures/README.md."""
 ARABIC, HEBREW, MARKED = "العربية", "עברית", "q\u0323\u0302"
 SVG = "{http://www.w3.org/2000/svg}"
 

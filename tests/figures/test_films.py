@@ -144,27 +144,6 @@ def test_the_triangulation_of_the_lift_never_changes():
 # The flight
 
 
-@pytest.mark.thorough
-def test_names_fade_and_legs_join():
-    module = script("anim_flight")
-    film = module["film"]()
-    before = None
-    for number in range(len(film)):
-        strengths = dict.fromkeys(module["CITIES"], 0.0)
-        layer = film.draw.keywords["globe"].layers[-1]
-        lens, view = film.shots[number]
-        chart = module["Chart"](lens, view, (0.0, 0.0), 1.0)
-        strengths |= {label.text: label.color[3] for label in layer.lay(chart)}
-        if before is not None:
-            assert max(abs(strengths[name] - before[name]) for name in strengths) < 0.65, number
-        before = strengths
-    ends = module["legs"]()
-    for leg, following in zip(ends, [*ends[1:], ends[0]], strict=True):
-        (lens, view), (other, onward) = leg(leg.seconds), following(0.0)
-        assert lens.is_close(other)
-        assert np.allclose(view.matrix, onward.matrix, atol=1e-12)
-
-
 # Sites that come and go
 
 
