@@ -14,7 +14,7 @@ from stereodel.curves.fill import triangles
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots, Label, Polygons, Polylines, Stroke
 from stereodel.drawing.style import WHITE
-from stereodel.globe import Globe, Panel, hemispheres, panels
+from stereodel.globe import Globe, Panel, Raster, hemispheres, panels
 from stereodel.render.rows import LabelLayer
 from stereodel.sphere import SphereCircle
 from tests import sets
@@ -214,6 +214,8 @@ def test_files(tmp_path):
         (lambda g: g.add_land(resolution="1m"), "resolution"),
         (lambda g: g.add_cells(FOUR, colors=np.ones((2, 3))), r"shape \(4, 3\) or \(4, 4\)"),
         (lambda g: g.add_cells(FOUR, colors=255 * np.ones((4, 3))), r"in \[0, 1\]"),
+        (lambda g: g.add_raster(np.zeros((2, 4), np.uint8), opacity=1.5), "opacity is 1.5"),
+        (lambda g: g.add_raster(Raster(np.zeros((2, 4), np.uint8)), bounds=(0, 0, 1, 1)), "bounds belong to pixels"),
         (lambda g: g.page(width=0), "width"),
         (lambda g: g.page(tolerance=-1), "tolerance"),
         (lambda g: g.save("x.png", size=0), "size"),

@@ -13,6 +13,7 @@ from stereodel.drawing.view import StereographicView, View
 from stereodel.globe.chart import Chart
 from stereodel.globe.regions import SphereRegions
 from stereodel.sphere import SphereCircle
+from tests.examples import examples
 from tests.globe.sights import distance, places, sizes, views, winding
 from tests.tiers import by_day
 
@@ -56,6 +57,7 @@ def in_box(xyz, box):
     return (np.mod(lon - west, 360) <= east - west) & (south <= lat) & (lat <= north)
 
 
+@examples(0.4)
 @example(focus=(0.0, -66.0), size=1e5, view=View(0.0, 0.0), name="south as in files")
 @given(focus=places, size=sizes(-3, 6), view=views, name=st.sampled_from(sorted(BOXES)))
 def test_boxes_hold_what_they_should_under_every_lens(focus, size, view, name):
@@ -83,6 +85,7 @@ def test_outlines_have_no_seam(name):
     assert steps.sum() == pytest.approx(expected, rel=1e-3, abs=1e-12)
 
 
+@examples(0.4)
 @given(focus=places, size=sizes(-2, 4), view=views, way=st.sampled_from([1, -1]))
 def test_the_world_but_a_hole_is_what_the_hole_is_not(focus, size, view, way):
     world, hole = BOXES["the world"][0], BOXES["plain"][0][::way]
@@ -150,6 +153,7 @@ def test_a_cell_may_hold_all_that_is_seen():
 
 
 # Far larger than the view, through a strong lens: its border is behind the globe, and no larger than a point there.
+@examples(0.4)
 @example(focus=(0.0, 0.0), size=1e4, view=View(0.0, 0.0), radius=152.0, at=(0.0, 0.0))
 @given(focus=places, size=sizes(-2, 4), view=views, radius=st.floats(1, 179), at=places)
 def test_the_insides_of_circles(focus, size, view, radius, at):
