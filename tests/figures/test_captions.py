@@ -11,6 +11,7 @@ from stereodel import data, earth, fisheye, lonlat_to_xyz
 from stereodel.drawing.graticule import WIDTHS_APART
 from stereodel.sphere import SphereCircle, angular_distance, graticule_patch, xyz_to_lonlat
 from tests.figures.scripts import FOLDER, ROWS, arc_points, geometry, page, script
+from tests.tiers import by_day
 
 WORDS = {"three": 3, "four": 4, "five": 5, "six": 6, "eight": 8, "twenty": 20}
 NUMBER = re.compile(
@@ -200,7 +201,11 @@ def lift_scales():
     return rectangle.scale_factor([[0.0, 0.0], [rectangle.width / 2, rectangle.height / 2]]).tolist()
 
 
-@pytest.mark.parametrize("name", [path.stem for path in sorted(FOLDER.glob("[!_]*.py"))])
+SCRIPTS = [path.stem for path in sorted(FOLDER.glob("[!_]*.py"))]
+SLOW = ("earth_cities", "globe_europe", "globe_new_york", "globe_poster", "sky_stars", "claim_planet", "claim_terrain")
+
+
+@pytest.mark.parametrize("name", by_day(SCRIPTS, *(name for name in SCRIPTS if name not in SLOW)))
 def test_numbers_of_a_caption_are_those_of_the_picture(name):
     written, true = list(numbers(caption(name))), truth(name)
     assert len(written) == len(true), (written, true)

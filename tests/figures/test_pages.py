@@ -67,6 +67,7 @@ def test_map_libraries(tmp_path, monkeypatch, capsys):
     assert all((tmp_path / name).is_file() and (DOCS / "images" / name).is_file() for name in pictures)
 
 
+@pytest.mark.thorough
 def test_the_globe_of_the_readme(tmp_path, monkeypatch):
     """The picture beside the code is what the code draws."""
     monkeypatch.chdir(tmp_path)

@@ -12,6 +12,7 @@ from scipy.spatial import SphericalVoronoi, cKDTree
 from stereodel import data, earth, fisheye
 from stereodel.sphere import lonlat_to_xyz
 from tests.figures.scripts import arc_points, geometry, page, script
+from tests.tiers import by_day
 
 NUMBERS = ("one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 WORDS = {word: number for number, word in enumerate(NUMBERS, start=1)}
@@ -72,7 +73,9 @@ def test_the_largest_cell_of_an_airport_in_sight():
     assert sites[largest] @ toward < 0 > sites[largest] @ script("earth_airports")["VIEW"].matrix[0]
 
 
-@pytest.mark.parametrize("name", ["earth_airports", "earth_cities", "globe_europe", "sky_stars"])
+@pytest.mark.parametrize(
+    "name", by_day(["earth_airports", "earth_cities", "globe_europe", "sky_stars"], "earth_airports")
+)
 def test_numbers_beside_a_scale_stand_where_they_belong(name):
     """Where the logarithm puts them, between the ends of the bar; and the ends say what lies beyond them."""
     ticks = {
@@ -92,6 +95,7 @@ def test_numbers_beside_a_scale_stand_where_they_belong(name):
         assert [ticks[places[0]][0], ticks[places[-1]][0]] == ["≤", "≥"]
 
 
+@pytest.mark.thorough
 def test_areas_of_cells_in_europe_are_those_of_scipy():
     """Of the cell of an airport among the three hundred next to it."""
     table = data.airports()
@@ -108,6 +112,7 @@ def test_areas_of_cells_in_europe_are_those_of_scipy():
         assert written == pytest.approx(area, abs=0.5 * 10 ** (np.floor(np.log10(area)) - 1)), code
 
 
+@pytest.mark.thorough
 def test_counts_of_cities_and_stars():
     (cities,) = said("earth_cities", r"The surroundings of ([\d ]+) cities and villages.*")
     (stars,) = said("sky_stars", r"([\d ]+) stars of the Hipparcos catalogue.*")
@@ -129,9 +134,9 @@ def enlarged(lens, lonlat):
 @pytest.mark.parametrize(
     ("name", "pattern"),
     [
-        ("globe_europe", r".* Europe is (.*) times as large\."),
-        ("globe_poster", r"The Mediterranean .*: (.*) times as large, .*"),
-        ("globe_poster", r"Magnification ([\d.]+) about .*"),
+        pytest.param("globe_europe", r".* Europe is (.*) times as large\.", marks=pytest.mark.thorough),
+        pytest.param("globe_poster", r"The Mediterranean .*: (.*) times as large, .*", marks=pytest.mark.thorough),
+        pytest.param("globe_poster", r"Magnification ([\d.]+) about .*", marks=pytest.mark.thorough),
         ("globe_tissot", r"magnified (.*) times"),
     ],
 )
@@ -159,6 +164,7 @@ def drawn_lens(name):
     return fisheye(module["FOCUS"], magnification=np.tan(image / 2) / np.tan(away / 2))
 
 
+@pytest.mark.thorough
 def test_the_hemisphere_of_new_york():
     """S = tan 45° / tan(χ/2) makes a hemisphere of the cap of radius χ, and is the scale in its middle."""
     (km,) = said("globe_new_york", r"Half of it lies within (\d+) km of Manhattan, .*")
@@ -171,6 +177,7 @@ def test_the_hemisphere_of_new_york():
     assert million == "10"
 
 
+@pytest.mark.thorough
 def test_circles_and_bar_have_the_lengths_that_they_say():
     (km,) = said("globe_tissot", r"Circles of (\d+) km stay circles")
     apart, three = said("globe_tissot", r"Orange: .* every (\d+)°\. The numbers mark the same (\w+) circles .*")
