@@ -129,10 +129,8 @@ def test_a_frame_that_fails_is_named_and_the_others_are_kept(balls, out):
     assert whole.read_bytes() == good.save(out / "again.png", jobs=1, progress=False).read_bytes()
 
 
-@pytest.mark.parametrize(
-    ("wrong", "message"),
-    [(-1.0, "ValueError: no ball there"), pytest.param(-2.0, "ended with code 3", marks=pytest.mark.thorough)],
-)
+@pytest.mark.thorough
+@pytest.mark.parametrize(("wrong", "message"), [(-1.0, "ValueError: no ball there"), (-2.0, "ended with code 3")])
 def test_a_frame_that_fails_elsewhere_ends_all_processes(balls, out, wrong, message):
     film = Film(balls.ball, (1.0, 1.5, wrong, *np.linspace(2, 3, 20)), size=80)
     with pytest.raises(FrameError, match=f"frame 2: .*{message}"):
@@ -198,7 +196,7 @@ SCRIPTS = {
 """Names depend on the environment, which the first picture of a process leaves as it was."""
 
 
-@pytest.mark.parametrize("name", by_day(SCRIPTS, "of a module's pages", "without a guard"))
+@pytest.mark.parametrize("name", by_day(SCRIPTS, "without a guard"))
 def test_films_in_scripts(balls, out, name):
     how, code, words, count = SCRIPTS[name]
     process = start(balls, out, code, how=how)

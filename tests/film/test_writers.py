@@ -223,7 +223,6 @@ def test_a_full_disk_is_an_error(tmp_path, ending):
     ("ending", "most", "megabytes"),
     [
         ("gif", 300, 15),
-        ("mp4", 300, 15),
         pytest.param("gif", 1000, 30, marks=pytest.mark.thorough),
         pytest.param("mp4", 1000, 30, marks=pytest.mark.thorough),
         pytest.param("apng", 1000, 30, marks=pytest.mark.large),
