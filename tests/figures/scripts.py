@@ -7,8 +7,6 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.images.scripts import case
-
 FOLDER = Path(__file__).parents[2] / "figures"
 FIGURES = tuple(path.stem for path in sorted(FOLDER.glob("fig*.py")))
 CLAIMS = tuple(path.stem for path in sorted(FOLDER.glob("claim_*.py")))
@@ -25,13 +23,14 @@ def script(name):
         sys.path.remove(str(FOLDER))
 
 
+@cache
 def geometry(name):
-    return case(name).geometry
+    return script(name)["FIGURE"].geometry()
 
 
+@cache
 def page(name):
-    """Drawn once a process, also where the tests of images draw it."""
-    return case(name).page
+    return script(name)["FIGURE"]._page(geometry(name))
 
 
 def arc_points(rows, steps=33):

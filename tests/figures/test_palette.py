@@ -19,7 +19,9 @@ from tests.tiers import by_day
 
 MAPS = ("globe_europe", "globe_tissot")
 SCRIPTS = sorted(path.stem for kind in ("earth", "globe", "sky") for path in FOLDER.glob(f"{kind}_*.py"))
-by_name = pytest.mark.parametrize("name", by_day([*FIGURES, *MAPS], "fig01_sphere", "fig03_bubbles", "globe_tissot"))
+by_name = pytest.mark.parametrize(
+    "name", by_day([*FIGURES, *MAPS], "fig03_bubbles", "fig06_sphere_size", "globe_tissot")
+)
 
 TEXT = 4.5
 """Least contrast of type, that of the Web Content Accessibility Guidelines 2.1 (criterion 1.4.3)."""
