@@ -32,18 +32,20 @@ def test_numbers_are_taken_as_they_are_and_are_opaque_by_default(numbers):
         assert all(type(part) is float for part in found)
 
 
+NONE = r"(?s)ink is .*, which is not a colour; give a name such as"
+BEYOND = r"ink is \(.*\); red, green, blue and opacity must be in \[0, 1\]"
+
+
 @pytest.mark.parametrize(
-    "value",
-    ["sky", "", (0.1, 0.2), (0.1, 0.2, 0.3, 0.4, 0.5), 3, None, np.eye(3), ("red", 2.0), (None, 0.1, 0.2), "1.5"],
+    ("value", "message"),
+    [
+        *((value, NONE) for value in ("sky", "", "1.5", 3, None, np.eye(3), ("red", 2.0), (None, 0.1, 0.2))),
+        *(((0.5,) * count, NONE) for count in (2, 5)),
+        *((value, BEYOND) for value in ((255, 0, 0), (0.1, -0.1, 0.2), (0.1, 0.2, 0.3, 1.5), (np.nan, 0.0, 0.0))),
+    ],
 )
-def test_what_is_no_colour_is_named(value):
-    with pytest.raises(ValueError, match=r"(?s)ink is .*, which is not a colour; give a name such as"):
-        as_color(value, "ink")
-
-
-@pytest.mark.parametrize("value", [(255, 0, 0), (0.1, -0.1, 0.2), (0.1, 0.2, 0.3, 1.5), (np.nan, 0.0, 0.0)])
-def test_numbers_outside_the_range_are_refused(value):
-    with pytest.raises(ValueError, match=r"ink is \(.*\); red, green, blue and opacity must be in \[0, 1\]"):
+def test_what_is_no_colour_is_named(value, message):
+    with pytest.raises(ValueError, match=message):
         as_color(value, "ink")
 
 

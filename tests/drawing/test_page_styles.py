@@ -7,8 +7,8 @@ import pytest
 
 from stereodel.drawing import Page, Sketch, styled
 from stereodel.drawing.label import label_box
-from stereodel.drawing.page import Dots, Label, Polylines, Stroke
-from stereodel.drawing.page_styles import COLUMN, GROUND, StyledDraw, as_styles, dark_page
+from stereodel.drawing.page import Dots, Label, Stroke
+from stereodel.drawing.page_styles import GROUND, StyledDraw, as_styles, dark_page
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
 CM = 72 / 2.54
@@ -79,12 +79,6 @@ def test_what_is_measured_in_points_changes_with_the_medium():
     assert large.labels[0].size == pytest.approx(1.15 * 18 * growth)
 
 
-def test_type_in_a_column_is_not_below_seven_points():
-    column = styled(page(Label("small", (0.0, 0.0), (2.0, 0.0), size=5.0, align="left")), "column")
-    assert column.labels[0].size == COLUMN.least_type == 7.0
-    assert column.labels[0].offset == pytest.approx((2.0 * 7 / 5, 0.0))
-
-
 def test_long_lines_are_broken_and_the_page_grows():
     left, right, bottom, top = -2.0, 2.0, -1.5, 1.5
     title = Label("A title", (left + 0.1, 1.35), align="left", valign="baseline", size=17.0)
@@ -119,12 +113,6 @@ def test_spaces_of_a_line_that_is_not_broken_stay():
     assert styled(page(spaced, extent=(-2.0, 2.0, -1.5, 1.5)), "column").labels[0].text == spaced.text
 
 
-def test_the_picture_is_in_the_middle_of_a_slide_whatever_stands_beside():
-    words = Label(LONG, (-0.9, 1.2), align="left", valign="baseline", size=9.0)
-    left, right, _, _ = styled(page(words, extent=(-1.0, 1.0, -1.5, 1.5)), "slide").extent
-    assert left + right == pytest.approx(0.0, abs=1e-9)
-
-
 def test_type_in_the_picture_moves_aside_and_none_covers_another():
     words = [Label(f"word {k}", (0.05 * k, 0.0), (3.0, 0.0), "left") for k in range(4)]
     before = page(*words, extent=(-2.0, 2.0, -1.0, 1.0))
@@ -133,13 +121,6 @@ def test_type_in_the_picture_moves_aside_and_none_covers_another():
     assert overlapping(column) == []
     assert column.labels[0].offset == pytest.approx((3.0 * 7 / 9, 0.0))
     assert len(column.labels) >= 3
-
-
-def test_what_has_no_room_is_left_out():
-    words = [Label("the same", (0.0, 0.0)) for _ in range(40)]
-    column = styled(page(*words), "column")
-    assert 2 <= len(column.labels) < 40
-    assert overlapping(column) == []
 
 
 def test_type_that_is_clear_of_lines_stays_so():
@@ -187,12 +168,6 @@ def test_type_turned_is_held_by_its_turned_box():
     flat = styled(page(Label("a long word upright", (-1.95, 0.0))), "column")
     assert flat.labels[0].offset[0] > 10
     assert outside(flat) == []
-
-
-def test_polylines_change_as_strokes_do():
-    lines = Polylines(np.array([[0.0, 0.0], [1.0, 0.5]]), np.array([0, 2]), BLACK, 1.0)
-    column = styled(Page((0.0, 1.0, 0.0, 1.0), (lines,), 17 * CM), "column")
-    assert column.items[0].width == styled(page(), "column").items[0].width
 
 
 def test_the_order_of_styles_does_not_matter():

@@ -8,7 +8,7 @@ from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.space_curves import CircleArc
-from stereodel.drawing.style import DOTS, LINES, LineStyle
+from stereodel.drawing.style import LINES, LineStyle
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereCircle, graticule, lonlat_to_xyz
 
@@ -68,34 +68,12 @@ def test_without_a_ball_nothing_is_hidden():
     assert all(item.closed == arc.closed for item, arc in zip(items, graticule(30), strict=True))
 
 
-def test_graticule_on_the_page_is_that_of_the_sphere():
-    """Every drawn point, put back on the sphere, lies on its circle; and ends lie on the limb or at the poles."""
-    scene = Scene()
-    scene.add_circles([SphereCircle.around((0, 90), 60)])
-    view = View(0, 20)
-    [stroke] = of(scene.layout(view), Stroke, "circle")
-    on_page = stroke.path[:, 0]
-    on_sphere = np.column_stack([on_page, np.sqrt(1 - np.sum(on_page**2, axis=1))]) @ view.matrix
-    assert np.allclose(on_sphere[1:, 2], 0.5, rtol=0, atol=1e-9)
-
-
 def test_at_and_scale_place_the_origin():
     scene = Scene(radius=2.0, center=(0.0, 0.0, 2.0))
     [limb] = of(scene.layout(View(0, 0), at=(10.0, 20.0), scale=0.5), Stroke, "limb")
     points = limb.path[:, 0]
     assert np.allclose(points.mean(axis=0), [10.0, 21.0])
     assert np.allclose(np.hypot(*(points - [10.0, 21.0]).T), 1.0)
-
-
-def test_rays_are_cut_by_the_ball():
-    scene = Scene()
-    scene.add_segments([0.0, 0.0, 1.0], [[1.5, 0.0, -1.0], [0.0, -1.5, -1.0]], name="ray")
-    items = scene.layout(View(-90, 10))
-    outside = of(items, Stroke, "ray")
-    assert len(outside) == 2
-    limb_at = names(items).index("limb")
-    beside, front = names(items).index("ray"), len(items) - 1
-    assert beside < limb_at < front
 
 
 def test_a_plane_below_the_ball_is_painted_first_and_from_below_last():
@@ -186,15 +164,6 @@ def test_style_and_layer_can_be_given():
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
 
 
-def test_weight_scales_lines_and_dots():
-    scene = Scene(weight=0.5)
-    scene.add_circles([SphereCircle.around((0, 90), 30)])
-    scene.add_points([[0, 0, 1]])
-    _, circle, limb, dots = scene.layout(FRONT)
-    assert (circle.width, limb.width) == (LINES["circle"].width / 2, LINES["limb"].width / 2)
-    assert (dots.radius, dots.rim_width) == (DOTS["sites"].radius / 2, DOTS["sites"].rim_width / 2)
-
-
 def test_layout_is_repeatable_and_leaves_no_trace():
     scene = Scene(style="glass")
     scene.add_arcs(graticule(30), name="graticule")
@@ -204,16 +173,6 @@ def test_layout_is_repeatable_and_leaves_no_trace():
     again = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
     assert first.keys() == again.keys()
     assert all(np.array_equal(first[key], again[key]) for key in first)
-
-
-def test_input_is_not_modified():
-    points = lonlat_to_xyz([(0, 0), (10, 50)]) * 3
-    before = points.copy()
-    scene = Scene(radius=2.0)
-    scene.add_points(points)
-    scene.add_edges(points, [[0, 1]], name="delaunay")
-    scene.layout(FRONT)
-    assert np.array_equal(points, before)
 
 
 @pytest.mark.parametrize(
@@ -240,11 +199,3 @@ def test_input_is_not_modified():
 def test_bad_input_is_named(call, message):
     with pytest.raises(ValueError, match=message):
         call(Scene())
-
-
-def test_a_layer_of_ones_own_lifts_lines_inside_a_glass_ball_over_the_tints():
-    scene = Scene(style="glass")
-    scene.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1])
-    scene.add_segments([[1.0, 0, 0]], [[0, 1.0, 0]], name="chord", layer=Layer.LINE)
-    found = names(scene.layout(View(45, 35)))
-    assert found.index("chord") > found.index("triangle")

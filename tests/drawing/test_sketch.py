@@ -129,12 +129,6 @@ def test_a_globe_on_a_sketch_is_what_its_scene_lays_out():
     assert np.array_equal(page.views, [view.matrix])
 
 
-def test_the_same_sketch_makes_pages_of_two_widths():
-    sketch = Sketch().add_dimension((0, 0), (1, 0), "", name="frame")
-    narrow, wide = (sketch.page((-1, 2, -1, 1), width=width).items[1].path for width in (100.0, 200.0))
-    assert np.ptp(narrow[..., 1]) == pytest.approx(2 * np.ptp(wide[..., 1]))
-
-
 def test_errors_name_what_is_wrong():
     with pytest.raises(ValueError, match="name 'nothing' has no line style"):
         Sketch().add_segment((0, 0), (1, 1), name="nothing")

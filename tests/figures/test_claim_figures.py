@@ -1,24 +1,22 @@
 """What the pictures of claims without a figure of the paper show: computed once more, in another way."""
 
+import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
 from stereodel import SphereCircle, bubble_to_bubble, in_bubble, lonlat_to_xyz
-from stereodel.drawing import Dots, Stroke
-from stereodel.drawing.style import BLACK
 from stereodel.interpolation import LinearInterpolator
 from stereodel.sphere import angular_distance
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
-from tests.figures.scripts import page, path_points, script
+from tests.figures.scripts import geometry, page, script
 
 # P7: claim_theorem.
 
 
 def test_the_facets_left_out_are_those_whose_bubble_holds_the_pole():
-    module = script("claim_theorem")
-    g = module["FIGURE"].geometry()
+    module, g = script("claim_theorem"), geometry("claim_theorem")
     own = {frozenset(corners) for corners in g["triangles"].tolist()}
     left_out = {frozenset(corners) for corners in g["left_out"].tolist()}
     facets = {frozenset(corners) for corners in g["facets"].tolist()}
@@ -30,8 +28,7 @@ def test_the_facets_left_out_are_those_whose_bubble_holds_the_pole():
 
 
 def test_the_circle_drawn_holds_no_site_on_the_sphere_and_all_in_the_plane():
-    module = script("claim_theorem")
-    g = module["FIGURE"].geometry()
+    module, g = script("claim_theorem"), geometry("claim_theorem")
     *normal, offset = g["circle"]
     others = np.delete(np.arange(len(g["sites"])), g["shown"])
     assert (g["lifts"][others] @ normal < offset).all()
@@ -41,38 +38,11 @@ def test_the_circle_drawn_holds_no_site_on_the_sphere_and_all_in_the_plane():
     assert (away[others] < g["image"][2]).all()
 
 
-def test_no_line_of_the_theorem_nearly_meets_a_site():
-    """It would look like a degenerate case: lines that neither end at a site nor go through it are 5 points off."""
-    drawn = page("claim_theorem")
-    unit, dots = drawn.points_per_unit, [item for item in drawn.items if isinstance(item, Dots)]
-    sites = np.concatenate([item.centers for item in dots if item.color == BLACK])
-    module, passed = script("claim_theorem"), 0
-    for line in (item for item in drawn.items if isinstance(item, Stroke) and not item.name.startswith("legend")):
-        if line.name in ("frame", "limb") or line.color not in {
-            module[k].color for k in ("KEPT", "LEFT_OUT", "CIRCLE")
-        }:
-            continue
-        points = path_points(line.path)
-        start, along = points[:-1], np.diff(points, axis=0)
-        to = sites[:, None] - start
-        part = np.clip((to * along).sum(axis=-1) / np.maximum((along**2).sum(axis=-1), 1e-30), 0, 1)
-        away = unit * np.linalg.norm(to - part[..., None] * along, axis=-1).min(axis=1)
-        assert ((away < 0.1) | (away > 5)).all(), (line.name, away.min())
-        # Those on a line are its ends, or the corners that a circle goes through.
-        passed += np.count_nonzero(away < 0.1)
-        assert np.count_nonzero(away < 0.1) <= (3 if line.name == "circle" else 2 + 2 * line.closed)
-    assert passed > 50
-
-
 # P12 and P13: claim_separation.
 
 
-@pytest.fixture(scope="module")
-def separation():
-    return script("claim_separation")["FIGURE"].geometry()
-
-
-def test_the_curves_of_separation_have_closed_forms(separation):
+def test_the_curves_of_separation_have_closed_forms():
+    separation = geometry("claim_separation")
     for name, bound in (("largest", lambda t: 4 * np.arctan(t)), ("smallest", lambda t: 2 * np.arcsin(t))):
         share, constant = separation[name][1:].T
         assert constant == pytest.approx(bound(share) / (np.pi * share), rel=1e-10), name
@@ -80,7 +50,8 @@ def test_the_curves_of_separation_have_closed_forms(separation):
     assert [separation[name][0, 1] for name in ("smallest", "largest")] == separation["bounds"].tolist()
 
 
-def test_no_pair_lies_beyond_the_curves_and_sides_end_on_them(separation):
+def test_no_pair_lies_beyond_the_curves_and_sides_end_on_them():
+    separation = geometry("claim_separation")
     for name in ("pairs", "short_side", "long_side"):
         share, constant = separation[name].T
         assert (constant <= 4 * np.arctan(share) / (np.pi * share) * (1 + 1e-12)).all()
@@ -121,7 +92,7 @@ def test_ratios_of_lengths_are_those_of_the_images():
 
 def test_curves_of_equal_ratio():
     """Their points are maps between bubbles whose scales differ by that much, and levels run from 1/2 to 2."""
-    g = script("claim_scales")["FIGURE"].geometry()
+    g = geometry("claim_scales")
     assert len(g["levels"]) == 9
     for line, level in zip(np.split(g["curves"], np.cumsum(g["sizes"])[:-1]), g["levels"], strict=True):
         chi, xi = np.radians(line).T
@@ -139,10 +110,10 @@ def test_curves_of_equal_ratio():
 
 
 def test_triangles_said_to_be_broken_have_sites_in_both_bubbles():
-    module = script("claim_projections")
-    g = module["FIGURE"].geometry()
-    sites = sphere_sites(module)
-    for name in module["DRAWN"]:
+    module, g = script("claim_projections"), geometry("claim_projections")
+    sites = sphere_sites(module, g)
+    texts = [label.text for label in page("claim_projections").labels if "triangles" in label.text]
+    for name, text in zip(module["DRAWN"], texts, strict=True):
         triangles, broken = g[f"{name}_triangles"], g[f"{name}_broken"]
         a, b, c = np.moveaxis(sites[triangles], 1, 0)
         signs = in_bubble(a[:, None], b[:, None], c[:, None], sites[None])
@@ -150,11 +121,13 @@ def test_triangles_said_to_be_broken_have_sites_in_both_bubbles():
         both = ((signs > 0) & others).any(axis=1) & ((signs < 0) & others).any(axis=1)
         assert broken.tolist() == both.tolist(), name
         assert broken.any() == (name != "stereographic"), name
+        assert len(triangles) == len(PlanarDelaunay(g[f"{name}_sites"]).simplices)
+        assert [int(number) for number in re.findall(r"\d+", text)] == [n for n in (both.sum(), len(triangles)) if n]
 
 
-def sphere_sites(module):
+def sphere_sites(module, g):
     """The sites, from where the stereographic panel has them: back by its formula, up to the panel's size."""
-    projection, g = module["Stereographic"](module["PLACE"]), module["FIGURE"].geometry()
+    projection = module["Stereographic"](module["PLACE"])
     rim = module["CIRCLE"].sample(720)
     drawn, true = g["stereographic_circle"], projection.forward(rim)
     size = np.linalg.norm(drawn[0] - drawn[360]) / np.linalg.norm(true[0] - true[360])
@@ -169,8 +142,7 @@ def sphere_sites(module):
 @pytest.mark.parametrize("name", ["claim_terrain", "claim_planet"])
 def test_facets_are_painted_from_back_to_front(name):
     """Of two facets that cover one place of the page, the one nearer to the viewer comes later: the depths decide."""
-    module = script(name)
-    g = module["FIGURE"].geometry()
+    module, g = script(name), geometry(name)
     if name == "claim_terrain":
         places = module["block_place"](g["points"], g["heights"])
         depth = np.column_stack([g["points"], module["STEEP"] * g["heights"]]) @ module["toward"]()
@@ -203,8 +175,7 @@ def barycentric(corners, place):
 
 @pytest.mark.parametrize("name", ["claim_terrain", "claim_planet"])
 def test_contours_have_their_heights_and_the_points_those_of_the_relief(name):
-    module = script(name)
-    g = module["FIGURE"].geometry()
+    module, g = script(name), geometry(name)
     network = (PlanarDelaunay if name == "claim_terrain" else SphericalDelaunay)(g["points"])
     levels = np.repeat(g["levels"], g["sizes"])
     # Rounding may put a point on the hull outside: a third of the way along each piece lies inside.

@@ -1,6 +1,5 @@
 """Claims about algorithms, and the words "only" and "completely determined" (rows P3, P5, P6 and P23 to P25)."""
 
-import itertools
 from collections import Counter
 from fractions import Fraction
 
@@ -24,12 +23,8 @@ from stereodel.triangulation import (
     planar_part,
 )
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
+from tests import sets
 from tests.figures.scripts import script
-
-
-def directions(count, seed=0):
-    vectors = np.random.default_rng(seed).normal(size=(count, 3))
-    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
 def triangles(simplices):
@@ -44,57 +39,26 @@ def vertices_made(points):
     return sum(len(step.new) for step in HullInsertion(points))
 
 
-@pytest.mark.parametrize("draw", [directions, lambda count: np.random.default_rng(1).random((count, 2))])
-def test_both_graphs_built_together_make_linearly_many_vertices(draw):
+@pytest.mark.parametrize("kind", [sets.sphere("unit"), sets.plane("random")], ids=str)
+def test_both_graphs_built_together_make_linearly_many_vertices(kind):
     """A new point has fewer than six neighbours on average if it is any of them (Euler), whatever the points."""
-    points = draw(800)
+    points = kind.drawn(800)
     half, whole = vertices_made(points[:400]), vertices_made(points)
     assert 1.9 < whole / half < 2.1
     assert whole < 6.2 * len(points)
 
 
-def test_a_bad_order_makes_quadratically_many():
-    """What the count would show if it were not linear: points that come nearer to a row of others one by one."""
-
-    def rows(count):
-        up = np.column_stack([np.zeros(count), np.linspace(0.1, 1.0, count)])
-        nearer = np.column_stack([np.linspace(10.0, 5.0, count), np.zeros(count)])
-        return np.vstack([up, nearer])
-
-    assert vertices_made(rows(80)) / vertices_made(rows(40)) > 3.5
-    shuffled = np.random.default_rng(0).permutation(rows(80))
-    assert vertices_made(shuffled) < 6.5 * len(shuffled)
-
-
-@pytest.mark.parametrize("draw", [directions, lambda count: np.random.default_rng(1).random((count, 2))])
-def test_the_way_back_looks_at_no_coordinates(draw):
+@pytest.mark.parametrize("kind", [sets.sphere("unit"), sets.plane("random")], ids=str)
+def test_the_way_back_looks_at_no_coordinates(kind):
     """The triangulation is read off the diagram: other places of the sites change nothing, so nothing is searched."""
-    points = draw(500)
+    points = kind.drawn(500)
     diagram = (SphericalVoronoi if points.shape[1] == 3 else PlanarVoronoi)(points)
     expected = diagram.delaunay().simplices
-    diagram.points = draw(500)[::-1].copy()
+    diagram.points = points[::-1].copy()
     assert diagram.delaunay().simplices.tolist() == expected.tolist()
 
 
 # P5: the counters of the paper's own engine.
-
-
-def flat(spread, count=25, seed=3):
-    rng = np.random.default_rng(seed)
-    return rng.normal(size=3) + spread * rng.normal(size=(count, 3))
-
-
-RAYS = {
-    "random": directions(40),
-    "flat": flat(2e-16),
-    "cube": np.array(list(itertools.product((-1.0, 1.0), repeat=3))),
-    "flat and octahedron": np.vstack([np.eye(3), -np.eye(3), flat(3e-16, 12)]),
-}
-PLANES = {
-    "random": np.random.default_rng(4).random((40, 2)),
-    "grid": np.array(list(itertools.product(range(5), range(4))), dtype=float),
-    "tiny far cluster": 1.0 + 2.0**-50 * np.random.default_rng(5).integers(0, 40, size=(25, 2)),
-}
 
 
 def recorded(monkeypatch, kind, name):
@@ -116,27 +80,27 @@ def bubble(*four):
     return mp.det(mp.matrix([[x - y for x, y in zip(v, a, strict=True)] for v in others]))
 
 
-@pytest.mark.parametrize("name", RAYS)
-def test_the_engine_counts_what_floating_point_leaves_open_on_the_sphere(monkeypatch, name):
-    asked = recorded(monkeypatch, RaySites, "sees")
-    engine = HullInsertion(RAYS[name])
+@pytest.mark.parametrize("rays", sets.named("sphere", "unit", "three close", "cube", "a rounding and 8 far"))
+def test_the_engine_counts_what_floating_point_leaves_open_on_the_sphere(monkeypatch, rays):
+    points, asked = rays.drawn(33), recorded(monkeypatch, RaySites, "sees")
+    engine = HullInsertion(points)
     engine.run()
-    unit = [tuple(row) for row in units(RAYS[name]).tolist()]
+    unit = [tuple(row) for row in units(points).tolist()]
     left_open = []
     for four in asked:
         value, bound = bubble_filter(*(unit[i] for i in four))
         if abs(value) <= bound:
             left_open.append(four)
     with workdps(120):
-        ties = sum(abs(bubble(*RAYS[name][list(four)])) < mpf("1e-100") for four in left_open)
+        ties = sum(abs(bubble(*points[list(four)])) < mpf("1e-100") for four in left_open)
     assert engine.inconclusive == {"filter": len(left_open), "exact": ties}
-    assert name == "random" or left_open
-    assert name in ("random", "flat") or ties > 0
+    assert left_open or rays.traits & {"random"}
+    assert ties > 0 or not rays.traits & {"ties"}
 
 
-@pytest.mark.parametrize("name", PLANES)
-def test_the_engine_counts_what_floating_point_leaves_open_in_the_plane(monkeypatch, name):
-    points = PLANES[name]
+@pytest.mark.parametrize("sites", sets.named("plane", "random", "small grid", "cluster", "needles"))
+def test_the_engine_counts_what_floating_point_leaves_open_in_the_plane(monkeypatch, sites):
+    points = sites.drawn(40)
     circles, turns = recorded(monkeypatch, PlaneSites, "sees"), recorded(monkeypatch, PlaneSites, "turn")
     edges = recorded(monkeypatch, PlaneSites, "_sees_edge")
     engine = HullInsertion(points)
@@ -154,8 +118,8 @@ def test_the_engine_counts_what_floating_point_leaves_open_in_the_plane(monkeypa
             expected["exact"] += test is incircle_filter and truth(*(exact[i] for i in numbers)) == 0
     expected["exact"] += sum(orientation(*(exact[i] for i in three)) == 0 for three in edges)
     assert engine.inconclusive == expected
-    assert name == "random" or expected["filter"] > 0
-    assert (expected["exact"] > 0) == (name == "grid")
+    assert expected["filter"] > 0
+    assert (expected["exact"] > 0) == ("ties" in sites.traits)
 
 
 def orientation(a, b, c):
@@ -202,7 +166,7 @@ OTHERS = {name: forward for name, forward in CONVERSE["PROJECTIONS"].items() if 
 
 
 def sites_of_a_cap(count=400, radius=50.0):
-    points = directions(8 * count, seed=6)
+    points = sets.sphere("unit").drawn(8 * count, 6)
     return points[angular_distance(points, lonlat_to_xyz(PLACE)) < radius][:count]
 
 
@@ -219,7 +183,7 @@ def kept_and_broken(points, plane):
 
 @pytest.mark.parametrize("center", [PLACE, (-70.0, -10.0), (0.0, 90.0)])
 def test_stereographic_projections_keep_all_triangles(center):
-    projection, points = Stereographic(center), directions(300, seed=7)
+    projection, points = Stereographic(center), sets.sphere("unit").drawn(300)
     part = planar_part(SphericalDelaunay(points), -lonlat_to_xyz(center))
     assert triangles(PlanarDelaunay(projection.forward(points)).simplices) == triangles(part)
     kept, broken = kept_and_broken(sites_of_a_cap(), Stereographic(PLACE).forward(sites_of_a_cap()))
@@ -260,7 +224,7 @@ def test_a_projection_that_keeps_circles_is_stereographic(seed, mirrored):
     lens = lens @ MoebiusMap.rotation((rng.uniform(-180, 180), 20.0), rng.uniform(0, 360))
     mirror = np.array([1.0, 1.0, -1.0 if mirrored else 1.0])
     pole = lens.inverse()(np.array([0.0, 0.0, 1.0])) * mirror  # what goes to infinity
-    points = directions(200, seed + 20)
+    points = sets.sphere("unit").drawn(200, seed)
     points = points[angular_distance(points, pole) > 20]
     image = Stereographic((0, -90)).forward(lens(points * mirror)) @ [1, 1j]
     other = Stereographic(-pole).forward(points) @ [1, 1j]
@@ -339,7 +303,7 @@ def test_from_the_sphere_to_the_plane_nothing_keeps_edges_and_triangles():
 
 
 def test_from_the_sphere_to_itself_only_rotations_and_inversions():
-    points = directions(200, seed=11)
+    points = sets.sphere("unit").drawn(200)
     own = triangles(SphericalDelaunay(points).simplices)
     turn = MoebiusMap.rotation((20.0, 50.0), 70.0)
     for image in (turn(points), -points, points * [1, 1, -1]):
@@ -368,7 +332,7 @@ def test_agreement_near_a_point_is_agreement_everywhere(focus, place, magnificat
     found = three_points(near, lens(near))
     # Rounding of the images counts by the square of how small their triangle is.
     images = np.radians(angular_distance(lens(near), np.roll(lens(near), 1, axis=0))).min()
-    points = directions(50, seed=12)
+    points = sets.sphere("unit").drawn(50)
     assert np.radians(angular_distance(found(points), lens(points))).max() < 1e-13 * magnification / images**2
 
 
@@ -397,7 +361,7 @@ def on_sphere(z):
 
 def test_a_map_and_its_mirror_agree_on_a_circle_and_nowhere_else():
     """A circle is no neighbourhood: what turns angles round agrees on it with a map that does not."""
-    lens, points = fisheye((20.0, 50.0), magnification=3), directions(100, seed=13)
+    lens, points = fisheye((20.0, 50.0), magnification=3), sets.sphere("unit").drawn(100)
     mirror = np.array([1.0, 1.0, -1.0])
     equator = points * [1, 1, 0]
     assert np.allclose(lens(equator), lens(equator * mirror), atol=1e-15)

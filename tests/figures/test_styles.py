@@ -1,29 +1,20 @@
 """Every figure in a column and on a slide: type of a size that is read, none over another, none lost."""
 
-import numpy as np
 import pytest
 
 from stereodel.drawing import styled
-from stereodel.drawing.label import label_box
 from stereodel.drawing.page_styles import COLUMN, SLIDE
+from tests.drawing.test_page_styles import overlapping
 from tests.figures.scripts import FIGURES, page
+from tests.tiers import by_day
 
 MAPS = ("globe_europe", "globe_tissot")
-by_name = pytest.mark.parametrize("name", [*FIGURES, *MAPS])
+by_name = pytest.mark.parametrize("name", by_day([*FIGURES, *MAPS], "fig03_bubbles", "globe_tissot"))
 
 
 def words(shown):
     """All that is written, without the breaks of lines."""
     return sorted(" ".join(label.text for label in shown.labels).split())
-
-
-def overlapping(shown):
-    """Pairs of labels that are not turned and whose boxes meet."""
-    level = [label for label in shown.labels if not label.rotation]
-    boxes = [label_box(label, shown.points_per_unit) for label in level]
-    pairs = [(i, j) for i in range(len(level)) for j in range(i)]
-    meet = [(np.maximum(boxes[i][0], boxes[j][0]) < np.minimum(boxes[i][1], boxes[j][1])).all() for i, j in pairs]
-    return [(level[i].text, level[j].text) for (i, j), found in zip(pairs, meet, strict=True) if found]
 
 
 @by_name

@@ -1,12 +1,10 @@
 """Films: what is drawn is what is written, an interruption costs nothing, and what fails is named."""
 
 import os
-import pickle
 import re
 import signal
 import subprocess
 import sys
-import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,6 +16,8 @@ import stereodel
 from stereodel.film import Film, FrameError
 from stereodel.film import film as film_module
 from stereodel.film import frames as frames_module
+from tests.film.processes import ended, wait_until
+from tests.tiers import by_day
 
 BALLS = """
 import os, time
@@ -80,21 +80,6 @@ def frames(path):
         return np.stack([np.asarray(image.convert("RGB")) for _ in map(image.seek, range(image.n_frames))])
 
 
-def ended(pid):
-    """Whether a process is gone, or waits for nobody to ask after it."""
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
-    except OSError:
-        return True
-
-
-def wait_until(condition, seconds=60):
-    limit = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < limit
-        time.sleep(0.02)
-
-
 def test_the_file_shows_the_frames(balls, out):
     film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5), fps=10, size=80)
     file = film.save(out / "balls.png", jobs=1, progress=False)
@@ -115,6 +100,7 @@ def test_several_processes_give_the_same_file_as_one(balls, out):
     wait_until(lambda: all(map(ended, processes)))
 
 
+@pytest.mark.thorough
 def test_a_process_draws_so_many_frames_and_then_another_goes_on(balls, out, monkeypatch):
     monkeypatch.setattr(film_module, "LIFETIME", 2)
     film = Film(balls.ball, (1.0, 1.5, 2.0, 2.5, 3.0, 3.5, 3.2), size=80)
@@ -143,6 +129,7 @@ def test_a_frame_that_fails_is_named_and_the_others_are_kept(balls, out):
     assert whole.read_bytes() == good.save(out / "again.png", jobs=1, progress=False).read_bytes()
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(("wrong", "message"), [(-1.0, "ValueError: no ball there"), (-2.0, "ended with code 3")])
 def test_a_frame_that_fails_elsewhere_ends_all_processes(balls, out, wrong, message):
     film = Film(balls.ball, (1.0, 1.5, wrong, *np.linspace(2, 3, 20)), size=80)
@@ -160,22 +147,69 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 import balls
 from stereodel.film import Film
 film = Film(balls.slow_ball, [k / 10 for k in range(10, 30)], size=80)
-{guard}film.save(sys.argv[1], jobs=2)
+film.save(sys.argv[1], jobs=2)
 """
+OWN = """
+import sys
+from stereodel.drawing import Page
+from stereodel.film import Film
+def nothing(x):
+    return Page((0.0, x, 0.0, x))
+Film(nothing, [1.0, 2.0, 3.0], size=40).save(sys.argv[1], jobs=2)
+"""
+GUARDED = OWN.replace("Film(nothing", 'if __name__ == "__main__": Film(nothing')
 
 
-def start(folder, out, *, guard="", code=FILM, slow="0", how=()):
-    script = folder / "film.py"
-    script.write_text(code.format(guard=guard))
+def start(balls, out, code, *, slow="0", how="film.py"):
+    """A process that runs code: as a script, as a module, or given to the interpreter."""
+    folder = Path(balls.__file__).parent
+    (folder / "film.py").write_text(code)
     paths = [str(Path(stereodel.__file__).parents[1]), str(folder)]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths), "SLOW": slow}
-    command = [sys.executable, *(how or [str(script)]), str(out / "balls.gif")]
+    arguments = {"film.py": [str(folder / "film.py")], "-m": ["-m", "film"], "-c": ["-c", code]}[how]
+    command = [sys.executable, *arguments, str(out / "balls.gif")]
     return subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, text=True, start_new_session=True)
 
 
-@pytest.mark.parametrize("how", ["interrupted", "killed"])
+# How the script is run, its code, what it says, and how many frames the file has.
+SCRIPTS = {
+    "of a module's pages": ("film.py", FILM, r"drawing 20/20.*writing 20/20", 20),
+    "without a guard": (
+        "film.py",
+        OWN,
+        r'FrameError: frame [01]: RuntimeError: the main script makes a film.*call under `if __name__ == "__main__":`',
+        0,
+    ),
+    "with a guard": ("film.py", GUARDED, "", 3),
+    "as a module": ("-m", GUARDED, "", 3),
+    "interactive": ("-c", OWN, r"TypeError: draw or the shots are defined in an interactive session.*jobs=1", 0),
+    "interactive, here": ("-c", OWN.replace("jobs=2", "jobs=1"), "", 3),
+    "names": (
+        "-c",
+        "import balls\nfrom stereodel.film import Film\nfrom stereodel.film.frames import frame_names\n"
+        "film = Film(balls.ball, [1.0], size=40)\nbefore = frame_names(film._camera, film.shots)\nfilm.picture(0)\n"
+        "assert frame_names(film._camera, film.shots) == before",
+        "",
+        None,
+    ),
+}
+"""Names depend on the environment, which the first picture of a process leaves as it was."""
+
+
+@pytest.mark.parametrize("name", by_day(SCRIPTS, "without a guard"))
+def test_films_in_scripts(balls, out, name):
+    how, code, words, count = SCRIPTS[name]
+    process = start(balls, out, code, how=how)
+    _, said = process.communicate(timeout=60)
+    assert (process.returncode != 0) == (count == 0), said
+    assert re.search(words, said, re.DOTALL)
+    if count:
+        assert len(frames(out / "balls.gif")) in (count, 2)  # of frames that are alike a GIF has one
+
+
+@pytest.mark.parametrize("how", by_day(["interrupted", "killed"], "interrupted"))
 def test_an_interruption_costs_nothing(balls, out, how):
-    process = start(Path(balls.__file__).parent, out, slow="0.2")
+    process = start(balls, out, FILM, slow="0.2")
     kept = out / "balls.gif.frames"
     wait_until(lambda: len(list(kept.glob("[!.]*.png"))) >= 3)
     if how == "killed":
@@ -197,51 +231,6 @@ def test_an_interruption_costs_nothing(balls, out, how):
     whole = film.save(out / "whole.gif", jobs=1, progress=False)
     assert resumed.read_bytes() == whole.read_bytes()
     assert sorted(path.name for path in out.iterdir()) == ["balls.gif", "whole.gif"]
-
-
-def test_a_plain_script_needs_no_guard(balls, out):
-    process = start(Path(balls.__file__).parent, out)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 0
-    assert said.splitlines()[-2].startswith("drawing 20/20")
-    assert said.splitlines()[-1].startswith("writing 20/20")
-
-
-OWN = """
-import sys
-from stereodel.drawing import Page
-from stereodel.film import Film
-def nothing(x):
-    return Page((0.0, x, 0.0, x))
-{guard}Film(nothing, [1.0, 2.0, 3.0], size=40).save(sys.argv[1], jobs=2)
-"""
-
-
-def test_a_script_that_draws_itself_is_told_of_the_guard(balls, out):
-    process = start(Path(balls.__file__).parent, out, code=OWN)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode != 0
-    assert re.search("FrameError: frame [01]: RuntimeError: the main script makes a film", said)
-    assert 'put the call under `if __name__ == "__main__":`' in said
-
-
-@pytest.mark.parametrize("how", [(), ("-m", "film")])
-def test_with_the_guard_it_draws_itself(balls, out, how):
-    process = start(Path(balls.__file__).parent, out, guard='if __name__ == "__main__": ', code=OWN, how=how)
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 0, said
-    assert len(frames(out / "balls.gif")) == 3
-
-
-def test_an_interactive_session_is_told_of_modules(balls, out):
-    code = OWN.format(guard="")
-    process = start(Path(balls.__file__).parent, out, code=OWN, how=("-c", code))
-    _, said = process.communicate(timeout=60)
-    assert "TypeError: draw or the shots are defined in an interactive session" in said
-    assert "jobs=1" in said
-    one = start(Path(balls.__file__).parent, out, code=OWN, how=("-c", code.replace("jobs=2", "jobs=1")))
-    _, said = one.communicate(timeout=60)
-    assert one.returncode == 0, said
 
 
 @dataclass(frozen=True)
@@ -269,43 +258,30 @@ def test_names_of_frames_depend_on_all_that_counts(balls, monkeypatch):
     assert set(frames_module.frame_names(Painter(1.0), shots)).isdisjoint(names)
 
 
-def test_names_of_frames_are_as_before_once_something_was_drawn(balls):
-    """Names depend on the environment, which the first picture of a process leaves as it was."""
-    code = """
-import balls
-from stereodel.film import Film
-from stereodel.film.frames import frame_names
-film = Film(balls.ball, [1.0], size=40)
-before = frame_names(film._camera, film.shots)
-film.picture(0)
-assert frame_names(film._camera, film.shots) == before
-"""
-    environment = dict(os.environ)
-    environment["PYTHONPATH"] = os.pathsep.join([str(Path(balls.__file__).parent), *filter(None, sys.path)])
-    subprocess.run([sys.executable, "-c", code], env=environment, check=True)
-
-
-def test_bad_films_are_refused_before_anything_is_drawn(balls, out):
-    with pytest.raises(ValueError, match="shots is empty"):
-        Film(balls.ball, [])
-    for fps in (0.0, -25.0, np.nan, np.inf):
-        with pytest.raises(ValueError, match="fps"):
-            Film(balls.ball, [1.0], fps=fps)
-    for size in (0, 65_536, 99.5):
-        with pytest.raises((ValueError, TypeError), match="size"):
-            Film(balls.ball, [1.0], size=size)
-    film = Film(balls.ball, [1.0], size=80)
-    with pytest.raises(ValueError, match="path must end in"):
-        film.save(out / "balls.mov")
-    with pytest.raises(ValueError, match="jobs"):
-        film.save(out / "balls.gif", jobs=0)
-    with pytest.raises(ValueError, match="at most 50 frames a second"):
-        replace(film, fps=60).save(out / "balls.gif")
-    with pytest.raises(TypeError, match="draw cannot be sent to the processes that draw"):
-        Film(lambda x: None, [1.0]).save(out / "balls.gif")
-    with pytest.raises(TypeError, match=r"shots\[1\] cannot be sent"):
-        Film(balls.ball, [1.0, lambda: None]).save(out / "balls.gif")
-    assert list(out.iterdir()) == []
+@pytest.mark.parametrize(
+    ("draw", "shots", "options", "name", "how", "error", "message"),
+    [
+        ("ball", [], {}, "a.gif", {}, ValueError, "shots is empty"),
+        *(("ball", [1.0], {"fps": fps}, "a.gif", {}, ValueError, "fps") for fps in (0.0, -25.0, np.nan, np.inf)),
+        *(("ball", [1.0], {"size": size}, "a.gif", {}, ValueError, "size") for size in (0, 65_536)),
+        ("ball", [1.0], {"size": 99.5}, "a.gif", {}, TypeError, "size"),
+        ("ball", [1.0], {}, "a.mov", {}, ValueError, "path must end in"),
+        ("ball", [1.0], {}, "a.gif", {"jobs": 0}, ValueError, "jobs"),
+        ("ball", [1.0], {"fps": 60}, "a.gif", {}, ValueError, "at most 50 frames a second"),
+        ("ball", [1.0, lambda: None], {}, "a.gif", {}, TypeError, r"shots\[1\] cannot be sent"),
+        (None, [1.0], {}, "a.gif", {}, TypeError, "draw cannot be sent to the processes that draw"),
+        ("ball", [1.0], {}, "none/a.gif", {"jobs": 1}, FileNotFoundError, "none"),
+        ("ball", [1.0], {}, "folder.gif", {"jobs": 1}, IsADirectoryError, r"folder\.gif is a folder; give the name"),
+        ("ball", range(100_001), {}, "a.gif", {}, ValueError, "shots has 100001 entries, and at most 100000"),
+    ],
+)
+def test_what_cannot_be_is_refused_before_anything_is_drawn(
+    balls, out, draw, shots, options, name, how, error, message
+):
+    (out / "folder.gif").mkdir()
+    with pytest.raises(error, match=message):
+        Film(getattr(balls, draw) if draw else lambda _: None, shots, **options).save(out / name, **how)
+    assert [path.name for path in out.iterdir()] == ["folder.gif"]
     assert not balls.LOG.exists()
 
 
@@ -334,18 +310,3 @@ def test_a_kept_frame_that_cannot_be_read_is_named(balls, out):
     with pytest.raises(OSError, match=rf"{frame.name} cannot be read .*remove it and try again"):
         replace(film, shots=[1.0]).save(out / "balls.gif", jobs=1, progress=False)
     assert not (out / "balls.gif").exists()
-
-
-def test_nowhere_to_write_is_noticed_before_drawing(balls, out):
-    film = Film(balls.ball, [1.0], size=40)
-    with pytest.raises(FileNotFoundError):
-        film.save(out / "none" / "balls.gif", jobs=1)
-    (out / "folder.gif").mkdir()
-    with pytest.raises(IsADirectoryError, match=r"folder\.gif is a folder; give the name of a file"):
-        film.save(out / "folder.gif", jobs=1)
-    assert not balls.LOG.exists()
-
-
-def test_films_can_be_pickled(balls):
-    film = pickle.loads(pickle.dumps(Film(balls.ball, (1.0, 2.0), size=80)))
-    assert np.array_equal(film.picture(1), Film(balls.ball, (2.0,), size=80).picture(0))

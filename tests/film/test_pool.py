@@ -7,11 +7,11 @@ import subprocess
 import sys
 import threading
 import time
-from pathlib import Path
 
 import pytest
 
 from stereodel.film.pool import attempt, in_processes
+from tests.film.processes import ended, wait_until
 
 WORK = """
 import os, signal, time
@@ -41,13 +41,6 @@ def double(tmp_path, monkeypatch):
 
     yield work_of_a_test.double
     sys.modules.pop("work_of_a_test", None)
-
-
-def ended(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
-    except OSError:
-        return True
 
 
 def test_each_task_is_done_once_by_as_many_processes_as_wanted(double):
@@ -126,7 +119,6 @@ def test_processes_end_with_the_one_that_started_them(double, tmp_path):
     """Killed, it can end nobody: they must see it themselves, in the middle of a task too."""
     code = """
 import os, sys, time
-from pathlib import Path
 from work_of_a_test import double
 from stereodel.film.pool import in_processes
 results = in_processes(double, [1, 2, "sleep", "sleep"], jobs=2)
@@ -139,10 +131,7 @@ next(results)
         assert len(set(processes)) >= 1
         assert not any(map(ended, processes))
         process.send_signal(signal.SIGKILL)
-    limit = time.monotonic() + 20
-    while not all(map(ended, processes)):
-        assert time.monotonic() < limit
-        time.sleep(0.05)
+    wait_until(lambda: all(map(ended, processes)), 20)
 
 
 def test_threads_of_this_process_see_the_main_module_as_it_is(double):

@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz
@@ -14,9 +14,11 @@ from stereodel.drawing import StereographicView, View
 from stereodel.film import Flight, Morph, Spin, Stop
 from stereodel.film.shots import eased
 from stereodel.sphere import angular_distance
+from tests.examples import examples
 
 PARIS, NEW_YORK, TOKYO = (2.35, 48.86), (-74.0, 40.7), (139.7, 35.7)
 PLACES = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
+STILL = path_between(MoebiusMap.identity(), MoebiusMap.identity())
 STOPS = st.builds(Stop, PLACES, st.floats(1, 50), st.floats(0, 3))
 
 
@@ -29,7 +31,6 @@ def middle(view):
     return lonlat_to_xyz((view.lon, view.lat))
 
 
-@settings(max_examples=25)
 @given(st.lists(STOPS, min_size=2, max_size=3))
 def test_stops_are_held_and_between_them_nothing_jumps(stops):
     assume(far_from_opposite(stops))
@@ -47,7 +48,7 @@ def test_stops_are_held_and_between_them_nothing_jumps(stops):
         assert np.allclose(view.matrix, View(*stop.focus).matrix, atol=1e-6)
 
 
-@settings(max_examples=15)
+@examples(0.5)
 @given(STOPS, STOPS)
 def test_the_globe_turns_no_faster_than_it_may(start, end):
     assume(far_from_opposite([start, end]))
@@ -92,15 +93,6 @@ def test_growing_on_the_spot_is_even_in_ratios():
     lens, view = trip(trip.seconds / 2)
     assert lens.magnification == pytest.approx(8**0.5)
     assert (view.lon, view.lat, view.roll) == pytest.approx((*PARIS, 0.0))
-
-
-def test_a_flight_from_the_whole_globe_pans_while_it_grows():
-    trip = Flight([Stop(PARIS, hold=0.0), Stop(NEW_YORK, 8.0, hold=0.0)])
-    before = [
-        angular_distance(middle(trip(time)[1]), lonlat_to_xyz(PARIS)) for time in np.linspace(0, trip.seconds, 60)
-    ]
-    assert (np.diff(before) >= -1e-9).all()
-    assert np.diff(before).max() < 3
 
 
 def test_before_and_after_it_stands_still():
@@ -148,22 +140,19 @@ def test_motions_are_values_that_can_be_pickled(motion):
     assert pickle.loads(pickle.dumps(motion))(0.7) == motion(0.7)
 
 
-def test_bad_flights_are_refused():
-    with pytest.raises(ValueError, match="stops has 1 entries, but a flight has two or more"):
-        Flight([Stop(PARIS)])
-    with pytest.raises(ValueError, match=r"stops\[2\] is opposite stops\[1\]"):
-        Flight([Stop(PARIS), Stop((10.0, 20.0)), Stop((-170.0, -20.0))])
-    for wrong in (0.0, 0.9, -1.0, np.nan, np.inf):
-        with pytest.raises(ValueError, match="magnification"):
-            Stop(PARIS, wrong)
-    with pytest.raises(ValueError, match="focus"):
-        Stop((48.86, 235.0))
-    with pytest.raises(ValueError, match="hold"):
-        Stop(PARIS, hold=-1.0)
-    with pytest.raises(ValueError, match="pace"):
-        Flight([Stop(PARIS), Stop(TOKYO)], pace=0.0)
-    for wrong in (0.0, np.nan):
-        with pytest.raises(ValueError, match="seconds"):
-            Spin(seconds=wrong)
-        with pytest.raises(ValueError, match="seconds"):
-            Morph(path_between(MoebiusMap.identity(), MoebiusMap.identity()), View(0, 0), seconds=wrong)
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: Flight([Stop(PARIS)]), "stops has 1 entries, but a flight has two or more"),
+        (lambda: Flight([Stop(PARIS), Stop((10, 20)), Stop((-170, -20))]), r"stops\[2\] is opposite stops\[1\]"),
+        (lambda: Flight([Stop(PARIS), Stop(TOKYO)], pace=0.0), "pace"),
+        *((lambda wrong=wrong: Stop(PARIS, wrong), "magnification") for wrong in (0.0, 0.9, -1.0, np.nan, np.inf)),
+        (lambda: Stop((48.86, 235.0)), "focus"),
+        (lambda: Stop(PARIS, hold=-1.0), "hold"),
+        *((lambda wrong=wrong: Spin(seconds=wrong), "seconds") for wrong in (0.0, np.nan)),
+        (lambda: Morph(STILL, View(0, 0), seconds=0.0), "seconds"),
+    ],
+)
+def test_bad_motions_are_refused(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()

@@ -8,13 +8,14 @@ import xml.etree.ElementTree as ET
 import av
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
 from stereodel import _extras
 from stereodel.film import Film
 from stereodel.film.writers import FORMATS, frame_seconds, whole_ticks
+from tests.examples import examples
 
 LOOPING = ("gif", "png", "apng", "webp")
 
@@ -101,7 +102,7 @@ def test_mp4_has_even_sizes_and_begins_with_its_index(tmp_path):
     assert 0 < data.index(b"moov") < data.index(b"mdat")
 
 
-@pytest.mark.parametrize("ending", [*LOOPING, "mp4"])
+@pytest.mark.parametrize("ending", LOOPING)
 def test_the_same_frames_give_the_same_bytes(tmp_path, ending):
     first, second = (save(REEL, tmp_path / f"{name}.{ending}") for name in "ab")
     assert first.read_bytes() == second.read_bytes()
@@ -124,7 +125,7 @@ def test_one_frame_is_a_film_too(tmp_path, ending):
 
 
 @pytest.mark.parametrize("ending", ["gif", "png"])
-@settings(max_examples=15)
+@examples(0.5)
 @given(data=st.data())
 def test_whatever_changes_is_seen(tmp_path_factory, ending, data):
     """Random pictures of few colours: each frame comes back, whichever rectangle changed; in a GIF to a rounding."""
@@ -140,13 +141,6 @@ def test_whatever_changes_is_seen(tmp_path_factory, ending, data):
     file = save(reel, tmp_path_factory.mktemp("film") / f"film.{ending}")
     frames, _, _ = read(file)
     assert np.abs(frames.astype(int) - reel).max() <= (2 if ending == "gif" else 0)
-
-
-def test_a_gif_of_a_million_colours_is_near_them(tmp_path):
-    y, x = np.mgrid[0:256, 0:256]
-    reel = [np.stack([x, y, np.full_like(x, blue)], axis=-1).astype(np.uint8) for blue in (0, 100, 200)]
-    frames, _, _ = read(save(reel, tmp_path / "many.gif"))
-    assert np.abs(frames.astype(int) - reel).mean() < 14
 
 
 def test_what_a_gif_shows_long_has_its_colours(tmp_path):
@@ -169,12 +163,6 @@ def test_what_a_gif_shows_long_has_its_colours(tmp_path):
 def test_times_add_up(count, rate, per_second):
     ticks = whole_ticks(frame_seconds(1 / rate, count), per_second)
     assert np.abs(np.cumsum(ticks) / per_second - np.arange(1, count + 1) / rate).max() <= 0.5 / per_second + 1e-9
-
-
-@pytest.mark.parametrize("ending", ["jpg", "", "avi"])
-def test_other_endings_are_refused(tmp_path, ending):
-    with pytest.raises(ValueError, match=r"path must end in \.gif, \.png, \.apng, \.webp, \.mp4"):
-        save(REEL, tmp_path / f"moving.{ending}")
 
 
 @pytest.mark.parametrize("ending", [*LOOPING, "mp4"])
@@ -231,9 +219,17 @@ def test_a_full_disk_is_an_error(tmp_path, ending):
         FORMATS[full.suffix].write(REEL, full, np.full(5, 0.1))
 
 
-@pytest.mark.parametrize("ending", ["gif", "mp4", pytest.param("apng", marks=pytest.mark.large)])
-def test_a_film_of_any_length_needs_the_memory_of_some_frames(tmp_path, ending):
-    """What FFmpeg holds is seen from outside only: peaks of processes that write ten times as many frames."""
+@pytest.mark.parametrize(
+    ("ending", "most", "megabytes"),
+    [
+        ("gif", 300, 15),
+        pytest.param("gif", 1000, 30, marks=pytest.mark.thorough),
+        pytest.param("mp4", 1000, 30, marks=pytest.mark.thorough),
+        pytest.param("apng", 1000, 30, marks=pytest.mark.large),
+    ],
+)
+def test_a_film_of_any_length_needs_the_memory_of_some_frames(tmp_path, ending, most, megabytes):
+    """What FFmpeg holds is seen from outside only: peaks of processes that write many more frames, of 0.12 MB each."""
     code = """
 import resource, sys
 import numpy as np
@@ -247,16 +243,16 @@ Film.of_pictures(Noise(int(sys.argv[2]))).save(Path(sys.argv[1]), progress=False
 print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
 """
     peaks = []
-    for count in (100, 1000):
+    for count in (most // 10, most):
         command = [sys.executable, "-c", code, str(tmp_path / f"noise.{ending}"), str(count)]
         peaks.append(float(subprocess.run(command, capture_output=True, text=True, check=True).stdout))
-    assert peaks[1] - peaks[0] < 30  # megabytes; 900 frames have 108
+    assert peaks[1] - peaks[0] < megabytes
 
 
-@pytest.mark.parametrize("title", ["A globe that turns", "Çà & là <東京> " + "long " * 70])
 @pytest.mark.parametrize("ending", FORMATS)
-def test_files_say_their_title(tmp_path, ending, title):
+def test_files_say_their_title(tmp_path, ending):
     """As other programs find it, and with the same frames as without."""
+    title = "Çà & là <東京> " + "long " * 70
     told = Film.of_pictures(REEL, seconds=0.2, title=title).save(tmp_path / f"told{ending}", progress=False)
     plain = save(REEL, tmp_path / f"plain{ending}", seconds=0.2)
     assert len(told.read_bytes()) > len(plain.read_bytes()) + len(title.encode())
@@ -279,8 +275,3 @@ def test_a_film_of_one_frame_says_its_title(tmp_path):
     for ending in (".webp", ".gif"):
         told = Film.of_pictures(REEL[:1], seconds=1.0, title="One").save(tmp_path / f"one{ending}", progress=False)
         assert b"One" in told.read_bytes()
-
-
-def test_too_many_frames_are_refused():
-    with pytest.raises(ValueError, match="shots has 100001 entries, and at most 100000"):
-        Film(disc, range(100_001))

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stereodel import fisheye
-from stereodel.drawing import Fill, Label, Polygons, View, styled
+from stereodel.drawing import Label, View, styled
+from stereodel.drawing.colorimetry import contrast
 from stereodel.drawing.ground import VEIL, legible, painted
 from stereodel.drawing.label import label_box, within_disc
 from stereodel.drawing.page_styles import GROUND, dark_color
@@ -14,14 +15,6 @@ from stereodel.drawing.style import HALO_OPACITY, MAP_FILLS
 from stereodel.globe import Globe, Raster
 
 LENS = fisheye((10.0, 50.0), magnification=3.0)
-
-
-def contrast(a, b):
-    def light(color):
-        linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in color[:3]]
-        return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2] + 0.05
-
-    return max(light(a), light(b)) / min(light(a), light(b))
 
 
 @pytest.mark.parametrize("layers", ["land", "cells", "raster"])
@@ -49,16 +42,6 @@ def test_what_is_painted_is_what_is_drawn(layers):
     off = np.abs(painted(items, places) - picture[row, column]).max(axis=1)
     # A few places lie on a border, or on the limb.
     assert np.mean(off < 0.02) > 0.97
-
-
-def test_the_sea_and_the_land_are_the_ball():
-    land, sea = Globe(ocean="black"), Globe(ocean="black")
-    land.add_land(color="white", resolution="110m")
-    sea.add_ocean(color="white", resolution="110m")
-    a, b = (globe.page(LENS, View(20, 30)).pixels(size=400, renderer="agg").astype(int) for globe in (land, sea))
-    inside = np.hypot(*np.meshgrid(np.linspace(-1.03, 1.03, 400), np.linspace(-1.03, 1.03, 400))) < 0.97
-    both = (a + b)[inside].mean(axis=-1)
-    assert np.mean(np.abs(both - 255) < 3) > 0.98
 
 
 @pytest.mark.parametrize(
@@ -160,8 +143,8 @@ def test_a_halo_is_as_light_or_dark_as_reading_needs():
     for ink in ((0, 0, 0, 1.0), (1.0, 1.0, 1.0, 1.0), (0.4, 0.1, 0.1, 1.0)):
         for ground in np.random.default_rng(1).uniform(size=(50, 3)):
             found = legible(ground, ink)
-            assert contrast(found, ink) > 6.9 or found.tolist() in ([1.0] * 3, [0.0] * 3)
-            assert contrast(ground, ink) < 7.1 or found == pytest.approx(ground)
+            assert contrast(found, ink[:3]) > 6.9 or found.tolist() in ([1.0] * 3, [0.0] * 3)
+            assert contrast(ground, ink[:3]) < 7.1 or found == pytest.approx(ground)
 
 
 def test_names_turn_to_where_the_disc_has_room():
@@ -176,17 +159,3 @@ def test_names_turn_to_where_the_disc_has_room():
     assert (top.align, top.valign, top.offset, top.halo) == ("center", "top", (0.0, -4.0), 1.0)
     # Without room on any side a halo would cut the limb.
     assert within_disc(label, (0.0, 0.0), 0.2, unit).halo == 0
-
-
-def test_the_graticule_of_a_globe_is_thinned():
-    globe = Globe()
-    globe.add_graticule(5)
-    small, large = (globe.page(view=View(0, 90), width=width) for width in (50.0, 5000.0))
-    ends = []
-    for page in (small, large):
-        (lines,) = [item for item in page.items if item.name == "graticule"]
-        away = np.hypot(*(lines.points - page.extent[1] / 2).T)
-        ends.append(np.sum(away < 0.02))
-        assert any(isinstance(item, Fill) for item in page.items)
-        assert not any(isinstance(item, Polygons) for item in page.items)
-    assert ends[0] <= 8 < 36 <= ends[1]

@@ -6,34 +6,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import MoebiusMap, fisheye, lonlat_to_xyz, xyz_to_lonlat
-from stereodel.curves import trace
 from stereodel.curves.ragged import Ragged, thinned
-from stereodel.curves.trace import Edges
 from stereodel.drawing.view import StereographicView, View
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
-from stereodel.sphere import SphereArc, SphereCircle
+from stereodel.sphere import SphereArc
 from stereodel.sphere.vectors import turned
+from tests.globe.sights import distance, places, sizes, views
 
 NONE = MoebiusMap.identity()
-places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
-views = st.one_of(
-    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
-    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
-)
-
-
-def distance_to_polyline(truth, points):
-    a, way = points[:-1], np.diff(points, axis=0)
-    share = np.sum((truth[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300)
-    near = a + np.clip(share, 0.0, 1.0)[..., None] * way
-    return np.linalg.norm(truth[:, None] - near, axis=-1).min(axis=1)
 
 
 @given(
     start=places,
     step=st.tuples(st.floats(-179, 179), st.floats(-90, 90)),
-    size=st.floats(-2, 2).map(lambda e: 10.0**e),
+    size=sizes(-2, 2),
     focus=places,
 )
 def test_edges_are_straight_in_longitude_and_latitude(start, step, size, focus):
@@ -44,23 +31,20 @@ def test_edges_are_straight_in_longitude_and_latitude(start, step, size, focus):
     share = np.linspace(0, 1, 500)[:, None]
     truth = lens(lonlat_to_xyz(np.array(start) + share * (np.array(end) - start)))
     assert offsets.tolist() == [0, len(points)]
-    assert len(points) == 1 or distance_to_polyline(truth, points).max() <= 1.2e-3
+    assert len(points) == 1 or distance(truth, points).max() <= 1.2e-3
 
 
 def test_jumps_across_the_antimeridian_go_the_short_way():
+    """From one side of it to the other there is no way at all."""
     lines = SphereLines.straight_in_lonlat([[(170, 10), (-170, 12), (-160, 12)], [(-179, 0), (179, 0)]])
     points, offsets = lines.through(NONE, tolerance=1e-3)
-    lon = np.abs(xyz_to_lonlat(points)[:, 0])
-    assert lon.min() > 159.9
+    assert np.abs(xyz_to_lonlat(points)[:, 0]).min() > 159.9
     assert len(offsets) == 3
-
-
-def test_from_one_side_of_the_antimeridian_to_the_other_is_no_way():
     points, _ = SphereLines.straight_in_lonlat([[(180, 10), (-180, 10), (-170, 10)]]).through(NONE, tolerance=1e-3)
     assert np.linalg.norm(np.diff(points, axis=0), axis=1).sum() < np.radians(10)
 
 
-@given(start=places, end=places, focus=places, size=st.floats(-2, 6).map(lambda e: 10.0**e), view=views)
+@given(start=places, end=places, focus=places, size=sizes(-2, 6), view=views)
 def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, view):
     """All of the image in the disc is near what is drawn, and what is drawn is near the image."""
     a, b = lonlat_to_xyz([start, end])
@@ -76,7 +60,7 @@ def test_what_is_seen_of_an_arc_is_on_its_exact_image(start, end, focus, size, v
         assert len(truth) == 0 or np.ptp(truth, axis=0).max() < 1e-2
         return
     assert (np.hypot(*seen.values.T) <= 1 + 1e-9).all()
-    gaps = np.min([distance_to_polyline(truth, line) for line in seen], axis=0) if len(truth) else np.zeros(1)
+    gaps = np.min([distance(truth, line) for line in seen], axis=0) if len(truth) else np.zeros(1)
     assert gaps.max() <= 2.2e-3
     # Ends are ends of the image, or on the rim.
     ends = np.concatenate([seen.values[seen.offsets[:-1]], seen.values[seen.offsets[1:] - 1]])
@@ -92,36 +76,6 @@ def test_lines_out_of_sight_leave_nothing():
         assert seen.values.shape == (0, 2)
         assert len(seen) == 0
     assert len(Chart(NONE, View(0, 0)).lines(SphereLines.straight_in_lonlat([]))) == 0
-
-
-@pytest.mark.parametrize("size", [1.0, 30.0, 1e6])
-@pytest.mark.parametrize("view", [View(2, 48), View(60, 10), StereographicView(2, 48, angular_radius=140)])
-def test_edges_that_are_left_out_are_out_of_sight(size, view, monkeypatch):
-    rng = np.random.default_rng(1)
-    walks = np.cumsum(rng.normal(scale=3.0, size=(40, 30, 2)), axis=1) + rng.uniform(-90, 90, (40, 1, 2))
-    walks[::2, -1] = walks[::2, 0]
-    walks[:9] = walks[:9] * 10.0 ** -np.arange(9)[:, None, None] + [2, 48]
-    walks[..., 1] = np.clip(walks[..., 1], -90, 90)
-    lines = SphereLines.straight_in_lonlat(walks)
-    chart = Chart(fisheye((2.0, 48.0), magnification=size), view)
-    some = chart.lines(lines)
-    near = lines.edges.within(chart.source.center, chart._reach).mean()
-    monkeypatch.setattr(Edges, "within", lambda self, center, reach: np.ones(len(self), dtype=bool))
-    whole = chart.lines(lines)
-    np.testing.assert_array_equal(some.values, whole.values)
-    np.testing.assert_array_equal(some.offsets, whole.offsets)
-    assert near < 0.9 or size == 1
-
-
-def test_arcs_of_circles_are_followed_whole():
-    circle = SphereCircle.around((20.0, 30.0), 25.0)
-    lens = fisheye((10.0, 20.0), magnification=5.0)
-    points, offsets = SphereLines.alone(trace.exact([SphereArc.whole(circle)])).through(lens, tolerance=1e-4)
-    image = lens.image_of(circle)
-    np.testing.assert_allclose(points @ image.normal, image.offset, atol=1e-12)
-    assert offsets.tolist() == [0, len(points)]
-    assert (points[0] == points[-1]).all()
-    assert distance_to_polyline(image.sample(2000), points).max() < 1e-4
 
 
 @given(st.integers(0, 1000), st.floats(0.01, 1.0))
@@ -154,4 +108,4 @@ def test_long_edges_through_a_strong_lens_are_exact_and_few_pieces(size, latitud
         near = 0.5 + np.array([-1, 1])[:, None] * np.geomspace(0.5, 1e-3 / size, 40)
         truth = lens(lonlat_to_xyz(start + np.sort(near.ravel())[:, None] * (end - start), latitude=latitude))
         drawn = own.through(lens).sampled(tolerance / 2).values
-        assert distance_to_polyline(truth, drawn).max() <= tolerance + 4e-16 * size  # the rounding of the places
+        assert distance(truth, drawn).max() <= tolerance + 4e-16 * size  # the rounding of the places

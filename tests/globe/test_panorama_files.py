@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageCms
 
-from stereodel import MoebiusMap, fisheye
+from stereodel import fisheye
 from stereodel.drawing.view import View
 from stereodel.globe import Raster, save_panorama
 from stereodel.globe.images import Photo, read_photo, write_photo
@@ -83,12 +83,6 @@ def test_a_panorama_that_says_nothing_is_told_to_be_one(tmp_path):
     (file,) = save_panorama(tmp_path / "room.png", tmp_path / "out.jpg")
     assert said_to_viewers(file)["ProjectionType"] == "equirectangular"
     assert "PoseHeadingDegrees" not in said_to_viewers(file)
-
-
-def test_the_bearing_turns_with_the_view(tmp_path):
-    source = write_photo(tmp_path / "room.png", Photo(opaque(picture()), xmp=XMP.encode()))
-    (file,) = save_panorama(source, tmp_path / "out.png", view=View(20.0, 0.0))
-    assert said_to_viewers(file)["PoseHeadingDegrees"] == "10.5"
 
 
 @pytest.mark.parametrize("form", ["cubemap", "planet"])
@@ -186,11 +180,3 @@ def test_what_is_refused_is_refused_before_it_is_drawn(tmp_path, monkeypatch, sh
     with pytest.raises(ValueError, match=re.escape(message)):
         save_panorama(tmp_path / "room.png", tmp_path / name, **options)
     assert [path.name for path in tmp_path.iterdir()] == ["room.png"]
-
-
-def test_no_lens_is_the_lens_that_does_nothing(tmp_path):
-    source = write_photo(tmp_path / "room.png", Photo(opaque(picture())))
-    files = [
-        save_panorama(source, tmp_path / f"{k}.png", lens)[0] for k, lens in enumerate((None, MoebiusMap.identity()))
-    ]
-    assert np.array_equal(*(read_photo(file).pixels for file in files))

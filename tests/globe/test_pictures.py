@@ -124,25 +124,6 @@ def test_vector_files_hold_one_picture_cut_along_the_limb(tmp_path, kind):
     assert path.read_bytes() == save_vector(page_of(Image(COLOURED, 1.0, "raster")), path).read_bytes()
 
 
-def test_golden_arrays_tell_pictures_apart():
-    def arrays(*, lens=LENS, view=VIEW, raster=COLOURED, opacity=1.0):
-        named = page_of(Image(raster, opacity, "raster"), lens=lens, view=view).arrays()
-        return {name: array.tolist() for name, array in named.items() if name != "views"}
-
-    other = COLOURED.pixels.copy()
-    other[3, 4, 0] ^= 1
-    same = arrays()
-    assert same == arrays()
-    for changed in (
-        arrays(lens=fisheye((10.0, 50.0), magnification=3.01)),
-        arrays(view=View(20, 40.5)),
-        arrays(raster=Raster(other)),
-        arrays(raster=Raster(COLOURED.pixels, (-180, -90, 180, 89))),
-        arrays(opacity=0.99),
-    ):
-        assert changed != same
-
-
 def test_painted_where_it_lies_on_the_page():
     """Moved and scaled on the page, the same pixels."""
     plain = RasterOnDisc(COLOURED, LENS, View(0, 0))
@@ -172,15 +153,3 @@ def test_files_have_the_latitude_of_the_globe(tmp_path):
         globe.add_raster(COLOURED)
         kinds = [str(array) for name, array in globe.page(LENS).arrays().items() if name.endswith("_latitude")]
         assert kinds == [latitude, latitude, "spherical"]
-
-
-@pytest.mark.parametrize(
-    ("raster", "options", "words"),
-    [
-        (COLOURED, {"opacity": 1.5}, "opacity is 1.5"),
-        (COLOURED, {"bounds": (0, 0, 1, 1)}, "bounds belong to pixels and files"),
-    ],
-)
-def test_bad_options_are_refused(raster, options, words):
-    with pytest.raises(ValueError, match=words):
-        Globe().add_raster(raster, **options)

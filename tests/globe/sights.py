@@ -1,0 +1,41 @@
+"""Views of globes for properties, and where lines and loops on a page are."""
+
+import numpy as np
+from hypothesis import strategies as st
+
+from stereodel.drawing.view import StereographicView, View
+
+places = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
+views = st.one_of(
+    st.builds(View, st.floats(-180, 180), st.floats(-90, 90)),
+    st.builds(StereographicView, st.floats(-180, 180), st.floats(-90, 90), angular_radius=st.floats(20, 150)),
+)
+
+
+def sizes(low, high):
+    """Magnifications between two powers of ten."""
+    return st.floats(low, high).map(lambda exponent: 10.0**exponent)
+
+
+def distance(points, line):
+    """Of points (n, d) from a line through points (m, d)."""
+    a, way = line[:-1], np.diff(line, axis=0)
+    share = np.sum((points[:, None] - a) * way, axis=-1) / np.maximum(np.sum(way**2, axis=-1), 1e-300)
+    return np.linalg.norm(points[:, None] - a - np.clip(share, 0, 1)[..., None] * way, axis=-1).min(axis=1)
+
+
+def winding(loops, places):
+    """How often closed loops go round places, counterclockwise."""
+    total = np.zeros(len(places), dtype=int)
+    for loop in loops:
+        a, b = loop[:-1, None] - places, loop[1:, None] - places
+        cross = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
+        total += ((a[..., 1] <= 0) & (b[..., 1] > 0) & (cross > 0)).sum(axis=0)
+        total -= ((a[..., 1] > 0) & (b[..., 1] <= 0) & (cross < 0)).sum(axis=0)
+    return total
+
+
+def disc(size):
+    """Places (…, 2) of the middles of pixels of a square around the unit disc, from its upper left corner."""
+    middle = (np.arange(size) + 0.5) * 2 / size - 1
+    return np.stack(np.meshgrid(middle, -middle), axis=-1)
