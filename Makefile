@@ -5,6 +5,9 @@ SHELL := bash
 .DEFAULT_GOAL := help
 MAKEFLAGS += --no-builtin-rules --warn-undefined-variables --no-print-directory
 
+# Where it is set, each of the many processes of tests compiles all modules anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 VENV := .venv
 OUT := out
 STYLE :=
@@ -14,11 +17,12 @@ FUZZ_SECONDS := 60
 FUZZ_FILES := 2000
 FUZZ_SEED :=
 BIN := $(VENV)/bin
+PYTEST = $(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
 BUILD := $(BIN)/python -m tools.build --scripts figures --out $(OUT) $(if $(STYLE),--style $(STYLE))
 
-.PHONY: help install system opengl browser librsvg figures poster animations test test-thorough test-large test-source test-pythons \
-	test-lowest sanitize fuzz fuzz-files check \
-	lint web built stub bench dist source check-archives wheels cross baselines names readme-images web-images docs clean
+.PHONY: help install system opengl browser librsvg figures poster animations test test-thorough test-large mutations coverage \
+	test-source test-pythons test-lowest sanitize fuzz fuzz-files check \
+	lint web built stub bench dist dist-again source check-archives wheels cross baselines names readme-images web-images docs clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):.*## (.*)/  make \1|\2/p' $(firstword $(MAKEFILE_LIST)) | column -t -s '|'
@@ -57,20 +61,28 @@ poster: $(VENV)/installed-figures opengl ## draw figures/globe_poster.py 16384 p
 animations: $(VENV)/installed-animations opengl ## draw every animation that is out of date into out/
 	@$(BUILD) anim
 
-test: $(VENV)/installed-test system ## all tests, then the image tests once more on EGL
-	$(BIN)/python -m pytest -n $(JOBS) $(PYTEST_ARGS)
-	STEREODEL_GL=egl $(BIN)/python -m pytest -n $(JOBS) -m 'images and not thorough' $(PYTEST_ARGS) tests/images
+test: $(VENV)/installed-test system ## what every change must pass: pictures first, and no further if one differs; then all else once
+	$(PYTEST) tests/images tests/figures
+	$(PYTEST) --ignore=tests/images --ignore=tests/figures
 
-test-thorough: $(VENV)/installed-test system ## the tests that `make test` leaves out because they take long
-	$(BIN)/python -m pytest -n $(JOBS) -m thorough $(PYTEST_ARGS)
+test-thorough: $(VENV)/installed-test system ## the same for more cases, 500 examples of each property, and the pictures on EGL
+	$(PYTEST) -m '(thorough or hypothesis) and not large' --hypothesis-profile=thorough
+	STEREODEL_GL=egl $(PYTEST) -m 'images and not thorough' tests/images
 
 test-large: $(VENV)/installed-test ## the tests that take minutes or gigabytes
 	$(BIN)/python -m pytest -m large -o faulthandler_timeout=3600 $(PYTEST_ARGS)
 
+mutations: $(VENV)/installed-test system ## change the library at one place after another: the tests named for each must fail
+	$(BIN)/python -m tools.mutate
+
+coverage: $(VENV)/installed-test system ## lines and branches of Python and C++ that all tests but the large ones reach
+	tools/coverage.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
+
 test-source: $(VENV)/installed-test opengl librsvg ## the tests from the unpacked source archive, as distributions run them
 	tools/test_source.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
 
-sanitize: $(VENV)/installed-test opengl ## the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
+sanitize: $(VENV)/installed-test opengl ## one definition a name; the tests, then random bytes, on a kernel that stops at wrong addresses and undefined behaviour
+	tools/one_definition.sh $(VENV)
 	tools/sanitize.sh $(VENV) -n $(JOBS) $(PYTEST_ARGS)
 	tools/fuzz.sh $(VENV) $(FUZZ_SECONDS)
 
@@ -80,7 +92,7 @@ fuzz: $(VENV)/installed-kernel ## feed random bytes to the kernel for FUZZ_SECON
 fuzz-files: $(VENV)/installed-test ## give FUZZ_FILES changed files of all formats to the readers; those that fail are kept in build/fuzz/files
 	$(BIN)/python -m tests.fuzz.files $(FUZZ_FILES) $(FUZZ_SEED)
 
-check: lint built docs ## format, lint, types, tracked text, the kernel's one-definition rule, workflows, the page's built files, documentation
+check: lint built docs ## format, lint, types, tracked text, workflows, the page's built files, documentation
 
 lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/ruff format --check .
@@ -88,7 +100,6 @@ lint: $(VENV)/installed-lint ## what check does, without the documentation
 	$(BIN)/mypy
 	$(BIN)/python tools/kernel_stub.py --check
 	$(BIN)/python tools/tracked_text.py
-	tools/one_definition.sh $(VENV)
 	PATH=$(CURDIR)/$(BIN):$$PATH npm --prefix stereodel/web/script --silent run check
 	$(BIN)/zizmor --offline --quiet --strict-collection .github
 
@@ -108,6 +119,9 @@ bench: $(VENV)/installed-library ## measure against other libraries, which are i
 
 dist: $(VENV)/installed-wheels opengl ## source archive, wheel and npm archive into dist/, each tried as users get it
 	tools/dist.sh $(VENV)
+
+dist-again: $(VENV)/installed-wheels ## those of dist/ once more, the wheel in another folder: the same sources must give the same bytes
+	tools/dist_again.sh $(VENV)
 
 source: $(VENV)/installed-wheels ## the source archive into dist/
 	@tools/source_archive.sh $(VENV) dist
@@ -137,7 +151,7 @@ web-images: $(VENV)/installed-test browser ## draw the screenshots of the intera
 # Always from nothing: the gallery looks at the scripts alone, and pictures depend on the library too.
 docs: $(VENV)/installed-docs opengl ## build the documentation into docs/_build/html; warnings are errors
 	@rm -rf docs/_build docs/gallery docs/api/generated
-	$(BIN)/python -m sphinx -W --keep-going -q -d docs/_build/doctrees -b html docs docs/_build/html
+	$(BIN)/python -m sphinx -W --keep-going -q -j auto -d docs/_build/doctrees -b html docs docs/_build/html
 	$(BIN)/python tools/offline_pages.py docs/_build/html
 	$(BIN)/python tools/searches.py docs/_build/html
 	@echo "Open docs/_build/html/index.html"

@@ -69,6 +69,7 @@ sphinx_gallery_conf = {
     "within_subsection_order": "figure_gallery.FiguresFirst",
     "reset_argv": "figure_gallery.script_arguments",
     "reset_modules": (),
+    "parallel": True,  # as many scripts at once as Sphinx has processes
     "image_scrapers": ("figure_gallery.written_pictures",),
     "capture_repr": (),
     "abort_on_example_error": True,

@@ -1,18 +1,23 @@
-"""Settings of all tests."""
+"""Settings of all tests: how many examples a property gets, what runs in one process, and where the time goes."""
 
 import os
+import re
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
+ROOT = Path(__file__).resolve().parent.parent
+
 # `benchmarks` and `tools` are folders of the repository and not installed.
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(0, str(ROOT))
 
 # No deadline: the first call of a test may load a library or meet a busy machine. In CI the same examples every time.
-settings.register_profile("stereodel", deadline=None, derandomize=bool(os.environ.get("CI")))
-settings.load_profile("stereodel")
+for profile, examples in {"quick": 25, "thorough": 500}.items():
+    settings.register_profile(profile, deadline=None, max_examples=examples, derandomize=bool(os.environ.get("CI")))
+settings.load_profile("quick")  # `make test-thorough` takes the other by --hypothesis-profile
 
 
 @pytest.fixture
@@ -34,10 +39,64 @@ def no_other_fonts(monkeypatch):
         kept.cache_clear()
 
 
+SCRIPT = re.compile(r"[\[-]((?:fig\d\d|claim|globe|earth|sky|anim)_\w+)")
+"""The name of a figure's script among the parameters of a test."""
+
+QUICK_SECONDS = 6.0
+"""A quick test that takes longer is named: three times the two seconds of the rule, as machines are busy."""
+
+THOROUGH_SECONDS = 60.0
+"""A test with the marker `thorough` that takes longer is named, too."""
+
+
+def pytest_xdist_make_scheduler(config, log):
+    """The tests of a file run in one process, which makes once what they share; so do all tests of a figure, and all of
+    the page.
+    """
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Together(LoadScopeScheduling):
+        def _split_scope(self, nodeid):
+            file, _, test = nodeid.partition("::")
+            script = SCRIPT.search(test)
+            return script[1] if script else "browser" if file.startswith("tests/web/") else file
+
+    return Together(config, log)
+
+
+times = Counter()
+"""Seconds of each test that ran, what prepared and ended it included."""
+
+thorough = set()
+"""Which of them have the marker."""
+
+
+def pytest_runtest_logreport(report):
+    times[report.nodeid] += report.duration
+    if "thorough" in report.keywords:
+        thorough.add(report.nodeid)
+
+
+def keep_times(terminalreporter):
+    """Write what each test took, the slowest first, and name those that have outgrown their tier."""
+    kept = ROOT / "build" / "test-times.tsv"
+    kept.parent.mkdir(exist_ok=True)
+    kept.write_text("".join(f"{seconds:.2f}\t{test}\n" for test, seconds in times.most_common()))
+    outgrown = [
+        f"{seconds:5.1f} s  {test}"
+        for test, seconds in times.most_common()
+        if seconds > (THOROUGH_SECONDS if test in thorough else QUICK_SECONDS)
+    ]
+    if outgrown:
+        terminalreporter.section("too slow for their tier: mark them thorough, or make them quicker (CONTRIBUTING.md)")
+        for line in outgrown:
+            terminalreporter.line(line)
+
+
 STORED = Path(__file__).resolve().parent / "images" / "baselines"
 """Pictures of the image tests; the source archive has none."""
 
-REPOSITORY = Path(__file__).resolve().parent.parent / ".git"
+REPOSITORY = ROOT / ".git"
 """What git tracks is read as text; the source archive has no repository."""
 
 collect_ignore = []
@@ -51,7 +110,8 @@ WEB_SWITCH = "STEREODEL_TEST_WEB"
 
 
 def pytest_terminal_summary(terminalreporter):
-    """Say what was switched off, so that nobody takes a run without it for a whole one."""
+    """Say what was switched off, so that nobody takes a run without it for a whole one, and where the time went."""
+    keep_times(terminalreporter)
     if os.environ.get(WEB_SWITCH) == "off":
         terminalreporter.section("switched off")
         terminalreporter.line(f"The tests of the interactive page were left out, because {WEB_SWITCH}=off.")

@@ -1,18 +1,18 @@
 """The check of `make dist`: what must be in the source archive and in the wheel, and what must not."""
 
-import importlib.util
 import os
 import re
 import shutil
 import subprocess
 import sys
-import zipfile
 from importlib.metadata import distribution
 from pathlib import Path
 
 import nanobind
 import pytest
 from markdown_it import MarkdownIt
+
+from tools import archives, readme_metadata
 
 ROOT = Path(__file__).resolve().parent.parent
 TRACKED = {
@@ -40,16 +40,6 @@ KERNEL = "stereodel/_kernel.cpython-311-x86_64-linux-gnu.so"
 PROBE = "stereodel/_kernel_probe.cpython-311-x86_64-linux-gnu.so"
 
 
-def tool(name):
-    spec = importlib.util.spec_from_file_location(name, ROOT / "tools" / f"{name}.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
-archives, readme_metadata = tool("archives"), tool("readme_metadata")
-
-
 def test_archive():
     whole = TRACKED - {"tests/images/baselines/fig01_sphere.png"} | {"PKG-INFO"}
     assert archives.archive_problems(whole, TRACKED) == []
@@ -57,37 +47,25 @@ def test_archive():
     assert archives.archive_problems(whole | {KERNEL}, TRACKED) == [f"not tracked: {KERNEL}"]
 
 
-def test_wheel():
-    whole = WHEEL | {KERNEL}
-    assert archives.wheel_problems(whole, TRACKED) == []
-    assert archives.wheel_problems(WHEEL, TRACKED) == ["one compiled kernel wanted, not []"]
-    assert archives.wheel_problems(whole - {"stereodel/py.typed"}, TRACKED) == ["not in the wheel: stereodel/py.typed"]
-    assert archives.wheel_problems(whole | {PROBE}, TRACKED) == [f"not in the package: {PROBE}"]
-    source = "stereodel/kernel/python/module.cpp"
-    assert archives.wheel_problems(whole | {source}, TRACKED) == [f"not in the package: {source}"]
-    script = "stereodel/web/script/main.ts"
-    assert archives.wheel_problems(whole | {script}, TRACKED) == [f"not in the package: {script}"]
-    notice = "stereodel-1.dist-info/licenses/NOTICES.md"
-    assert archives.wheel_problems(whole - {notice}, TRACKED) == ["no licence in the wheel: NOTICES.md"]
-    page = "stereodel/web/built/page.js"
-    assert archives.wheel_problems(whole - {page}, TRACKED) == [f"not in the wheel: {page}"]
+WHOLE = WHEEL | {KERNEL}
 
 
-def test_sizes_by_part(tmp_path, capsys):
-    members = {
-        KERNEL: 7,
-        "stereodel/data/a.xz": 5,
-        "stereodel/data/b.xz": 6,
-        "stereodel/earth.py": 1,
-        "s.dist-info/RECORD": 2,
-    }
-    assert archives.sizes(members) == {"data": 11, "kernel": 7, "metadata": 2, "modules": 1}
-    wheel = tmp_path / "s.whl"
-    with zipfile.ZipFile(wheel, "w") as packed:
-        packed.writestr(KERNEL, bytes(2 * 10**6))
-        packed.writestr("stereodel/earth.py", "")
-    assert archives.report_sizes([str(wheel)]) == 0
-    assert capsys.readouterr().out == "s.whl: 2.00 MB; kernel 2.00\n"
+@pytest.mark.parametrize(
+    ("names", "problems"),
+    [
+        (WHOLE, []),
+        (WHEEL, ["one compiled kernel wanted, not []"]),
+        (WHOLE - {"stereodel/py.typed"}, ["not in the wheel: stereodel/py.typed"]),
+        (WHOLE - {"stereodel/web/built/page.js"}, ["not in the wheel: stereodel/web/built/page.js"]),
+        (WHOLE - {"stereodel-1.dist-info/licenses/NOTICES.md"}, ["no licence in the wheel: NOTICES.md"]),
+        *(
+            (WHOLE | {name}, [f"not in the package: {name}"])
+            for name in (PROBE, "stereodel/kernel/python/module.cpp", "stereodel/web/script/main.ts")
+        ),
+    ],
+)
+def test_wheel(names, problems):
+    assert archives.wheel_problems(names, TRACKED) == problems
 
 
 # Notices
@@ -135,6 +113,7 @@ def links(text):
     return re.findall(r'\b(?:src|href)="([^"]*)"', MarkdownIt().render(text))
 
 
+@pytest.mark.thorough
 def test_an_index_shows_pictures_and_links_of_the_readme(tmp_path):
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     found = links(long_description(tmp_path, address=ADDRESS, publication="1"))
@@ -147,10 +126,12 @@ def test_an_index_shows_pictures_and_links_of_the_readme(tmp_path):
         assert (kind == "raw") == path.endswith((".png", ".webp"))
 
 
+@pytest.mark.thorough
 def test_without_an_address_the_readme_is_that_of_the_repository(tmp_path):
     assert long_description(tmp_path).strip() == (ROOT / "README.md").read_text(encoding="utf-8").strip()
 
 
+@pytest.mark.thorough
 def test_a_build_for_publication_without_an_address_fails(tmp_path):
     assert "pyproject.toml has no Source in project.urls" in long_description(tmp_path, publication="1")
 

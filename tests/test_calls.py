@@ -76,10 +76,3 @@ def test_what_is_decorated_keeps_its_name_and_signature():
     assert decorated.__doc__ == "Text."
     assert inspect.signature(decorated) == inspect.signature(lens)
     assert decorated(1, size=2) == (1, 2)
-    assert list(inspect.signature(SphericalDelaunay.nearest).parameters) == [
-        "self",
-        "queries",
-        "lonlat",
-        "k",
-        "workers",
-    ]

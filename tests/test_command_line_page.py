@@ -12,13 +12,17 @@ from tools.page_commands import sessions, tables, words, written
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ["docs/command_line.md", "docs/start.md", "README.md"]
+BY_DAY = ["stereodel voronoi cities.csv -o -"]
+"""The others draw pictures, or ask of one command more what tests/cli asks of it."""
+
 SHELL = f"stereodel() {{ '{sys.executable}' -c 'from stereodel.cli import app; app()' \"$@\"; }}\n"
 
 
 def pages():
     for page in PAGES:
         for command, printed in sessions((ROOT / page).read_text(encoding="utf-8")):
-            yield pytest.param(page, command, printed, id=command)
+            day = command in BY_DAY and page == "README.md"
+            yield pytest.param(page, command, printed, id=command, marks=[] if day else pytest.mark.thorough)
 
 
 @pytest.mark.parametrize(("page", "command", "printed"), list(pages()))

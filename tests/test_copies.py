@@ -1,4 +1,4 @@
-"""Every public class: an object comes back from `pickle`, `copy` and `deepcopy` as it was."""
+"""Every public class: an object comes back from `pickle`, `copy` and `deepcopy` as it was; values are equal."""
 
 import copy
 import dataclasses
@@ -50,7 +50,7 @@ def examples():
     yield from (sd.check_delaunay(PLANE, plane.simplices), conformal.FocusBlend(LONLAT[:2], magnification=4.0))
     yield from (conformal.distortion(LENS, CIRCLE), data.airports(), data.borders(), data.cities(), data.stars())
     of_land = (data.coastlines, data.countries, data.lakes, data.land, data.rivers)
-    yield from (load() for load in of_land)
+    yield from (load("110m") for load in of_land)
     yield from (drawing.Ball((0.0, 0.0), 1.0), drawing.CircleArc.great([1, 0, 0], [0, 1, 0]), scene, sketch)
     yield from (drawing.ColorScale("viridis", 1.0, 2.0), drawing.DotStyle("red", 1.0), drawing.LineStyle("red", 1.0))
     yield from (
@@ -81,7 +81,7 @@ def same(one, other):
         return (
             one.dtype == other.dtype
             and one.shape == other.shape
-            and bool((one.tolist() == other.tolist()) or (one == other).all())
+            and bool((one == other).all() or one.tolist() == other.tolist())
         )
     if isinstance(one, Mapping):
         return one.keys() == other.keys() and all(same(one[key], other[key]) for key in one)
@@ -126,3 +126,42 @@ def test_what_is_read_only_stays_so():
 
 def test_sources_of_data_can_be_copied():
     assert copy.deepcopy(data.sources()) == pickle.loads(pickle.dumps(data.sources())) == data.sources()
+
+
+VALUES = {
+    "MoebiusMap": lambda x: sd.fisheye((0, 40), magnification=x),
+    "GroupPath": lambda x: conformal.GroupPath(LENS, sd.fisheye((0, 40), magnification=x)),
+    "FocusBlend": lambda x: conformal.FocusBlend([(0, 0), (50, 0)], magnification=[x, x]),
+    "SphereCircle": lambda x: sd.SphereCircle((0, 0, 1), x / 4),
+    "SphereArc": lambda x: sd.SphereArc.whole(sd.SphereCircle((0, 0, 1), x / 4)),
+    "Rotation": lambda x: sd.Rotation.about((0, 90), x),
+    "RectangleLift": lambda x: sd.RectangleLift(x, 1.0),
+    "Stereographic": lambda x: sd.Stereographic((10, 20), radius=x, plane="equatorial"),
+    "Gnomonic": lambda x: sd.Gnomonic((x, 2)),
+    "Orthographic": lambda x: sd.Orthographic((x, 2)),
+    "Conic": lambda x: sd.Orthographic((0, 0)).image_of(sd.SphereCircle.around((10, 20), 30 * x)),
+    "PlaneCircle": lambda x: sd.PlaneCircle([0.0, 1.0], x),
+    "PlaneLine": lambda x: sd.PlaneLine([0.0, 1.0], x),
+    "Contour": lambda x: interpolation.Contour(1.0, [[0.0, 0.0], [1.0, x]], False),
+}
+
+
+@pytest.mark.parametrize("make", VALUES.values(), ids=VALUES)
+def test_values_are_equal_and_hash_alike(make):
+    one, same, other = make(1.0), make(1.0), make(2.0)
+    assert one == same
+    assert one != other
+    assert one != "one"
+    assert len({one, same, other}) == 2
+
+
+def test_values_cannot_be_changed():
+    for array in (
+        VALUES["Conic"](1.0).center,
+        VALUES["Contour"](1.0).points,
+        VALUES["Rotation"](1.0).quaternion,
+    ):
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 5.0
+    with pytest.raises(AttributeError):
+        PATH.start = PATH.end

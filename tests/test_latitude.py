@@ -28,33 +28,18 @@ def doors():
                     except ValueError:
                         continue
                     if "latitude" in parameters:
-                        yield (
-                            f"{package.__name__}.{getattr(thing, '__qualname__', name)}",
-                            thing,
-                            parameters["latitude"],
-                        )
+                        yield f"{package.__name__}.{getattr(thing, '__qualname__', name)}", parameters["latitude"]
 
 
-DOORS = {name: (thing, parameter) for name, thing, parameter in doors()}
-RESULTS = {"stereodel.interpolation.Contour", "stereodel.relaxation.Relaxation"}
-"""They have a latitude and are made by functions that take one."""
+DOORS = dict(doors())
 
 
 @pytest.mark.parametrize("name", DOORS)
 def test_a_door_of_the_library(name):
     """Spherical by default, or what is remembered and else spherical; authalic for the page, as for the commands."""
-    thing, parameter = DOORS[name]
+    parameter = DOORS[name]
     assert parameter.default in ({"authalic"} if name == "stereodel.web.web" else {"spherical", None})
     assert str(parameter.annotation).removesuffix(" | None") == "Latitude"
-    if name in RESULTS:
-        return
-    said = inspect.getdoc(thing)
-    kinds = 'latitude : {"spherical", "geodetic", "authalic"}'
-    assert (
-        "Parameters\n" not in said
-        or kinds in said
-        or any(words in said for words in ("As for `", "as in `", "are those of `"))
-    )
 
 
 def test_there_are_these_doors():
@@ -78,7 +63,7 @@ def test_doors_of_the_commands():
 
 
 @pytest.mark.parametrize(("given", "kind"), [([], "authalic"), (["--latitude", "geodetic"], "geodetic")])
-@pytest.mark.parametrize("out", ["a.csv", "a/", "a.html"])
+@pytest.mark.parametrize("out", ["a.csv", pytest.param("a/", marks=pytest.mark.thorough), "a.html"])
 def test_where_areas_are_written_the_command_says_of_which_latitudes(tmp_path, monkeypatch, out, given, kind):
     lon, lat = [1.0, 20.0, 50.0, 9.0], [3.0, 4.0, -50.0, 70.0]
     pq.write_table(pa.table({"lon": lon, "lat": lat}), tmp_path / "points.parquet")

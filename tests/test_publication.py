@@ -22,8 +22,6 @@ CLASSIFIERS = PROJECT["project"]["classifiers"]
 PYTHONS = [found[1] for line in CLASSIFIERS if (found := re.fullmatch(r".* :: (3\.\d+)", line))]
 PINS = dict(line.split("==") for line in (ROOT / "constraints.txt").read_text(encoding="utf-8").splitlines())
 WORKFLOWS = sorted((ROOT / ".github" / "workflows").glob("*.yml"))
-USED = re.compile(r"uses: ([\w.-]+/[\w.-]+)@([0-9a-f]{40}) # (v\d+\.\d+\.\d+)")
-"""An action by the hash of its commit, as names of versions can be moved to others, with the version that it is."""
 
 
 def read(path):
@@ -77,14 +75,6 @@ def test_classifiers_are_the_pythons_that_are_allowed():
     assert "Programming Language :: C++" in CLASSIFIERS
 
 
-def test_no_system_is_named_that_no_test_ran_on():
-    assert [line for line in CLASSIFIERS if line.startswith("Operating System")] == [
-        "Operating System :: POSIX :: Linux"
-    ]
-    claims = re.sub(r"(?s)```.*?```", "", read("README.md"))
-    assert not re.search(r"\b(?:macOS|Windows|musl|Pyodide)\b", claims)
-
-
 def test_the_page_on_support_names_every_python():
     assert re.findall(r"^\| Python (3\.\d+) \|", read("docs/support.md"), re.MULTILINE) == PYTHONS
 
@@ -104,24 +94,14 @@ def test_no_address_and_no_identifier(path):
     assert not re.search(r"https?://", text)
 
 
-def test_what_publication_adds_is_listed():
-    listed = read("CONTRIBUTING.md").partition("## Publication")[2].partition("\n## ")[0]
-    for word in ("project.urls", "DOI", "ORCID", "trusted publisher", "CITATION.cff", "paper.md", "recipe.yaml"):
-        assert word in listed
-
-
 # The paper
 
 
 def test_the_paper_has_what_the_journal_asks_for():
-    text = read("paper/paper.md")
-    head = yaml.safe_load(text.split("---")[1])
+    head = yaml.safe_load(read("paper/paper.md").split("---")[1])
     assert {"title", "tags", "authors", "bibliography"} <= set(head)
     assert (ROOT / "paper" / head["bibliography"]).is_file()
-    titles = re.findall(r"^# (.*)", text, re.MULTILINE)
-    assert titles[:2] == ["Summary", "Statement of need"]
-    assert titles[-1] == "References"
-    assert 250 <= len(text.split("---", 2)[2].split()) <= 1000
+    assert 250 <= len(read("paper/paper.md").split("---", 2)[2].split()) <= 1000
 
 
 def test_the_paper_cites_what_stands_in_its_list():
@@ -141,11 +121,14 @@ def test_the_figures_of_the_paper_are_the_measured_ones():
 # Workflows
 
 
-@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
-def test_a_workflow_is_one(path):
-    content = yaml.safe_load(path.read_text(encoding="utf-8"))
+EACH_WORKFLOW = pytest.mark.parametrize("name", [path.stem for path in WORKFLOWS])
+
+
+@EACH_WORKFLOW
+def test_a_workflow_is_one_and_what_it_calls_is_there(name):
+    content = workflow(name)
     assert {"name", True, "permissions", "jobs"} <= set(content)  # YAML takes the word "on" for true
-    assert content["name"] == path.stem
+    assert content["name"] == name
     assert content["permissions"] == {"contents": "read"}
     for job in content["jobs"].values():
         assert set(wanted(job)) <= set(content["jobs"])
@@ -155,25 +138,20 @@ def test_a_workflow_is_one(path):
         assert job["timeout-minutes"] <= 120
         for step in job["steps"]:
             assert len({"uses", "run"} & set(step)) == 1
-
-
-@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
-def test_what_a_workflow_calls_is_there(path):
-    targets = set(re.findall(r"^([a-z-]+):", read("Makefile"), re.MULTILINE))
-    text = path.read_text(encoding="utf-8")
-    assert set(re.findall(r"\bmake ([a-z-]+)", text)) <= targets
+    text, targets = read(f".github/workflows/{name}.yml"), re.findall(r"^([a-z-]+):", read("Makefile"), re.MULTILINE)
+    assert set(re.findall(r"\bmake ([a-z-]+)", text)) <= set(targets)
     for script in re.findall(r"(?:python|bash|source)(?: -W error)? ((?:tools|\.ci)/[\w./]+)", text):
         assert (ROOT / script).is_file()
     installed = re.findall(r"pip install (?!-)(\w+) --constraint constraints.txt", text)
-    assert [name for name in installed if name not in PINS] == []
+    assert [library for library in installed if library not in PINS] == []
 
 
 def test_actions_are_pinned_by_commits_and_the_same_everywhere():
-    lines = [line for path in WORKFLOWS for line in path.read_text(encoding="utf-8").splitlines() if "uses: " in line]
-    pins = [USED.fullmatch(line.strip(" -")) for line in lines if "uses: $/" not in line]
-    assert len(pins) > 20
-    assert None not in pins
-    assert len({pin[1] for pin in pins}) == len({pin.groups() for pin in pins}) == 7
+    """By the hash of a commit, as names of versions can be moved to others, with the version that it is."""
+    texts = [path.read_text(encoding="utf-8") for path in WORKFLOWS]
+    pins = {pin for text in texts for pin in re.findall(r"uses: ([\w.-]+/.*)", text)}
+    assert [pin for pin in pins if not re.fullmatch(r"[\w./-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+", pin)] == []
+    assert len({pin.partition("@")[0] for pin in pins}) == len(pins) > 5
 
 
 def test_workflows_run_every_python():
@@ -186,19 +164,12 @@ def test_workflows_run_every_python():
 
 def test_wheels_are_built_for_every_system_and_python():
     settings = PROJECT["tool"]["cibuildwheel"]
-    built = settings["build"].split()
-    assert built == [
-        *(f"cp{version.replace('.', '')}-*" for version in PYTHONS),
-        f"cp{PYTHONS[-1].replace('.', '')}t-*",
-    ]
+    built = [f"cp{version.replace('.', '')}-*" for version in PYTHONS]
+    assert settings["build"].split() == [*built, built[-1].replace("-", "t-")]
     systems = [entry["system"] for entry in workflow("wheels")["jobs"]["wheels"]["strategy"]["matrix"]["include"]]
-    assert len(systems) == len(set(systems)) == 7
-    kinds = {system.partition("-")[0] for system in systems}
-    assert kinds == {"linux", "macos", "windows", "pyodide"}
+    assert {system.partition("-")[0] for system in systems} == {"linux", "macos", "windows", "pyodide"}
     assert "musllinux" in str(settings["linux"])
-    assert "i686" in settings["skip"]
-    script = re.search(r"\{project\}/(\S+)", settings["test-command"])[1]
-    assert (ROOT / script).is_file()
+    assert (ROOT / re.search(r"\{project\}/(\S+)", settings["test-command"])[1]).is_file()
 
 
 LEVELS = ("none", "read", "write")
@@ -219,18 +190,12 @@ def called_jobs(name):
                 assert beyond == [], f"{nested_name} asks for {beyond}, which {name}.{job_name} does not have"
 
 
-@pytest.mark.parametrize("path", WORKFLOWS, ids=lambda path: path.stem)
-def test_a_called_job_asks_for_no_more_than_its_caller_has(path):
+@EACH_WORKFLOW
+def test_a_called_job_asks_for_no_more_than_its_caller_has(name):
     """The host compares them when it reads the file, whatever `if:` says, and starts no job where they do not fit."""
-    assert len(list(called_jobs(path.stem))) >= len(workflow(path.stem)["jobs"])
-
-
-def test_every_called_workflow_may_be_called():
-    called = {
-        Path(job["uses"]).stem for path in WORKFLOWS for job in workflow(path.stem)["jobs"].values() if "uses" in job
-    }
-    assert called == {"tests", "wheels"}
-    assert all("workflow_call" in workflow(name)[True] for name in called)
+    assert len(list(called_jobs(name))) >= len(workflow(name)["jobs"])
+    called = {Path(job["uses"]).stem for job in workflow(name)["jobs"].values() if "uses" in job}
+    assert all("workflow_call" in workflow(other)[True] for other in called)
 
 
 def test_only_the_job_that_publishes_may_prove_who_it_is():
@@ -245,7 +210,7 @@ def test_only_the_job_that_publishes_may_prove_who_it_is():
 
 def test_publication_waits_for_the_tests_and_asks_for_texts_fit_for_it():
     jobs = workflow("release")["jobs"]
-    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish"} == {"version", "tests", "wheels"}
+    assert set(wanted(jobs["publish"])) == set(jobs) - {"publish"} == {"version", "archives", "tests", "wheels"}
     assert jobs["wheels"]["with"] == {"publication": True}
     assert workflow("wheels")["env"] == {"STEREODEL_PUBLICATION": "${{ inputs.publication && '1' || '' }}"}
     # Of Linux the wheels are built in a container, which gets what is named.
@@ -253,6 +218,7 @@ def test_publication_waits_for_the_tests_and_asks_for_texts_fit_for_it():
     assert wanted(workflow("wheels")["jobs"]["check"]) == ["source", "wheels"]
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize(
     ("tag", "code"), [(f"v{stereodel.__version__}", 0), ("v0.0.9", 1), (stereodel.__version__, 1), ("", 1)]
 )
@@ -264,11 +230,6 @@ def test_a_tag_that_is_not_the_version_stops_the_publication(tag, code):
     assert (stereodel.__version__ in ran.stderr) == bool(code)
 
 
-def test_each_version_of_the_documentation_waits_for_itself_alone():
-    """A group keeps one run that waits: of one group for all, a push after a tag would drop the tag's."""
-    assert "${{ github.ref }}" in workflow("documentation")["concurrency"]["group"]
-
-
 def test_the_least_versions_are_those_of_the_table():
     printed = subprocess.run([sys.executable, ROOT / "tools" / "lowest.py"], capture_output=True, text=True, check=True)
     lowest = dict(line.split("==") for line in printed.stdout.splitlines())
@@ -277,15 +238,12 @@ def test_the_least_versions_are_those_of_the_table():
     assert "make test-lowest" in read(".github/workflows/weekly.yml")
 
 
-def test_the_nightly_build_is_weekly():
-    (schedule,) = workflow("weekly")[True]["schedule"]
-    assert re.fullmatch(r"\d+ \d+ \* \* [0-6]", schedule["cron"])
-
-
 # Documentation with versions
 
 
-def test_versions_of_the_documentation_are_listed_newest_first(tmp_path):
+def test_versions_of_the_documentation_are_listed_newest_first(tmp_path, capsys):
+    assert documentation_versions.main(str(tmp_path)) == 1
+    assert "has documentation" in capsys.readouterr().err
     for name in ("dev", "0.9", "0.10", "0.10rc1", "1.0", "other"):
         (tmp_path / name).mkdir()
         if name != "other":
@@ -296,14 +254,10 @@ def test_versions_of_the_documentation_are_listed_newest_first(tmp_path):
     assert "url=1.0/" in page
 
 
-def test_a_site_without_documentation_is_refused(tmp_path, capsys):
-    assert documentation_versions.main(str(tmp_path)) == 1
-    assert "has documentation" in capsys.readouterr().err
-
-
 # Pythons
 
 
+@pytest.mark.thorough
 def test_a_python_is_found_by_its_version_and_lock(tmp_path):
     """A folder of programs that say which Python they are."""
     for name, version, lock in (("3.13", (3, 13), "0"), ("3.14t", (3, 14), "1"), ("3.15t", (3, 15), "0")):

@@ -75,6 +75,8 @@ AXES = {  # (..., width)
     "RectangleLift.scale_factor": (2, LINE.scale_factor),
     "MoebiusMap": (3, s.MoebiusMap.identity()),
     "MoebiusMap.scale_factor": (3, s.MoebiusMap.identity().scale_factor),
+    "FocusBlend": (3, conformal.FocusBlend([(0, 0), (90, 0)], magnification=4.0)),
+    "FocusBlend.angular_distortion": (3, conformal.FocusBlend([(0, 0)], magnification=4.0).angular_distortion),
     "Rotation": (3, s.Rotation.identity()),
     "SphereCircle.contains": (3, s.SphereCircle([0, 0, 1], 0.5).contains),
 }
@@ -150,6 +152,10 @@ def test_last_axes(door):
         refuses(call, shape)
     assert np.shape(call(np.zeros((0, width))))[0] == 0
     assert np.shape(call(np.zeros((4, 0, width))))[:2] == (4, 0)
+    rows = np.random.default_rng(2).normal(size=(3, 2501, width))
+    found, last = call(rows), call(rows[-1, -1])
+    assert np.shape(found) == (3, 2501, *np.shape(last))
+    assert np.array_equal(found[-1, -1], last, equal_nan=True)
 
 
 @doors(ONE_A_POINT)

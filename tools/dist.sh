@@ -1,30 +1,16 @@
 #!/usr/bin/env bash
 # Usage: tools/dist.sh VENV
-# Source archive and wheel into dist/, the wheel built from the archive by the machine's own compiler, and the archive for
-# npm. Each is made twice, the wheel in two folders: the same sources must give the same bytes. Then the wheel is tried in
-# a new environment (tools/try_wheel.sh), and the npm archive in an empty folder.
+# Source archive, wheel and the archive for npm into dist/ (tools/make_archives.sh). Then the wheel is tried in a new
+# environment (tools/try_wheel.sh), and the npm archive in an empty folder.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 venv=$(cd "$1" && pwd)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-source tools/source_date.sh
-
 rm -rf dist
-archive=$(tools/source_archive.sh "$venv" dist)
-wheel() { # FOLDER SOURCES; unpacked into a folder of that name
-    mkdir -p "$work/$2"
-    tar -xzf "$archive" -C "$work/$2" --strip-components=1
-    PATH=$venv/bin:$PATH python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation --wheel-dir "$1" "$work/$2"
-}
-same() { cmp "$1" "$2" || { echo "tools/dist.sh: ${1##*/} is not the same when it is made again" >&2; exit 1; }; }
-wheel dist sources
-wheel "$work/again" elsewhere/the-same
-tools/npm_archive.sh "$venv" dist
-tools/npm_archive.sh "$venv" "$work/again"
-for made in "$work"/again/*; do same "dist/${made##*/}" "$made"; done
-"$venv/bin/python" tools/archives.py "$archive" dist/*.whl
+tools/make_archives.sh "$venv" dist "$work/sources"
+"$venv/bin/python" tools/archives.py dist/*.tar.gz dist/*.whl
 "$venv/bin/python" tools/archives.py --sizes dist/*.whl
 tools/try_wheel.sh "$venv/bin/python" dist/*.whl
 

@@ -27,6 +27,7 @@ def test_distances_of_ellipsoid_and_sphere_differ_by_no_more_than_the_spread():
     assert ratios.max() / ratios.min() > 1.009
 
 
+@pytest.mark.thorough
 def test_the_centres_direction_is_best_and_mixing_is_worst(monkeypatch):
     monkeypatch.setattr(earth_nearest, "PAIRS", 2000)
     generator = np.random.default_rng(3)

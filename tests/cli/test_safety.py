@@ -1,22 +1,25 @@
-"""Nothing is lost or changed in silence: places, columns, files."""
+"""Nothing is lost or changed in silence: places, columns, files; old files stay whatever goes wrong."""
 
 import os
+import resource
+import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 
 import geopandas
 import pytest
 
+from stereodel.cli import app
 from stereodel.io import read_points
 
+SQUARE = '{"type":"Polygon","coordinates":[[[-90,-40],[130,-40],[130,60],[-90,60],[-90,-40]]]}'
 ATTRIBUTES = """name,lon,lat,x_wgs,y_wgs
 Ulm,573000,5361000,10.0,48.4
 Quito,780000,9980000,-78.5,-0.2
 Perth,390000,6460000,115.9,-32.0
 """
 OWN = ["--lon", "x_wgs", "--lat", "y_wgs"]
-PLACES = [[10.0, 48.4], [-78.5, -0.2], [115.9, -32.0]]
-
 WRITING = {
     "voronoi": ["voronoi", "own.csv", *OWN],
     "nearest": ["nearest", "cities.csv", "--of", "own.csv", "--of-lon", "x_wgs", "--of-lat", "y_wgs"],
@@ -27,72 +30,130 @@ WRITING = {
 }
 EVERY = {
     **WRITING,
+    "clip": ["voronoi", "cities.csv", "--clip", "square.geojson"],
     "triangulate": ["triangulate", "cities.csv"],
+    "grid": ["interpolate", "cities.csv", "--value", "people", "--grid", "10"],
     "contour": ["contour", "cities.csv", "--value", "people", "--levels", "2e6"],
-    "globe": ["globe", "cities.csv", "--size", "40", "--no-land", "--no-coastlines"],
+    "globe": ["globe", "cities.csv", "--size", "60", "--no-land", "--no-coastlines"],
 }
+PAIRS = {
+    "voronoi": ("gpkg", "shp", "vtp"),
+    "nearest": ("csv", "kml"),
+    "interpolate": ("parquet", "geojsonl"),
+    "clip": ("geojson",),
+    "triangulate": ("fgb", "glb", "ply", "nc", "svg"),
+    "grid": ("nc", "tif", "csv"),
+    "contour": ("geojson", "gpkg"),
+    "globe": ("svg", "pdf", "png"),
+}
+"""Each command with some format, and each format with some command."""
 
 
 @pytest.fixture
 def own(folder):
     (folder / "own.csv").write_text(ATTRIBUTES, encoding="utf-8")
+    (folder / "square.geojson").write_text(SQUARE, encoding="utf-8")
     return folder
 
 
-@pytest.mark.parametrize("kind", ["csv", "geojson", "gpkg", "parquet"])
-@pytest.mark.parametrize("command", WRITING)
-def test_the_place_that_was_computed_with_is_written(own, run, command, kind):
-    run(*WRITING[command], "-o", f"out.{kind}")
-    columns = dict(read_points(own / f"out.{kind}", lon="lon", lat="lat").columns) if kind == "csv" else None
-    if kind == "csv" or command != "voronoi":
-        found = read_points(own / f"out.{kind}", **({"lon": "lon", "lat": "lat"} if kind == "csv" else {}))
-        assert found.lonlat.tolist() == PLACES
-        columns = dict(found.columns)
-    else:
-        frame = (
-            geopandas.read_parquet(own / "out.parquet")
-            if kind == "parquet"
-            else geopandas.read_file(own / f"out.{kind}")
-        )
-        assert frame[["lon", "lat"]].to_numpy().tolist() == PLACES
-        columns = {name: frame[name].to_numpy() for name in frame if name != "geometry"}
-    # The attributes of those names are there still, under others, and that was said.
-    assert any(list(values) == [573000, 780000, 390000] for values in columns.values())
-    if kind == "csv" or command == "voronoi":
-        assert run.said.startswith("note: column 'lon' is written as 'lon_1' and 'lat' as 'lat_1'")
+@contextmanager
+def small_disk(room):
+    """Files of this process may not grow beyond so many bytes, as on a disk that is full."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        signal.signal(signal.SIGXFSZ, before)
 
 
-@pytest.mark.parametrize("kind", ["csv", "geojson", "gpkg"])
-def test_results_of_a_result_keep_the_first_answer(folder, run, kind):
-    run("nearest", "cities.csv", "--of", "cities.csv", "-o", f"first.{kind}")
-    run("nearest", "cities.csv", "--of", f"first.{kind}", "-k", 2, "-o", "second.csv")
+@pytest.mark.parametrize(("command", "kind"), [(command, kind) for command, kinds in PAIRS.items() for kind in kinds])
+def test_a_full_disk_leaves_the_old_file(own, run, command, kind):
+    """Whether it is full at once or near the end, nothing but the old file is there."""
+    run(*EVERY[command], "-o", f"whole.{kind}")
+    size, out = (own / f"whole.{kind}").stat().st_size, own / f"out.{kind}"
+    out.write_text("old", encoding="utf-8")
+    before = sorted(path.name for path in own.iterdir())
+    for room in (40, int(0.97 * size)):
+        with small_disk(room):
+            message = run(*EVERY[command], "-o", out.name, "--overwrite", code=2).splitlines()[-1]
+        assert message.startswith("error: out.")
+        assert out.read_text(encoding="utf-8") == "old"
+        assert sorted(path.name for path in own.iterdir()) == before
+
+
+@pytest.mark.parametrize("command", PAIRS)
+def test_a_pipe_whose_reader_has_gone(own, monkeypatch, capfd, command):
+    """Whatever goes to stdout: no word of it, and exit code 1."""
+    reading, writing = os.pipe()
+    os.close(reading)
+    with monkeypatch.context() as patched, os.fdopen(writing, "w") as pipe:
+        patched.setattr("sys.stdout", pipe)
+        with pytest.raises(SystemExit) as ended:
+            app([*EVERY[command], "-o", "-", "--format", PAIRS[command][0]])
+    assert ended.value.code == 1
+    assert "error" not in capfd.readouterr().err
+
+
+TAKEN = ["lon", "LAT", "row", "rank", "area_km2", "SITE_ROW", "SITE_NAME", "distance_km", "PEOPLE", "geometry", "fid"]
+TAKEN += ["geom", "Name"]
+
+
+@pytest.mark.parametrize(
+    ("command", "kind"),
+    [("voronoi", "gpkg"), ("nearest", "geojson"), ("interpolate", "fgb"), ("voronoi", "csv"), ("nearest", "parquet")],
+)
+def test_columns_that_collide(own, run, command, kind):
+    """What is computed is what it is without them; theirs are there, under other names if need be, and that is said."""
+    found = {}
+    for name, taken in (("plain", []), ("taken", TAKEN)):
+        head, places = "name,x_wgs,y_wgs", ["Ulm,10.0,48.4", "Quito,-78.5,-0.2", "Perth,115.9,-32.0"]
+        cells = [[str(1000 * j + k) for j in range(len(taken))] for k in range(len(places))]
+        rows = [",".join([place, *cell]) for place, cell in zip(places, cells, strict=True)]
+        (own / "own.csv").write_text("\n".join([",".join([head, *taken]), *rows]), encoding="utf-8")
+        run(*WRITING[command], "-o", f"{name}.{kind}")
+        if kind == "csv":
+            table = read_points(own / f"{name}.csv", lon="lon", lat="lat")
+            assert table.lonlat.tolist() == [[10.0, 48.4], [-78.5, -0.2], [115.9, -32.0]]
+            found[name] = {key: values.tolist() for key, values in table.columns.items()}
+        else:
+            read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
+            frame = read(own / f"{name}.{kind}")
+            found[name] = {key: frame[key].tolist() for key in frame} | {"geometry": frame.geometry.to_wkt().tolist()}
+    assert run.said.startswith("note: column '")
+    theirs = [[1000 * j + k for k in range(3)] for j in range(len(TAKEN))]
+    kept = {key: values for key, values in found["taken"].items() if sorted(values) in theirs}
+    assert sorted(map(sorted, kept.values())) == theirs
+    mine = [sorted(map(str, values)) for key, values in found["taken"].items() if key not in kept]
+    assert sorted(mine) == sorted(sorted(map(str, values)) for values in found["plain"].values())
+    for name in found["plain"].keys() & found["taken"].keys() - kept.keys():
+        assert sorted(map(str, found["taken"][name])) == sorted(map(str, found["plain"][name]))
+
+
+def test_results_of_a_result_keep_the_first_answer(folder, run):
+    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "first.csv")
+    run("nearest", "cities.csv", "--of", "first.csv", "-k", 2, "-o", "second.csv")
     assert "'site_row' is written as 'site_row_1'" in run.said
     columns = read_points("second.csv").columns
     assert columns["site_row_1"].tolist() == [1, 1, 2, 2, 3, 3, 4, 4, 5, 5]
     assert columns["site_row"].tolist()[::2] == [1, 2, 3, 4, 5]
-    run("voronoi", "cities.csv", "-o", f"cells.{kind}")
-    if kind == "csv":
-        run("voronoi", "cells.csv", "-o", "again.csv")
-        assert {"area_km2", "area_km2_1"} < set(read_points("again.csv").columns)
 
 
-@pytest.mark.parametrize("command", EVERY)
+@pytest.mark.parametrize("command", ["voronoi", "nearest", "interpolate", "triangulate", "contour", "globe"])
 def test_an_input_is_never_written_and_a_file_not_unasked(own, run, command):
-    ending = {"globe": "svg", "contour": "geojson"}.get(command, "csv")
-    out = own / f"out.{ending}"
+    out = own / f"out.{PAIRS[command][0]}"
     out.write_text("mine", encoding="utf-8")
     message = run(*EVERY[command], "-o", out.name, code=2)
     assert message == f"error: {out.name}: already exists; replace it with --overwrite, or choose another name\n"
     assert out.read_text(encoding="utf-8") == "mine"
     run(*EVERY[command], "-o", out.name, "--overwrite")
-    assert out.read_text(encoding="utf-8") != "mine"
+    assert out.read_bytes() != b"mine"
     (own / "link").mkdir()
-    (own / "link" / f"same.{ending}").symlink_to(own / "cities.csv")
-    options = list(EVERY[command])
-    options = [str(own / "cities.csv") if option == "cities.csv" else option for option in options]
-    if "cities.csv" in EVERY[command]:
-        message = run(*options, "-o", f"link/same.{ending}", "--overwrite", code=2)
-        assert "is an input, so it cannot be overwritten" in message
+    (same := own / "link" / out.name).symlink_to(own / EVERY[command][1])
+    message = run(*EVERY[command], "-o", same, "--overwrite", code=2)
+    assert "is an input, so it cannot be overwritten" in message
 
 
 @pytest.mark.parametrize("command", WRITING)
@@ -110,12 +171,9 @@ def test_coordinate_systems_and_layers(own, run, rows):
     (row,) = rows(run(*options, "--of-crs", "EPSG:25832"))
     assert row["site_name"] == "Ulm"
     assert abs(float(row["lon"]) - 9.986225) < 1e-6
-    assert "--of-crs is 'EPSG:0', which PROJ does not know" in run(*options, "--of-crs", "EPSG:0", code=2)
     points = geopandas.GeoDataFrame({"name": ["a"]}, geometry=geopandas.points_from_xy([10], [48]), crs=4326)
     points.to_file("two.gpkg", layer="first")
     points.to_file("two.gpkg", layer="second")
-    message = run("voronoi", "two.gpkg", "-o", "-", code=2)
-    assert message == "error: two.gpkg: there are several layers, 'first', 'second'; say which with --layer-name\n"
     assert len(rows(run("voronoi", "two.gpkg", "--layer-name", "second", "-o", "-"))) == 1
 
 
@@ -138,33 +196,6 @@ def test_a_cut_file_is_named_at_every_door(own, run, command):
     before = sorted(own.iterdir())
     assert "error: cut.gml: the file is damaged: unclosed token: line 20" in run(*command, code=2)
     assert sorted(own.iterdir()) == before
-
-
-@pytest.mark.parametrize(
-    ("name", "content"),
-    [
-        ("a.gpkg", b"SQLite format 3\0aaaa"),
-        ("a.parquet", b"PAR1aaaa"),
-        ("a.geojson", b'{"features":[null]}'),
-        ("a.geojson", b'{"features":[{"geometry":{"type":"Point","coordinates":5}}]}'),
-        ("a.geojson", b'{"features":' + b"[" * 200_000),
-        ("a.csv", b'lon,lat,a\n1,2,"x\n3,4,b\n'),
-        ("a.csv.gz", b"\x1f\x8b\x08aaaa"),
-        ("a.csv.bz2", b"BZhaaaa"),
-        ("a.shp", b"\x00\x00\x27\x0aaaaa"),
-        ("a.xlsx", b"PK\x03\x04aaaa"),
-        ("a.kml", b"<kml>"),
-        ("a.csv", b"lon,lat\n" + b"1," * 100_000),
-        ("a.csv", b"\xff\xfe1"),
-    ],
-)
-def test_damaged_files_are_one_line(folder, run, name, content):
-    (folder / name).write_bytes(content)
-    message = run("voronoi", name, "-o", "out.csv", code=2)
-    assert message.startswith(f"error: {name}: ")
-    assert message.count("\n") == 1
-    assert len(message) < 500
-    assert not (folder / "out.csv").exists()
 
 
 def shell(folder, command):
@@ -193,3 +224,21 @@ def test_what_takes_nothing(folder, options, message):
     (folder / "full.csv").symlink_to("/dev/full")
     ran = shell(folder, f"stereodel voronoi cities.csv {options}")
     assert (ran.returncode, ran.stderr) == (2, message)
+
+
+def test_stdin_to_stdout(folder, run, rows):
+    text = (folder / "cities.csv").read_text(encoding="utf-8")
+    from_file = run("nearest", "cities.csv", "--of", "cities.csv", "-o", "-")
+    assert run("nearest", "-", "--of", "cities.csv", "-o", "-", stdin=text) == from_file
+    assert run("nearest", "cities.csv", "--of", "-", "-o", "-", stdin=text) == from_file
+    assert [row["distance_km"] for row in rows(from_file)] == ["0"] * 5
+
+
+def test_a_closed_pipe_is_quiet(folder):
+    arguments = ["interpolate", "cities.csv", "--value", "people", "--grid", "0.5", "--method", "nearest", "-o", "-"]
+    program = [sys.executable, "-c", "from stereodel.cli import app; app()"]
+    with subprocess.Popen([*program, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as writer:
+        assert writer.stdout.readline() == b"lon,lat,people\n"
+        writer.stdout.close()
+        assert writer.stderr.read() == b""
+        assert writer.wait() == 1

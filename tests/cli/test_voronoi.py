@@ -1,12 +1,16 @@
-"""`stereodel voronoi`: areas of the cells."""
+"""`stereodel voronoi` and `stereodel triangulate`: areas of the cells, triangles, and tables in every format."""
 
 import json
 
 import geopandas
 import numpy as np
 import pytest
+import trimesh
+from typer.testing import CliRunner
 
-from stereodel import lonlat_to_xyz
+from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
+from stereodel.cli import app
+from stereodel.cli.destinations import MESHES, TABLES
 from stereodel.earth import AUTHALIC_RADIUS_KM
 from stereodel.io import read_points
 
@@ -28,6 +32,10 @@ def test_plane(folder, run, rows):
     (folder / "plane.csv").write_text("x,y\n0,0\n-2,0\n2,0\n0,2\n0,-2\n", encoding="utf-8")
     areas = [row["area"] for row in rows(run("voronoi", "plane.csv", "--plane", "x", "y", "-o", "-"))]
     assert areas == ["4", "", "", "", ""]
+    run("voronoi", "plane.csv", "--plane", "x", "y", "-o", "cells.parquet")
+    cells = geopandas.read_parquet(folder / "cells.parquet")
+    assert cells.crs is None
+    assert cells.geometry[0].area == pytest.approx(4)
 
 
 @pytest.mark.parametrize("kind", ["geojson", "geojsonl", "parquet", "gpkg", "shp"])
@@ -41,23 +49,9 @@ def test_shapes_tile_the_map(folder, run, kind):
     assert sum(shape.area for shape in cells.geometry) == pytest.approx(360 * 180)
     places = read_points("cities.csv").lonlat
     assert cells.contains(geopandas.GeoSeries(geopandas.points_from_xy(*places.T), crs="EPSG:4326")).all()
-
-
-def test_shapes_of_the_plane(folder, run):
-    (folder / "plane.csv").write_text("x,y,n\n0,0,a\n-2,0,b\n2,0,c\n0,2,d\n0,-2,e\n", encoding="utf-8")
-    run("voronoi", "plane.csv", "--plane", "x", "y", "-o", "cells.parquet")
-    cells = geopandas.read_parquet(folder / "cells.parquet")
-    assert cells.crs is None
-    assert cells.geometry[0].area == pytest.approx(4)
-
-
-def test_geojson_keeps_to_its_rfc(folder, run):
-    """Longitude and latitude on WGS84 without a member "crs", outer rings counterclockwise."""
-    run("voronoi", "cities.csv", "-o", "cells.geojson")
-    data = json.loads((folder / "cells.geojson").read_text())
-    assert "crs" not in data
-    for shape in geopandas.read_file(folder / "cells.geojson").explode().geometry:
-        assert shape.exterior.is_ccw
+    if kind == "geojson":  # its RFC wants outer rings counterclockwise, and WGS84 without a member "crs"
+        assert "crs" not in json.loads((folder / "cells.geojson").read_text())
+        assert all(shape.exterior.is_ccw for shape in cells.explode().geometry)
 
 
 def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
@@ -77,19 +71,96 @@ def test_cells_on_land_and_in_the_polygons_of_a_file(folder, run, rows):
     assert float(found[2]["area_km2"]) == pytest.approx(np.radians(2) * height * radius**2, rel=1e-3)
 
 
+def corners(rows, text):
+    return np.array([[int(row[name]) for name in row] for row in rows(text)])
+
+
+def test_triangles_of_the_sphere(folder, run, rows):
+    places = rows((folder / "cities.csv").read_text())
+    points = lonlat_to_xyz([(float(row["lon"]), float(row["lat"])) for row in places])
+    found = corners(rows, run("triangulate", "cities.csv", "-o", "-")) - 1
+    assert found.tolist() == SphericalDelaunay(points).simplices.tolist()
+    check_delaunay(points, found.astype(np.int32))
+
+
+def test_edges_in_the_plane(folder, run, rows):
+    points = np.random.default_rng(1).integers(0, 9, (20, 2)).astype(float)
+    np.savetxt(folder / "grid.csv", points, delimiter=",", header="east,north", comments="")
+    found = corners(rows, run("triangulate", "grid.csv", "--plane", "east", "north", "--edges", "-o", "-"))
+    assert (found - 1).tolist() == PlanarDelaunay(points).edges.tolist()
+
+
+def test_the_far_side_is_left_out(folder, run, rows):
+    (folder / "four.csv").write_text("lon,lat\n0,0\n9,0\n0,9\n3,3\n", encoding="utf-8")
+    found = corners(rows, run("triangulate", "four.csv", "-o", "-"))
+    assert {frozenset(row) for row in found.tolist()} == {frozenset(row) for row in ((1, 2, 4), (2, 3, 4), (1, 3, 4))}
+
+
 @pytest.mark.parametrize(
-    ("options", "message"),
+    ("kind", "options", "what"),
+    [("geojson", [], "Polygon"), ("parquet", ["--edges"], "LineString"), ("gpkg", ["--edges"], "LineString")],
+)
+def test_shapes(folder, run, rows, kind, options, what):
+    run("triangulate", "cities.csv", "-o", f"out.{kind}", *options)
+    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
+    frame = read(folder / f"out.{kind}")
+    found = frame.drop(columns="geometry").to_numpy()
+    expected = corners(rows, run("triangulate", "cities.csv", "-o", "-", *options))
+    assert sorted(found.tolist()) == sorted(expected.tolist())
+    assert frame.is_valid.all()
+    assert set(frame.geom_type) <= {what, f"Multi{what}"}
+    assert frame.crs.to_epsg() == 4326
+
+
+@pytest.mark.parametrize("kind", MESHES)
+def test_meshes_and_pictures(folder, run, kind):
+    run("triangulate", "cities.csv", "-o", f"out.{kind}", "--latitude", "geodetic")
+    assert (folder / f"out.{kind}").stat().st_size > 0
+
+
+def test_glb_holds_the_triangles(folder, run, rows):
+    run("triangulate", "cities.csv", "-o", "out.glb")
+    mesh = trimesh.load(folder / "out.glb", force="mesh", process=False)
+    assert len(mesh.faces) >= len(rows(run("triangulate", "cities.csv", "-o", "-")))
+    assert np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1, atol=1e-6)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in TABLES if kind != "shp"])
+def test_pipes_hold_the_same(folder, run, kind):
+    """What one command writes to stdout, the next one reads from stdin."""
+    first = CliRunner().invoke(app, ["nearest", "cities.csv", "--of", "cities.csv", "-o", "-", "--format", kind])
+    options = ["nearest", "-", "--of", "cities.csv", "-o", "out.csv", "--keep", "people"]
+    assert CliRunner().invoke(app, options, input=first.stdout_bytes).exit_code == 0
+    found = read_points("out.csv").columns["site_people"].tolist()
+    assert sorted(found) == sorted(read_points("cities.csv").columns["people"].tolist())
+
+
+@pytest.mark.parametrize(
+    ("command", "kind"),
     [
-        (["--clip", "none.geojson", "-o", "a.csv"], "none.geojson: No such file or directory"),
-        (["--clip", "cities.csv", "-o", "a.csv"], "cities.csv: "),
-        (
-            ["--clip", "land", "-o", "a.svg"],
-            "--clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg holds whole cells",
-        ),
-        (["--clip", "land", "--plane", "lon", "lat", "-o", "a.csv"], "--clip is for cells of the sphere"),
-        (["--clip", "land", "-o", "land.gpkg", "--max-segment", "0"], "--max-segment is 0"),
+        (["voronoi", "plane.csv"], "gpkg"),
+        (["triangulate", "plane.csv"], "parquet"),
+        (["contour", "plane.csv", "--value", "v", "--levels", "1.5"], "geojson"),
+        (["nearest", "plane.csv", "--of", "plane.csv"], "parquet"),
+        (["interpolate", "plane.csv", "--value", "v", "--at", "plane.csv"], "gpkg"),
+        (["nearest", "plane.csv", "--of", "plane.csv"], "geojson"),
     ],
 )
-def test_what_cannot_be_clipped(folder, run, options, message):
-    assert message in run("voronoi", "cities.csv", *options, code=2)
-    assert [path.name for path in folder.iterdir()] == ["cities.csv"]
+def test_a_plane_keeps_its_coordinate_system(folder, run, command, kind):
+    lines = ["e,n,v", "570000,5360000,1", "580000,5360000,2", "575000,5370000,3", "576000,5364000,2"]
+    (folder / "plane.csv").write_text("\n".join(lines), encoding="utf-8")
+    run(*command, "--plane", "e", "n", "--crs", "EPSG:25832", "-o", f"out.{kind}")
+    read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
+    frame = read(folder / f"out.{kind}")
+    if kind == "geojson":  # which is in degrees
+        assert frame.crs.to_epsg() == 4326
+        frame = frame.to_crs("EPSG:25832")
+    assert frame.crs.to_epsg() == 25832
+    assert 560_000 < frame.total_bounds[0] < 580_000
+    assert "--crs is 'EPSG:0'" in run(*command, "--plane", "e", "n", "--crs", "EPSG:0", "-o", "b.gpkg", code=2)
+
+
+def test_other_endings_of_formats(folder, run):
+    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "out.json")
+    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "out.geoparquet")
+    assert len(read_points("out.json")) == len(read_points("out.geoparquet")) == 5

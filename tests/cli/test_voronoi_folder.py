@@ -1,4 +1,4 @@
-"""`stereodel voronoi` into a folder: points in partitions."""
+"""`stereodel voronoi` into a folder: points in partitions; and signs of progress, on a terminal alone."""
 
 import io
 
@@ -9,9 +9,8 @@ import pytest
 
 from stereodel import SphericalVoronoi
 from stereodel.cli import partitions
-from stereodel.cli.progress import counts
+from stereodel.cli.progress import PIECE, bar, counts, in_pieces, say, stage
 from stereodel.partitioned import Run
-from tests.cli.test_progress import terminal
 
 
 @pytest.fixture
@@ -60,45 +59,6 @@ def test_results_that_were_deleted(folder, points, run):
     assert run("voronoi", *FILES, "-o", "cells/", "--overwrite") == ""
 
 
-def test_columns_that_hold_no_numbers(folder, run):
-    pq.write_table(pa.table({"lon": [True, False], "lat": [1, 2]}), folder / "flags.parquet")
-    said = run("voronoi", "flags.parquet", "-o", "cells/", code=2)
-    assert said.startswith("error: ")
-    assert said.endswith("flags.parquet: the column 'lon' holds bool, not numbers\n")
-
-
-SAID = [
-    ([*FILES, "-o", "a.csv"], "results of 2 files need a folder, such as --out cells/, not a.csv"),
-    ([FILES[0], "-o", "a.csv", "--partition", 5], "--partition is for results in a folder, such as --out cells/, not"),
-    (
-        [FILES[0], "-o", "a.csv", "--keep", "id"],
-        "--keep is for results in a folder, such as --out cells/, not in a.csv",
-    ),
-    ([FILES[0], "-o", "a/", "--clip", "land"], "--clip is for results in a file, not in the folder a/"),
-    ([FILES[0], "-o", "a/", "--area-unit", "km2"], "--area-unit km2 is for results in a file, not in the folder a/"),
-    (["-", "-o", "a/"], "results in the folder a/ are of files, not of stdin"),
-    ([FILES[0], "-o", "a/", "--lon", "lon"], "--lon and --lat are given together where results are in a folder"),
-    (
-        [FILES[0], "-o", "a/", "--lon", "x", "--lat", "y"],
-        "--lon has 'x', which is not one of the columns 'lon'",
-    ),
-    ([FILES[0], "-o", "a/", "--keep", "x"], "--keep has 'x', which is not one of the columns 'lon', 'lat', 'id'"),
-    (["none.parquet", "-o", "a/"], "none.parquet is no file, folder or pattern of Parquet files"),
-    (["cities.csv", "-o", "a/"], "cities.csv is not a Parquet file"),
-    ([*FILES, "-o", "points/"], "lies in out, the folder of results; take another folder"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "said"), SAID, ids=[" ".join(map(str, row[0])) for row in SAID])
-def test_what_is_wrong_is_said_in_one_line(folder, points, run, arguments, said):
-    line = run("voronoi", *arguments, code=2)
-    assert line.startswith("error: ")
-    assert said in line
-    assert line.count("\n") == 1
-    assert not (folder / "a.csv").exists()
-    assert not (folder / "a" / "rows").exists()
-
-
 def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
     run("voronoi", FILES[0], "-o", "cells/")
     message = run("voronoi", FILES[1], "-o", "cells/", code=2)
@@ -106,11 +66,6 @@ def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
     assert message.endswith("take another folder, or begin anew with --overwrite\n")
     run("voronoi", FILES[1], "-o", "cells/", "--overwrite")
     assert Run(folder / "cells").statistics["points"] == 100
-
-
-def test_no_points(folder, run):
-    pq.write_table(pa.table({"lon": pa.array([], pa.float64()), "lat": pa.array([], pa.float64())}), "none.parquet")
-    assert run("voronoi", "none.parquet", "-o", "cells/", code=1) == "none.parquet: there are no points\n"
 
 
 def test_an_interruption_keeps_what_is_done(folder, points, run, monkeypatch):
@@ -170,3 +125,47 @@ def test_passes_are_counted_on_a_terminal(monkeypatch):
     with counts() as told:
         told("solve", 1, 12)
     assert silent.getvalue() == ""
+
+
+class Terminal(io.StringIO):
+    """What takes stderr for a terminal."""
+
+    def isatty(self):
+        return True
+
+
+def terminal(monkeypatch):
+    """A terminal for stderr, which pytest puts in place anew before each test."""
+    stream = Terminal()
+    monkeypatch.setattr("sys.stderr", stream)
+    for name, value in (("TERM", "xterm"), ("COLUMNS", "100")):
+        monkeypatch.setenv(name, value)
+    for name in ("NO_COLOR", "FORCE_COLOR", "TTY_COMPATIBLE", "TTY_INTERACTIVE"):
+        monkeypatch.delenv(name, raising=False)
+    return stream
+
+
+@pytest.mark.parametrize(("share", "said"), [(0.25, "25%"), (1.0, "100%")])
+def test_a_bar_tells_the_share(monkeypatch, share, said):
+    stream = terminal(monkeypatch)
+    with bar("drawing cells") as shown:
+        shown(share)
+    assert "drawing cells" in stream.getvalue()
+    assert said in stream.getvalue()
+
+
+def test_pieces_make_up_the_whole(monkeypatch):
+    stream = terminal(monkeypatch)
+    pieces = list(in_pieces(2 * PIECE + 5, "interpolating"))
+    assert [(piece.start, piece.stop) for piece in pieces] == [(0, PIECE), (PIECE, 2 * PIECE), (2 * PIECE, 3 * PIECE)]
+    assert "100%" in stream.getvalue()
+
+
+def test_elsewhere_all_is_silent(monkeypatch):
+    stream = io.StringIO()
+    monkeypatch.setattr("sys.stderr", stream)
+    with bar("drawing") as shown, stage("reading"):
+        shown(0.5)
+    say("done")
+    assert len(list(in_pieces(5, "interpolating"))) == 1
+    assert stream.getvalue() == ""

@@ -62,27 +62,8 @@ def test_open_shows_the_file(folder, run, opened):
     assert opened == [(folder / "stereodel.html").resolve().as_uri()]
 
 
-def test_open_without_a_file_or_a_browser(folder, run, opened, monkeypatch):
-    assert run("web", "-o", "-", "--open", code=2) == "error: --open needs a file; name one with --out\n"
+def test_open_without_a_browser(folder, run, opened, monkeypatch):
     monkeypatch.setattr(webbrowser, "open", lambda address: False)
     said = run("web", "--open", "--resolution", "110m", code=2)
     assert said == "error: stereodel.html: is written, but there is no browser to open it\n"
     assert opened == []
-
-
-@pytest.mark.parametrize(
-    ("arguments", "said"),
-    [
-        (("cities.csv", "-o", "cities.pdf"), "error: cities.pdf: cannot write pdf; choose .html\n"),
-        (("nothing.csv",), "error: nothing.csv: No such file or directory\n"),
-        (("-o", "away/page.html"), "error: away/page.html: there is no folder away\n"),
-    ],
-)
-def test_wrong_usage_is_one_line(folder, run, arguments, said):
-    assert run("web", *arguments, code=2) == said
-
-
-def test_a_table_without_points_is_nothing_to_do(folder, run):
-    (folder / "empty.csv").write_text("lon,lat\n", encoding="utf-8")
-    assert run("web", "empty.csv", code=1) == "empty.csv: there are no points\n"
-    assert not (folder / "empty.html").exists()

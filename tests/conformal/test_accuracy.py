@@ -8,61 +8,36 @@ Evaluating a map as it is stored must do better: a few roundings, however large 
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from stereodel.conformal import MoebiusMap, bubble_to_bubble, fisheye, flight
 from stereodel.sphere import Rotation, SphereCircle, lonlat_to_xyz
+from tests.exact import ACCURACY, angle, direction, distance, dot, mp, normalized, rotate
+from tests.examples import examples
+from tests.strategies import DIRECTIONS, LONLAT, ROTATIONS, decades, maps
 
-mpmath.mp.dps = 80
-ACCURACY = 4 * mpmath.mpf(2) ** -52
 UNIT = mpmath.mpf(2) ** -53
 NEXT = mpmath.mpf(2) ** -73  # rad: what the kernel's rotations lose of a small distance from the focus
 
-LONLAT = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
-QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 1e-3).map(Rotation)
-MAGNIFICATIONS = st.one_of(st.floats(-9, 9).map(lambda k: 10.0**k), st.sampled_from([1e-9, 1.0, 4.0, 20.0, 1e9]))
-MAPS = st.builds(MoebiusMap, QUATERNIONS, MAGNIFICATIONS, QUATERNIONS)
-OFFSETS = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.linalg.norm(v) > 1e-3)
+MAGNIFICATIONS = st.one_of(decades(-9, 9), st.sampled_from([1e-9, 1.0, 4.0, 20.0, 1e9]))
+MAPS = maps(MAGNIFICATIONS)
+LARGE_MAPS = maps(st.one_of(decades(-50, 50), st.sampled_from([1.0, 1e-16, 1e16, 1e20, 1e34])))
 NEARNESS = st.sampled_from([1.0, 1e-3, 1e-8, 1e-9, 1e-12, 1e-15, 0.0])
 LENGTHS = st.sampled_from([1.0, 0.7, 3e7, 1e300, 1e-300, 2.0**-1022, 1.7e-308])
 
 
-def mp(values):
-    return [mpmath.mpf(float(v)) for v in values]
-
-
-def normalized(v):
-    length = mpmath.sqrt(sum(x * x for x in v))
-    return [x / length for x in v]
-
-
-def cross(a, b):
-    return [a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3] for k in range(3)]
-
-
-def rotate(rotation, v):
-    w, *axis = mp(rotation.quaternion)
-    size = w * w + sum(a * a for a in axis)
-    inner = [a + w * b for a, b in zip(cross(axis, v), v, strict=True)]
-    return [a + 2 * b / size for a, b in zip(v, cross(axis, inner), strict=True)]
-
-
 def exact_fisheye(focus, magnification, v):
     """The closed formula Ξ = 2 arctan(S tan(χ/2)), v and the focus being unit vectors."""
-    s, c = mpmath.mpf(float(magnification)), sum(a * b for a, b in zip(v, focus, strict=True))
+    s, c = mpmath.mpf(float(magnification)), dot(v, focus)
     total = (1 + c) + s * s * (1 - c)
     along = ((1 + c) - s * s * (1 - c)) / total
     return [2 * s / total * (x - c * f) + along * f for x, f in zip(v, focus, strict=True)]
 
 
 def exact_map(conformal, v):
-    inner = rotate(conformal.right, v)
-    return rotate(conformal.left, exact_fisheye(mp([0, 0, 1]), conformal.magnification, inner))
-
-
-def error(got, truth):
-    return mpmath.sqrt(sum((a - b) ** 2 for a, b in zip(mp(got), truth, strict=True)))
+    inner = rotate(conformal.right.quaternion, v)
+    return rotate(conformal.left.quaternion, exact_fisheye(mp([0, 0, 1]), conformal.magnification, inner))
 
 
 def near_point(point, side, nearness, offset):
@@ -70,17 +45,16 @@ def near_point(point, side, nearness, offset):
     return vector if np.linalg.norm(vector) > 1e-6 else point
 
 
-@given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS, LENGTHS)
-@settings(deadline=None, max_examples=200)
+@given(MAPS, st.sampled_from([1, -1]), NEARNESS, DIRECTIONS, LENGTHS)
 def test_the_stored_map_is_off_by_a_few_roundings(conformal, side, nearness, offset, length):
     vector = length * near_point(conformal.focus, side, nearness, offset)
     truth = exact_map(conformal, normalized(mp(vector)))
     scale = exact_scale(conformal, vector)
-    assert error(conformal(vector), truth) <= min(13 * UNIT + scale * NEXT, 6 * UNIT * (1 + scale))
+    assert distance(conformal(vector), truth) <= min(13 * UNIT + scale * NEXT, 6 * UNIT * (1 + scale))
 
 
 def exact_scale(conformal, vector):
-    c, s = rotate(conformal.right, normalized(mp(vector)))[2], mpmath.mpf(conformal.magnification)
+    c, s = rotate(conformal.right.quaternion, normalized(mp(vector)))[2], mpmath.mpf(conformal.magnification)
     return 2 * s / ((1 + c) + s * s * (1 - c))
 
 
@@ -95,42 +69,25 @@ def test_subnormal_directions(smallest, magnification):
     assert (lens(mixed) == np.concatenate([lens(part) for part in np.split(mixed, 3)])).all()
 
 
-@given(LONLAT, MAGNIFICATIONS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=120)
+@given(LONLAT, MAGNIFICATIONS, st.sampled_from([1, -1]), NEARNESS, DIRECTIONS)
 def test_fisheye_at_the_focus_that_was_given(focus, magnification, side, nearness, offset):
     direction = lonlat_to_xyz(focus)
     lens = fisheye(focus, magnification=magnification)
     vector = near_point(direction, side, nearness, offset)
     truth = exact_fisheye(normalized(mp(direction)), magnification, normalized(mp(vector)))
-    assert error(lens(vector), truth) <= ACCURACY * (1 + mpmath.mpf(float(lens.scale_factor(vector))))
+    assert distance(lens(vector), truth) <= ACCURACY * (1 + mpmath.mpf(float(lens.scale_factor(vector))))
 
 
-@given(MAPS, MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=120)
-def test_composition(first, second, side, nearness, offset):
-    both = second @ first
-    for focus in (first.focus, both.focus):
-        vector = near_point(focus, side, nearness, offset)
-        truth = exact_map(second, exact_map(first, normalized(mp(vector))))
-        assert error(both(vector), truth) <= ACCURACY * (1 + mpmath.mpf(float(both.scale_factor(vector))))
-
-
-@given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=80)
+@given(MAPS, st.sampled_from([1, -1]), NEARNESS, DIRECTIONS)
 def test_inverse_is_exact(conformal, side, nearness, offset):
     inverse = conformal.inverse()
     vector = near_point(inverse.focus, side, nearness, offset)
     v = normalized(mp(vector))
     with mpmath.workdps(120):
-        assert error_mp(exact_map(conformal, exact_map(inverse, v)), v) < mpmath.mpf(10) ** -55
+        assert distance(exact_map(conformal, exact_map(inverse, v)), v) < mpmath.mpf(10) ** -55
 
 
-def error_mp(a, b):
-    return mpmath.sqrt(sum((x - y) ** 2 for x, y in zip(a, b, strict=True)))
-
-
-@given(MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None)
+@given(MAPS, st.sampled_from([1, -1]), NEARNESS, DIRECTIONS)
 def test_scale_factor(conformal, side, nearness, offset):
     vector = near_point(conformal.focus, side, nearness, offset)
     truth, got = exact_scale(conformal, vector), mpmath.mpf(float(conformal.scale_factor(vector)))
@@ -151,38 +108,14 @@ def test_next_to_focus_and_antipode_with_relative_accuracy(magnification):
             assert np.sign(got[2]) == z
 
 
-def test_composition_of_extremes_keeps_its_digits():
-    lens = fisheye((10.0, 20.0), magnification=1e9)
-    assert (lens @ lens.inverse()).is_close(MoebiusMap.identity())
-    assert (lens.inverse() @ lens).magnification == 1
-    assert lens.is_close(fisheye(-lens.focus, magnification=1e-9))
-    assert (lens @ lens).magnification == pytest.approx(1e18, rel=1e-12)
-
-
-def test_a_tiny_bubble_onto_a_hemisphere():
-    tiny = SphereCircle.around((25.0, 35.0), 1e-7)
-    down = bubble_to_bubble(tiny, SphereCircle((0, -90), 0.0))
-    assert down.magnification == pytest.approx(1 / np.tan(np.radians(1e-7) / 2), rel=1e-9)
-    image = down.image_of(tiny)
-    # The focus is stored to an ulp, which is magnified.
-    assert abs(image.offset) < 4e-16 * down.magnification
-    assert np.abs(image.normal - [0, 0, -1]).max() < 4e-16 * down.magnification
-
-
 @given(MAPS, LONLAT)
-@settings(deadline=None, max_examples=200)
 def test_places_in_degrees(conformal, place):
     lon, lat = conformal.lonlat(place)
     assert -180 <= lon < 180
     assert -90 <= lat <= 90
     start = direction(*place)
     scale = exact_scale(conformal, [float(v) for v in start])
-    assert error_mp(direction(lon, lat), exact_map(conformal, start)) <= 18 * UNIT * (1 + scale) * (1 + 2**-20)
-
-
-def direction(lon, lat):
-    lon, lat = (mpmath.radians(mpmath.mpf(float(v))) for v in (lon, lat))
-    return [mpmath.cos(lat) * mpmath.cos(lon), mpmath.cos(lat) * mpmath.sin(lon), mpmath.sin(lat)]
+    assert distance(direction(lon, lat), exact_map(conformal, start)) <= 18 * UNIT * (1 + scale) * (1 + 2**-20)
 
 
 def test_places_of_the_identity_stay():
@@ -199,47 +132,11 @@ def test_places_of_the_identity_stay():
     assert (np.signbit(identity.lonlat([(-0.0, -0.0)])) == 0).all()
 
 
-@pytest.mark.parametrize(
-    ("lonlat", "message"),
-    [
-        ([(0, 90.5)], r"lonlat\[0, 1\] is latitude 90.5"),
-        ([(np.inf, 0)], r"lonlat\[0, 0\] is inf"),
-        ([(0, np.nan)], r"lonlat\[0, 1\] is nan"),
-        ([(0, 1, 2)], r"shape \(..., 2\)"),
-    ],
-)
-def test_places_that_are_none(lonlat, message):
-    with pytest.raises(ValueError, match=message):
-        fisheye((0, 0), magnification=2).lonlat(lonlat)
+ANY_MAGNIFICATION = decades(-100, 100).filter(lambda s: 1e-100 <= s <= 1e100)
+TINY_ROTATIONS = st.tuples(*[st.sampled_from([1.0, 1e-8, -1e-150, 5e-324, 0.0, 0.3])] * 4).filter(any).map(Rotation)
 
 
-@pytest.mark.parametrize("rows", [[[0, 0, 0]], [[1, np.nan, 0]], [[1, 0, -np.inf]], [[np.nan, 0, 1]]])
-def test_directions_that_are_none(rows):
-    lens = fisheye((0, 0), magnification=2)
-    many = np.concatenate([np.ones((300, 3)), rows])
-    for function in (lens, lens.scale_factor):
-        with pytest.raises(ValueError, match=r"xyz\[300"):
-            function(many)
-
-
-@pytest.mark.parametrize("workers", [1, 2, 3, -1])
-def test_threads_change_nothing(workers):
-    lens = fisheye((10, 20), magnification=7)
-    points = np.random.default_rng(8).normal(size=(40_001, 3))
-    places = np.random.default_rng(9).uniform([-180, -90], [180, 90], size=(40_001, 2))
-    assert (lens(points, workers=workers) == np.concatenate([lens(part) for part in np.split(points, [1, 7])])).all()
-    assert (lens.scale_factor(points, workers=workers) == lens.scale_factor(points[::-1])[::-1]).all()
-    assert (lens.lonlat(places, workers=workers) == lens.lonlat(places[::-1])[::-1]).all()
-
-
-ALL_MAGNIFICATIONS = st.floats(-100, 100).map(lambda k: 10.0**k).filter(lambda s: 1e-100 <= s <= 1e100)
-HALF = st.one_of(st.floats(-50, 50).map(lambda k: 10.0**k), st.sampled_from([1.0, 1e-16, 1e16, 1e20, 1e34]))
-LARGE_MAPS = st.builds(MoebiusMap, QUATERNIONS, HALF, QUATERNIONS)
-TINY_QUATERNIONS = st.tuples(*[st.sampled_from([1.0, 1e-8, -1e-150, 5e-324, 0.0, 0.3])] * 4).filter(any).map(Rotation)
-
-
-@given(st.builds(MoebiusMap, st.one_of(QUATERNIONS, TINY_QUATERNIONS), ALL_MAGNIFICATIONS, QUATERNIONS))
-@settings(deadline=None, max_examples=100)
+@given(st.builds(MoebiusMap, st.one_of(ROTATIONS, TINY_ROTATIONS), ANY_MAGNIFICATION, ROTATIONS))
 def test_a_map_and_its_inverse_are_the_identity(conformal):
     for both in (conformal @ conformal.inverse(), conformal.inverse() @ conformal):
         assert both.magnification == 1.0
@@ -247,21 +144,19 @@ def test_a_map_and_its_inverse_are_the_identity(conformal):
         assert np.abs(axis).max() <= 4 * 2.0**-52 * abs(w)
 
 
-@given(LARGE_MAPS, LARGE_MAPS, st.sampled_from([1, -1]), NEARNESS, OFFSETS)
-@settings(deadline=None, max_examples=60)
+@given(LARGE_MAPS, LARGE_MAPS, st.sampled_from([1, -1]), NEARNESS, DIRECTIONS)
 def test_composition_of_any_magnification(first, second, side, nearness, offset):
     both = second @ first
     with mpmath.workdps(450):
         for focus in (first.focus, both.focus):
             v = normalized(mp(near_point(focus, side, nearness, offset)))
             # As stored: the kernel's own roundings next to the focus are tested above.
-            gap = error_mp(exact_map(both, v), exact_map(second, exact_map(first, v)))
-            c, s = rotate(both.right, v)[2], mpmath.mpf(both.magnification)
+            gap = distance(exact_map(both, v), exact_map(second, exact_map(first, v)))
+            c, s = rotate(both.right.quaternion, v)[2], mpmath.mpf(both.magnification)
             assert gap <= ACCURACY * (1 + 2 * s / ((1 + c) + s * s * (1 - c)))
 
 
-@given(QUATERNIONS, QUATERNIONS, st.floats(0, 80), st.floats(0, 1))
-@settings(deadline=None, max_examples=60)
+@given(ROTATIONS, ROTATIONS, st.floats(0, 80), st.floats(0, 1))
 def test_what_nearly_undoes_a_strong_map(left, right, decades, part):
     """The small rest of two magnifications is right, not only a rest of none: M(S)⁻¹ M(S (1 + δ)) has 1 + δ."""
     size = 10.0**decades
@@ -269,11 +164,11 @@ def test_what_nearly_undoes_a_strong_map(left, right, decades, part):
     other = MoebiusMap(left, min(size * (1 + part), 1e100), right)
     rest = strong.inverse() @ other
     assert rest.magnification == pytest.approx(other.magnification / size, rel=4 * 2.0**-52)
-    assert error(rest.focus, normalized(mp(other.focus))) < 1e-15 / max(rest.magnification - 1, 1e-16)
+    assert distance(rest.focus, normalized(mp(other.focus))) < 1e-15 / max(rest.magnification - 1, 1e-16)
 
 
-@given(QUATERNIONS, QUATERNIONS, st.floats(-80, 80))
-@settings(deadline=None, max_examples=60)
+@given(ROTATIONS, ROTATIONS, st.floats(-80, 80))
+@example(Rotation((1.0, 1.0, 0.0, 0.0)), Rotation((1.0, 1.0, 0.0, 0.0)), 34.0)
 def test_powers_of_any_magnification(left, right, decades):
     conformal = MoebiusMap(left, 10.0**decades, right)
     slack = (8 + 3 * abs(decades)) * 2.0**-52  # the rounding of the exponent, 2⁻⁵² of ln S, and what is around
@@ -281,12 +176,12 @@ def test_powers_of_any_magnification(left, right, decades):
     assert conformal.power(-1.0).is_close(conformal.inverse(), tolerance=slack)
     half = conformal.power(0.5)
     grown = half.biquaternion.norm().hi / np.sqrt(conformal.biquaternion.norm().hi)
-    assert (half @ half).is_close(conformal, tolerance=2 * slack * max(1.0, float(grown)))
+    # Relative to the map: of a parabolic one with a large S the stored half may have the identity for its square.
+    assert conformal.is_close(half @ half, tolerance=2 * slack * max(1.0, float(grown)))
 
 
 @given(LONLAT, LONLAT, st.floats(0, 90), st.floats(0, 90), st.floats(0, 1))
 @example((0.0, 0.0), (0.0, 0.0), 70.0, 70.0, 0.5)
-@settings(deadline=None, max_examples=60)
 def test_flights_of_any_magnification(start, end, first, last, t):
     """The geodesic of hyperbolic space, in 200 digits; a point of it is (sinh η f, cosh η)."""
     path = flight(start, end, magnification=10.0**first, arrival=10.0**last)
@@ -307,7 +202,7 @@ def test_flights_of_any_magnification(start, end, first, last, t):
         # doubles too, each off by 2⁻⁵³ of it.
         assert abs(eta - mpmath.asinh(size)) <= 1e-14 * (1 + d) + 2.0**-52 * max(a, b)
         if size > 1e-3:
-            assert error(here.focus, [x / size for x in vector]) <= 1e-13 * (1 + d) * (1 + 1 / size)
+            assert distance(here.focus, [x / size for x in vector]) <= 1e-13 * (1 + d) * (1 + 1 / size)
 
 
 def circle_of(bubble):
@@ -315,15 +210,10 @@ def circle_of(bubble):
     return normalized(mp(bubble.normal)), mpmath.atan2(mpmath.mpf(bubble.radius), mpmath.mpf(bubble.offset))
 
 
-def angle_mp(a, b):
-    across = mpmath.sqrt(sum(x * x for x in cross(a, b)))
-    return mpmath.atan2(across, sum(x * y for x, y in zip(a, b, strict=True)))
-
-
 def largest_scale(conformal, v):
     """Of a map within what a stored point may be off."""
     s = mpmath.mpf(conformal.magnification)
-    chi = angle_mp(rotate(conformal.right, v), mp([0, 0, 1]))
+    chi = angle(rotate(conformal.right.quaternion, v), mp([0, 0, 1]))
     chi = max(chi - ACCURACY, 0) if s > 1 else min(chi + ACCURACY, mpmath.pi)
     return s / (mpmath.cos(chi / 2) ** 2 + s * s * mpmath.sin(chi / 2) ** 2)
 
@@ -332,19 +222,19 @@ def check_bubbles(conformal, source, point, target):
     """A point of the source goes to the centre of the target, and the rim to the rim, as far as a stored map can."""
     center, radius = circle_of(target)
     v = normalized(mp(point))
-    assert angle_mp(exact_map(conformal, v), center) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
+    assert angle(exact_map(conformal, v), center) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
     for rim in source.sample(3):
         v = normalized(mp(rim))
-        gap = angle_mp(exact_map(conformal, v), center) - radius
+        gap = angle(exact_map(conformal, v), center) - radius
         assert abs(gap) <= 2 * ACCURACY * (1 + largest_scale(conformal, v))
 
 
-BUBBLE_SIZES = st.floats(-12.9, 1.9).map(lambda k: 10.0**k)
+BUBBLE_SIZES = decades(-12.9, 1.9)
 BUBBLES = st.builds(SphereCircle.around, LONLAT, st.one_of(BUBBLE_SIZES, BUBBLE_SIZES.map(lambda a: 180 - a)))
 
 
 @given(BUBBLES, BUBBLES, st.floats(0, 360))
-@settings(deadline=None, max_examples=50)
+@examples(0.2)
 def test_bubbles_down_to_points(source, target, turn):
     if min(source.radius, target.radius) <= 8 * 2.0**-52:
         with pytest.raises(ValueError, match="cannot be told from a point"):
@@ -354,7 +244,7 @@ def test_bubbles_down_to_points(source, target, turn):
 
 
 @given(LONLAT, st.floats(-11, 1.9), LONLAT, st.floats(1, 179), st.floats(0, 360), st.floats(-17, 0))
-@settings(deadline=None, max_examples=50)
+@examples(0.2)
 def test_points_next_to_the_rim(center, decades, other, radius, bearing, depth):
     """A point that lies inside by more than rounding goes where it should; one that does not is refused."""
     source, target = SphereCircle.around(center, 10.0**decades), SphereCircle.around(other, radius)
@@ -363,19 +253,9 @@ def test_points_next_to_the_rim(center, decades, other, radius, bearing, depth):
     alpha = np.arctan2(source.radius, source.offset)
     point = Rotation.about(np.cross(edge, source.normal), np.degrees(10.0**depth * alpha))(edge)
     n, rim = circle_of(source)
-    inside = rim - angle_mp(normalized(mp(point)), n)
+    inside = rim - angle(normalized(mp(point)), n)
     if inside <= 1.9 * ACCURACY:
         with pytest.raises(ValueError, match=r"source_point must lie strictly inside .* by more than"):
             bubble_to_bubble(source, target, source_point=point)
     elif inside >= 2.1 * ACCURACY:
         check_bubbles(bubble_to_bubble(source, target, source_point=point), source, point, target)
-
-
-@pytest.mark.parametrize("name", ["source", "target"])
-def test_a_point_on_the_rim_and_a_bubble_like_a_point(name):
-    cap = SphereCircle.around((0.0, 0.0), 10.0)
-    with pytest.raises(ValueError, match=f"{name}_point must lie strictly inside"):
-        bubble_to_bubble(cap, cap, **{f"{name}_point": (10.0, 0.0)})
-    for tiny in (SphereCircle.around((3.0, 4.0), 1e-30), SphereCircle.around((3.0, 4.0), 1e-30).complement):
-        with pytest.raises(ValueError, match=f"{name} has the radius .* cannot be told from a point"):
-            bubble_to_bubble(*((tiny, cap) if name == "source" else (cap, tiny)))

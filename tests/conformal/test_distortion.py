@@ -3,27 +3,30 @@
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.conformal import Distortion, MoebiusMap, bubble_to_bubble, distortion, fisheye
-from stereodel.sphere import Rotation, SphereCircle, angular_distance, lonlat_to_xyz
+from stereodel.conformal import Distortion, distortion, fisheye
+from stereodel.conformal.distortions import largest_scale
+from stereodel.sphere import SphereArc, SphereCircle, angular_distance, lonlat_to_xyz
+from tests.examples import examples
+from tests.strategies import BETWEEN_POLES, decades, maps
 
-LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89, 89))
-QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 1e-3).map(Rotation)
-MAPS = st.builds(MoebiusMap, QUATERNIONS, st.floats(-1.5, 1.5).map(lambda k: 10.0**k), QUATERNIONS)
-BUBBLES = st.builds(SphereCircle.around, LONLAT, st.floats(0.01, 179.9))
+MAPS = maps(decades(-1.5, 1.5))
+BUBBLES = st.builds(SphereCircle.around, BETWEEN_POLES, st.floats(0.01, 179.9))
 
 
 def sampled(bubble, rings=60):
     """Points of a bubble in rings that share its area equally, and its circle."""
     heights = 1 - (1 - bubble.offset) * (np.arange(rings) + 0.5) / rings
-    circles = [SphereCircle(bubble.normal, float(height)).sample(120) for height in heights]
-    return np.concatenate(circles), bubble.sample(360)
+    u, v = np.linalg.svd(bubble.normal[None])[2][1:]
+    turn = np.linspace(0, 2 * np.pi, 120, endpoint=False)[:, None]
+    circle = np.cos(turn) * u + np.sin(turn) * v
+    inside = heights[:, None, None] * bubble.normal + np.sqrt(1 - heights**2)[:, None, None] * circle
+    return inside.reshape(-1, 3), bubble.sample(360)
 
 
 @given(MAPS, BUBBLES)
-@settings(deadline=None, max_examples=20)
 def test_extremes_bound_every_point_and_are_reached(conformal, bubble):
     summary = distortion(conformal, bubble)
     inside, edge = sampled(bubble)
@@ -37,7 +40,7 @@ def test_extremes_bound_every_point_and_are_reached(conformal, bubble):
 
 
 @given(MAPS, BUBBLES)
-@settings(deadline=None, max_examples=40)
+@examples(0.2)
 def test_mean_against_quadrature(conformal, bubble):
     a = (conformal.magnification + 1 / conformal.magnification) / 2
     b = (conformal.magnification - 1 / conformal.magnification) / 2
@@ -49,7 +52,7 @@ def test_mean_against_quadrature(conformal, bubble):
 
 
 @given(MAPS, BUBBLES)
-@settings(deadline=None, max_examples=10)
+@examples(0.2)
 def test_area_ratio_is_the_mean_of_the_squared_scale(conformal, bubble):
     inside, _ = sampled(bubble, rings=200)
     summary = distortion(conformal, bubble)
@@ -59,17 +62,6 @@ def test_area_ratio_is_the_mean_of_the_squared_scale(conformal, bubble):
     assert share * summary.area_ratio + (1 - share) * other == pytest.approx(1, rel=1e-9)
     assert summary.smallest**2 * (1 - 1e-9) <= summary.area_ratio <= summary.largest**2 * (1 + 1e-9)
     assert summary.smallest * (1 - 1e-9) <= summary.mean <= summary.largest * (1 + 1e-9)
-
-
-@given(LONLAT, st.floats(1e-3, 90), LONLAT, st.floats(1e-3, 90))
-@settings(deadline=None, max_examples=40)
-def test_p17_centre_to_centre(source, chi0, target, xi0):
-    bubble = SphereCircle.around(source, chi0)
-    summary = distortion(bubble_to_bubble(bubble, SphereCircle.around(target, xi0)), bubble)
-    ratio = np.cos(np.radians(chi0) / 2) ** 2 / np.cos(np.radians(xi0) / 2) ** 2
-    assert summary.largest / summary.smallest == pytest.approx(max(ratio, 1 / ratio), rel=1e-9)
-    areas = np.sin(np.radians(xi0) / 2) ** 2 / np.sin(np.radians(chi0) / 2) ** 2
-    assert summary.area_ratio == pytest.approx(areas, rel=1e-9)
 
 
 @pytest.mark.parametrize("s", [1e-9, 1e-3, 1 - 1e-9, 1.0, 1 + 1e-9, 20.0, 1e9])
@@ -100,10 +92,16 @@ def test_of_points():
     assert isinstance(summary, Distortion)
 
 
-@pytest.mark.parametrize(
-    ("region", "message"),
-    [([], "region is empty"), ([(0, 91)], "latitude 91"), (np.zeros((2, 4)), "region must have shape")],
-)
-def test_bad_input(region, message):
-    with pytest.raises(ValueError, match=message):
-        distortion(fisheye((0, 0), magnification=2), region)
+@given(focus=BETWEEN_POLES, size=decades(-6, 6), at=BETWEEN_POLES, radius=st.floats(0, 3), seed=st.integers(0, 100))
+def test_no_scale_nearby_is_larger_than_the_bound(focus, size, at, radius, seed):
+    lens = fisheye(focus, magnification=size)
+    rng = np.random.default_rng(seed)
+    center = SphereArc.great(at, (at[0] + 1.0, at[1] * 0.5)).start
+    other = rng.normal(size=(200, 3))
+    side = other - np.outer(other @ center, center)
+    side /= np.linalg.norm(side, axis=1, keepdims=True)
+    angle = (radius * rng.random(200))[:, None]
+    points = np.cos(angle) * center + np.sin(angle) * side
+    bound = largest_scale(lens, center[None], np.array([radius]))[0]
+    assert lens.scale_factor(points).max() <= bound * (1 + 1e-6)
+    assert bound <= max(size, 1 / size) * (1 + 1e-12)

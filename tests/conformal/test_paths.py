@@ -2,16 +2,14 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.conformal import GroupPath, MoebiusMap, fisheye, flight, path_between
-from stereodel.sphere import Rotation, angular_distance, lonlat_to_xyz
+from stereodel.conformal import MoebiusMap, fisheye, flight, path_between
+from tests.examples import examples
+from tests.strategies import BETWEEN_POLES, ROTATIONS, decades, maps
 
-QUATERNIONS = st.tuples(*[st.floats(-1, 1)] * 4).filter(lambda q: np.linalg.norm(q) > 1e-3).map(Rotation)
-MAGNIFICATIONS = st.floats(-4, 4).map(lambda k: 10.0**k)
-MAPS = st.builds(MoebiusMap, QUATERNIONS, MAGNIFICATIONS, QUATERNIONS)
-LONLAT = st.tuples(st.floats(-180, 180), st.floats(-89.9, 89.9))
+MAPS = maps(decades(-4, 4))
 TIMES = st.floats(0.01, 0.99)
 POINTS = np.random.default_rng(31).normal(size=(20, 3))
 
@@ -27,7 +25,7 @@ def distance(a, b):
 
 
 @given(MAPS, MAPS)
-@settings(deadline=None, max_examples=40)
+@examples(0.2)
 def test_ends_are_the_maps_and_nothing_jumps(start, end):
     path = path_between(start, end)
     assert (path(0.0), path(1.0)) == (start, end)
@@ -36,20 +34,16 @@ def test_ends_are_the_maps_and_nothing_jumps(start, end):
         assert (np.abs(path(t)(POINTS) - given_map(POINTS)) < slack).all()
 
 
-@given(st.builds(MoebiusMap, QUATERNIONS, st.floats(0.05, 20), QUATERNIONS), MAPS, TIMES)
-@settings(deadline=None, max_examples=60)
+@given(maps(st.floats(0.05, 20)), maps(st.floats(0.05, 20)), TIMES)
 def test_the_fisheyes_follow_the_geodesic_at_constant_speed(start, end, t):
     path = path_between(start, end)
-    if end.magnification > 20 or end.magnification < 0.05:
-        return
     a, b, c = place(start), place(end), place(path(t))
     assert path.length == pytest.approx(distance(a, b), abs=1e-6)
     assert distance(a, c) == pytest.approx(t * path.length, abs=1e-5)
     assert distance(c, b) == pytest.approx((1 - t) * path.length, abs=1e-5)
 
 
-@given(QUATERNIONS, QUATERNIONS, TIMES)
-@settings(deadline=None, max_examples=40)
+@given(ROTATIONS, ROTATIONS, TIMES)
 def test_between_rotations_all_are_rotations(first, second, t):
     start, end = MoebiusMap.rotation(first), MoebiusMap.rotation(second)
     between = path_between(start, end)(t)
@@ -58,29 +52,15 @@ def test_between_rotations_all_are_rotations(first, second, t):
         assert between.is_close((end @ start.inverse()).power(t) @ start, tolerance=1e-12)
 
 
-@given(LONLAT, LONLAT, st.floats(1, 1e6), st.floats(1, 1e6), TIMES)
-@settings(deadline=None, max_examples=40)
+@given(BETWEEN_POLES, BETWEEN_POLES, st.floats(1, 1e6), st.floats(1, 1e6), TIMES)
 def test_a_flight_is_made_of_fisheyes(start, end, first, last, t):
     lens = flight(start, end, magnification=first, arrival=last)(t)
     assert lens.is_close(fisheye(lens.focus, magnification=lens.magnification), tolerance=1e-14)
     assert 1 <= lens.magnification <= max(first, last) * (1 + 1e-9)
-    f, g = lonlat_to_xyz(start), lonlat_to_xyz(end)
-    if lens.magnification > 1 + 1e-6 and np.linalg.norm(np.cross(f, g)) > 1e-3:
-        # On the great circle between the foci, between them.
-        assert abs(np.cross(f, g) @ lens.focus) < 1e-9
-        assert angular_distance(f, lens.focus) <= angular_distance(f, g) + 1e-9
 
 
-@given(LONLAT, st.floats(0.01, 100), st.floats(0.01, 100), TIMES)
-@settings(deadline=None, max_examples=40)
-def test_on_the_spot_the_magnification_is_geometric(focus, first, last, t):
-    path = flight(focus, focus, magnification=first, arrival=last)
-    assert path.length == pytest.approx(abs(np.log(last / first)), abs=1e-12)
-    assert path(t).is_close(fisheye(focus, magnification=first ** (1 - t) * last**t), tolerance=1e-12)
-
-
-@given(MAPS, MAPS, QUATERNIONS, QUATERNIONS, TIMES)
-@settings(deadline=None, max_examples=25)
+@given(MAPS, MAPS, ROTATIONS, ROTATIONS, TIMES)
+@examples(0.2)
 def test_paths_turn_with_what_they_join(start, end, before, after, t):
     left, right = MoebiusMap.rotation(after), MoebiusMap.rotation(before)
     here, there = path_between(start, end), path_between(left @ start @ right, left @ end @ right)
@@ -95,25 +75,3 @@ def test_how_deep_a_flight_goes():
     assert flight((0, 0), (180, 0), magnification=1e3)(0.5).magnification == pytest.approx(1, rel=1e-9)
     assert flight((0, 0), (1, 0), magnification=1.5)(0.5).magnification == pytest.approx(1.5, rel=1e-4)
     assert flight((0, 0), (90, 0), magnification=0.125)(0.5).magnification == pytest.approx(2.31435990910008, rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("call", "message"),
-    [
-        (lambda: flight((0, 0), (1, 1), magnification=0.0), "magnification is 0"),
-        (lambda: flight((0, 0), (1, 95), magnification=2.0), "latitude 95"),
-        (lambda: flight((0, 0), (1, 1), magnification=2.0)(1.01), "t is 1.01, outside"),
-        (lambda: flight((0, 0), (1, 1), magnification=2.0, arrival=np.inf), "inf"),
-    ],
-)
-def test_bad_input(call, message):
-    with pytest.raises(ValueError, match=message):
-        call()
-
-
-def test_a_path_is_a_value():
-    path = flight((0, 0), (1, 1), magnification=2.0)
-    assert path == GroupPath(path.start, path.end)
-    assert path != flight((0, 0), (1, 2), magnification=2.0)
-    with pytest.raises(AttributeError):
-        path.start = path.end

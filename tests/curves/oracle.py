@@ -6,7 +6,7 @@ from stereodel import SphereArc
 from stereodel.curves import clip
 from stereodel.curves.borders import Cap
 from stereodel.curves.ragged import Ragged, offsets_of
-from stereodel.curves.trace import Arcs, great
+from stereodel.curves.trace import exact, great
 
 
 def units(vectors):
@@ -24,6 +24,17 @@ def winding(loops, places):
         left = (x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)
         total += ((y0 <= y) & (y1 > y) & (left > 0)).sum(axis=1) - ((y0 > y) & (y1 <= y) & (left < 0)).sum(axis=1)
     return total
+
+
+def off_lines(points, lines):
+    """How far points (n, d) are from the nearest chord of lines."""
+    best = np.full(len(points), np.inf)
+    for line in lines:
+        start, chord = line[:-1], np.diff(line, axis=0)
+        share = np.einsum("ijk,jk->ij", points[:, None] - start, chord) / np.maximum(np.sum(chord**2, axis=1), 1e-300)
+        nearest = start + np.clip(share, 0, 1)[:, :, None] * chord
+        best = np.minimum(best, np.linalg.norm(points[:, None] - nearest, axis=2).min(axis=1))
+    return best
 
 
 def ring(points):
@@ -46,23 +57,12 @@ def rows(*sizes):
 
 def whole_circles(circles):
     """Circles as two arcs each, and a row for each circle."""
-    frames = [SphereArc.whole(circle).frame() for circle in circles]
-    center, u, _ = (np.repeat(np.array([frame[k] for frame in frames]), 2, axis=0) for k in range(3))
-    axis = np.repeat(np.array([circle.normal for circle in circles]), 2, axis=0)
-    offset = np.repeat([circle.offset for circle in circles], 2)
-    first = np.tile([True, False], len(circles))
-    a, b = center + u, center - u
-    arcs = Arcs(
-        np.where(first[:, None], a, b),
-        np.where(first[:, None], b, a),
-        axis,
-        offset,
-        u,
-        np.where(first, 0.0, np.pi),
-        np.where(first, np.pi, 2 * np.pi),
-        np.arange(len(first)),
-    )
-    return arcs, rows(*[2] * len(circles))
+    halves = []
+    for circle in circles:
+        center, u, _, _ = SphereArc.whole(circle).frame()
+        a, b = center + u, center - u
+        halves += [SphereArc(circle, a, b), SphereArc(circle, b, a)]
+    return exact(halves), rows(*[2] * len(circles))
 
 
 def in_sight(arcs, sides, view, tolerance=1e-4, owner=None, count=1):

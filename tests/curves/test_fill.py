@@ -56,6 +56,7 @@ def test_holes_may_touch_their_shell(turn):
     assert not ((middle > [5.5, 4.5]) & (middle < [6.5, 5.5])).all(axis=1).any()
 
 
+@pytest.mark.thorough
 def test_a_sea_takes_no_longer_than_its_ears():
     """Each of its islands was measured against the whole shore; an island has a lake with an island of its own."""
     t = np.linspace(0, 2 * np.pi, 60_001)

@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.curves.ragged import Ragged, cycles, spans
+from stereodel.curves.ragged import Ragged, cycles
 
 ROWS = st.lists(st.lists(st.integers(0, 9), max_size=4), max_size=6)
 
@@ -46,13 +46,6 @@ def test_rows_as_rings(rows, turn):
     assert lists(Ragged(after, made.offsets)) == [row[1:] + row[:1] for row in rows]
 
 
-@given(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 4), st.sampled_from([-1, 1])), max_size=6))
-def test_spans(stretches):
-    starts, sizes, steps = (np.array([s[k] for s in stretches], dtype=np.intp) for k in range(3))
-    wanted = [start + step * k for start, size, step in stretches for k in range(size)]
-    assert spans(starts, sizes, steps).tolist() == wanted
-
-
 @given(st.permutations(range(12)))
 def test_cycles_of_a_permutation(order):
     successor = np.array(order)
@@ -61,8 +54,3 @@ def test_cycles_of_a_permutation(order):
     assert [cycle[0] for cycle in found] == sorted(min(cycle) for cycle in found)
     for cycle in found:
         assert [order[member] for member in cycle] == cycle[1:] + cycle[:1]
-
-
-def test_cycles_of_all_lengths():
-    for count in range(70):
-        assert lists(cycles(np.roll(np.arange(count), -1))) == [list(range(count))][: min(count, 1)]

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel.curves.ragged import Ragged
@@ -94,7 +94,6 @@ def test_a_hole_with_a_side_on_the_meridian():
     assert along == {(180, -20, 180, -10), (180, 10, 180, 20)}
 
 
-@settings(max_examples=60)
 @given(st.lists(st.integers(0, 5), min_size=2, max_size=6, unique=True), st.integers(0, 10**6))
 def test_every_edge_that_is_left_has_a_follower(heights, seed):
     """Boxes at random on both sides of the meridian: rings close on the sphere and no edge is lost or doubled."""

@@ -1,14 +1,23 @@
-"""The real sets: whole as stored, what their columns say, and that they can be triangulated."""
+"""The real sets: whole as stored, what their columns say, and that they can be triangulated; how they are stored."""
 
 import dataclasses
 import hashlib
+import io
+import lzma
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
+from hypothesis import given
+from hypothesis import strategies as st
 
 from stereodel import SphericalDelaunay, angular_distance, check_delaunay, data, lonlat_to_xyz
 from stereodel.data import stored
+from tests.examples import examples
+from tools.data_files import dump
 
 FOLDER = Path(stored.__file__).parent
 SETS = {
@@ -27,7 +36,7 @@ SETS = {
     "lakes_110m": lambda: data.lakes("110m"),
 }
 OTHERS = {"countries_50m", "countries_110m", "blue_marble"}
-"""Stored as lines that several sets share (tests/data/test_natural_earth.py), or as a picture (test_marble.py)."""
+"""Stored as lines that several sets share (tests/data/test_natural_earth.py), or as a picture (below)."""
 
 
 @pytest.mark.parametrize("name", data.sources())
@@ -37,11 +46,6 @@ def test_files_are_those_of_the_table(name):
     assert (len(packed), hashlib.sha256(packed).hexdigest()) == (entry["bytes"], entry["sha256"])
     assert entry["licence"]
     assert entry["source"]
-
-
-@pytest.mark.parametrize("name", SETS)
-def test_rows_are_those_of_the_table(name):
-    assert len(SETS[name]().lonlat) == data.sources()[name]["rows"]
 
 
 def test_every_file_is_in_the_table_and_all_are_small():
@@ -61,6 +65,7 @@ def test_another_file_is_refused(monkeypatch):
 @pytest.mark.parametrize("name", SETS)
 def test_columns_are_of_one_length_and_nobody_can_change_them(name):
     table = SETS[name]()
+    assert len(table.lonlat) == data.sources()[name]["rows"]
     for field in dataclasses.fields(table):
         column = getattr(table, field.name)
         assert not column.flags.writeable
@@ -122,26 +127,87 @@ def test_coastlines_have_no_sides_of_the_map(resolution):
         assert angular_distance(xyz[:-1], xyz[1:]).max() < 10
 
 
-def test_land_is_where_it_is():
-    """On the left bank and the right: crossings of the coast between Madrid and points at sea and on land."""
-    lines = data.coastlines("110m").lines()
-    sides = np.concatenate([np.concatenate([line[:-1], line[1:]], axis=1) for line in lines])
-
-    def crossings(a, b):
-        def side(p, q, r):
-            return np.sign(
-                (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0])
-            )
-
-        a, b, p, q = np.array(a), np.array(b), sides[:, :2], sides[:, 2:]
-        return int(np.sum((side(a, b, p) != side(a, b, q)) & (side(p, q, a) != side(p, q, b))))
-
-    assert crossings((-3.7, 40.4), (-30.0, 40.0)) % 2 == 1
-    assert crossings((-3.7, 40.4), (37.6, 55.7)) % 2 == 0
-
-
 def test_airports_can_be_triangulated():
     triangulation = SphericalDelaunay.from_lonlat(data.airports().lonlat, latitude="geodetic")
     check_delaunay(triangulation)
     assert len(triangulation.duplicates) == 5
     assert len(triangulation.simplices) == 2 * (28298 - 5) - 4
+
+
+def unpacked(columns):
+    return dict(np.load(io.BytesIO(lzma.decompress(dump(columns)))))
+
+
+@examples(0.4)
+@given(st.lists(st.integers(-(2**31), 2**31 - 1), max_size=20))
+def test_integers(values):
+    found = stored.integers(unpacked({"n": np.array(values, dtype=np.int64)})["n"])
+    assert found.dtype == np.int32
+    assert found.tolist() == values
+
+
+@examples(0.4)
+@given(
+    st.lists(st.text(st.characters(blacklist_characters="\n\0", blacklist_categories=["Cs"])), min_size=1, max_size=9)
+)
+def test_texts(values):
+    assert stored.texts(unpacked({"t": values})["t"]).tolist() == values
+
+
+@examples(0.4)
+@given(st.lists(st.integers(-180 * 10**6, 180 * 10**6), min_size=1, max_size=20))
+def test_decimals_are_what_their_text_says(values):
+    written = [f"{'-' * (v < 0)}{abs(v) // 10**6}.{abs(v) % 10**6:06d}" for v in values]
+    found = stored.decimals(unpacked({"n": np.array(values)})["n"], 6)
+    assert found.tolist() == [float(text) for text in written]
+
+
+def test_the_same_bytes_every_time():
+    columns = {"n": np.arange(1000), "t": ["a", "ä"]}
+    assert dump(columns) == dump(columns)
+
+
+def test_the_picture():
+    picture = data.blue_marble()
+    assert picture.shape == (1024, 2048, 3)
+    assert picture.dtype == np.uint8
+    assert not picture.flags.writeable
+    assert data.blue_marble() is picture
+
+
+@pytest.mark.parametrize(
+    ("lon", "lat", "hue"),
+    [
+        (-150.0, 0.0, "blue"),
+        (-179.9, 0.0, "blue"),
+        (15.0, 23.0, "sand"),
+        (60.0, -80.0, "white"),
+        (-42.0, 72.0, "white"),
+    ],
+)
+def test_colours_of_places(lon, lat, hue):
+    red, green, blue = data.blue_marble()[int((90 - lat) * 1024 / 180), int((lon + 180) * 2048 / 360)].astype(int)
+    assert {"blue": blue > 2 * red, "sand": red > green > blue > 60, "white": min(red, green, blue) > 200}[hue]
+
+
+def test_the_picture_fits_the_map():
+    """What is land and what is sea agree best where the picture is not moved at all."""
+    lon, lat = np.arange(-178.0, 178.0), np.arange(-55.0, 60.0)
+    land = shapely.geometry.shape(data.land())
+    shapely.prepare(land)
+    wanted = shapely.contains_xy(land, *np.meshgrid(lon, lat))
+
+    def agreement(east, north):
+        i = ((90 - lat - north) * 1024 / 180).astype(int)
+        j = ((lon + east + 180) * 2048 / 360).astype(int)
+        red, green, blue = np.moveaxis(data.blue_marble()[np.ix_(i, j)].astype(int), -1, 0)
+        return np.mean((blue <= np.maximum(red, green)) == wanted)
+
+    shares = {(east, north): agreement(east, north) for east in (-1, 0, 1) for north in (-1, 0, 1)}
+    assert max(shares, key=shares.get) == (0, 0)
+    assert shares[0, 0] > 0.95
+
+
+def test_no_image_library_before_the_picture():
+    code = "import sys, stereodel.data; print('PIL' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

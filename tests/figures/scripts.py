@@ -30,7 +30,7 @@ def geometry(name):
 
 @cache
 def page(name):
-    return script(name)["FIGURE"].page()
+    return script(name)["FIGURE"]._page(geometry(name))
 
 
 def arc_points(rows, steps=33):

@@ -35,25 +35,14 @@ SECONDS, KILOBYTES = 5.0, 300_000
 PICTURE = MOST_TEXELS * (4 + 4) // 1000
 """What a picture may take of memory, which says how many pixels it has: each as it is decoded, and as it is given."""
 
+DOORS = {"": (read_points, shapes_of)} | dict.fromkeys((".png", ".jpg", ".tif", ".webp", ".gif"), (read_photo,))
+"""Who reads a file with an ending."""
+
 REFUSED = (OSError, ValueError, ImportError)
 """What the command reports in one line; any other exception would be a traceback."""
 
 TEXT = "lon,lat,name,n,when\n" + "".join(f"{k}.5,{k - 20},Zoë {k},{k * k},2024-01-{k % 28 + 1:02}\n" for k in range(40))
-ODD = (
-    b"\0",
-    b"\xff",
-    b"\x7f",
-    b"\x80",
-    b"<",
-    b'"',
-    b"{",
-    b",",
-    b"\xff\xff\xff\x7f",
-    b"\0\0\0\x80",
-    b"\xc3",
-    b"e999",
-    b"-",
-)
+ODD = b'\0|\xff|\x7f|\x80|<|"|{|,|\xff\xff\xff\x7f|\0\0\0\x80|\xc3|e999|-'.split(b"|")
 
 
 def seeds(folder):
@@ -126,8 +115,7 @@ def _repacked(content, chance):
 
 def wrong(path):
     """What is wrong with how a file is read, or None."""
-    doors = (read_photo,) if path.suffix in (".png", ".jpg", ".tif", ".webp", ".gif") else (read_points, shapes_of)
-    for door in doors:
+    for door in DOORS.get(path.suffix, DOORS[""]):
         held, began = _memory(fresh=True), time.process_time()
         try:
             door(path)

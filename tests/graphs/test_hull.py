@@ -7,20 +7,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, orient2d
+from stereodel import orient2d
 from stereodel.graphs import hull
-from stereodel.predicates.integers import sign
 from stereodel.predicates.rays import ray, turn_ray
-
-GRID_POINT = st.tuples(st.integers(-3, 3), st.integers(-3, 3))
-DIRECTION = st.tuples(*[st.integers(-2, 2)] * 3).filter(any)
-
-
-def triangulate(points):
-    points = np.asarray(points, dtype=float)
-    triangulation = (PlanarDelaunay if points.shape[1] == 2 else SphericalDelaunay)(points)
-    check_delaunay(triangulation)
-    return triangulation
+from tests import sets
+from tests.digits import cross
+from tests.examples import examples
+from tests.spaces import BOTH, PLANE, SPHERE, dot
 
 
 def corners(triangulation):
@@ -33,7 +26,7 @@ def corners(triangulation):
 
 
 def prove_in_plane(points):
-    triangulation = triangulate(points)
+    triangulation = PLANE.triangulated(points)
     found, points = corners(triangulation), triangulation.points
     if triangulation.dimension < 2:
         ends = sorted(set(map(tuple, points.tolist())))
@@ -44,25 +37,17 @@ def prove_in_plane(points):
         assert (orient2d(points[a], points[b], points) >= 0).all()
 
 
-def cross(a, b):
-    (x, y, z), (u, v, w) = a[:3], b[:3]
-    return y * w - z * v, z * u - x * w, x * v - y * u
-
-
 def holds_centre(rays):
     """Whether the centre lies in the convex hull of directions: in a segment, triangle or tetrahedron of them."""
 
-    def dot(a, b):
-        return sum(x * y for x, y in zip(a[:3], b[:3], strict=True))
-
     def pair(a, b):
-        return not any(cross(a, b)) and dot(a, b) < 0
+        return not any(cross(a[:3], b[:3])) and dot(a, b) < 0
 
     def triple(a, b, c):
         """Of a plane through the centre: all three turns the same way."""
         if turn_ray(a, b, c):
             return False
-        products = [cross(a, b), cross(b, c), cross(c, a)]
+        products = [cross(a[:3], b[:3]), cross(b[:3], c[:3]), cross(c[:3], a[:3])]
         return all(dot(p, q) > 0 for p, q in combinations(products, 2))
 
     def quadruple(*four):
@@ -75,7 +60,7 @@ def holds_centre(rays):
 
 
 def prove_on_sphere(points):
-    triangulation = triangulate(points)
+    triangulation = SPHERE.triangulated(points)
     found = corners(triangulation)
     rays = [ray(p) for p in triangulation.points.tolist()]
     assert (found == []) == (len(rays) == 0 or holds_centre(sorted(set(rays))))
@@ -91,40 +76,37 @@ def prove_on_sphere(points):
 
 def is_between(a, r, b):
     """On the short arc: not beyond either end, as seen along the axis."""
-    axis = cross(a, b)
+    axis = cross(a[:3], b[:3])
     normal = (*axis, sum(x * x for x in axis))
     return turn_ray(normal, a, r) >= 0 and turn_ray(normal, r, b) >= 0
 
 
-@given(st.lists(GRID_POINT, min_size=1, max_size=15))
-def test_plane(points):
-    prove_in_plane(points)
+def prove(points):
+    return prove_in_plane(points) if points.shape[1] == 2 else prove_on_sphere(points)
 
 
-@given(st.lists(DIRECTION, min_size=1, max_size=9))
-def test_sphere(points):
-    prove_on_sphere(points)
+@BOTH
+@given(data=st.data())
+@examples(0.6)
+def test_small_integers(space, data):
+    prove(data.draw(space.points(3, min_size=1, max_size=15 if space is PLANE else 9)))
 
 
-@given(st.lists(DIRECTION.filter(lambda p: p[2] > 0), min_size=1, max_size=12))
+@given(st.lists(SPHERE.places(2).filter(lambda p: p[2] > 0), min_size=1, max_size=12))
 def test_within_a_hemisphere(points):
-    prove_on_sphere(points)
+    prove(SPHERE.array(points))
 
 
-def test_awkward_sets_of_the_plane(plane_set):
-    prove_in_plane(plane_set)
+@pytest.mark.parametrize("one", sets.of("few"))
+def test_awkward_sets(one):
+    prove(one.points)
 
 
-def test_awkward_sets_of_the_sphere(sphere_set):
-    prove_on_sphere(sphere_set)
-
-
+@BOTH
 @pytest.mark.parametrize("spread", [1e-3, 1e-12, 1e-15])
-def test_cluster(spread):
+def test_cluster(space, spread):
     """A few ulps across, so that many points lie within sides."""
-    rng = np.random.default_rng(6)
-    prove_on_sphere(np.array([0.3, -0.5, 0.8]) + spread * rng.normal(size=(40, 3)))
-    prove_in_plane(np.array([0.3, -0.5]) + spread * rng.normal(size=(40, 2)))
+    prove(space.cluster(np.random.default_rng(6), spread, 25))
 
 
 def test_same_as_the_plane_seen_from_the_centre():
@@ -132,4 +114,4 @@ def test_same_as_the_plane_seen_from_the_centre():
     flat = np.random.default_rng(7).normal(size=(200, 2))
     lifted = np.column_stack([flat, np.ones(200)])
     assert np.array_equal(hull(flat), hull(lifted))
-    assert sign(len(hull(np.vstack([lifted, -lifted[:1]])))) == 0
+    assert len(hull(np.vstack([lifted, -lifted[:1]]))) == 0

@@ -7,23 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, check_delaunay, lonlat_to_xyz
+from stereodel import PlanarDelaunay, SphericalDelaunay, lonlat_to_xyz
 from stereodel.graphs import (
     gabriel_graph,
     minimum_spanning_tree,
     relative_neighborhood_graph,
     urquhart_graph,
 )
+from tests import sets
+from tests.examples import examples
+from tests.graphs import definitions
+from tests.spaces import BOTH, PLANE, SPHERE, space_of
 
 FROM_THE_INSIDE = (minimum_spanning_tree, relative_neighborhood_graph, urquhart_graph, gabriel_graph)
-GRID_POINT = st.tuples(st.integers(-3, 3), st.integers(-3, 3))
-DIRECTION = st.tuples(*[st.integers(-2, 2)] * 3).filter(any)
-
-
-def triangulate(points):
-    triangulation = (PlanarDelaunay if points.shape[1] == 2 else SphericalDelaunay)(points)
-    check_delaunay(triangulation)
-    return triangulation
 
 
 def pairs(edges):
@@ -41,10 +37,10 @@ def prove_nesting(triangulation):
     assert all(one <= other for one, other in pairwise(graphs))
 
 
-def prove(points, definitions):
+def prove(points):
     """All four are what their definitions say, sorted."""
     points = np.asarray(points, dtype=float)
-    triangulation, exact = triangulate(points), definitions.Exact(points)
+    triangulation, exact = space_of(points).triangulated(points), definitions.Exact(points)
     assert pairs(gabriel_graph(triangulation)) == definitions.gabriel(exact)
     assert pairs(relative_neighborhood_graph(triangulation)) == definitions.relative(exact)
     assert pairs(minimum_spanning_tree(triangulation)) == definitions.spanning_tree(exact)
@@ -55,43 +51,36 @@ def prove(points, definitions):
     prove_nesting(triangulation)
 
 
-@given(st.lists(GRID_POINT, min_size=1, max_size=14))
-def test_plane_with_ties_and_duplicates(definitions, points):
-    prove(points, definitions)
+@BOTH
+@given(data=st.data())
+@examples(0.6)
+def test_ties_and_duplicates(space, data):
+    prove(data.draw(space.points(3 if space is PLANE else 2, min_size=1, max_size=12)))
 
 
-@given(st.lists(DIRECTION, min_size=1, max_size=10))
-def test_sphere_with_ties_and_duplicates(definitions, points):
-    prove(points, definitions)
-
-
-def test_awkward_sets_of_the_plane(plane_set, definitions):
-    prove(plane_set, definitions)
-
-
-def test_awkward_sets_of_the_sphere(sphere_set, definitions):
-    prove(sphere_set, definitions)
+@pytest.mark.parametrize("one", sets.of("few"))
+def test_awkward_sets(one):
+    prove(one.points[:18])
 
 
 @pytest.mark.parametrize("spread", [1.0, 1e-6, 1e-12, 1e-15])
-def test_clusters_on_the_sphere(spread, definitions):
-    rng = np.random.default_rng(1)
-    points = np.array([0.3, -0.5, 0.8]) + spread * rng.normal(size=(14, 3))
-    prove(points, definitions)
-    prove(points / np.linalg.norm(points, axis=1)[:, None], definitions)
+def test_clusters_on_the_sphere(spread):
+    points = SPHERE.cluster(np.random.default_rng(1), spread, 14)
+    prove(points)
+    prove(sets.unit(points))
 
 
-def test_graticule(definitions):
+def test_graticule():
     lon, lat = np.meshgrid(np.arange(0, 360, 90), [-90, -30, 0, 30])
-    prove(lonlat_to_xyz(np.stack([lon, lat], axis=-1).reshape(-1, 2)), definitions)
+    prove(lonlat_to_xyz(np.stack([lon, lat], axis=-1).reshape(-1, 2)))
 
 
 @pytest.mark.parametrize("size", [3, 8])
-def test_uneven_clusters_in_the_plane(size, definitions):
+def test_uneven_clusters_in_the_plane(size):
     """Long edges between clusters: the searches in their lunes meet many points."""
     rng = np.random.default_rng(size)
     centres = rng.random((size, 2))
-    prove(centres[rng.integers(0, size, 26)] + 1e-3 * rng.normal(size=(26, 2)), definitions)
+    prove(centres[rng.integers(0, size, 26)] + 1e-3 * rng.normal(size=(26, 2)))
 
 
 def test_hub():
@@ -100,33 +89,29 @@ def test_hub():
     angle = rng.uniform(0, 2 * np.pi, 3000)
     radius = rng.uniform(1, 1 + 1e-9, 3000)
     points = np.vstack([[0, 0], radius[:, None] * np.column_stack([np.cos(angle), np.sin(angle)])])
-    triangulation = triangulate(points)
+    triangulation = PLANE.triangulated(points)
     spokes = [np.count_nonzero(graph(triangulation)[:, 0] == 0) for graph in FROM_THE_INSIDE]
     assert spokes[0] == 1
     assert 1 <= spokes[1] <= 6 < 900 < spokes[2] < spokes[3]
     prove_nesting(triangulation)
 
 
-@pytest.mark.parametrize("width", [2, 3])
+@BOTH
 @pytest.mark.parametrize("graph", FROM_THE_INSIDE)
-def test_order_of_points_and_threads_change_nothing(graph, width):
+def test_order_of_points_and_threads_change_nothing(graph, space):
     rng = np.random.default_rng(3)
-    points = rng.integers(-12, 13, size=(600, width)).astype(float)
-    points = points[points.any(axis=1)]
-    order = rng.permutation(len(points))
-    first, second = (PlanarDelaunay if width == 2 else SphericalDelaunay)(points), points[order]
+    points = space.lattice(rng, 12, 600)
+    order, names = rng.permutation(len(points)), space.names(points)
 
-    def places(points, edges):
-        return sorted(sorted(points[k].tolist() for k in edge) for edge in edges)
+    def places(names, edges):
+        return sorted(map(sorted, names[edges].tolist()))
 
-    def unit(points):
-        return points / np.gcd.reduce(points.astype(int), axis=1)[:, None] if width == 3 else points
-
-    assert places(unit(points), graph(first)) == places(unit(second), graph(second))
-    assert np.array_equal(graph(first), graph(first, workers=3))
+    triangulation = space.delaunay(points)
+    assert places(names, graph(triangulation)) == places(names[order], graph(points[order]))
+    assert np.array_equal(graph(triangulation), graph(triangulation, workers=3))
 
 
-@given(st.lists(GRID_POINT, min_size=3, max_size=14, unique=True), st.integers(1, 3))
+@given(st.lists(PLANE.places(3), min_size=3, max_size=14, unique=True), st.integers(1, 3))
 def test_quarter_turns_change_nothing_that_ties_do_not_decide(points, turns):
     points = np.array(points, dtype=float)
     turned = points @ np.linalg.matrix_power(np.array([[0.0, 1.0], [-1.0, 0.0]]), turns)

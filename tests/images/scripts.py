@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.baselines import Store, cases_of
+from tests.figures import scripts
+from tools.baselines import Case, Store, cases_of
 from tools.build import find_scripts
 
 ROOT = Path(__file__).parents[2]
@@ -15,10 +16,22 @@ STORE = Store(Path(__file__).parent / "baselines")
 by_script = pytest.mark.parametrize("script", SCRIPTS, ids=lambda script: script.stem)
 
 
+def thorough_but_for(*names):
+    """Each script, of which only those are drawn by day."""
+    return pytest.mark.parametrize(
+        "script",
+        [pytest.param(s, id=s.stem, marks=[pytest.mark.thorough] * (s.stem not in names)) for s in SCRIPTS],
+    )
+
+
 @cache
 def cases(script):
-    """The cases of a script, drawn once a process."""
-    return cases_of(script)
+    """The cases of a script, drawn once a process; figures are those that `tests.figures` asks about, too."""
+    name = script.stem
+    if "FIGURE" not in scripts.script(name):
+        return cases_of(script)
+    figure = scripts.script(name)["FIGURE"]
+    return [Case(figure.name, scripts.page(name), scripts.geometry(name), figure.renderer)]
 
 
 def case(name):

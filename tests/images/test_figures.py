@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from stereodel.render.rows import LabelLayer
-from tests.images.report import Failure, in_short, report_failure, report_pass
-from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases
+from tests.images.report import in_short, report_failure, report_pass
+from tests.images.scripts import ROOT, SCRIPTS, STORE, by_script, cases, thorough_but_for
 from tools.baselines import ARRAYS, SIZE, case_names
 
 pytestmark = pytest.mark.images
@@ -24,7 +24,7 @@ def test_a_script_draws_what_was_stored(script):
     for case in cases(script):
         messages = STORE.otherwise(case)
         if messages:
-            report_failure(Failure.of(STORE, case, messages), REPORT)
+            report_failure(STORE, case, messages, REPORT)
             wrong += [case.name, *(f"  {message}" for message in in_short(messages))]
         else:
             report_pass(case.name, REPORT)
@@ -47,7 +47,7 @@ def test_no_text_is_cut_off(script):
             assert not border.any(), case.name
 
 
-@by_script
+@thorough_but_for("fig03_bubbles", "globe_europe")
 def test_labels_lie_together_where_each_lies_alone(script):
     for case in cases(script):
         if case.page.labels:

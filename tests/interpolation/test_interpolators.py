@@ -3,14 +3,13 @@
 import copy
 import pickle
 
+import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
-from mpmath import mp, mpf, workdps
-from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
 
-from stereodel import PlanarDelaunay, Rotation, SphericalDelaunay, check_delaunay
+from stereodel import PlanarDelaunay, Rotation
 from stereodel.interpolation import (
     LinearInterpolator,
     NaturalNeighborInterpolator,
@@ -18,15 +17,15 @@ from stereodel.interpolation import (
     SmoothInterpolator,
     estimate_gradients,
 )
+from tests import sets
+from tests.exact import cross, dot, mp, normalized
+from tests.interpolation.known import known, slopes
+from tests.sets import unit
+from tests.strategies import GRID_DIRECTIONS
 
 INNER_METHODS = [LinearInterpolator, SmoothInterpolator, NaturalNeighborInterpolator]  # defined within the hull
 METHODS = [NearestInterpolator, *INNER_METHODS]
 GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
-SMALL = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
-
-
-def unit(x):
-    return x / np.linalg.norm(x, axis=-1, keepdims=True)
 
 
 def rms(x):
@@ -34,7 +33,7 @@ def rms(x):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_values_at_the_points_are_met_to_the_last_bit(method, make_points, rng, known):
+def test_values_at_the_points_are_met_to_the_last_bit(method, make_points, rng):
     points = make_points(rng, 300)
     values = known(points)
     assert np.array_equal(method(points, values)(points), values)
@@ -74,56 +73,16 @@ def test_linear_functions_of_the_plane(rng):
         assert np.allclose(function.gradient(queries), [2.0, -3.0], rtol=0, atol=1e-10)
 
 
-@pytest.mark.parametrize("pairs", [None, 1e-3, 1e-9])
-def test_quadratic_polynomials_of_the_plane(pairs, rng):
-    """Estimated gradients are exact for them, and so is the smooth interpolant; also where some points nearly meet."""
-    points = rng.normal(size=(400, 2))
-    if pairs:
-        points = np.concatenate([points, points[::7] + pairs * rng.normal(size=points[::7].shape)])
-    queries = 0.2 * rng.normal(size=(200, 2))
-
-    def polynomial(x):
-        return 1 + x[:, 0] - 2 * x[:, 1] + 3 * x[:, 0] ** 2 - x[:, 0] * x[:, 1] + 0.5 * x[:, 1] ** 2
-
-    function = SmoothInterpolator(points, polynomial(points))
-    exact = np.column_stack([1 + 6 * points[:, 0] - points[:, 1], -2 - points[:, 0] + points[:, 1]])
-    assert np.allclose(function.gradients, exact, rtol=0, atol=1e-8)
-    assert np.allclose(function(queries), polynomial(queries), rtol=0, atol=1e-12)
-
-
-def test_degree_one_harmonics_on_the_sphere(rng):
-    """Their gradients are exact; the linear interpolant has them on the plane triangles, whose depth is known."""
+def test_gradients_of_degree_one_harmonics_are_exact(rng):
     points = unit(rng.normal(size=(300, 3)))
     axis = np.array([1.0, -2.0, 0.5])
     values = points @ axis
-    exact = axis - points * values[:, None]
-    assert np.allclose(estimate_gradients(points, values), exact, rtol=0, atol=1e-10)
-    queries = unit(rng.normal(size=(200, 3)))
-    linear = LinearInterpolator(points, values)
-    triangulation = linear.triangulation
-    check_delaunay(triangulation)
-    triangles = triangulation.find_simplex(queries)
-    normals = triangulation.circumcenters[triangles]
-    corner = points[triangulation.simplices[triangles, 0]]
-    depth = np.sum(normals * corner, axis=1) / np.sum(normals * queries, axis=1)
-    assert np.allclose(linear(queries), depth * (queries @ axis), rtol=0, atol=1e-14)
-
-
-def test_linear_and_nearest_agree_with_scipy(rng):
-    points, values, queries = rng.random((300, 2)), rng.random(300), rng.random((500, 2))
-    assert np.allclose(
-        LinearInterpolator(points, values)(queries),
-        LinearNDInterpolator(points, values)(queries),
-        rtol=0,
-        atol=1e-12,
-        equal_nan=True,
-    )
-    assert np.array_equal(NearestInterpolator(points, values)(queries), NearestNDInterpolator(points, values)(queries))
+    assert np.allclose(estimate_gradients(points, values), axis - points * values[:, None], rtol=0, atol=1e-10)
 
 
 @pytest.mark.parametrize("method", INNER_METHODS)
-@pytest.mark.parametrize("step", [1e-6])
-def test_gradient_agrees_with_differences(method, step, make_points, rng, known, slopes):
+def test_gradient_agrees_with_differences(method, make_points, rng):
+    step = 1e-6
     points = make_points(rng, 400)
     function = method(points, np.stack([known(points), rng.random(400)], axis=1))
     queries = make_points(rng, 300)
@@ -187,7 +146,7 @@ def test_smooth_has_the_given_gradients_at_the_points(distance, make_points, rng
     ("method", "order", "of_gradient"),
     [(LinearInterpolator, 2, 1), (SmoothInterpolator, 3, 2), (NaturalNeighborInterpolator, 2, 1)],
 )
-def test_order_of_convergence(method, order, of_gradient, make_points, known, slopes):
+def test_order_of_convergence(method, order, of_gradient, make_points):
     """Errors over points of four times the density: half the distance, so a factor of 2 to the order."""
     errors, gradient_errors = [], []
     for n in (2000, 8000):
@@ -222,14 +181,6 @@ def test_lengths_of_directions_do_not_matter(method, rng):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_order_of_points_does_not_matter(method, make_points, rng):
-    points, values, queries = make_points(rng, 80), rng.random(80), make_points(rng, 60)
-    order = rng.permutation(80)
-    one, other = method(points, values)(queries), method(points[order], values[order])(queries)
-    assert np.allclose(one, other, rtol=0, atol=1e-12, equal_nan=True)
-
-
-@pytest.mark.parametrize("method", METHODS)
 def test_equal_points_have_the_mean_of_their_values(method, make_points, rng):
     points, values, queries = make_points(rng, 60), rng.random(60), make_points(rng, 40)
     twice = np.concatenate([points, points[:5], points[:5]])
@@ -260,47 +211,36 @@ def test_a_value_that_is_not_known_stays_in_its_triangles(method, make_points, r
 
 
 @pytest.mark.parametrize("method", METHODS)
-@pytest.mark.parametrize("points", [np.zeros((0, 2)), [[1, 2]], [[1, 2], [3, 4]], [[0, 0], [1, 1], [2, 2]]])
-def test_points_without_triangles_in_the_plane(method, points):
+@pytest.mark.parametrize("one", sets.of("flat", "few"))
+def test_points_without_triangles(method, one):
+    """The nearest point is known, and nothing between points."""
+    points = one.points
     values = np.arange(float(len(points)))
-    result = method(points, values)([[1.0, 2.0], [9.0, 9.0]])
-    if method is NearestInterpolator and len(points):
-        assert result.tolist() == [values[0] if len(points) < 3 else 1.0, values[-1]]
-    else:
-        assert np.isnan(result).all()
-        assert np.isnan(method(points, values).gradient([[1.0, 2.0]])).all()
+    function, somewhere = method(points, values), [[1.0, 2.0, 3.0][: points.shape[1]]]
     assert np.isnan(estimate_gradients(points, values)).all()
-
-
-@pytest.mark.parametrize("points", [[[0, 0, 2]], [[1, 0, 0], [0, 1, 0]], [[1, 0, 0], [0, 1, 0], [-1, -1, 0]]])
-def test_points_without_triangles_on_the_sphere(points):
-    values = np.arange(float(len(points)))
-    for method in INNER_METHODS:
-        assert np.isnan(method(points, values)(points)).all()
-        assert np.array_equal(method(points, values, extrapolate="nearest")(points), values)
-    assert np.array_equal(NearestInterpolator(points, values)(points), values)
-
-
-@pytest.mark.parametrize("method", INNER_METHODS)
-def test_three_points_of_the_sphere_have_one_inside(method):
-    function = method(np.eye(3), [1.0, 2.0, 4.0], extrapolate="nearest")
-    assert function([1, 1, 1]) == pytest.approx(7 / 3)
-    assert function([-1, -1, -0.5]) == 4.0
-    assert np.isnan(method(np.eye(3), [1.0, 2.0, 4.0])([-1, -1, -0.5]))
-    assert np.array_equal(function.gradient([-1, -1, -0.5]), [0.0, 0.0, 0.0])
+    if method is NearestInterpolator:
+        assert np.array_equal(function(points), function.values)
+        assert np.isnan(function(somewhere)).all() == (len(points) == 0)
+    else:
+        assert np.isnan(function(points)).all()
+        assert np.isnan(function(somewhere)).all()
+        assert np.isnan(function.gradient(somewhere)).all()
+        assert np.array_equal(method(points, values, extrapolate="nearest")(points), function.values)
 
 
 @pytest.mark.parametrize("method", INNER_METHODS)
-def test_a_hemisphere_is_not_left(method, rng, known):
-    points = rng.normal(size=(200, 3))
-    points[:, 2] = np.abs(points[:, 2]) + 0.2
+@pytest.mark.parametrize("one", sets.named("sphere", "half", "three"))
+def test_a_hemisphere_is_not_left(method, one, rng):
+    points = one.points
     function = method(points, known(points))
     nearest = method(points, known(points), extrapolate="nearest")
     queries = rng.normal(size=(300, 3))
     outside = function.triangulation.find_simplex(queries) < 0
+    assert 0 < np.count_nonzero(outside) < 300
     assert np.array_equal(np.isnan(function(queries)), outside)
     assert np.array_equal(nearest(queries)[~outside], function(queries)[~outside])
     assert np.array_equal(nearest(queries)[outside], NearestInterpolator(points, known(points))(queries)[outside])
+    assert not nearest.gradient(queries[outside]).any()
 
 
 @pytest.mark.parametrize("method", INNER_METHODS)
@@ -324,29 +264,11 @@ def test_clusters_are_as_accurate_as_the_whole(method, spread, rng):
     assert np.allclose(slopes, [1.0, 2.0], rtol=0, atol=10 * spread + 1e-9)
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_poles_and_the_antimeridian_are_places_like_others(method, rng, known):
-    triangulation = SphericalDelaunay.from_lonlat(
-        [(lon, lat) for lat in range(-80, 81, 10) for lon in range(-180, 180, 10)] + [(0, 90), (0, -90)]
-    )
-    function = method(triangulation, known(triangulation.points))
-    special = np.array([[0, 0, 1.0], [0, 0, -1.0], [-1.0, 0.0, 0.3], [-1.0, -0.0, 0.3]])
-    assert np.allclose(function(special), known(special), atol=0.2)
-    assert function(special[2]) == function(special[3])
-    assert np.isfinite(function.gradient(special[2:])).all()
-
-
 def exact_weights(corners, query):
-    """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points, in 60 digits."""
-    with workdps(60):
-        rows = [[mpf(float(x)) for x in p] for p in (*corners, query)]
-        if len(rows[0]) == 3:
-            rows = [[x / mp.sqrt(sum(y * y for y in p)) for x in p] for p in rows]
-        else:
-            rows = [[*p, mpf(1)] for p in rows]
-        *triangle, q = rows
-        areas = [mp.det(mp.matrix([q if j == k else triangle[j] for j in range(3)])) for k in range(3)]
-        return [float(area / sum(areas)) for area in areas]
+    """Barycentric coordinates of the ray or point in the plane triangle of unit vectors or points."""
+    *corners, query = (normalized(mp(p)) if len(p) == 3 else [*mp(p), mpmath.mpf(1)] for p in (*corners, query))
+    areas = [dot(query, cross(corners[k - 2], corners[k - 1])) for k in range(3)]
+    return [float(area / sum(areas)) for area in areas]
 
 
 @pytest.mark.parametrize("aspect", [1e-3, 1e-9, 1e-14])
@@ -365,7 +287,6 @@ def test_weights_in_thin_triangles(aspect, make_points, rng):
     assert held > 10
 
 
-@settings(max_examples=60)
 @given(st.lists(GRID_POINT, min_size=3, max_size=12), st.lists(GRID_POINT, min_size=1, max_size=6), st.randoms())
 def test_linear_stays_between_the_values_of_the_corners(points, queries, random):
     values = np.array([random.uniform(-5, 5) for _ in points])
@@ -378,8 +299,7 @@ def test_linear_stays_between_the_values_of_the_corners(points, queries, random)
     assert np.isnan(function(queries[triangles < 0])).all()
 
 
-@settings(max_examples=60)
-@given(st.lists(SMALL, min_size=1, max_size=12), st.lists(SMALL, min_size=1, max_size=6))
+@given(st.lists(GRID_DIRECTIONS, min_size=1, max_size=12), st.lists(GRID_DIRECTIONS, min_size=1, max_size=6))
 def test_all_methods_take_any_directions(points, queries):
     values = np.arange(float(len(points)))
     for method in METHODS:
@@ -394,15 +314,6 @@ def test_all_methods_take_any_directions(points, queries):
             assert np.isfinite(slopes[held & ~at_point]).all()
 
 
-@pytest.mark.parametrize("scale", [1e-150, 1e-30, 1e30, 1e150])
-@pytest.mark.parametrize("method", INNER_METHODS)
-def test_any_size_of_the_plane(method, scale, rng):
-    points, values, queries = rng.random((60, 2)), rng.random(60), 0.3 + 0.4 * rng.random((40, 2))
-    function, scaled = method(points, values), method(scale * points, values)
-    assert np.allclose(scaled(scale * queries), function(queries), rtol=0, atol=1e-12)
-    assert np.allclose(scaled.gradient(scale * queries) * scale, function.gradient(queries), rtol=1e-9, atol=1e-9)
-
-
 def test_later_changes_of_the_triangulation_do_not_matter(rng):
     points, values = rng.random((50, 2)), rng.random(50)
     triangulation = PlanarDelaunay(points)
@@ -415,30 +326,3 @@ def test_later_changes_of_the_triangulation_do_not_matter(rng):
         assert other([0.5, 0.5]) == before
     with pytest.raises(ValueError, match="read-only"):
         function.values[0] = 1.0
-
-
-@pytest.mark.parametrize(
-    ("values", "message"),
-    [
-        ([1.0, 2.0], r"values must have shape \(3, \.\.\.\), one entry for each point, got \(2,\)"),
-        (5.0, r"values must have shape \(3, \.\.\.\)"),
-        ([1.0, np.inf, 2.0], r"values\[1\] is inf; every value must be finite, or NaN where it is not known"),
-        ([1.0, "a", 2.0], "values must hold real numbers"),
-    ],
-)
-@pytest.mark.parametrize("method", METHODS)
-def test_values_that_are_none_are_refused(method, values, message):
-    with pytest.raises((ValueError, TypeError), match=message):
-        method([[0, 0], [1, 0], [0, 1]], values)
-
-
-def test_other_arguments_are_refused():
-    points, values = [[0, 0], [1, 0], [0, 1]], [1.0, 2.0, 3.0]
-    with pytest.raises(ValueError, match="extrapolate is 'linear', but must be one of 'nearest'"):
-        LinearInterpolator(points, values, extrapolate="linear")
-    with pytest.raises(ValueError, match=r"queries must have shape \(\.\.\., 2\), got \(3,\)"):
-        LinearInterpolator(points, values)([1, 2, 3])
-    with pytest.raises(ValueError, match=r"queries is the zero vector"):
-        LinearInterpolator(np.eye(3), values)([0, 0, 0])
-    with pytest.raises(ValueError, match=r"gradients must have shape \(3, 2\), a vector for each value, got \(3, 3\)"):
-        SmoothInterpolator(points, values, gradients=np.zeros((3, 3)))

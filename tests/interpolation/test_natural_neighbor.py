@@ -4,57 +4,34 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import SphericalVoronoi
 from stereodel.interpolation import NaturalNeighborInterpolator
+from tests.exact import area, fractions, nearer
 
 GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
 INNER_POINT = st.tuples(st.integers(-15, 15), st.integers(-15, 15)).map(lambda p: (p[0] / 8, p[1] / 8))
 CORNERS = [(-4, -5), (5, -4), (4, 5), (-5, 4)]
 
 
-def clipped(polygon, a, b):
-    """The part of a convex polygon that is nearer to a than to b."""
-
-    def excess(p):
-        return sum((x - y) ** 2 for x, y in zip(p, a, strict=True)) - sum(
-            (x - y) ** 2 for x, y in zip(p, b, strict=True)
-        )
-
-    result = []
-    for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True):
-        f, g = excess(p), excess(q)
-        if f <= 0:
-            result.append(p)
-        if f * g < 0:
-            result.append(tuple(x + (y - x) * f / (f - g) for x, y in zip(p, q, strict=True)))
-    return result
-
-
-def area(polygon):
-    return sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(polygon, polygon[1:] + polygon[:1], strict=True)) / 2
-
-
 def sibson(points, query):
     """Weights in rational arithmetic; the query must lie within the hull, and be none of the points."""
-    exact = [tuple(map(Fraction, p)) for p in points]
-    at = tuple(map(Fraction, query))
+    exact, (at,) = fractions(points), fractions([query])
     far = Fraction(10) ** 9
     cell = [(-far, -far), (far, -far), (far, far), (-far, far)]
     for p in exact:
-        cell = clipped(cell, at, p)
+        cell = nearer(cell, at, p)
     areas = []
     for p in exact:
         part = cell
         for other in exact:
-            part = clipped(part, p, other) if other != p else part
+            part = nearer(part, p, other) if other != p else part
         areas.append(area(part))
     return [a / sum(areas) for a in areas]
 
 
-@settings(max_examples=60)
 @given(st.lists(GRID_POINT, max_size=7, unique=True), INNER_POINT)
 def test_weights_are_those_of_exact_areas(points, query):
     """Whole points, many on common circles, within four that keep the query's cell small."""
@@ -87,17 +64,6 @@ def test_linear_functions_of_the_plane_far_from_the_origin(rng):
     assert np.allclose(function.gradient(queries), np.eye(2), rtol=0, atol=1e-9)
 
 
-def test_gradient_agrees_with_differences(make_points, rng, slopes):
-    points = make_points(rng, 300)
-    queries = make_points(rng, 200)
-    queries = 0.2 + 0.6 * queries if points.shape[1] == 2 else queries / np.linalg.norm(queries, axis=1)[:, None]
-    function = NaturalNeighborInterpolator(points, rng.random((300, 2)))
-    expected = slopes(function, queries, 1e-7)
-    error = np.abs(function.gradient(queries) - expected)
-    assert np.median(error) < 1e-6
-    assert np.quantile(error, 0.99) < 1e-3  # second derivatives are large near points
-
-
 def test_linear_on_the_hull_of_the_plane():
     function = NaturalNeighborInterpolator([[0, 0], [4, 0], [4, 4], [0, 4], [2, 1]], [0.0, 1.0, 7.0, 3.0, 5.0])
     assert function([[3, 0], [4, 1], [0, 3]]).tolist() == [0.75, 2.5, 2.25]
@@ -114,14 +80,6 @@ def test_flips_do_not_matter(rng):
     assert np.allclose(NaturalNeighborInterpolator(-grid, values)(-queries), exact, rtol=0, atol=1e-13)
     shaken = NaturalNeighborInterpolator(grid + 1e-9 * rng.random((64, 2)), values)
     assert np.allclose(shaken(queries), exact, rtol=0, atol=1e-6)
-
-
-def test_threads_do_not_matter(make_points, rng):
-    points, queries = make_points(rng, 500), make_points(rng, 30000)
-    function = NaturalNeighborInterpolator(points, rng.random(500))
-    assert np.array_equal(function(queries, workers=1), function(queries, workers=3), equal_nan=True)
-    one, three = (function.gradient(queries, workers=w) for w in (1, 3))
-    assert np.array_equal(one, three, equal_nan=True)
 
 
 def test_thin_hulls(rng):

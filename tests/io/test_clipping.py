@@ -7,7 +7,7 @@ import shapely
 
 from stereodel import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, data
 from stereodel.io import to_geodataframe, write
-from stereodel.io.clipping import Mask, areas_on_sphere
+from stereodel.io.clipping import areas_on_sphere
 
 RNG = np.random.default_rng(21)
 LONLAT = np.column_stack([RNG.uniform(-180, 180, 300), np.degrees(np.arcsin(RNG.uniform(-1, 1, 300)))])
@@ -115,12 +115,3 @@ def test_triangles_and_files(tmp_path):
 def test_what_cannot_be_cut(mesh, options, message):
     with pytest.raises(ValueError, match=message):
         to_geodataframe(mesh, **{"clip": "land", **options})
-
-
-def test_squares_hold_what_they_cover():
-    mask, rng = Mask(LAND), np.random.default_rng(3)
-    corners = np.column_stack([rng.uniform(-180, 170, 400), rng.uniform(-90, 80, 400)])
-    sizes = 10.0 ** rng.uniform(-3, 1, 400)
-    boxes = shapely.box(*corners.T, *(corners.T + sizes))
-    found, expected = mask.cut(boxes), shapely.intersection(boxes, LAND)
-    assert np.abs(shapely.area(found) - shapely.area(expected)).max() < 1e-10

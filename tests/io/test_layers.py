@@ -1,6 +1,5 @@
 """Layers of maps: what frames hold comes through Arrow into every file, and progress is told truly."""
 
-import datetime as dt
 import io
 
 import geopandas
@@ -13,40 +12,25 @@ import shapely
 from stereodel import SphericalVoronoi
 from stereodel.io import from_geodataframe, read_points, to_geodataframe, write
 from stereodel.io import layers as module
-from stereodel.io.layers import Layer, arrow_column
+from stereodel.io.layers import Layer
 
 POINTS = geopandas.points_from_xy([10.0, -78.5, 135.8], [48.4, -0.2, 35.0])
-COLUMNS = {
-    "small": np.array([1, 2, 3], dtype=np.uint8),
-    "large": np.array([2**63, 1, 2], dtype=np.uint64),
-    "huge": [2**70, None, 5],
-    "half": np.array([0.5, np.nan, 2.0], dtype=np.float16),
-    "truth": [True, False, True],
-    "day": pd.to_datetime(["2026-01-01", "2026-01-02", None]),
-    "span": pd.to_timedelta([1, 2, 3], unit="h"),
-    "kind": pd.Categorical(["a", "b", "a"]),
-    "mixed": ["a", 1, None],
-    "none": [None, None, None],
-}
 
 
 @pytest.mark.parametrize("kind", ["gpkg", "fgb"])
-@pytest.mark.parametrize("name", COLUMNS)
-def test_columns_of_every_type(tmp_path, kind, name):
-    frame = geopandas.GeoDataFrame({name: COLUMNS[name]}, geometry=POINTS, crs=4326)
-    write(tmp_path / f"a.{kind}", frame)
-    found, expected = (
-        table.iloc[np.argsort(table.geometry.x)] for table in (geopandas.read_file(tmp_path / f"a.{kind}"), frame)
-    )
-    for theirs, ours in zip(found[name].tolist(), expected[name].tolist(), strict=True):
-        if pd.isna(ours):
-            assert pd.isna(theirs)
-        elif isinstance(ours, dt.datetime):
-            assert pd.Timestamp(theirs).tz_localize(None) == ours
-        elif isinstance(ours, pd.Timedelta):
-            assert pd.Timedelta(theirs) == ours
-        else:
-            assert str(theirs) == str(ours) or float(theirs) == float(ours)
+def test_columns_that_only_frames_have(tmp_path, kind):
+    columns = {"half": np.array([0.5, np.nan, 2.0], dtype=np.float16), "kind": pd.Categorical(["a", "b", "a"])}
+    columns |= {"span": pd.to_timedelta([1, 2, 3], unit="h"), "day": pd.to_datetime(["2026-01-01", None, "2026-01-02"])}
+    write(tmp_path / f"a.{kind}", geopandas.GeoDataFrame(columns, geometry=POINTS, crs=4326))
+    found = geopandas.read_file(tmp_path / f"a.{kind}")
+    found = found.iloc[np.argsort(found.geometry.x)]  # as FlatGeobuf has its own order
+    assert found["half"].isna().tolist() == [True, False, False]
+    assert found["half"].tolist()[1:] == [0.5, 2.0]
+    assert found["kind"].tolist() == ["b", "a", "a"]
+    assert [pd.Timedelta(each) for each in found["span"]] == [pd.Timedelta(k, "h") for k in (2, 1, 3)]
+    assert [day and pd.Timestamp(day).tz_localize(None) for day in found["day"].tolist()[1:]] == [
+        pd.Timestamp(f"2026-01-0{k}") for k in (1, 2)
+    ]
 
 
 @pytest.mark.parametrize("kind", ["gpkg", "fgb", "geojson", "parquet"])
@@ -100,10 +84,6 @@ def test_one_kind_of_geometry_in_a_layer(monkeypatch, tmp_path):
     ]
     write(tmp_path / "a.fgb", Layer({"n": np.arange(2)}, layer.binary[:2], "EPSG:4326"))
     assert pyogrio.read_info(tmp_path / "a.fgb")["geometry_type"] == "MultiLineString"
-
-
-def test_what_arrow_has_no_type_for_is_text():
-    assert arrow_column(np.array([2**70, 1, None], dtype=object)).to_pylist() == [str(2**70), "1", None]
 
 
 @pytest.mark.parametrize("kind", ["parquet", "fgb", "gpkg", "geojson"])

@@ -59,20 +59,17 @@ def assert_everything(shapes):
     assert [len(rings) for rings in shapes.polygons] == [2, 1, 1, 1]
 
 
-def test_every_kind_is_sorted_with_its_feature():
-    shapes = shapes_of(EVERYTHING)
-    assert_everything(shapes)
-    np.testing.assert_array_equal(shapes.column("size"), [3, np.nan, np.nan, 4.5] + [np.nan] * 6)
-
-
-def test_files_frames_and_geometries_are_the_same(tmp_path):
+def test_every_kind_is_sorted_with_its_feature(tmp_path):
+    """Files, frames and geometries are the same."""
     path = tmp_path / "all.geojson"
     path.write_text(json.dumps(EVERYTHING))
     frame = geopandas.GeoDataFrame.from_features(EVERYTHING, crs="EPSG:4326")
-    for source in (path, str(path), frame, frame.geometry, list(frame.geometry), iter(frame.geometry)):
+    geometries = (frame.geometry, list(frame.geometry), iter(frame.geometry))
+    for source in (EVERYTHING, EVERYTHING["features"], path, str(path), frame, *geometries):
         assert_everything(shapes_of(source))
-    np.testing.assert_array_equal(shapes_of(frame).column("size"), shapes_of(EVERYTHING).column("size"))
-    assert_everything(shapes_of(EVERYTHING["features"]))
+    for source in (EVERYTHING, frame):
+        sizes = shapes_of(source).column("size")
+        np.testing.assert_array_equal(sizes, [3, np.nan, np.nan, 4.5] + [np.nan] * 6)
 
 
 def test_other_coordinates_are_transformed(tmp_path):
@@ -182,20 +179,28 @@ def test_what_is_not_geojson_is_refused(tmp_path, content, message):
     assert "bad.geojson" in str(error.value)
 
 
-def test_other_objects_and_missing_files_are_refused(tmp_path):
-    with pytest.raises(FileNotFoundError, match=r"nowhere\.geojson"):
-        shapes_of(tmp_path / "nowhere.geojson")
-    with pytest.raises(TypeError, match="source must be a file"):
-        shapes_of(3)
-    with pytest.raises(TypeError, match=r"source\[1\] must be a geometry"):
-        shapes_of([EVERYTHING, 3])
-    with pytest.raises(ValueError, match="latitude 95"):
-        shapes_of(shapely.Point(0, 95))
+@pytest.mark.parametrize(
+    ("source", "error", "message"),
+    [
+        ("nowhere.geojson", FileNotFoundError, r"nowhere\.geojson"),
+        (3, TypeError, "source must be a file"),
+        ([EVERYTHING, 3], TypeError, r"source\[1\] must be a geometry"),
+        (shapely.Point(0, 95), ValueError, "latitude 95"),
+    ],
+)
+def test_other_objects_and_missing_files_are_refused(source, error, message):
+    with pytest.raises(error, match=message):
+        shapes_of(source)
 
 
-def test_columns_must_be_there_and_hold_numbers():
+@pytest.mark.parametrize(
+    ("name", "message"),
+    [
+        ("depth", "'depth' is not a property of the features; they have name"),
+        ("name", "'name' holds something that is not a number"),
+    ],
+)
+def test_columns_must_be_there_and_hold_numbers(name, message):
     shapes = shapes_of(feature({"type": "Point", "coordinates": [0, 0]}, name="here"))
-    with pytest.raises(ValueError, match="'depth' is not a property of the features; they have name"):
-        shapes.column("depth")
-    with pytest.raises(ValueError, match="'name' holds something that is not a number"):
-        shapes.column("name")
+    with pytest.raises(ValueError, match=message):
+        shapes.column(name)

@@ -113,28 +113,6 @@ def test_doubles_of_what_is_asked_for_as_numbers(dtype):
     assert np.isnan(values[2])
 
 
-@pytest.mark.parametrize(
-    ("cells", "wrong"),
-    [
-        (["128.928", "27.000"], [True, True]),
-        (["1,234", ""], [True, False]),
-        (["1,234", "0,5"], [False, False]),
-        (["1,234", "0.5"], [True, False]),
-        (["1.234", "0.5", "2,5"], [True, False, False]),
-        (["1.234", "north"], [True, True]),
-        (["1.234e3", "0.234", "1234.567", "12.3"], [False] * 4),
-    ],
-)
-@pytest.mark.parametrize("dtype", [np.str_, object])
-def test_a_mark_that_may_separate_thousands_is_not_taken_for_a_decimal_one(cells, wrong, dtype):
-    array = np.array(cells, dtype=dtype)
-    assert doubles(array)[1].tolist() == wrong
-    values, unread = doubles(array, decimal=True)
-    assert unread.tolist() == [cell == "north" for cell in cells]
-    expected = [np.nan if cell in ("", "north") else float(cell.replace(",", ".")) for cell in cells]
-    np.testing.assert_array_equal(values, expected)
-
-
 def test_why_text_is_no_number():
     assert why_not("1,234") == "may be 1.234 or 1234; write thousands without a separator"
     assert why_not("north") == "is not a number"

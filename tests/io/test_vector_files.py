@@ -2,8 +2,6 @@
 
 import gzip
 import re
-import resource
-import signal
 import sqlite3
 import warnings
 import zipfile
@@ -15,7 +13,7 @@ import pandas as pd
 import pyogrio
 import pytest
 
-from stereodel.io import DataWarning, PointTable, read_points, write
+from stereodel.io import DataWarning, read_points
 from stereodel.io.reading import shapes_of
 
 ROWS = 60
@@ -60,9 +58,16 @@ def rows_of(path, areas):
     return len(shapes_of(path).polygon_feature) if areas else len(read_points(path))
 
 
-@pytest.mark.parametrize(
-    ("ending", "areas"), [(e, a) for e in DRIVERS for a in (False, True) if not (a and e in (*TABLES_ALONE, ".gpx"))]
-)
+QUICK = [(".gml", False), (".shp", True), (".fgb", False)]
+CUT = [
+    pytest.param(ending, areas, marks=() if (ending, areas) in QUICK else pytest.mark.thorough)
+    for ending in DRIVERS
+    for areas in (False, True)
+    if not (areas and ending in (*TABLES_ALONE, ".gpx"))
+]
+
+
+@pytest.mark.parametrize(("ending", "areas"), CUT)
 def test_a_cut_file_is_an_error_or_has_all_rows(tmp_path, ending, areas):
     path = tmp_path / f"whole{ending}"
     files = [part for part in written(path, ending, areas) if part.suffix not in (".cpg", ".prj", ".xsd")]
@@ -184,28 +189,3 @@ def test_words_of_gdal_are_errors_where_data_are_lost_and_heard_elsewhere(tmp_pa
     for reader in (read_points, shapes_of):
         with pytest.raises(ValueError, match="cannot be read without loss; GDAL says: Value '1e400' of field 3"):
             reader(tmp_path / "all.fgb")
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("ending", [".gpkg", ".fgb", ".shp", ".kml"])
-def test_on_a_small_disk_a_file_is_written_whole_or_not_at_all(tmp_path, ending):
-    table = PointTable(TABLE[["lon", "lat"]].to_numpy(), {"name": TABLE["name"].to_numpy(dtype=str)})
-    write(tmp_path / f"whole{ending}", table)
-    size = max(part.stat().st_size for part in tmp_path.iterdir())
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    before, refused = signal.signal(signal.SIGXFSZ, signal.SIG_IGN), 0
-    for room in np.linspace(0.01, 1.01, 60) * size:
-        for part in tmp_path.glob("cut.*"):
-            part.unlink()
-        try:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (int(room), hard))
-            write(tmp_path / f"cut{ending}", table)
-        except OSError:
-            refused += 1
-        finally:
-            resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-        if (tmp_path / f"cut{ending}").exists():
-            found = read_points(tmp_path / f"cut{ending}")
-            np.testing.assert_allclose(sorted(found.lonlat.tolist()), table.lonlat, atol=1e-9)
-    signal.signal(signal.SIGXFSZ, before)
-    assert 50 < refused < 60

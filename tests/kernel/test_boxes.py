@@ -8,33 +8,12 @@ import pytest
 
 from stereodel import _kernel
 from stereodel._spaces import space_of
+from tests import sets, spaces
 
-
-def points_of(kind):
-    rng = np.random.default_rng(5)
-    v = rng.normal(size=(3000, 3))
-    match kind:
-        case "directions":
-            return v
-        case "unit vectors":
-            return v / np.linalg.norm(v, axis=1)[:, None]
-        case "lengths":
-            return np.ldexp(v, rng.integers(-1000, 1000, (3000, 1)))
-        case "axes":
-            return np.repeat(np.concatenate([np.eye(3), -np.eye(3), [[1, 1e-200, 1e-17]]]), 100, axis=0)
-        case "plane":
-            return v[:, :2].copy()
-        case "lattice":
-            return rng.permutation(np.stack(np.meshgrid(*[np.arange(50.0)] * 2), -1).reshape(-1, 2))
-        case "line":
-            return np.column_stack([np.zeros(500), np.arange(500.0) // 7])
-        case "sizes":
-            return v[:, :2] * 10.0 ** rng.uniform(-150, 150, (3000, 1))
-        case "none":
-            return np.zeros((0, 3))
-
-
-KINDS = "directions", "unit vectors", "lengths", "axes", "plane", "lattice", "line", "sizes", "none"
+KINDS = [
+    *sets.named("sphere", "random", "unit", "lengths", "mirrored", "1e-200 apart", "copied", "none"),
+    *sets.named("plane", "random", "lattice", "line", "all sizes"),
+]
 
 
 def is_in_box(point, low, high):
@@ -53,16 +32,16 @@ def is_in_box(point, low, high):
 @pytest.mark.parametrize("size", [1, 20, 10_000])
 @pytest.mark.parametrize("kind", KINDS)
 def test_blocks_hold_their_points(kind, size):
-    points = points_of(kind)
+    points = kind.drawn(min(kind.size, 300) if size == 1 else 2000) if kind.name != "none" else kind.points
     order, starts, lows, highs = space_of(points).blocks(points, size)
     assert np.array_equal(np.sort(order), np.arange(len(points)))
     assert len(lows) == len(highs) == len(starts) - 1
     assert (starts[0], starts[-1]) == (0, len(points))
     assert (np.diff(starts) > 0).all()
-    seen = set()
+    seen, names = set(), spaces.space_of(points).names(points)
     for (a, b), low, high in zip(pairwise(starts), lows, highs, strict=True):
         rows = points[order[a:b]]
-        different = {row.tobytes() for row in rows + 0.0}
+        different = set(names[order[a:b]].tolist())
         assert b - a <= size or len(different) == 1
         assert not seen & different  # equal points stay together
         seen |= different
@@ -79,14 +58,13 @@ def test_blocks_hold_their_points(kind, size):
 
 def test_boxes_of_a_single_direction_hold_it():
     """Rounded outward: the nearest doubles are mostly on one side of the unit vector alone."""
-    points = points_of("directions")
-    _, _, lows, highs = _kernel.sphere.blocks(points, 1)
-    order = _kernel.sphere.blocks(points, 1)[0]
+    points = sets.sphere("random").drawn(1500)
+    order, _, lows, highs = _kernel.sphere.blocks(points, 1)
     assert all(is_in_box(*row) for row in zip(points[order], lows, highs, strict=True))
 
 
 def test_blocks_are_halves():
-    order, starts, lows, highs = _kernel.plane.blocks(points_of("plane"), 100)
+    order, starts, lows, highs = _kernel.plane.blocks(np.random.default_rng(5).normal(size=(3000, 2)), 100)
     assert np.diff(starts).min() >= 47
     assert np.diff(starts).max() <= 100
     assert len(order) == 3000
@@ -97,12 +75,12 @@ def test_blocks_are_halves():
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("leaves", [1, 2, 5, 8, 13])
 def test_parts_of_a_tree(kind, leaves):
-    points = points_of(kind)
+    points = kind.points
     rng = np.random.default_rng(6)
     width = points.shape[1]
     axis, value = rng.integers(0, width, leaves - 1).astype(np.int32), rng.uniform(-0.5, 0.5, leaves - 1)
-    if kind == "lattice":
-        value = np.round(20 * value) + 20
+    if kind.name == "lattice":
+        value = np.round(8 * value) + 8
     x = points
     if width == 3:
         x = points / np.abs(points).max(axis=1, initial=0)[:, None]
@@ -148,7 +126,7 @@ def test_tree_of_boxes(n, width):
 
 
 def test_arguments_are_checked():
-    points, (low, high) = points_of("plane"), boxes(np.random.default_rng(0), 20, 2)
+    points, (low, high) = sets.plane("random").points, boxes(np.random.default_rng(0), 20, 2)
     tree = _kernel.plane.box_tree(low, high)
     counts = _kernel.unread_counts(np.ones(20, bool), tree[2])
     faces = np.array([[0, 1, 2]], np.int32)
@@ -165,7 +143,7 @@ def test_arguments_are_checked():
             _kernel.plane.open_bubbles(points, np.array(wrong, np.int32), *tree, counts)
     space = _kernel.sphere.box_tree(*boxes(np.random.default_rng(0), 20, 3))
     with pytest.raises(ValueError, match="faces"):
-        _kernel.sphere.open_bubbles(points_of("directions"), np.array([[0, 1, -1]], np.int32), *space, counts)
+        _kernel.sphere.open_bubbles(sets.AXES, np.array([[0, 1, -1]], np.int32), *space, counts)
     with pytest.raises(ValueError, match="points"):
         _kernel.plane.open_bubbles(np.full((3, 2), np.nan), faces, *tree, counts)
     with pytest.raises(ValueError, match="size"):

@@ -8,6 +8,9 @@ import pytest
 
 from stereodel import _kernel
 from stereodel._spaces import space_of
+from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
+from tests import sets, spaces
+from tests.digits import cross, minus
 
 DIGITS = 400
 """Binary ones behind the point, of unit vectors."""
@@ -23,22 +26,14 @@ def axis_minima(square, linear, low, high):
     return [min(s * (square * s + g) for s in (low[k], high[k])) for k, g in enumerate(linear)]
 
 
-def cross(p, q):
-    return p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]
-
-
-def dot(p, q):
+def inner(p, q):
     return sum(x * y for x, y in zip(p, q, strict=True))
-
-
-def minus(p, q):
-    return [x - y for x, y in zip(p, q, strict=True)]
 
 
 def form(normal, b, c):
     """D and G of differences from the pivot."""
-    bb, cc, nb, nc = dot(b, b), dot(c, c), cross(normal, b), cross(normal, c)
-    return dot(normal, cross(b, c)), [bb * x - cc * y for x, y in zip(nc, nb, strict=True)]
+    bb, cc, nb, nc = inner(b, b), inner(c, c), cross(normal, b), cross(normal, c)
+    return inner(normal, cross(b, c)), [bb * x - cc * y for x, y in zip(nc, nb, strict=True)]
 
 
 def touches_in_plane(a, b, c, low, high):
@@ -54,7 +49,7 @@ def fixed(x):
 
 def unit(point):
     v = [Fraction(float(x)) for x in point]
-    scale = Fraction(4**DIGITS) / dot(v, v)
+    scale = Fraction(4**DIGITS) / inner(v, v)
     return [(1 if x > 0 else -1) * isqrt(int(x * x * scale)) for x in v]
 
 
@@ -106,15 +101,10 @@ def test_a_million_pairs_of_integers_in_the_plane():
         assert 0.02 < touched / truth.size / 550 < 0.98
 
 
-def directions(rng, n):
-    v = rng.normal(size=(n, 3))
-    return v / np.linalg.norm(v, axis=1)[:, None]
-
-
 def triangles_on_sphere(rng, n, size):
     """Of neighbours `size` radians apart, half of them seen from behind: their bubbles are all but a small one."""
-    corners = directions(rng, n)[:, None] + size * rng.normal(size=(n, 3, 3))
-    corners /= np.linalg.norm(corners, axis=2)[..., None]
+    corners = sets.directions(rng, n)[:, None] + size * rng.normal(size=(n, 3, 3))
+    corners = sets.unit(corners)
     corners[::5, 2] = corners[::5, 1] + (corners[::5, 0] - corners[::5, 1]) * 1e-7  # slivers
     return corners
 
@@ -202,7 +192,7 @@ def test_boxes_beside_discs_of_the_sphere(size):
         nearest = [
             max(a, 0) + min(b, 0) for a, b in zip(minus(map(fixed, low), q), minus(map(fixed, high), q), strict=True)
         ]
-        truth.append(dot(nearest, nearest) - dot(minus(p, q), minus(p, q)) <= 1 << (2 * DIGITS - ZERO))
+        truth.append(inner(nearest, nearest) - inner(minus(p, q), minus(p, q)) <= 1 << (2 * DIGITS - ZERO))
     assert found == truth
     assert 0.1 < np.mean(truth) < 0.9
 
@@ -237,3 +227,24 @@ def test_faces_of_points_that_do_not_matter_are_not_looked_at():
         assert is_open.astype(int).tolist() == answer
         assert (depth > 0).all() == bool(wanted)
         assert not space.open_bubbles(points, faces, *tree, np.zeros(1, np.int32), mask)[0].any()
+
+
+@pytest.mark.parametrize("kind", [LinearInterpolator, NaturalNeighborInterpolator])
+@spaces.BOTH
+def test_a_hidden_point_changes_open_targets_alone(space, kind):
+    """That parts agree with all points, on every set, tests/partitioned shows; here, that little else is told open."""
+    rng = np.random.default_rng(20261122)
+    points, queries, values = space.random(rng, 30), space.random(rng, 40), rng.normal(size=31)
+    mesh = space.delaunay(points)
+    before, changed, told = kind(mesh, values[:30])(queries), 0, 0
+    for hidden in rng.normal(size=(100, 1, space.width)):
+        after = kind(space.delaunay(np.concatenate([points, hidden])), values)(queries)
+        differs = ~np.isclose(before, after, rtol=1e-9, atol=0, equal_nan=True)
+        tree = space.kernel.box_tree(*space.kernel.blocks(hidden, 1)[2:])
+        arrays = mesh.points, mesh.simplices, mesh.neighbors, queries
+        closing = mesh.closing if space.width == 3 else None
+        natural = kind is NaturalNeighborInterpolator
+        is_open, _ = space.kernel.open_targets(*arrays, *tree, np.ones(1, np.int32), closing, natural)
+        assert not (differs & ~is_open).any()
+        changed, told = changed + differs.sum(), told + is_open.sum()
+    assert 0.01 * 4000 < changed <= told < 0.6 * 4000

@@ -42,7 +42,10 @@ CALLS = {
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="no timers there")
-@pytest.mark.parametrize("call", CALLS)
+@pytest.mark.parametrize(
+    "call",
+    [pytest.param(c, marks=pytest.mark.thorough if c in ("insert", "build on two threads") else ()) for c in CALLS],
+)
 def test_an_interrupted_call_ends_soon_and_harms_nothing(call, patience):
     program = PROGRAM.format(call=CALLS[call])
     ran = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False, timeout=120)
@@ -100,6 +103,7 @@ for cls, points in ((PlanarDelaunay, rng.random((50_000, 2))), (SphericalDelauna
 """
 
 
+@pytest.mark.thorough
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="limits of stacks are Linux's")
 def test_where_no_thread_is_to_be_had_long_calls_work_without():
     """A limit of 2^47 bytes is also the size of each thread's stack: it leaves room for none."""

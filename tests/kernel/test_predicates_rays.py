@@ -8,52 +8,39 @@ from hypothesis import strategies as st
 from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import bubble_ray, compare_component, compare_directions, ray, turn_ray
+from tests.kernel.stages import OPEN, Predicates, third_by_day
+from tests.sets import unit as normalised
+from tests.spaces import SPHERE, dot
 
-OPEN = 2
-STAGES = ["filter", "double_double", "balls", "integers", "exact", "all"]
 SPREADS = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-13, 1e-14, 1e-15]
-SMALL = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
+
+
+def of_rays(oracle):
+    return lambda *vectors: oracle(*map(ray, vectors))
 
 
 def angles_ray(q, a, b):
-    def cosine(u, v):
-        return sum(x * y for x, y in zip(u[:3], v[:3], strict=True))
-
-    return sign_of_roots(((cosine(q, b), a[3]), (-cosine(q, a), b[3])))
+    return sign_of_roots(((dot(q, b), a[3]), (-dot(q, a), b[3])))
 
 
-PREDICATES = {
-    "bubble": (probe.bubble, bubble_ray, 4),
-    "turn": (probe.turn, turn_ray, 3),
-    "angles": (lambda *v, unit, stage: probe.compare_angles(*v, stage=stage), angles_ray, 3),
-    "component": (
+PREDICATES = Predicates(
+    bubble=(probe.bubble, of_rays(bubble_ray), 4),
+    turn=(probe.turn, of_rays(turn_ray), 3),
+    angles=(lambda *v, unit, stage: probe.compare_angles(*v, stage=stage), of_rays(angles_ray), 3),
+    component=(
         lambda a, b, unit, stage: probe.compare_component(a, b, 1, unit=unit, stage=stage),
-        lambda a, b: compare_component(a, b, 1),
+        of_rays(lambda a, b: compare_component(a, b, 1)),
         2,
     ),
-}
+)
 EVERY = pytest.mark.parametrize("name", PREDICATES)
 
 
 def check(name, vectors, unit=None):
-    """`vectors` (4, k, 3): no stage is ever wrong, the last is never open. The share that each leaves open."""
-    predicate, oracle, count = PREDICATES[name]
-    vectors = np.ascontiguousarray(vectors[:count])
+    """As lengths are; `unit`: whether they are taken to be one."""
     if unit is None:
-        unit = all(probe.all_unit(v) for v in vectors)
-    rays = [[ray(v) for v in array.tolist()] for array in vectors]
-    truth = np.array([oracle(*row) for row in zip(*rays, strict=True)])
-    shares = {}
-    for stage in STAGES:
-        signs = predicate(*vectors, unit=unit, stage=stage)
-        assert ((signs == truth) | (signs == OPEN)).all(), stage
-        shares[stage] = (signs == OPEN).mean()
-    assert shares["integers"] == shares["exact"] == shares["all"] == 0
-    return shares, truth
-
-
-def normalised(vectors):
-    return vectors / np.linalg.norm(vectors, axis=-1, keepdims=True)
+        unit = all(probe.all_unit(v) for v in np.ascontiguousarray(vectors[: PREDICATES[name][2]]))
+    return PREDICATES.check(name, vectors, unit=unit)
 
 
 def cluster(spread, count=120, seed=0):
@@ -87,19 +74,14 @@ def allowance(name, spread):
 
 
 @EVERY
-@pytest.mark.parametrize("spread", SPREADS)
+@pytest.mark.parametrize("spread", third_by_day(SPREADS))
 @pytest.mark.parametrize("change", [normalised, off_length, any_length])
 def test_clusters(name, spread, change):
+    """And four of one circle each, rounded."""
     shares, truth = check(name, change(normalised(cluster(spread))))
     if change is normalised and name in ("bubble", "turn") and spread > 2e-13:
         assert shares["filter"] < 0.01
     assert shares["double_double"] <= (truth == 0).mean() + allowance(name, spread)
-
-
-@EVERY
-@pytest.mark.parametrize("spread", SPREADS)
-@pytest.mark.parametrize("change", [normalised, off_length, any_length])
-def test_near_degenerate(name, spread, change):
     shares, truth = check(name, change(on_a_circle(spread)))
     assert shares["double_double"] <= (truth == 0).mean() + allowance(name, spread)
 
@@ -110,8 +92,7 @@ def test_side_of_a_plane(spread, change):
     """Never wrong, however close and however cocircular the points are; mostly told where they are 1e-6 apart."""
     for vectors in (cluster(spread), on_a_circle(spread)):
         vectors = change(normalised(vectors))
-        rays = [[ray(v) for v in array.tolist()] for array in vectors]
-        truth = np.array([bubble_ray(*row) for row in zip(*rays, strict=True)])
+        truth = np.array([of_rays(bubble_ray)(*row) for row in vectors.transpose(1, 0, 2).tolist()])
         signs = probe.bubble_plane(*vectors)
         assert ((signs == truth) | (signs == OPEN)).all()
     if spread >= 1e-6:
@@ -132,39 +113,83 @@ def test_what_stays_open_is_little():
     assert shares[0] > 0.6 > 0.4 > shares[1] > 0.01 > shares[2]
 
 
-@EVERY
-@pytest.mark.parametrize("spread", [1e-8, 1e-14, 1e-17, 1e-18, 1e-20, 1e-22, 1e-26, 1e-40, 1e-90, 1e-200, 1e-310])
-@pytest.mark.parametrize("steps", [0, 3])
-def test_beside_an_axis(name, spread, steps):
+# Sets of fours that no stage may get wrong, whatever it leaves open ---------------------------------------------------
+
+
+def beside_an_axis(spread):
     """Near an axis small components resolve directions far below 1e-16; the long component makes the lengths differ."""
     rng = np.random.default_rng(9)
-    angle = rng.uniform(0, 2 * np.pi, size=(4, 200))
-    long = 1 + 2.0**-52 * rng.integers(-steps, steps + 1, size=(4, 200))
-    vectors = np.stack([spread * np.cos(angle), spread * np.sin(angle), long], axis=-1)
-    check(name, vectors, unit=True)
-    check(name, vectors, unit=False)
-    check(name, np.roll(vectors * 3, 1, axis=-1))
+    for steps in (0, 3):
+        angle = rng.uniform(0, 2 * np.pi, size=(4, 200))
+        long = 1 + 2.0**-52 * rng.integers(-steps, steps + 1, size=(4, 200))
+        vectors = np.stack([spread * np.cos(angle), spread * np.sin(angle), long], axis=-1)
+        yield from ((vectors, True), (vectors, False), (np.roll(vectors * 3, 1, axis=-1), None))
 
 
-@pytest.mark.parametrize("exponent", [-30, -60, -120, -249, -262, -266, -268, -300, -515, -525, -532])
-def test_turns_beside_an_axis(exponent):
+def in_line_beside_an_axis(exponent):
     """Great circles through three directions next to an axis, rounded."""
     rng = np.random.default_rng(18)
     start, direction = rng.normal(size=(2, 150, 2))
-    vectors = np.ones((3, 150, 3))
-    vectors[..., :2] = (start + rng.uniform(-3, 3, size=(3, 150, 1)) * direction) * 2.0**exponent
-    check("turn", vectors, unit=True)
-    check("turn", vectors, unit=False)
+    vectors = np.ones((4, 150, 3))
+    vectors[..., :2] = (start + rng.uniform(-3, 3, size=(4, 150, 1)) * direction) * 2.0**exponent
+    yield from ((vectors, True), (vectors, False))
 
 
-def test_turns_of_directions_closer_than_their_low_parts_tell():
+def closer_than_their_low_parts_tell(rise):
     """Three directions of the plane 3x = y, two of them the same or closer than 1e-34."""
     k = np.arange(1.0, 201.0)[:, None]
-    for rise in (0.0, 1e-25, 1e-34, 1e-40, 1e-60):
-        vectors = np.stack([k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]])
-        check("turn", vectors)
-        check("bubble", np.concatenate([vectors, vectors[:1] + np.array([0, 1, 0])]))
-        assert not check("turn", vectors[[0, 2, 2]] * [[[1]], [[1]], [[3]]])[1].any()
+    vectors = np.stack([k * [1, 3, 0], (k[::-1] + 2) * [1, 3, rise], (k + 4) * [1, 3, 5]])
+    yield np.concatenate([vectors, vectors[:1] + np.array([0, 1, 0])]), None
+
+
+def mixed_exponents(_):
+    rng = np.random.default_rng(11)
+    sizes = rng.choice([5e-324, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 3.0, 1e16, 1e100, 1e200, 1e307], (4, 200, 3))
+    vectors = sizes * rng.integers(-3, 4, size=(4, 200, 3))
+    vectors[(vectors == 0).all(axis=-1)] = 1.0
+    yield vectors, None
+
+
+def one_long_component(_):
+    """Lengths near one, the other components of any size: the first stages meet underflow."""
+    rng = np.random.default_rng(12)
+    sizes = 2.0 ** rng.integers(-1074, -1, size=(4, 400, 3)) * rng.integers(-3, 4, size=(4, 400, 3))
+    sizes[..., 0] = rng.choice([1.0, 1.0 + 2.0**-52, 1.0 - 2.0**-53], size=(4, 400))
+    vectors = np.minimum(sizes, 1.5)
+    vectors[..., 1:] = np.clip(vectors[..., 1:], -(2.0**-27), 2.0**-27)
+    yield from ((vectors, True), (vectors, False))
+
+
+def short_integers(bits):
+    """Of equal lengths, of lengths with a common root, and of any."""
+    rng = np.random.default_rng(22)
+    vectors = rng.integers(-(2**bits), 2**bits, size=(4, 300, 3)).astype(float)
+    vectors[1, ::2] = vectors[0, ::2] * [-1, 1, 1]
+    vectors[3, ::4] = 2 * vectors[2, ::4] * [-1, 1, 1]
+    vectors[(vectors == 0).all(axis=-1)] = 1.0
+    yield from ((vectors * scale, None) for scale in (1.0, 2.0**-1050, 2.0**480, 2.0**600))
+
+
+REGIMES = [
+    *((beside_an_axis, s) for s in (1e-8, 1e-14, 1e-17, 1e-18, 1e-20, 1e-22, 1e-26, 1e-40, 1e-90, 1e-200, 1e-310)),
+    *((in_line_beside_an_axis, e) for e in (-30, -60, -120, -249, -262, -266, -268, -300, -515, -525, -532)),
+    *((closer_than_their_low_parts_tell, rise) for rise in (0.0, 1e-25, 1e-34, 1e-40, 1e-60)),
+    (mixed_exponents, 0),
+    (one_long_component, 0),
+    *((short_integers, bits) for bits in (3, 8, 15, 16, 17)),
+]
+
+
+@pytest.mark.parametrize(("regime", "size"), third_by_day(REGIMES), ids=lambda v: getattr(v, "__name__", str(v)))
+@EVERY
+def test_no_stage_is_wrong(name, regime, size):
+    for vectors, unit in regime(size):
+        check(name, vectors, unit)
+
+
+def test_two_that_are_the_same_turn_nowhere():
+    k = np.arange(1.0, 201.0)[:, None]
+    assert not check("turn", np.stack([k * [1, 3, 0], (k + 4) * [1, 3, 5], 3 * (k + 4) * [1, 3, 5]]))[1].any()
 
 
 @pytest.mark.parametrize("steps", [1, 4])
@@ -178,15 +203,6 @@ def test_lengths_decide(steps):
     shares, _ = check("bubble", vectors, unit=True)
     assert shares["filter"] > 0.5 > shares["double_double"]
     check("bubble", vectors, unit=False)
-
-
-@EVERY
-def test_mixed_exponents(name):
-    rng = np.random.default_rng(11)
-    sizes = rng.choice([5e-324, 1e-310, 1e-200, 1e-100, 1e-16, 1.0, 3.0, 1e16, 1e100, 1e200, 1e307], (4, 200, 3))
-    vectors = sizes * rng.integers(-3, 4, size=(4, 200, 3))
-    vectors[(vectors == 0).all(axis=-1)] = 1.0
-    check(name, vectors)
 
 
 def scattered(count, seed, low=-300, high=300):
@@ -228,25 +244,12 @@ def test_great_circles_of_integers(bits):
     rng = np.random.default_rng(21)
     multiples = rng.integers(-(2 ** (bits - 3)), 2 ** (bits - 3), size=(4, 120, 2))
     vectors = (multiples @ np.array([[1, 2, 3], [3, -1, 1]])).astype(float)
-    for scale in (1.0, 2.0**-900, 2.0**400, 3.0 if bits < 50 else 1.0):
-        for name in ("turn", "bubble"):
+    for name in ("turn", "bubble"):
+        for scale in (1.0, 2.0**-900, 2.0**400, 3.0 if bits < 50 else 1.0):
             assert not check(name, vectors * scale)[1].any()
     vectors[2] += rng.integers(-1, 2, size=(120, 3))
     for name in ("turn", "bubble"):
         assert (check(name, vectors)[1] != 0).mean() > 0.8
-
-
-@pytest.mark.parametrize("bits", [3, 8, 15, 16, 17])
-def test_short_integers(bits):
-    """Of equal lengths, of lengths with a common root, and of any."""
-    rng = np.random.default_rng(22)
-    vectors = rng.integers(-(2**bits), 2**bits, size=(4, 300, 3)).astype(float)
-    vectors[1, ::2] = vectors[0, ::2] * [-1, 1, 1]
-    vectors[3, ::4] = 2 * vectors[2, ::4] * [-1, 1, 1]
-    vectors[(vectors == 0).all(axis=-1)] = 1.0
-    for scale in (1.0, 2.0**-1050, 2.0**480, 2.0**600):
-        check("bubble", vectors * scale)
-        check("turn", vectors * scale)
 
 
 def test_almost_integers():
@@ -261,19 +264,7 @@ def test_almost_integers():
         assert check(name, vectors)[1].any()
 
 
-@EVERY
-def test_one_long_component(name):
-    """Lengths near one, the other components of any size: the first stages meet underflow."""
-    rng = np.random.default_rng(12)
-    sizes = 2.0 ** rng.integers(-1074, -1, size=(4, 400, 3)) * rng.integers(-3, 4, size=(4, 400, 3))
-    sizes[..., 0] = rng.choice([1.0, 1.0 + 2.0**-52, 1.0 - 2.0**-53], size=(4, 400))
-    vectors = np.minimum(sizes, 1.5)
-    vectors[..., 1:] = np.clip(vectors[..., 1:], -(2.0**-27), 2.0**-27)
-    check(name, vectors, unit=True)
-    check(name, vectors, unit=False)
-
-
-@given(SMALL, SMALL, SMALL, SMALL, st.tuples(*[st.integers(-1000, 1000)] * 4))
+@given(*[SPHERE.places(3)] * 4, st.tuples(*[st.integers(-1000, 1000)] * 4))
 def test_small_integers(a, b, c, p, exponents):
     """Ties and parallel vectors are frequent here."""
     vectors = np.array([a, b, c, p], dtype=float)[:, None] * 2.0 ** np.array(exponents)[:, None, None]
@@ -292,9 +283,8 @@ def test_any_doubles(vectors):
 
 def pythagorean():
     """Rational points of the sphere, as integer vectors and as the nearest doubles to length one."""
-    points = [(1, 2, 2, 3), (2, 3, 6, 7), (1, 4, 8, 9), (4, 4, 7, 9), (2, 6, 9, 11), (6, 6, 7, 11), (0, 3, 4, 5)]
-    vectors = np.array([p[:3] for p in points], dtype=float)
-    vectors = np.concatenate([np.roll(vectors, k, axis=1) for k in range(3)])
+    points = [(1, 2, 2), (2, 3, 6), (1, 4, 8), (4, 4, 7), (2, 6, 9), (6, 6, 7), (0, 3, 4)]
+    vectors = np.concatenate([np.roll(np.array(points, dtype=float), k, axis=1) for k in range(3)])
     return np.concatenate([vectors * s for s in ([1, 1, 1], [-1, 1, 1], [1, -1, 1], [1, 1, -1], [-1, -1, 1])])
 
 
@@ -313,7 +303,7 @@ def test_by_number_and_the_tally():
     vectors = np.concatenate([normalised(pythagorean()), on_a_circle(1e-3, 20).reshape(-1, 3)])
     numbers = np.array([rng.choice(len(vectors), 4, replace=False) for _ in range(1500)], dtype=np.int32)
     rows = [np.ascontiguousarray(vectors[numbers[:, k]]) for k in range(4)]
-    truth = np.array([bubble_ray(*(ray(v) for v in row)) for row in vectors[numbers].tolist()])
+    truth = np.array([of_rays(bubble_ray)(*row) for row in vectors[numbers].tolist()])
     stages = {stage: probe.bubble(*rows, stage=stage) for stage in ("filter", "double_double")}
     for lengths, unit in ((1.0, True), (2.0, False)):
         signs, tally = probe.bubble_numbered(vectors * lengths, numbers, False)
@@ -334,7 +324,7 @@ def test_queries_of_any_length(length, unit):
     queries = (vectors[numbers[:, 0]] + 3 * vectors[numbers[:, 1]] + steps) / 4 * length
     queries[::3] = vectors[numbers[::3, 0]] * -1
     queries[1::3] = rng.normal(size=(100, 3)) * length
-    truth = [turn_ray(*map(ray, (*vectors[row].tolist(), q))) for row, q in zip(numbers, queries.tolist(), strict=True)]
+    truth = [of_rays(turn_ray)(*vectors[row].tolist(), q) for row, q in zip(numbers, queries.tolist(), strict=True)]
     assert probe.turn_queries(vectors, numbers, queries).tolist() == truth
 
 
@@ -346,7 +336,7 @@ def test_the_order_of_directions():
     rng = np.random.default_rng(16)
     a, b = vectors[rng.integers(len(vectors), size=(2, 2000))]
     b[::2] = a[::2] * rng.choice([[1, 1, 1], [1, -1, 1], [1, 1, -1], [2, 2, 2]], size=1000)
-    truth = [compare_directions(ray(u), ray(v)) for u, v in zip(a.tolist(), b.tolist(), strict=True)]
+    truth = [of_rays(compare_directions)(u, v) for u, v in zip(a.tolist(), b.tolist(), strict=True)]
     assert probe.compare_directions(a, b).tolist() == truth
     assert {-1, 0, 1} == set(truth)
     units = np.array([probe.all_unit(u[None]) and probe.all_unit(v[None]) for u, v in zip(a, b, strict=True)])
@@ -355,11 +345,10 @@ def test_the_order_of_directions():
 
 
 def test_which_lengths_are_one():
-    rng = np.random.default_rng(17)
-    vectors = normalised(rng.normal(size=(1000, 3)))
+    vectors = normalised(np.random.default_rng(17).normal(size=(1000, 3)))
     assert probe.all_unit(vectors)
-    for factor, answer in ((1 + 0.6 * 2.0**-49, True), (1 - 0.6 * 2.0**-49, True)):
-        assert probe.all_unit(vectors * factor) is answer
+    for factor in (1 + 0.6 * 2.0**-49, 1 - 0.6 * 2.0**-49):
+        assert probe.all_unit(vectors * factor) is True
     for factor in (1 + 1.2 * 2.0**-49, 1 - 1.2 * 2.0**-49, 0.0, np.nan, np.inf, 1e300):
         assert not any(probe.all_unit(v[None] * factor) for v in vectors)
     assert not probe.all_unit(np.concatenate([vectors, [[0.0, 0.0, 1.0 + 2.0**-48]], vectors]))

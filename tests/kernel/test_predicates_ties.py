@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 from stereodel import _kernel_probe as probe
 from stereodel.predicates.rays import bubble_ray, ray, turn_ray
 from stereodel.predicates.ties import bubble_tie
+from tests import sets
+from tests.spaces import SPHERE
 
-SMALL = st.tuples(*[st.integers(-2, 2)] * 3).filter(any)
+SMALL = SPHERE.places(2)
 
 
 def in_bubble(a, b, c, p, **options):
@@ -29,13 +31,10 @@ def distinct(vectors):
 
 def tied_sets():
     """Sets full of exact ties: axes, cube, circles of latitude, a great circle in each kind of plane."""
-    circle = [(3, 4), (4, 3), (5, 0), (0, 5), (-3, 4), (4, -3), (-5, 0), (-4, -3)]
     great = [(1, 0), (1, 1), (0, 1), (-1, 2), (-1, 0), (2, -1), (1, -3)]
-    cube = list(itertools.product((-1, 1), repeat=3))
-    axes = np.concatenate([np.eye(3), -np.eye(3)]).tolist()
     return {
-        "cube and axes": cube + axes,
-        "parallels": [(x, y, z) for x, y in circle[:5] for z in (0, 7)],
+        "cube and axes": sets.sphere("cube and axes").points,
+        "parallels": [(x, y, z) for x, y in sets.CIRCLE[:5] for z in (0, 7)],
         "great circle": [(x, y, 0) for x, y in great],
         "great circle through the pole": [(x, 0, z) for x, z in great],
         "great circle x = y": [(x, x, z) for x, z in great],

@@ -2,35 +2,32 @@
 
 import numpy as np
 import pytest
-from mpmath import mp, mpf, workdps
+from mpmath import mpf, workdps
 
 from stereodel import _kernel_probe as probe
+from tests import sets
+from tests.digits import norm, vector
 
 POLE = (0, -1)
-
-
-def unit(vectors):
-    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
 
 
 def fours(size, seed, near_ties):
     """Quadruples within `size` of each other, all over the sphere, close to the pole and to its antipode."""
     rng = np.random.default_rng(seed)
-    centers = unit(rng.normal(size=(60, 3)))
-    centers[:10] = unit([-1, 0, 0] + 10.0 ** rng.uniform(-9, -1, (10, 1)) * rng.normal(size=(10, 3)))
-    centers[10:20] = unit([1, 0, 0] + 10.0 ** rng.uniform(-9, -1, (10, 1)) * rng.normal(size=(10, 3)))
-    across = unit(np.cross(centers, rng.normal(size=(60, 3))))
+    centers = sets.unit(rng.normal(size=(60, 3)))
+    centers[:10] = sets.unit([-1, 0, 0] + 10.0 ** rng.uniform(-9, -1, (10, 1)) * rng.normal(size=(10, 3)))
+    centers[10:20] = sets.unit([1, 0, 0] + 10.0 ** rng.uniform(-9, -1, (10, 1)) * rng.normal(size=(10, 3)))
+    across = sets.unit(np.cross(centers, rng.normal(size=(60, 3))))
     third = np.cross(centers, across)
     angle = 2 * np.pi * rng.random((60, 4)) if near_ties else rng.random((60, 4))
     x, y = (np.cos(angle), np.sin(angle)) if near_ties else rng.normal(size=(2, 60, 4))
     offsets = x[..., None] * across[:, None] + y[..., None] * third[:, None]
-    return unit((centers[:, None] + size * offsets).reshape(-1, 3)).reshape(60, 4, 3)
+    return sets.unit((centers[:, None] + size * offsets).reshape(-1, 3)).reshape(60, 4, 3)
 
 
 def true_image(p):
-    x, y, z = (mpf(c) for c in p)
-    w = mp.sqrt(x * x + y * y + z * z) + x
-    return y / w, z / w
+    x, y, z = p = vector(p)
+    return y / (norm(p) + x), z / (norm(p) + x)
 
 
 def true_values(quad):

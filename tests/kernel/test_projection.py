@@ -7,17 +7,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mpmath import mp, mpf, workdps
+from mpmath import mpf, workdps
 
 from stereodel import _kernel_probe as probe
 from stereodel.predicates.integers import sign_of_roots
 from stereodel.predicates.rays import ray
+from tests.digits import norm, vector
+from tests.kernel.stages import shares_of
+from tests.spaces import SPHERE
 
-OPEN = 2
-STAGES = ["filter", "double_double", "balls", "integers", "exact", "all"]
 POLES = list(itertools.product(range(3), (-1, 1)))
 EVERY_POLE = pytest.mark.parametrize(("axis", "sign"), POLES)
-SMALL = st.tuples(*[st.integers(-4, 4)] * 3).filter(any)
+SMALL = SPHERE.places(4)
 
 
 def components(axis, sign):
@@ -35,33 +36,15 @@ def vectors(count=300, seed=0):
 
 
 def true_image(p, axis, sign):
-    p = [mpf(x) for x in p]
-    w = mp.sqrt(mp.fsum(x * x for x in p)) - sign * p[axis]
+    p = vector(p)
+    w = norm(p) - sign * p[axis]
     return [p[i] / w for i in components(axis, sign)]
 
 
-@EVERY_POLE
-def test_the_promised_errors(axis, sign):
-    points = vectors()
+def assert_promised(points, axis, sign, digits):
+    """Within eight roundoffs, and within 2^-97 as two doubles, or not a number; how many are none."""
     images, fine = probe.project(points, axis, sign), probe.project_double_double(points, axis, sign)
-    assert np.isfinite(images).all()
-    assert np.isfinite(fine).all()
-    with workdps(120):
-        for p, image, pair in zip(points.tolist(), images.tolist(), fine.tolist(), strict=True):
-            for k, truth in enumerate(true_image(p, axis, sign)):
-                assert abs(mpf(image[k]) - truth) <= 8 * mpf(2) ** -53 * abs(truth)
-                assert abs(mpf(pair[2 * k]) + mpf(pair[2 * k + 1]) - truth) <= mpf(2) ** -97 * abs(truth)
-
-
-@EVERY_POLE
-def test_no_promise_no_number(axis, sign):
-    """Where exponents leave the range the answer is NaN or keeps the promise."""
-    rng = np.random.default_rng(1)
-    sizes = rng.choice([5e-324, 1e-310, 1e-280, 1e-200, 1e-130, 1e-100, 1.0, 1e100, 1e300], size=(200, 3))
-    points = sizes * rng.integers(-3, 4, size=(200, 3))
-    points[(points == 0).all(axis=1)] = 1.0
-    images, fine = probe.project(points, axis, sign), probe.project_double_double(points, axis, sign)
-    with workdps(1500):
+    with workdps(digits):
         for p, image, pair in zip(points.tolist(), images.tolist(), fine.tolist(), strict=True):
             i, j = components(axis, sign)
             if p[i] == p[j] == 0 and sign * p[axis] > 0:
@@ -71,7 +54,18 @@ def test_no_promise_no_number(axis, sign):
                 assert np.isnan(image[k]) or abs(mpf(image[k]) - truth) <= 8 * mpf(2) ** -53 * abs(truth)
                 value = mpf(pair[2 * k]) + mpf(pair[2 * k + 1])
                 assert np.isnan(pair[2 * k]) or abs(value - truth) <= mpf(2) ** -97 * abs(truth)
-    assert 0.05 < np.isnan(images).mean() < 0.6
+    return np.isnan(images).mean(), np.isnan(fine).mean()
+
+
+@EVERY_POLE
+def test_the_promised_errors(axis, sign):
+    """Where exponents leave the range the answer is NaN or keeps the promise."""
+    assert assert_promised(vectors(), axis, sign, 120) == (0, 0)
+    rng = np.random.default_rng(1)
+    sizes = rng.choice([5e-324, 1e-310, 1e-280, 1e-200, 1e-130, 1e-100, 1.0, 1e100, 1e300], size=(200, 3))
+    points = sizes * rng.integers(-3, 4, size=(200, 3))
+    points[(points == 0).all(axis=1)] = 1.0
+    assert 0.05 < assert_promised(points, axis, sign, 1500)[0] < 0.6
 
 
 @EVERY_POLE
@@ -102,24 +96,15 @@ def line_order(p, axis, sign, coordinate, hi, lo):
 
 def check_order(p, q, axis, sign, coordinate):
     truth = [projected_order(u, v, axis, sign, coordinate) for u, v in zip(p.tolist(), q.tolist(), strict=True)]
-    return compare(truth, lambda stage: probe.compare_projected(p, q, axis, sign, coordinate, stage=stage))
+    return shares_of(np.array(truth), lambda stage: probe.compare_projected(p, q, axis, sign, coordinate, stage=stage))
 
 
 def check_line(p, axis, sign, coordinate, hi, lo):
     rows = zip(p.tolist(), hi.tolist(), lo.tolist(), strict=True)
     truth = [line_order(v, axis, sign, coordinate, h, low) for v, h, low in rows]
-    return compare(truth, lambda stage: probe.compare_to_line(p, axis, sign, coordinate, hi, lo, stage=stage))
-
-
-def compare(truth, signs_of):
-    """No stage is ever wrong, the last never open. The share that each leaves open."""
-    shares = {}
-    for stage in STAGES:
-        signs = signs_of(stage)
-        assert ((signs == truth) | (signs == OPEN)).all(), stage
-        shares[stage] = (signs == OPEN).mean()
-    assert shares["integers"] == shares["exact"] == shares["all"] == 0
-    return shares
+    return shares_of(
+        np.array(truth), lambda stage: probe.compare_to_line(p, axis, sign, coordinate, hi, lo, stage=stage)
+    )
 
 
 @EVERY_POLE

@@ -3,27 +3,13 @@
 import numpy as np
 import pytest
 
-from stereodel import lonlat_to_xyz
 from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay, check_delaunay
 from stereodel.triangulation.topology import canonical
+from tests import sets
 
 SIZE = 1_000_000
 
 pytestmark = pytest.mark.large
-
-
-def unit(vectors):
-    return vectors / np.linalg.norm(vectors, axis=1)[:, None]
-
-
-def clusters(dimension, spread):
-    rng = np.random.default_rng(1)
-    centers = unit(rng.normal(size=(100, dimension)))
-    return centers[rng.integers(100, size=SIZE)] + spread * rng.normal(size=(SIZE, dimension))
-
-
-def grid(rows, columns):
-    return np.stack(np.meshgrid(np.arange(rows), np.arange(columns)), axis=-1).reshape(-1, 2).astype(float)
 
 
 def fibonacci():
@@ -33,65 +19,45 @@ def fibonacci():
     return np.column_stack([r * np.cos(angle), r * np.sin(angle), z])
 
 
-def graticule():
-    lon, lat = np.meshgrid(np.linspace(-180, 180, 1415), np.linspace(-90, 90, 708))
-    return lonlat_to_xyz(np.column_stack([lon.ravel(), lat.ravel()]))
+def clusters(dimension, spread):
+    rng = np.random.default_rng(1)
+    centers = sets.unit(rng.normal(size=(100, dimension)))
+    return centers[rng.integers(100, size=SIZE)] + spread * rng.normal(size=(SIZE, dimension))
 
 
-def circle(dimension):
-    angle = np.linspace(0, 2 * np.pi, SIZE, endpoint=False)
-    points = np.column_stack([np.cos(angle), np.sin(angle), np.full(SIZE, 0.5)])
-    return points[:, :2].copy() if dimension == 2 else points
-
-
-def cube_faces():
-    side = np.arange(-204, 205) * 2.0
-    a, b = (x.ravel() for x in np.meshgrid(side, side))
-    c = np.full(len(a), 409.0)
-    return np.vstack([np.column_stack(f) for s in (c, -c) for f in ((a, b, s), (b, s, a), (s, a, b))])
-
-
-PLANE = {
-    "uniform": lambda: np.random.default_rng(0).random((SIZE, 2)),
-    "clusters of 1e-3": lambda: clusters(2, 1e-3),
-    "clusters of 1e-6": lambda: clusters(2, 1e-6),
-    "integer grid": lambda: grid(1000, 1000),
-    "grid of tenths, slanting": lambda: grid(1000, 1000) @ [[0.3, 0.4], [-0.4, 0.3]],
-    "circle": lambda: circle(2),
+OWN = {
+    "Fibonacci lattice": fibonacci,
+    "small circle": lambda: np.insert(sets.plane("rounded circle").drawn(SIZE), 2, 0.5, axis=1),
     "millimetres far away": lambda: (
         np.round(np.random.default_rng(2).random((SIZE, 2)) * 1e3, 3) + [500_000, 5_000_000]
     ),
+    **{
+        f"{d} clusters of {size}": lambda d=d, size=size: clusters(d, size)
+        for d in (2, 3)
+        for size in (1e-3, 1e-6, 1e-9)
+    },
 }
-SPHERE = {
-    "uniform": lambda: np.random.default_rng(0).normal(size=(SIZE, 3)),
-    "clusters of 1e-3": lambda: clusters(3, 1e-3),
-    "clusters of 1e-6": lambda: clusters(3, 1e-6),
-    "clusters of 1e-9": lambda: clusters(3, 1e-9),
-    "one city": lambda: np.vstack(
-        [unit(np.ones((1, 3))) + 1e-7 * np.random.default_rng(3).normal(size=(SIZE, 3)), np.eye(3)]
+SETS = [
+    *(pytest.param(make, id=name) for name, make in OWN.items()),
+    *(
+        pytest.param(lambda one=one: one.drawn(SIZE), id=str(one))
+        for one in sets.ALL.values()
+        if "grows" in one.traits
+        and not one.traits & {"sizes", "flat"}
+        and not one.name.startswith(("airports", "needles", "circle and", "line and"))  # or one star has all points
     ),
-    "Fibonacci lattice": fibonacci,
-    "graticule": graticule,
-    "circle": lambda: circle(3),
-    "faces of a cube": cube_faces,
-}
+]
 
 
-@pytest.mark.parametrize("name", PLANE)
-def test_plane(name):
-    points = PLANE[name]()
-    triangulation = PlanarDelaunay(points)
+@pytest.mark.parametrize("make", SETS)
+def test_a_million_of_any_kind(make):
+    points = make()
+    cls = PlanarDelaunay if points.shape[1] == 2 else SphericalDelaunay
+    triangulation = cls(points)
+    if cls is SphericalDelaunay:
+        assert len(triangulation) == 2 * (len(points) - len(triangulation.duplicates)) - 4
     check_delaunay(triangulation)
-    assert np.array_equal(PlanarDelaunay(points, workers=1).simplices, triangulation.simplices)
-
-
-@pytest.mark.parametrize("name", SPHERE)
-def test_sphere(name):
-    points = SPHERE[name]()
-    triangulation = SphericalDelaunay(points)
-    assert len(triangulation) == 2 * (len(points) - len(triangulation.duplicates)) - 4
-    check_delaunay(triangulation)
-    assert np.array_equal(SphericalDelaunay(points, workers=1).simplices, triangulation.simplices)
+    assert np.array_equal(cls(points, workers=1).simplices, triangulation.simplices)
 
 
 @pytest.mark.parametrize(("cls", "width"), [(PlanarDelaunay, 2), (SphericalDelaunay, 3)])

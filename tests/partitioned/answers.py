@@ -16,6 +16,7 @@ from stereodel import (
 )
 from stereodel.partitioned import triangulate
 from stereodel.partitioned.executors import Here
+from tests import sets
 
 serially = partial(triangulate, executor=Here())
 """In this process, which is fastest for few points."""
@@ -28,6 +29,12 @@ def write_points(folder, columns, rows, files=5, **options):
         table = pa.table({name: np.ascontiguousarray(piece[:, axis]) for axis, name in enumerate(columns)})
         pq.write_table(table, folder / f"{k:03}.parquet", **options)
     return folder
+
+
+def rows_of(name, count, space="sphere"):
+    """Columns and about so many rows of a set."""
+    found = sets.ALL[space, name]
+    return found.columns, found.rows(count)
 
 
 def surface_of(columns):

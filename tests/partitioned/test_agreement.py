@@ -2,15 +2,29 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.partitioned import passes
+from stereodel.partitioned import passes, rounds
 from stereodel.partitioned import run as running
-from tests.partitioned.answers import differences, in_memory, serially, surface_of, write_points
-from tests.partitioned.sets import LONLAT, SETS, XY, XYZ, rows_of
+from tests import sets
+from tests.examples import examples
+from tests.partitioned.answers import differences, in_memory, rows_of, serially, surface_of, write_points
+from tests.sets import LONLAT, XY, XYZ
 
 SIZE = 500
+QUICK = ["none", "one", "two", "three", "random", "clusters", "graticule", "half", "cap", "copied", "a metre and 8 far"]
+QUICK += ["airports", "whole numbers", "lengths", "great circle", "circle and a pole", "circle and poles"]
+QUICK += ["1e-200 apart", "lattice", "line", "line and one", "all sizes", "tiny", "thin strip", "disc and two far"]
+
+
+def of_any(few=True):
+    """Each set in any number of partitions, those of few points in four; by day the hardest in four or sixteen."""
+    for one in sets.ALL.values():
+        grows, quick = "grows" in one.traits, one.name in QUICK
+        for parts in (1, 4, 16, 64) if grows else (4,) if few else ():
+            marks = () if quick and parts in (4, 16) else pytest.mark.thorough
+            yield pytest.param(one, parts, marks=marks, id=f"{one} in {parts}")
 
 
 @pytest.fixture(scope="module")
@@ -18,11 +32,11 @@ def answers():
     """Of the sets in memory, each computed once."""
     found = {}
 
-    def answer(name, size):
-        if (name, size) not in found:
-            columns, rows = rows_of(name, size)
-            found[name, size] = columns, rows, in_memory(columns, rows)
-        return found[name, size]
+    def answer(one, size):
+        if (one, size) not in found:
+            rows = one.rows(size)
+            found[one, size] = one.columns, rows, in_memory(one.columns, rows)
+        return found[one, size]
 
     return answer
 
@@ -38,41 +52,42 @@ def check(folder, columns, rows, truth, parts, files=5, **options):
     return run
 
 
-@pytest.mark.parametrize("parts", [1, 4, 16, 64])
-@pytest.mark.parametrize("name", SETS)
-def test_every_set_in_any_number_of_partitions(tmp_path, answers, name, parts):
-    columns, rows, truth = answers(name, SIZE)
+@pytest.mark.parametrize(("one", "parts"), list(of_any()))
+def test_every_set_in_any_number_of_partitions(tmp_path, answers, one, parts):
+    columns, rows, truth = answers(one, min(SIZE, one.size) if "sizes" in one.traits else SIZE)
     run = check(tmp_path, columns, rows, truth, parts)
     assert run.statistics["points"] == len(rows)
     assert run.statistics["triangles"] == run.statistics["euler"] == len(truth[0])
 
 
 @pytest.mark.large
-@pytest.mark.parametrize("parts", [1, 4, 16, 64])
-@pytest.mark.parametrize("name", SETS)
-def test_every_large_set(tmp_path, answers, name, parts):
-    sizes = {"great circle and a pole": 16_000, "great circle and both poles": 16_000, "plane: line and one": 16_000}
-    columns, rows, truth = answers(name, sizes.get(name, 100_000))
-    check(tmp_path, columns, rows, truth, parts)
+@pytest.mark.parametrize(("one", "parts"), list(of_any(few=False)))
+def test_every_large_set(tmp_path, answers, one, parts):
+    """The pole of a circle has a star of all points."""
+    size = 16_000 if "circle and" in one.name or one.name == "line and one" else 100_000
+    check(tmp_path, *answers(one, min(size, one.size) if "sizes" in one.traits else size), parts)
 
 
-@settings(max_examples=10)
+@examples(0.1)
 @given(
-    name=st.sampled_from(["uniform", "30 % duplicates", "airports", "integer directions", "plane: lattice"]),
+    one=st.sampled_from([sets.sphere(name) for name in ("random", "copied", "airports", "whole numbers")])
+    | st.just(sets.plane("lattice")),
     cuts=st.lists(st.integers(0, 250), max_size=6),
     partition=st.integers(12, 250),
     block=st.sampled_from([1, 7, 256]),
     share=st.integers(20, 500),
     compact=st.booleans(),
+    halo=st.booleans(),
 )
-def test_any_split_gives_the_same(tmp_path_factory, name, cuts, partition, block, share, compact):
-    """Files of any sizes, empty ones too, as partitions or spread, with blocks and tasks of any size."""
-    columns, rows = rows_of(name, 250)
+def test_any_split_gives_the_same(tmp_path_factory, one, cuts, partition, block, share, compact, halo):
+    """Files of any sizes, empty ones too, as partitions or spread, with blocks and tasks of any size, without halo."""
+    columns, rows = one.columns, one.rows(250)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("stereodel.partitioned.plan.BLOCK", block)
         patch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
         patch.setattr("stereodel.partitioned.plan.LARGEST_SHARE", share)
         patch.setattr(passes, "is_compact", lambda *_: compact)
+        patch.setattr(rounds, "REACH", rounds.REACH if halo else -1.0)
         check(
             tmp_path_factory.mktemp("split"),
             columns,
@@ -85,7 +100,7 @@ def test_any_split_gives_the_same(tmp_path_factory, name, cuts, partition, block
 
 def test_compact_files_are_the_partitions(tmp_path):
     """Points by octants, in files: nothing is spread, and fewer points are read than by files at random."""
-    columns, rows = rows_of("uniform", 4000)
+    columns, rows = rows_of("random", 4000)
     octant = (rows > 0) @ [1, 2, 4]
     order = np.argsort(octant, kind="stable")
     ends = np.cumsum(np.bincount(octant))[:-1]
@@ -104,7 +119,7 @@ def test_compact_files_are_the_partitions(tmp_path):
 
 
 def test_files_in_another_order_are_spread(tmp_path):
-    columns, rows = rows_of("uniform", 4000)
+    columns, rows = rows_of("random", 4000)
     calls = []
     run = check(tmp_path, columns, rows, in_memory(columns, rows), 8, progress=lambda *told: calls.append(told))
     assert not run.statistics["compact"]
@@ -113,9 +128,9 @@ def test_files_in_another_order_are_spread(tmp_path):
     assert all(done == of > 0 for done, of in last.values())
 
 
-@pytest.mark.parametrize(("columns", "name"), [(LONLAT, "airports"), (XYZ, "uniform"), (XY, "plane: uniform")])
+@pytest.mark.parametrize(("columns", "name"), [(LONLAT, "airports"), (XYZ, "random"), (XY, "random")])
 def test_columns_that_are_wanted_alone(tmp_path, columns, name):
-    _, rows = rows_of(name, 300)
+    _, rows = rows_of(name, 300, surface_of(columns))
     write_points(tmp_path / "points", columns, rows)
     run = serially(
         tmp_path / "points",
@@ -130,13 +145,3 @@ def test_columns_that_are_wanted_alone(tmp_path, columns, name):
     assert not (tmp_path / "out" / "triangles").exists()
     told = in_memory(columns, rows)[1]
     assert all(np.array_equal(table[name].to_numpy(), told[name]) for name in table.column_names)
-
-
-def test_latitudes_of_the_ellipsoid(tmp_path):
-    from stereodel import SphericalDelaunay, SphericalVoronoi
-
-    _, rows = rows_of("airports", 200)
-    write_points(tmp_path / "points", LONLAT, rows)
-    run = serially(tmp_path / "points", tmp_path / "out", latitude="authalic", partition=60)
-    areas = SphericalVoronoi(SphericalDelaunay.from_lonlat(rows, latitude="authalic")).areas()
-    assert np.array_equal(run.rows().to_table()["area"].to_numpy(), areas)

@@ -14,8 +14,8 @@ import pytest
 from stereodel.partitioned import Run
 from stereodel.partitioned import passes as passes_of
 from stereodel.partitioned.sources import PointFile
-from tests.partitioned.answers import differences, in_memory, serially, write_points
-from tests.partitioned.sets import LONLAT, rows_of
+from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
+from tests.sets import LONLAT
 
 PASSES = ("sample", "spread", "collect", "solve", "align")
 
@@ -48,11 +48,24 @@ def meanwhile(name, done, action, seen=None):
     return progress
 
 
-def delete(folder, pattern):
-    found = sorted(folder.glob(pattern))
-    assert found, pattern
-    for path in found:
-        path.unlink()
+def harmed(folder, pattern, harm=os.unlink):
+    """A function that harms files of a folder."""
+
+    def action():
+        found = sorted(folder.glob(pattern))
+        assert found, pattern
+        for path in found:
+            harm(path)
+
+    return action
+
+
+def flip(path, place=-1):
+    """Change a byte of a file that has any, which keeps its size."""
+    content = bytearray(path.read_bytes())
+    if not content.endswith(b"\n"):
+        content[place] ^= 1
+    path.write_bytes(content)
 
 
 def run_of(folder, out, **options):
@@ -72,42 +85,98 @@ def check(run, truth):
     assert not list(run.folder.rglob("*.tmp"))
 
 
-# Results
+# What a run made
 
-AGAIN = [("solve", "triangles/*.parquet"), ("solve", "triangles/[12].parquet"), ("align", "rows/00[01].parquet")]
+AGAIN = [
+    ("spread", "spread/1.points"),
+    ("collect", "points/1.blocks"),
+    ("solve", "stars/1.rows"),
+    ("solve", "results/triangles/*.parquet"),
+    ("solve", "results/triangles/[12].parquet"),
+    ("align", "results/rows/00[01].parquet"),
+]
 
 
 @pytest.mark.parametrize(("name", "pattern"), AGAIN)
-def test_results_that_are_deleted_while_their_pass_runs_are_made_again(tmp_path, points, name, pattern):
+def test_what_is_deleted_while_its_pass_runs_is_made_again(tmp_path, points, name, pattern):
     folder, truth = points
     seen = []
-    action = partial(delete, tmp_path / "out", f"scratch/*/results/{pattern}")
+    action = harmed(tmp_path / "out", f"scratch/*/{pattern}")
     run = run_of(folder, tmp_path / "out", progress=meanwhile(name, 4, action, seen))
     assert seen
     check(run, truth)
 
 
-@pytest.mark.parametrize("pattern", ["triangles/1.parquet", "triangles/*.parquet"])
-def test_results_that_are_deleted_later_are_missed(tmp_path, points, pattern):
+DELETED = [
+    ("spread", 2, "splits.value"),
+    ("collect", 2, "spread/2.points"),
+    ("solve", 2, "points/*.points"),
+    ("solve", 2, "blocks/lows"),
+    ("align", 2, "stars/*.rows"),
+    ("align", 2, "results/triangles/1.parquet"),
+    ("align", 2, "results/triangles/*.parquet"),
+]
+CHANGED = [
+    ("spread", 3, "splits.*"),
+    ("spread", 5, "spread/*.starts"),
+    *(("collect", 2, f"spread/{name}") for name in ("starts", "*.points", "*.numbers")),
+    ("collect", 10, "points/*.blocks"),
+    *(("solve", 2, f"points/*.{name}") for name in ("points", "numbers")),
+    *(
+        ("solve", 2, f"blocks/{name}")
+        for name in ("lows", "highs", "part", "first", "last", "points", "numbers", "sums")
+    ),
+    ("solve", 10, "stars/*.starts"),
+    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "parts")),
+]
+LATER = [pytest.param(*when, os.unlink, "deleted") for when in DELETED]
+LATER += [
+    pytest.param(*when, flip, "changed", marks=() if when in CHANGED[::4] else pytest.mark.thorough) for when in CHANGED
+]
+
+
+@pytest.mark.parametrize(("name", "done", "pattern", "harm", "how"), LATER)
+def test_what_is_harmed_after_its_pass(tmp_path, points, name, done, pattern, harm, how):
+    """The error names the file and the way out, which is one; CRC-32 tells, whether a shard is read whole or not."""
     folder, truth = points
-    action = partial(delete, tmp_path / "out", f"scratch/*/results/{pattern}")
-    message = r"triangles/\d+\.parquet was deleted after it was written; begin anew with resume=False"
-    with pytest.raises(ValueError, match=message):
-        run_of(folder, tmp_path / "out", progress=meanwhile("align", 2, action))
-    with pytest.raises(ValueError, match=message):
-        run_of(folder, tmp_path / "out")
+    action = harmed(tmp_path / "out", f"scratch/*/{pattern}", harm)
+    for progress in (meanwhile(name, done, action), None)[: 2 if how == "deleted" else 1]:
+        with pytest.raises(ValueError, match=rf".* was {how} after it was written; begin anew with resume=False"):
+            run_of(folder, tmp_path / "out", progress=progress)
+    assert not (tmp_path / "out" / "run.json").exists()
     check(run_of(folder, tmp_path / "out", resume=False), truth)
 
 
-@pytest.mark.parametrize("pattern", ["triangles/0.parquet", "rows/003.parquet"])
-def test_results_that_are_deleted_between_two_calls(tmp_path, points, pattern):
+def test_scratch_that_can_be_made_again(tmp_path, points):
     folder, truth = points
-    run = run_of(folder, tmp_path / "out")
-    delete(tmp_path / "out", pattern)
-    with pytest.raises(FileNotFoundError, match=pattern):
-        (run.triangles if pattern.startswith("t") else run.rows)().to_table()
-    with pytest.raises(ValueError, match=f"{pattern} was deleted after it was written; begin anew with resume=False"):
-        run_of(folder, tmp_path / "out")
+    action = harmed(tmp_path / "out", "scratch/*/spread/starts")
+    with pytest.raises(ValueError, match=r"spread/starts was deleted after it was written"):
+        run_of(folder, tmp_path / "out", progress=meanwhile("collect", 2, action))
+    check(run_of(folder, tmp_path / "out"), truth)
+
+
+@pytest.mark.parametrize(
+    ("file", "harm", "how"),
+    [
+        ("triangles/0.parquet", os.unlink, "deleted"),
+        ("rows/003.parquet", os.unlink, "deleted"),
+        ("cells/2.parquet", os.unlink, "deleted"),
+        ("plan.json", os.unlink, "deleted"),
+        ("plan.json", lambda path: path.write_text("{"), "cut short or changed"),
+    ],
+)
+def test_what_is_harmed_between_two_calls(tmp_path, points, file, harm, how):
+    folder, truth = points
+    options = {"cells": True} if file.startswith("cells") else {}
+    run = run_of(folder, tmp_path / "out", **options)
+    if options:
+        assert run.cells().count_rows() == sum(each["cells"] for each in run.partitions) > 500
+    harmed(run.folder, file, harm)()
+    if file != "plan.json":
+        with pytest.raises(FileNotFoundError, match=file):
+            getattr(run, file.split("/")[0])().to_table()
+    with pytest.raises(ValueError, match=f"{file} was {how} after it was written; begin anew"):
+        run_of(folder, tmp_path / "out", **options)
     check(run_of(folder, tmp_path / "out", resume=False), truth)
 
 
@@ -117,7 +186,7 @@ def test_results_of_another_run(tmp_path, points):
     run = run_of(folder, tmp_path / "out")
     other = run_of(folder, tmp_path / "other", rows=("area", "degree", "nearest", "kept"))
     shutil.copy(other.folder / "triangles" / "0.parquet", run.folder / "triangles" / "99.parquet")
-    assert differences_of_triangles(run, truth) == 0  # parts of the report, not what lies there
+    assert run.triangles().count_rows() == len(truth[0])  # parts of the report, not what lies there
     with pytest.raises(ValueError, match=r"99\.parquet is not of the run that wrote the files beside it"):
         run_of(folder, tmp_path / "out")
     (run.folder / "triangles" / "99.parquet").unlink()
@@ -126,36 +195,11 @@ def test_results_of_another_run(tmp_path, points):
         run_of(folder, tmp_path / "out")
 
 
-def differences_of_triangles(run, truth):
-    return run.triangles().count_rows() - len(truth[0])
-
-
-def test_cells_that_are_deleted(tmp_path, points):
-    folder, _ = points
-    run = run_of(folder, tmp_path / "out", cells=True)
-    assert run.cells().count_rows() == sum(each["cells"] for each in run.partitions) > 500
-    delete(tmp_path / "out", "cells/2.parquet")
-    with pytest.raises(ValueError, match=r"cells/2\.parquet was deleted"):
-        run_of(folder, tmp_path / "out", cells=True)
-
-
-def test_the_plan_that_is_deleted(tmp_path, points):
-    """While it runs it is written again; later the folder is still known as that of a run."""
+def test_the_plan_that_is_deleted_while_it_runs_is_written_again(tmp_path, points):
     folder, truth = points
-    run = run_of(
-        folder, tmp_path / "out", progress=meanwhile("solve", 3, partial(delete, tmp_path / "out", "plan.json"))
-    )
-    check(run, truth)
+    action = harmed(tmp_path / "out", "plan.json")
+    check(run_of(folder, tmp_path / "out", progress=meanwhile("solve", 3, action)), truth)
     check(run_of(folder, tmp_path / "out"), truth)
-    for text in (None, "{"):
-        delete(tmp_path / "out", "plan.json")
-        if text:
-            (tmp_path / "out" / "plan.json").write_text(text)
-        with pytest.raises(
-            ValueError, match=r"plan\.json was (deleted|cut short or changed) after it was written; begin"
-        ):
-            run_of(folder, tmp_path / "out")
-        check(run_of(folder, tmp_path / "out", resume=False), truth)
 
 
 def test_a_deletion_that_was_interrupted(tmp_path, points, monkeypatch):
@@ -180,7 +224,7 @@ def test_a_deletion_that_was_interrupted(tmp_path, points, monkeypatch):
     check(run_of(folder, tmp_path / "out"), truth)
 
 
-@pytest.mark.parametrize("after", range(4))
+@pytest.mark.parametrize("after", [0, 2, *(pytest.param(k, marks=pytest.mark.thorough) for k in (1, 3))])
 def test_results_whose_moving_was_interrupted(tmp_path, points, monkeypatch, after):
     """They are moved when all are there; the report is the last, so that a folder that has it is whole."""
     folder, truth = points
@@ -201,86 +245,10 @@ def test_results_whose_moving_was_interrupted(tmp_path, points, monkeypatch, aft
     check(run_of(folder, tmp_path / "out"), truth)
 
 
-# Scratch
-
-LOST = [
-    ("collect", 2, "spread/2.points"),
-    ("solve", 2, "points/*.points"),
-    ("solve", 2, "blocks/lows"),
-    ("align", 2, "stars/*.rows"),
-    ("spread", 2, "splits.value"),
-]
-
-
-@pytest.mark.parametrize(("name", "done", "pattern"), LOST)
-def test_scratch_that_is_deleted(tmp_path, points, name, done, pattern):
-    """The error names the file and the way out, which is one."""
-    folder, truth = points
-    action = partial(delete, tmp_path / "out", f"scratch/*/{pattern}")
-    for progress in (meanwhile(name, done, action), None):
-        with pytest.raises(
-            ValueError, match=r"scratch/.* was deleted after it was written; begin anew with resume=False"
-        ):
-            run_of(folder, tmp_path / "out", progress=progress)
-    assert not (tmp_path / "out" / "run.json").exists()
-    check(run_of(folder, tmp_path / "out", resume=False), truth)
-
-
-def test_scratch_that_can_be_made_again(tmp_path, points):
-    folder, truth = points
-    action = partial(delete, tmp_path / "out", "scratch/*/spread/starts")
-    with pytest.raises(ValueError, match=r"spread/starts was deleted after it was written"):
-        run_of(folder, tmp_path / "out", progress=meanwhile("collect", 2, action))
-    check(run_of(folder, tmp_path / "out"), truth)
-
-
-def test_scratch_that_is_deleted_in_its_own_pass_is_made_again(tmp_path, points):
-    folder, truth = points
-    for name, pattern in (("spread", "spread/1.points"), ("collect", "points/1.blocks"), ("solve", "stars/1.rows")):
-        out = tmp_path / name
-        run = run_of(folder, out, progress=meanwhile(name, 4, partial(delete, out, f"scratch/*/{pattern}")))
-        check(run, truth)
-
-
-def flip(folder, pattern, place=-1):
-    """Change a byte of each file, which keeps its size."""
-    found = [path for path in sorted(folder.glob(pattern)) if not path.read_bytes().endswith(b"\n")]  # not empty
-    assert found, pattern
-    for path in found:
-        content = bytearray(path.read_bytes())
-        content[place] ^= 1
-        path.write_bytes(content)
-
-
-SHARDS = [
-    ("spread", 3, "splits.*"),
-    ("spread", 5, "spread/*.starts"),
-    *(("collect", 2, f"spread/{name}") for name in ("starts", "*.points", "*.numbers")),
-    ("collect", 10, "points/*.blocks"),
-    *(("solve", 2, f"points/*.{name}") for name in ("points", "numbers")),
-    *(
-        ("solve", 2, f"blocks/{name}")
-        for name in ("lows", "highs", "part", "first", "last", "points", "numbers", "sums")
-    ),
-    ("solve", 10, "stars/*.starts"),
-    *(("align", 2, f"stars/{name}") for name in ("*.rows", "starts", "parts")),
-]
-
-
-@pytest.mark.parametrize(("name", "done", "pattern"), SHARDS)
-def test_a_byte_of_a_shard_that_is_changed(tmp_path, points, name, done, pattern):
-    """Noticed by CRC-32, whether a shard is read whole or in slices."""
-    folder, truth = points
-    action = partial(flip, tmp_path / "out", f"scratch/*/{pattern}")
-    with pytest.raises(ValueError, match=r"was changed after it was written; begin anew with resume=False"):
-        run_of(folder, tmp_path / "out", progress=meanwhile(name, done, action))
-    check(run_of(folder, tmp_path / "out", resume=False), truth)
-
-
 def test_a_byte_of_the_index_that_is_changed(tmp_path, points):
     folder, _ = points
     run = run_of(folder, tmp_path / "out", index=True)
-    flip(tmp_path / "out", "index/points/*.points", -100)
+    harmed(run.folder, "index/points/*.points", partial(flip, place=-100))()
     with pytest.raises(ValueError, match=r"index/points/\d+\.points was changed after it was written"):
         run.nearest(folder, tmp_path / "found", keep="id")
 
@@ -310,12 +278,17 @@ def overwrite(path):
 
 HARMS = [cut, lengthen, move, overwrite, os.unlink]
 TIMES = [(name, done) for name in PASSES for done in (0, 2)]
-QUICK = [("spread", 0), ("solve", 2)]
+BY_DAY = list(zip(TIMES[::2], HARMS, strict=True))
+"""Each harm, and each pass."""
 
 
-@pytest.mark.parametrize("harm", HARMS)
 @pytest.mark.parametrize(
-    ("name", "done"), [pytest.param(*when, marks=() if when in QUICK else pytest.mark.thorough) for when in TIMES]
+    ("name", "done", "harm"),
+    [
+        pytest.param(*when, harm, marks=() if (when, harm) in BY_DAY else pytest.mark.thorough)
+        for when in TIMES
+        for harm in HARMS
+    ],
 )
 def test_a_source_that_changes_while_it_is_read(tmp_path, points, name, done, harm):
     """Whenever that is, it is an error: files are looked at before and after each reading, and at the end."""
@@ -374,46 +347,41 @@ def test_files_that_are_damaged(tmp_path, number):
     assert counts.keys() == {"named", "equal"}
 
 
-def test_a_page_with_a_checksum(tmp_path, points):
-    """Files that have checksums are read with them."""
+@pytest.mark.parametrize("checksum", [True, False])
+def test_a_page_that_is_damaged(tmp_path, points, checksum):
+    """The message has the file and the row group; files that have checksums are read with them."""
     folder, _ = points
     path = folder / "003.parquet"
-    pq.write_table(pq.read_table(path), path, write_page_checksum=True, compression="none", use_dictionary=False)
+    if checksum:
+        options = {"compression": "none", "use_dictionary": False}
+        pq.write_table(pq.read_table(path), path, write_page_checksum=True, **options)
+    number = 0 if checksum else 2
+    column = pq.ParquetFile(path).metadata.row_group(number).column(0)
+    first = 300 if checksum else column.dictionary_page_offset or column.data_page_offset
     content = bytearray(path.read_bytes())
-    content[300] ^= 1
-    path.write_bytes(content)
-    with pytest.raises(ValueError, match=r"003\.parquet: row group 0 cannot be read: .*checksum"):
-        run_of(folder, tmp_path / "out")
-
-
-def test_a_page_that_is_damaged(tmp_path, points):
-    """The message has the file and the row group."""
-    folder, _ = points
-    group = pq.ParquetFile(folder / "003.parquet").metadata.row_group(2).column(0)
-    path = folder / "003.parquet"
-    content = bytearray(path.read_bytes())
-    first = group.dictionary_page_offset or group.data_page_offset
     content[first : first + 8] = b"\xff" * 8
     path.write_bytes(content)
-    with pytest.raises(ValueError, match=r"003\.parquet: row group 2 cannot be read: "):
+    message = rf"003\.parquet: row group {number} cannot be read: {'.*checksum' if checksum else ''}"
+    with pytest.raises(ValueError, match=message):
         run_of(folder, tmp_path / "out")
 
 
 WITH_PROCESSES = [
-    ("spread", 2, "points/003.parquet", cut),
-    ("spread", 2, "points/003.parquet", lengthen),
-    ("spread", 2, "points/003.parquet", os.unlink),
-    ("solve", 2, "points/003.parquet", move),
     ("solve", 2, "points/003.parquet", overwrite),
-    ("collect", 2, "out/scratch/*/spread/2.points", os.unlink),
+    ("spread", 2, "points/003.parquet", os.unlink),
     ("collect", 2, "out/scratch/*/spread/starts", partial(os.truncate, length=70)),
     ("solve", 2, "out/scratch/*/points/*.points", partial(os.truncate, length=70)),
     ("align", 2, "out/scratch/*/results/triangles/3.parquet", os.unlink),
 ]
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize(("name", "done", "pattern", "harm"), WITH_PROCESSES)
+@pytest.mark.parametrize(
+    ("name", "done", "pattern", "harm"),
+    [
+        WITH_PROCESSES[4],
+        *(pytest.param(*row, marks=pytest.mark.thorough) for row in WITH_PROCESSES if row[3] != overwrite),
+    ],
+)
 def test_what_changes_under_processes(tmp_path, points, name, done, pattern, harm):
     """The same with processes, one of which the system may end as what it has mapped is cut short."""
     folder, truth = points
@@ -422,12 +390,8 @@ def test_what_changes_under_processes(tmp_path, points, name, done, pattern, har
     for path, copy in zip(found, kept, strict=True):
         shutil.copy2(path, copy)
 
-    def harmed():
-        for path in sorted(tmp_path.glob(pattern)):
-            harm(path)
-
     with pytest.raises((ValueError, FileNotFoundError), match=r"changed|deleted|cut short|No such file"):
-        run_of(folder, tmp_path / "out", executor=None, progress=meanwhile(name, done, harmed))
+        run_of(folder, tmp_path / "out", executor=None, progress=meanwhile(name, done, harmed(tmp_path, pattern, harm)))
     for path, copy in zip(found, kept, strict=True):
         shutil.copy2(copy, path)
     check(run_of(folder, tmp_path / "out", executor=None, resume=bool(found)), truth)
@@ -444,7 +408,7 @@ def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points
                 scratch=tmp_path / "scratch",
                 partition=partition,
                 resume=False,
-                progress=meanwhile("solve", 2, partial(stop)),
+                progress=meanwhile("solve", 2, stop),
             )
         assert len(list((tmp_path / "scratch").iterdir())) == 1
     other = run_of(folder, tmp_path / "other", scratch=tmp_path / "scratch", partition=90)
@@ -494,12 +458,7 @@ def test_what_is_not_there_is_said(tmp_path, points):
     for read in (run.triangles, run.cells):
         with pytest.raises(ValueError, match="the run was not asked for "):
             read()
-
-
-def test_names_that_are_given_by_themselves(tmp_path, points):
-    folder, _ = points
     with pytest.raises(ValueError, match="columns has 1 names, but on the sphere a place has"):
-        run_of(folder, tmp_path / "out", columns="lon")
-    run = run_of(folder, tmp_path / "out", keep="id", rows="area")
+        run_of(folder, tmp_path / "other", columns="lon")
+    run = run_of(folder, tmp_path / "other", keep="id", rows="area")  # names by themselves
     assert run.rows().schema.names == ["id", "area"]
-    assert set(LONLAT) <= set(pq.read_schema(folder / "000.parquet").names)

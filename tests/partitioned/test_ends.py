@@ -15,8 +15,7 @@ import pytest
 import stereodel
 from stereodel.partitioned import Run, executors, triangulate
 from stereodel.partitioned.executors import ATTEMPTS, Crew
-from tests.partitioned.answers import differences, in_memory, write_points
-from tests.partitioned.sets import rows_of
+from tests.partitioned.answers import differences, in_memory, rows_of, write_points
 
 SECONDS = 10
 """In which the processes of a run that was killed end, on a machine that does much else."""
@@ -36,20 +35,11 @@ if __name__ == "__main__":
     triangulate(points, out, progress=lambda *told: print(*told, flush=True), **options)
 """
 
-COMMAND = """
-import signal
-signal.signal(signal.SIGINT, signal.default_int_handler)
-from stereodel.__main__ import main
-if __name__ == "__main__":
-    main()
-"""
-
 
 @pytest.fixture
 def points(tmp_path):
-    columns, rows = rows_of("uniform", 3000)
+    columns, rows = rows_of("random", 3000)
     (tmp_path / "driver.py").write_text(DRIVER)
-    (tmp_path / "command.py").write_text(COMMAND)
     return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
 
 
@@ -124,24 +114,6 @@ def test_a_driver_that_is_killed(tmp_path, points, name, number):
     assert left(second.pid) == {}
     assert differences(Run(tmp_path / "out"), truth) == []
     assert clean(tmp_path / "out")
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("number", SIGNALS)
-def test_a_command_that_is_killed(tmp_path, points, number):
-    folder, _ = points
-    arguments = ["command.py", "voronoi", f"{folder}/", "--partition", 40, "-o", "out/"]
-    process = started(tmp_path, *arguments)
-    while not list((tmp_path / "out").glob("scratch/*/done/solve/*.json")):
-        assert process.poll() is None
-        time.sleep(0.01)
-    process.send_signal(number)
-    process.communicate(timeout=SECONDS)
-    assert left(process.pid) == {}
-    with started(tmp_path, *arguments) as second:
-        assert second.wait(timeout=120) == 0, second.stdout.read()
-    assert left(second.pid) == {}
-    assert Run(tmp_path / "out").rows().count_rows() == 3000
 
 
 def clean(out):

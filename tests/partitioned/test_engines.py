@@ -8,10 +8,9 @@ import pytest
 
 from stereodel.partitioned import triangulate
 from stereodel.partitioned.executors import Here
-from tests.partitioned.answers import differences, in_memory, of_run, write_points
-from tests.partitioned.sets import rows_of
+from tests.partitioned.answers import differences, in_memory, of_run, rows_of, write_points
 
-COLUMNS, ROWS = rows_of("30 % duplicates", 1200)
+COLUMNS, ROWS = rows_of("copied", 1200)
 
 
 @pytest.fixture(scope="module")
@@ -39,6 +38,7 @@ def pid(_):
     return os.getpid()
 
 
+@pytest.mark.thorough
 def test_dask(tmp_path, points, truth):
     """Two workers, one of which is lost; files are equal byte by byte to those of one process."""
     distributed = pytest.importorskip("distributed")

@@ -3,10 +3,11 @@
 import multiprocessing
 import os
 import resource
+import shutil
 import signal
-import subprocess
-import sys
 from concurrent.futures import Executor, Future
+from concurrent.futures.process import BrokenProcessPool
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -18,15 +19,15 @@ from stereodel.partitioned import Run, plan, triangulate
 from stereodel.partitioned.executors import ATTEMPTS, Crew, Here
 from stereodel.partitioned.lock import locked
 from stereodel.partitioned.run import PASSES
-from tests.partitioned.answers import differences, in_memory, serially, write_points
-from tests.partitioned.sets import LONLAT, XYZ, rows_of
+from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
+from tests.sets import LONLAT, XYZ
 
 
 @pytest.fixture
 def points(tmp_path, monkeypatch):
     """Points in files, in so many tasks that each pass has several; and the answer in memory."""
     monkeypatch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
-    columns, rows = rows_of("uniform", 600)
+    columns, rows = rows_of("random", 600)
     return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
 
 
@@ -48,7 +49,7 @@ class Failing(Executor):
         return Here().submit(function, *arguments)
 
 
-@pytest.mark.parametrize("name", ["sample", "spread", "collect", "solve", "align"])
+@pytest.mark.parametrize("name", PASSES)
 def test_a_task_that_fails_thrice(tmp_path, points, name):
     """The error is the task's own; each run begins where the last one stopped; what was done is not done again."""
     folder, truth = points
@@ -62,7 +63,7 @@ def test_a_task_that_fails_thrice(tmp_path, points, name):
     run = triangulate(folder, tmp_path / "out", partition=60, executor=executor)
     assert differences(run, truth) == []
     assert executor.done.count(f"{name} failed") == 3
-    once = {other: executor.done.count(other) for other in ("sample", "spread", "collect", "solve", "align")}
+    once = {other: executor.done.count(other) for other in PASSES}
     assert set(once.values()) <= {5, 10}
 
 
@@ -74,11 +75,11 @@ def killed_once(marker, name, function, task):
     return function(task)
 
 
-@pytest.mark.parametrize("name", ["sample", "spread", "collect", "solve", "align"])
+@pytest.mark.parametrize(
+    "name", ["solve", *(pytest.param(name, marks=pytest.mark.thorough) for name in PASSES if name != "solve")]
+)
 def test_a_worker_that_is_killed(tmp_path, points, name, monkeypatch):
     """The processes of our own are replaced, and what the dead one did is done again."""
-    from functools import partial
-
     folder, truth = points
     marker = tmp_path / "killed"
     once = Crew._once
@@ -97,33 +98,9 @@ def killed(task):
 
 
 def test_processes_that_die_again_and_again():
-    from concurrent.futures.process import BrokenProcessPool
-
     with Crew(None, 2) as crew, pytest.raises(BrokenProcessPool):
         list(crew.results(killed, range(2)))
     assert ATTEMPTS == 3
-
-
-def test_a_driver_that_is_killed_leaves_no_lock(tmp_path, points):
-    """The system takes the lock away, and the next run goes on."""
-    folder, truth = points
-    code = f"""
-import os, signal, sys
-from stereodel.partitioned import triangulate
-from stereodel.partitioned.executors import Here
-def progress(name, done, of):
-    if (name, done) == ("solve", 3):
-        os.kill(os.getpid(), signal.SIGKILL)
-from stereodel.partitioned import plan
-plan.LEAST_SHARE = 1
-triangulate({str(folder)!r}, {str(tmp_path / "out")!r}, partition=60, executor=Here(), progress=progress)
-"""
-    ran = subprocess.run([sys.executable, "-c", code], check=False)
-    assert ran.returncode == -signal.SIGKILL
-    begun = []
-    run = serially(folder, tmp_path / "out", partition=60, progress=lambda *told: begun.append(told))
-    assert differences(run, truth) == []
-    assert begun[0] == ("solve", 3, 10)
 
 
 def test_two_runs_on_one_folder(tmp_path, points):
@@ -150,7 +127,7 @@ def of_limited(source, out):
     serially(source, out, partition=60)
 
 
-@pytest.mark.parametrize("size", [300, 2000, 5000])
+@pytest.mark.parametrize("size", [2000, *(pytest.param(size, marks=pytest.mark.thorough) for size in (300, 5000))])
 def test_a_full_disk(tmp_path, points, size):
     """An OSError; nothing is half written; with room again the run goes on."""
     folder, truth = points
@@ -173,13 +150,19 @@ def interrupted(folder, out, name, done):
         serially(folder, out, partition=60, progress=progress)
 
 
-@pytest.mark.parametrize("name", PASSES)
-def test_a_run_that_was_interrupted_goes_on(tmp_path, points, name):
+@pytest.mark.parametrize(
+    ("name", "room"),
+    [*((name, None) for name in PASSES), ("spread", "spread"), ("collect", "points"), ("solve", "stars")],
+)
+def test_a_run_that_was_interrupted_goes_on(tmp_path, points, name, room):
+    """A shard that was cut short meanwhile is made again, as what it was made of is there."""
     folder, truth = points
     interrupted(folder, tmp_path / "out", name, 4)
+    if room:
+        os.truncate(min((tmp_path / "out" / "scratch").glob(f"*/{room}/*.*")), 100)
     begun = {}
     run = serially(folder, tmp_path / "out", partition=60, progress=lambda name, done, of: begun.setdefault(name, done))
-    assert begun[name] >= 4
+    assert begun[name] >= (0 if room else 4)
     assert list(begun) == list(PASSES)[PASSES.index(name) :]
     assert differences(run, truth) == []
 
@@ -192,16 +175,6 @@ def test_a_run_that_ended_is_not_run_again(tmp_path, points):
     again = serially(folder, tmp_path / "out", progress=lambda *told: calls.append(told))
     assert (again.statistics, calls) == (first.statistics, [])
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
-
-
-@pytest.mark.parametrize("room", ["spread", "points", "stars"])
-def test_a_shard_that_was_cut_short(tmp_path, points, room):
-    """It is made again while what it was made of is there; else the error says what to do."""
-    folder, truth = points
-    name = {"spread": "spread", "points": "collect", "stars": "solve"}[room]
-    interrupted(folder, tmp_path / "out", name, 4)
-    os.truncate(min((tmp_path / "out" / "scratch").glob(f"*/{room}/*.*")), 100)
-    assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
 
 
 def test_a_shard_that_was_cut_short_after_its_sources_were_deleted(tmp_path, points):
@@ -227,22 +200,19 @@ def test_other_arguments_are_noticed(tmp_path, points):
     assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
 
 
-def test_a_changed_file_is_noticed(tmp_path, points):
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda folder: os.utime(folder / "002.parquet", ns=(1, 1)), r"002\.parquet has changed since"),
+        (lambda folder: (folder / "002.parquet").rename(folder / "009.parquet"), r"002\.parquet is missing"),
+        (lambda folder: shutil.copy(folder / "001.parquet", folder / "009.parquet"), r"009\.parquet was not there"),
+    ],
+)
+def test_other_files_are_noticed(tmp_path, points, change, message):
     folder, _ = points
     interrupted(folder, tmp_path / "out", "solve", 1)
-    os.utime(folder / "002.parquet", ns=(1, 1))
-    with pytest.raises(ValueError, match=r"002\.parquet has changed since"):
-        serially(folder, tmp_path / "out", partition=60)
-    (folder / "002.parquet").rename(folder / "009.parquet")
-    with pytest.raises(ValueError, match=r"002\.parquet is missing"):
-        serially(folder, tmp_path / "out", partition=60)
-
-
-def test_a_file_that_is_new_is_noticed(tmp_path, points):
-    folder, _ = points
-    interrupted(folder, tmp_path / "out", "solve", 1)
-    (folder / "009.parquet").write_bytes((folder / "001.parquet").read_bytes())
-    with pytest.raises(ValueError, match=r"009\.parquet was not there"):
+    change(folder)
+    with pytest.raises(ValueError, match=message):
         serially(folder, tmp_path / "out", partition=60)
 
 
@@ -276,33 +246,32 @@ def test_a_zero_vector(tmp_path):
         serially(folder, tmp_path / "out")
 
 
-def test_more_points_at_once_than_the_limit(tmp_path):
+@pytest.mark.parametrize(
+    ("space", "name", "message"),
+    [
+        ("sphere", "circle and a pole", r"partition \d+: .*star.* points at once, more than limit=200; give a higher"),
+        ("sphere", "great circle", "all 600 points lie on one great circle: there are no triangles.*limit=200"),
+        ("plane", "line", "all 600 points lie on one line: there are no triangles.*limit=200"),
+    ],
+)
+def test_more_points_at_once_than_the_limit(tmp_path, space, name, message):
     """The pole of a circle has a star of all points, which no partition helps."""
-    columns, rows = rows_of("great circle and a pole", 2000)
+    columns, rows = rows_of(name, 600, space)
     folder = write_points(tmp_path / "points", columns, rows)
-    with pytest.raises(
-        MemoryError, match=r"partition \d+: .*star.* points at once, more than limit=200; give a higher"
-    ):
-        serially(folder, tmp_path / "out", partition=50, limit=200)
-    run = serially(folder, tmp_path / "out", partition=50)  # the limit is no part of the plan
+    with pytest.raises(MemoryError, match=message):
+        serially(folder, tmp_path / "out", surface=space, partition=50, limit=200)
+    run = serially(folder, tmp_path / "out", surface=space, partition=50)  # the limit is no part of the plan
     assert differences(run, in_memory(columns, rows)) == []
 
 
-@pytest.mark.parametrize(("name", "curve"), [("great circle", "great circle"), ("plane: line", "line")])
-def test_points_of_one_circle_or_line_beyond_the_limit(tmp_path, name, curve):
-    columns, rows = rows_of(name, 300)
-    folder = write_points(tmp_path / "points", columns, rows)
-    asked = {"surface": "plane" if curve == "line" else "sphere", "partition": 50}
-    with pytest.raises(MemoryError, match=f"all 300 points lie on one {curve}: there are no triangles.*limit=200"):
-        serially(folder, tmp_path / "out", limit=200, **asked)
-    assert differences(serially(folder, tmp_path / "out", **asked), in_memory(columns, rows)) == []
-
-
 def test_results_are_not_among_the_points(tmp_path, points):
+    """Nor by way of a link."""
     folder, _ = points
     (folder / "002.parquet").rename(folder / "a.parquet")
-    with pytest.raises(ValueError, match=r"lies in out, the folder of results"):
-        serially(folder, folder)
+    os.symlink(folder, tmp_path / "link")
+    for source, out in [(folder, folder), (folder, tmp_path / "link"), (tmp_path / "link", folder)]:
+        with pytest.raises(ValueError, match="lies in out, the folder of results"):
+            serially(source, out)
 
 
 def test_a_folder_of_something_else_is_left_alone(tmp_path, points):

@@ -14,7 +14,7 @@ from stereodel import SphericalVoronoi
 from stereodel.interpolation import NaturalNeighborInterpolator
 from stereodel.partitioned import triangulate
 from stereodel.partitioned.executors import Here
-from stereodel.partitioned.hats import Catalogue, HatsSource, Pixel, hats_source, is_catalogue
+from stereodel.partitioned.hats import Catalogue, Pixel, hats_source, is_catalogue
 from stereodel.partitioned.sources import read
 from stereodel.sphere import lonlat_to_xyz
 
@@ -75,27 +75,8 @@ def copied(collection, tmp_path):
     return shutil.copytree(collection / "sky", tmp_path / "sky")
 
 
-def source_of(folder, columns=None):
-    return hats_source(folder, columns, "sphere", "spherical")
-
-
-def identified(source):
-    """The same with the column that identifies rows carried along."""
-    return HatsSource(
-        source.files, source.places, source.compact, (*source.carried, "source_id"), catalogue=source.catalogue
-    )
-
-
-def rows_of(source, folder):
-    """Write files of rows as they are written for any source: the carried columns, then results; here row numbers."""
-    first = 0
-    for file in source.files:
-        carried = pq.ParquetFile(file.path).read(columns=list(source.carried)).select(list(source.carried))
-        result = pa.array(np.arange(first, first + file.rows))
-        first += file.rows
-        (folder / file.name).parent.mkdir(parents=True, exist_ok=True)
-        pq.write_table(carried.append_column("row", result), folder / file.name)
-    source.finish(folder)
+def source_of(folder):
+    return hats_source(folder, None, "sphere", "spherical")
 
 
 @pytest.fixture
@@ -117,6 +98,7 @@ def computed(catalogue):
 def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened, table):
     source = source_of(collection)
     assert source.compact
+    assert all("sky/dataset" in file.path for file in source.files)  # not the margin
     assert source.places.names == ("ra", "dec")
     assert len({pixel.order for pixel in source.catalogue.pixels}) > 2
     pixels = opened(collection).get_healpix_pixels()
@@ -131,71 +113,49 @@ def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened
     assert sum(file.rows for file in source.files) == ROWS
 
 
-def test_the_margin_of_a_collection_is_not_read(collection):
-    margin = next(path for path in collection.iterdir() if path.name.startswith("sky_"))
-    with pytest.raises(ValueError, match=r"is a catalogue of type 'margin', not of points"):
-        source_of(margin)
-    assert all("sky/dataset" in file.path for file in source_of(collection).files)
-
-
-def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, tmp_path):
-    source = identified(source_of(collection))
-    rows_of(source, tmp_path / "rows")
-    first, second = opened(collection), opened(tmp_path / "rows")
-    assert second.get_healpix_pixels() == first.get_healpix_pixels()
-    assert second.name == "sky_voronoi"
-    assert len(second) == ROWS
-    with quiet():
-        joined = first.join(second, "source_id", "source_id", suffixes=("", "_2"), suffix_method="overlapping_columns")
-        extended = first.load_extension(tmp_path / "sky_voronoi.properties")
-    assert joined.get_healpix_pixels() == first.get_healpix_pixels()
-    numbers = np.concatenate([pq.ParquetFile(file.path).read()["source_id"].to_numpy() for file in source.files])
-    for found in (computed(joined), computed(extended)):
-        assert len(found) == ROWS
-        assert numbers[found["row"].to_numpy()].tolist() == found["source_id"].tolist()
-    assert list(extended.columns) == ["source_id", "ra", "dec", "row"]
-
-
-def test_cells_of_a_catalogue_are_those_of_all_its_points(collection, opened, table, tmp_path):
-    """From the folder to the joined catalogue: its pixels are the partitions, and LSDB finds each star's own cell."""
+@pytest.fixture(scope="module")
+def run(collection, tmp_path_factory):
+    """From the folder to the second catalogue: pixels of the first are the partitions."""
     told = []
-    run = triangulate(
-        collection, tmp_path / "out", keep=["source_id"], executor=Here(), progress=lambda name, *_: told.append(name)
-    )
+    out = tmp_path_factory.mktemp("out")
+    run = triangulate(collection, out, keep=["source_id"], executor=Here(), progress=lambda name, *_: told.append(name))
     assert run.statistics["compact"]
     assert "spread" not in told
+    return run
+
+
+def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, table, run):
+    """And finds each star's own cell, which is that of all points at once."""
+    first, second = opened(collection), opened(run.folder / "rows")
+    assert second.get_healpix_pixels() == first.get_healpix_pixels()
+    assert second.name == "sky_voronoi"
     with quiet():
-        joined = opened(collection).load_extension(tmp_path / "out" / "sky_voronoi.properties")
-    found = computed(joined).set_index("source_id").loc[table["source_id"]]
+        joined = first.join(second, "source_id", "source_id", suffixes=("", "_2"), suffix_method="overlapping_columns")
+        extended = first.load_extension(run.folder / "sky_voronoi.properties")
+    assert joined.get_healpix_pixels() == first.get_healpix_pixels()
+    assert list(extended.columns) == ["source_id", "ra", "dec", "area", "degree", "nearest", "distance", "kept"]
     diagram = SphericalVoronoi.from_lonlat(table[["ra", "dec"]].to_numpy())
-    assert found["area"].tolist() == pytest.approx(diagram.areas().tolist(), rel=1e-11)
-    assert found["degree"].tolist() == np.diff(diagram.region_offsets).tolist()
-    assert list(joined.columns) == ["source_id", "ra", "dec", "area", "degree", "nearest", "distance", "kept"]
+    for found in (computed(joined), computed(extended)):
+        assert len(found) == ROWS
+        found = found.set_index("source_id").loc[table["source_id"]]
+        assert found["area"].tolist() == pytest.approx(diagram.areas().tolist(), rel=1e-11)
+        assert found["degree"].tolist() == np.diff(diagram.region_offsets).tolist()
 
 
-def test_the_second_catalogue_is_one_for_hats(collection, tmp_path):
+def test_the_second_catalogue_is_one_for_hats(collection, run, tmp_path):
     """Its own check of files against each other, and the sky map of the first."""
     from hats.io.validation import is_valid_catalog
 
-    rows_of(source_of(collection), tmp_path / "rows")
+    rows = run.folder / "rows"
     with quiet():
-        assert is_valid_catalog(tmp_path / "rows", strict=True)
-    assert (tmp_path / "rows" / "skymap.fits").read_bytes() == (collection / "sky" / "skymap.fits").read_bytes()
-    assert not (tmp_path / "sky_voronoi.properties").exists()  # nothing identifies rows
-    again = source_of(tmp_path / "rows")
-    assert again.catalogue.pixels == source_of(collection).catalogue.pixels
+        assert is_valid_catalog(rows, strict=True)
+    assert (rows / "skymap.fits").read_bytes() == (collection / "sky" / "skymap.fits").read_bytes()
+    assert source_of(rows).catalogue.pixels == source_of(collection).catalogue.pixels
+    triangulate(collection, tmp_path / "out", executor=Here())
+    assert not (tmp_path / "out" / "sky_voronoi.properties").exists()  # nothing identifies rows
 
 
-def test_the_older_name_of_the_properties_and_a_list_that_is_missing(copied):
-    expected = source_of(copied)
-    (copied / "hats.properties").unlink()
-    (copied / "partition_info.csv").unlink()
-    found = source_of(copied)
-    assert found.catalogue.pixels == expected.catalogue.pixels
-    assert found.files == expected.files
-
-
-def test_pixels_that_are_folders_of_files(copied, opened, tmp_path):
+def test_pixels_that_are_folders_of_files(copied, opened, run, tmp_path):
     whole = source_of(copied)
     for file in whole.files:
         table, path = pq.ParquetFile(file.path).read(), copied / file.name
@@ -207,12 +167,14 @@ def test_pixels_that_are_folders_of_files(copied, opened, tmp_path):
         (folder / "_SUCCESS").touch()
     properties = copied / "hats.properties"
     properties.write_text(properties.read_text().replace("npix_suffix=.parquet", "npix_suffix=/"))
-    source = identified(source_of(copied))
+    source = source_of(copied)
     assert len(source.files) == 2 * len(whole.files)
     assert source.files[1].name == whole.files[0].name.removesuffix(".parquet") + "/part1.parquet"
-    rows_of(source, tmp_path / "rows")
-    found = computed(opened(tmp_path / "rows"))
-    assert sorted(found["row"]) == list(range(ROWS))
+    triangulate(copied, tmp_path / "out", keep=["source_id"], executor=Here())
+    found, expected = (
+        computed(opened(out / "rows")).set_index("source_id")["area"] for out in (tmp_path / "out", run.folder)
+    )
+    assert found.loc[expected.index].tolist() == pytest.approx(expected.tolist(), rel=1e-11)
 
 
 @pytest.mark.parametrize(
@@ -240,13 +202,17 @@ def test_pixels_share_folders_of_ten_thousand():
         assert Pixel.of_path(pixel.path(".snappy.parquet")) == pixel
 
 
-def test_what_is_a_catalogue(collection, tmp_path):
+def test_what_is_a_catalogue(collection, copied, tmp_path):
+    """With the older name of its properties, and without its list of pixels, too."""
+    expected = source_of(copied)
+    (copied / "hats.properties").unlink()
+    (copied / "partition_info.csv").unlink()
+    found = source_of(copied)
+    assert (found.catalogue.pixels, found.files) == (expected.catalogue.pixels, expected.files)
     assert is_catalogue(str(collection))
     assert is_catalogue(collection / "sky")
     assert not is_catalogue(tmp_path)
     assert not is_catalogue([collection])
-    with pytest.raises(ValueError, match=r"there is no hats\.properties, so it is no HATS catalogue"):
-        source_of(tmp_path)
 
 
 def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
@@ -285,14 +251,16 @@ def test_what_is_wrong_with_a_catalogue(copied, message):
         source_of(copied)
 
 
-def test_a_collection_without_its_primary(collection, tmp_path):
-    shutil.copy(collection / "collection.properties", tmp_path)
-    with pytest.raises(ValueError, match="hats_primary_table_url is 'sky', no catalogue beside it"):
-        source_of(tmp_path)
-
-
-def test_what_a_catalogue_cannot_be(collection):
-    with pytest.raises(ValueError, match="source is a list of 1, but a HATS catalogue is one folder"):
-        source_of([collection])
-    with pytest.raises(ValueError, match="surface is 'plane', but a HATS catalogue is on the sphere"):
-        hats_source(collection, None, "plane", "spherical")
+def test_what_a_catalogue_cannot_be(collection, tmp_path):
+    margin = next(path for path in collection.iterdir() if path.name.startswith("sky_"))
+    (tmp_path / "alone").mkdir()
+    shutil.copy(collection / "collection.properties", tmp_path / "alone")
+    for source, surface, message in [
+        (margin, "sphere", "is a catalogue of type 'margin', not of points"),
+        (tmp_path, "sphere", r"there is no hats\.properties, so it is no HATS catalogue"),
+        (tmp_path / "alone", "sphere", "hats_primary_table_url is 'sky', no catalogue beside it"),
+        ([collection], "sphere", "source is a list of 1, but a HATS catalogue is one folder"),
+        (collection, "plane", "surface is 'plane', but a HATS catalogue is on the sphere"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            hats_source(source, None, surface, "spherical")

@@ -4,7 +4,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from stereodel import angular_distance, lonlat_to_xyz
@@ -12,31 +12,19 @@ from stereodel._spaces import space_of
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from stereodel.partitioned import Answers
 from stereodel.partitioned.executors import Here
-from tests.partitioned.answers import mesh_of, serially, surface_of, write_points
-from tests.partitioned.sets import LONLAT, XY, XYZ, rows_of
+from tests import sets
+from tests.examples import examples
+from tests.partitioned.answers import mesh_of, rows_of, serially, surface_of, write_points
+from tests.sets import LONLAT, XY, XYZ
 
 SIZE = 200
 KINDS = {"linear": LinearInterpolator, "natural": NaturalNeighborInterpolator}
-FEW = [
-    "uniform",
-    "gaia-like",
-    "graticule",
-    "hemisphere",
-    "30 % duplicates",
-    "1 m and 8 far",
-    "integer directions",
-    "lengths 2^-1000 to 2^1000",
-    "great circle",
-    "great circle and a pole",
-    "1e-200 apart",
-    "one point",
-    "4 points",
-    "plane: lattice",
-    "plane: line",
-    "plane: line and one",
-    "plane: 1e-60 and 1e60",
-    "plane: duplicates",
-    "plane: thin strip",
+QUICK = ["sphere random", "sphere copied", "sphere whole numbers", "plane lattice", "plane thin strip"]
+FLAT = ["sphere circle and a pole", "sphere one", "plane line"]
+SETS = [
+    pytest.param(one, id=str(one), marks=() if str(one) in QUICK + FLAT else pytest.mark.thorough)
+    for one in sets.ALL.values()
+    if len(one.rows(SIZE)) and one.name not in ("components", "huge", "large and small")
 ]
 
 
@@ -65,12 +53,9 @@ def targets_of(columns, rows, rng, count=20):
     return rng.permutation(found[np.abs(found).max(axis=1) > 0])
 
 
-def write(folder, columns, rows, values, files=3):
-    return write_points(folder, (*columns, "value", "other"), np.column_stack([rows, values]), files)
-
-
 def run_of(folder, columns, rows, values, parts, **options):
-    write(folder / "points", columns, rows, values)
+    names = (*columns, "value", "other", "wrong")[: len(columns) + values.shape[1]]
+    write_points(folder / "points", names, np.column_stack([rows, values]), 3)
     size = max(1, -(-len(rows) // parts))
     return serially(
         folder / "points",
@@ -140,24 +125,26 @@ def check(folder, columns, rows, parts, rng, lots=3, **options):
     return found
 
 
-@pytest.mark.parametrize("name", FEW)
-def test_every_set(tmp_path, name, rng):
-    columns, rows = rows_of(name, SIZE)
-    check(tmp_path, columns, rows, 5, rng)
+@pytest.mark.parametrize("one", SETS)
+def test_every_set(tmp_path, one, rng):
+    check(tmp_path, one.columns, one.rows(min(SIZE, one.size) if "sizes" in one.traits else SIZE), 5, rng)
 
 
-@settings(max_examples=4)
+@examples(0.04)
 @given(
-    name=st.sampled_from(["uniform", "30 % duplicates", "integer directions", "plane: lattice", "plane: thin strip"]),
+    name=st.sampled_from(
+        ["sphere random", "sphere copied", "sphere whole numbers", "plane lattice", "plane thin strip"]
+    ),
     parts=st.integers(1, 12),
     lots=st.integers(1, 8),
     block=st.sampled_from([1, 7, 64]),
     room=st.sampled_from([1, 100, 10_000]),
     seed=st.integers(0, 2**32 - 1),
 )
-@example(name="integer directions", parts=1, lots=1, block=1, room=1, seed=409927)  # halfway between two points
+@example(name="sphere whole numbers", parts=1, lots=1, block=1, room=1, seed=409927)  # halfway between two points
 def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, room, seed):
-    columns, rows = rows_of(name, 120)
+    space, _, kind = name.partition(" ")
+    columns, rows = rows_of(kind, 120, space)
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("stereodel.partitioned.plan.BLOCK", block)
         patch.setattr("stereodel.partitioned.answers.ROOM", room)
@@ -166,7 +153,7 @@ def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, ro
 
 
 def test_processes_of_this_machine(tmp_path, rng):
-    columns, rows = rows_of("30 % duplicates", 600)
+    columns, rows = rows_of("copied", 600)
     run = run_of(tmp_path, columns, rows, np.zeros((len(rows), 2)), 4)
     targets = write_points(tmp_path / "targets", XYZ, rows[::3], 4)
     found = run.nearest(targets, tmp_path / "nearest", k=3, partition=50)
@@ -178,7 +165,8 @@ def test_processes_of_this_machine(tmp_path, rng):
 @pytest.fixture
 def octahedron(tmp_path):
     rows = np.concatenate([np.eye(3), -np.eye(3)])
-    return run_of(tmp_path / "octahedron", XYZ, rows, np.arange(12.0).reshape(6, 2), 2)
+    values = np.column_stack([np.arange(12.0).reshape(6, 2), np.full(6, np.inf)])
+    return run_of(tmp_path / "octahedron", XYZ, rows, values, 2)
 
 
 def test_the_nearest_point_alone_with_columns_that_are_kept(tmp_path, octahedron):
@@ -210,31 +198,39 @@ def test_no_target_and_no_point(tmp_path, octahedron):
         empty.nearest(tmp_path / "one", tmp_path / "d")
 
 
-def test_what_cannot_be_asked(tmp_path, octahedron):
-    targets = write_points(tmp_path / "targets", XYZ, np.array([[1.0, 2, 3], [np.nan, 1, 1]]), 1)
+ASKED = [
+    ("nearest", "wrong", {}, ValueError, r"000\.parquet: row 2: the x is missing"),
+    ("nearest", "right", {"k": 7}, ValueError, "k is 7, but must be at most 6"),
+    ("nearest", "right", {"limit": 1}, MemoryError, r"000\.parquet: row 1: this target may need 3 points.* limit=1"),
+    (
+        "interpolate",
+        "right",
+        {"values": "value", "method": "smooth"},
+        ValueError,
+        "method is 'smooth', but must be one",
+    ),
+    ("interpolate", "right", {"values": "height"}, ValueError, "values has 'height', which is not one of the columns"),
+    ("interpolate", "right", {"values": []}, ValueError, "values is empty"),
+    ("interpolate", "right", {"values": "x", "keep": ["x"]}, ValueError, "column 'x' cannot be kept"),
+    ("interpolate", "right", {"values": "wrong"}, ValueError, r"000\.parquet: row 1: the wrong is inf"),
+]
+
+
+@pytest.mark.parametrize(("question", "targets", "options", "error", "message"), ASKED)
+def test_what_cannot_be_asked(tmp_path, octahedron, question, targets, options, error, message):
+    rows = np.array([[1.0, 2, 3], [np.nan, 1, 1]][: 1 + (targets == "wrong")])
+    folder = write_points(tmp_path / "targets", XYZ, rows, 1)
+    with pytest.raises(error, match=message):
+        getattr(octahedron, question)(folder, tmp_path / "out", executor=Here(), **options)
+
+
+def test_points_that_changed_and_runs_without_an_index(tmp_path, octahedron):
     right = write_points(tmp_path / "right", XYZ, np.ones((1, 3)), 1)
-    out = tmp_path / "out"
-    with pytest.raises(ValueError, match=r"000\.parquet: row 2: the x is missing"):
-        octahedron.nearest(targets, out, executor=Here())
-    with pytest.raises(ValueError, match="k is 7, but must be at most 6"):
-        octahedron.nearest(right, out, k=7)
-    with pytest.raises(ValueError, match="method is 'smooth', but must be one of 'linear', 'natural'"):
-        octahedron.interpolate(right, out, "value", method="smooth")
-    with pytest.raises(ValueError, match="values has 'height', which is not one of the columns"):
-        octahedron.interpolate(right, out, "height")
-    with pytest.raises(ValueError, match="values is empty"):
-        octahedron.interpolate(right, out, [])
-    with pytest.raises(ValueError, match="column 'x' cannot be kept"):
-        octahedron.interpolate(right, out, "x", keep=["x"])
-    with pytest.raises(MemoryError, match=r"000\.parquet: row 1: this target may need 3 points.* limit=1"):
-        octahedron.nearest(right, tmp_path / "small", limit=1)
-    points = tmp_path / "octahedron" / "points" / "000.parquet"
-    write_points(points.parent, XYZ, np.ones((1, 3)), 1)
+    with pytest.raises(FileNotFoundError, match="triangulate them with index=True"):
+        serially(right, tmp_path / "plain").nearest(right, tmp_path / "other")
+    write_points(tmp_path / "octahedron" / "points", XYZ, np.ones((1, 3)), 1)
     with pytest.raises(ValueError, match=r"000\.parquet has changed since the run began"):
         octahedron.interpolate(right, tmp_path / "other", "value")
-    plain = serially(right, tmp_path / "plain")
-    with pytest.raises(FileNotFoundError, match="triangulate them with index=True"):
-        plain.nearest(right, tmp_path / "other")
 
 
 def test_other_questions_in_a_folder_are_noticed(tmp_path, octahedron):
@@ -244,13 +240,6 @@ def test_other_questions_in_a_folder_are_noticed(tmp_path, octahedron):
     with pytest.raises(ValueError, match="a run of other files or arguments: question was"):
         octahedron.nearest(right, tmp_path / "out", k=3)
     assert octahedron.nearest(right, tmp_path / "out", k=3, resume=False).rows().to_table() != first
-
-
-def test_a_value_that_is_not_a_number(tmp_path):
-    rows, right = np.eye(3), write_points(tmp_path / "right", XYZ, np.ones((1, 3)), 1)
-    run = run_of(tmp_path, XYZ, rows, np.array([[0.0, 1], [2, np.inf], [1, 1]]), 1)
-    with pytest.raises(ValueError, match=r"001\.parquet: row 1: the other is inf"):
-        run.interpolate(right, tmp_path / "values", "other", executor=Here())
 
 
 def test_a_run_that_was_interrupted_goes_on(tmp_path, octahedron):
@@ -269,18 +258,3 @@ def test_a_run_that_was_interrupted_goes_on(tmp_path, octahedron):
     )
     assert calls.count("values") == 2
     assert found.rows().to_table()["value"].to_pylist() == pytest.approx([2.0] * 4)
-
-
-@pytest.mark.parametrize(("name", "told"), [("open_discs", "nearest"), ("open_targets", "linear")])
-def test_it_takes_each_question(tmp_path, name, told, rng, monkeypatch):
-    """Answers that are never open are wrong: so the sets above can tell."""
-    columns, rows = rows_of("uniform", SIZE)
-    values, targets = rng.normal(size=(len(rows), 2)), targets_of(columns, rows, rng)
-    run = run_of(tmp_path, columns, rows, values, 5)
-    place = 3 if told == "linear" else 0  # of the targets among the arguments
-
-    def closed(*given, **_):
-        return np.zeros(len(given[place]), bool), np.zeros(given[-2][1])
-
-    monkeypatch.setattr(space_of(rows), name, closed)
-    assert told in differences(asked(run, targets, tmp_path), mesh_of(columns, rows), values, targets)

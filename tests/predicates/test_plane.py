@@ -13,7 +13,6 @@ from stereodel.predicates.plane import filter_coordinates, incircle_filter, orie
 from stereodel.predicates.staged import columns
 
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
-POINT = st.tuples(FINITE, FINITE)
 SCALES = [1.0, 1e150, 1e-150, 2.0**-1074, 2.0**-1040, 1e-300]
 
 
@@ -37,19 +36,12 @@ def orient3d_oracle(*points):
     return -determinant([[*map(Fraction, p), Fraction(1)] for p in points])
 
 
-@given(POINT, POINT, POINT)
-def test_orientation_of_any_doubles(a, b, c):
-    assert orient2d(a, b, c) == sign(orient2d_oracle(a, b, c))
-
-
-@given(POINT, POINT, POINT, POINT)
-def test_incircle_of_any_doubles(a, b, c, d):
-    assert incircle(a, b, c, d) == sign(incircle_oracle(a, b, c, d))
-
-
-@given(*[st.tuples(FINITE, FINITE, FINITE)] * 4)
-def test_orient3d_of_any_doubles(a, b, c, d):
-    assert orient3d(a, b, c, d) == sign(orient3d_oracle(a, b, c, d))
+@given(st.lists(st.tuples(FINITE, FINITE, FINITE), min_size=4, max_size=4))
+def test_any_doubles(four):
+    flat = [p[:2] for p in four]
+    assert orient2d(*flat[:3]) == sign(orient2d_oracle(*flat[:3]))
+    assert incircle(*flat) == sign(incircle_oracle(*flat))
+    assert orient3d(*four) == sign(orient3d_oracle(*four))
 
 
 @pytest.mark.parametrize("scale", SCALES)
@@ -106,15 +98,6 @@ def test_coordinates_out_of_range_go_to_integers():
     inside = np.array([0.0, 1.0, -(2.0**-147), 2.0**199])
     assert np.array_equal(filter_coordinates(inside), inside)
     assert np.isnan(filter_coordinates(np.array([2.0**-148, -(2.0**200), 5e-324]))).all()
-
-
-def test_shapes():
-    a, b, c = np.zeros((4, 1, 2)), np.array([1.0, 0.0]), np.ones((5, 2))
-    assert orient2d(a, b, c).shape == (4, 5)
-    assert orient2d(a, b, c).dtype == np.int8
-    assert type(orient2d([0, 0], [1, 0], [0, 1])) is int
-    assert orient2d(np.zeros((0, 2)), b, [0, 1]).shape == (0,)
-    assert type(orient3d([0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1])) is int
 
 
 @pytest.mark.parametrize("bad", [[np.nan, 0], [0, np.inf], [1, 2, 3], "ab", [1j, 0]])

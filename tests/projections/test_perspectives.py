@@ -7,9 +7,8 @@ from hypothesis import strategies as st
 
 from stereodel.projections import Gnomonic, Orthographic
 from stereodel.sphere import SphereCircle, angular_distance, lonlat_to_xyz
+from tests.strategies import DIRECTIONS, LONLAT
 
-CENTERS = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
-DIRECTIONS = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.abs(v).max() > 1e-3)
 VIEWS = st.sampled_from([Gnomonic, Orthographic])
 
 
@@ -17,7 +16,7 @@ def test_gnomonic_images_beyond_all_doubles():
     assert np.isnan(Gnomonic((0.0, 0.0)).forward([[5e-324, 0.0, 0.5], [5e-324, 0.5, 0.5]])).all()
 
 
-@given(VIEWS, CENTERS, DIRECTIONS, st.floats(0.1, 10))
+@given(VIEWS, LONLAT, DIRECTIONS, st.floats(0.1, 10))
 @example(Gnomonic, (0.0, 0.0), (5e-324, 0.0, 0.5), 1.0)
 def test_radial_distance_and_round_trip(view, center, vector, radius):
     projection = view(center, radius=radius)
@@ -37,17 +36,6 @@ def test_radial_distance_and_round_trip(view, center, vector, radius):
         assert (radial, tangential) == pytest.approx((radius * expected[0], radius * expected[1]), rel=1e-8)
 
 
-@pytest.mark.parametrize("view", [Gnomonic, Orthographic])
-def test_axes_are_those_of_the_stereographic_projection(view):
-    projection = view((30.0, 50.0))
-    east, north = projection.forward(lonlat_to_xyz([[30.01, 50.0], [30.0, 50.01]]))
-    assert east[0] > 0.0001
-    assert abs(east[1]) < 1e-7
-    assert north[1] > 0.0001
-    assert abs(north[0]) < 1e-16
-    assert view((0.0, -90.0)).forward([0.0, 1e-3, -1.0])[0] > 0
-
-
 def test_outside_the_domain():
     assert np.isnan(Gnomonic((0, 90)).forward([1, 0, 0])).all()
     assert Orthographic((0, 90)).forward([1, 0, 0]).tolist() == [0, -1]
@@ -62,7 +50,7 @@ def parameters(points, conic):
     return np.arctan2(g, f) if conic.kind == "ellipse" else np.arcsinh(g) if conic.kind == "hyperbola" else g
 
 
-@given(VIEWS, CENTERS, CENTERS, st.floats(0.5, 179.5), st.floats(0.1, 10))
+@given(VIEWS, LONLAT, LONLAT, st.floats(0.5, 179.5), st.floats(0.1, 10))
 def test_circles_to_conics(view, center, middle, angular_radius, radius):
     projection, circle = view(center, radius=radius), SphereCircle.around(middle, angular_radius)
     conic = projection.image_of(circle)
@@ -119,7 +107,7 @@ def test_every_parameter_gives_a_point_of_the_circle(name, flip):
 
 
 @example((2.1403415096809546e-140,) * 2, (2.1403415096809546e-140,) * 2, 6.0)  # squares underflow
-@given(CENTERS, CENTERS, st.floats(1, 179))
+@given(LONLAT, LONLAT, st.floats(1, 179))
 def test_orthographic_parameter_runs_with_the_circle(center, middle, radius):
     projection, circle = Orthographic(center), SphereCircle.around(middle, radius)
     conic = projection.image_of(circle)
@@ -129,13 +117,3 @@ def test_orthographic_parameter_runs_with_the_circle(center, middle, radius):
     assert np.linalg.det(conic.axes) == pytest.approx(facing * circle.radius**2, abs=1e-12)
     t = np.linspace(0, 2 * np.pi, 9)
     assert np.hypot(*conic.sample(t).T).max() <= 1 + 1e-15
-
-
-def test_value_objects():
-    conic = Orthographic((0, 0)).image_of(SphereCircle.around((10, 20), 30))
-    assert conic == Orthographic((0, 0)).image_of(SphereCircle.around((10, 20), 30))
-    assert len({conic, Orthographic((0, 0)).image_of(SphereCircle.around((10, 20), 30))}) == 1
-    assert Gnomonic((1, 2)) == Gnomonic((1.0, 2.0))
-    assert Gnomonic((1, 2)) != Orthographic((1, 2))
-    with pytest.raises(ValueError, match="read-only"):
-        conic.center[0] = 1.0

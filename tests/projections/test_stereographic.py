@@ -1,22 +1,20 @@
-"""Claims P8 and P9: the stereographic projection, against 60-digit arithmetic."""
+"""Claims P8 and P9: the stereographic projection, against 80-digit arithmetic."""
 
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.projections import PlaneCircle, PlaneLine, Stereographic
+from stereodel.projections import Gnomonic, Orthographic, PlaneCircle, PlaneLine, Stereographic
 from stereodel.sphere import SphereArc, SphereCircle, angular_distance, lonlat_to_xyz
+from tests.exact import ACCURACY, distance, dot, mp, normalized
+from tests.strategies import DIRECTIONS, LONLAT
 
-mpmath.mp.dps = 60
-
-ACCURACY = 4 * mpmath.mpf(2) ** -52
 CENTERS = st.one_of(
-    st.tuples(st.floats(-180, 180), st.floats(-90, 90)),
+    LONLAT,
     st.sampled_from([(0.0, -90.0), (0.0, 90.0), (33.0, 90.0), (0.0, 0.0), (180.0, 0.0), (-12.3, 45.6)]),
 )
-DIRECTIONS = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.abs(v).max() > 1e-3)
 PLANES = st.sampled_from(["tangent", "equatorial"])
 EXPONENTS = st.sampled_from([0, -3, -7, -9, -12, -14, -15])
 
@@ -31,25 +29,18 @@ def exact_frame(center):
     ]
 
 
-def exact_forward(projection, vector):
-    v = [mpmath.mpf(float(x)) for x in vector]
-    length = mpmath.sqrt(sum(x * x for x in v))
-    e, n, c = (sum(a * b for a, b in zip(row, v, strict=True)) / length for row in exact_frame(projection.center))
+def exact_forward(projection, v):
+    e, n, c = (dot(row, normalized(v)) for row in exact_frame(projection.center))
     factor = projection.radius * (2 if projection.plane == "tangent" else 1) / (1 + c)
     return [e * factor, n * factor]
 
 
 def exact_inverse(projection, xy):
     factor = projection.radius * (2 if projection.plane == "tangent" else 1)
-    x, y = (mpmath.mpf(float(v)) / mpmath.mpf(factor) for v in xy)
+    x, y = (v / mpmath.mpf(factor) for v in mp(xy))
     square = x * x + y * y
     local = [2 * x / (1 + square), 2 * y / (1 + square), (1 - square) / (1 + square)]
-    frame = exact_frame(projection.center)
-    return [sum(local[k] * frame[k][axis] for k in range(3)) for axis in range(3)]
-
-
-def distance(a, b):
-    return mpmath.sqrt(sum((mpmath.mpf(float(x)) - y) ** 2 for x, y in zip(a, b, strict=True)))
+    return [dot(local, column) for column in zip(*exact_frame(projection.center), strict=True)]
 
 
 def near(center, side, offset, exponent):
@@ -58,7 +49,6 @@ def near(center, side, offset, exponent):
 
 
 @given(CENTERS, PLANES, st.sampled_from([1, -1]), DIRECTIONS, EXPONENTS, st.floats(1e-3, 1e3))
-@settings(deadline=None, max_examples=120)
 def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radius):
     projection = Stereographic(center, radius=radius, plane=plane)
     vector = near(center, side, offset, exponent)
@@ -66,7 +56,7 @@ def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radiu
     gap = np.linalg.norm(np.cross(vector, axis)) / max(np.linalg.norm(vector), 1e-300)
     if gap < 1e-15:
         return
-    got, truth = projection.forward(vector), exact_forward(projection, vector)
+    got, truth = projection.forward(vector), exact_forward(projection, mp(vector))
     size = mpmath.sqrt(truth[0] ** 2 + truth[1] ** 2)
     # A point within 4·2⁻⁵² rad may stand for the given one; only where that is not needed is the test without it.
     scale = mpmath.mpf(float(projection.scale_factor(vector)))
@@ -75,7 +65,6 @@ def test_forward_is_the_exact_image(center, plane, side, offset, exponent, radiu
 
 
 @given(CENTERS, PLANES, st.floats(-300, 300), st.floats(0, 6.3), st.floats(1e-3, 1e3))
-@settings(deadline=None, max_examples=120)
 def test_inverse_is_the_exact_image(center, plane, power, angle, radius):
     projection = Stereographic(center, radius=radius, plane=plane)
     xy = 10.0**power * np.array([np.cos(angle), np.sin(angle)])
@@ -91,19 +80,11 @@ def test_next_to_the_pole_and_its_antipode(lat):
             v = vector * [1, 1, side]
             got = projection.forward(v)
             with mpmath.workdps(700):
-                truth = exact_forward(projection, v)
+                truth = exact_forward(projection, mp(v))
                 assert distance(got, truth) <= ACCURACY * mpmath.sqrt(truth[0] ** 2 + truth[1] ** 2)
             back = projection.inverse(got)
             assert back[:2] == pytest.approx(v[:2], rel=1e-15)
             assert back[2] == v[2]
-
-
-@given(CENTERS, DIRECTIONS, PLANES)
-def test_round_trip(center, vector, plane):
-    projection = Stereographic(center, radius=2.5, plane=plane)
-    unit = np.array(vector) / np.linalg.norm(vector)
-    if angular_distance(unit, -lonlat_to_xyz(center)) > 1e-10:
-        assert np.abs(projection.inverse(projection.forward(vector)) - unit).max() < 4e-16
 
 
 def test_antipode_is_nan_and_only_the_antipode():
@@ -126,7 +107,6 @@ def test_p8_equatorial_plane_differs_by_a_factor_2(center, vector, radius):
 
 
 @given(CENTERS, DIRECTIONS)
-@settings(deadline=None)
 def test_p8_scale_is_the_derivative_and_the_same_in_all_directions(center, vector):
     projection = Stereographic(center, radius=1.5)
     v = np.array(vector) / np.linalg.norm(vector)
@@ -134,25 +114,16 @@ def test_p8_scale_is_the_derivative_and_the_same_in_all_directions(center, vecto
         return
     step = mpmath.mpf(10) ** -20
     frame = np.linalg.svd(v[None])[2][1:]
-    unit = [mpmath.mpf(float(x)) for x in v]
-    length = mpmath.sqrt(sum(x * x for x in unit))
-    moved = []
-    for direction in frame:
-        point = [x + step * length * mpmath.mpf(float(d)) for x, d in zip(unit, direction, strict=True)]
-        moved.append(
-            [(a - b) / step for a, b in zip(exact_mp(projection, point), exact_mp(projection, unit), strict=True)]
-        )
+    point, moved = normalized(mp(v)), []
+    for along in map(mp, frame):
+        ahead = [x + step * d for x, d in zip(point, along, strict=True)]
+        ends = zip(exact_forward(projection, ahead), exact_forward(projection, point), strict=True)
+        moved.append([(a - b) / step for a, b in ends])
     scale = float(projection.scale_factor(v))
     jacobian = np.array(moved, dtype=float).T
     # Conformal: a multiple of a rotation, and orientation as seen from outside.
     assert np.abs(jacobian.T @ jacobian - scale**2 * np.eye(2)).max() < 1e-13 * scale**2
     assert np.sign(np.linalg.det(jacobian)) == np.sign(np.linalg.det([*frame, v]))
-
-
-def exact_mp(projection, v):
-    length = mpmath.sqrt(sum(x * x for x in v))
-    e, n, c = (sum(a * b for a, b in zip(row, v, strict=True)) / length for row in exact_frame(projection.center))
-    return [2 * projection.radius * e / (1 + c), 2 * projection.radius * n / (1 + c)]
 
 
 @given(CENTERS, CENTERS, st.floats(0.01, 179.9))
@@ -172,25 +143,16 @@ def test_p8_circles_to_circles(center, middle, radius):
     assert image.outside == bool(circle.contains(-lonlat_to_xyz(center)))
 
 
-@given(st.floats(-180, 180), st.floats(-180, 180), st.sampled_from([-90.0, 90.0]))
-def test_p8_meridians_to_lines(lon, other, lat):
-    projection = Stereographic((lon, lat))
-    circle = SphereCircle(lonlat_to_xyz((other, 0.0)), 0.0)
-    line = projection.image_of(circle)
-    assert isinstance(line, PlaneLine)
-    assert abs(line.offset) < 1e-15
-    assert np.abs(projection.forward(circle.sample(7)[1:3]) @ line.normal).max() < 2e-15
-    assert projection.forward(circle.center) @ line.normal > line.offset
-
-
 @given(CENTERS, DIRECTIONS)
-def test_p8_oblique_lines_through_the_antipode(center, vector):
+def test_p8_great_circles_through_the_antipode_become_lines(center, vector):
     tangent = lonlat_to_xyz(center)
     if not 1e-3 < angular_distance(tangent, vector) < 180 - 1e-3:
         return
     projection = Stereographic(center)
-    line = projection.image_of(SphereArc.great(tangent, vector).circle)
+    circle = SphereArc.great(tangent, vector).circle
+    line = projection.image_of(circle)
     assert isinstance(line, PlaneLine)
+    assert projection.forward(circle.center) @ line.normal > line.offset
     assert abs(line.offset) < 1e-14
     assert abs(line.direction @ line.normal) < 1e-16
     xy = projection.forward(vector)
@@ -238,44 +200,18 @@ def test_p9_smaller_spheres_give_larger_caps():
     assert angular_distance(projection.inverse([1.0, 0.0]), [0, 0, -1]) == pytest.approx(radii[2])
 
 
-def test_axes_are_east_and_north():
-    projection = Stereographic((30.0, 50.0))
-    east, north = projection.forward(lonlat_to_xyz([[30.001, 50.0], [30.0, 50.001]]))
+@pytest.mark.parametrize("view", [Stereographic, Gnomonic, Orthographic])
+def test_axes_are_east_and_north(view):
+    east, north = view((30.0, 50.0)).forward(lonlat_to_xyz([[30.001, 50.0], [30.0, 50.001]]))
     assert east[0] > 0
     assert abs(east[1]) < 1e-8
     assert north[1] > 0
     assert abs(north[0]) < 1e-16
     # At a pole: the limit along the given longitude.
     for lat in (90, -90):
-        limit = Stereographic((70.0, np.nextafter(lat, 0))).forward([0.3, 0.4, np.sign(lat)])
-        assert Stereographic((70.0, lat)).forward([0.3, 0.4, np.sign(lat)]) == pytest.approx(limit, abs=1e-14)
-    assert (
-        Stereographic((0.0, 0.0, -2.0)).forward([0, 1, -1]).tolist()
-        == Stereographic((0, -90)).forward([0, 1, -1]).tolist()
-    )
-
-
-def test_value_object():
-    projection = Stereographic((10, 20), radius=2, plane="equatorial")
-    assert projection == Stereographic(center=(10.0, 20.0), radius=2.0, plane="equatorial")
-    assert projection != Stereographic((10, 20))
-    assert len({projection, Stereographic((10, 20), radius=2, plane="equatorial")}) == 1
-    circle = projection.image_of(SphereCircle.around((12, 20), 5))
-    assert circle == projection.image_of(SphereCircle.around((12, 20), 5))
-    assert hash(circle) == hash(projection.image_of(SphereCircle.around((12, 20), 5)))
-    line = PlaneLine(np.array([0.0, 1.0]), 2.0)
-    assert line == PlaneLine([0.0, 1.0], 2.0)
-    assert len({line, PlaneLine([0.0, 1.0], 2.0)}) == 1
-
-
-def test_shapes():
-    projection = Stereographic((10, 20))
-    points = np.random.default_rng(2).normal(size=(3, 2500, 3))
-    plane = projection.forward(points)
-    assert plane.shape == (3, 2500, 2)
-    assert projection.inverse(plane).shape == points.shape
-    assert projection.scale_factor(points).shape == (3, 2500)
-    assert projection.forward(np.zeros((0, 3))).shape == (0, 2)
+        limit = view((70.0, np.nextafter(lat, 0))).forward([0.3, 0.4, np.sign(lat)])
+        assert view((70.0, lat)).forward([0.3, 0.4, np.sign(lat)]) == pytest.approx(limit, abs=1e-14)
+    assert view((0.0, 0.0, -2.0)).forward([0, 1, -1]).tolist() == view((0, -90)).forward([0, 1, -1]).tolist()
 
 
 @pytest.mark.parametrize(

@@ -253,6 +253,7 @@ print(describe().platform, describe().chosen_by, pixel_hash(draw(shapes, 300, 30
 """
 
 
+@pytest.mark.thorough
 def test_both_platforms_give_the_same_pixels():
     runs = [in_new_process(SCRIPT, STEREODEL_GL=platform) for platform in gl.PLATFORMS]
     assert [run.returncode for run in runs] == [0, 0], runs[0].stderr + runs[1].stderr
@@ -272,6 +273,7 @@ print(describe(), file=sys.stderr)
 """
 
 
+@pytest.mark.thorough
 def test_a_renderer_without_multisampling_draws_the_same():
     """Mesa's softpipe, whose blending rounds otherwise: a level of 255 is let pass, a few samples in an edge too."""
     run = subprocess.run(

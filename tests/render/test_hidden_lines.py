@@ -14,11 +14,10 @@ import pytest
 from scipy.spatial import cKDTree
 
 from stereodel.constants import ON_BALL
-from stereodel.drawing import CircleArc, LineStyle, Page, Scene, Segment, View, scene_items
+from stereodel.drawing import CircleArc, LineStyle, Page, Scene, Segment, View
 from stereodel.drawing.page import Stroke
 from stereodel.drawing.scene_items import SceneBall, SceneLines
 from stereodel.drawing.solid import PlacedScene, Solid
-from stereodel.drawing.visibility import Place, split_by_ball
 from stereodel.render import gl
 from stereodel.render.glb import depths, to_trimesh
 from stereodel.sphere import SphereArc, SphereCircle
@@ -118,19 +117,19 @@ def sinks_or_stands_clear(points, radius, unit):
     return (height > (HALF_WIDTH + 1) * unit) | (height.max() < ON_BALL * radius)
 
 
-def disagreements(placed, reach=1.1, drawn_by=None):
+def disagreements(placed, reach):
     """Samples where page and depth buffer say different things, how many were seen, hidden, and covered by others."""
     page, layout, ball, lines = alone(placed, reach)
     numbers = seen_numbers(page, layout, ball, lines)
-    unit, shown = 2 * reach / SIZE, drawn_by or layout
+    unit = 2 * reach / SIZE
     corner, middle = np.array(page.extent[::2]), (np.array(layout.origin) - page.extent[::2]) / unit
     wrong, seen, hidden, covered = [], 0, 0, 0
     for number, line in enumerate(lines, start=2):
         (curve,) = line.curves
         t = np.linspace(curve.start, curve.stop, SAMPLES + 2)[1:-1]
-        points = shown.axes(curve.sample(t))
-        at = (shown.on_page(points) - corner) / unit
-        path, ends = strokes(shown, line, unit)
+        points = layout.axes(curve.sample(t))
+        at = (layout.on_page(points) - corner) / unit
+        path, ends = strokes(layout, line, unit)
         away = distance(at, (path - corner) / unit)
         drawn = away <= ON_STROKE
         asked = distance(at, (ends - corner) / unit) > NEAR
@@ -164,7 +163,9 @@ def figure_scenes(name):
     return figure.solid().scenes
 
 
-@pytest.mark.parametrize("name", FIGURES)
+@pytest.mark.parametrize(
+    "name", ["fig01_sphere", *(pytest.param(n, marks=pytest.mark.thorough) for n in list(FIGURES)[1:])]
+)
 def test_figures_hide_what_a_depth_buffer_hides(name):
     reach, numbers = FIGURES[name]
     for number in numbers:
@@ -194,42 +195,10 @@ def random_scene(seed):
     return scene, view
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", [0, *(pytest.param(seed, marks=pytest.mark.thorough) for seed in (1, 2, 3))])
 def test_random_scenes_hide_what_a_depth_buffer_hides(seed):
     scene, view = random_scene(seed)
     wrong, seen, hidden, covered = disagreements(scene.placed(view), 2.2 * scene.radius)
     assert wrong == []
     assert min(seen, hidden) > 300
     assert covered < seen / 4
-
-
-# What the oracle must find
-
-
-def test_a_view_a_degree_off_is_found():
-    scene, view = random_scene(0)
-    turned = View(view.lon + 1, view.lat, view.roll)
-    drawn_by = replace(scene.placed(turned).layout, style="solid")
-    wrong, *_ = disagreements(scene.placed(view), 1.1 * scene.radius, drawn_by)
-    assert len(wrong) > 100
-
-
-def exchanged(curves, radius):
-    other = {Place.FRONT: Place.BEHIND, Place.BEHIND: Place.FRONT}
-    return [[(curve, other.get(place, place)) for curve, place in pieces] for pieces in split_by_ball(curves, radius)]
-
-
-def with_one_lost(curves, radius):
-    return [[] if curves[0].start == 0.0 else pieces for pieces in split_by_ball(curves, radius)]
-
-
-def by_a_smaller_ball(curves, radius):
-    return split_by_ball(curves, 0.97 * radius)
-
-
-@pytest.mark.parametrize("mistake", [exchanged, with_one_lost, by_a_smaller_ball])
-def test_a_mistake_in_hiding_is_found(monkeypatch, mistake):
-    scene, view = random_scene(1)
-    monkeypatch.setattr(scene_items, "split_by_ball", mistake)
-    wrong, *_ = disagreements(scene.placed(view), 2.2 * scene.radius)
-    assert len(wrong) > 10

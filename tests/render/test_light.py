@@ -9,7 +9,6 @@ import pytest
 from stereodel import render
 from stereodel.drawing.page import Ball, Fill, Page
 from stereodel.render.light import LIGHT, SHADE, ball_gradient, brightness
-from tests.images.read_svg import read_svg
 from tests.render.test_pages import circle
 
 SHADER = (Path(render.__file__).parent / "shaders" / "flat.frag").read_text(encoding="utf-8")
@@ -22,14 +21,15 @@ def disc(size):
     return x[inside], -y[inside], inside
 
 
-def shown(light, x, y):
-    """What a gradient of a file shows at places: of the circles through each the largest, by its quadratic equation."""
+def gradient_level(x, y):
+    """What the gradient shows at places of the disc: of the circles through each the largest, by its equation."""
+    light = ball_gradient()
     place = np.stack([x, y], axis=-1) - light.focus
-    step = light.center - light.focus
+    step = np.subtract(light.center, light.focus)
     a, b, c = step @ step - light.radius**2, place @ step, (place**2).sum(axis=-1)
     share = (b - np.sqrt(b**2 - a * c)) / a
     assert np.abs(np.linalg.norm(place - share[:, None] * step, axis=1) - share * light.radius).max() < 1e-9
-    return np.stack([np.interp(share, light.offsets, column) for column in light.colors.T], axis=-1)
+    return np.interp(share, light.offsets, light.brightness)
 
 
 def test_the_light_is_that_of_the_shader():
@@ -38,19 +38,17 @@ def test_the_light_is_that_of_the_shader():
     assert float(re.search(r"SHADE = ([\d.]+);", SHADER)[1]) == SHADE
 
 
-def test_the_gradient_of_a_file_is_near_to_the_light_of_pixels(tmp_path):
+def test_the_gradient_of_files_is_near_to_the_light_of_pixels():
     """In levels of 1/255 of white: 0.8 in the mean and 4 at most, at the edge; flat, it would be 7 and 57."""
-    ball = Ball((2.0, 1.0), 0.9)
-    page = Page((0.0, 4.0, 0.0, 2.0), (Fill((circle(ball.center, ball.radius),), (1.0, 1.0, 1.0, 1.0), ball=ball),))
-    (_, mark) = read_svg(page.save(tmp_path / "ball.svg")).marks
     x, y, inside = disc(300)
-    places = (np.stack([x, y], axis=-1) * ball.radius + ball.center) * page.points_per_unit
-    apart = 255 * np.abs(shown(mark.light, *places.T)[:, 0] - brightness(x, y))
+    apart = 255 * np.abs(gradient_level(x, y) - brightness(x, y))
     assert apart.mean() < 0.9
     assert apart.max() < 4.1
     assert 255 * (1 - brightness(x, y)).mean() > 7
     # The pixels themselves, with their edge left out: there they are mixed with the ground.
-    side = page.pixels(size=2000)[50:950:3, 550:1450:3, 0]
+    ball = Ball((1.0, 1.0), 0.9)
+    page = Page((0.0, 2.0, 0.0, 2.0), (Fill((circle(ball.center, 0.9),), (1.0, 1.0, 1.0, 1.0), ball=ball),))
+    side = page.pixels(size=1000)[50:950:3, 50:950:3, 0]
     assert np.abs(side[inside] - 255 * brightness(x, y))[x**2 + y**2 < 0.98].max() < 2
 
 

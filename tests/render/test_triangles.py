@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
@@ -82,7 +82,6 @@ def test_a_straight_ribbon_has_its_area(round_caps):
     assert areas(shape).sum() == pytest.approx(50 * 8 + round_caps * np.pi * 16, rel=5e-3)
 
 
-@settings(max_examples=60, deadline=None)
 @given(POINTS, st.floats(1, 20), st.booleans())
 def test_a_ribbon_covers_what_is_near_its_line_and_nothing_else(line, width, closed):
     grid = np.random.default_rng(0).uniform(-20, 120, (400, 2))
@@ -110,7 +109,6 @@ def test_dashes_begin_at_the_first_point_and_go_round_corners():
     assert (covered(shape, probes) > 0).tolist() == [True, True, False, False, True, True, True, False]
 
 
-@settings(max_examples=60, deadline=None)
 @given(POINTS, st.floats(0.5, 20), st.floats(0.5, 20))
 def test_dashes_have_their_share_of_the_length(line, dash, gap):
     shape = ribbon(line, 0.02, dash=(dash, gap), round_caps=False)
@@ -163,7 +161,6 @@ def test_discs_are_round_to_the_flatness(radius):
     assert len(discs(np.zeros((0, 2)), radius)) == 0
 
 
-@settings(max_examples=100, deadline=None)
 @given(st.lists(POINTS, min_size=1, max_size=3))
 def test_a_region_is_what_the_even_odd_rule_says(runs):
     points = np.random.default_rng(1).uniform(-5, 105, (300, 2))

@@ -11,7 +11,7 @@ import numpy as np
 import pypdf
 import pytest
 
-from stereodel.drawing.page import Dots, Fill, Label, Page, Polylines, Stroke
+from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.style import BLACK
 from stereodel.drawing.view import View
@@ -19,7 +19,6 @@ from stereodel.render.rows import LabelLayer, agg_rows
 from stereodel.render.save import save_vector
 from stereodel.render.sizes import pixel_height
 from stereodel.sphere import SphereCircle, graticule
-from tests.images.read_svg import read_svg
 
 rasterize = partial(Page.pixels, renderer="agg")
 
@@ -172,6 +171,15 @@ def test_the_label_layer_holds_the_labels_alone():
     assert LabelLayer(page.without_labels(), 400).over(bare) is bare
 
 
+def test_labels_are_laid_over_a_picture_to_the_nearest_level():
+    """Not to the one below, which is a level darker; each channel by itself."""
+    layer = LabelLayer(globe(), 300)
+    picture = np.random.default_rng(3).integers(0, 256, (layer.height, 300, 3)).astype(np.uint8)
+    ink, share = layer.rows()[..., :3].astype(float), layer.rows()[..., 3:] / 255
+    assert ((share > 0) & (share < 1)).sum() > 100
+    assert np.array_equal(layer.over(picture), np.floor(share * ink + (1 - share) * picture + 0.5))
+
+
 def test_labels_are_placed_and_aligned():
     page = Page((0, 10, 0, 10), (Label("MM", (5, 5), offset=(10, 0), align="left", valign="bottom"),), width=100.0)
     rows, columns = np.nonzero(LabelLayer(page, 100).rows()[..., 3])
@@ -227,10 +235,29 @@ def test_many_dots_and_lines_are_small_files_of_paths_that_programs_open(tmp_pat
     assert "".join(text["lines"]) == text["veil"][0]
 
 
+def corners_of(path):
+    """Where the corners of a path of straight lines lie, from the upper left, (n, 2)."""
+    return np.array(re.findall(r"-?(?:\d+\.?\d*|\.\d+)", path), dtype=float).reshape(-1, 2).cumsum(axis=0)
+
+
 def test_errors_of_relative_places_do_not_add_up(tmp_path):
     """Of a line of ten thousand corners, each is within half a step of its place."""
     corners = np.cumsum(np.random.default_rng(2).normal(0, 0.003, (10_000, 2)), axis=0) + 2
     page = Page((0, 4, 0, 4), (Polylines(corners, np.array([0, len(corners)]), BLACK, 0.1, "line"),), width=400.0)
-    (mark,) = (mark for mark in read_svg(save_vector(page, tmp_path / "page.svg")).marks if mark.kind == "stroke")
-    drawn = np.concatenate([mark.path.pieces[:1, 0], mark.path.pieces[:, 3]])
-    assert np.abs(drawn - 100 * corners).max() <= 0.5e-3 + 1e-9
+    root = ET.parse(save_vector(page, tmp_path / "page.svg")).getroot()
+    drawn = corners_of(next(p.get("d") for p in root.iter(f"{SVG}path") if p.get("id") == "line"))
+    assert np.abs(drawn - 100 * np.array([[0, 4]]) - 100 * corners * [1, -1]).max() <= 0.5e-3 + 1e-9
+
+
+def test_regions_of_many_corners_are_round_though_most_corners_are_left_out(tmp_path):
+    turn = np.linspace(0, 2 * np.pi, 2001)
+    loop = 2 + np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    loop[-1] = loop[0]
+    region = Polygons(loop, np.array([0, len(loop)]), np.array([0]), np.array([BLACK]), name="disc")
+    file = save_vector(Page((0, 4, 0, 4), (region,), width=100.0), tmp_path / "page.svg")
+    path = next(p.get("d") for p in ET.parse(file).getroot().iter(f"{SVG}path") if p.get("id") == "disc")
+    drawn = corners_of(path) - 50
+    assert 100 < len(drawn) < 1200
+    # The middles of chords are what lies farthest inside.
+    off = 25 - np.linalg.norm((drawn + np.roll(drawn, 1, axis=0)) / 2, axis=1)
+    assert np.abs(off).max() < 3e-3

@@ -1,7 +1,5 @@
 """`stereodel.spatial.SphericalVoronoi`: attribute by attribute against SciPy, and where SciPy has no answer."""
 
-import pickle
-
 import numpy as np
 import pytest
 import scipy.spatial
@@ -11,26 +9,21 @@ from hypothesis import strategies as st
 import stereodel
 from stereodel import check_delaunay
 from stereodel.spatial import SphericalVoronoi
+from tests import sets
+from tests.spatial.oracle import cycle
+
+SMALL = np.array([[3, 4, 12], [4, 3, 12], [5, 0, 12], [-3, 4, 12], [0, -5, 12], [-4, -3, 12]]) / 13
+CIRCLES = {name: sets.unit(sets.sphere(name).points) for name in ("short circle", "arc", "half circle", "opposite")}
 
 
-def sphere(n=100, seed=0):
-    points = np.random.default_rng(seed).normal(size=(n, 3))
-    return points / np.linalg.norm(points, axis=1, keepdims=True)
+def sphere(n=100):
+    return sets.sphere("unit").drawn(n)
 
 
-GREAT = [[0, 13, 0], [5, 12, 0], [-5, 12, 0], [12, -5, 0], [-13, 0, 0]]
-SMALL = [[3, 4, 12], [4, 3, 12], [5, 0, 12], [-3, 4, 12], [0, -5, 12], [-4, -3, 12]]
-
-
-def cycle(region):
-    start = region.index(min(region))
-    turned = region[start:] + region[:start]
-    return tuple(min(turned, turned[:1] + turned[:0:-1]))
-
-
+@pytest.mark.parametrize("name", ["unit", "half"])
 @pytest.mark.parametrize(("radius", "center"), [(1, None), (6371.0, None), (2.5, (1.0, -2.0, 3.0))])
-def test_same_cells(radius, center):
-    points = sphere() * radius + (0 if center is None else np.array(center))
+def test_same_cells(radius, center, name):
+    points = sets.sphere(name).drawn(100) * radius + (0 if center is None else np.array(center))
     ours = SphericalVoronoi(points, radius, center)
     theirs = scipy.spatial.SphericalVoronoi(points, radius, center)
     theirs.sort_vertices_of_regions()
@@ -43,18 +36,6 @@ def test_same_cells(radius, center):
     np.testing.assert_array_equal(ours.points, theirs.points)
     assert ours.radius == theirs.radius
     check_delaunay(ours.points - ours.center, ours._simplices)
-
-
-def test_same_types():
-    ours, theirs = SphericalVoronoi(sphere()), scipy.spatial.SphericalVoronoi(sphere())
-    for name in ("points", "vertices", "center"):
-        assert getattr(ours, name).dtype == getattr(theirs, name).dtype == np.float64
-        assert getattr(ours, name).shape == getattr(theirs, name).shape
-        assert getattr(ours, name).flags.writeable
-    assert type(ours.radius) is type(theirs.radius) is float
-    assert {type(region) for region in ours.regions} == {list}
-    assert ours.calculate_areas().shape == theirs.calculate_areas().shape
-    assert ours._simplices.dtype == theirs._simplices.dtype
 
 
 def test_each_vertex_is_the_center_of_its_triangle_and_regions_turn_counterclockwise():
@@ -72,16 +53,9 @@ def test_each_vertex_is_the_center_of_its_triangle_and_regions_turn_counterclock
     assert sv.regions == before
 
 
-def test_cocircular_triangles_have_equal_vertices():
-    cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / np.sqrt(3)
-    sv = SphericalVoronoi(cube)
-    assert sv.vertices.shape == scipy.spatial.SphericalVoronoi(cube).vertices.shape == (12, 3)
-    assert len(np.unique(sv.vertices, axis=0)) == 6
-    np.testing.assert_allclose(sv.calculate_areas(), np.pi / 2)
-
-
-@pytest.mark.parametrize("points", [GREAT, SMALL, SMALL[:3], GREAT[:2], [[0, 0, 13], [0, 0, -13]]])
+@pytest.mark.parametrize("points", [*CIRCLES.values(), SMALL, SMALL[:3]], ids=[*CIRCLES, "small", "three"])
 def test_points_on_one_circle(points):
+    points = 13 * points
     with pytest.raises(ValueError, match="Rank"):
         scipy.spatial.SphericalVoronoi(points, 13)
     sv = SphericalVoronoi(points, 13)
@@ -116,23 +90,6 @@ def test_points_closer_than_the_threshold(distance):
     check_delaunay(points, sv._simplices)
 
 
-def test_equal_points_have_empty_regions():
-    points = np.concatenate([sphere(20), sphere(20)[:5]])
-    sv = SphericalVoronoi(points)
-    assert sv.regions[20:] == [[]] * 5
-    assert (sv.calculate_areas()[20:] == 0).all()
-    np.testing.assert_array_equal(sv.calculate_areas()[:20], SphericalVoronoi(points[:20]).calculate_areas())
-    check_delaunay(points, sv._simplices)
-
-
-def test_points_of_a_hemisphere():
-    points = sphere()
-    points[:, 2] = np.abs(points[:, 2])
-    ours, theirs = SphericalVoronoi(points), scipy.spatial.SphericalVoronoi(points)
-    np.testing.assert_allclose(ours.calculate_areas(), theirs.calculate_areas(), rtol=1e-9)
-    check_delaunay(points, ours._simplices)
-
-
 @given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), max_size=12), st.integers(1, 9))
 def test_areas_fill_the_sphere(vectors, radius):
     points = np.reshape(vectors, (-1, 3)).astype(float)
@@ -143,37 +100,9 @@ def test_areas_fill_the_sphere(vectors, radius):
         assert (np.abs(np.linalg.norm(sv.vertices, axis=1) - radius) < 1e-14 * radius).all()
 
 
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((sphere(), None), "`radius` is `None`"),
-        ((sphere(), 0.98), r"Radius inconsistent with generators: points\[\d+\] is 1.* from the center, but radius"),
-        ((sphere(), 1, [0.1, 0, 0]), "Radius inconsistent"),
-        ((sphere(), -1), "radius is -1"),
-        ((sphere(), 1, [0, 0]), r"center must have shape \(3,\)"),
-        ((sphere()[:, :2],), "for other dimensions: from scipy.spatial import "),
-        (([[0, 0, np.nan]],), r"points\[0, 2\] is nan"),
-        ((sphere(), 1, None, -1e-6), "threshold is -1e-06"),
-    ],
-)
-def test_errors(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        SphericalVoronoi(*arguments)
-
-
 def test_threshold_is_relative_to_the_radius():
     points = sphere() * 1000
     points[3] *= 1 + 2e-6
     with pytest.raises(ValueError, match=r"points\[3\]"):
         SphericalVoronoi(points, 1000)
     assert len(SphericalVoronoi(points, 1000, threshold=3e-6).vertices) == 196
-
-
-def test_input_is_copied_and_pickles():
-    points, center = sphere(), np.zeros(3)
-    sv = SphericalVoronoi(points, center=center)
-    points[:] = center[:] = 7
-    assert np.abs(sv.points).max() <= 1
-    assert (sv.center == 0).all()
-    again = pickle.loads(pickle.dumps(sv))
-    np.testing.assert_array_equal(again.calculate_areas(), sv.calculate_areas())

@@ -1,7 +1,5 @@
 """`stereodel.spatial.Voronoi`: attribute by attribute against SciPy, and where SciPy has no answer."""
 
-import pickle
-
 import numpy as np
 import pytest
 import scipy.spatial
@@ -9,32 +7,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stereodel import PlanarVoronoi, check_delaunay
-from stereodel.spatial import Voronoi
+from stereodel.spatial import Delaunay, Voronoi
+from tests import sets
+from tests.spatial.oracle import cycle, random_points, vertex_numbers
 
 SMALL_SETS = st.lists(st.tuples(st.integers(0, 4), st.integers(0, 4)), max_size=14)
-GRID = np.array([[x, y] for x in range(4) for y in range(3)], dtype=float)
 
 
-def random_points(n=200, seed=0):
-    return np.random.default_rng(seed).random((n, 2))
-
-
-def vertex_numbers(theirs, ours):
-    """Our number of each of their vertices; their -1 stays."""
-    distance, match = scipy.spatial.cKDTree(ours.vertices).query(theirs.vertices)
-    assert distance.max() < 1e-7 * np.abs(theirs.vertices).max()
-    assert len(np.unique(match)) == len(ours.vertices) == len(theirs.vertices)
-    return [*match.tolist(), -1]
-
-
-def cycle(region):
-    """The same cycle from its lowest member on, in the direction of its lower neighbor."""
-    start = region.index(min(region))
-    turned = region[start:] + region[:start]
-    return tuple(min(turned, turned[:1] + turned[:0:-1]))
-
-
-@pytest.mark.parametrize("points", [random_points(), GRID], ids=["random", "grid"])
+@pytest.mark.parametrize("points", [random_points(), sets.plane("small grid").points], ids=["random", "grid"])
 @pytest.mark.parametrize("options", [None, "Qbb Qc", "Qc Qz"])
 def test_same_cells_and_ridges(points, options):
     ours, theirs = Voronoi(points, qhull_options=options), scipy.spatial.Voronoi(points, qhull_options=options)
@@ -56,19 +36,6 @@ def test_same_cells_and_ridges(points, options):
         assert getattr(ours, name) == getattr(theirs, name)
     for name in ("points", "min_bound", "max_bound"):
         np.testing.assert_array_equal(getattr(ours, name), getattr(theirs, name))
-
-
-def test_same_types():
-    ours, theirs = Voronoi(random_points()), scipy.spatial.Voronoi(random_points())
-    for name in ("points", "vertices", "ridge_points", "point_region"):
-        assert getattr(ours, name).dtype == getattr(theirs, name).dtype
-        assert getattr(ours, name).flags.writeable
-    for name in ("regions", "ridge_vertices"):
-        assert {type(row) for row in getattr(ours, name)} == {type(row) for row in getattr(theirs, name)} == {list}
-        assert {type(v) for row in getattr(ours, name) for v in row} == {int}
-    key = next(iter(ours.ridge_dict))
-    assert type(key) is type(next(iter(theirs.ridge_dict)))
-    assert all(ends[1] >= 0 for ends in ours.ridge_vertices), "infinity comes first, as in SciPy"
 
 
 def test_regions_are_those_of_the_exact_diagram():
@@ -121,28 +88,12 @@ def test_small_sets(points, regions, ridges):
             scipy.spatial.Voronoi(points)
 
 
-def test_points_that_qhull_cannot_separate_have_cells_of_their_own():
+def test_points_that_qhull_cannot_separate_are_vertices_and_have_cells_of_their_own():
     points = np.concatenate([random_points(50), [0.5, 0.5] + 1e-13 * random_points(50, 1)])
-    vor = Voronoi(points)
+    vor, tri = Voronoi(points), Delaunay(points)
+    assert len(np.unique(tri.simplices)) == len(points)
+    assert tri.coplanar.shape == (0, 3)
+    check_delaunay(points, tri.simplices)
     assert len(set(vor.point_region.tolist())) == 100
     theirs = scipy.spatial.Voronoi(points)
     assert len(set(theirs.point_region.tolist())) < 100
-
-
-@pytest.mark.parametrize(
-    ("arguments", "message"),
-    [
-        ((np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
-        ((np.zeros((4, 2)), True), "furthest_site=True"),
-        ((np.zeros((4, 2)), False, False, "Qu"), "'Qu'; known here are"),
-        (([[0, np.inf]],), r"points\[0, 1\] is inf"),
-    ],
-)
-def test_what_is_not_supported_is_a_clear_error(arguments, message):
-    with pytest.raises(ValueError, match=message):
-        Voronoi(*arguments)
-
-
-def test_pickle():
-    vor = pickle.loads(pickle.dumps(Voronoi(random_points())))
-    assert vor.regions == Voronoi(random_points()).regions

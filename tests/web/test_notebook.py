@@ -244,8 +244,12 @@ def test_arguments_are_checked_and_results_are_arguments():
     assert globe.lens == {"focus": (20.0, 30.0), "magnification": 2.0}
     assert View(**globe.view) == View(20.0, 30.0)
     assert fisheye(**globe.lens).magnification == pytest.approx(2.0)
+    globe.selection = [1]
+    globe.lonlat = [(0, 0)]
+    assert globe.selection == []
     globe.lonlat = []
     assert globe.lonlat.shape == (0, 2)
+    assert len(globe._esm) < 400_000  # is sent and stored for every widget
 
 
 @pytest.mark.parametrize(
@@ -266,15 +270,3 @@ def test_wrong_values_are_refused_and_change_nothing(name, value, said):
     with pytest.raises(ValueError, match=said):
         setattr(globe, name, value)
     assert str(getattr(globe, name)) == str(before)
-
-
-def test_fewer_sites_leave_no_selection_of_others():
-    globe = GlobeWidget(lonlat=[(0, 0), (1, 1)])
-    globe.selection = [1]
-    globe.lonlat = [(0, 0)]
-    assert globe.selection == []
-
-
-def test_the_module_is_small():
-    """It is sent and stored for every widget."""
-    assert len(GlobeWidget()._esm) < 400_000

@@ -1,7 +1,5 @@
 """What the Sphere room says of sites, against the library: bubbles, facets that see the pole, insertion, the plane."""
 
-import json
-
 import numpy as np
 import pytest
 
@@ -10,35 +8,23 @@ from stereodel.sphere import SphereCircle
 from stereodel.triangulation.theorem import merged_polygons, planar_part
 from stereodel.web.contents import scattered
 
-from .conftest import SCRIPT
+from .conftest import LOADED, SCRIPT
 
 GAP = scattered()["gap"]
 
-WASM = SCRIPT.parent / "built" / "stereodel.wasm"
-
-ROOM = f"""
-import {{ readFileSync }} from "node:fs";
-import {{ text }} from "node:stream/consumers";
-import {{ load }} from "{SCRIPT}/kernel/instance.ts";
+ROOM = f"""{LOADED}
 import {{ lonlatToXyz }} from "{SCRIPT}/kernel/api.ts";
 import {{ facetsAfter }} from "{SCRIPT}/rooms/insertion.ts";
 import {{ directionOf }} from "{SCRIPT}/rooms/space.ts";
 import {{ SphereSites }} from "{SCRIPT}/rooms/sphere_sites.ts";
 import {{ Twin }} from "{SCRIPT}/rooms/twin.ts";
 import {{ sphereSets }} from "{SCRIPT}/sets.ts";
-await load(readFileSync("{WASM}"));
-const given = JSON.parse(await text(process.stdin));
 const sitesOf = (lonlat) => new SphereSites(Float64Array.from(lonlat.flat()));
 """
 
 
 def ask(node, expression, given=None):
-    return node(f"{ROOM}console.log(JSON.stringify({expression}));", input=json.dumps(given))
-
-
-def degrees(rng, count, south=-90):
-    lonlat = np.round(rng.uniform((-180, south), (180, 90), size=(count, 2)), 3)
-    return lonlat
+    return node(f"{ROOM}export default {expression};", given)
 
 
 def triangles(rows):
@@ -50,19 +36,13 @@ def triangles(rows):
 
 @pytest.fixture
 def lonlat(rng):
-    return degrees(rng, 80)
+    return np.round(rng.uniform((-180, -90), (180, 90), size=(80, 2)), 3)
 
 
 def test_facets_that_see_the_pole_are_those_the_plane_lacks(node, lonlat):
     poles = [[-150.0, 53.1], [12.0, -89.0], lonlat[3].tolist()]
-    seeing = ask(
-        node,
-        "given.poles.map((pole) => [...sitesOf(given.lonlat).seeing(lonlatToXyz(pole))])",
-        {
-            "lonlat": lonlat.tolist(),
-            "poles": poles,
-        },
-    )
+    expression = "given.poles.map((pole) => [...sitesOf(given.lonlat).seeing(lonlatToXyz(pole))])"
+    seeing = ask(node, expression, {"lonlat": lonlat.tolist(), "poles": poles})
     delaunay = SphericalDelaunay.from_lonlat(lonlat)
     for pole, found in zip(poles, seeing, strict=True):
         corners = delaunay.points[delaunay.simplices]
@@ -113,12 +93,11 @@ def test_bubbles_and_their_images_are_circles_of_the_library(node, lonlat):
 
 
 def test_a_circle_through_the_pole_becomes_a_line(node):
-    circles = "[[1, 0, 0], 0], [[0.6, 0, 0.8], 0.8]"
-    lines = ask(node, f"[{circles}].map(([center, cosine]) => new Twin([0, 0, 1]).circle(center, cosine))")
-    assert [line["kind"] for line in lines] == ["line", "line"]
-    image = Stereographic((0.0, -90.0)).forward([0.96, 0, 0.28])  # on the second circle, opposite the pole
-    assert np.dot(lines[1]["normal"], image) == pytest.approx(lines[1]["offset"])
-    assert lines[1]["offset"] != 0
+    """The image of a point of the circle opposite the pole lies on it."""
+    line = ask(node, "new Twin([0, 0, 1]).circle([0.6, 0, 0.8], 0.8)")
+    assert line["kind"] == "line"
+    image = Stereographic((0.0, -90.0)).forward([0.96, 0, 0.28])
+    assert np.dot(line["normal"], image) == pytest.approx(line["offset"]) != 0
 
 
 def test_inserting_one_site_after_another_ends_with_the_kernels_facets(node, lonlat):
@@ -148,31 +127,13 @@ def test_inserting_into_squares_keeps_a_triangulation(node):
     for count, facets in zip(range(9, len(sites) + 1), after, strict=True):
         delaunay = SphericalDelaunay.from_lonlat(sites[:count])
         assert len(triangles(facets)) == 2 * count - 4
-        assert merged_polygons(delaunay, facets_of(facets)) == merged_polygons(delaunay)
-
-
-def facets_of(flat):
-    return np.reshape(flat, (-1, 3))
+        assert merged_polygons(delaunay, np.reshape(facets, (-1, 3))) == merged_polygons(delaunay)
 
 
 def test_without_facets_nothing_sees_a_site(node):
     circle = [[lon, 0] for lon in (0, 20, 50, 90, 200)]
-    assert ask(
-        node, "[sitesOf(given).insertion(4), sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]", circle
-    ) == [
-        None,
-        None,
-        0,
-    ]
-
-
-def test_the_first_picture_says_what_is_true():
-    """The numbers of the first sentence, and the sum below it, from the library."""
-    delaunay = SphericalDelaunay.from_lonlat(GAP)
-    assert len(GAP) == 54
-    assert len(delaunay.simplices) == 104
-    assert len(planar_part(delaunay, lonlat_to_xyz([-150.0, 53.1]))) == 94
-    assert not delaunay.closing.any()
+    expression = "[sitesOf(given).insertion(4), sitesOf([]).facetAt([1, 0, 0]), sitesOf(given).facetCount]"
+    assert ask(node, expression, circle) == [None, None, 0]
 
 
 def test_sets_are_places_of_the_sphere_with_facets(node):

@@ -1,0 +1,194 @@
+"""Other doors to the interpolators: DataArrays in, DataArrays out; `griddata` as SciPy has it."""
+
+import dask
+import dask.array
+import numpy as np
+import pytest
+import scipy.interpolate
+import xarray as xr
+
+import stereodel.xarray
+from stereodel.interpolation import LinearInterpolator, griddata
+from tests.interpolation.known import KINDS
+
+LON, LAT = np.linspace(-10, 10, 5), np.linspace(-8, 8, 3)
+GRID = np.stack(np.meshgrid(LON, LAT), axis=-1)
+
+
+@pytest.fixture
+def lonlat():
+    return np.random.default_rng(1).uniform(-30, 30, (50, 2))
+
+
+@pytest.fixture
+def stations(lonlat):
+    """Four times, fifty stations, three levels."""
+    coords = {
+        "lon": ("station", lonlat[:, 0]),
+        "lat": ("station", lonlat[:, 1]),
+        "time": np.arange(4),
+        "code": ("station", np.arange(50)),
+        "source": "made up",
+    }
+    values = np.random.default_rng(2).normal(size=(4, 50, 3))
+    values[1, 7, 1] = np.nan
+    return xr.DataArray(values, coords, ("time", "station", "level"), "t", {"units": "K"})
+
+
+@pytest.mark.parametrize("method", KINDS)
+@pytest.mark.parametrize(
+    "order", [("time", "station", "level"), ("station", "level", "time"), ("level", "time", "station")]
+)
+def test_the_accessor_gives_a_grid(method, order, stations, lonlat):
+    """For axes as lists; whatever the order of dimensions."""
+    found = stations.transpose(*order).stereodel.interpolate(lon=LON, lat=LAT, method=method, latitude="geodetic")
+    values = np.moveaxis(stations.values, 1, 0)
+    expected = KINDS[method].from_lonlat(lonlat, values, latitude="geodetic")(lonlat=GRID)
+    assert found.dims == (*(name for name in order if name != "station"), "lat", "lon")
+    assert np.array_equal(found.transpose("lat", "lon", "time", "level"), expected, equal_nan=True)
+    assert np.isnan(expected).any()
+    assert found.name == "t"
+    assert found.attrs == {"units": "K"}
+    assert set(found.coords) == {"lon", "lat", "time", "source"}
+    assert np.array_equal(found.lon, LON)
+    assert np.array_equal(found.lat, LAT)
+
+
+@pytest.mark.parametrize("method", KINDS)
+def test_lazy_values_stay_lazy(method, stations):
+    """Nothing is computed before it is asked for, and the weights are made once."""
+    lazy = stations.copy(data=dask.array.from_array(stations.values, chunks=(1, 20, 2)))
+    with dask.config.set(scheduler=refused):
+        found = lazy.stereodel.interpolate(lon=LON, lat=LAT, method=method)
+    assert isinstance(found.data, dask.array.Array)
+    assert found.shape == (4, 3, 3, 5)
+    expected = stations.stereodel.interpolate(lon=LON, lat=LAT, method=method)
+    computed = found.compute(scheduler="synchronous")
+    xr.testing.assert_identical(xr.zeros_like(computed), xr.zeros_like(expected))
+    xr.testing.assert_allclose(computed, expected, rtol=1e-13)  # fitted gradients: sums of several fields at once
+
+
+def refused(*_, **__):
+    raise AssertionError("computed too early")
+
+
+def test_points_and_curvilinear_grids(stations, lonlat):
+    linear = LinearInterpolator.from_lonlat(lonlat, np.moveaxis(stations.values, 1, 0))
+    way = (
+        xr.DataArray(LON[:3], dims="place"),
+        xr.DataArray(LAT, dims="place", name="phi", attrs={"units": "degrees_north"}),
+    )
+    found = stations.stereodel.interpolate(lon=way[0], lat=way[1])
+    assert found.dims == ("time", "level", "place")
+    assert np.array_equal(
+        found.transpose("place", "time", "level"), linear(lonlat=np.column_stack([LON[:3], LAT])), equal_nan=True
+    )
+    assert np.array_equal(found.lon, LON[:3])
+    assert found.phi.attrs == {"units": "degrees_north"}
+    bent = [xr.DataArray(GRID[..., k] + GRID[..., 1 - k] / 9, dims=("y", "x")) for k in (0, 1)]
+    found = stations.isel(time=0, level=0).stereodel.interpolate(lon=bent[0], lat=bent[1])
+    assert found.dims == ("y", "x")
+    assert found.lon.dims == ("y", "x")
+    expected = linear(lonlat=np.stack(bent, axis=-1))[..., 0, 0]
+    assert np.array_equal(found, expected, equal_nan=True)
+
+
+@pytest.mark.parametrize("names", [("longitude", "latitude"), ("x", "y")])
+def test_the_source_may_be_a_grid(names):
+    """Its coordinates found by name, standard name or units; a global one closes at the antimeridian."""
+    lon, lat = np.arange(0, 360, 30.0), np.arange(-60, 61, 30.0)
+    attrs = [{"standard_name": "longitude"}, {"units": "degrees_north"}] if names[0] == "x" else [{}, {}]
+    coords = {names[0]: (names[0], lon, attrs[0]), names[1]: (names[1], lat, attrs[1])}
+    values = np.random.default_rng(1).normal(size=(len(lat), len(lon)))
+    grid = xr.DataArray(values, coords, (names[1], names[0]))
+    points = np.stack(np.meshgrid(lon, lat), axis=-1).reshape(-1, 2)
+    expected = LinearInterpolator.from_lonlat(points, values.ravel())(lonlat=(345, 10))
+    assert grid.stereodel.interpolate(lon=-15.0, lat=10.0).item() == pytest.approx(expected, rel=1e-14)
+    assert grid.T.stereodel.interpolate(lon=-15.0, lat=10.0).item() == pytest.approx(expected, rel=1e-14)
+    same = grid.stereodel.interpolate(lon=lon[:3], lat=lat)
+    assert np.array_equal(same, values[:, :3])
+
+
+def test_one_place_and_extrapolation(stations, lonlat):
+    far = stations.stereodel.interpolate(lon=80.0, lat=0.0, extrapolate="nearest")
+    assert far.dims == ("time", "level")
+    assert far.lon.item() == 80.0
+    assert np.array_equal(far, stations.isel(station=int(np.argmax(lonlat[:, 0]))))
+    assert np.isnan(stations.stereodel.interpolate(lon=80.0, lat=0.0)).all()
+
+
+def test_what_cannot_be_found_is_said(stations):
+    with pytest.raises(ValueError, match="one coordinate of longitude, but there is none; name two by source="):
+        stations.drop_vars("lon").stereodel.interpolate(lon=LON, lat=LAT)
+    twice = stations.assign_coords(longitude=("station", np.zeros(50)))
+    with pytest.raises(ValueError, match="there are several: lon, longitude"):
+        twice.stereodel.interpolate(lon=LON, lat=LAT)
+    named = twice.stereodel.interpolate(lon=LON, lat=LAT, source=("lon", "lat"))
+    assert np.array_equal(named, stations.stereodel.interpolate(lon=LON, lat=LAT), equal_nan=True)
+    with pytest.raises(ValueError, match=r"source names 'l', but the coordinates are \['code', 'lat', 'lon'"):
+        stations.stereodel.interpolate(lon=LON, lat=LAT, source=("l", "lat"))
+    with pytest.raises(ValueError, match="lon and lat have the dimension 'time', which the values also have"):
+        stations.stereodel.interpolate(lon=xr.DataArray(LON, dims="time"), lat=1.0)
+    with pytest.raises(ValueError, match=r"lon has shape \(3, 5\); give a DataArray"):
+        stations.stereodel.interpolate(lon=GRID[..., 0], lat=LAT)
+
+
+@pytest.mark.parametrize("kind", KINDS.values())
+def test_interpolators_answer_as_they_are_asked(kind, stations, lonlat):
+    values = stations.transpose("station", "level", "time")
+    function = kind.from_lonlat(lonlat, values)
+    lon, lat = xr.DataArray(LON, dims="lon", name="lon"), xr.DataArray(LAT, dims="lat")
+    found = function(lonlat=(lon, lat))
+    assert found.dims == ("lat", "lon", "level", "time")
+    assert np.array_equal(found, kind.from_lonlat(lonlat, values.values)(lonlat=GRID), equal_nan=True)
+    assert found.attrs == {"units": "K"}
+    assert set(found.coords) == {"lon", "lat", "time", "source"}
+    assert function.gradient(lonlat=(lon, lat)).shape == (3, 5, 3, 4, 3)
+    plain = kind.from_lonlat(lonlat, values.values)(lonlat=(lon, lat))
+    assert plain.dims == ("lat", "lon", "value_0", "value_1")
+    assert np.array_equal(plain, found, equal_nan=True)
+
+
+def test_places_of_the_plane_and_weights(lonlat):
+    linear = LinearInterpolator(lonlat, lonlat[:, 0])
+    x, y = xr.DataArray(LON, dims="x"), xr.DataArray(LAT, dims="y")
+    assert linear((x, y)).dims == ("y", "x")
+    assert np.allclose(linear((x, y)), GRID[..., 0])
+    assert linear.weights((x, y)).shape == (3, 5)
+    with pytest.raises(ValueError, match=r"cannot align|conflict|join"):
+        linear((xr.DataArray(LON, {"p": LON}, "p"), xr.DataArray(LON, {"p": LON + 1}, "p")))
+
+
+def test_the_accessor_is_there_by_one_import():
+    assert isinstance(xr.DataArray(1).stereodel, stereodel.xarray.StereodelAccessor)
+
+
+@pytest.mark.parametrize("method", ["linear", "nearest"])
+@pytest.mark.parametrize("fill_value", [np.nan, -7.0])
+def test_values_are_those_of_scipy(method, fill_value, rng):
+    points, values = rng.random((100, 2)), rng.normal(size=(100, 2))
+    x, y = np.meshgrid(np.linspace(-0.2, 1.2, 31), np.linspace(-0.2, 1.2, 23))
+    ours = griddata(points, values, (x, y), method=method, fill_value=fill_value)
+    theirs = scipy.interpolate.griddata(points, values, (x, y), method=method, fill_value=fill_value)
+    assert ours.shape == theirs.shape == (23, 31, 2)
+    assert np.allclose(ours, theirs, rtol=0, atol=1e-9, equal_nan=True)
+    by_columns = griddata(tuple(points.T), values, np.stack([x, y], axis=-1), method=method, fill_value=fill_value)
+    assert np.array_equal(by_columns, ours, equal_nan=True)
+
+
+@pytest.mark.parametrize("method", KINDS)
+def test_methods_are_the_interpolators(method, rng):
+    lonlat, values = np.column_stack([rng.uniform(-50, 50, 80), rng.uniform(-40, 40, 80)]), rng.normal(size=80)
+    targets = np.column_stack([rng.uniform(-90, 90, 50), rng.uniform(-60, 60, 50)])
+    expected = KINDS[method].from_lonlat(lonlat, values, latitude="geodetic")(lonlat=targets)
+    found = griddata(lonlat, values, targets, method=method, latitude="geodetic")
+    assert np.array_equal(found, expected, equal_nan=True)
+    filled = griddata(lonlat, values, tuple(targets.T), method=method, latitude="geodetic", fill_value=9)
+    assert np.array_equal(filled, np.where(np.isnan(expected), 9, expected))
+
+
+def test_what_is_not_known_is_not_filled():
+    """Only what is outside is."""
+    values = np.ma.masked_equal([1.0, 2.0, 3.0, -9.0], -9)
+    found = griddata([[0, 0], [4, 0], [0, 4], [4, 4]], values, [[1, 1], [3, 3], [9, 9]], fill_value=0)
+    assert np.array_equal(found, [1.75, np.nan, 0], equal_nan=True)

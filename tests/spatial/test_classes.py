@@ -1,0 +1,153 @@
+"""What the three classes of `stereodel.spatial` share with SciPy's: names, types, copies, errors."""
+
+import copy
+import inspect
+import pickle
+
+import numpy as np
+import pytest
+import scipy.interpolate
+import scipy.spatial
+
+import stereodel
+import stereodel.spatial
+from tests import sets
+from tests.spatial.oracle import random_points
+
+FLAT, ROUND = random_points(60), sets.sphere("unit").drawn(60)
+POINTS = {"Delaunay": FLAT, "Voronoi": FLAT, "SphericalVoronoi": ROUND}
+
+
+@pytest.fixture(params=POINTS)
+def pair(request):
+    """An object of ours and one of SciPy's, of the same points."""
+    return [getattr(each, request.param)(POINTS[request.param]) for each in (stereodel.spatial, scipy.spatial)]
+
+
+def test_nothing_public_is_left_to_scipys_class(pair):
+    """Otherwise a method of SciPy's would look for a Qhull that is not there."""
+    ours, theirs = map(type, pair)
+    public = {name for cls in theirs.__mro__[:-1] for name in vars(cls) if not name.startswith("_")}
+    own = {name for cls in ours.__mro__ if cls.__module__.startswith("stereodel") for name in vars(cls)}
+    assert public - own == set()
+    assert issubclass(ours, theirs)
+
+
+def kind(value):
+    """The type, of arrays and lists with what they hold."""
+    if isinstance(value, np.ndarray):
+        return value.dtype, value.ndim, value.flags.writeable, value.flags.c_contiguous
+    if isinstance(value, dict):
+        return {kind(key) for key in value}, {kind(each) for each in value.values()}
+    if isinstance(value, list | tuple):
+        return type(value), frozenset(map(kind, value))
+    return type(value)
+
+
+def test_every_attribute_is_there_and_of_scipys_type(pair):
+    ours, theirs = pair
+    for name in dir(theirs):
+        if name.startswith("_") or (name in {"radius", "regions"} and hasattr(ours, "radius")):
+            continue
+        mine, other = getattr(ours, name), getattr(theirs, name)
+        assert callable(mine) if callable(other) else kind(mine) == kind(other), name
+    if isinstance(ours, stereodel.spatial.SphericalVoronoi):
+        assert kind(ours._simplices) == kind(theirs._simplices)
+        assert kind(ours.calculate_areas()) == kind(theirs.calculate_areas())
+        assert type(ours.radius) is float
+        assert {type(region) for region in ours.regions} == {list}
+
+
+def test_same_signatures(pair):
+    def parameters(function):
+        return [(p.name, p.default, p.kind) for p in inspect.signature(function).parameters.values()]
+
+    ours, theirs = map(type, pair)
+    names = {"__init__"} | {n for n in dir(theirs) if not n.startswith("_") and callable(getattr(theirs, n))}
+    for name in names:
+        assert parameters(getattr(ours, name)) == parameters(getattr(theirs, name)), name
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
+@pytest.mark.parametrize("name", POINTS)
+def test_copies(name, again):
+    one = getattr(stereodel.spatial, name)(POINTS[name])
+    other = again(one)
+    for attribute in ("points", "simplices", "neighbors", "vertices"):
+        if hasattr(one, attribute):
+            np.testing.assert_array_equal(getattr(other, attribute), getattr(one, attribute))
+    if name == "Delaunay":
+        np.testing.assert_array_equal(other.find_simplex(FLAT), one.find_simplex(FLAT))
+    else:
+        assert other.regions == one.regions
+
+
+@pytest.mark.parametrize("name", POINTS)
+def test_input_is_copied(name):
+    points = POINTS[name].copy()
+    one = getattr(stereodel.spatial, name)(points)
+    points[:] = 0
+    np.testing.assert_array_equal(one.points, POINTS[name])
+
+
+@pytest.mark.parametrize(
+    ("name", "arguments", "message"),
+    [
+        ("Delaunay", (np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
+        ("Voronoi", (np.zeros((4, 3)),), "for other dimensions: from scipy.spatial import "),
+        ("SphericalVoronoi", (FLAT,), "for other dimensions: from scipy.spatial import "),
+        ("Delaunay", (FLAT, True), "furthest_site=True"),
+        ("Voronoi", (FLAT, True), "furthest_site=True"),
+        ("Delaunay", (FLAT, False, True, "Qbb Qz Qc"), "'Qbb', 'Qz' cannot be used with incremental=True"),
+        ("Delaunay", (FLAT, False, False, "Qc QG0"), "'QG0'; known here are"),
+        ("Voronoi", (FLAT, False, False, "Qu"), "'Qu'; known here are"),
+        ("Delaunay", ([[0, np.nan]],), r"points\[0, 1\] is nan"),
+        ("Voronoi", ([[0, np.inf]],), r"points\[0, 1\] is inf"),
+        ("SphericalVoronoi", ([[0, 0, np.nan]],), r"points\[0, 2\] is nan"),
+        ("Delaunay", (np.ma.masked_all((3, 2)),), "masked"),
+        ("SphericalVoronoi", (ROUND, None), "`radius` is `None`"),
+        (
+            "SphericalVoronoi",
+            (ROUND, 0.98),
+            r"Radius inconsistent .*: points\[\d+\] is 1.* but radius is 0.98; scale",
+        ),
+        ("SphericalVoronoi", (ROUND, 1, [0.1, 0, 0]), "Radius inconsistent"),
+        ("SphericalVoronoi", (ROUND, -1), "radius is -1"),
+        ("SphericalVoronoi", (ROUND, 1, [0, 0]), r"center must have shape \(3,\)"),
+        ("SphericalVoronoi", (ROUND, 1, None, -1e-6), "threshold is -1e-06"),
+    ],
+)
+def test_what_is_not_supported_is_a_clear_error(name, arguments, message):
+    with pytest.raises(ValueError, match=message):
+        getattr(stereodel.spatial, name)(*arguments)
+
+
+def test_options_are_a_string():
+    with pytest.raises(TypeError, match="qhull_options must be a string or None"):
+        stereodel.spatial.Delaunay(FLAT, qhull_options=b"Qc")
+
+
+def test_every_other_name_of_scipy_spatial():
+    for name in scipy.spatial.__all__:
+        assert hasattr(stereodel.spatial, name)
+    from stereodel.spatial import KDTree, QhullError, tsearch, voronoi_plot_2d
+
+    assert KDTree is scipy.spatial.KDTree
+    assert QhullError is scipy.spatial.QhullError
+    assert voronoi_plot_2d is scipy.spatial.voronoi_plot_2d
+    tri = stereodel.spatial.Delaunay(FLAT)
+    assert tsearch(tri, [0.5, 0.5]) == tri.find_simplex([0.5, 0.5])
+    with pytest.raises(AttributeError, match=r"neither stereodel\.spatial nor scipy\.spatial has 'NoSuchThing'"):
+        _ = stereodel.spatial.NoSuchThing
+
+
+@pytest.mark.parametrize(
+    "method", [scipy.interpolate.LinearNDInterpolator, scipy.interpolate.CloughTocher2DInterpolator]
+)
+def test_scipys_interpolators_take_the_triangulation(method):
+    points = random_points(200)
+    values = np.column_stack([np.sin(5 * points[:, 0]), points[:, 1] ** 2])
+    ours, theirs = (method(module.Delaunay(points), values) for module in (stereodel.spatial, scipy.spatial))
+    assert ours.tri.__class__ is stereodel.spatial.Delaunay
+    queries = np.random.default_rng(2).uniform(-0.1, 1.1, (500, 2))
+    np.testing.assert_allclose(ours(queries), theirs(queries), rtol=1e-6, atol=1e-9)

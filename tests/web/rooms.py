@@ -1,0 +1,50 @@
+"""What tests ask of rooms of the page: their drawings, what is said, the link, files in and out, lines of Python."""
+
+import re
+
+DRAWINGS = {"sphere": "#sphere-ball", "lift": "#lift-plate", "globe": "#globe-plate"}
+"""Rooms, and their first drawing."""
+
+DISCS = {name: DRAWINGS[name] for name in ("sphere", "globe")}
+"""Those that are turned."""
+
+CANNOT_BE_READ = "This link cannot be read, so here is the room as it begins."
+
+
+def said(page, room, name):
+    """Text of an output of a room."""
+    return (
+        page.page.locator(f"#room-{room} [data-out={name}]").inner_text().replace("\u2009", "").replace("\u2002", " ")
+    )
+
+
+def link(page):
+    """The values of the address, once it has followed."""
+    page.page.wait_for_timeout(400)
+    return dict(part.split("=", 1) for part in page.link.split("&") if "=" in part)
+
+
+def opened(page, room, file):
+    """Open a file of the reader's in a room."""
+    page.page.set_input_files(f"#room-{room} input[type=file]", str(file))
+    page.page.wait_for_timeout(200)
+    page.rest()
+
+
+def downloaded(page, kind):
+    """The file that a room gives away: its name and its bytes."""
+    with page.page.expect_download() as download:
+        page.page.click(f"[data-export={kind}]:visible")
+    return download.value.suggested_filename, download.value.path().read_bytes()
+
+
+def python_lines(page):
+    """What a room shows as its lines of Python."""
+    page.page.click(".foot summary")
+    page.page.wait_for_timeout(500)
+    return page.page.locator("#python").inner_text()
+
+
+def numbers(text):
+    """Numbers with a decimal point in a text."""
+    return [float(number) for number in re.findall(r"\d+\.\d+", text)]
