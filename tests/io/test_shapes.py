@@ -166,7 +166,10 @@ def test_nothing(source):
         ('{"type": "LineString", "coordinates": [["1", "2"], ["3", "4"]]}', "row 1: .* are not two or three numbers"),
         ('{"type": "Point", "coordinates": [true, 4]}', "are not two or three numbers"),
         ('{"type": "Point", "coordinates": 5}', "row 1: has a Point whose coordinates are 5, which is no list"),
-        ('{"type": "MultiPolygon", "coordinates": [5]}', "has a MultiPolygon whose coordinates are 5, which is no list"),
+        (
+            '{"type": "MultiPolygon", "coordinates": [5]}',
+            "has a MultiPolygon whose coordinates are 5, which",
+        ),
         ('{"type": "Polygon", "coordinates": {}}', "has a Polygon whose coordinates are {}, which is no list"),
         ('{"type": "GeometryCollection", "geometries": 5}', "whose geometries are 5, which is no list"),
         ('{"type": "Point", "coordinates": [1e999, 4]}', "not finite"),
