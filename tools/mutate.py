@@ -84,7 +84,7 @@ def outcomes(tests: Sequence[str]) -> dict[str, set[str]]:
     report = BUILD / "report.xml"
     report.unlink(missing_ok=True)
     command = [sys.executable, "-m", "pytest", "-p", "tools.mutate", "-qm", "", f"--junitxml={report}"]
-    settings = {"PYTHONPATH": str(TREE), "CI": "true", "PYTEST_ADDOPTS": "-p no:cacheprovider"}
+    settings = {"PYTHONPATH": str(TREE), "CI": "true", "PYTEST_ADDOPTS": "-p no:cacheprovider --assert=plain"}  # fast
     done = subprocess.run([*command, *tests], cwd=TREE, env=os.environ | settings, capture_output=True, text=True)
     said: dict[str, set[str]] = {test: set() for test in tests}
     for case in ET.parse(report).iter("testcase") if report.is_file() else ():
