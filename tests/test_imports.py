@@ -147,14 +147,6 @@ def test_arrows_go_down_and_each_is_needed():
     assert forbidden(EDGES) == []
 
 
-def test_a_wrong_arrow_is_seen():
-    assert wrong_arrows([("stereodel.sphere.arcs", "stereodel.projections.azimuthal")])
-    assert wrong_arrows([("stereodel.predicates", "stereodel")])
-    assert not wrong_arrows([("stereodel.projections.azimuthal", "stereodel.sphere.arcs")])
-    assert needless({"io": {"globe", "curves"}}, [("stereodel.io.tiles", "stereodel.curves.clip")]) == {("io", "globe")}
-    assert forbidden([("stereodel.io.writing", "stereodel.globe.layers")])
-
-
 def test_drawing_asks_matplotlib_for_type_and_names_of_colours_alone():
     """And nothing in it OpenGL, or what opens it."""
     foreign = {

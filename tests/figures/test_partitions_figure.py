@@ -31,18 +31,3 @@ def test_every_bubble_drawn_meets_a_box_and_every_box_a_bubble(g):
     assert meet.any(axis=0).all()
     inside = g["points"][g["new"]] @ g["planes"][:, :3].T >= g["planes"][:, 3]
     assert 0 < inside.any(axis=0).sum() < len(g["planes"])  # that a box is met does not say that a point is
-
-
-def test_outlines_bound_what_is_in_a_box(g):
-    """The middle of an arc is on one face; a little to its left is inside the box, and to its right outside."""
-    outline = script("earth_partitions")["outline"]
-    for box in (*g["rooms"], *g["boxes"]):
-        arcs = outline(box)
-        assert arcs
-        for arc in arcs:
-            before, middle, after = arc.sample(3)
-            way = np.cross(middle, after - before)
-            for side, expected in ((1e-7, True), (-1e-7, False)):
-                at = middle + side * way / np.linalg.norm(way)
-                at /= np.linalg.norm(at)
-                assert ((box[0] <= at) & (at <= box[1])).all() == expected

@@ -83,12 +83,6 @@ def test_arrays_come_back_as_they_were(tmp_path):
     assert array_differences(STORED, read, tolerance=0.0) == {}
 
 
-def test_the_same_arrays_give_the_same_bytes(tmp_path):
-    first, second = (save_arrays(STORED, tmp_path / name).read_bytes() for name in ("a.npz.xz", "b.npz.xz"))
-    assert first == second
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.npz.xz", "b.npz.xz"]
-
-
 @pytest.mark.parametrize(
     ("name", "change", "says"),
     [

@@ -28,6 +28,7 @@ TABLES = {
     "comments_alone.csv": "# a\n# b\n",
     "comments.csv": "# a\r\n# b\nlon,lat\n1,2\n1,'3\n",
     "no_column.csv": "a,b\n1,2\n",
+    "no_latitude.csv": "lon,b\n1,2\n",
     "quotes_in_names.csv": "it's,b\"c\n1,2\n",
     "two_columns.csv": "lon,longitude,lat\n1,2,3\n",
     "many_columns.csv": LONG + "\n" + ",".join("1" * 40) + "\n",

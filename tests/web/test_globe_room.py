@@ -374,10 +374,3 @@ def test_a_picture_of_another_shape_is_refused(globe, tmp_path):
     globe.page.page.set_input_files("#room-globe input[type=file]", str(file))
     globe.page.until("document.querySelector('[role=alert]')")
     assert "100 × 100" in globe.page.page.inner_text("[role=alert]")
-
-
-def test_no_motion_where_none_is_wanted(room):
-    page = room("globe", reduced_motion=True)
-    page.page.click(".views li:nth-child(2) button")
-    page.page.wait_for_timeout(100)
-    assert page.frames(0.5) <= 1

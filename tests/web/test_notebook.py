@@ -10,7 +10,6 @@ import time
 import urllib.error
 import urllib.request
 
-import nbformat
 import pytest
 
 from stereodel import fisheye
@@ -57,6 +56,8 @@ COMPILED = """(() => {
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """The folder of the notebook, where the widgets' state is saved with it."""
+    import nbformat  # takes a second
+
     folder = tmp_path_factory.mktemp("lab")
     settings = folder / "settings" / "@jupyter-widgets" / "jupyterlab-manager"
     settings.mkdir(parents=True)

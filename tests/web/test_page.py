@@ -395,17 +395,3 @@ def test_the_lines_of_python_make_the_same_picture(room, name, tmp_path, monkeyp
     check(names, capsys.readouterr().out)
     assert sorted(path.stem for path in tmp_path.glob("*.svg")) == files
     assert all(path.stat().st_size > 10_000 for path in tmp_path.glob("*.svg"))
-
-
-@thorough
-@pytest.mark.parametrize("touch", [False, True])
-@pytest.mark.parametrize("name", ["sphere", "lift"])
-def test_tables_show_whole_rows(room, name, touch):
-    page = room(name, touch=touch, width=390 if touch else 1280)
-    height, head, row = page.page.evaluate(
-        "(room) => ['.sites', 'thead', 'tr[data-site]'].map((selector, k) => { const each ="
-        " document.querySelector(`${room} ${selector}`); return k ? each.getBoundingClientRect().height :"
-        " each.clientHeight; })",
-        f"#room-{name}",
-    )
-    assert (height - head) / row == pytest.approx(7, abs=0.05)

@@ -28,12 +28,6 @@ def value(page, name):
     return page.page.locator(f"{ROOM} [name={name}]").input_value()
 
 
-def is_accent(pixels):
-    """Pixels of the colour of what is held."""
-    red, green, blue = (pixels[..., k].astype(int) for k in range(3))
-    return (red > 180) & (red - green > 60) & (green - blue > 40)
-
-
 def test_the_bubble_follows_the_pointer_until_a_click_keeps_it(room):
     page = room("sphere")
     before = page.digest(PLANE)
@@ -212,13 +206,6 @@ def test_without_triangles_the_sentence_says_so(room, state, sentence):
     assert page.ink(BALL) > 0.001
 
 
-def test_the_ball_is_named_and_seen_from_somewhere(room):
-    page = room("v=1&room=sphere&set=hemisphere")
-    assert page.page.locator(BALL).get_attribute("aria-label") == "Sphere with 40 sites"
-    assert page.page.locator(f"{ROOM} [data-show=closing]").is_visible()
-    assert not room("sphere").page.locator(f"{ROOM} [data-show=closing]").is_visible()
-
-
 def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tmp_path):
     file = tmp_path / "towns.csv"
     file.write_text("name,lat,lon\nUlm,48.4,10\nQuito,-0.2,-78.5\n<b>Lagos</b>,6.5,3.4\nPerth,-31.9,115.9\n")
@@ -245,34 +232,6 @@ def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tm
     assert named.page.locator(f"{ROOM} select[name=set] option:checked").inner_text() == "towns.csv"
     named.page.wait_for_timeout(500)
     assert 'read_points("towns.csv")' in named.page.locator("#python").inner_text()
-
-
-def test_the_bubble_goes_and_comes_with_its_switch(room):
-    page = room("sphere")
-    shares = []
-    for _ in range(3):
-        shares.append([is_accent(page.picture(canvas)).mean() for canvas in (BALL, PLANE)])
-        page.page.locator(f"{ROOM} [name=bubble]").click()
-        page.rest()
-    assert max(shares[1]) < 0.001 < min(shares[0])  # what is left is the handle of the pole
-    assert shares[2] == shares[0]
-    page.page.locator(f"{ROOM} [name=bubble]").click()
-    assert output(page, "sentence").startswith("The circle round")
-
-
-def test_sites_that_lie_close_are_dark(room, tmp_path, rng):
-    file = tmp_path / "close.csv"
-    near = rng.normal(scale=0.2, size=(80, 2))
-    np.savetxt(file, np.vstack([near, [[0, 120], [40, -120], [-40, -120]]]), "%.5f", delimiter=",", header="lat,lon")
-    file.write_text(file.read_text().removeprefix("# "))
-    page = room("sphere")
-    opened(page, "sphere", file)
-    for name in ("triangles", "cells", "bubble", "seeing"):
-        page.page.locator(f"{ROOM} [name={name}]").uncheck()
-    page.rest()
-    picture = page.picture(BALL)
-    y, x = (size // 2 for size in picture.shape[:2])
-    assert picture[y - 1 : y + 2, x - 1 : x + 2].max() < 90  # rims of paper would be white here
 
 
 def test_a_failure_is_told_and_the_room_is_drawn_again(visit, page_file):
