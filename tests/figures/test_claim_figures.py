@@ -193,14 +193,3 @@ def test_contours_have_their_heights_and_the_points_those_of_the_relief(name):
 def within_a_line(g, first):
     """Whether a point of the contours and the next one belong to one line."""
     return ~np.isin(first + 1, np.cumsum(g["sizes"]))
-
-
-def test_facets_are_cut_where_the_sea_begins():
-    cut = script("claim_planet")["cut_at_sea"]
-    corners = np.array([[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]])
-    (land, above), (sea, below) = cut(corners, np.array([3.0, -1.0, -1.0]))
-    assert land.tolist() == corners.tolist()  # the sea is painted over it
-    assert sea.tolist() == [[3, 0], [4, 0], [0, 4], [0, 3]]
-    assert (above, below) == (1.0, -0.5)
-    ((whole, _),) = cut(corners, np.array([3.0, 0.0, 1.0]))
-    assert whole.tolist() == corners.tolist()

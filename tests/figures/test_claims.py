@@ -1,7 +1,6 @@
 """What each figure shows is what the paper says of it: statements about the drawn geometry, figure by figure."""
 
 import sys
-from colorsys import rgb_to_hsv
 
 import numpy as np
 import pytest
@@ -47,25 +46,6 @@ def test_figure_1_marks_a_triangle_whose_bubble_is_empty():
     (dot,) = [item for item in drawn.items if item.name == "points"]
     ends = np.vstack([item.path[[0, -1], [0, -1]] for item in drawn.items if item.name == "voronoi"])
     assert np.count_nonzero(np.linalg.norm(ends - dot.centers, axis=1) < 1e-9) == 3
-    (bubble,) = [item for item in drawn.items if item.name == "bubble"]
-    rim = path_points(bubble.path)
-    corners = module["VIEW"].project(g["sites"][g["triangle"]])
-    assert np.linalg.norm(rim[:, None] - corners, axis=-1).min(axis=0).max() < 1e-2
-
-
-@pytest.mark.parametrize("name", ["fig01_sphere", "fig02_plane", "fig07_rectangle"])
-def test_legends_name_what_is_drawn(name):
-    drawn = page(name)
-    legend = [item for item in drawn.items if item.name.startswith("legend")]
-    samples = {tuple(item.path[0, 0]): item for item in legend if isinstance(item, Stroke)}
-    words = {item.text: samples.get(item.anchor) for item in legend if isinstance(item, Label)}
-    for text, kind in (("Delaunay triangulation", "delaunay"), ("Voronoi diagram", "voronoi")):
-        lines = [item for item in drawn.items if item.name == kind]
-        assert {(item.color, item.width, item.dash) for item in lines} == {
-            (words[text].color, words[text].width, words[text].dash)
-        }
-    picture = [item for item in drawn.items if isinstance(item, Stroke) and not item.name.startswith("legend")]
-    assert max(anchor[1] for anchor in samples) < min(item.path[..., 1].min() for item in picture)
 
 
 def test_figure_2_ridges_are_perpendicular_bisectors_inside_the_frame():
@@ -93,23 +73,9 @@ def test_figure_3_section_is_the_ball_seen_along_its_plane():
     assert np.allclose(items["sites"].centers - center, small[[0, -1]])
     assert (small[1:-1] @ normal > g["offset"]).all()
     assert (large[1:-1] @ normal < g["offset"]).all()
-    # The tints, those of the ball, lie along the outer side of the arcs and meet where the plane is.
-    fills = {item.name: item for item in drawn.items if isinstance(item, Fill) and item.ball is None}
-    on_ball = {item.name: item.color for item in drawn.items if isinstance(item, Fill) and item.ball is not None}
-    for name, sign in (("small_bubble", 1), ("large_bubble", -1)):
-        assert fills[name].color == on_ball[name]
-        rim = path_points(*fills[name].paths) - center
-        distances = np.linalg.norm(rim, axis=1)
-        assert (distances.min(), distances.max()) == pytest.approx((1, 1 + module["BAND"]), abs=1e-6)
-        assert (sign * (rim @ normal - g["offset"])).min() == pytest.approx(0, abs=1e-6)
-        assert np.isclose(rim @ normal, g["offset"], rtol=0, atol=1e-9).sum() >= 2 * 65
-    # It points as the axis of the circle on the left does, whose label is in the middle of the ellipse.
+    # It points as the axis of the circle on the left does.
     axis = module["VIEW"].project(g["normal"])
     assert np.allclose(axis / np.linalg.norm(axis), normal)
-    (label,) = [item for item in drawn.labels if item.text == "small bubble" and item.anchor[0] < 1.03]
-    (ellipse,) = [item for item in drawn.items if item.name == "circle"]
-    middle = (path_points(ellipse.path).min(axis=0) + path_points(ellipse.path).max(axis=0)) / 2
-    assert np.allclose(label.anchor, middle, atol=1e-3)
 
 
 def test_figure_4_hatches_the_plane_triangle_and_joins_its_corners_to_the_centre():
@@ -124,9 +90,6 @@ def test_figure_4_hatches_the_plane_triangle_and_joins_its_corners_to_the_centre
     radii = np.array([item.path[0, [0, 3]] for item in drawn.items if item.name == "radius"])
     assert np.allclose(radii[:, 0], 0)
     assert np.allclose(radii[:, 1], corners)
-    # Parallels and meridians are seen through the ball, fainter.
-    shades = {item.color[0] for item in drawn.items if item.name == "graticule"}
-    assert len(shades) == 2
 
 
 def test_figure_5_points_images_and_centre_of_projection_are_on_one_line():
@@ -183,16 +146,9 @@ def test_figure_6_writes_radius_and_extent_into_each_circle():
     module, g, drawn = script("fig06_sphere_size"), geometry("fig06_sphere_size"), page("fig06_sphere_size")
     assert np.allclose(g["extents"], 4 * np.degrees(np.arctan(module["HALF_LENGTH"] / (2 * np.array(module["RADII"])))))
     names, extents = drawn.labels[:-1:2], drawn.labels[1:-1:2]
-    arcs = [item for item in drawn.items if item.name.startswith("covered")]
-    for radius, extent, name, written, arc in zip(module["RADII"], g["extents"], names, extents, arcs, strict=True):
+    for radius, extent, name, written in zip(module["RADII"], g["extents"], names, extents, strict=True):
         assert float(written.text.strip("$°")) == pytest.approx(extent, abs=0.05)
         assert {"2": 2.0, "1": 1.0, "½": 0.5}[name.text.strip("$R= ")] == radius
-        # In the hue of its arc, and as dark or darker.
-        hues, _, values = zip(*(rgb_to_hsv(*color[:3]) for color in (arc.color, name.color)), strict=True)
-        assert name.color == written.color
-        assert hues[1] == pytest.approx(hues[0], abs=1 / 360)
-        assert values[1] <= values[0]
-        assert np.allclose(np.linalg.norm(path_points(arc.path) - [0, radius], axis=1), radius, atol=1e-6)
         # Inside its own circle, and outside the next.
         inside = [abs(name.anchor[1] - r) < r for r in module["RADII"]]
         assert sum(inside) == module["RADII"].index(radius) + 1
@@ -321,6 +277,7 @@ def test_the_numbers_of_figures_10_to_12(name, magnification, coarse, fine, half
     lon, lat = np.moveaxis(xyz_to_lonlat(back(arc_points(fine_rows))), -1, 0)
     assert (lon.min(), lon.max()) == pytest.approx((-half_width, half_width))
     assert (lat.min(), lat.max()) == pytest.approx((40 - half_width, 40 + half_width))
+    assert {f"$S = {magnification}$", "40° N"} <= {label.text for label in page(name).labels}
 
 
 def straightened(back, rows):

@@ -55,30 +55,6 @@ def test_the_bubble_follows_the_pointer_until_a_click_keeps_it(room):
     assert output(page, "sentence") != kept
 
 
-def test_the_grabbed_place_stays_under_the_pointer(room):
-    page = room("sphere")
-    x, y = page.middle(BALL)
-    start, end = (x + 40, y - 30), (x - 60, y + 45)  # from between the sites
-    radius = page.page.locator(BALL).bounding_box()["width"] / 2 - 7
-    grabbed = unseen(page, start, (x, y), radius)
-    page.page.emulate_media(reduced_motion="reduce")  # no running out
-    page.drag(start, end)
-    page.rest()
-    moved = unseen(page, end, (x, y), radius)
-    assert np.degrees(np.arccos(np.clip(grabbed @ moved, -1, 1))) < np.degrees(1.5 / radius)
-
-
-def unseen(page, at, middle, radius):
-    """The direction of the sphere under a place of the window, by the fields of the view."""
-    state = link(page)
-    lon, lat = (np.radians(float(state.get(f"view-{part}", 0))) for part in ("lon", "lat"))
-    u, v = (at[0] - middle[0]) / radius, (middle[1] - at[1]) / radius
-    right = np.array([-np.sin(lon), np.cos(lon), 0])
-    up = np.array([-np.sin(lat) * np.cos(lon), -np.sin(lat) * np.sin(lon), np.cos(lat)])
-    toward = np.cross(right, up)
-    return u * right + v * up + np.sqrt(1 - u * u - v * v) * toward
-
-
 def test_the_pole_is_dragged_over_the_limb(room):
     page = room("sphere")
     x, y = page.middle(BALL)
@@ -234,10 +210,8 @@ def test_names_stand_in_the_table_are_said_and_follow_the_hand_and_undo(room, tm
     assert 'read_points("towns.csv")' in named.page.locator("#python").inner_text()
 
 
-def test_a_failure_is_told_and_the_room_is_drawn_again(visit, page_file):
-    page = visit(f"{page_file.as_uri()}#sphere", complaints=["no clip"])
-    page.until("document.documentElement.dataset.ready")
-    page.rest()
+def test_a_failure_is_told_and_the_room_is_drawn_again(room):
+    page = room("sphere", complaints=["no clip"])
     clip = "CanvasRenderingContext2D.prototype.clip"
     page.page.evaluate(f"window.kept = {clip}; {clip} = () => {{ throw new Error('no clip'); }}; 0")
     page.page.locator(f"{ROOM} [name=cells]").uncheck()
