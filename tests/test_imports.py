@@ -203,24 +203,6 @@ def test_no_cycles_beside_the_package(folder):
     assert circle({name: targets & set(paths) for name, targets in edges.items()}) == ""
 
 
-def test_only_pictures_and_cli_use_more_than_numpy_and_scipy():
-    """SciPy is imported inside the functions that need it; what is loaded with the package is asked below."""
-    foreign = {
-        f"{name} imports {target}"
-        for name, path in MODULES.items()
-        if part(name) not in {"_progress", "curves", "drawing", "render", "mpl", "film", "globe", "cli"}
-        for target in imported(path)
-        if target.split(".")[0] not in {"stereodel", "numpy", "scipy", *sys.stdlib_module_names}
-    }
-    # In the function that decodes the picture; where arrays of xarray get their accessor; where a class is a widget.
-    assert foreign == {
-        "stereodel.data.sets imports PIL",
-        "stereodel.xarray imports xarray",
-        "stereodel.web.widget imports anywidget",
-        "stereodel.web.widget imports traitlets",
-    }
-
-
 def test_opengl_has_one_door():
     doors = {
         name for name, path in MODULES.items() if {t.split(".")[0] for t in imported(path)} & {"OpenGL", "pyrender"}

@@ -61,19 +61,6 @@ def test_no_pair_lies_beyond_the_curves_and_sides_end_on_them():
         assert constant == pytest.approx(2 * np.arcsin(share) / (np.pi * share), rel=1e-12)
 
 
-def test_the_chart_of_separation_has_both_scales():
-    """On the right 1/2, 3/4 and 1 stand at the constants by which the length R·angle is that share of d."""
-    module = script("claim_separation")
-    radius = module["lift"]().sphere.radius / module["lift"]().diagonal
-    for share, constant in ((0.5, 2 / np.pi), (1.0, 4 / np.pi)):
-        assert radius * constant * np.pi == pytest.approx(share)
-    heights = {
-        label.text: label.anchor[1] for label in page("claim_separation").labels if label.text in ("$2/\\pi$", "$3/4$")
-    }
-    (half,) = [x.anchor[1] for x in page("claim_separation").labels if x.text == "$1/2$" and x.align == "left"]
-    assert half == pytest.approx(heights["$2/\\pi$"])
-
-
 # P12 and P17: claim_scales.
 
 

@@ -355,16 +355,6 @@ def test_a_failure_amid_a_movement_leaves_the_last_picture(room, name):
     page.page.mouse.up()
 
 
-def test_the_circle_follows_the_pointer_on_both_bubbles(room):
-    page = room("v=1&room=globe&lens=bubble&fromlon=10&fromlat=42&tolon=10&tolat=42")
-    x, y = page.middle("#globe-before")
-    pixels = "['before', 'after'].map((name) => document.querySelector(`#globe-${name}`).toDataURL())"
-    before = page.page.evaluate(pixels)
-    page.page.mouse.move(x + 5, y - 3)
-    page.rest(still=0.4)
-    assert not set(page.page.evaluate(pixels)) & set(before)
-
-
 def test_a_picture_of_another_shape_is_refused(globe, tmp_path):
     file = tmp_path / "square.png"
     Image.new("RGB", (100, 100)).save(file)

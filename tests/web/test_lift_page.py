@@ -105,13 +105,6 @@ def test_tables_of_a_plane_are_opened_and_asked_about(room, tmp_path):
     assert message.inner_text().startswith("plane.csv, row 2: the y 'four' is not a number. Nothing has changed.")
     assert output(page, "sum").startswith("6 facets")
 
-    # Lengths have four digits of the sheet.
-    file.write_text("x,y\n4500000.1,5300000\n4500100,5299999.96\n-4500.25,5400000\n")
-    opened(page, "lift", file)
-    cells = page.page.locator(f"{ROOM} .sites tr[data-site] td").all_inner_texts()
-    assert [cells[k].replace("\u202f", " ") for k in (0, 1, 6)] == ["4 500 000", "5 300 000", "\u22124500"]
-    assert "In the sheet 4 505 610, which is 1.000" in output(page, "separation").replace("\u202f", " ")
-
     file.write_text("x,y\n1,2\n")
     opened(page, "lift", file)
     assert output(page, "separation") == "Two sites are needed."

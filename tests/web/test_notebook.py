@@ -42,6 +42,8 @@ READY = """(() => {
   return panel?.context?.isReady && panel.sessionContext.session?.kernel?.status === "idle";
 })()"""
 
+RUN = "(code) => jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code }).done"
+
 PIXELS = "document.querySelector('.stereodel-globe canvas').toDataURL()"
 
 DRAWN = "document.querySelectorAll('.stereodel-globe[data-frames]').length"
@@ -191,7 +193,7 @@ def test_a_notebook_from_the_first_run_to_the_next_time(notebook, folder, lab, b
     # Set from Python: the picture follows.
     before = page.evaluate(PIXELS)
     page.evaluate("jupyterapp.shell.currentWidget.content.activeCellIndex = 1")
-    run_in_kernel(page, SET)
+    page.evaluate(RUN, SET)
     page.wait_for_timeout(500)
     notebook.rest()
     assert page.evaluate(PIXELS) != before
@@ -228,12 +230,6 @@ def reopened(browser, lab, patience):
             break
         visit.close()
     return visit
-
-
-def run_in_kernel(page, code):
-    page.evaluate(
-        "(code) => jupyterapp.shell.currentWidget.sessionContext.session.kernel.requestExecute({ code }).done", code
-    )
 
 
 # The Python side
