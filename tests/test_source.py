@@ -74,14 +74,6 @@ def test_types_of_arrays_have_their_names_in_one_file():
     assert {file for file, tree in TREES.items() if array_names(tree)} == {"_arrays.py"}
 
 
-def test_one_name_a_type():
-    """But for what is meant by it: pixels and bytes are the same to NumPy, geometries and their binary, too."""
-    body = [node for node in TREES["_arrays.py"].body if isinstance(node, ast.Assign)]
-    types = [name for node in body if (name := ast.unparse(node.value)).startswith("npt.NDArray")]
-    assert len(types) == len(set(types)) + 2
-    assert types.count("npt.NDArray[np.uint8]") == types.count("npt.NDArray[np.object_]") == 2
-
-
 def part(file):
     """The package or module that a file belongs to."""
     return file.partition("/")[0].removesuffix(".py")

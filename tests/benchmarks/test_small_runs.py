@@ -9,20 +9,10 @@ from benchmarks import benchmark_page, compilers
 from benchmarks.conformal_maps import coastline, conformal_maps
 from benchmarks.derived import derived, graphs, others, queries
 from benchmarks.map_files import FORMATS, measure, table
-from benchmarks.rounds import in_turns
 from stereodel import PlanarDelaunay, SphericalDelaunay
 from tests import sets
 
 UNIT = sets.sphere("unit").drawn(400)
-
-
-def test_calls_take_turns():
-    made = []
-    found = in_turns({"a": lambda: made.append("a"), "b": lambda: made.append("b")}, "a", rounds=3)
-    assert made == ["a", "b"] * 4
-    assert len(found["b"]["rounds"]) == 3
-    assert found["a"]["ratios"] == [1.0] * 3
-    assert set(in_turns({"a": list}, rounds=2)["a"]) == {"seconds", "rounds"}
 
 
 def test_coastline_points_are_as_many_as_asked_and_different():

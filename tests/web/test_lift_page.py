@@ -19,22 +19,6 @@ def output(page, name):
     return said(page, "lift", name)
 
 
-def test_the_slider_bends_the_sheet(room):
-    page = room("lift")
-    pictures = {page.digest(PLATE)}
-    for angle, words in ((60, "radius 0.433 of the diagonal, scale 1 to 0.75"), (0, "flat: an infinite radius")):
-        page.page.locator("#bend").fill(str(angle))
-        page.rest()
-        assert output(page, "bend") == words
-        pictures.add(page.digest(PLATE))
-    assert len(pictures) == 3
-    assert "Bend it for an angle." in output(page, "separation")
-    assert not page.page.locator(f"{ROOM} .needle").is_visible()
-    assert link(page)["bend"] == "0"
-    page.page.locator("#bend").press("ArrowRight")
-    assert output(page, "bend").startswith("radius 28.6")
-
-
 def test_the_numbers_are_those_of_the_library(room):
     page = room("lift")
     places = {}

