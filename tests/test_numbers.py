@@ -49,6 +49,8 @@ NO_NUMBERS = {
     "nothing": objects([None, 1.0]),
 }
 ROUNDED = {
+    "negative": (np.array([[0, 1], [2, -ODD]]), "-9007199254740993"),
+    "the largest": (np.array([[0, 1], [2, 2**64 - 1]], dtype=np.uint64), "18446744073709551615"),
     "arrays without dimensions": ([[0.5, 1.0], [np.array(2), np.array(ODD)]], "9007199254740993"),
     "beyond 64 bits": ([[0, 1], [2, 2**70 + 1]], "1180591620717411303425"),
     "beyond all doubles": ([[0, 1], [2, 10**309]], "1000"),
