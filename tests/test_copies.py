@@ -125,10 +125,6 @@ def test_what_is_read_only_stays_so():
         assert not values["v"].flags.writeable
 
 
-def test_sources_of_data_can_be_copied():
-    assert copy.deepcopy(data.sources()) == pickle.loads(pickle.dumps(data.sources())) == data.sources()
-
-
 VALUES = {
     "MoebiusMap": lambda x: sd.fisheye((0, 40), magnification=x),
     "GroupPath": lambda x: conformal.GroupPath(LENS, sd.fisheye((0, 40), magnification=x)),
