@@ -48,13 +48,6 @@ def outside(shown):
     ]
 
 
-def test_a_column_is_as_wide_as_it_is_and_keeps_the_picture():
-    column = styled(page(), "column")
-    assert column.width == pytest.approx(8.4 * CM)
-    assert column.extent == pytest.approx((-2, 2, -1, 1))
-    np.testing.assert_array_equal(column.items[0].path, page().items[0].path)
-
-
 def test_a_slide_has_its_size_and_the_picture_in_the_middle():
     for extent in ((-2.0, 2.0, -1.0, 1.0), (-1.0, 1.0, -3.0, 3.0), (0.0, 9.0, 0.0, 1.0)):
         slide = styled(page(extent=extent), "slide")
@@ -111,16 +104,6 @@ def boxes_top(label, shown):
 def test_spaces_of_a_line_that_is_not_broken_stay():
     spaced = Label("M A R E   N O S T R U M", (0.0, 1.2), size=12.0)
     assert styled(page(spaced, extent=(-2.0, 2.0, -1.5, 1.5)), "column").labels[0].text == spaced.text
-
-
-def test_type_in_the_picture_moves_aside_and_none_covers_another():
-    words = [Label(f"word {k}", (0.05 * k, 0.0), (3.0, 0.0), "left") for k in range(4)]
-    before = page(*words, extent=(-2.0, 2.0, -1.0, 1.0))
-    column = styled(before, "column")
-    assert overlapping(before)
-    assert overlapping(column) == []
-    assert column.labels[0].offset == pytest.approx((3.0 * 7 / 9, 0.0))
-    assert len(column.labels) >= 3
 
 
 def test_type_that_is_clear_of_lines_stays_so():

@@ -164,17 +164,6 @@ def test_style_and_layer_can_be_given():
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
 
 
-def test_layout_is_repeatable_and_leaves_no_trace():
-    scene = Scene(style="glass")
-    scene.add_arcs(graticule(30), name="graticule")
-    scene.add_cap(SphereCircle.around((20, 10), 40), name="small_bubble")
-    first = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
-    scene.layout(View(50, -20))
-    again = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
-    assert first.keys() == again.keys()
-    assert all(np.array_equal(first[key], again[key]) for key in first)
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -188,11 +177,9 @@ def test_layout_is_repeatable_and_leaves_no_trace():
         (lambda s: s.add_label([0, 1], "x"), "point"),
         (lambda s: s.layout(FRONT, scale=-1), "scale"),
         (lambda s: s.page(FRONT, extent=(1, -1, -1, 1)), r"extent\[1\] - extent\[0\]"),
-        (lambda s: s.page(FRONT, extent=(-1, 1, 1, 1)), r"extent\[3\] - extent\[2\]"),
         (lambda s: s.page(FRONT, width=0), "width"),
         (lambda s: s.page(FRONT, background="sky"), "background is 'sky'"),
         (lambda s: s.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1], color=(1, 2, 3)), "color is"),
-        (lambda s: s.add_label([0, 0, 1], "x", color="sky"), "color is 'sky'"),
         (lambda s: s.add_region([CircleArc.great([1, 0, 0], [0, 1, 0])], name="cell"), "boundary"),
     ],
 )

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing import styled
+from stereodel.drawing.lengths import as_length
 from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.style_files import PageStyle
 
@@ -96,12 +97,10 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
         ("lines.coast.widht = 1", "mine.toml: lines.coast.widht is not a key of styles; give color, width"),
         ("lines.coast.width = -1", "mine.toml: lines.coast.width is -1"),
         ("lines.coast.width = '1 ell'", "mine.toml: lines.coast.width is '1 ell'; give a length with a unit"),
-        ("lines.coast.width = true", "mine.toml: lines.coast.width"),
         ("lines.coast = 1", "mine.toml: lines.coast is 1, but must be a table, such as [lines.coast]"),
         ("fills.land = 'grass'", "mine.toml: fills.land is 'grass', which is not a colour"),
         ("labels.size = 0", "mine.toml: labels.size is 0"),
         ("labels.font = 'Nowhere'", "mine.toml: labels.font is 'Nowhere', which this machine does not have"),
-        ("labels.font = 1", "mine.toml: labels.font"),
         ("dots = []", "mine.toml: dots is [], but must be a table"),
         ("base = 'bright'", "style is 'bright'"),
         ("background = [1, 2]", "mine.toml: background is [1, 2], which is not a colour"),
@@ -110,6 +109,20 @@ def test_an_empty_file_changes_nothing_and_a_base_comes_first(tmp_path):
 def test_what_is_wrong_is_said_with_file_and_key(text, message, tmp_path):
     with pytest.raises(ValueError, match=re.escape(message)):
         styled(page(), write(tmp_path, text))
+
+
+LENGTHS = {2.5: 2.5, "10": 10, "10pt": 10, "1in": 72, "25.4 mm": 72, "2.54CM": 72, " 1e1 mm ": 28.3465}
+
+
+@pytest.mark.parametrize(("given", "points"), LENGTHS.items())
+def test_lengths(given, points):
+    assert as_length(given, "width") == pytest.approx(points, rel=1e-5)
+
+
+@pytest.mark.parametrize("given", ["", "cm", "1 ell", "-1cm", "0mm", "1.2.3cm", "1cm2", 0, -1, np.nan, np.inf])
+def test_what_is_no_length(given):
+    with pytest.raises(ValueError, match=r"^width is "):
+        as_length(given, "width")
 
 
 def test_a_file_that_is_not_there(tmp_path):

@@ -97,16 +97,6 @@ def test_names_with_a_rank_and_sides():
         fixed.add_labels(places, texts, rank=[1])
 
 
-def test_widths_with_units_and_dots_per_inch(tmp_path):
-    globe = Globe()
-    assert globe.page(width="84mm").width == pytest.approx(84 / 25.4 * 72)
-    assert globe.page(style="column").width == pytest.approx(8.4 / 2.54 * 72)
-    assert iio.imread(globe.save(tmp_path / "a.png", width="2in", dpi=40)).shape == (80, 80, 3)
-    assert iio.imread(globe.save(tmp_path / "b.png", style="slide", dpi=10)).shape == (75, 133, 3)
-    with pytest.raises(ValueError, match="size and dpi both say how many pixels"):
-        globe.save(tmp_path / "c.png", size=100, dpi=10)
-
-
 def test_transparent_paper(tmp_path):
     """Beside the globe there is nothing, and over white it is the picture that has paper."""
     globe = Globe(title="Nothing")

@@ -33,9 +33,9 @@ PAGES = {
 }
 
 
-def shown(path):
-    """What librsvg makes of a file, (h, w, 3), on white."""
-    command = ["rsvg-convert", "--width", str(SIZE), "--background-color", "white", str(path)]
+def shown(path, size=SIZE):
+    """What librsvg makes of a file, (h, size, 3), on white."""
+    command = ["rsvg-convert", "--width", str(size), "--background-color", "white", str(path)]
     ran = subprocess.run(command, capture_output=True, check=True, timeout=60)
     assert ran.stderr == b""
     return np.asarray(Image.open(BytesIO(ran.stdout)).convert("RGB")).astype(float)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from stereodel.drawing import CircleArc, Page, PlacedScene, Scene, Solid, View
+from stereodel.drawing import CircleArc, Scene, Solid, View
 from stereodel.drawing.style import LINES, LineStyle
 from stereodel.render import Figure, gl
 from stereodel.render.bodies import bodies_of
@@ -344,15 +344,6 @@ def test_a_flat_figure_says_so(tmp_path, capsys):
     assert "--solid" in capsys.readouterr().err
     with pytest.raises(ValueError, match="figure 'small' shows nothing in space; give it in_space="):
         figure_of(solid=False).save(tmp_path, size=50, solid=True)
-
-
-def test_a_page_is_laid_out_from_what_is_placed():
-    placed = scene().placed(VIEW, at=(1.0, 2.0), scale=3.0)
-    ours = Page((0, 1, 0, 1), placed.page_items()).arrays()
-    theirs = Page((0, 1, 0, 1), scene().layout(VIEW, at=(1.0, 2.0), scale=3.0)).arrays()
-    assert isinstance(placed, PlacedScene)
-    assert ours.keys() == theirs.keys()
-    assert all(np.array_equal(ours[name], theirs[name]) for name in ours)
 
 
 def test_linear_light_is_that_of_the_standard():
