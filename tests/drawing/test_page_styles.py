@@ -8,7 +8,7 @@ import pytest
 from stereodel.drawing import Page, Sketch, styled
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Label, Stroke
-from stereodel.drawing.page_styles import GROUND, StyledDraw, as_styles, dark_page
+from stereodel.drawing.page_styles import GROUND, StyledDraw, dark_page
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
 CM = 72 / 2.54
@@ -162,13 +162,6 @@ def test_the_order_of_styles_does_not_matter():
     assert styled(words, "dark", "slide").background == pytest.approx(GROUND, abs=1e-3)
     assert styled(words) is words
     assert styled(words, "dark").arrays().keys() == dark_page(words).arrays().keys()
-
-
-def test_wrong_styles_are_named():
-    with pytest.raises(ValueError, match=r"style is 'bright'; give column, slide, dark or a file \.toml"):
-        styled(page(), "bright")
-    with pytest.raises(ValueError, match="column and slide both set the size of the page"):
-        as_styles(("slide", "dark", "column"))
 
 
 def draw(number):

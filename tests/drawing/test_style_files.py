@@ -8,29 +8,10 @@ import pytest
 
 from stereodel.drawing import styled
 from stereodel.drawing.lengths import as_length
-from stereodel.drawing.page import Dots, Fill, Label, Page, Polygons, Polylines, Stroke
 from stereodel.drawing.style_files import PageStyle
+from tests.drawing.pages import RED, page
 
 PAGE = (Path(__file__).parents[2] / "docs" / "drawing.md").read_text(encoding="utf-8")
-SQUARE = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 0.0)])
-LINE = np.linspace((0.0, 0.0), (1.0, 1.0), 4)[None]
-
-
-def page():
-    red = (1.0, 0.0, 0.0, 1.0)
-    rows = np.array([0, 4, 8])
-    twice = np.concatenate([SQUARE, SQUARE + 2])
-    several = Polygons(twice, rows, np.array([0, 1]), np.array([red, (0, 0, 1, 1)]), name="cells")
-    items = (
-        Fill((LINE,), red, "ball"),
-        Polygons(SQUARE, rows[:2], np.array([0]), np.array([red]), name="land"),
-        several,
-        Stroke(LINE, red, 1.0, name="limb"),
-        Polylines(SQUARE, rows[:2], red, 1.0, "coast"),
-        Dots(SQUARE, 2.0, red, name="sites"),
-        Label("name", (0.0, 0.0), color=red),
-    )
-    return Page((0.0, 4.0, 0.0, 4.0), items)
 
 
 def write(folder, text):
@@ -64,15 +45,15 @@ def test_a_file_changes_what_it_names(tmp_path):
         """,
     )
     drawn = styled(page(), file)
-    ball, land, cells, limb, coast, dots, label = drawn.items
-    green, red = (0.0, 1.0, 0.0, 1.0), (1.0, 0.0, 0.0, 1.0)
+    ball, land, cells, limb, coast, dots, label, _ = drawn.items
+    green = (0.0, 1.0, 0.0, 1.0)
     assert drawn.background == (0.0, 0.0, 0.0, 1.0)
     assert ball.color == green
     assert land.colors.tolist() == [[0.0, 1.0, 0.0, 0.5]]
     assert cells.colors.tolist() == page().items[2].colors.tolist()  # several colours say something
     assert (limb.color, limb.width) == (green, pytest.approx(72 / 25.4))
-    assert (coast.color, coast.width) == (red, 3.0)
-    assert (dots.radius, dots.color, dots.rim, dots.rim_width) == (4.5, red, (1.0, 1.0, 1.0, 1.0), 1.0)
+    assert (coast.color, coast.width) == (RED, 3.0)
+    assert (dots.radius, dots.color, dots.rim, dots.rim_width) == (4.5, RED, (1.0, 1.0, 1.0, 1.0), 1.0)
     assert (label.size, label.color, label.halo) == (12.0, green, 0.0)
     assert label.font == ("Nowhere", "DejaVu Serif")
     assert page().background == (1.0, 1.0, 1.0, 1.0)
@@ -123,11 +104,6 @@ def test_lengths(given, points):
 def test_what_is_no_length(given):
     with pytest.raises(ValueError, match=r"^width is "):
         as_length(given, "width")
-
-
-def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(FileNotFoundError):
-        styled(page(), tmp_path / "none.toml")
 
 
 def test_the_file_of_the_page_on_drawing(tmp_path):

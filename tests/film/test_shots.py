@@ -1,6 +1,5 @@
 """Motions: where they begin and end, that they go smoothly and by the shortest way, and what is refused."""
 
-import pickle
 from itertools import pairwise
 
 import numpy as np
@@ -125,19 +124,6 @@ def test_easing_rises_and_is_symmetric(one, other):
     low, high = sorted((one, other))
     assert 0 <= eased(low) <= eased(high) + 1e-15 <= 1 + 1e-15
     assert eased(1 - one) == pytest.approx(1 - eased(one), abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    "motion",
-    [
-        Flight([Stop(PARIS), Stop(TOKYO, 5.0)]),
-        Spin(),
-        Morph(path_between(MoebiusMap.identity(), fisheye(PARIS, magnification=3.0)), View(0, 0)),
-    ],
-)
-def test_motions_are_values_that_can_be_pickled(motion):
-    motion(0.7)
-    assert pickle.loads(pickle.dumps(motion))(0.7) == motion(0.7)
 
 
 @pytest.mark.parametrize(

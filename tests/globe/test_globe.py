@@ -149,7 +149,6 @@ def test_triangulations_are_drawn_without_their_far_side():
 @pytest.mark.parametrize(
     ("draw", "message"),
     [
-        (lambda g: g.add_graticule(7), "spacing"),
         (lambda g: g.add_tissot(30, 0), "radius"),
         (lambda g: g.add_points([(0, 91)]), "latitude 91"),
         (lambda g: g.add_labels([(0, 0), (1, 1)], ["a"]), "texts has 1 entries"),
@@ -161,7 +160,6 @@ def test_triangulations_are_drawn_without_their_far_side():
         (lambda g: g.page(width=0), "width"),
         (lambda g: g.page(tolerance=-1), "tolerance"),
         (lambda g: g.save("x.png", size=0), "size"),
-        (lambda g: g.save("x.png", size=100, dpi=10), "size and dpi both say how many pixels"),
         (lambda g: Globe(latitude="north"), "latitude"),
     ],
 )

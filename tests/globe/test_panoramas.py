@@ -6,13 +6,12 @@ import pytest
 from stereodel import fisheye, xyz_to_lonlat
 from stereodel.drawing.view import View
 from stereodel.globe import Raster
-from tests.globe.supersampling import checkerboard, grid, interpolated, noise, psnr, zone_plate
+from tests.globe.supersampling import SAMPLES, checkerboard, grid, interpolated, means, noise, psnr, zone_plate
 from tests.tiers import by_day
 
 LENS = fisheye((20.0, 40.0), magnification=3.0)
 VIEW = View(35.0, -20.0, 15.0)
 RASTERS = {"squares": (checkerboard(256, 32), 38.0), "rings": (zone_plate(256), 41.0), "noise": (noise(256), 36.0)}
-SAMPLES = 16
 ORDER = ["right", "left", "up", "down", "front", "back"]
 
 
@@ -61,9 +60,7 @@ def looked_at(directions, width, height, window, lens, view):
 
 def expected(raster, *where):
     lonlat = looked_at(*where)
-    values = interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2])
-    rows, columns = (side // SAMPLES for side in values.shape)
-    return values.reshape(rows, SAMPLES, columns, SAMPLES).mean(axis=(1, 3))
+    return means(interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2]))
 
 
 @pytest.mark.parametrize("kind", by_day(RASTERS, "rings"))

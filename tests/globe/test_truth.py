@@ -7,7 +7,6 @@ from dataclasses import replace
 from itertools import product
 
 import numpy as np
-import pypdfium2
 import pytest
 import shapely
 
@@ -23,8 +22,9 @@ from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
 from stereodel.mpl.transforms import LonLatToPage
 from tests.globe import truth
+from tests.images.foreign import by_pdfium
 from tests.mpl.test_axes import axes_of, pixels
-from tests.render.test_librsvg import shown
+from tests.render.test_librsvg import in_blocks, shown
 from tests.tiers import by_day
 
 SIZE, BLOCK = 320, 64
@@ -58,18 +58,6 @@ def globe_of(layer, resolution="110m"):
     return globe
 
 
-def blocks(picture):
-    rows, columns = (side // BLOCK for side in picture.shape[:2])
-    cut = picture[: rows * BLOCK, : columns * BLOCK].reshape(rows, BLOCK, columns, BLOCK, 3)
-    return cut.mean(axis=(1, 3))
-
-
-def of_pdf(page, folder):
-    """What PDFium makes of the PDF of a page."""
-    with pypdfium2.PdfDocument(page.save(folder / "page.pdf", text=False)) as document:
-        return document[0].render(scale=SIZE / document[0].get_width()).to_numpy()[:SIZE, :, ::-1]
-
-
 @pytest.mark.parametrize(
     ("layer", "view"),
     by_day(list(product(LAYERS, VIEWS)), ("ocean", VIEWS[3]), ("land", VIEWS[0]), ("polygons", VIEWS[5])),
@@ -81,8 +69,9 @@ def test_renderers_show_the_same(tmp_path, layer, view):
     # Agg does not shade balls.
     page = replace(page, items=tuple(replace(i, ball=None) if getattr(i, "ball", None) else i for i in page.items))
     ours, agg = (page.pixels(size=SIZE, renderer=name, text=False).astype(float) for name in ("gl", "agg"))
-    for other in (agg, shown(page.save(tmp_path / "page.svg", text=False), SIZE)[:SIZE], of_pdf(page, tmp_path)):
-        off = np.abs(blocks(ours) - blocks(other.astype(float))).max()
+    pdf = by_pdfium(page.save(tmp_path / "page.pdf", text=False), ours.shape, 72 * SIZE / page.width)
+    for other in (agg, shown(page.save(tmp_path / "page.svg", text=False), SIZE)[:SIZE], pdf):
+        off = np.abs(in_blocks(ours, BLOCK) - in_blocks(other.astype(float), BLOCK)).max()
         assert off < 6, (layer, view, resolution, off)
 
 

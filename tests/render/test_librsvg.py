@@ -41,10 +41,10 @@ def shown(path, size=SIZE):
     return np.asarray(Image.open(BytesIO(ran.stdout)).convert("RGB")).astype(float)
 
 
-def in_blocks(picture):
+def in_blocks(picture, block=BLOCK):
     """Means over squares of pixels: smoothing of edges evens out."""
-    height, width = (side // BLOCK * BLOCK for side in picture.shape[:2])
-    cut = picture[:height, :width].reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, 3)
+    rows, columns = (side // block for side in picture.shape[:2])
+    cut = picture[: rows * block, : columns * block].reshape(rows, block, columns, block, -1)
     return cut.mean(axis=(1, 3))
 
 
