@@ -83,22 +83,14 @@ def test_long_lines_are_broken_and_the_page_grows():
     # From the picture upward, then from it downward: each long line is two or more.
     assert texts[-1 - len(texts) // 2 :] != texts[: len(texts) // 2]
     assert len(texts) >= 5
-    head = sorted(
-        (label for label in column.labels if label.anchor[1] > 0), key=lambda label: -boxes_top(label, column)
-    )
-    foot = sorted(
-        (label for label in column.labels if label.anchor[1] < 0), key=lambda label: -boxes_top(label, column)
-    )
+    downward = sorted(column.labels, key=lambda label: -label_box(label, column.points_per_unit)[1, 1])
+    head, foot = ([label for label in downward if side * label.anchor[1] > 0] for side in (1, -1))
     assert head[0].text == "A title"
     assert " ".join(label.text for label in head[1:]) == LONG
     assert " ".join(label.text for label in foot) == LONG
     for label, (low, high) in zip(column.labels, boxes(column), strict=True):
         assert low[1] > column.points_per_unit if label.anchor[1] > 0 else high[1] < -column.points_per_unit
     assert column.height > 8.4 * CM * 3 / 4
-
-
-def boxes_top(label, shown):
-    return label_box(label, shown.points_per_unit)[1, 1]
 
 
 def test_spaces_of_a_line_that_is_not_broken_stay():

@@ -47,19 +47,15 @@ def planet(radius):
     return directions
 
 
-def looked_at(directions, width, height, window, lens, view):
-    """Of 16 × 16 samples of each pixel of a window: longitude and latitude in the raster, degrees."""
+def expected(raster, directions, width, height, window, lens, view):
+    """Of 16 × 16 samples of each pixel of a window: means of the raster where they look."""
     left, top, columns, rows = window
     within = (np.arange(SAMPLES) + 0.5) / SAMPLES
     x, y = np.meshgrid(
         ((left + np.arange(columns))[:, None] + within).ravel() / width,
         ((top + np.arange(rows))[:, None] + within).ravel() / height,
     )
-    return xyz_to_lonlat(lens.inverse()(directions(x, y) @ view.matrix))
-
-
-def expected(raster, *where):
-    lonlat = looked_at(*where)
+    lonlat = xyz_to_lonlat(lens.inverse()(directions(x, y) @ view.matrix))
     return means(interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2]))
 
 

@@ -19,6 +19,7 @@ from stereodel import MoebiusMap, data, fisheye, xyz_to_lonlat
 from stereodel.drawing.view import StereographicView, View
 from stereodel.mpl import FisheyeAxes
 from stereodel.sphere.graticules import graticule
+from tests.globe.sights import disc
 
 PARIS = (2.35, 48.86)
 GRID = np.linspace(-180, 180, 37), np.linspace(-90, 90, 19)
@@ -293,12 +294,8 @@ def test_land_and_borders_of_the_package():
     drawn = axes.transStraight.transform_path(land.get_path())
     share = area(axes.transPage.inverted().transform_path(drawn)) / np.pi
     shapes = shapely.geometry.shape(data.land("110m").__geo_interface__)
-    angle = np.linspace(0, 2 * np.pi, 60, endpoint=False)
-    radius = np.sqrt(np.linspace(0.01, 0.99, 50))
-    page = np.stack(np.meshgrid(radius, angle), axis=-1).reshape(-1, 2)
-    spots = axes.transGlobe.inverted().transform(
-        page[:, :1] * np.stack([np.cos(page[:, 1]), np.sin(page[:, 1])], axis=1)
-    )
+    page = disc(60)
+    spots = axes.transGlobe.inverted().transform(page[np.hypot(*np.moveaxis(page, -1, 0)) < 1])
     assert share == pytest.approx(shapely.contains_xy(shapes, *spots.T).mean(), abs=0.02)
     axes.add_geometries(data.countries("110m"), facecolor="none")
 

@@ -110,13 +110,9 @@ def figure():
 )
 def test_files_are_no_larger_than_those_of_pillow(draw, share):
     """But for the head of the file, and for photographs and noise hardly."""
-    assert len(written(draw())) < share * by_pillow(draw()) + 100
-
-
-def by_pillow(pixels):
     file = io.BytesIO()
-    Image.fromarray(pixels).save(file, "png")
-    return len(file.getvalue())
+    Image.fromarray(draw()).save(file, "png")
+    assert len(written(draw())) < share * len(file.getvalue()) + 100
 
 
 @pytest.mark.parametrize(
