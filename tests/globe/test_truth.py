@@ -59,11 +59,13 @@ def globe_of(layer, resolution="110m"):
 
 
 @pytest.mark.parametrize(
-    ("layer", "view"),
+    "what",
     by_day(list(product(LAYERS, VIEWS)), ("ocean", VIEWS[3]), ("land", VIEWS[0]), ("polygons", VIEWS[5])),
+    ids=str,
 )
-def test_renderers_show_the_same(tmp_path, layer, view):
+def test_renderers_show_the_same(tmp_path, what):
     """With holes of the first corner's shell, Africa was sea in OpenGL; by chords, the Indian Ocean was land."""
+    layer, view = what
     resolution = "50m" if layer in ("land", "ocean") else "110m"
     page = globe_of(layer, resolution).page(None, view, width=200)
     # Agg does not shade balls.
@@ -159,20 +161,20 @@ def assert_slivers_are_thin(rings, lens, view):
         assert np.flatnonzero(np.abs(area - wanted) > 0.5).tolist() == [], (lens.magnification, view)
 
 
-@pytest.mark.parametrize(("seed", "count"), by_day([(1, 200), (2, 10_000)], (1, 200)))
+@pytest.mark.parametrize("count", by_day([200, 10_000], 200))
 @pytest.mark.parametrize("sight", SIGHTS)
-def test_slivers(sight, seed, count):
-    assert_slivers_are_thin(truth.slivers(np.random.default_rng(seed), count), *sight)
+def test_slivers(sight, count):
+    assert_slivers_are_thin(truth.slivers(np.random.default_rng(1), count), *sight)
 
 
 @pytest.mark.parametrize("size", by_day([0.1, 1.0, 2.0, 6.0], 6.0))
-@pytest.mark.parametrize(("seeds", "count"), by_day([((0,), 30), (range(10, 20), 40)], ((0,), 30)))
-def test_slivers_in_axes(size, seeds, count):
+@pytest.mark.parametrize("seeds", by_day([range(1), range(1, 11)], range(1)))
+def test_slivers_in_axes(size, seeds):
     """With all of them in one picture, one of them that fills the disc leaves nothing white."""
     for seed in seeds:
-        focus = (20, 30) if seed == 0 else (36.0 * (seed - 10) - 180, 16.0 * (seed - 10) - 72)
+        focus = (20.0 - 20.0 * seed, 30.0 - 10.0 * seed)
         axes = axes_of(focus=focus, magnification=size)
-        for ring in truth.slivers(np.random.default_rng(seed), count):
+        for ring in truth.slivers(np.random.default_rng(3 + seed), 35):
             axes.add_geometries(shapely.Polygon(ring), facecolor="black", edgecolor="none")
         assert (pixels(axes).min(axis=-1) < 128).mean() < 0.02, focus
 
