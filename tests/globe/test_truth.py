@@ -8,7 +8,6 @@ from itertools import product
 
 import numpy as np
 import pytest
-import shapely
 
 from stereodel import MoebiusMap, data, fisheye
 from stereodel.curves.clip import signed_areas
@@ -23,7 +22,6 @@ from stereodel.globe.regions import SphereRegions
 from stereodel.mpl.transforms import LonLatToPage
 from tests.globe import truth
 from tests.images.foreign import by_pdfium
-from tests.mpl.test_axes import axes_of, pixels
 from tests.render.test_librsvg import in_blocks, shown
 from tests.tiers import by_day
 
@@ -171,6 +169,9 @@ def test_slivers(sight, count):
 @pytest.mark.parametrize("seeds", by_day([range(1), range(1, 11)], range(1)))
 def test_slivers_in_axes(size, seeds):
     """With all of them in one picture, one of them that fills the disc leaves nothing white."""
+    shapely = pytest.importorskip("geopandas") and pytest.importorskip("shapely")
+    from tests.mpl.test_axes import axes_of, pixels
+
     for seed in seeds:
         focus = (20.0 - 20.0 * seed, 30.0 - 10.0 * seed)
         axes = axes_of(focus=focus, magnification=size)
