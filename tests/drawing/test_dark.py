@@ -9,13 +9,12 @@ from hypothesis import strategies as st
 
 from stereodel.drawing import style
 from stereodel.drawing.colorimetry import contrast, luminance, to_oklab, with_luminance
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polygons, Polylines, Stroke
 from stereodel.drawing.page_styles import GROUND, dark_color, dark_page
+from tests.drawing.pages import RED
+from tests.drawing.pages import page as one_of_each
 
 shares = st.floats(0, 1)
 colors = st.tuples(shares, shares, shares)
-LOOP = np.array([[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]])
-POINTS, ENDS = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]), np.array([0, 4])
 
 
 def over(color, ground):
@@ -76,41 +75,24 @@ def test_what_is_see_through_has_the_contrast_that_it_has_on_white(name):
     assert float(after) == pytest.approx(float(before), rel=0.02)
 
 
-class Painted:
-    """A painter without pixels."""
-
-
-@pytest.fixture
-def page():
-    red, ball = (0.8, 0.1, 0.1, 1.0), Ball((0.0, 0.0), 1.0)
-    items = (
-        Stroke(LOOP, red, 1.0),
-        Polylines(POINTS, ENDS, red, 1.0),
-        Fill((LOOP,), red, ball=ball),
-        Polygons(POINTS, ENDS, np.array([0]), np.array([red]), ball),
-        Dots(POINTS, 2.0, red, style.WHITE, 0.5),
-        Label("words", (0.0, 0.0), color=red, halo=1.0),
-        Picture((LOOP,), Painted()),
-    )
-    return Page((-1.0, 1.0, -1.0, 1.0), items)
-
-
-def test_every_item_but_pictures_has_its_dark_colours(page):
-    stroke, lines, fill, polygons, dots, label, picture = dark_page(page).items
-    expected = dark_color((0.8, 0.1, 0.1, 1.0))
-    for found in (stroke.color, lines.color, fill.color, polygons.colors[0], dots.color, label.color):
+def test_every_item_but_pictures_has_its_dark_colours():
+    page = one_of_each()
+    fill, polygons, several, stroke, lines, dots, label, picture = dark_page(page).items
+    expected = dark_color(RED)
+    for found in (fill.color, *polygons.colors, several.colors[0], stroke.color, lines.color, dots.color, label.color):
         np.testing.assert_allclose(found, expected)
     for found in (dots.rim, label.halo_color, dark_page(page).background):
         np.testing.assert_allclose(found, GROUND, atol=1e-3)
     assert picture is page.items[-1]
-    assert fill.ball == page.items[2].ball
+    assert fill.ball == page.items[0].ball
     # Nothing but colours changes.
     for before, after in zip(page.items, dark_page(page).items, strict=True):
         changed = {key for key, value in vars(before).items() if np.any(value != vars(after).get(key, value))}
         assert changed <= {"color", "rim", "halo_color", "colors", "by_color"}
 
 
-def test_a_dark_page_stays_as_it_is(page):
+def test_a_dark_page_stays_as_it_is():
+    page = one_of_each()
     night = replace(page, background=(0.05, 0.05, 0.2, 1.0))
     assert dark_page(night) is night
     assert dark_page(dark_page(page)).items[0].color == dark_page(page).items[0].color

@@ -8,7 +8,7 @@ import pytest
 from stereodel.drawing import Page, Sketch, styled
 from stereodel.drawing.label import label_box
 from stereodel.drawing.page import Dots, Label, Stroke
-from stereodel.drawing.page_styles import GROUND, StyledDraw, as_styles, dark_page
+from stereodel.drawing.page_styles import GROUND, StyledDraw, dark_page
 from stereodel.drawing.style import BLACK, DotStyle, LineStyle
 
 CM = 72 / 2.54
@@ -48,13 +48,6 @@ def outside(shown):
     ]
 
 
-def test_a_column_is_as_wide_as_it_is_and_keeps_the_picture():
-    column = styled(page(), "column")
-    assert column.width == pytest.approx(8.4 * CM)
-    assert column.extent == pytest.approx((-2, 2, -1, 1))
-    np.testing.assert_array_equal(column.items[0].path, page().items[0].path)
-
-
 def test_a_slide_has_its_size_and_the_picture_in_the_middle():
     for extent in ((-2.0, 2.0, -1.0, 1.0), (-1.0, 1.0, -3.0, 3.0), (0.0, 9.0, 0.0, 1.0)):
         slide = styled(page(extent=extent), "slide")
@@ -90,12 +83,8 @@ def test_long_lines_are_broken_and_the_page_grows():
     # From the picture upward, then from it downward: each long line is two or more.
     assert texts[-1 - len(texts) // 2 :] != texts[: len(texts) // 2]
     assert len(texts) >= 5
-    head = sorted(
-        (label for label in column.labels if label.anchor[1] > 0), key=lambda label: -boxes_top(label, column)
-    )
-    foot = sorted(
-        (label for label in column.labels if label.anchor[1] < 0), key=lambda label: -boxes_top(label, column)
-    )
+    downward = sorted(column.labels, key=lambda label: -label_box(label, column.points_per_unit)[1, 1])
+    head, foot = ([label for label in downward if side * label.anchor[1] > 0] for side in (1, -1))
     assert head[0].text == "A title"
     assert " ".join(label.text for label in head[1:]) == LONG
     assert " ".join(label.text for label in foot) == LONG
@@ -104,23 +93,9 @@ def test_long_lines_are_broken_and_the_page_grows():
     assert column.height > 8.4 * CM * 3 / 4
 
 
-def boxes_top(label, shown):
-    return label_box(label, shown.points_per_unit)[1, 1]
-
-
 def test_spaces_of_a_line_that_is_not_broken_stay():
     spaced = Label("M A R E   N O S T R U M", (0.0, 1.2), size=12.0)
     assert styled(page(spaced, extent=(-2.0, 2.0, -1.5, 1.5)), "column").labels[0].text == spaced.text
-
-
-def test_type_in_the_picture_moves_aside_and_none_covers_another():
-    words = [Label(f"word {k}", (0.05 * k, 0.0), (3.0, 0.0), "left") for k in range(4)]
-    before = page(*words, extent=(-2.0, 2.0, -1.0, 1.0))
-    column = styled(before, "column")
-    assert overlapping(before)
-    assert overlapping(column) == []
-    assert column.labels[0].offset == pytest.approx((3.0 * 7 / 9, 0.0))
-    assert len(column.labels) >= 3
 
 
 def test_type_that_is_clear_of_lines_stays_so():
@@ -179,13 +154,6 @@ def test_the_order_of_styles_does_not_matter():
     assert styled(words, "dark", "slide").background == pytest.approx(GROUND, abs=1e-3)
     assert styled(words) is words
     assert styled(words, "dark").arrays().keys() == dark_page(words).arrays().keys()
-
-
-def test_wrong_styles_are_named():
-    with pytest.raises(ValueError, match=r"style is 'bright'; give column, slide, dark or a file \.toml"):
-        styled(page(), "bright")
-    with pytest.raises(ValueError, match="column and slide both set the size of the page"):
-        as_styles(("slide", "dark", "column"))
 
 
 def draw(number):

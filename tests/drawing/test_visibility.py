@@ -61,14 +61,9 @@ def assert_matches_definition(curve, radius):
         assert (place is Place.INSIDE) or np.all(np.linalg.norm(clear, axis=1) > radius)
 
 
-@given(arcs(), st.floats(0.2, 3))
-def test_circles_of_space(arc, radius):
-    assert_matches_definition(arc, radius)
-
-
-@given(vectors, vectors, st.floats(0.2, 1.5))
-def test_segments(a, b, radius):
-    assert_matches_definition(Segment.between(3 * a, 3 * b), radius)
+@given(st.one_of(arcs(), st.builds(lambda a, b: Segment.between(3 * a, 3 * b), vectors, vectors)), st.floats(0.2, 3))
+def test_circles_and_segments_of_space(curve, radius):
+    assert_matches_definition(curve, radius)
 
 
 @given(circles_on_the_ball(), views)

@@ -40,7 +40,7 @@ def arc_points(rows, steps=33):
 
 
 def path_points(path, steps=65):
-    """Points (k·steps, 2) of cubic Béziers (k, 4, 2), piece after piece."""
+    """Points (k·steps, d) of cubic Béziers (k, 4, d), piece after piece."""
     t = np.linspace(0, 1, steps)
     weights = np.stack([(1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t**2 * (1 - t), t**3], axis=-1)
-    return np.einsum("sc,kcx->ksx", weights, path).reshape(-1, 2)
+    return np.einsum("sc,kcx->ksx", weights, path).reshape(-1, path.shape[-1])

@@ -1,7 +1,21 @@
-"""Other processes: whether they are gone, and waiting for it."""
+"""Modules that other processes find, whether those are gone, and waiting for it."""
 
+import sys
 import time
+from contextlib import contextmanager
+from importlib import import_module
 from pathlib import Path
+
+
+@contextmanager
+def importable(folder, name, code, monkeypatch):
+    """A module of this code in a folder of the path, which other processes have from this one."""
+    folder.mkdir(exist_ok=True)
+    (folder / f"{name}.py").write_text(code)
+    monkeypatch.syspath_prepend(str(folder))
+    monkeypatch.delitem(sys.modules, name, raising=False)
+    yield import_module(name)
+    sys.modules.pop(name, None)
 
 
 def ended(pid):

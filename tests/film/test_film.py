@@ -16,7 +16,7 @@ import stereodel
 from stereodel.film import Film, FrameError
 from stereodel.film import film as film_module
 from stereodel.film import frames as frames_module
-from tests.film.processes import ended, wait_until
+from tests.film.processes import ended, importable, wait_until
 from tests.tiers import by_day
 
 BALLS = """
@@ -51,16 +51,9 @@ def slow_ball(x):
 
 @pytest.fixture
 def balls(tmp_path, monkeypatch):
-    """A module with functions that draw; other processes find it by the path of this one."""
-    folder = tmp_path / "code"
-    folder.mkdir()
-    (folder / "balls.py").write_text(BALLS)
-    monkeypatch.syspath_prepend(str(folder))
-    monkeypatch.delitem(sys.modules, "balls", raising=False)
-    import balls
-
-    yield balls
-    sys.modules.pop("balls", None)
+    """A module with functions that draw."""
+    with importable(tmp_path / "code", "balls", BALLS, monkeypatch) as module:
+        yield module
 
 
 @pytest.fixture
@@ -127,16 +120,6 @@ def test_a_frame_that_fails_is_named_and_the_others_are_kept(balls, out):
     whole = good.save(out / "balls.png", jobs=1, progress=False)
     assert [x for _, x in drawn(balls)] == [1.0, 1.5, -1.0, 2.5, 2.0]
     assert whole.read_bytes() == good.save(out / "again.png", jobs=1, progress=False).read_bytes()
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize(("wrong", "message"), [(-1.0, "ValueError: no ball there"), (-2.0, "ended with code 3")])
-def test_a_frame_that_fails_elsewhere_ends_all_processes(balls, out, wrong, message):
-    film = Film(balls.ball, (1.0, 1.5, wrong, *np.linspace(2, 3, 20)), size=80)
-    with pytest.raises(FrameError, match=f"frame 2: .*{message}"):
-        film.save(out / "balls.png", jobs=2, progress=False)
-    wait_until(lambda: all(ended(pid) for pid, _ in drawn(balls)))
-    assert [path.name for path in out.iterdir()] == ["balls.png.frames"]
 
 
 # Whoever runs the tests in the background has SIGINT ignored, and programs inherit that.

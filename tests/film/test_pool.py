@@ -10,8 +10,8 @@ import time
 
 import pytest
 
-from stereodel.film.pool import attempt, in_processes
-from tests.film.processes import ended, wait_until
+from stereodel.film.pool import in_processes
+from tests.film.processes import ended, importable, wait_until
 
 WORK = """
 import os, signal, time
@@ -35,12 +35,8 @@ def double(x):
 
 @pytest.fixture
 def double(tmp_path, monkeypatch):
-    (tmp_path / "work_of_a_test.py").write_text(WORK)
-    monkeypatch.syspath_prepend(str(tmp_path))
-    import work_of_a_test
-
-    yield work_of_a_test.double
-    sys.modules.pop("work_of_a_test", None)
+    with importable(tmp_path, "work_of_a_test", WORK, monkeypatch) as module:
+        yield module.double
 
 
 def test_each_task_is_done_once_by_as_many_processes_as_wanted(double):
@@ -108,11 +104,6 @@ def test_what_cannot_be_loaded_elsewhere_is_the_answer_to_each_task(double):
 
     found = list(in_processes(Broken(), [1, 2], jobs=1))
     assert [done.error for _, done in found] == ["ValueError: invalid literal for int() with base 10: 'no number'"] * 2
-
-
-def test_here_an_error_is_words_too(double):
-    assert attempt(double, 3).result[0] == 6
-    assert attempt(double, "error").error == "KeyError: 'no such thing'"
 
 
 def test_processes_end_with_the_one_that_started_them(double, tmp_path):

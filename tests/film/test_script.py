@@ -4,9 +4,10 @@ import subprocess
 import sys
 
 import imageio.v3 as iio
-import numpy as np
 import pytest
 from PIL import Image
+
+from tests.film.processes import importable
 
 SCRIPT = """
 from functools import partial
@@ -26,15 +27,8 @@ def film():
 @pytest.fixture
 def moving(tmp_path, monkeypatch):
     """The film of a script in a folder of its own."""
-    folder = tmp_path / "scripts"
-    folder.mkdir()
-    (folder / "moving.py").write_text(SCRIPT)
-    monkeypatch.syspath_prepend(str(folder))
-    monkeypatch.delitem(sys.modules, "moving", raising=False)
-    import moving
-
-    yield moving.film()
-    sys.modules.pop("moving", None)
+    with importable(tmp_path / "scripts", "moving", SCRIPT, monkeypatch) as module:
+        yield module.film()
 
 
 def test_it_writes_a_looping_gif_beside_its_folder(moving, tmp_path, capsys):
@@ -47,25 +41,12 @@ def test_it_writes_a_looping_gif_beside_its_folder(moving, tmp_path, capsys):
         assert (times, gif.info["loop"]) == ([100, 200, 1000], 0)
 
 
-def test_frames_keep_their_colours(moving, tmp_path):
-    stored = iio.imread(moving.save(tmp_path / "moving.gif", jobs=1, progress=False))[..., :3].astype(int)
-    drawn = np.stack([moving.picture(number) for number in range(3)]).astype(int)
-    assert np.abs(stored - drawn).max() <= 8
-    assert np.array_equal(stored[drawn.min(axis=-1) == 255], drawn[drawn.min(axis=-1) == 255])
-
-
 def test_it_takes_folder_size_and_text(moving, tmp_path):
     moving.main(["--out", str(tmp_path / "new"), "--size", "60", "--no-text"])
     frames = iio.imread(tmp_path / "new" / "moving.gif")[..., :3]
     assert frames.shape == (3, 30, 60, 3)
     assert (frames[0, :12, :10] == 255).all()
     assert (moving.picture(0)[:24, :20] < 128).any()
-
-
-def test_a_folder_that_cannot_be_made_is_a_message(moving, tmp_path):
-    (tmp_path / "file").write_text("")
-    with pytest.raises(SystemExit, match=r"moving: .*file"):
-        moving.main(["--out", str(tmp_path / "file" / "out")])
 
 
 AS_TEXT = """

@@ -1,6 +1,5 @@
 """Motions: where they begin and end, that they go smoothly and by the shortest way, and what is refused."""
 
-import pickle
 from itertools import pairwise
 
 import numpy as np
@@ -113,10 +112,8 @@ def test_spinning_is_eastward_and_closes():
 def test_a_morph_follows_its_path_there_and_back():
     path = path_between(MoebiusMap.identity(), fisheye(TOKYO, magnification=9.0))
     there, back = (Morph(path, StereographicView(*TOKYO), seconds=2.0, back=back) for back in (False, True))
-    assert [there(time)[0] == path(t) for time, t in ((-1.0, 0.0), (1.0, 0.5), (2.0, 1.0), (9.0, 1.0))] == [True] * 4
-    assert [back(time)[0] == path(t) for time, t in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0), (1.5, 0.5), (2.0, 0.0))] == [
-        True
-    ] * 5
+    assert all(there(time)[0] == path(t) for time, t in ((-1.0, 0.0), (1.0, 0.5), (2.0, 1.0), (9.0, 1.0)))
+    assert all(back(time)[0] == path(t) for time, t in ((0.0, 0.0), (0.5, 0.5), (1.0, 1.0), (1.5, 0.5), (2.0, 0.0)))
     assert there(0.3)[1] == StereographicView(*TOKYO)
 
 
@@ -125,19 +122,6 @@ def test_easing_rises_and_is_symmetric(one, other):
     low, high = sorted((one, other))
     assert 0 <= eased(low) <= eased(high) + 1e-15 <= 1 + 1e-15
     assert eased(1 - one) == pytest.approx(1 - eased(one), abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    "motion",
-    [
-        Flight([Stop(PARIS), Stop(TOKYO, 5.0)]),
-        Spin(),
-        Morph(path_between(MoebiusMap.identity(), fisheye(PARIS, magnification=3.0)), View(0, 0)),
-    ],
-)
-def test_motions_are_values_that_can_be_pickled(motion):
-    motion(0.7)
-    assert pickle.loads(pickle.dumps(motion))(0.7) == motion(0.7)
 
 
 @pytest.mark.parametrize(

@@ -53,6 +53,12 @@ def interpolated(raster, lon, lat):
     return np.clip(total, 0, 255)
 
 
+def means(samples):
+    """Of the samples of each pixel."""
+    height, width = (side // SAMPLES for side in samples.shape)
+    return samples.reshape(height, SAMPLES, width, SAMPLES).mean(axis=(1, 3))
+
+
 def seen_points(lens, view, size, window):
     """Of 16 × 16 samples of each pixel of a window: which are in the disc, and where on the globe those are."""
     left, top, width, height = window
@@ -72,11 +78,7 @@ def reference(raster, lens, view, size, window):
     values = np.zeros(inside.shape)
     values[inside] = interpolated(raster, lon, lat)
 
-    def mean(samples):
-        height, width = (side // SAMPLES for side in samples.shape)
-        return samples.reshape(height, SAMPLES, width, SAMPLES).mean(axis=(1, 3))
-
-    return mean(values), mean(inside.astype(np.float64))
+    return means(values), means(inside.astype(np.float64))
 
 
 def psnr(expected, actual):

@@ -44,18 +44,6 @@ def test_what_is_painted_is_what_is_drawn(layers):
     assert np.mean(off < 0.02) > 0.97
 
 
-@pytest.mark.parametrize(
-    ("place", "name"),
-    [((0.0, -30.0), "ocean"), ((20.0, 0.0), "land"), ((25.0, 25.0), "land"), ((-40.0, 20.0), "ocean")],
-)
-def test_a_halo_is_tinted_as_the_ground(place, name):
-    globe = Globe()
-    globe.add_land(resolution="110m")
-    globe.add_labels([place], ["here"])
-    (label,) = globe.page(view=View(*place)).labels
-    assert label.halo_color == pytest.approx((*MAP_FILLS[name][:3], HALO_OPACITY), abs=1e-3)
-
-
 @pytest.mark.parametrize("explicit", [False, True])
 def test_a_halo_is_tinted_as_the_ground_of_the_style(tmp_path, explicit):
     """Whether the style is given with the page, or applied to it later, or comes with another."""

@@ -1,9 +1,5 @@
 """Picture files: every mode that Pillow knows, and what is wrong with the others."""
 
-import struct
-import warnings
-import zlib
-
 import numpy as np
 import pytest
 from PIL import Image
@@ -59,27 +55,6 @@ def test_kinds_of_files(tmp_path, kind):
 def test_a_part_of_the_globe(tmp_path):
     Image.new("L", (30, 30)).save(tmp_path / "part.png")
     assert Raster.open(tmp_path / "part.png", bounds=(0, 10, 30, 40)).bounds == (0, 10, 30, 40)
-    with pytest.raises(ValueError, match=r"part\.png: pixels is 30 wide and 30 high; .*bounds="):
-        Raster.open(tmp_path / "part.png")
-
-
-def png_of(width, height):
-    """A PNG file that says how large it is and holds nothing."""
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    header = chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
-    return b"\x89PNG\r\n\x1a\n" + header + chunk(b"IDAT", zlib.compress(b"")) + chunk(b"IEND", b"")
-
-
-@pytest.mark.parametrize("size", [(16386, 8193), (19000, 9000), (200_000, 100_000)])
-def test_too_large_files_are_refused_before_they_are_decoded(tmp_path, size):
-    (tmp_path / "huge.png").write_bytes(png_of(*size))
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        with pytest.raises(ValueError, match=r"huge\.png has .*134217728.* read; make it smaller"):
-            Raster.open(tmp_path / "huge.png")
 
 
 def test_damaged_files_are_named(tmp_path):
@@ -88,9 +63,6 @@ def test_damaged_files_are_named(tmp_path):
     path.write_bytes(path.read_bytes()[:3000])
     with pytest.raises(ValueError, match=r"map\.jpg is damaged or cut off"):
         Raster.open(path)
-    (tmp_path / "empty.png").write_bytes(png_of(8, 4))
-    with pytest.raises(ValueError, match=r"empty\.png is damaged or cut off"):
-        Raster.open(tmp_path / "empty.png")
 
 
 def test_a_tiff_of_a_few_rows_that_says_it_has_millions(tmp_path):
@@ -105,12 +77,7 @@ def test_a_tiff_of_a_few_rows_that_says_it_has_millions(tmp_path):
         Raster.open(path)
 
 
-def test_what_is_no_picture(tmp_path):
-    (tmp_path / "note.txt").write_text("lon,lat\n")
-    with pytest.raises(ValueError, match=r"note\.txt is not a picture of a kind that is read: PNG, JPEG"):
-        Raster.open(tmp_path / "note.txt")
-    with pytest.raises(FileNotFoundError, match=r"missing\.png"):
-        Raster.open(tmp_path / "missing.png")
+def test_floating_point_numbers_are_no_picture(tmp_path):
     Image.fromarray(np.zeros((4, 8), np.float32)).save(tmp_path / "heights.tif")
     with pytest.raises(ValueError, match=r"heights\.tif holds floating-point numbers"):
         Raster.open(tmp_path / "heights.tif")

@@ -13,6 +13,16 @@ from stereodel.globe.layers import Areas
 SQUARE = [[0, 0], [5, 0], [5, 5], [0, 0]]
 
 
+def squares(values):
+    """A layer whose column `kind` has these values."""
+    rings = [[[[10 * k + x, y] for x, y in SQUARE]] for k in range(len(values))]
+    features = [
+        {"type": "Feature", "properties": {"kind": value}, "geometry": {"type": "Polygon", "coordinates": ring}}
+        for value, ring in zip(values, rings, strict=True)
+    ]
+    return {"type": "FeatureCollection", "features": features}
+
+
 def named(page, name):
     return [item for item in page.items if item.name == name]
 
@@ -35,13 +45,8 @@ def test_a_title_and_a_legend_are_around_the_picture():
     ids=["words", "numbers"],
 )
 def test_a_column_colours_polygons_and_enters_the_legend(values, entries):
-    squares = [[[[10 * k, 0], [10 * k + 5, 0], [10 * k + 5, 5], [10 * k, 0]]] for k in range(4)]
-    features = [
-        {"type": "Feature", "properties": {"kind": value}, "geometry": {"type": "Polygon", "coordinates": rings}}
-        for value, rings in zip(values, squares, strict=True)
-    ]
     globe = Globe()
-    globe.add_layer({"type": "FeatureCollection", "features": features}, column="kind", color="red")
+    globe.add_layer(squares(values), column="kind", color="red")
     assert globe.legend.keys() == entries
     (areas,) = (layer for layer in globe.layers if isinstance(layer, Areas))
     by_value = dict(zip(values, map(tuple, areas.colors.tolist()), strict=True))
@@ -56,12 +61,8 @@ def test_a_column_colours_polygons_and_enters_the_legend(values, entries):
 
 
 def test_too_many_words_are_refused():
-    features = [
-        {"type": "Feature", "properties": {"kind": f"k{k}"}, "geometry": {"type": "Polygon", "coordinates": [SQUARE]}}
-        for k in range(9)
-    ]
     with pytest.raises(ValueError, match="column 'kind' has 9 different words, but 8 colours are told apart at most"):
-        Globe().add_layer({"type": "FeatureCollection", "features": features}, column="kind")
+        Globe().add_layer(squares("abcdefghi"), column="kind")
 
 
 @pytest.mark.parametrize("style", [(), "dark"])
@@ -95,16 +96,6 @@ def test_names_with_a_rank_and_sides():
     assert [label.text for label in fixed.page(view=View(10, 50)).labels] == ["small"]
     with pytest.raises(ValueError, match=r"rank"):
         fixed.add_labels(places, texts, rank=[1])
-
-
-def test_widths_with_units_and_dots_per_inch(tmp_path):
-    globe = Globe()
-    assert globe.page(width="84mm").width == pytest.approx(84 / 25.4 * 72)
-    assert globe.page(style="column").width == pytest.approx(8.4 / 2.54 * 72)
-    assert iio.imread(globe.save(tmp_path / "a.png", width="2in", dpi=40)).shape == (80, 80, 3)
-    assert iio.imread(globe.save(tmp_path / "b.png", style="slide", dpi=10)).shape == (75, 133, 3)
-    with pytest.raises(ValueError, match="size and dpi both say how many pixels"):
-        globe.save(tmp_path / "c.png", size=100, dpi=10)
 
 
 def test_transparent_paper(tmp_path):

@@ -6,13 +6,12 @@ import pytest
 from stereodel import fisheye, xyz_to_lonlat
 from stereodel.drawing.view import View
 from stereodel.globe import Raster
-from tests.globe.supersampling import checkerboard, grid, interpolated, noise, psnr, zone_plate
+from tests.globe.supersampling import SAMPLES, checkerboard, grid, interpolated, means, noise, psnr, zone_plate
 from tests.tiers import by_day
 
 LENS = fisheye((20.0, 40.0), magnification=3.0)
 VIEW = View(35.0, -20.0, 15.0)
 RASTERS = {"squares": (checkerboard(256, 32), 38.0), "rings": (zone_plate(256), 41.0), "noise": (noise(256), 36.0)}
-SAMPLES = 16
 ORDER = ["right", "left", "up", "down", "front", "back"]
 
 
@@ -48,22 +47,16 @@ def planet(radius):
     return directions
 
 
-def looked_at(directions, width, height, window, lens, view):
-    """Of 16 × 16 samples of each pixel of a window: longitude and latitude in the raster, degrees."""
+def expected(raster, directions, width, height, window, lens, view):
+    """Of 16 × 16 samples of each pixel of a window: means of the raster where they look."""
     left, top, columns, rows = window
     within = (np.arange(SAMPLES) + 0.5) / SAMPLES
     x, y = np.meshgrid(
         ((left + np.arange(columns))[:, None] + within).ravel() / width,
         ((top + np.arange(rows))[:, None] + within).ravel() / height,
     )
-    return xyz_to_lonlat(lens.inverse()(directions(x, y) @ view.matrix))
-
-
-def expected(raster, *where):
-    lonlat = looked_at(*where)
-    values = interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2])
-    rows, columns = (side // SAMPLES for side in values.shape)
-    return values.reshape(rows, SAMPLES, columns, SAMPLES).mean(axis=(1, 3))
+    lonlat = xyz_to_lonlat(lens.inverse()(directions(x, y) @ view.matrix))
+    return means(interpolated(raster, lonlat[..., 0].ravel(), lonlat[..., 1].ravel()).reshape(lonlat.shape[:2]))
 
 
 @pytest.mark.parametrize("kind", by_day(RASTERS, "rings"))

@@ -132,18 +132,6 @@ def test_painted_where_it_lies_on_the_page():
     assert np.array_equal(found, plain.paint((-1.0, 1.0, 1 / 64, 1 / 64), (128, 128)))
 
 
-def test_globes_take_rasters_files_and_pixels(tmp_path):
-    Pillow.fromarray(COLOURED.pixels).save(tmp_path / "map.png")
-    pages = []
-    for raster in (COLOURED, tmp_path / "map.png", COLOURED.pixels):
-        globe = Globe()
-        globe.add_raster(raster)
-        pages.append(globe.page(LENS).arrays())
-    for page in pages[1:]:
-        assert [k for k in pages[0] if not np.array_equal(pages[0][k], page[k])] == []
-    assert "0001_picture_raster_raster" in pages[0]
-
-
 def test_files_have_the_latitude_of_the_globe(tmp_path):
     Pillow.fromarray(COLOURED.pixels).save(tmp_path / "map.png")
     for latitude in ("spherical", "geodetic"):

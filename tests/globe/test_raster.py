@@ -52,25 +52,6 @@ def test_no_aliasing(kind, place):
     assert np.abs(found[..., 3] / 255 - covered).max() < 0.05
 
 
-def off(raster, lens, view, size, wanted, reach=0.97):
-    """The greatest difference of a warped raster, near the middle of the disc, from a function of directions."""
-    xy = disc(size)
-    inside = np.sum(xy**2, axis=-1) < reach
-    xyz = lens.inverse()(view.raised(xy[inside]) @ view.matrix)
-    return np.abs(raster.warp(lens, view, size)[inside][:, 0] - (127.5 + wanted(xyz))).max()
-
-
-def rounded(values):
-    return np.round(127.5 + values).astype(np.uint8)
-
-
-def test_smooth_functions_are_met_exactly():
-    """The mean of a smooth function over a pixel is nearly its value in the middle: within the rounding of both."""
-    lon, lat = grid(512)
-    raster = Raster(rounded(100 * np.cos(lat) * np.cos(lon) * np.sin(lat)))
-    assert off(raster, STRONG, View(50, 35), 301, lambda xyz: 100 * xyz[:, 0] * xyz[:, 2]) < 1.6
-
-
 @examples(0.5)
 @given(st.integers(0, 511), st.floats(-90, 90), st.sampled_from([1.0, 5.0]))
 def test_no_seam(columns, lat, magnification):
@@ -81,14 +62,6 @@ def test_no_seam(columns, lat, magnification):
     turned = Raster(np.roll(raster, columns, axis=1)).warp(moved, View(turn, lat), 90)
     # At odd columns the means of pairs are others; what they stand for is the same.
     assert psnr(there.astype(float), turned.astype(float)) > (60 if columns % 16 == 0 else 32)
-
-
-@pytest.mark.parametrize("pole", [90.0, -90.0])
-def test_the_raster_goes_on_beyond_a_pole(pole):
-    """Rows of 22.5°, each texel for itself: what is seen over the pole is the opposite meridian's row."""
-    lens, view, window = fisheye((0.0, pole), magnification=4.0), View(0, pole), (92, 92, 16, 16)
-    expected, _ = reference(noise(8), lens, view, 200, window)
-    assert psnr(expected, Raster(noise(8)).warp(lens, view, 200, window=window)[..., 0].astype(float)) > 38
 
 
 @given(st.integers(0, 255), sizes(-3, 3), places)
@@ -181,12 +154,11 @@ def test_levels_are_means_over_the_sphere(shape):
 @pytest.mark.parametrize("latitude", ["spherical", "geodetic", "authalic"])
 def test_latitudes_of_rows(latitude):
     """A wave 9° long, of which a fifth of a degree, the most that latitudes differ by, is an eighth of its height."""
-    raster = Raster(rounded(120 * np.sin(40 * grid(512)[1])), latitude=latitude)
-
-    def wanted(xyz):
-        return 120 * np.sin(40 * np.radians(xyz_to_lonlat(xyz, latitude=latitude)[:, 1]))
-
-    assert off(raster, PLAIN, View(50, 35), 201, wanted, 0.5) < 5
+    raster = Raster(np.round(127.5 + 120 * np.sin(40 * grid(512)[1])).astype(np.uint8), latitude=latitude)
+    view, xy = View(50, 35), disc(201)
+    inside = np.sum(xy**2, axis=-1) < 0.5
+    lat = np.radians(xyz_to_lonlat(view.raised(xy[inside]) @ view.matrix, latitude=latitude)[:, 1])
+    assert np.abs(raster.warp(PLAIN, view, 201)[inside][:, 0] - (127.5 + 120 * np.sin(40 * lat))).max() < 5
 
 
 def test_part_of_the_globe():
@@ -252,7 +224,6 @@ def test_input_is_not_modified_and_not_shared():
         (np.zeros((0, 8), np.uint8), None, ValueError, "not empty"),
         (np.zeros((4, 9), np.uint8), None, ValueError, r"9 wide and 4 high; .* bounds=\(west, south, east, north\)"),
         (np.zeros((4, 9), np.uint8), (0, 0, 361, 9), ValueError, "bounds runs from longitude 0 to 361"),
-        (np.zeros((4, 9), np.uint8), (5, 0, 5, 9), ValueError, "bounds runs from longitude 5 to 5"),
         (np.zeros((4, 9), np.uint8), (0, 9, 5, 0), ValueError, "bounds runs from latitude 9 to 0"),
         (np.zeros((4, 9), np.uint8), (0, 0, 5, 91), ValueError, "bounds runs from latitude 0 to 91"),
         (np.zeros((4, 9), np.uint8), (0, 0, 5), ValueError, r"bounds must be \(west, south, east, north\)"),

@@ -3,16 +3,11 @@
 The oracle is `tests/globe/truth.py`. The files are shown by programs of others: SVG by librsvg, PDF by PDFium.
 """
 
-import subprocess
 from dataclasses import replace
-from io import BytesIO
+from itertools import product
 
 import numpy as np
-import pypdfium2
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from PIL import Image
 
 from stereodel import MoebiusMap, data, fisheye
 from stereodel.curves.clip import signed_areas
@@ -24,9 +19,10 @@ from stereodel.globe import Globe
 from stereodel.globe.chart import Chart
 from stereodel.globe.lines import SphereLines
 from stereodel.globe.regions import SphereRegions
-from stereodel.mpl import FisheyeAxes
 from stereodel.mpl.transforms import LonLatToPage
 from tests.globe import truth
+from tests.images.foreign import by_pdfium
+from tests.render.test_librsvg import in_blocks, shown
 from tests.tiers import by_day
 
 SIZE, BLOCK = 320, 64
@@ -60,50 +56,23 @@ def globe_of(layer, resolution="110m"):
     return globe
 
 
-def blocks(picture):
-    rows, columns = (side // BLOCK for side in picture.shape[:2])
-    cut = picture[: rows * BLOCK, : columns * BLOCK].reshape(rows, BLOCK, columns, BLOCK, 3)
-    return cut.mean(axis=(1, 3))
-
-
-def of_pdf(page, folder):
-    """What PDFium makes of the PDF of a page."""
-    with pypdfium2.PdfDocument(page.save(folder / "page.pdf", text=False)) as document:
-        return document[0].render(scale=SIZE / document[0].get_width()).to_numpy()[:SIZE, :, ::-1]
-
-
-def of_svg(page, folder):
-    """What librsvg makes of the SVG of a page."""
-    path = page.save(folder / "page.svg", text=False)
-    command = ["rsvg-convert", "--width", str(SIZE), "--background-color", "white", str(path)]
-    picture = subprocess.run(command, capture_output=True, check=True, timeout=60).stdout
-    return np.asarray(Image.open(BytesIO(picture)).convert("RGB"))[:SIZE]
-
-
-def assert_all_show_the_same(layer, view, resolution, folder):
+@pytest.mark.parametrize(
+    "what",
+    by_day(list(product(LAYERS, VIEWS)), ("ocean", VIEWS[3]), ("land", VIEWS[0]), ("polygons", VIEWS[5])),
+    ids=str,
+)
+def test_renderers_show_the_same(tmp_path, what):
+    """With holes of the first corner's shell, Africa was sea in OpenGL; by chords, the Indian Ocean was land."""
+    layer, view = what
+    resolution = "50m" if layer in ("land", "ocean") else "110m"
     page = globe_of(layer, resolution).page(None, view, width=200)
     # Agg does not shade balls.
     page = replace(page, items=tuple(replace(i, ball=None) if getattr(i, "ball", None) else i for i in page.items))
     ours, agg = (page.pixels(size=SIZE, renderer=name, text=False).astype(float) for name in ("gl", "agg"))
-    for other in (agg, of_svg(page, folder), of_pdf(page, folder)):
-        off = np.abs(blocks(ours) - blocks(other.astype(float))).max()
+    pdf = by_pdfium(page.save(tmp_path / "page.pdf", text=False), ours.shape, 72 * SIZE / page.width)
+    for other in (agg, shown(page.save(tmp_path / "page.svg", text=False), SIZE)[:SIZE], pdf):
+        off = np.abs(in_blocks(ours, BLOCK) - in_blocks(other.astype(float), BLOCK)).max()
         assert off < 6, (layer, view, resolution, off)
-
-
-@pytest.mark.parametrize(
-    ("layer", "view", "resolution"),
-    [("ocean", View(0, 0), "110m"), ("land", View(90, 0), "50m"), ("polygons", View(180, 0), "110m")],
-)
-def test_renderers_show_the_same(tmp_path, layer, view, resolution):
-    """With holes of the first corner's shell, Africa was sea in OpenGL; by chords, the Indian Ocean was land."""
-    assert_all_show_the_same(layer, view, resolution, tmp_path)
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("layer", LAYERS)
-def test_renderers_show_the_same_in_all_views(tmp_path, layer):
-    for view in VIEWS:
-        assert_all_show_the_same(layer, view, "50m" if layer in ("land", "ocean") else "110m", tmp_path)
 
 
 def covered(page, xy):
@@ -149,8 +118,9 @@ SOURCES["ocean"] = SOURCES["land"]
 
 
 @pytest.mark.parametrize("layer", SOURCES)
-def test_places_lie_in_what_is_drawn(layer):
-    for seed in range(3):
+@pytest.mark.parametrize("seeds", by_day([range(3), range(3, 100)], range(3)))
+def test_places_lie_in_what_is_drawn(layer, seeds):
+    for seed in seeds:
         assert_places_are_true(np.random.default_rng(seed), layer, SOURCES[layer]())
 
 
@@ -159,13 +129,6 @@ def test_the_limb_may_be_the_meridian_of_the_cut(lon):
     """Two islands of a few kilometres, with sides on the limb, had all the disc be land."""
     sources = data.land("50m").polygons()
     assert_true_at(np.random.default_rng(4), "land", sources, (0.0, 0.0), 1.0, View(lon, 0), "50m")
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("layer", SOURCES)
-def test_places_lie_in_what_is_drawn_in_a_hundred_views(layer):
-    for seed in range(100):
-        assert_places_are_true(np.random.default_rng(seed), layer, SOURCES[layer]())
 
 
 def test_coincident_sides_cross_the_rim_at_one_place():
@@ -196,40 +159,25 @@ def assert_slivers_are_thin(rings, lens, view):
         assert np.flatnonzero(np.abs(area - wanted) > 0.5).tolist() == [], (lens.magnification, view)
 
 
-def test_slivers():
-    rings = truth.slivers(np.random.default_rng(1), 200)
-    for lens, view in SIGHTS[:4:3]:
-        assert_slivers_are_thin(rings, lens, view)
+@pytest.mark.parametrize("count", by_day([200, 10_000], 200))
+@pytest.mark.parametrize("sight", SIGHTS)
+def test_slivers(sight, count):
+    assert_slivers_are_thin(truth.slivers(np.random.default_rng(1), count), *sight)
 
 
-@pytest.mark.thorough
-@pytest.mark.parametrize("number", range(len(SIGHTS)))
-def test_ten_thousand_slivers(number):
-    assert_slivers_are_thin(truth.slivers(np.random.default_rng(2 + number), 10_000), *SIGHTS[number])
-
-
-def assert_axes_stay_white(rings, **options):
+@pytest.mark.parametrize("size", by_day([0.1, 1.0, 2.0, 6.0], 6.0))
+@pytest.mark.parametrize("seeds", by_day([range(1), range(1, 11)], range(1)))
+def test_slivers_in_axes(size, seeds):
     """With all of them in one picture, one of them that fills the disc leaves nothing white."""
-    shapely = pytest.importorskip("shapely")
-    axes = Figure(figsize=(4, 4), dpi=100).add_subplot(projection=FisheyeAxes, **options)
-    for ring in rings:
-        axes.add_geometries(shapely.Polygon(ring), facecolor="black", edgecolor="none")
-    canvas = FigureCanvasAgg(axes.figure)
-    canvas.draw()
-    assert (np.asarray(canvas.buffer_rgba())[..., :3].min(axis=-1) < 128).mean() < 0.02, options
+    shapely = pytest.importorskip("geopandas") and pytest.importorskip("shapely")
+    from tests.mpl.test_axes import axes_of, pixels
 
-
-@pytest.mark.parametrize("size", by_day([1.0, 6.0], 6.0))
-def test_slivers_in_axes(size):
-    assert_axes_stay_white(truth.slivers(np.random.default_rng(3), 30), focus=(20, 30), magnification=size)
-
-
-@pytest.mark.thorough
-@pytest.mark.parametrize("size", [0.1, 1.0, 2.0, 6.0])
-def test_hundreds_of_slivers_in_axes(size):
-    for seed in range(10):
-        rings = truth.slivers(np.random.default_rng(10 + seed), 40)
-        assert_axes_stay_white(rings, focus=(36.0 * seed - 180, 16.0 * seed - 72), magnification=size)
+    for seed in seeds:
+        focus = (20.0 - 20.0 * seed, 30.0 - 10.0 * seed)
+        axes = axes_of(focus=focus, magnification=size)
+        for ring in truth.slivers(np.random.default_rng(3 + seed), 35):
+            axes.add_geometries(shapely.Polygon(ring), facecolor="black", edgecolor="none")
+        assert (pixels(axes).min(axis=-1) < 128).mean() < 0.02, focus
 
 
 def chord(a, b):

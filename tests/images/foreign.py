@@ -40,12 +40,12 @@ def by_chromium(browser, file, shape):
     return browser(larger, width, height)
 
 
-def by_pdfium(file, shape):
+def by_pdfium(file, shape, dpi=DPI):
     """The pixels that PDFium shows of the one page of a PDF file; it rounds sides up."""
     height, width = shape[:2]
     with pypdfium2.PdfDocument(file) as document:
         (page,) = document
-        picture = page.render(scale=DPI / 72).to_numpy()[..., ::-1]
+        picture = page.render(scale=dpi / 72).to_numpy()[..., ::-1]
     return picture[:height, :width] if np.abs(np.subtract(picture.shape, shape)).max() <= 1 else picture
 
 

@@ -9,8 +9,7 @@ from stereodel.drawing.page import Ball, Dots, Fill, Label, Page, Picture, Polyg
 from stereodel.render.save import region_pictures, save_vector
 from tests.images.foreign import DPI, FIGURES, LARGE, by_chromium, by_pdfium, disagreements
 from tests.images.scripts import cases, thorough_but_for
-from tests.render.test_light import disc, gradient_level
-from tests.render.test_pages import box, circle, lines
+from tests.render.test_pages import box, circle, disc, gradient_level, lines
 
 BLACK, WHITE, RED = (0.0, 0.0, 0.0, 1.0), (1.0, 1.0, 1.0, 1.0), (0.8, 0.1, 0.0, 1.0)
 

@@ -42,6 +42,8 @@ def parts(path):
 
 def distance(points, path):
     """Of points (n, 2) from a path of lines."""
+    if not len(path.vertices):
+        return np.full(len(points), np.inf)
     lines = [shapely.LineString(line) for line in parts(path)]
     with np.errstate(all="ignore"):
         return shapely.distance(shapely.points(points), shapely.MultiLineString(lines))
@@ -115,15 +117,6 @@ def test_straight_edges_are_straight_on_the_map(sight):
         assert distance(page[height > 1e-6], path).max() <= 2 * globe.tolerance
 
 
-def star(rng, middle, size):
-    """A ring on the map around a place, of no symmetry; all of it between the poles."""
-    angle = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(3, 12)))
-    radius = size * rng.uniform(0.3, 1.0, len(angle))[:, None]
-    ring = np.asarray(middle) + radius * np.stack([2 * np.cos(angle), np.sin(angle)], axis=1)
-    ring[:, 1] = np.clip(ring[:, 1], -90.0, 90.0)
-    return ring[:: rng.choice([-1, 1])]
-
-
 def path_of(polygon):
     parts = [np.asarray(ring.coords) for ring in (polygon.exterior, *polygon.interiors)]
     return Path.make_compound_path(*(Path(part, closed=True) for part in parts))
@@ -141,45 +134,29 @@ def agrees(globe, polygon, path, count=300, seed=1):
     wanted = np.zeros(count, dtype=bool)
     for shift in (-720.0, -360.0, 0.0, 360.0, 720.0):
         wanted |= shapely.contains_xy(polygon, lonlat[:, 0] + shift, lonlat[:, 1])
-    clear = np.ones(count, dtype=bool) if not len(path.vertices) else distance(page, path) > 3 * globe.tolerance
+    clear = distance(page, path) > 3 * globe.tolerance
     return np.array_equal(wanted[clear], winding(parts(path), page)[clear])
 
 
-@given(sights, st.integers(0, 10**9), st.floats(-180, 180), st.floats(-70, 70), st.floats(5, 80))
-def test_regions_are_those_of_the_map(sight, seed, lon, lat, size):
-    """Stars of all sizes, over ±180° too, some with a hole, in both directions."""
-    rng = np.random.default_rng(seed)
-    ring = star(rng, (lon, lat), size)
-    polygon = shapely.Polygon(ring).buffer(0)
-    if polygon.geom_type != "Polygon" or np.ptp(ring[:, 0]) > 359:
-        return
-    if rng.random() < 0.5:
-        middle = polygon.representative_point()
-        hole = shapely.Polygon(star(rng, (middle.x, middle.y), size / 10)).buffer(0)
-        if hole.geom_type == "Polygon" and polygon.contains_properly(hole):
-            polygon = polygon.difference(hole)
-    if np.abs(np.diff(shapely.get_coordinates(polygon)[:, 0])).max() > 175:
-        return
-    globe = LonLatToPage(*sight, "straight")
-    assert agrees(globe, polygon, globe.transform_path(path_of(polygon)))
-
-
 def simple_star(rng, middle, size):
-    """A closed ring around a place that contains a disc of a fifth of its size, in either direction."""
+    """A closed ring around a place that contains a disc of a fifth of its size, in either direction; between poles."""
     n = rng.integers(8, 14)
     angle = 2 * np.pi * (np.arange(n) + rng.uniform(0.1, 0.9, n)) / n
     radius = size * rng.uniform(0.35, 1.0, n)[:, None]
     ring = np.asarray(middle) + radius * np.stack([2 * np.cos(angle), np.sin(angle)], axis=1)
+    ring[:, 1] = np.clip(ring[:, 1], -90.0, 90.0)
     return np.vstack([ring, ring[:1]])[:: rng.choice([-1, 1])]
 
 
-@given(sights, st.integers(0, 10**9), st.floats(-180, 180), st.floats(-40, 40))
+@given(sights, st.integers(0, 10**9), st.floats(-180, 180), st.floats(-70, 70))
 def test_rings_within_rings_are_holes_and_islands(sight, seed, lon, lat):
     """By the even-odd rule on the map, in whichever direction and order the rings are given."""
     rng = np.random.default_rng(seed)
-    size = rng.uniform(10, 45)
+    size = rng.uniform(5, 60)
     rings = [simple_star(rng, (lon, lat), size * 0.2**depth) for depth in range(rng.integers(1, 5))]
-    rings += [simple_star(rng, (lon + 150, 0), 25 * 0.2**depth) for depth in range(rng.integers(0, 4))]
+    rings += [
+        simple_star(rng, (lon + 150, 0), 25 * 0.2**depth) for depth in range(rng.integers(0, 4) if size < 45 else 0)
+    ]
     shape = shapely.Polygon(rings[0])
     for ring in rings[1:]:
         shape = shape.symmetric_difference(shapely.Polygon(ring))
@@ -272,7 +249,7 @@ def test_a_slit_is_no_border(sight):
         slit = globe.transform_path(Path(ring + hole, closed=True))
         apart = Path.make_compound_path(Path([*ring, ring[0]], closed=True), Path(hole[:5], closed=True))
         page = np.random.default_rng(3).uniform(-0.7, 0.7, (500, 2))
-        clear = np.ones(len(page), dtype=bool) if not len(slit.vertices) else distance(page, slit) > 3 * globe.tolerance
+        clear = distance(page, slit) > 3 * globe.tolerance
         assert np.array_equal(
             winding(parts(slit), page)[clear], winding(parts(globe.transform_path(apart)), page)[clear]
         )
@@ -298,8 +275,7 @@ def test_rings_around_the_earth_hold_the_smaller_side(start):
 
 def test_several_regions_at_once_are_those_one_by_one():
     rng = np.random.default_rng(5)
-    stars = [star(rng, (rng.uniform(-180, 180), rng.uniform(-60, 60)), 30) for _ in range(12)]
-    rings = Ragged.of([np.vstack([ring, ring[:1]]) for ring in stars])
+    rings = Ragged.of([simple_star(rng, rng.uniform((-180, -60), (180, 60)), 30) for _ in range(12)])
     for globe in (LonLatToPage(LENSES[1], VIEWS[0]), LonLatToPage(LENSES[2], VIEWS[1], "straight")):
         owner = np.arange(12) // 2
         loops, region = globe.regions(rings, owner, 6)

@@ -14,7 +14,6 @@ from stereodel.drawing.style import BLACK
 from stereodel.render.figure import Figure, caption_of, captioned, parted
 from stereodel.render.rows import LabelLayer
 from tests.images.scripts import SCRIPTS
-from tests.render.test_pages import box
 from tools.build import load_drawing
 
 DESCRIPTION = (
@@ -110,9 +109,3 @@ def test_scripts_set_captions_on_request(tmp_path):
     assert "The second costs $5 — or $6." in sheet.extract_text()
     figure.main(["--out", str(tmp_path), "--size", "100", "--caption", "--no-text"])
     assert iio.imread(tmp_path / "small.png").shape[0] == 50
-
-
-def test_titles_are_no_part_of_what_is_drawn():
-    assert page().arrays().keys() == page(title="", description="").arrays().keys()
-    bare = replace(page(), items=(Fill((box(0, 1, 0, 1),), BLACK),))
-    assert np.array_equal(bare.pixels(size=40), replace(bare, title="", description="").pixels(size=40))

@@ -5,8 +5,6 @@ import re
 import subprocess
 import sys
 from dataclasses import replace
-from io import BytesIO
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +14,10 @@ from stereodel.render.gl import Door, OpenGLError, choose, describe, draw
 from stereodel.render.mends import mend_offscreen
 from stereodel.render.pieces import Triangles
 from stereodel.render.trial import trial_triangles
-from tests.images.scripts import case
-from tools.image import PIXEL_LEVELS, PIXEL_SHARE_ANY, PIXEL_SHARE_VISIBLE, levels_apart
+from tools.image import PIXEL_SHARE_ANY, levels_apart
 
 VARIABLES = ("STEREODEL_GL", "PYOPENGL_PLATFORM")
+SQUARE = [[-9, -9], [30, -9], [-9, 30]]
 
 
 @pytest.fixture
@@ -44,16 +42,11 @@ def in_new_process(code, **environment):
     )
 
 
-def test_an_argument_overrides_the_environment(bare_environment):
-    bare_environment.setenv("STEREODEL_GL", "osmesa")
-    assert choose("egl") == ("egl", "argument")
-
-
-def test_our_variable_overrides_that_of_pyopengl(bare_environment):
-    bare_environment.setenv("PYOPENGL_PLATFORM", "osmesa")
-    assert choose() == ("osmesa", "PYOPENGL_PLATFORM")
-    bare_environment.setenv("STEREODEL_GL", "egl")
-    assert choose() == ("egl", "STEREODEL_GL")
+def test_arguments_come_before_our_variable_and_that_before_pyopengls(bare_environment):
+    for variable, platform in (("PYOPENGL_PLATFORM", "osmesa"), ("STEREODEL_GL", "egl")):
+        bare_environment.setenv(variable, platform)
+        assert choose() == (platform, variable)
+    assert choose("osmesa") == ("osmesa", "argument")
 
 
 @pytest.mark.parametrize(("usable", "expected"), [({"osmesa", "egl"}, "osmesa"), ({"egl"}, "egl")])
@@ -99,24 +92,21 @@ def test_the_ground_is_exact_and_rows_come_from_the_top():
 
 
 def test_later_items_cover_earlier_ones_and_blend_over_them():
-    square = [[-9, -9], [30, -9], [-9, 30]]
     black, red = [0.0, 0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0]
     half = [1.0, 1.0, 1.0, 0.5]
-    assert draw(triangles([square, square], [black, red], [0, 1]), 4, 4)[2, 2].tolist() == [255, 0, 0]
-    assert draw(triangles([square, square], [red, black], [0, 1]), 4, 4)[2, 2].tolist() == [0, 0, 0]
-    assert draw(triangles([square, square], [black, half], [0, 1]), 4, 4)[2, 2] == pytest.approx([128] * 3, abs=1)
+    assert draw(triangles([SQUARE, SQUARE], [black, red], [0, 1]), 4, 4)[2, 2].tolist() == [255, 0, 0]
+    assert draw(triangles([SQUARE, SQUARE], [red, black], [0, 1]), 4, 4)[2, 2].tolist() == [0, 0, 0]
+    assert draw(triangles([SQUARE, SQUARE], [black, half], [0, 1]), 4, 4)[2, 2] == pytest.approx([128] * 3, abs=1)
 
 
 def test_an_item_whose_triangles_overlap_blends_once():
-    square = [[-9, -9], [30, -9], [-9, 30]]
-    once = draw(triangles([square], [[0, 0, 0, 0.5]], [3]), 4, 4)
-    assert np.array_equal(once, draw(triangles([square] * 5, [[0, 0, 0, 0.5]] * 5, [3] * 5), 4, 4))
+    once = draw(triangles([SQUARE], [[0, 0, 0, 0.5]], [3]), 4, 4)
+    assert np.array_equal(once, draw(triangles([SQUARE] * 5, [[0, 0, 0, 0.5]] * 5, [3] * 5), 4, 4))
 
 
 def test_the_last_slots_are_told_apart():
-    square = [[-9, -9], [30, -9], [-9, 30]]
     for slot in (0, gl.SLOTS // 2, gl.SLOTS - 2):
-        both = triangles([square, square], [[0, 0, 0, 1], [1, 1, 1, 1]], [slot, slot + 1])
+        both = triangles([SQUARE, SQUARE], [[0, 0, 0, 1], [1, 1, 1, 1]], [slot, slot + 1])
         assert (draw(both, 2, 2) == 255).all()
 
 
@@ -125,38 +115,16 @@ def test_four_samples_a_pixel():
     assert np.unique(draw(edge, 64, 8)).tolist() == [0, 64, 128, 191, 255]
 
 
-def test_bands_meet_without_a_seam(monkeypatch):
-    rng = np.random.default_rng(3)
-    colors = rng.integers(0, 256, (80, 4)) / 255
-    shapes = triangles(rng.uniform(0, 64, (80, 3, 2)), colors, np.arange(80))
-    ground = triangles([[[-99, -99], [400, -99], [-99, 400]]], [[0, 0, 1, 0.5]], [0])
-    whole, even = draw(shapes, 64, 60), draw(ground, 64, 60)
-    monkeypatch.setattr(gl, "BAND", 16)
-    assert np.array_equal(draw(ground, 64, 60), even)
-    # OpenGL cuts triangles at the edge of a band and rounds the new corners: one sample here and there.
-    assert np.any(draw(shapes, 64, 60) != whole, axis=-1).mean() < 0.005
-
-
-def test_pixels_do_not_depend_on_the_size_of_the_picture():
-    rng = np.random.default_rng(4)
-    shapes = triangles(rng.uniform(1, 39, (60, 3, 2)), rng.integers(0, 256, (60, 4)) / 255, np.arange(60))
-    assert np.array_equal(draw(shapes, 333, 200)[-40:, :40], draw(shapes, 40, 40))
-
-
-def test_no_triangles_give_the_ground():
-    nothing = triangles(np.zeros((0, 3, 2)), np.zeros((0, 4)), np.zeros(0, dtype=np.int32))
-    assert (draw(nothing, 5, 3) == 255).all()
-
-
-@pytest.mark.parametrize("size", [(0, 4), (4, 0), (-1, 4)])
-def test_pictures_without_pixels_are_refused(size):
-    with pytest.raises(ValueError, match=f"at least one pixel each way, got {size[0]} by {size[1]}"):
-        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [0]), *size)
-
-
-def test_too_many_items_are_refused():
-    with pytest.raises(ValueError, match="at most"):
-        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [gl.SLOTS]), 4, 4)
+@pytest.mark.parametrize(
+    ("size", "slot", "message"),
+    [
+        *((size, 0, f"at least one pixel each way, got {size[0]} by {size[1]}") for size in ((0, 4), (4, 0), (-1, 4))),
+        ((4, 4), gl.SLOTS, "at most"),
+    ],
+)
+def test_pictures_without_pixels_and_too_many_items_are_refused(size, slot, message):
+    with pytest.raises(ValueError, match=message):
+        draw(triangles([[[0, 0], [1, 0], [0, 1]]], [[0, 0, 0, 1]], [slot]), *size)
 
 
 def test_describe_names_platform_and_versions():
@@ -240,58 +208,6 @@ def test_shaders_are_compiled_once(monkeypatch):
     draw(shape, 5, 5)
 
 
-SCRIPT = """
-import numpy as np
-from stereodel.render.gl import describe, draw
-from stereodel.render.pieces import Triangles
-from stereodel.render.rows import pixel_hash
-rng = np.random.default_rng(1)
-colors = np.repeat(rng.uniform(0, 1, (300, 4)), 3, axis=0)
-slots = np.repeat(np.arange(300, dtype=np.int32), 3)
-shapes = Triangles(rng.uniform(0, 300, (900, 2)), colors, slots, np.arange(900, dtype=np.int32).reshape(-1, 3))
-print(describe().platform, describe().chosen_by, pixel_hash(draw(shapes, 300, 300)))
-"""
-
-
-@pytest.mark.thorough
-def test_both_platforms_give_the_same_pixels():
-    runs = [in_new_process(SCRIPT, STEREODEL_GL=platform) for platform in gl.PLATFORMS]
-    assert [run.returncode for run in runs] == [0, 0], runs[0].stderr + runs[1].stderr
-    osmesa, egl = (run.stdout.split() for run in runs)
-    assert osmesa[:2] == ["osmesa", "STEREODEL_GL"]
-    assert egl[:2] == ["egl", "STEREODEL_GL"]
-    assert osmesa[2] == egl[2]
-
-
-PICTURE = """
-import sys
-import numpy as np
-from stereodel.render.gl import describe
-from tests.images.scripts import case
-np.save(sys.stdout.buffer, case("fig08_hemisphere").picture)
-print(describe(), file=sys.stderr)
-"""
-
-
-@pytest.mark.thorough
-def test_a_renderer_without_multisampling_draws_the_same():
-    """Mesa's softpipe, whose blending rounds otherwise: a level of 255 is let pass, a few samples in an edge too."""
-    run = subprocess.run(
-        [sys.executable, "-c", PICTURE],
-        env={**os.environ, "STEREODEL_GL": "osmesa", "GALLIUM_DRIVER": "softpipe"},
-        cwd=Path(__file__).parents[2],
-        capture_output=True,
-        check=False,
-    )
-    assert run.returncode == 0, run.stderr.decode()
-    assert run.stderr.decode().count("\n") == 1
-    assert "renderer='softpipe', problem='', multisamples=False" in run.stderr.decode()
-    apart = levels_apart(case("fig08_hemisphere").picture, np.load(BytesIO(run.stdout)))
-    assert apart.any()
-    assert (apart > PIXEL_LEVELS).mean() <= PIXEL_SHARE_VISIBLE
-    assert (apart > 1).mean() <= PIXEL_SHARE_ANY
-
-
 def test_samples_one_by_one_are_those_of_multisampling(request):
     """Edges of many directions, see-through, on a lit ball and with a texture."""
     rng = np.random.default_rng(5)
@@ -305,26 +221,38 @@ def test_samples_one_by_one_are_those_of_multisampling(request):
     assert (apart > 0).mean() < 0.1
 
 
-def test_an_error_of_opengl_is_told_and_leaves_nothing_at_the_end():
-    """Four samples asked of softpipe, which has one."""
-    code = (
-        "from stereodel.render import gl, mends;"
-        "gl.mend_offscreen = lambda *given, **named: mends.mend_offscreen(*given, multisamples=True);"
-        "print(gl.describe().problem)"
-    )
-    run = in_new_process(code, STEREODEL_GL="osmesa", GALLIUM_DRIVER="softpipe")
-    assert run.stdout.startswith("osmesa gives an OpenGL context but cannot draw (GLError( err=1282, ")
-    assert run.stdout.count("\n") == 1
-    assert run.stderr == ""
-    assert run.returncode == 0
-
-
-def test_an_earlier_import_of_opengl_is_named():
-    code = "import OpenGL.GL; from stereodel.render.gl import describe; print(describe('egl').problem)"
-    run = in_new_process(code, PYOPENGL_PLATFORM="osmesa")
-    assert "imported OpenGL with OSMesaPlatform and cannot change to egl" in run.stdout, run.stderr
-
-
-def test_the_windowing_library_stays_out():
-    code = "from stereodel.render.gl import describe; describe('osmesa'); import sys; print('pyglet' in sys.modules)"
-    assert in_new_process(code).stdout.strip() == "False"
+@pytest.mark.parametrize(
+    ("code", "environment", "said"),
+    [
+        # Four samples asked of softpipe, which has one.
+        (
+            "from stereodel.render import gl, mends;"
+            "gl.mend_offscreen = lambda *given, **named: mends.mend_offscreen(*given, multisamples=True);"
+            "print(gl.describe().problem)",
+            {"STEREODEL_GL": "osmesa", "GALLIUM_DRIVER": "softpipe"},
+            r"osmesa gives an OpenGL context but cannot draw \(GLError\( err=1282, .*",
+        ),
+        (
+            "import OpenGL.GL; from stereodel.render.gl import describe; print(describe('egl').problem)",
+            {"PYOPENGL_PLATFORM": "osmesa"},
+            ".*imported OpenGL with OSMesaPlatform and cannot change to egl.*",
+        ),
+        # What is drawn is compared: Mesa's softpipe has no multisampling.
+        (
+            "from stereodel.render.gl import describe; print(describe())",
+            {"STEREODEL_GL": "osmesa", "GALLIUM_DRIVER": "softpipe"},
+            ".*renderer='softpipe', problem='', multisamples=False.*",
+        ),
+        # The windowing library stays out.
+        (
+            "from stereodel.render.gl import describe; describe('osmesa'); import sys; print('pyglet' in sys.modules)",
+            {},
+            "False",
+        ),
+    ],
+    ids=["an error of OpenGL", "an earlier import", "a renderer without multisampling", "windows"],
+)
+def test_processes_say_one_line_and_nothing_at_the_end(code, environment, said):
+    run = in_new_process(code, **environment)
+    assert re.fullmatch(said + "\n", run.stdout), run.stderr
+    assert (run.stderr, run.returncode) == ("", 0)

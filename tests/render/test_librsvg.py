@@ -33,18 +33,18 @@ PAGES = {
 }
 
 
-def shown(path):
-    """What librsvg makes of a file, (h, w, 3), on white."""
-    command = ["rsvg-convert", "--width", str(SIZE), "--background-color", "white", str(path)]
+def shown(path, size=SIZE):
+    """What librsvg makes of a file, (h, size, 3), on white."""
+    command = ["rsvg-convert", "--width", str(size), "--background-color", "white", str(path)]
     ran = subprocess.run(command, capture_output=True, check=True, timeout=60)
     assert ran.stderr == b""
     return np.asarray(Image.open(BytesIO(ran.stdout)).convert("RGB")).astype(float)
 
 
-def in_blocks(picture):
+def in_blocks(picture, block=BLOCK):
     """Means over squares of pixels: smoothing of edges evens out."""
-    height, width = (side // BLOCK * BLOCK for side in picture.shape[:2])
-    cut = picture[:height, :width].reshape(height // BLOCK, BLOCK, width // BLOCK, BLOCK, 3)
+    rows, columns = (side // block for side in picture.shape[:2])
+    cut = picture[: rows * block, : columns * block].reshape(rows, block, columns, block, -1)
     return cut.mean(axis=(1, 3))
 
 

@@ -21,6 +21,7 @@ from stereodel.render.pieces import Piece, Pieces, Window
 from stereodel.render.rows import LabelLayer, PixelDigest, labelled, pixel_hash
 from stereodel.render.triangles import triangulate
 from stereodel.sphere import SphereCircle
+from tests.render.test_pages import box
 
 
 def decoded(path):
@@ -78,7 +79,7 @@ def test_a_window_needs_the_triangles_that_touch_it_and_no_other(small_windows):
 def test_windows_leave_no_seam(monkeypatch):
     page = globe_page()
     whole = page.pixels(size=150)
-    ground = Page(page.extent, (Fill((_box(page.extent),), with_opacity(BLUE, 0.5)),))
+    ground = Page(page.extent, (Fill((box(*page.extent),), with_opacity(BLUE, 0.5)),))
     even = ground.pixels(size=100)
     monkeypatch.setattr(gl, "COLUMNS", 128)
     monkeypatch.setattr(gl, "BAND", 96)
@@ -87,12 +88,6 @@ def test_windows_leave_no_seam(monkeypatch):
     apart = np.abs(page.pixels(size=150).astype(int) - whole)
     assert (apart.max(axis=-1) > 0).mean() < 0.01
     assert (apart.max(axis=-1) > 48).mean() < 1e-4
-
-
-def _box(extent):
-    left, right, low, high = extent
-    ends = np.array([[left, low], [right, low], [right, high], [left, high], [left, low]])
-    return np.stack([ends[:-1] + (ends[1:] - ends[:-1]) * t / 3 for t in range(4)], axis=1)
 
 
 @pytest.mark.parametrize("far", [(8192, 0), (12000, 30), (3 * 8192 + 5, 8192), (90_001, 60_007)])
@@ -133,14 +128,6 @@ def test_labels_are_those_of_matplotlib(cuts, halo, off):
     assert np.abs(parts - whole).max() <= off
     assert (whole[..., 3] > 0).mean() > 0.01
     assert np.array_equal(whole, by_matplotlib(page, 297))
-
-
-def test_rows_without_labels_are_left_alone():
-    layer = LabelLayer(globe_page(), 300)
-    part = np.zeros((5, 300, 3), dtype=np.uint8)
-    assert layer.over(part, 220) is not part
-    assert layer.over(part, 47) is part
-    assert not part.any()
 
 
 def test_a_stage_hands_rows_on_as_they_come():
@@ -193,14 +180,6 @@ def test_the_hash_is_of_shape_type_and_values():
     assert len({expected, *map(pixel_hash, others)}) == 4
 
 
-def test_the_hash_of_rows_is_that_of_the_picture():
-    picture = np.random.default_rng(0).integers(0, 256, (9, 4, 3)).astype(np.uint8)
-    digest = PixelDigest(picture.shape)
-    for part in (picture[:4], picture[4:5], picture[5:]):
-        digest.add(part)
-    assert str(digest) == pixel_hash(picture)
-
-
 @pytest.mark.parametrize("error", [KeyboardInterrupt, OSError])
 def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monkeypatch, error):
     path = tmp_path / "globe.png"
@@ -222,16 +201,6 @@ def test_a_failure_on_the_way_leaves_no_half_file(small_windows, tmp_path, monke
     assert [file.name for file in tmp_path.iterdir()] == ["globe.png"]
 
 
-def test_vector_files_by_their_endings(tmp_path):
-    page = globe_page()
-    for kind in ("svg", "PDF"):
-        path = page.save(tmp_path / f"globe.{kind}")
-        assert path.read_bytes()[:5] in (b"<?xml", b"%PDF-")
-    bare = page.save(tmp_path / "bare.svg", text=False).read_bytes()
-    assert b'id="label"' in (tmp_path / "globe.svg").read_bytes()
-    assert b'id="label"' not in bare
-
-
 def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
     triangle = np.array([[-0.5, -0.5], [0.5, -0.5], [0.0, 0.5], [-0.5, -0.5]])
     colors = np.linspace(0, 1, 400).reshape(100, 4)
@@ -242,26 +211,21 @@ def test_pictures_in_vector_files_are_no_finer_than_print(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("name", "size", "error", "message"),
+    ("name", "options", "error", "message"),
     [
-        ("globe.jpg", 100, ValueError, "path must end in .png, .svg or .pdf, got 'globe.jpg'"),
-        ("globe", 100, ValueError, "path must end in"),
-        ("globe.png", 0, ValueError, "size is 0, but must be at least 1"),
-        ("globe.png", 65_536, ValueError, "size is 65536, but must be at most 65535"),
-        ("globe.svg", -4, ValueError, "size is -4"),
-        ("globe.png", 10.5, TypeError, "size must be one integer"),
-        ("no/folder/globe.png", 10, FileNotFoundError, "folder"),
+        ("globe.jpg", {}, ValueError, "path must end in .png, .svg or .pdf, got 'globe.jpg'"),
+        ("globe", {}, ValueError, "path must end in"),
+        ("globe.png", {"size": 0}, ValueError, "size is 0, but must be at least 1"),
+        ("globe.png", {"size": 65_536}, ValueError, "size is 65536, but must be at most 65535"),
+        ("globe.svg", {"size": -4}, ValueError, "size is -4"),
+        ("globe.png", {"size": 10.5}, TypeError, "size must be one integer"),
+        *((f"no/folder/globe.{kind}", {"size": 10}, FileNotFoundError, "folder") for kind in ("png", "svg")),
+        ("globe.png", {"renderer": "svg"}, ValueError, "renderer is 'svg', but must be one of 'gl', 'agg'"),
     ],
 )
-def test_what_cannot_be_written_is_explained(tmp_path, name, size, error, message):
+def test_what_cannot_be_written_is_explained(tmp_path, name, options, error, message):
     with pytest.raises(error, match=message):
-        globe_page().save(tmp_path / name, size=size)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_an_unknown_renderer_is_named(tmp_path):
-    with pytest.raises(ValueError, match="renderer is 'svg', but must be one of 'gl', 'agg'"):
-        globe_page().save(tmp_path / "globe.png", size=10, renderer="svg")
+        globe_page().save(tmp_path / name, **options)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -274,7 +238,7 @@ def test_without_opengl_the_error_says_what_needs_none(tmp_path, monkeypatch):
     with pytest.raises(OSError, match=r"install it.*\.svg and \.pdf of lines and plain fills need no OpenGL"):
         page.save(tmp_path / "globe.png", size=10)
     assert list(tmp_path.iterdir()) == []
-    page.save(tmp_path / "globe.svg")
+    assert page.save(tmp_path / "globe.PDF").read_bytes()[:5] == b"%PDF-"
     page.save(tmp_path / "globe.png", size=10, renderer="agg")
     with pytest.raises(gl.OpenGLError, match="neither OSMesa nor EGL"):
         page.pixels(size=10)

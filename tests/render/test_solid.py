@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from stereodel.drawing import CircleArc, Page, PlacedScene, Scene, Solid, View
+from stereodel.drawing import CircleArc, Scene, Solid, View
 from stereodel.drawing.style import LINES, LineStyle
 from stereodel.render import Figure, gl
 from stereodel.render.bodies import bodies_of
@@ -152,12 +152,6 @@ def test_things_are_where_the_page_has_them(solid, tmp_path):
     )
 
 
-def sections(surface):
-    """Points of a tube by its sections, (k, sides, 3)."""
-    sides = surface.faces[0, 2]
-    return surface.points[: len(surface.points) // sides * sides].reshape(-1, sides, 3)
-
-
 def test_a_scene_off_the_middle_keeps_its_place():
     """And lines of a name lie above those before, by the error of a chord, so that they cover them as on the page."""
     off = Scene(radius=0.5, center=(1.0, 2.0, 3.0))
@@ -166,7 +160,8 @@ def test_a_scene_off_the_middle_keeps_its_place():
     placed = off.placed(VIEW, at=(7.0, -2.0), scale=2.0)
     bodies = list(bodies_of(placed, 100.0))
     for body, height in zip(bodies[1:], (1.0, 1 + CURVE_ERROR), strict=True):
-        rings = sections(body.surface)
+        points, sides = body.surface.points, body.surface.faces[0, 2]
+        rings = points[: len(points) // sides * sides].reshape(-1, sides, 3)
         middles = rings.mean(axis=1) - off.center
         assert np.sqrt(np.sum(middles**2, axis=1)) == pytest.approx(0.5 * height, abs=1e-12)
         assert middles[:, 2] == pytest.approx(0.0, abs=1e-12)
@@ -344,15 +339,6 @@ def test_a_flat_figure_says_so(tmp_path, capsys):
     assert "--solid" in capsys.readouterr().err
     with pytest.raises(ValueError, match="figure 'small' shows nothing in space; give it in_space="):
         figure_of(solid=False).save(tmp_path, size=50, solid=True)
-
-
-def test_a_page_is_laid_out_from_what_is_placed():
-    placed = scene().placed(VIEW, at=(1.0, 2.0), scale=3.0)
-    ours = Page((0, 1, 0, 1), placed.page_items()).arrays()
-    theirs = Page((0, 1, 0, 1), scene().layout(VIEW, at=(1.0, 2.0), scale=3.0)).arrays()
-    assert isinstance(placed, PlacedScene)
-    assert ours.keys() == theirs.keys()
-    assert all(np.array_equal(ours[name], theirs[name]) for name in ours)
 
 
 def test_linear_light_is_that_of_the_standard():
