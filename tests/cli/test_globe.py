@@ -173,6 +173,7 @@ def test_names_titles_legends_and_looks(folder, run):
         "name,lon,lat,people\nNear,10,50,5\nLarge,10,50,900\n,20,40,7\nFar,-170,-50,8\n", encoding="utf-8"
     )
     looks = ["--color=firebrick", "--point-size=2mm", "--title=Towns & more", "--legend", "--width=10cm"]
+    looks += ["--font=Nowhere", "--font=DejaVu Sans"]
     run("globe", "towns.csv", "-o", "a.svg", "--view=10,50", "--labels=name", "--rank=people", *looks)
     root = ET.parse(folder / "a.svg").getroot()
     texts = ["".join(text.itertext()) for text in root.iter(f"{SVG}text")]
@@ -251,14 +252,3 @@ def test_films_have_titles(folder, run):
     assert rows[0][0] <= 1
     assert rows[1][0] > 1
     assert rows[1][-1] >= 117
-
-
-def test_clusters_are_drawn_and_fonts_may_stand_in_for_others(folder, run):
-    """Points 1e-12 degrees apart, duplicates, and a single point."""
-    (folder / "tight.csv").write_text("lon,lat\n5,5\n5.000000000001,5\n5,5.000000000001\n5,5\n", encoding="utf-8")
-    (folder / "one.csv").write_text("lon,lat\n5,5\n", encoding="utf-8")
-    fonts = ["--font", "Nowhere", "--font", "DejaVu Sans"]
-    for name in ("tight", "one"):
-        options = ["--show", "cells", "--show", "triangles", "--magnify", 9, *fonts]
-        run("globe", f"{name}.csv", "-o", f"{name}.svg", *options)
-        assert (folder / f"{name}.svg").stat().st_size > 0

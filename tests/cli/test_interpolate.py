@@ -23,13 +23,6 @@ def values(folder):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_values_at_the_points_themselves(values, method, run, rows):
-    text = run("interpolate", "values.csv", "--value", "z", "--at", "values.csv", "--method", method, "-o", "-")
-    for row in rows(text):
-        assert float(row["z"]) == pytest.approx(float(row["z_1"]), abs=1e-9)
-
-
-@pytest.mark.parametrize("method", METHODS)
 def test_grid(values, method, run, rows):
     run("interpolate", "values.csv", "--value", "z", "--grid", 15, "--method", method, "-o", "grid.csv")
     table = rows((values / "grid.csv").read_text())

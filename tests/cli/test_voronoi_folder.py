@@ -50,15 +50,6 @@ def test_options_of_a_folder(folder, points, run):
     run("voronoi", *FILES, "--lon", "lon", "--lat", "lat", "-o", "named/")
 
 
-def test_results_that_were_deleted(folder, points, run):
-    """A line that names the file, and the option that begins anew."""
-    run("voronoi", *FILES, "-o", "cells/")
-    (folder / "cells" / "rows" / "1.parquet").unlink()
-    said = run("voronoi", *FILES, "-o", "cells/", code=2)
-    assert said.endswith("rows/1.parquet was deleted after it was written; begin anew with --overwrite\n")
-    assert run("voronoi", *FILES, "-o", "cells/", "--overwrite") == ""
-
-
 def test_another_input_is_not_mixed_with_what_is_there(folder, points, run):
     run("voronoi", FILES[0], "-o", "cells/")
     message = run("voronoi", FILES[1], "-o", "cells/", code=2)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import shapely
 
-from stereodel import angular_distance, data, lonlat_to_xyz, solid_angle
+from stereodel import data
 
 RESOLUTIONS = ["50m", "110m"]
 ALL = [
@@ -137,13 +137,6 @@ def test_a_country(name, alpha3, number, continent, inside, million_km2):
     assert not country(table, "South Africa").contains(shapely.Point(28.2, -29.6))
 
 
-def test_outlines_turn_as_the_library_says():
-    ring = country(data.countries(), "Lesotho").geoms[0].exterior
-    corners = lonlat_to_xyz(shapely.get_coordinates(ring)[:-1])
-    centre = lonlat_to_xyz((28.2, -29.6))
-    assert sum(solid_angle(centre, a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)) > 0
-
-
 @both
 def test_coastlines_are_the_outlines_of_the_land(resolution):
     """Apart from some islets and some roundings of the source, and from the edges of the map."""
@@ -155,14 +148,6 @@ def test_the_finest_coastlines_are_the_outlines_of_the_land_without_the_edges_of
     coasts, outlines = data.coastlines("10m"), rings(data.land("10m"))
     assert sum(len(line) - 1 for line in coasts.lines()) == sum(int((~on_map_edge(ring)).sum()) for ring in outlines)
     assert not any(on_map_edge(line).any() for line in coasts.lines())
-
-
-def test_the_finest_borders_follow_the_others():
-    """Most of their points are within 0.1° of borders at 1 : 50 million; the countries at their sides are not known."""
-    fine, coarse = data.borders("10m"), shapely.geometry.shape(data.borders("50m"))
-    assert (fine.sides == -1).all()
-    shapely.prepare(coarse)
-    assert shapely.dwithin(coarse, shapely.points(fine.lonlat[::50]), 0.1).mean() > 0.9
 
 
 @pytest.mark.parametrize("resolution", ["10m", "50m", "110m"])
@@ -203,14 +188,6 @@ def test_other_resolutions_and_changes_are_refused(function):
         assert not getattr(table, field.name).flags.writeable
         with pytest.raises(dataclasses.FrozenInstanceError):
             setattr(table, field.name, None)
-
-
-def test_lines_and_land_are_geometries():
-    lines = shapely.geometry.shape(data.borders("110m"))
-    assert len(lines.geoms) == len(data.borders("110m").lines())
-    xyz = lonlat_to_xyz(shapely.get_coordinates(shapely.geometry.shape(data.land("110m"))))
-    assert len(xyz) == len(data.land("110m").lonlat)
-    assert angular_distance(xyz[0], xyz[1]) < 10
 
 
 def test_countries_are_a_table_of_geopandas():

@@ -88,13 +88,6 @@ def test_pipes_are_written_to(tmp_path):
     assert stat.S_ISFIFO(fifo.stat().st_mode)
 
 
-def test_devices_are_written_to(tmp_path):
-    link = tmp_path / "null"
-    link.symlink_to("/dev/null")
-    write(link)
-    assert link.is_symlink()
-
-
 def test_a_full_disk_is_said_of_the_target():
     with pytest.raises(OSError, match="/dev/full") as raised:
         write("/dev/full")

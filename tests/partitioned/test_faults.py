@@ -177,16 +177,6 @@ def test_a_run_that_ended_is_not_run_again(tmp_path, points):
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
 
 
-def test_a_shard_that_was_cut_short_after_its_sources_were_deleted(tmp_path, points):
-    folder, truth = points
-    interrupted(folder, tmp_path / "out", "solve", 1)
-    for path in (tmp_path / "out" / "scratch").glob("*/points/*.points"):
-        os.truncate(path, 100)
-    with pytest.raises(ValueError, match=r"points was cut short or changed after it was written; begin anew with res"):
-        serially(folder, tmp_path / "out", partition=60)
-    assert differences(serially(folder, tmp_path / "out", partition=60, resume=False), truth) == []
-
-
 def test_other_arguments_are_noticed(tmp_path, points):
     folder, truth = points
     interrupted(folder, tmp_path / "out", "solve", 1)

@@ -152,16 +152,6 @@ def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, ro
         check(tmp_path_factory.mktemp("split"), columns, rows, parts, np.random.default_rng(seed), lots=lots)
 
 
-def test_processes_of_this_machine(tmp_path, rng):
-    columns, rows = rows_of("copied", 600)
-    run = run_of(tmp_path, columns, rows, np.zeros((len(rows), 2)), 4)
-    targets = write_points(tmp_path / "targets", XYZ, rows[::3], 4)
-    found = run.nearest(targets, tmp_path / "nearest", k=3, partition=50)
-    assert found.statistics["partitions"] == 4
-    answer = np.array(found.rows().to_table()["nearest"].to_pylist())
-    assert np.array_equal(answer, mesh_of(columns, rows).nearest(rows[::3], k=3))
-
-
 @pytest.fixture
 def octahedron(tmp_path):
     rows = np.concatenate([np.eye(3), -np.eye(3)])
