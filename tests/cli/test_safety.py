@@ -1,17 +1,14 @@
 """Nothing is lost or changed in silence: places, columns, files; old files stay whatever goes wrong."""
 
 import os
-import resource
-import signal
 import subprocess
 import sys
-from contextlib import contextmanager
 
 import geopandas
 import pytest
 
 from stereodel.cli import app
-from stereodel.io import read_points
+from tests.disks import small_disk
 
 SQUARE = '{"type":"Polygon","coordinates":[[[-90,-40],[130,-40],[130,60],[-90,60],[-90,-40]]]}'
 ATTRIBUTES = """name,lon,lat,x_wgs,y_wgs
@@ -54,19 +51,6 @@ def own(folder):
     (folder / "own.csv").write_text(ATTRIBUTES, encoding="utf-8")
     (folder / "square.geojson").write_text(SQUARE, encoding="utf-8")
     return folder
-
-
-@contextmanager
-def small_disk(room):
-    """Files of this process may not grow beyond so many bytes, as on a disk that is full."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-        signal.signal(signal.SIGXFSZ, before)
 
 
 @pytest.mark.parametrize(("command", "kind"), [(command, kind) for command, kinds in PAIRS.items() for kind in kinds])
@@ -115,15 +99,6 @@ def test_columns_that_collide(own, run, rows, command):
     for before, after, theirs in zip(plain, found, cells[1:], strict=True):
         assert sorted(after.values()) == sorted([*before.values(), *theirs])
         assert all(after[name] == before[name] for name in before if after[name] not in theirs)
-
-
-def test_results_of_a_result_keep_the_first_answer(folder, run):
-    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "first.csv")
-    run("nearest", "cities.csv", "--of", "first.csv", "-k", 2, "-o", "second.csv")
-    assert "'site_row' is written as 'site_row_1'" in run.said
-    columns = read_points("second.csv").columns
-    assert columns["site_row_1"].tolist() == [1, 1, 2, 2, 3, 3, 4, 4, 5, 5]
-    assert columns["site_row"].tolist()[::2] == [1, 2, 3, 4, 5]
 
 
 @pytest.mark.parametrize("command", ["voronoi", "nearest", "interpolate", "triangulate", "contour", "globe"])

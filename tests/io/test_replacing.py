@@ -28,17 +28,6 @@ def test_an_error_leaves_the_old_file_and_nothing_else(target):
     assert [(path.name, path.read_text(encoding="utf-8")) for path in target.parent.iterdir()] == [("note.txt", "old")]
 
 
-def test_the_temporary_file_is_ours_and_nobody_foresees_its_name(target):
-    names = []
-    for _ in range(2):
-        with replacing(target) as temporary:
-            names.append(temporary.name)
-            assert temporary.exists()
-            assert temporary.parent == target.parent
-            temporary.write_text("new", encoding="utf-8")
-    assert names[0] != names[1]
-
-
 def test_what_was_laid_under_the_temporary_name_is_not_written_to(target, monkeypatch):
     victim = target.with_name("victim.txt")
     victim.write_text("mine", encoding="utf-8")

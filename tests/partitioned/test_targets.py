@@ -230,21 +230,3 @@ def test_other_questions_in_a_folder_are_noticed(tmp_path, octahedron):
     with pytest.raises(ValueError, match="a run of other files or arguments: question was"):
         octahedron.nearest(right, tmp_path / "out", k=3)
     assert octahedron.nearest(right, tmp_path / "out", k=3, resume=False).rows().to_table() != first
-
-
-def test_a_run_that_was_interrupted_goes_on(tmp_path, octahedron):
-    targets = write_points(tmp_path / "targets", XYZ, np.ones((4, 3)), 2)
-    calls = []
-
-    def stop(name, done, of):
-        calls.append(name)
-        if name == "answer" and done:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        octahedron.interpolate(targets, tmp_path / "out", "value", partition=2, executor=Here(), progress=stop)
-    found = octahedron.interpolate(
-        targets, tmp_path / "out", "value", partition=2, executor=Here(), progress=lambda name, *_: calls.append(name)
-    )
-    assert calls.count("values") == 2
-    assert found.rows().to_table()["value"].to_pylist() == pytest.approx([2.0] * 4)
