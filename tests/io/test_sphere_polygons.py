@@ -15,11 +15,8 @@ from stereodel import (
     lonlat_to_xyz,
     xyz_to_lonlat,
 )
-from stereodel.constants import CHART_ROUNDING
-from stereodel.curves.ragged import Ragged
 from stereodel.io import tiles, to_geodataframe
 from stereodel.io.frames import layer_of
-from stereodel.io.star_rings import star_shaped
 from tests import sets
 from tests.examples import examples
 
@@ -60,7 +57,7 @@ ON_THE_MAP = {
 }
 """What is hard about the 180th meridian, the poles and chords, beside what is hard on any sphere."""
 
-BELOW_ROUNDING = {"sphere needles", "sphere a rounding and 8 far"}
+BELOW_ROUNDING = {"sphere needles", "sphere ends of an axis", "sphere a rounding and 8 far"}
 SETS = [
     *(pytest.param(points, id=name) for name, points in ON_THE_MAP.items()),
     *(
@@ -229,32 +226,11 @@ def test_any_points_give_a_tiling(lonlat):
 
 
 def test_cells_are_those_of_antimeridian():
-    """As that package cuts them, from two dozen steps between corners."""
-    diagram, share = SphericalVoronoi(RANDOM), np.linspace(0, 1, 25)[:-1, None]
+    """As that package cuts them, from many steps between corners."""
+    diagram, share = SphericalVoronoi(RANDOM), np.linspace(0, 1, 60)[:-1, None]
     for region, cell in zip(diagram.regions, to_geodataframe(diagram).geometry, strict=True):
         corners = diagram.vertices[region]
         steps = [a + share * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
         ring = shapely.Polygon(xyz_to_lonlat(np.concatenate(steps)))
         theirs = antimeridian.fix_polygon(ring, fix_winding=False, great_circle=True)
         assert shapely.symmetric_difference(theirs, cell).area < 0.01 * cell.length
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_star_shaped_rings_are_valid(seed):
-    """No ring that GEOS calls invalid or clockwise is called star-shaped, and convex ones all are."""
-    rng = np.random.default_rng(seed)
-    grid = [rng.integers(-3, 4, size=(rng.integers(1, 7), 2)).astype(float) for _ in range(2000)]
-    around = [np.sort(rng.uniform(0, 2 * np.pi, count)) for count in rng.integers(5, 9, 200)]
-    round_ = [np.column_stack([np.cos(t), np.sin(t)]) for t in around if np.diff(t, append=t[0] + 2 * np.pi).max() < 3]
-    twice = [np.concatenate([ring, ring]) for ring in round_]
-    thin = [ring * [1.0, 1e-16] for ring in round_]
-    rings = Ragged.of([*grid, *round_, *twice, *thin, *(ring[::-1] for ring in round_)])
-    sure, area = star_shaped(rings, CHART_ROUNDING)
-    assert sure[len(grid) : len(grid) + len(round_)].all()
-    assert not sure[len(grid) + len(round_) :].any()
-    assert sure[: len(grid)].sum() > 50
-    for ring, found in zip(np.array(list(rings), dtype=object)[sure], area[sure], strict=True):
-        polygon = shapely.Polygon(ring)
-        assert polygon.is_valid
-        assert polygon.exterior.is_ccw
-        assert polygon.area == pytest.approx(found)
