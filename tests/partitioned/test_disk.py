@@ -374,10 +374,10 @@ WITH_PROCESSES = [
 ]
 
 
-@pytest.mark.parametrize(("name", "done", "pattern", "harm"), by_day(WITH_PROCESSES, WITH_PROCESSES[2]))
-def test_what_changes_under_processes(tmp_path, points, name, done, pattern, harm):
+@pytest.mark.parametrize("case", by_day(WITH_PROCESSES, WITH_PROCESSES[2]))
+def test_what_changes_under_processes(tmp_path, points, case):
     """The same with processes, one of which the system may end as what it has mapped is cut short."""
-    folder, truth = points
+    (name, done, pattern, harm), (folder, truth) = case, points
     with pytest.raises((ValueError, FileNotFoundError), match=r"changed|deleted|cut short|No such file"):
         run_of(folder, tmp_path / "out", executor=None, progress=meanwhile(name, done, harmed(tmp_path, pattern, harm)))
     check(run_of(folder, tmp_path / "out", executor=None, resume=False), truth)
