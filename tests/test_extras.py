@@ -264,6 +264,12 @@ def test_the_command_without_its_libraries_lists_what_there_is(environment, tmp_
         rows = {row.split()[0] for row in listed if row.startswith("  ")}
         assert rows == {command.name for command in app.registered_commands}
         assert asked_for(missing.partition(": ")[2]) == "cli"
+    code, listed, error = command(python, "doctor", tmp_path)
+    assert (code, error) == (1, "")
+    for name in EXTRAS:
+        (row,) = [line for line in listed.splitlines() if line.startswith(f"  {name} ")]
+        assert row.split()[1] == "lacks"
+        assert "pip install" in row
     assert command(python, "--version", tmp_path) == (0, f"stereodel {stereodel.__version__}\n", "")
     for line in ("voronoi cities.csv", "voronoi --help", "--verse"):
         code, output, error = command(python, line, tmp_path)
@@ -285,29 +291,6 @@ def test_the_command_on_the_least(environment, tmp_path):
         code, found, error = command(python, line, tmp_path)
         assert code == 0, error
         assert output in found
-    for line, extra in (
-        ("voronoi cities.csv -o a.geojson", "geo"),
-        ("voronoi cities.csv -o a.vtp", "mesh"),
-        ("interpolate cities.csv --value v --grid 90 -o a.nc", "grid"),
-        ("globe -o a.svg", "draw"),
-        ("globe cities.csv --labels name -o a.png", "render"),
-    ):
-        code, output, error = command(python, line, tmp_path)
-        assert (code, output) == (1, "")
-        assert asked_for(error.strip().removeprefix("error: ")) == extra
-
-
-@pytest.mark.parametrize("extras", [(), pytest.param(("cli",), marks=pytest.mark.thorough)])
-def test_doctor_on_the_least_names_all_that_is_missing(environment, tmp_path, extras):
-    code, output, error = command(environment(*extras), "doctor", tmp_path)
-    assert (code, error) == (1, "")
-    for name in EXTRAS:
-        (row,) = [line for line in output.splitlines() if line.startswith(f"  {name} ")]
-        works = name in extras
-        assert row.split()[1] == ("works" if works else "lacks")
-        assert ("pip install" in row) == (not works)
-        assert all(each.name in row for each in libraries(name) if each.name != "rich" or works)
-    assert "Globes cannot be drawn as PNG: pyrender2 is not installed; it comes with the extra 'render'" in output
 
 
 def test_the_outer_door_speaks():

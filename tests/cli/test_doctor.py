@@ -63,17 +63,6 @@ def test_doctor_says_how_to_get_what_is_missing(monkeypatch, platform, opens, sa
     assert all(each in ran.stdout for each in said), ran.stdout
 
 
-@pytest.mark.thorough
-def test_doctor_says_what_does_not_draw_and_what_draws_instead():
-    """Mesa's softpipe has no multisampling, and EGL gets no context from it."""
-    ran = doctor_here(STEREODEL_GL="egl", GALLIUM_DRIVER="softpipe")
-    assert ran.returncode == 1
-    assert "egl gives no OpenGL context (EGLError( err=EGL_BAD_MATCH" in ran.stdout
-    assert "osmesa         draws, each picture four times: it has no multisampling\n" in ran.stdout
-    assert ran.stdout.splitlines()[-1] == "But osmesa draws: set STEREODEL_GL=osmesa."
-    assert "Traceback" not in ran.stdout + ran.stderr
-
-
 @pytest.mark.parametrize(
     ("trial", "problem"),
     [

@@ -20,7 +20,6 @@ from stereodel.cli.globe_layers import LayerChoice
 from stereodel.cli.globe_options import Projection
 from stereodel.drawing import StereographicView, View
 from stereodel.drawing.page import Dots
-from stereodel.drawing.style import MAP_LINES
 from stereodel.film import Film, FrameError
 from stereodel.globe import Globe
 from tools.image import read_picture
@@ -105,7 +104,7 @@ def test_projections(folder, run, projection):
     ("name", "options", "frames"),
     [
         ("turn.gif", ["--spin", "--seconds", 3, "--fps", 1], 3),
-        ("grow.webp", ["--seconds", 2, "--fps", 2, "--projection", "stereographic"], 4),
+        ("grow.webp", ["--seconds", 2, "--fps", 2, "--projection", "stereographic", "--title=Earth"], 4),
     ],
 )
 def test_films(folder, run, name, options, frames):
@@ -116,6 +115,7 @@ def test_films(folder, run, name, options, frames):
     assert len(pictures) == frames
     assert all((one != other).any() for one, other in pairwise(pictures))
     assert sorted(path.name for path in folder.iterdir()) == sorted(["cities.csv", name])
+    assert (b"Earth" in (folder / name).read_bytes()) == ("--title=Earth" in options)
 
 
 def test_what_moves():
@@ -173,6 +173,7 @@ def test_names_titles_legends_and_looks(folder, run):
         "name,lon,lat,people\nNear,10,50,5\nLarge,10,50,900\n,20,40,7\nFar,-170,-50,8\n", encoding="utf-8"
     )
     looks = ["--color=firebrick", "--point-size=2mm", "--title=Towns & more", "--legend", "--width=10cm"]
+    looks += ["--font=Nowhere", "--font=DejaVu Sans"]
     run("globe", "towns.csv", "-o", "a.svg", "--view=10,50", "--labels=name", "--rank=people", *looks)
     root = ET.parse(folder / "a.svg").getroot()
     texts = ["".join(text.itertext()) for text in root.iter(f"{SVG}text")]
@@ -217,9 +218,6 @@ def test_layers_of_points_lines_and_polygons(folder, run):
     assert line.get("stroke") == "#ff0000"
     assert float(line.get("stroke-width")) == pytest.approx(72 / 25.4, abs=1e-4)
     assert area.get("fill").startswith("url(")  # lit as the ball is
-    usual = LayerChoice.of("some.gpkg").arguments()
-    assert usual["outline"] == MAP_LINES["outline"]
-    assert "color" not in usual
     (folder / "a,color=b.geojson").touch()
     assert LayerChoice.of("a,color=b.geojson").looks == {}
 
@@ -235,30 +233,3 @@ def test_styles_pixels_and_paper(folder, run):
     assert iio.imread(folder / "b.png")[0, 0].tolist() == [0, 0, 0, 0]
     run("globe", "-o", "c.png", "--style=slide", "--style=dark", "--dpi=10", *BARE)
     assert iio.imread(folder / "c.png").shape == (75, 133, 3)
-
-
-def test_films_have_titles(folder, run):
-    """Written above the globe, which is as much smaller, and in the file."""
-    options = ["--fps=1", "--seconds=1", "--size=120", *BARE, "--spin"]
-    run("globe", "-o", "plain.apng", *options)
-    run("globe", "-o", "named.apng", *options, "--title=Earth")
-    plain, named = (iio.imread(folder / name, index=0) for name in ("plain.apng", "named.apng"))
-    assert plain.shape == named.shape
-    assert b"Earth" in (folder / "named.apng").read_bytes()
-    rows = [np.flatnonzero((picture != 255).any(axis=(1, 2))) for picture in (plain, named)]
-    gaps = [np.count_nonzero(np.diff(row) > 1) for row in rows]
-    assert gaps == [0, 1]  # between title and globe
-    assert rows[0][0] <= 1
-    assert rows[1][0] > 1
-    assert rows[1][-1] >= 117
-
-
-def test_clusters_are_drawn_and_fonts_may_stand_in_for_others(folder, run):
-    """Points 1e-12 degrees apart, duplicates, and a single point."""
-    (folder / "tight.csv").write_text("lon,lat\n5,5\n5.000000000001,5\n5,5.000000000001\n5,5\n", encoding="utf-8")
-    (folder / "one.csv").write_text("lon,lat\n5,5\n", encoding="utf-8")
-    fonts = ["--font", "Nowhere", "--font", "DejaVu Sans"]
-    for name in ("tight", "one"):
-        options = ["--show", "cells", "--show", "triangles", "--magnify", 9, *fonts]
-        run("globe", f"{name}.csv", "-o", f"{name}.svg", *options)
-        assert (folder / f"{name}.svg").stat().st_size > 0

@@ -2,8 +2,6 @@
 
 import geopandas
 import numpy as np
-import pandas as pd
-import pyogrio
 import pytest
 from scipy.io import netcdf_file
 
@@ -20,13 +18,6 @@ def values(folder):
     table = np.column_stack([lonlat, lonlat_to_xyz(lonlat)[:, 2]])
     np.savetxt(folder / "values.csv", table, delimiter=",", header="lon,lat,z", comments="", fmt="%.12g")
     return folder
-
-
-@pytest.mark.parametrize("method", METHODS)
-def test_values_at_the_points_themselves(values, method, run, rows):
-    text = run("interpolate", "values.csv", "--value", "z", "--at", "values.csv", "--method", method, "-o", "-")
-    for row in rows(text):
-        assert float(row["z"]) == pytest.approx(float(row["z_1"]), abs=1e-9)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -66,18 +57,6 @@ def test_outside_is_empty(folder, run, rows):
     inside, outside = rows(run("interpolate", "three.csv", "--value", "t", "--at", "at.csv", "-o", "-"))
     assert 1 < float(inside["t"]) < 3
     assert outside["t"] == ""
-
-
-def test_numbers_that_may_have_thousands_are_no_values(folder, run):
-    table = pd.DataFrame(
-        {"lon": ["9,9934", "9,5"], "lat": ["48,4011", "48,1"], "pop": ["128.928", "27.000"], "id": [1, 2]}
-    )
-    table.to_csv(folder / "pop.csv", sep=";", index=False)
-    pyogrio.write_dataframe(table, folder / "pop.xlsx", driver="XLSX")  # cells of text
-    for name, notes in (("pop.csv", 1), ("pop.xlsx", 0)):
-        message = run("interpolate", name, "--value", "pop", "--grid", 90, "-o", "-", code=2)
-        assert f"error: {name}: row 1: the pop '128.928' may be 128.928 or 128928" in message
-        assert message.count("note: column 'pop' is kept as text") == notes
 
 
 def test_levels_and_multiples(folder, run):

@@ -27,7 +27,6 @@ TEXTS = {
     "none.csv": "lon,lat\n",
     "two.csv": "lon,lat\n0,0\n9,0\n",
     "broken.geojson": '{"type": "FeatureCollection", "features": [',
-    "odd.geojson": '{"type": "Map"}',
     "far.geojson": '{"type": "Point", "coordinates": [0, 100]}',
     "broken.gpkg": "no database",
 }
@@ -50,7 +49,6 @@ voronoi gap.csv → gap.csv: row 1: the latitude is missing; leave such rows out
 voronoi infinite.csv → infinite.csv: row 1: the latitude is inf, but must be finite; correct or
 voronoi cities.csv --max-segment=0 -o out.geojson → --max-segment is 0.0, outside (0, 90]
 voronoi cities.csv --clip none.geojson → none.geojson: No such file or directory
-voronoi cities.csv --clip cities.csv → cities.csv:
 voronoi cities.csv --clip land -o a.svg → --clip is for csv, geojson, geojsonl, parquet, gpkg, fgb, shp, kml, and a.svg
 voronoi cities.csv --clip land --plane lon lat → --clip is for cells of the sphere
 voronoi FILES → results of 2 files need a folder, such as --out cells/, not
@@ -69,22 +67,22 @@ voronoi flags.parquet -o a/ → flags.parquet: the column 'lon' holds bool, not 
 voronoi two.gpkg → two.gpkg: there are several layers, 'first', 'second'; say which with --layer-name
 triangulate cities.csv --max-segment=-1 -o out.geojson → --max-segment is -1.0, outside (0, 90]
 triangulate cities.csv --edges -o out.glb → holds faces, not edges
-triangulate cities.csv --edges -o out.vtp → holds faces, not edges
+voronoi cut.gml → cut.gml: the file is damaged: unclosed token: line 20
+voronoi cities.csv --clip cut.gml → cut.gml: the file is damaged: unclosed token: line 20
+globe --layer cut.gml → cut.gml: the file is damaged: unclosed token: line 20
+nearest cities.csv --of cut.gml → cut.gml: the file is damaged: unclosed token: line 20
+interpolate PEOPLE --at cut.gml → cut.gml: the file is damaged: unclosed token: line 20
 nearest cities.csv --of wrong.csv → wrong.csv: no column looks like the longitude; say which with --of-lon,
 nearest cities.csv --of cities.csv --of-lon x → cities.csv: --of-lon is 'x', which is not one of the columns
 nearest cities.csv --of cities.csv --of-lat x → cities.csv: --of-lat is 'x', which is not one of the columns
 nearest cities.csv --of cities.csv --of-crs x → cities.csv: --of-crs is 'x', which PROJ does not know;
-nearest cities.csv --of cities.csv --lon x → cities.csv: --lon is 'x', which is not one of the columns
 nearest not-there.csv --of cities.csv -o out.xyz → out.xyz: cannot write xyz; choose .csv
-nearest not-there.csv --of cities.csv -o out → out: cannot write a file without extension
 nearest not-there.csv --of cities.csv -o none/out.csv → there is no folder none
 nearest not-there.csv --of cities.csv -o . → cannot write
 nearest - --of - → cannot both be stdin
 interpolate PEOPLE --at wrong.csv → wrong.csv: no column looks like the longitude; say which with --at-lon,
-interpolate PEOPLE --at both.csv → both.csv: 'lon', 'lng' may all be the longitude; say which with --at-lon
 interpolate PEOPLE --at cities.csv --at-lat x → cities.csv: --at-lat is 'x', which is not one of the columns
 interpolate PEOPLE --at cities.csv --at-crs x → cities.csv: --at-crs is 'x', which PROJ does not know;
-interpolate PEOPLE --at cities.csv --lat x → cities.csv: --lat is 'x', which is not one of the columns
 interpolate cities.csv --value x --grid 5 → cities.csv: there is no column 'x'; the columns
 interpolate gappy.csv --value size --grid 5 → gappy.csv: row 1: size is missing; leave such rows out with --skip-missin
 interpolate PEOPLE --at cities.csv --box=0,0,9,9 --centers → --box and --centers are for a --grid, and there is none
@@ -92,34 +90,24 @@ interpolate PEOPLE --grid 5 --at-lon x → --at-lon is for the table --at, and t
 interpolate PEOPLE --grid 0 → --grid is 0.0, outside (0, 180]
 interpolate PEOPLE --grid 7 → --grid is 7, but 180 must be a whole multiple of it
 interpolate PEOPLE --grid 1e-05 → --grid is 1e-05, which makes a grid of 36000000 × 18000001 places; 1073741824 are the
-interpolate PEOPLE --grid 1e-07 --box=0,0,9,9 → --grid is 1e-07, which makes a grid of 90000001 × 90000001 places;
 interpolate PEOPLE --grid nan → --grid is nan; every value must be a finite number
 interpolate PEOPLE --grid 5 --box=0,0,7 → --box is '0,0,7', but must be W,S,E,N in degrees, e.g. --box=-25,34,45,72
 interpolate PEOPLE --grid 5 --box=0,9,7,5 → --box is '0,9,7,5', but its south border must be below its north border
-interpolate PEOPLE --grid 5 --box=0,9,7,95 → --box is '0,9,7,95', but its south border must be below its north border
 interpolate PEOPLE --grid 5 --box=nan,5,7,9 → --box is 'nan,5,7,9', but its west and east borders must be finite
 interpolate PEOPLE → either --at
-interpolate PEOPLE --grid 1 --at cities.csv → either --at
 interpolate PEOPLE --grid 1 --plane lon lat → --at
 interpolate cities.csv --value name --grid 90 → cities.csv: row 1: the name 'Quito' is not a number
-contour PEOPLE --levels=1,nan → --levels is nan; every value must be a finite number
 contour PEOPLE --levels=1,x → --levels is '1,x', but must be numbers, e.g. --levels=-10,0,10
 contour PEOPLE --interval=0 → --interval is 0.0, outside (0, inf]
-contour PEOPLE --levels=1e6 --max-segment=0 → --max-segment is 0.0, outside (0, 90]
 contour PEOPLE → give either --levels
-contour PEOPLE --levels 1 --interval 1 → give either --levels
 contour PEOPLE --interval 1e-3 → --interval is 0.001, which makes
-globe cities.csv --lon x → cities.csv: --lon is 'x', which is not one of the columns
 globe --focus=1 → --focus is '1', but must be LON,LAT, e.g. --focus=10.5,48
 globe --focus=1,95 → --focus is '1,95', but its latitude is outside [-90, 90]; the longitude comes
 globe --view=inf,9 → --view is 'inf,9', but its longitude must be finite
-globe --view=1,nan → --view is '1,nan', but its latitude is outside [-90, 90]; the longitude comes
 globe --magnify=-1 → --magnify is -1, but a magnification is positive and finite
 globe --graticule=7 → --graticule is 7, but 180 must be a whole multiple of it
-globe --graticule=nan → --graticule is nan; every value must be a finite number
 globe --projection stereographic --angular-radius=190 → --angular-radius is 190.0, outside (0, 170]
 globe --texture x.png --texture-box=1,2 → --texture-box is '1,2', but must be W,S,E,N in
-globe --fly=1,95 -o out.gif → --fly is '1,95', but its latitude is outside [-90, 90]; the longitude comes
 globe --seconds=0 -o out.gif → --seconds is 0.0, outside (0, inf]
 globe --fps=0 -o out.gif → --fps is 0.0, outside (0, inf]
 globe --spin -o a.png → --spin is for films, but a.png is none
@@ -128,18 +116,14 @@ globe --fly=1 -o out.gif → --fly is '1', but must be LON,LAT
 globe --focus=0,0 --fly=180,0 -o out.gif → opposite
 globe --projection hemispheres -o out.gif → --projection hemispheres cannot move
 globe --fps 200 -o out.gif → at most 50 frames a second
-globe --magnify inf → --magnify is inf,
 globe --no-land --no-coastlines --magnify 1e200 → --magnify is 1e+200, outside the range
-globe --graticule -5 → --graticule is -5
 globe --texture missing.png → missing.png: No such file or directory
 globe --texture broken.gpkg → broken.gpkg is not a picture
 globe --texture cut.png → cut.png is damaged or cut off
 globe --texture huge.png → huge.png has too many pixels: at most 134217728 are read
 globe --texture square.png → square.png: pixels is 9 wide and 9 high
 globe --texture-box 1,2,3,4 → --texture-box is for a --texture, and there is none
-globe --layer missing.geojson → missing.geojson: No such file or directory
 globe --layer broken.geojson → broken.geojson: the file is not JSON
-globe --layer odd.geojson → odd.geojson: this is not GeoJSON
 globe --layer far.geojson → far.geojson: row 1: latitude 100.0 is outside [-90, 90]
 globe --layer broken.gpkg → broken.gpkg
 globe --labels=name → --labels is for POINTS
@@ -152,7 +136,6 @@ globe --dpi=0 → --dpi is 0
 globe --dpi=10 --size=10 → size and dpi both say how many pixels
 globe --style=bright → --style is 'bright'; give column, slide, dark or a file .toml
 globe --style=slide --style=column → both set the size of the page
-globe --style=none.toml → none.toml: No such file or directory
 globe --layer=a.geojson,colour=red → --layer a.geojson,colour=red: colour is unknown; the keys are color, width
 globe --seconds=3 → --seconds is for films
 globe --lon=x --skip-missing → --lon and --skip-missing are for POINTS
@@ -160,7 +143,6 @@ globe --show=cells → --show is for POINTS
 globe --texture=blue-marble --texture-box=0,0,9,9 → --texture-box is for files of a part
 globe cities.csv --layer-name=x → --layer-name is 'x', but a file of the kind csv has no layers
 globe cities.csv -o a.svg --format svg → --format is for stdout
-globe not-there.csv → not-there.csv: No such file or directory
 globe --spin --legend -o out.gif → is for pictures, not for films
 globe --dpi=9 --width=9cm -o out.gif → are for pictures, not for films
 globe cities.csv --font Nowhere → --font is 'Nowhere', which this machine does not have
@@ -169,15 +151,11 @@ panorama room.png -o out.gif → out.gif: cannot write gif
 panorama room.png -o out.png --width 33 → --width is 33, but
 panorama room.png -o out.png --width 40000 → --width is 40000, which makes
 panorama room.png -o out.png --magnify 0 → --magnify is 0
-panorama room.png -o out.png --focus=1 → --focus is '1', but must be LON,LAT
 panorama room.png -o out.png --to planet --angular-radius 170 → --angular-radius
 panorama room.png -o out.png --faces → --faces requires --to cubemap, but
 panorama room.png -o - --to cubemap --faces → six files
 panorama cities.csv -o out.png → cities.csv is not a picture
-panorama nowhere.png -o out.png → nowhere.png
 web cities.csv -o cities.pdf → cities.pdf: cannot write pdf; choose .html
-web nothing.csv → nothing.csv: No such file or directory
-web -o away/page.html → away/page.html: there is no folder away
 web -o - --open → --open needs a file; name one with --out
 """
 STILL = {"globe --focus=0,0 --fly=180,0 -o out.gif", "globe --texture square.png"}
@@ -217,6 +195,8 @@ def made(tmp_path_factory):
     points = geopandas.GeoDataFrame({"name": ["a"]}, geometry=geopandas.points_from_xy([10], [48]), crs=4326)
     for layer in ("first", "second"):
         points.to_file(folder / "two.gpkg", layer=layer)
+    points.iloc[[0] * 9].to_file(folder / "cut.gml", driver="GML")
+    (folder / "cut.gml").write_bytes((folder / "cut.gml").read_bytes()[:1500])
     square, noise = (
         iio.imwrite("<bytes>", np.random.default_rng(0).integers(0, 256, shape, dtype=np.uint8), extension=".png")
         for shape in ((9, 9, 3), (40, 80, 3))
@@ -269,14 +249,6 @@ def test_every_option_that_a_message_may_name_exists():
     assert set(OPTIONS.values()) <= options
 
 
-@pytest.mark.parametrize(
-    "message",
-    [
-        "a.csv: row 3: lat is missing",
-        "a.csv: row 3: the seconds 'x' is not a number",
-        "the layer is empty",
-        "size of x.webp is 17000 pixels",
-    ],
-)
+@pytest.mark.parametrize("message", ["a.csv: row 3: lat is missing", "size of x.webp is 17000 pixels"])
 def test_what_is_no_argument_stays(message):
     assert in_options(message) == message

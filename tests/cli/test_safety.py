@@ -1,17 +1,14 @@
 """Nothing is lost or changed in silence: places, columns, files; old files stay whatever goes wrong."""
 
 import os
-import resource
-import signal
 import subprocess
 import sys
-from contextlib import contextmanager
 
 import geopandas
 import pytest
 
 from stereodel.cli import app
-from stereodel.io import read_points
+from tests.disks import small_disk
 
 SQUARE = '{"type":"Polygon","coordinates":[[[-90,-40],[130,-40],[130,60],[-90,60],[-90,-40]]]}'
 ATTRIBUTES = """name,lon,lat,x_wgs,y_wgs
@@ -56,19 +53,6 @@ def own(folder):
     return folder
 
 
-@contextmanager
-def small_disk(room):
-    """Files of this process may not grow beyond so many bytes, as on a disk that is full."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (room, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
-        signal.signal(signal.SIGXFSZ, before)
-
-
 @pytest.mark.parametrize(("command", "kind"), [(command, kind) for command, kinds in PAIRS.items() for kind in kinds])
 def test_a_full_disk_leaves_the_old_file(own, run, command, kind):
     """Whether it is full at once or near the end, nothing but the old file is there."""
@@ -101,44 +85,20 @@ TAKEN = ["lon", "LAT", "row", "rank", "area_km2", "SITE_ROW", "SITE_NAME", "dist
 TAKEN += ["geom", "Name"]
 
 
-@pytest.mark.parametrize(
-    ("command", "kind"),
-    [("voronoi", "gpkg"), ("nearest", "geojson"), ("interpolate", "fgb"), ("voronoi", "csv"), ("nearest", "parquet")],
-)
-def test_columns_that_collide(own, run, command, kind):
+@pytest.mark.parametrize("command", WRITING)
+def test_columns_that_collide(own, run, rows, command):
     """What is computed is what it is without them; theirs are there, under other names if need be, and that is said."""
-    found = {}
-    for name, taken in (("plain", []), ("taken", TAKEN)):
-        head, places = "name,x_wgs,y_wgs", ["Ulm,10.0,48.4", "Quito,-78.5,-0.2", "Perth,115.9,-32.0"]
-        cells = [[str(1000 * j + k) for j in range(len(taken))] for k in range(len(places))]
-        rows = [",".join([place, *cell]) for place, cell in zip(places, cells, strict=True)]
-        (own / "own.csv").write_text("\n".join([",".join([head, *taken]), *rows]), encoding="utf-8")
-        run(*WRITING[command], "-o", f"{name}.{kind}")
-        if kind == "csv":
-            table = read_points(own / f"{name}.csv", lon="lon", lat="lat")
-            assert table.lonlat.tolist() == [[10.0, 48.4], [-78.5, -0.2], [115.9, -32.0]]
-            found[name] = {key: values.tolist() for key, values in table.columns.items()}
-        else:
-            read = geopandas.read_parquet if kind == "parquet" else geopandas.read_file
-            frame = read(own / f"{name}.{kind}")
-            found[name] = {key: frame[key].tolist() for key in frame} | {"geometry": frame.geometry.to_wkt().tolist()}
+    table = ["name,x_wgs,y_wgs", "Ulm,10.0,48.4", "Quito,-78.5,-0.2", "Perth,115.9,-32.0"]
+    (own / "own.csv").write_text("\n".join(table), encoding="utf-8")
+    plain = rows(run(*WRITING[command], "-o", "-"))
+    cells = [TAKEN, *([str(1000 * j + k) for j in range(len(TAKEN))] for k in range(3))]
+    table = [",".join([line, *cell]) for line, cell in zip(table, cells, strict=True)]
+    (own / "own.csv").write_text("\n".join(table), encoding="utf-8")
+    found = rows(run(*WRITING[command], "-o", "-"))
     assert run.said.startswith("note: column '")
-    theirs = [[1000 * j + k for k in range(3)] for j in range(len(TAKEN))]
-    kept = {key: values for key, values in found["taken"].items() if sorted(values) in theirs}
-    assert sorted(map(sorted, kept.values())) == theirs
-    mine = [sorted(map(str, values)) for key, values in found["taken"].items() if key not in kept]
-    assert sorted(mine) == sorted(sorted(map(str, values)) for values in found["plain"].values())
-    for name in found["plain"].keys() & found["taken"].keys() - kept.keys():
-        assert sorted(map(str, found["taken"][name])) == sorted(map(str, found["plain"][name]))
-
-
-def test_results_of_a_result_keep_the_first_answer(folder, run):
-    run("nearest", "cities.csv", "--of", "cities.csv", "-o", "first.csv")
-    run("nearest", "cities.csv", "--of", "first.csv", "-k", 2, "-o", "second.csv")
-    assert "'site_row' is written as 'site_row_1'" in run.said
-    columns = read_points("second.csv").columns
-    assert columns["site_row_1"].tolist() == [1, 1, 2, 2, 3, 3, 4, 4, 5, 5]
-    assert columns["site_row"].tolist()[::2] == [1, 2, 3, 4, 5]
+    for before, after, theirs in zip(plain, found, cells[1:], strict=True):
+        assert sorted(after.values()) == sorted([*before.values(), *theirs])
+        assert all(after[name] == before[name] for name in before if after[name] not in theirs)
 
 
 @pytest.mark.parametrize("command", ["voronoi", "nearest", "interpolate", "triangulate", "contour", "globe"])
@@ -175,27 +135,6 @@ def test_coordinate_systems_and_layers(own, run, rows):
     points.to_file("two.gpkg", layer="first")
     points.to_file("two.gpkg", layer="second")
     assert len(rows(run("voronoi", "two.gpkg", "--layer-name", "second", "-o", "-"))) == 1
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        ["voronoi", "cut.gml", "-o", "-"],
-        ["nearest", "cities.csv", "--of", "cut.gml", "-o", "-"],
-        ["interpolate", "cities.csv", "--value", "people", "--at", "cut.gml", "-o", "-"],
-        ["voronoi", "cities.csv", "--clip", "cut.gml", "-o", "cells.geojson"],
-        ["globe", "--layer", "cut.gml", "--no-land", "--no-coastlines", "-o", "globe.svg"],
-    ],
-)
-def test_a_cut_file_is_named_at_every_door(own, run, command):
-    points = geopandas.GeoDataFrame(
-        {"name": ["a"] * 9}, geometry=geopandas.points_from_xy([10] * 9, [48] * 9), crs=4326
-    )
-    points.to_file("whole.gml", driver="GML")
-    (own / "cut.gml").write_bytes((own / "whole.gml").read_bytes()[:1500])
-    before = sorted(own.iterdir())
-    assert "error: cut.gml: the file is damaged: unclosed token: line 20" in run(*command, code=2)
-    assert sorted(own.iterdir()) == before
 
 
 def shell(folder, command):

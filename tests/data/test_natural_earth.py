@@ -1,13 +1,11 @@
 """Land, countries and borders: valid GeoJSON, that fit together point by point, and are where they are."""
 
-import dataclasses
-
 import geopandas
 import numpy as np
 import pytest
 import shapely
 
-from stereodel import angular_distance, data, lonlat_to_xyz, solid_angle
+from stereodel import data
 
 RESOLUTIONS = ["50m", "110m"]
 ALL = [
@@ -137,32 +135,18 @@ def test_a_country(name, alpha3, number, continent, inside, million_km2):
     assert not country(table, "South Africa").contains(shapely.Point(28.2, -29.6))
 
 
-def test_outlines_turn_as_the_library_says():
-    ring = country(data.countries(), "Lesotho").geoms[0].exterior
-    corners = lonlat_to_xyz(shapely.get_coordinates(ring)[:-1])
-    centre = lonlat_to_xyz((28.2, -29.6))
-    assert sum(solid_angle(centre, a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)) > 0
-
-
 @both
 def test_coastlines_are_the_outlines_of_the_land(resolution):
     """Apart from some islets and some roundings of the source, and from the edges of the map."""
     coasts, outlines = sides_of(data.coastlines(resolution).lines()), sides_of(rings(data.land(resolution)))
     assert len(coasts - outlines) < {"50m": 0.01, "110m": 0.06}[resolution] * len(coasts)
+    assert not any(on_map_edge(line).any() for line in data.coastlines(resolution).lines())
 
 
 def test_the_finest_coastlines_are_the_outlines_of_the_land_without_the_edges_of_the_map():
     coasts, outlines = data.coastlines("10m"), rings(data.land("10m"))
     assert sum(len(line) - 1 for line in coasts.lines()) == sum(int((~on_map_edge(ring)).sum()) for ring in outlines)
     assert not any(on_map_edge(line).any() for line in coasts.lines())
-
-
-def test_the_finest_borders_follow_the_others():
-    """Most of their points are within 0.1° of borders at 1 : 50 million; the countries at their sides are not known."""
-    fine, coarse = data.borders("10m"), shapely.geometry.shape(data.borders("50m"))
-    assert (fine.sides == -1).all()
-    shapely.prepare(coarse)
-    assert shapely.dwithin(coarse, shapely.points(fine.lonlat[::50]), 0.1).mean() > 0.9
 
 
 @pytest.mark.parametrize("resolution", ["10m", "50m", "110m"])
@@ -180,37 +164,13 @@ def test_rivers(resolution):
     assert danube.is_empty or danube.distance(shapely.Point(16.4, 48.2)) < 0.1  # Vienna
 
 
-@pytest.mark.parametrize(("resolution", "tolerance"), [("10m", 0.04), ("50m", 0.05)])
-def test_lakes(resolution, tolerance):
-    """Areas in 1000 km², as surveyed, of Superior, Victoria, Michigan and Baikal."""
-    surveyed = {(-87.5, 47.7): 82.1, (33.0, -1.0): 68.9, (-87.0, 44.0): 58.0, (108.2, 53.7): 31.7}
-    shapes = np.array([shapely.Polygon(p[0], p[1:]) for p in data.lakes(resolution).polygons()])
-    for place, area in surveyed.items():
-        (lake,) = shapes[shapely.contains_xy(shapes, *place)]
-        assert square_kilometres(lake) / 1000 == pytest.approx(area, rel=tolerance)
-
-
 @pytest.mark.parametrize(
     "function", [data.coastlines, data.land, data.borders, data.rivers, data.lakes, data.countries]
 )
-def test_other_resolutions_and_changes_are_refused(function):
+def test_other_resolutions_are_refused(function):
     choices = "'50m', '110m'" if function is data.countries else "'10m', '50m', '110m'"
     with pytest.raises(ValueError, match=f"resolution is '10km', but must be one of {choices}"):
         function("10km")
-    table = function("110m")
-    assert function("110m") is table
-    for field in dataclasses.fields(table):
-        assert not getattr(table, field.name).flags.writeable
-        with pytest.raises(dataclasses.FrozenInstanceError):
-            setattr(table, field.name, None)
-
-
-def test_lines_and_land_are_geometries():
-    lines = shapely.geometry.shape(data.borders("110m"))
-    assert len(lines.geoms) == len(data.borders("110m").lines())
-    xyz = lonlat_to_xyz(shapely.get_coordinates(shapely.geometry.shape(data.land("110m"))))
-    assert len(xyz) == len(data.land("110m").lonlat)
-    assert angular_distance(xyz[0], xyz[1]) < 10
 
 
 def test_countries_are_a_table_of_geopandas():

@@ -116,7 +116,7 @@ def _repacked(content, chance):
 def wrong(path):
     """What is wrong with how a file is read, or None."""
     for door in DOORS.get(path.suffix, DOORS[""]):
-        held, began = _memory(fresh=True), time.process_time()
+        held, began = memory(fresh=True), time.process_time()
         try:
             door(path)
         except REFUSED as error:
@@ -124,13 +124,13 @@ def wrong(path):
                 return f"{door.__name__}: message {str(error)!r}"
         except Exception as error:
             return f"{door.__name__}: {type(error).__name__}: {error}"
-        spent, more = time.process_time() - began, _memory() - held
+        spent, more = time.process_time() - began, memory() - held
         if spent > SECONDS or more > (PICTURE if door is read_photo else KILOBYTES):
             return f"{door.__name__}: {spent:.1f} s and {more} kB"
     return None
 
 
-def _memory(*, fresh=False):
+def memory(*, fresh=False):
     """The most memory in kB that was held since it was asked for afresh; 0 where the system does not tell."""
     if sys.platform != "linux":
         return 0

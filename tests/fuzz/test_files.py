@@ -108,16 +108,6 @@ def without_metadata_of_columns(folder):
     return folder / "a.parquet"
 
 
-def no_footer(folder):
-    (folder / "a.parquet").write_bytes(b"PAR1" + bytes(50) + b"PAR1")
-    return folder / "a.parquet"
-
-
-def unknown_encoding(folder):
-    (folder / "a.kml").write_bytes(b'<?xml version="1.0" encoding="UDF-8"?><kml/>')
-    return folder / "a.kml"
-
-
 def no_geometry_in_the_middle(folder):
     """A FlatGeobuf with a damaged geometry, of which GDAL makes a table that ends beyond its memory."""
     frame = geopandas.GeoDataFrame({"a": ["x"] * 20}, geometry=[shapely.Point(k, 2) for k in range(20)], crs=4326)
@@ -128,7 +118,7 @@ def no_geometry_in_the_middle(folder):
     return folder / "a.fgb"
 
 
-MADE = [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns, no_footer, unknown_encoding]
+MADE = [cut_text, unknown_crs, not_of_the_earth, without_metadata_of_columns]
 
 
 def by_hand(name, content):
@@ -142,6 +132,8 @@ def by_hand(name, content):
 BYTES = [
     ("a.gpkg", b"SQLite format 3\0aaaa"),
     ("a.parquet", b"PAR1aaaa"),
+    ("a.parquet", b"PAR1" + bytes(50) + b"PAR1"),
+    ("a.kml", b'<?xml version="1.0" encoding="UDF-8"?><kml/>'),
     ("a.geojson", b'{"features":' + b"[" * 200_000),
     ("a.csv", b'lon,lat,a\n1,2,"x\n3,4,b\n'),
     ("a.csv.gz", b"\x1f\x8b\x08aaaa"),

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stereodel import PlanarVoronoi, SphericalVoronoi
-from stereodel.io import PointTable, read_points, to_geodataframe, write
-from stereodel.io.columns import RenamedColumnWarning, beside
+from stereodel.io import PointTable, read_points, write
+from stereodel.io.columns import RenamedColumnWarning
 
 LONLAT = np.array([[10.0, 48.4], [-78.5, -0.2], [135.8, 35.0], [115.9, -32.0]])
 TAKEN = {
@@ -82,21 +82,3 @@ def test_shapefiles_say_which_names_they_cut(tmp_path):
     with pytest.warns(RenamedColumnWarning, match="as long as the format allows"):
         write(tmp_path / "table.shp", table)
     assert kept(read_points(tmp_path / "table.shp").columns) == kept(table.columns)
-
-
-def test_frames_of_triangles_take_no_columns_and_cells_rename_them():
-    diagram = SphericalVoronoi.from_lonlat(LONLAT)
-    with pytest.warns(RenamedColumnWarning):
-        frame = to_geodataframe(diagram, columns={"area": [1, 2, 3, 4]})
-    assert list(frame.columns) == ["point", "area", "area_1", "geometry"]
-    assert frame["area_1"].tolist() == [1, 2, 3, 4]
-
-
-def test_free_names():
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        assert beside(["lon"], {"lat": 1, "A": 2, "a": 3}) == {"lat": 1, "A": 2, "a": 3}
-    with pytest.warns(RenamedColumnWarning):
-        assert list(beside(["a"], {"A": 1, "A_1": 2, "a_2": 3})) == ["A_2", "A_1", "a_2"]
-    with pytest.warns(RenamedColumnWarning):
-        assert list(beside([], {"A": 1, "a": 2}, any_case=True)) == ["A", "a_1"]

@@ -87,13 +87,6 @@ def test_lines_are_short_steps_along_great_circles():
         assert all(angular_distance(*pair) < 1e-13 for pair in zip(ends[1:-1:2], ends[2::2], strict=True))
 
 
-def test_ridges_are_as_far_from_both_points():
-    ridges = to_geodataframe(SphericalVoronoi(SPHERE), what="ridges")
-    for a, b, line in zip(ridges["a"], ridges["b"], ridges.geometry, strict=True):
-        xyz = lonlat_to_xyz(shapely.get_coordinates(line))
-        assert np.abs(angular_distance(xyz, SPHERE[a]) - angular_distance(xyz, SPHERE[b])).max() < 1e-12
-
-
 def test_a_line_over_the_pole_and_along_the_180th_meridian():
     diagram = SphericalVoronoi([[0, 1, 0], [0, -1, 0]])
     lines = to_geodataframe(diagram, what="ridges").geometry
@@ -225,21 +218,6 @@ def test_lines_of_the_sphere_are_cut_and_lie_where_the_values_are(sphere):
     for line in frame.geometry[frame["level"].abs() < 0.5]:
         ends = [part.coords[k] for part in shapely.get_parts(line) for k in (0, -1)]
         assert {abs(lon) for lon, _ in ends} == {180.0}
-
-
-def test_higher_values_are_on_the_left(sphere):
-    _, found = sphere
-    for line in to_geodataframe(found).geometry:
-        for part in shapely.get_parts(line):
-            start, end = lonlat_to_xyz(shapely.get_coordinates(part)[:2])
-            assert np.cross(start, end) @ AXIS > 0
-
-
-def test_the_plane():
-    (ridge,) = contours(PlanarDelaunay([[0, 0], [2, 0], [2, 2], [0, 2]]), [0, 4, 4, 0], 1)
-    frame = to_geodataframe([ridge], crs="EPSG:25832")
-    assert frame.crs == "EPSG:25832"
-    assert shapely.get_coordinates(frame.geometry).tolist() == ridge.points.tolist()
 
 
 def test_none_and_wrong_ones(sphere):

@@ -5,7 +5,7 @@ import pytest
 import rasterio
 import xarray as xr
 
-from stereodel.io import Grid, read_points, write
+from stereodel.io import Grid, write
 from stereodel.io.columns import RenamedColumnWarning
 
 
@@ -56,14 +56,6 @@ def test_xarray_reads_what_it_is_given(tmp_path, name):
         assert found["place"].attrs == {"long_name": "place", "grid_mapping": "crs", "units": "m"}
         assert found["lon"].attrs["standard_name"] == "longitude"
         assert ("lat_bnds" in found) == grid.centers
-
-
-def test_tables(tmp_path):
-    grid = filled(Grid.regular(60))
-    write(tmp_path / "grid.csv", grid)
-    table = read_points(tmp_path / "grid.csv")
-    assert table.lonlat.tolist() == grid.lonlat.reshape(-1, 2).tolist()
-    assert table.columns["place"].tolist() == grid.values["place"].ravel().tolist()
 
 
 def test_missing_values(tmp_path):

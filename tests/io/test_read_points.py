@@ -51,20 +51,6 @@ def test_a_separator_inside_quotes_is_text():
     assert table.lonlat.tolist() == [[10, 48.4], [1, 2]]
 
 
-def test_columns_become_what_all_their_values_are():
-    text = "lon,lat,whole,real,gaps,code,text\n1,2,3,4.5,,007,a\n5,6,7,8,9,010,\n"
-    columns = read_points(io.StringIO(text)).columns
-    assert {name: values.dtype.kind for name, values in columns.items()} == {
-        "whole": "i",
-        "real": "f",
-        "gaps": "f",
-        "code": "U",
-        "text": "U",
-    }
-    assert columns["code"].tolist() == ["007", "010"]
-    assert np.isnan(columns["gaps"][0])
-
-
 @pytest.mark.parametrize(
     ("header", "row", "values"),
     [

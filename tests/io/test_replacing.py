@@ -28,17 +28,6 @@ def test_an_error_leaves_the_old_file_and_nothing_else(target):
     assert [(path.name, path.read_text(encoding="utf-8")) for path in target.parent.iterdir()] == [("note.txt", "old")]
 
 
-def test_the_temporary_file_is_ours_and_nobody_foresees_its_name(target):
-    names = []
-    for _ in range(2):
-        with replacing(target) as temporary:
-            names.append(temporary.name)
-            assert temporary.exists()
-            assert temporary.parent == target.parent
-            temporary.write_text("new", encoding="utf-8")
-    assert names[0] != names[1]
-
-
 def test_what_was_laid_under_the_temporary_name_is_not_written_to(target, monkeypatch):
     victim = target.with_name("victim.txt")
     victim.write_text("mine", encoding="utf-8")
@@ -86,13 +75,6 @@ def test_pipes_are_written_to(tmp_path):
     reader.join(timeout=60)
     assert read == ["new"]
     assert stat.S_ISFIFO(fifo.stat().st_mode)
-
-
-def test_devices_are_written_to(tmp_path):
-    link = tmp_path / "null"
-    link.symlink_to("/dev/null")
-    write(link)
-    assert link.is_symlink()
 
 
 def test_a_full_disk_is_said_of_the_target():

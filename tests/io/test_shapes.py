@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 import shapely
 
-from stereodel import SphericalVoronoi, lonlat_to_xyz
-from stereodel.globe import Globe
-from stereodel.io import read_points, to_geodataframe
+from stereodel.io import read_points
 from stereodel.io.reading import shapes_of
-from stereodel.mpl.geometries import paths_of
 
 RING = [[0, 0], [10, 0], [10, 10], [0, 0]]
 
@@ -72,17 +69,6 @@ def test_every_kind_is_sorted_with_its_feature(tmp_path):
         np.testing.assert_array_equal(sizes, [3, np.nan, np.nan, 4.5] + [np.nan] * 6)
 
 
-def test_other_coordinates_are_transformed(tmp_path):
-    assert shapes_of(shapely.Point(3, 4)).points.tolist() == [[3.0, 4.0]]
-    series = geopandas.GeoSeries([shapely.Point(10, 50)], crs="EPSG:4326").to_crs("EPSG:3857")
-    np.testing.assert_allclose(shapes_of(series).points, [[10, 50]], atol=1e-9)
-    path = tmp_path / "points.gpkg"
-    geopandas.GeoDataFrame({"a": [1]}, geometry=series.array, crs="EPSG:3857").to_file(path)
-    shapes = shapes_of(path)
-    np.testing.assert_allclose(shapes.points, [[10, 50]], atol=1e-9)
-    assert shapes.column("a").tolist() == [1]
-
-
 MERCATOR = {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}
 FAR = [1113194.9079327357, 6446275.841017158]  # 10° E, 50° N
 
@@ -120,12 +106,6 @@ def test_the_member_crs_counts_at_every_door(tmp_path, in_metres):
     for source in ([lines[1], in_metres[1]], {"type": "FeatureCollection", "features": [lines[1], in_metres[1]]}):
         with pytest.raises(ValueError, match="several coordinate systems, degrees, urn:ogc:def:crs:EPSG::3857"):
             shapes_of(source)
-    globe = Globe()
-    globe.add_layer(collection)
-    np.testing.assert_allclose(globe.layers[-1].xyz, lonlat_to_xyz([[10, 50]]), atol=1e-12)
-    cells = to_geodataframe(SphericalVoronoi.from_lonlat([[0, 45], [20, 45], [180, -45]]), clip=collection)
-    assert cells.total_bounds[3] < 56
-    assert min(path.vertices[:, 1].min() for path in paths_of(collection)[0]) > 44
 
 
 def test_nested_collections_and_closed_lines():

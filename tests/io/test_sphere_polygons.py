@@ -15,19 +15,8 @@ from stereodel import (
     lonlat_to_xyz,
     xyz_to_lonlat,
 )
-from stereodel.constants import CHART_ROUNDING
-from stereodel.curves.borders import Antimeridian
-from stereodel.curves.clip import points_along
-from stereodel.curves.ragged import Ragged
-from stereodel.data import airports
 from stereodel.io import tiles, to_geodataframe
-from stereodel.io.diagrams import ridge_arcs
-from stereodel.io.faces import voronoi_sides
 from stereodel.io.frames import layer_of
-from stereodel.io.layers import packed, unpacked
-from stereodel.io.on_map import close_in_longitude
-from stereodel.io.star_rings import packed_rings, star_shaped
-from stereodel.io.tiles import Net, sphere_polygons
 from tests import sets
 from tests.examples import examples
 
@@ -78,6 +67,7 @@ SETS = [
         for one in sets.of("sphere", without=["sizes"])[1:]
         if one.id not in BELOW_ROUNDING
     ),
+    pytest.param(sets.sphere("airports").drawn(28_298), id="all airports", marks=pytest.mark.thorough),
 ]
 
 
@@ -237,59 +227,12 @@ def test_any_points_give_a_tiling(lonlat):
     assert_tiles(to_geodataframe(SphericalVoronoi.from_lonlat(lonlat), max_segment=15).geometry.values)
 
 
-def test_cuts_are_those_of_antimeridian():
-    """Where that package has an answer: no vertex at a pole or on the 180th meridian itself."""
-    diagram = SphericalVoronoi(RANDOM)
-    arcs, sides, step = ridge_arcs(diagram), voronoi_sides(diagram), np.radians(1)
-    cells = unpacked(sphere_polygons(Net(diagram.vertices, diagram.ridge_vertices), sides, 1.0, "spherical"))
-    pieces = Antimeridian().cut(arcs).arcs
-    samples = close_in_longitude(pieces.spread(np.ceil((pieces.stop - pieces.begin) / step).astype(int)), step)
-    for cell, row in zip(cells, sides, strict=True):
-        parts = [np.flatnonzero(pieces.edge == max(side, ~side)) for side in row]
-        run = np.concatenate([part if side >= 0 else ~part[::-1] for part, side in zip(parts, row, strict=True)])
-        ring = points_along(Ragged(run, np.array([0, len(run)])), samples).values
-        ring = ring[(ring[:, 1] != 0) | (ring[:, 0] > 0)]
-        theirs = antimeridian.fix_polygon(shapely.Polygon(xyz_to_lonlat(ring)), fix_winding=False, great_circle=True)
-        assert shapely.symmetric_difference(theirs, cell).area < 1e-6  # that package rounds crossings to 1e-7 degrees
-
-
-@pytest.mark.thorough
-def test_airports():
-    """28 298 airports, some of them at the same place, some metres apart."""
-    places = airports()
-    diagram = SphericalVoronoi.from_lonlat(places.lonlat)
-    frame = to_geodataframe(diagram)
-    parts = shapely.get_parts(frame.geometry.values)
-    assert len(frame) == len(places.lonlat) - np.count_nonzero(diagram.point_region != np.arange(len(places.lonlat)))
-    assert shapely.is_valid(frame.geometry.values).all()
-    assert shapely.is_ccw(shapely.get_exterior_ring(parts)).all()
-    assert shapely.area(parts).sum() == pytest.approx(WORLD, abs=1e-6)
-    assert (shapely.distance(frame.geometry.values, shapely.points(places.lonlat[frame["point"]])) < 1e-9).all()
-    assert frame["area"].sum() == pytest.approx(4 * np.pi, abs=1e-10)
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_star_shaped_rings_are_valid(seed):
-    """No ring that GEOS calls invalid or clockwise is called star-shaped, and convex ones all are."""
-    rng = np.random.default_rng(seed)
-    grid = [rng.integers(-3, 4, size=(rng.integers(1, 7), 2)).astype(float) for _ in range(2000)]
-    around = [np.sort(rng.uniform(0, 2 * np.pi, count)) for count in rng.integers(5, 9, 200)]
-    round_ = [np.column_stack([np.cos(t), np.sin(t)]) for t in around if np.diff(t, append=t[0] + 2 * np.pi).max() < 3]
-    twice = [np.concatenate([ring, ring]) for ring in round_]
-    thin = [ring * [1.0, 1e-16] for ring in round_]
-    rings = Ragged.of([*grid, *round_, *twice, *thin, *(ring[::-1] for ring in round_)])
-    sure, area = star_shaped(rings, CHART_ROUNDING)
-    assert sure[len(grid) : len(grid) + len(round_)].all()
-    assert not sure[len(grid) + len(round_) :].any()
-    assert sure[: len(grid)].sum() > 50
-    for ring, found in zip(np.array(list(rings), dtype=object)[sure], area[sure], strict=True):
-        polygon = shapely.Polygon(ring)
-        assert polygon.is_valid
-        assert polygon.exterior.is_ccw
-        assert polygon.area == pytest.approx(found)
-
-
-def test_packed_rings_are_those_of_geos():
-    rings = Ragged.of([np.random.default_rng(k).normal(size=(k, 2)) for k in (3, 4, 3, 9)])
-    polygons = np.array([shapely.Polygon(ring) for ring in rings])
-    assert packed_rings(rings).tolist() == packed(polygons).tolist()
+def test_cells_are_those_of_antimeridian():
+    """As that package cuts them, from many steps between corners."""
+    diagram, share = SphericalVoronoi(RANDOM), np.linspace(0, 1, 60)[:-1, None]
+    for region, cell in zip(diagram.regions, to_geodataframe(diagram).geometry, strict=True):
+        corners = diagram.vertices[region]
+        steps = [a + share * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)]
+        ring = shapely.Polygon(xyz_to_lonlat(np.concatenate(steps)))
+        theirs = antimeridian.fix_polygon(ring, fix_winding=False, great_circle=True)
+        assert shapely.symmetric_difference(theirs, cell).area < 0.01 * cell.length

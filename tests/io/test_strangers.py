@@ -17,7 +17,6 @@ import warnings
 import zipfile
 from contextlib import contextmanager
 from functools import partial
-from pathlib import Path
 
 import geopandas
 import numpy as np
@@ -31,6 +30,7 @@ import shapely
 from stereodel.constants import MOST_COLUMNS, MOST_LINE, MOST_MEMBERS
 from stereodel.io import DataWarning, read_points, write
 from stereodel.io.reading import shapes_of
+from tests.fuzz.files import KILOBYTES, memory
 
 POINT = geopandas.GeoDataFrame({"i": ["topsecret"]}, geometry=[shapely.Point(1, 2)], crs=4326)
 
@@ -330,17 +330,10 @@ BOMBS = {
 def little(patience):
     """Less than two seconds and 300 MB, as Linux tells."""
     read_points(io.BytesIO(HEAD))
-    linux = sys.platform == "linux"
-    if linux:
-        Path("/proc/self/clear_refs").write_text("5")
-    held, began = _kilobytes("VmRSS") if linux else 0, time.process_time()
+    held, began = memory(fresh=True), time.process_time()
     yield
     assert time.process_time() - began < 2 * patience
-    assert (_kilobytes("VmHWM") if linux else 0) - held < 300_000
-
-
-def _kilobytes(key):
-    return int(Path("/proc/self/status").read_text().partition(f"{key}:")[2].split()[0])
+    assert memory() - held < KILOBYTES
 
 
 @pytest.mark.parametrize("name", BOMBS)

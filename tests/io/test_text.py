@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from stereodel.io.text import LONG, column, doubles, texts, typed, why_not
+from stereodel.io.text import LONG, column, doubles, texts, typed
 
 
 @pytest.mark.parametrize(
@@ -111,8 +111,3 @@ def test_doubles_of_what_is_asked_for_as_numbers(dtype):
     assert wrong.tolist() == [False, False, False, False, True, True, False]
     assert values[[0, 1, 3, 6]].tolist() == [1.5, 2.25, 0.12345678901234568, np.inf]
     assert np.isnan(values[2])
-
-
-def test_why_text_is_no_number():
-    assert why_not("1,234") == "may be 1.234 or 1234; write thousands without a separator"
-    assert why_not("north") == "is not a number"

@@ -114,13 +114,6 @@ def test_no_chord_strays_from_the_worlds_coast_at_a_thousand(tolerance):
     assert off.max() <= 2 * tolerance  # the nearest place in degrees is not the nearest on the sphere
 
 
-@pytest.mark.parametrize("lens", LENSES)
-def test_there_and_back(lens):
-    source = shapely.unary_union([shapely.box(-30, 20, 40, 60), shapely.box(100, -60, 140, -10)])
-    back = warp(warp(source, lens, tolerance=0.001), lens.inverse(), tolerance=0.001)
-    assert back.symmetric_difference(source).area < 1
-
-
 def test_parts_that_met_at_180_degrees_become_one():
     apart = shapely.MultiPolygon([shapely.box(170, 0, 180, 10), shapely.box(-180, 2, -170, 12)])
     turned = warp(apart, MoebiusMap.rotation((0, 90), 100))

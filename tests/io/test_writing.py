@@ -25,7 +25,6 @@ from stereodel import (
 from stereodel.io import (
     PointTable,
     from_ugrid,
-    read_points,
     to_geodataframe,
     to_geojson,
     to_polydata,
@@ -45,18 +44,6 @@ GREAT_CIRCLE = sets.sphere("short circle").points
 @pytest.fixture
 def diagram():
     return SphericalVoronoi(SPHERE)
-
-
-@pytest.mark.parametrize(
-    ("ending", "latitude"),
-    [("csv", "geodetic"), ("geojson", "spherical"), ("parquet", "geodetic"), ("gpkg", "spherical")],
-)
-def test_sites_come_back(tmp_path, ending, latitude, diagram):
-    path = tmp_path / f"sites.{ending}"
-    write(path, diagram, what="sites", columns={"name": NAMES}, latitude=latitude)
-    table = read_points(path)
-    assert angular_distance(lonlat_to_xyz(table.lonlat, latitude=latitude), SPHERE).max() < 1e-13
-    assert table.columns["name"].tolist() == NAMES.tolist()
 
 
 @pytest.mark.parametrize(
@@ -80,16 +67,12 @@ def test_geometries_come_back(tmp_path, ending, what, diagram):
 def test_geojson_is_as_the_standard_wants_it(diagram):
     collection = json.loads(to_geojson(to_geodataframe(diagram, columns={"name": NAMES})))
     assert set(collection) == {"type", "features"}
-    kinds = {"Polygon", "MultiPolygon"}
     for feature in collection["features"]:
         assert set(feature) == {"type", "properties", "geometry"}
-        assert feature["geometry"]["type"] in kinds
         geometry = shapely.geometry.shape(feature["geometry"])
-        for ring in shapely.get_exterior_ring(shapely.get_parts(geometry)):
-            assert ring.is_ccw
-            assert ring.coords[0] == ring.coords[-1]
-        assert geometry.bounds[0] >= -180
-        assert geometry.bounds[2] <= 180
+        rings = shapely.get_exterior_ring(shapely.get_parts(geometry))
+        assert shapely.is_ccw(rings).all()
+        assert np.abs(geometry.bounds).max() <= 180
     assert [feature["properties"]["name"] for feature in collection["features"]] == NAMES.tolist()
 
 

@@ -13,17 +13,16 @@ from tests.partitioned.answers import differences, in_memory, rows_of, serially,
 from tests.sets import LONLAT, XY, XYZ
 
 SIZE = 500
-QUICK = ["none", "one", "two", "three", "random", "clusters", "graticule", "half", "cap", "copied", "a metre and 8 far"]
-QUICK += ["airports", "whole numbers", "lengths", "great circle", "circle and a pole", "circle and poles"]
-QUICK += ["1e-200 apart", "lattice", "line", "line and one", "all sizes", "tiny", "thin strip", "disc and two far"]
+QUICK = ["sphere random", "sphere copied", "sphere whole numbers", "sphere great circle", "sphere circle and a pole"]
+QUICK += ["sphere none", "plane lattice", "plane line and one"]
 
 
 def of_any(few=True):
-    """Each set in any number of partitions, those of few points in four; by day the hardest in four or sixteen."""
+    """Each set in any number of partitions, those of few points in four; by day some in four, one in sixteen."""
     for one in sets.ALL.values():
-        grows, quick = "grows" in one.traits, one.name in QUICK
-        for parts in (1, 4, 16, 64) if grows else (4,) if few else ():
-            marks = () if quick and parts in (4, 16) else pytest.mark.thorough
+        for parts in (1, 4, 16, 64) if "grows" in one.traits else (4,) if few else ():
+            by_day = (str(one) in QUICK and parts == 4) or (str(one) == "sphere random" and parts == 16)
+            marks = () if by_day else pytest.mark.thorough
             yield pytest.param(one, parts, marks=marks, id=f"{one} in {parts}")
 
 

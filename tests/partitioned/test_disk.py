@@ -16,6 +16,7 @@ from stereodel.partitioned import passes as passes_of
 from stereodel.partitioned.sources import PointFile
 from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
 from tests.sets import LONLAT
+from tests.tiers import by_day
 
 PASSES = ("sample", "spread", "collect", "solve", "align")
 
@@ -367,34 +368,19 @@ def test_a_page_that_is_damaged(tmp_path, points, checksum):
 
 
 WITH_PROCESSES = [
-    ("solve", 2, "points/003.parquet", overwrite),
-    ("spread", 2, "points/003.parquet", os.unlink),
     ("collect", 2, "out/scratch/*/spread/starts", partial(os.truncate, length=70)),
     ("solve", 2, "out/scratch/*/points/*.points", partial(os.truncate, length=70)),
     ("align", 2, "out/scratch/*/results/triangles/3.parquet", os.unlink),
 ]
 
 
-@pytest.mark.parametrize(
-    ("name", "done", "pattern", "harm"),
-    [
-        WITH_PROCESSES[4],
-        *(pytest.param(*row, marks=pytest.mark.thorough) for row in WITH_PROCESSES if row[3] != overwrite),
-    ],
-)
-def test_what_changes_under_processes(tmp_path, points, name, done, pattern, harm):
+@pytest.mark.parametrize("case", by_day(WITH_PROCESSES, WITH_PROCESSES[2]))
+def test_what_changes_under_processes(tmp_path, points, case):
     """The same with processes, one of which the system may end as what it has mapped is cut short."""
-    folder, truth = points
-    found = sorted(tmp_path.glob(pattern)) if pattern.startswith("points") else []
-    kept = [path.with_suffix(".kept") for path in found]
-    for path, copy in zip(found, kept, strict=True):
-        shutil.copy2(path, copy)
-
+    (name, done, pattern, harm), (folder, truth) = case, points
     with pytest.raises((ValueError, FileNotFoundError), match=r"changed|deleted|cut short|No such file"):
         run_of(folder, tmp_path / "out", executor=None, progress=meanwhile(name, done, harmed(tmp_path, pattern, harm)))
-    for path, copy in zip(found, kept, strict=True):
-        shutil.copy2(copy, path)
-    check(run_of(folder, tmp_path / "out", executor=None, resume=bool(found)), truth)
+    check(run_of(folder, tmp_path / "out", executor=None, resume=False), truth)
 
 
 def test_nothing_is_left_of_an_earlier_run_with_other_arguments(tmp_path, points):
@@ -458,7 +444,5 @@ def test_what_is_not_there_is_said(tmp_path, points):
     for read in (run.triangles, run.cells):
         with pytest.raises(ValueError, match="the run was not asked for "):
             read()
-    with pytest.raises(ValueError, match="columns has 1 names, but on the sphere a place has"):
-        run_of(folder, tmp_path / "other", columns="lon")
     run = run_of(folder, tmp_path / "other", keep="id", rows="area")  # names by themselves
     assert run.rows().schema.names == ["id", "area"]

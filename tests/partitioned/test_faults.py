@@ -1,11 +1,9 @@
 """What goes wrong: told once and clearly, with nothing half; what was interrupted goes on."""
 
-import multiprocessing
+import errno
 import os
-import resource
 import shutil
 import signal
-from concurrent.futures import Executor, Future
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
 from pathlib import Path
@@ -15,10 +13,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 
-from stereodel.partitioned import Run, plan, triangulate
-from stereodel.partitioned.executors import ATTEMPTS, Crew, Here
+from stereodel.partitioned import triangulate
+from stereodel.partitioned.executors import ATTEMPTS, Crew
 from stereodel.partitioned.lock import locked
 from stereodel.partitioned.run import PASSES
+from tests.disks import small_disk
 from tests.partitioned.answers import differences, in_memory, rows_of, serially, write_points
 from tests.sets import LONLAT, XYZ
 
@@ -29,42 +28,6 @@ def points(tmp_path, monkeypatch):
     monkeypatch.setattr("stereodel.partitioned.plan.LEAST_SHARE", 1)
     columns, rows = rows_of("random", 600)
     return write_points(tmp_path / "points", columns, rows), in_memory(columns, rows)
-
-
-class Failing(Executor):
-    """Computes tasks at once, but for one of a pass: the one that is begun so many tasks from now fails."""
-
-    def __init__(self, name):
-        self.name, self.left, self.done = name, 0, []
-
-    def submit(self, function, /, *arguments):
-        future = Future()
-        name = function.func.__name__
-        self.left -= name == self.name
-        if name == self.name and self.left == 0:
-            self.done.append(f"{name} failed")
-            future.set_exception(ConnectionError("the worker is gone"))
-            return future
-        self.done.append(name)
-        return Here().submit(function, *arguments)
-
-
-@pytest.mark.parametrize("name", PASSES)
-def test_a_task_that_fails_thrice(tmp_path, points, name):
-    """The error is the task's own; each run begins where the last one stopped; what was done is not done again."""
-    folder, truth = points
-    executor = Failing(name)
-    for count in (3, 1, 1):  # the others of the pass were done in the first run
-        executor.left = count
-        with pytest.raises(ConnectionError, match="the worker is gone"):
-            triangulate(folder, tmp_path / "out", partition=60, executor=executor)
-        with pytest.raises(FileNotFoundError, match="no run ended there"):
-            Run(tmp_path / "out")
-    run = triangulate(folder, tmp_path / "out", partition=60, executor=executor)
-    assert differences(run, truth) == []
-    assert executor.done.count(f"{name} failed") == 3
-    once = {other: executor.done.count(other) for other in PASSES}
-    assert set(once.values()) <= {5, 10}
 
 
 def killed_once(marker, name, function, task):
@@ -97,6 +60,7 @@ def killed(task):
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+@pytest.mark.thorough
 def test_processes_that_die_again_and_again():
     with Crew(None, 2) as crew, pytest.raises(BrokenProcessPool):
         list(crew.results(killed, range(2)))
@@ -111,30 +75,13 @@ def test_two_runs_on_one_folder(tmp_path, points):
     assert serially(folder, tmp_path / "out").statistics["points"] == 600
 
 
-def limited(function, size, *arguments):
-    """An error of a function in a process whose files may not be larger, as if the disk were full."""
-    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
-    try:
-        function(*arguments)
-    except OSError as error:
-        return type(error).__name__, error.errno, str(error)
-    return None
-
-
-def of_limited(source, out):
-    plan.LEAST_SHARE = 1
-    serially(source, out, partition=60)
-
-
 @pytest.mark.parametrize("size", [2000, *(pytest.param(size, marks=pytest.mark.thorough) for size in (300, 5000))])
 def test_a_full_disk(tmp_path, points, size):
     """An OSError; nothing is half written; with room again the run goes on."""
     folder, truth = points
-    with multiprocessing.get_context("spawn").Pool(1) as pool:
-        name, number, _ = pool.apply(limited, (of_limited, size, folder, tmp_path / "out"))
-    assert name == "OSError"
-    assert number == 27  # EFBIG, where a full disk has ENOSPC
+    with small_disk(size), pytest.raises(OSError) as full:
+        serially(folder, tmp_path / "out", partition=60)
+    assert full.value.errno == errno.EFBIG  # where a full disk has ENOSPC
     assert not [path for path in (tmp_path / "out").rglob("*") if path.name.endswith(".tmp")]
     assert differences(serially(folder, tmp_path / "out", partition=60), truth) == []
 
@@ -175,16 +122,6 @@ def test_a_run_that_ended_is_not_run_again(tmp_path, points):
     again = serially(folder, tmp_path / "out", progress=lambda *told: calls.append(told))
     assert (again.statistics, calls) == (first.statistics, [])
     assert {path: path.stat().st_mtime_ns for path in (tmp_path / "out").rglob("*.parquet")} == times
-
-
-def test_a_shard_that_was_cut_short_after_its_sources_were_deleted(tmp_path, points):
-    folder, truth = points
-    interrupted(folder, tmp_path / "out", "solve", 1)
-    for path in (tmp_path / "out" / "scratch").glob("*/points/*.points"):
-        os.truncate(path, 100)
-    with pytest.raises(ValueError, match=r"points was cut short or changed after it was written; begin anew with res"):
-        serially(folder, tmp_path / "out", partition=60)
-    assert differences(serially(folder, tmp_path / "out", partition=60, resume=False), truth) == []
 
 
 def test_other_arguments_are_noticed(tmp_path, points):

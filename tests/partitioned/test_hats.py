@@ -95,6 +95,7 @@ def computed(catalogue):
         return pd.DataFrame(catalogue.compute(progress_bar=False))
 
 
+@pytest.mark.thorough
 def test_points_are_those_of_the_table_in_the_order_of_pixels(collection, opened, table):
     source = source_of(collection)
     assert source.compact
@@ -124,6 +125,7 @@ def run(collection, tmp_path_factory):
     return run
 
 
+@pytest.mark.thorough
 def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, table, run):
     """And finds each star's own cell, which is that of all points at once."""
     first, second = opened(collection), opened(run.folder / "rows")
@@ -142,6 +144,7 @@ def test_lsdb_joins_the_second_catalogue_pixel_by_pixel(collection, opened, tabl
         assert found["degree"].tolist() == np.diff(diagram.region_offsets).tolist()
 
 
+@pytest.mark.thorough
 def test_the_second_catalogue_is_one_for_hats(collection, run, tmp_path):
     """Its own check of files against each other, and the sky map of the first."""
     from hats.io.validation import is_valid_catalog
@@ -155,6 +158,7 @@ def test_the_second_catalogue_is_one_for_hats(collection, run, tmp_path):
     assert not (tmp_path / "out" / "sky_voronoi.properties").exists()  # nothing identifies rows
 
 
+@pytest.mark.thorough
 def test_pixels_that_are_folders_of_files(copied, opened, run, tmp_path):
     whole = source_of(copied)
     for file in whole.files:
@@ -196,12 +200,27 @@ def test_properties_as_java_writes_them(tmp_path, text, expected):
     assert catalogue.pixels == ()
 
 
+def test_a_catalogue_that_is_made_by_hand(tmp_path):
+    """By day, as to import LSDB takes seconds."""
+    (tmp_path / "hats.properties").write_text("hats_col_ra=ra\nhats_col_dec=dec\n")
+    lonlat = np.array([[[350.0, 5], [340, 10]], [[80, 15], [90, 20]]])
+    for number, places in enumerate(lonlat):
+        path = tmp_path / Pixel(1, number).path(".parquet")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        pq.write_table(pa.table({"ra": places[:, 0], "dec": places[:, 1]}), path)
+    source = source_of(tmp_path)
+    assert source.catalogue.pixels == (Pixel(1, 0), Pixel(1, 1))
+    found = [np.concatenate(list(read(file, source.places, 0, file.rows))) for file in source.files]
+    assert np.array_equal(found, lonlat_to_xyz(lonlat))
+
+
 def test_pixels_share_folders_of_ten_thousand():
     assert Pixel(8, 123_456).path("/").as_posix() == "dataset/Norder=8/Dir=120000/Npix=123456"
     for pixel in (Pixel(0, 0), Pixel(8, 123_456), Pixel(29, 12 * 4**29 - 1)):
         assert Pixel.of_path(pixel.path(".snappy.parquet")) == pixel
 
 
+@pytest.mark.thorough
 def test_what_is_a_catalogue(collection, copied, tmp_path):
     """With the older name of its properties, and without its list of pixels, too."""
     expected = source_of(copied)
@@ -215,6 +234,7 @@ def test_what_is_a_catalogue(collection, copied, tmp_path):
     assert not is_catalogue([collection])
 
 
+@pytest.mark.thorough
 def test_a_catalogue_of_targets(collection, opened, tmp_path, table):
     """Answers are a second catalogue, row by row, that LSDB reads."""
     lonlat = np.random.default_rng(3).uniform([-180, -90], [180, 90], (500, 2))
@@ -241,6 +261,7 @@ WRONG = {
 }
 
 
+@pytest.mark.thorough
 @pytest.mark.parametrize("message", WRONG)
 def test_what_is_wrong_with_a_catalogue(copied, message):
     name, old, new = WRONG[message]
@@ -251,6 +272,7 @@ def test_what_is_wrong_with_a_catalogue(copied, message):
         source_of(copied)
 
 
+@pytest.mark.thorough
 def test_what_a_catalogue_cannot_be(collection, tmp_path):
     margin = next(path for path in collection.iterdir() if path.name.startswith("sky_"))
     (tmp_path / "alone").mkdir()

@@ -57,7 +57,6 @@ def test_files_and_names(tmp_path):
     ("names", "surface", "columns", "found"),
     [
         (["id", "lat", "lon"], "sphere", None, ("lonlat", ("lon", "lat"))),
-        (["decimalLongitude", "Latitude", "n"], "sphere", None, ("lonlat", ("decimalLongitude", "Latitude"))),
         (["x", "y"], "sphere", None, ("lonlat", ("x", "y"))),
         (["X", "y", "z"], "sphere", None, ("xyz", ("X", "y", "z"))),
         (["x", "y", "z", "lon", "lat"], "sphere", None, ("lonlat", ("lon", "lat"))),
@@ -220,9 +219,6 @@ def test_a_sample_is_spread_evenly(tmp_path):
     assert found.min() >= 200
     assert found.max() < 800
     assert np.diff(found).max() <= 20
-    few = np.concatenate(list(some(file, source.places, 0, 1000, 40, 4)))[:, 2]
-    assert len(few) == pytest.approx(40, abs=8)
-    assert np.ptp(few) > 1.3
 
 
 def wkb(x, y, kind=1, order=1):

@@ -152,16 +152,6 @@ def test_any_split_gives_the_same(tmp_path_factory, name, parts, lots, block, ro
         check(tmp_path_factory.mktemp("split"), columns, rows, parts, np.random.default_rng(seed), lots=lots)
 
 
-def test_processes_of_this_machine(tmp_path, rng):
-    columns, rows = rows_of("copied", 600)
-    run = run_of(tmp_path, columns, rows, np.zeros((len(rows), 2)), 4)
-    targets = write_points(tmp_path / "targets", XYZ, rows[::3], 4)
-    found = run.nearest(targets, tmp_path / "nearest", k=3, partition=50)
-    assert found.statistics["partitions"] == 4
-    answer = np.array(found.rows().to_table()["nearest"].to_pylist())
-    assert np.array_equal(answer, mesh_of(columns, rows).nearest(rows[::3], k=3))
-
-
 @pytest.fixture
 def octahedron(tmp_path):
     rows = np.concatenate([np.eye(3), -np.eye(3)])
@@ -240,21 +230,3 @@ def test_other_questions_in_a_folder_are_noticed(tmp_path, octahedron):
     with pytest.raises(ValueError, match="a run of other files or arguments: question was"):
         octahedron.nearest(right, tmp_path / "out", k=3)
     assert octahedron.nearest(right, tmp_path / "out", k=3, resume=False).rows().to_table() != first
-
-
-def test_a_run_that_was_interrupted_goes_on(tmp_path, octahedron):
-    targets = write_points(tmp_path / "targets", XYZ, np.ones((4, 3)), 2)
-    calls = []
-
-    def stop(name, done, of):
-        calls.append(name)
-        if name == "answer" and done:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        octahedron.interpolate(targets, tmp_path / "out", "value", partition=2, executor=Here(), progress=stop)
-    found = octahedron.interpolate(
-        targets, tmp_path / "out", "value", partition=2, executor=Here(), progress=lambda name, *_: calls.append(name)
-    )
-    assert calls.count("values") == 2
-    assert found.rows().to_table()["value"].to_pylist() == pytest.approx([2.0] * 4)
