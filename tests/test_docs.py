@@ -80,7 +80,7 @@ def test_the_examples_of_a_page_run(page):
     exec(compile(code, f"docs/{page}.md", "exec"), {})
 
 
-@pytest.mark.parametrize("page", ["start", pytest.param("tour", marks=pytest.mark.thorough)])
+@pytest.mark.parametrize("page", ["start", "graphs", pytest.param("tour", marks=pytest.mark.thorough)])
 def test_a_page_runs_cell_by_cell(page, tmp_path, monkeypatch, capsys):
     """As a notebook does: one namespace, one folder, and after each cell what the page says that it prints."""
     monkeypatch.chdir(tmp_path)

@@ -10,7 +10,7 @@ from stereodel import _kernel
 from stereodel._spaces import space_of
 from stereodel.interpolation import LinearInterpolator, NaturalNeighborInterpolator
 from tests import sets, spaces
-from tests.digits import cross, minus
+from tests.exact import cross, minus
 
 DIGITS = 400
 """Binary ones behind the point, of unit vectors."""
@@ -204,16 +204,6 @@ def test_discs_are_closed():
             box = np.sort([np.array(low) * turned, np.array([9.0, 9.0]) * turned], axis=0)
             tree = space_of(center).box_tree(box[:1].copy(), box[1:].copy())
             assert space_of(center).open_discs(center, rim, *tree, np.ones(1, np.int32))[0].tolist() == touched
-
-
-def test_a_corner_lies_in_its_bubble():
-    """A block that holds a copy of a corner, of any length, is touched: copies are read with the point."""
-    rng = np.random.default_rng(4)
-    for size in (1.0, 1e-6, 1e-14):
-        for corners in triangles_on_sphere(rng, 30, size)[:, ::-1].copy():
-            for copy in corners * np.array([1.0, 3.0, 2.0**-700])[:, None]:
-                _, _, low, high = space_of(corners).blocks(copy[None].copy(), 1)
-                assert ask(corners, [[0, 1, 2]], low[0], high[0]).all()
 
 
 def test_faces_of_points_that_do_not_matter_are_not_looked_at():

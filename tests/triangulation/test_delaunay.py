@@ -7,7 +7,6 @@ import os
 import pickle
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from pathlib import Path
 
@@ -327,16 +326,6 @@ def test_workers():
         PlanarDelaunay(GRID, workers=0)
     with pytest.raises(TypeError, match="workers"):
         PlanarDelaunay(GRID, workers=1.5)
-
-
-def test_many_threads_may_ask_at_the_same_time():
-    triangulation = SphericalDelaunay(sets.sphere("random").drawn(20_000))
-    queries = np.random.default_rng(1).normal(size=(4000, 3))
-    alone = triangulation.find_simplex(queries), triangulation.nearest(queries)
-    with ThreadPoolExecutor(8) as pool:
-        asked = [pool.submit(lambda: (triangulation.find_simplex(queries), triangulation.nearest(queries)))] * 16
-        for answer in asked:
-            assert all(np.array_equal(a, b) for a, b in zip(answer.result(), alone, strict=True))
 
 
 @pytest.mark.parametrize(
